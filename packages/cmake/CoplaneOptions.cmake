@@ -1,0 +1,33 @@
+# What a user can choose when configuring.
+set(COPLANE_ARCH "native" CACHE STRING "Processor to compile for (-march=...): native, x86-64-v3, ...; empty for the compiler's default")
+option(COPLANE_TESTS "Build the tests" ON)
+option(COPLANE_BENCHMARKS "Build the benchmarks" ON)
+option(COPLANE_WARNINGS_AS_ERRORS "Treat warnings as errors (CI does)" OFF)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or Sanitize" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG" CACHE STRING "" FORCE)
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined")
+set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+
+# Flags of every target of ours. -ffp-contract=off: a run has the same bits whatever back end compiled the kernel, so the
+# compiler may not fuse a multiplication with an addition in one place and not in another. Never -ffast-math.
+add_library(coplane_flags INTERFACE)
+add_library(coplane::flags ALIAS coplane_flags)
+set_target_properties(coplane_flags PROPERTIES EXPORT_NAME flags)
+target_compile_features(coplane_flags INTERFACE cxx_std_17)
+target_compile_options(coplane_flags INTERFACE -ffp-contract=off
+  $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wno-psabi>)
+if(COPLANE_ARCH)
+  target_compile_options(coplane_flags INTERFACE $<BUILD_INTERFACE:-march=${COPLANE_ARCH}>)
+endif()
+if(COPLANE_WARNINGS_AS_ERRORS)
+  target_compile_options(coplane_flags INTERFACE $<BUILD_INTERFACE:-Werror>)
+endif()

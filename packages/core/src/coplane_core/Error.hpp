@@ -1,0 +1,39 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace coplane
+{
+/// Exit codes of all programs; documented in docs/user/exit-codes.md.
+enum class ExitCode : int
+{
+  Success = 0,
+  Usage = 2,       ///< command line
+  Deck = 3,        ///< the deck has errors
+  Mesh = 4,        ///< the mesh is missing, unreadable or unusable
+  Output = 5,      ///< a file cannot be written
+  Computation = 6, ///< the computation failed: not finite, inverted element, energy balance broken
+  Interrupted = 7, ///< stopped by a signal after writing a last results step
+  Internal = 70    ///< a defect of the program
+};
+
+/// An error for the user. The text says where, what was found, what is accepted, and what to try. Thrown on all ranks alike.
+class Error : public std::runtime_error
+{
+public:
+  Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  ExitCode code() const { return code_; }
+
+private:
+  ExitCode code_;
+};
+
+template <class... Args>
+[[noreturn]] void fail(ExitCode code, fmt::format_string<Args...> text, Args&&... args)
+{
+  throw Error(code, fmt::format(text, std::forward<Args>(args)...));
+}
+} // namespace coplane

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+namespace coplane
+{
+/// Lines for the user, written by rank 0 only. Warnings are deduplicated: the first three of a kind are shown, the rest counted
+/// and summed up by logSummary().
+void logSetup(bool isRoot, bool quiet);
+void logInfo(const std::string& text);
+/// `kind` is a short fixed text by which warnings are counted.
+void logWarning(const std::string& kind, const std::string& text);
+void logError(const std::string& text);
+void logSummary();
+
+template <class First, class... Args>
+void logInfo(fmt::format_string<First, Args...> text, First&& first, Args&&... args)
+{
+  logInfo(fmt::format(text, std::forward<First>(first), std::forward<Args>(args)...));
+}
+} // namespace coplane
