@@ -8,7 +8,8 @@
 
 namespace coplane
 {
-/// Where kernels run. Chosen once, at run time; all views live in host memory, so no class carries a back-end parameter.
+/// Where kernels run. Chosen once, at run time; all views live in host memory, so no class carries
+/// a back-end parameter.
 enum class Backend
 {
   Serial, ///< Kokkos::Serial: one thread
@@ -32,7 +33,8 @@ using Table = Kokkos::View<T**, Kokkos::LayoutRight, Kokkos::HostSpace>;
 template <class T>
 using ConstTable = Kokkos::View<const T**, Kokkos::LayoutRight, Kokkos::HostSpace>;
 
-/// Runs body(i) for i in [0, n) on the current back end and waits. The body writes only what belongs to i.
+/// Runs body(i) for i in [0, n) on the current back end and waits. The body writes only what
+/// belongs to i.
 template <class Body>
 void parallelFor(const std::string& label, int n, const Body& body)
 {

@@ -34,16 +34,46 @@ std::vector<int> offsetsOf(const std::vector<int>& counts)
 }
 } // namespace
 
-Real Comm::min(Real value) const { return reduced(value, MPI_DOUBLE, MPI_MIN, comm_); }
-Real Comm::max(Real value) const { return reduced(value, MPI_DOUBLE, MPI_MAX, comm_); }
-std::int64_t Comm::min(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_MIN, comm_); }
-std::int64_t Comm::max(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_MAX, comm_); }
-std::int64_t Comm::sum(std::int64_t value) const { return reduced(value, MPI_INT64_T, MPI_SUM, comm_); }
-void Comm::min(std::vector<Real>& values) const { reduceAll(values, MPI_DOUBLE, MPI_MIN, comm_); }
-void Comm::max(std::vector<Real>& values) const { reduceAll(values, MPI_DOUBLE, MPI_MAX, comm_); }
-void Comm::sum(std::vector<std::int64_t>& values) const { reduceAll(values, MPI_INT64_T, MPI_SUM, comm_); }
-void Comm::sum(std::vector<std::uint64_t>& values) const { reduceAll(values, MPI_UINT64_T, MPI_SUM, comm_); }
-void Comm::barrier() const { MPI_Barrier(comm_); }
+Real Comm::min(Real value) const
+{
+  return reduced(value, MPI_DOUBLE, MPI_MIN, comm_);
+}
+Real Comm::max(Real value) const
+{
+  return reduced(value, MPI_DOUBLE, MPI_MAX, comm_);
+}
+std::int64_t Comm::min(std::int64_t value) const
+{
+  return reduced(value, MPI_INT64_T, MPI_MIN, comm_);
+}
+std::int64_t Comm::max(std::int64_t value) const
+{
+  return reduced(value, MPI_INT64_T, MPI_MAX, comm_);
+}
+std::int64_t Comm::sum(std::int64_t value) const
+{
+  return reduced(value, MPI_INT64_T, MPI_SUM, comm_);
+}
+void Comm::min(std::vector<Real>& values) const
+{
+  reduceAll(values, MPI_DOUBLE, MPI_MIN, comm_);
+}
+void Comm::max(std::vector<Real>& values) const
+{
+  reduceAll(values, MPI_DOUBLE, MPI_MAX, comm_);
+}
+void Comm::sum(std::vector<std::int64_t>& values) const
+{
+  reduceAll(values, MPI_INT64_T, MPI_SUM, comm_);
+}
+void Comm::sum(std::vector<std::uint64_t>& values) const
+{
+  reduceAll(values, MPI_UINT64_T, MPI_SUM, comm_);
+}
+void Comm::barrier() const
+{
+  MPI_Barrier(comm_);
+}
 
 std::string Comm::broadcast(const std::string& text, int root) const
 {

@@ -13,8 +13,8 @@
 
 namespace coplane
 {
-/// The ranks of a run and the few collective operations that Coplane needs. Only exact ones: results that feed back into the
-/// state must not depend on the number of ranks.
+/// The ranks of a run and the few collective operations that Coplane needs. Only exact ones:
+/// results that feed back into the state must not depend on the number of ranks.
 class Comm
 {
 public:
@@ -49,9 +49,11 @@ public:
     return all;
   }
 
-  /// Sends toRank[r] to rank r; returns what every rank sent here, in rank order, with the number from each in `counts`.
+  /// Sends toRank[r] to rank r; returns what every rank sent here, in rank order, with the number
+  /// from each in `counts`.
   template <class T>
-  std::vector<T> exchange(const std::vector<std::vector<T>>& toRank, std::vector<int>* counts = nullptr) const
+  std::vector<T> exchange(const std::vector<std::vector<T>>& toRank,
+                          std::vector<int>* counts = nullptr) const
   {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<std::vector<std::byte>> bytes(size_);
@@ -75,8 +77,8 @@ public:
     return items;
   }
 
-  /// Runs an action that may fail on some ranks only. If it threw on any, every rank throws the error of the lowest such rank,
-  /// so nobody is left waiting in a collective.
+  /// Runs an action that may fail on some ranks only. If it threw on any, every rank throws the
+  /// error of the lowest such rank, so nobody is left waiting in a collective.
   void together(const std::function<void()>& action) const;
 
 private:

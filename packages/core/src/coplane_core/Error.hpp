@@ -20,7 +20,8 @@ enum class ExitCode : int
   Internal = 70    ///< a defect of the program
 };
 
-/// An error for the user. The text says where, what was found, what is accepted, and what to try. Thrown on all ranks alike.
+/// An error for the user. The text says where, what was found, what is accepted, and what to try.
+/// Thrown on all ranks alike.
 class Error : public std::runtime_error
 {
 public:

@@ -9,23 +9,26 @@
 
 namespace coplane
 {
-/// Sum of doubles without rounding: a fixed-point number wide enough for every double, so the result, rounded once at the end,
-/// does not depend on the order, hence not on ranks, threads or back end. Not finite terms make the sum not a number.
+/// Sum of doubles without rounding: a fixed-point number wide enough for every double, so the
+/// result, rounded once at the end, does not depend on the order, hence not on ranks, threads or
+/// back end. Not finite terms make the sum not a number.
 class ExactSum
 {
 public:
   void add(Real value);
   void add(const ExactSum& other);
 
-  /// The sum so far on this rank, correctly rounded to within one unit in the last place, a function of the exact sum alone.
+  /// The sum so far on this rank, correctly rounded to within one unit in the last place, a
+  /// function of the exact sum alone.
   Real value() const;
 
-  /// Sums of all ranks, one value per accumulator, the same bits on every rank. One message for all.
+  /// Sums of all ranks, one value per accumulator, the same bits on every rank. One message for
+  /// all.
   static std::vector<Real> overRanks(std::vector<ExactSum>& sums, const Comm& comm);
 
 private:
-  // Limb i holds a signed count of 2^(32 i - 1088). Each add puts at most 2^32 into a limb, so 2^30 additions fit before a carry
-  // is needed; carries are propagated well before.
+  // Limb i holds a signed count of 2^(32 i - 1088). Each add puts at most 2^32 into a limb, so 2^30
+  // additions fit before a carry is needed; carries are propagated well before.
   static constexpr int limbs = 68;
   static constexpr int lowestBit = -1088;
   static constexpr std::int64_t additionsBeforeCarry = std::int64_t(1) << 29;

@@ -7,15 +7,22 @@
 
 namespace coplane
 {
-/// Number of elements that a kernel treats side by side. Four doubles measured best on AVX2; every lane does the same IEEE
-/// operations as a scalar would, so results do not depend on an element's lane or batch.
+/// Number of elements that a kernel treats side by side. Four doubles measured best on AVX2; every
+/// lane does the same IEEE operations as a scalar would, so results do not depend on an element's
+/// lane or batch.
 constexpr int laneCount = 4;
 namespace stdx = std::experimental;
 using Lanes = stdx::simd<Real, stdx::simd_abi::deduce_t<Real, laneCount>>;
 using LaneMask = Lanes::mask_type;
 
-inline Lanes lanesMin(const Lanes& a, const Lanes& b) { return stdx::min(a, b); }
-inline Lanes lanesMax(const Lanes& a, const Lanes& b) { return stdx::max(a, b); }
+inline Lanes lanesMin(const Lanes& a, const Lanes& b)
+{
+  return stdx::min(a, b);
+}
+inline Lanes lanesMax(const Lanes& a, const Lanes& b)
+{
+  return stdx::max(a, b);
+}
 
 /// Value of `a` where the mask holds, else `b`.
 inline Lanes choose(const LaneMask& mask, const Lanes& a, const Lanes& b)

@@ -17,8 +17,10 @@ struct Channels
 
   Channels()
   {
-    out = std::make_shared<spdlog::logger>("coplane", std::make_shared<spdlog::sinks::stdout_sink_mt>());
-    err = std::make_shared<spdlog::logger>("coplane", std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    out = std::make_shared<spdlog::logger>("coplane",
+                                           std::make_shared<spdlog::sinks::stdout_sink_mt>());
+    err = std::make_shared<spdlog::logger>("coplane",
+                                           std::make_shared<spdlog::sinks::stderr_sink_mt>());
     out->set_pattern("%v");
     err->set_pattern("%v");
     out->flush_on(spdlog::level::info);
@@ -39,7 +41,10 @@ void logSetup(bool isRoot, bool quiet)
   channels().err->set_level(isRoot ? spdlog::level::info : spdlog::level::off);
 }
 
-void logInfo(const std::string& text) { channels().out->info(text); }
+void logInfo(const std::string& text)
+{
+  channels().out->info(text);
+}
 
 void logWarning(const std::string& kind, const std::string& text)
 {
@@ -47,10 +52,14 @@ void logWarning(const std::string& kind, const std::string& text)
   if (count <= shownWarnings)
     channels().err->warn("WARNING: {}", text);
   if (count == shownWarnings)
-    channels().err->warn("WARNING: further warnings of this kind ({}) are counted, not shown", kind);
+    channels().err->warn("WARNING: further warnings of this kind ({}) are counted, not shown",
+                         kind);
 }
 
-void logError(const std::string& text) { channels().err->error("ERROR: {}", text); }
+void logError(const std::string& text)
+{
+  channels().err->error("ERROR: {}", text);
+}
 
 void logSummary()
 {

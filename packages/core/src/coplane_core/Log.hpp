@@ -6,8 +6,8 @@
 
 namespace coplane
 {
-/// Lines for the user, written by rank 0 only. Warnings are deduplicated: the first three of a kind are shown, the rest counted
-/// and summed up by logSummary().
+/// Lines for the user, written by rank 0 only. Warnings are deduplicated: the first three of a kind
+/// are shown, the rest counted and summed up by logSummary().
 void logSetup(bool isRoot, bool quiet);
 void logInfo(const std::string& text);
 /// `kind` is a short fixed text by which warnings are counted.

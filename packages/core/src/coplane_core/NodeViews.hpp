@@ -7,7 +7,8 @@
 
 namespace coplane
 {
-/// One vector per node: positions [m], velocities [m/s], forces [N]. Three components also in two dimensions (z = 0).
+/// One vector per node: positions [m], velocities [m/s], forces [N]. Three components also in two
+/// dimensions (z = 0).
 using NodeVectors = Kokkos::View<Real* [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 using ConstNodeVectors = Kokkos::View<const Real* [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 

@@ -8,7 +8,8 @@ namespace coplane
 /// The one floating-point type of the state. SI units everywhere.
 using Real = double;
 
-/// Ids of nodes and elements as the mesh file has them: positive, unique, independent of the partition.
+/// Ids of nodes and elements as the mesh file has them: positive, unique, independent of the
+/// partition.
 using GlobalId = std::int64_t;
 
 constexpr Real epsilon = std::numeric_limits<Real>::epsilon();

@@ -16,12 +16,14 @@ inline std::uint64_t mix(std::uint64_t z)
   return z ^ (z >> 31);
 }
 
-/// Hash of a set of values that belong to global ids. Contributions are added modulo 2^64, so it does not depend on the order or
-/// on which rank held what; one changed bit of one value changes it.
+/// Hash of a set of values that belong to global ids. Contributions are added modulo 2^64, so it
+/// does not depend on the order or on which rank held what; one changed bit of one value changes
+/// it.
 class StateHash
 {
 public:
-  /// `what` tells fields apart, `id` is the global id of the entity, `component` counts within the field.
+  /// `what` tells fields apart, `id` is the global id of the entity, `component` counts within the
+  /// field.
   void add(std::uint64_t what, GlobalId id, std::uint64_t component, Real value)
   {
     std::uint64_t bits;

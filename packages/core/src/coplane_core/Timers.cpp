@@ -10,7 +10,8 @@ std::map<std::string, double>& timers()
   return registry;
 }
 
-TimedRegion::TimedRegion(const char* label) : label_(label), start_(std::chrono::steady_clock::now())
+TimedRegion::TimedRegion(const char* label)
+    : label_(label), start_(std::chrono::steady_clock::now())
 {
   Kokkos::Profiling::pushRegion(label);
 }

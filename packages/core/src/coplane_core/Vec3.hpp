@@ -8,7 +8,8 @@
 
 namespace coplane
 {
-/// Vector in the global axes. In two dimensions z is zero. T is Real, or Lanes for several elements side by side.
+/// Vector in the global axes. In two dimensions z is zero. T is Real, or Lanes for several elements
+/// side by side.
 template <class T>
 struct Vec3Of
 {
@@ -67,8 +68,14 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> cross(const Vec3Of<T>& a, const Vec3O
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-KOKKOS_INLINE_FUNCTION Real norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
-KOKKOS_INLINE_FUNCTION Vec3 normalised(const Vec3& a) { return (1.0 / norm(a)) * a; }
+KOKKOS_INLINE_FUNCTION Real norm(const Vec3& a)
+{
+  return std::sqrt(dot(a, a));
+}
+KOKKOS_INLINE_FUNCTION Vec3 normalised(const Vec3& a)
+{
+  return (1.0 / norm(a)) * a;
+}
 
 /// Matrix of 3 x 3 numbers, row by row.
 template <class T>
@@ -121,7 +128,8 @@ KOKKOS_INLINE_FUNCTION constexpr Mat3Of<T> inverse(const Mat3Of<T>& m)
   return r;
 }
 
-/// Symmetric tensor in the order xx, yy, zz, xy, yz, zx (that of the Exodus variables). Stress: tension positive [Pa].
+/// Symmetric tensor in the order xx, yy, zz, xy, yz, zx (that of the Exodus variables). Stress:
+/// tension positive [Pa].
 template <class T>
 struct SymTensorOf
 {

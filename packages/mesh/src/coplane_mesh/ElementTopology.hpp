@@ -21,8 +21,9 @@ struct ElementTopology
   int nodes;
   int sides;
   int nodesPerSide;
-  /// Local nodes of each side, ordered so that the normal points outward by the right-hand rule; in two dimensions from a to b
-  /// along the counter-clockwise border. Side s of Exodus (counted from 1) is row s - 1.
+  /// Local nodes of each side, ordered so that the normal points outward by the right-hand rule; in
+  /// two dimensions from a to b along the counter-clockwise border. Side s of Exodus (counted from
+  /// 1) is row s - 1.
   std::array<std::array<int, 4>, 6> sideNodes;
 };
 
@@ -39,8 +40,18 @@ inline const ElementTopology& topology(ElementType type)
   return type == ElementType::Quad4 ? quad4 : hex8;
 }
 
-/// Id of a face: 8 * element id + side, side counted from 0. Does not depend on partition or renumbering. Physics: key of planes.
-inline GlobalId faceId(GlobalId element, int side) { return 8 * element + side; }
-inline GlobalId elementOfFace(GlobalId face) { return face / 8; }
-inline int sideOfFace(GlobalId face) { return int(face % 8); }
+/// Id of a face: 8 * element id + side, side counted from 0. Does not depend on partition or
+/// renumbering. Physics: key of planes.
+inline GlobalId faceId(GlobalId element, int side)
+{
+  return 8 * element + side;
+}
+inline GlobalId elementOfFace(GlobalId face)
+{
+  return face / 8;
+}
+inline int sideOfFace(GlobalId face)
+{
+  return int(face % 8);
+}
 } // namespace coplane

@@ -44,7 +44,8 @@ std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
         candidates.push_back(candidate);
       }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b)
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b)
             { return std::tie(a.sortedNodes, a.face.id) < std::tie(b.sortedNodes, b.face.id); });
 
   std::vector<ExteriorFace> faces;

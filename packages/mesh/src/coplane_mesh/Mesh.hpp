@@ -9,8 +9,8 @@
 
 namespace coplane
 {
-/// A whole mesh as a file has it. "Index" means the position in the file, counted from 0 (elements: blocks one after another);
-/// "id" is the number that users see (Exodus id map).
+/// A whole mesh as a file has it. "Index" means the position in the file, counted from 0 (elements:
+/// blocks one after another); "id" is the number that users see (Exodus id map).
 struct Mesh
 {
   struct Block
@@ -26,13 +26,13 @@ struct Mesh
   struct NodeSet
   {
     GlobalId id = 0;
-    std::string name; ///< nodelist_<id> when the file has none
+    std::string name;       ///< nodelist_<id> when the file has none
     std::vector<int> nodes; ///< node indices
   };
   struct SideSet
   {
     GlobalId id = 0;
-    std::string name; ///< surface_<id> when the file has none
+    std::string name;          ///< surface_<id> when the file has none
     std::vector<int> elements; ///< element indices
     std::vector<int> sides;    ///< counted from 0, one per element entry
   };

@@ -63,21 +63,23 @@ void NodeLayout::refresh(const NodeVectors& x, const NodeVectors& v) const
   const auto from = from_;
   const auto to = to_;
   const int owned = owned_;
-  parallelFor("coplane::mesh::packNodes", owned_, KOKKOS_LAMBDA(const int i) {
-    for (int c = 0; c < 3; ++c)
-    {
-      from(i, c) = x(i, c);
-      from(i, 3 + c) = v(i, c);
-    }
-  });
+  parallelFor(
+      "coplane::mesh::packNodes", owned_, KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < 3; ++c)
+        {
+          from(i, c) = x(i, c);
+          from(i, 3 + c) = v(i, c);
+        }
+      });
   import_->move(from_, to_);
-  parallelFor("coplane::mesh::unpackNodes", int(to_.extent(0)), KOKKOS_LAMBDA(const int i) {
-    for (int c = 0; c < 3; ++c)
-    {
-      x(owned + i, c) = to(i, c);
-      v(owned + i, c) = to(i, 3 + c);
-    }
-  });
+  parallelFor(
+      "coplane::mesh::unpackNodes", int(to_.extent(0)), KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < 3; ++c)
+        {
+          x(owned + i, c) = to(i, c);
+          v(owned + i, c) = to(i, 3 + c);
+        }
+      });
 }
 
 void NodeLayout::refresh(const Array<Real>& values) const

@@ -11,8 +11,8 @@
 
 namespace coplane
 {
-/// Numbers the nodes that this rank knows: owned, other nodes of held elements, nodes of ghost faces; and refreshes the copies
-/// from their owners.
+/// Numbers the nodes that this rank knows: owned, other nodes of held elements, nodes of ghost
+/// faces; and refreshes the copies from their owners.
 class NodeLayout
 {
 public:
@@ -25,11 +25,12 @@ public:
   /// Local number of a node, -1 when this rank does not know it.
   int localNode(GlobalId id) const;
 
-  /// Replaces the nodes of ghost faces. Ids that are known already are not doubled. The import is rebuilt only when the list
-  /// changed on some rank; returns whether it was. Collective.
+  /// Replaces the nodes of ghost faces. Ids that are known already are not doubled. The import is
+  /// rebuilt only when the list changed on some rank; returns whether it was. Collective.
   bool setGhostNodes(const std::vector<GlobalId>& ids);
 
-  /// Copies positions and velocities of owned nodes to all their copies: the one message of a cycle. Collective.
+  /// Copies positions and velocities of owned nodes to all their copies: the one message of a
+  /// cycle. Collective.
   void refresh(const NodeVectors& x, const NodeVectors& v) const;
   /// The same for one number per node. Collective.
   void refresh(const Array<Real>& values) const;

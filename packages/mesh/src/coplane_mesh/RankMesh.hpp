@@ -9,10 +9,11 @@
 
 namespace coplane
 {
-/// This rank's part of the mesh. Every node has one owner; a rank holds every element that touches a node it owns, so some
-/// elements are held, and computed, by several ranks from identical data.
+/// This rank's part of the mesh. Every node has one owner; a rank holds every element that touches
+/// a node it owns, so some elements are held, and computed, by several ranks from identical data.
 ///
-/// Local node numbers: owned nodes first, then the other nodes of held elements; NodeLayout appends the nodes of ghost faces.
+/// Local node numbers: owned nodes first, then the other nodes of held elements; NodeLayout appends
+/// the nodes of ghost faces.
 struct RankMesh
 {
   struct Block
@@ -23,7 +24,8 @@ struct RankMesh
     std::vector<int> positions;    ///< of the elements within their block of the file
     std::vector<int> connectivity; ///< local nodes
     std::vector<int> bodyIds;
-    std::vector<char> owned; ///< 1 where this rank owns the element's lowest-id node: counted and written here
+    std::vector<char>
+        owned; ///< 1 where this rank owns the element's lowest-id node: counted and written here
     int elements() const { return int(elementIds.size()); }
   };
   struct Side
@@ -53,7 +55,8 @@ struct ExteriorFace
   bool ownedHere = false;                   ///< this rank owns its node with the lowest id
 };
 
-/// The local exterior faces of this rank, sorted by id. Held elements suffice to find them: all elements that touch an owned
-/// node are here, hence also the one behind a face that has such a node.
+/// The local exterior faces of this rank, sorted by id. Held elements suffice to find them: all
+/// elements that touch an owned node are here, hence also the one behind a face that has such a
+/// node.
 std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh);
 } // namespace coplane

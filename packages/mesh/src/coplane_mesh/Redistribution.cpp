@@ -56,19 +56,19 @@ void Redistribution::move(const ConstTable<Real>& source, const Table<Real>& tar
   }
   {
     const auto view = it.from->getLocalViewHost(Tpetra::Access::OverwriteAll);
-    parallelFor("coplane::mesh::packRows", int(view.extent(0)),
-                KOKKOS_LAMBDA(const int i) {
-                  for (int c = 0; c < columns; ++c)
-                    view(i, c) = source(i, c);
-                });
+    parallelFor(
+        "coplane::mesh::packRows", int(view.extent(0)), KOKKOS_LAMBDA(const int i) {
+          for (int c = 0; c < columns; ++c)
+            view(i, c) = source(i, c);
+        });
   }
   it.to->doImport(*it.from, *it.import, Tpetra::INSERT);
   const auto view = it.to->getLocalViewHost(Tpetra::Access::ReadOnly);
-  parallelFor("coplane::mesh::unpackRows", int(view.extent(0)),
-              KOKKOS_LAMBDA(const int i) {
-                for (int c = 0; c < columns; ++c)
-                  target(i, c) = view(i, c);
-              });
+  parallelFor(
+      "coplane::mesh::unpackRows", int(view.extent(0)), KOKKOS_LAMBDA(const int i) {
+        for (int c = 0; c < columns; ++c)
+          target(i, c) = view(i, c);
+      });
 }
 
 std::vector<Real> Redistribution::move(const std::vector<Real>& source) const

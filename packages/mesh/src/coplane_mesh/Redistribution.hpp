@@ -8,18 +8,21 @@
 
 namespace coplane
 {
-/// Moves rows of numbers between two layouts of the same ids: a Tpetra::Import between two maps. Bits are copied, never summed.
+/// Moves rows of numbers between two layouts of the same ids: a Tpetra::Import between two maps.
+/// Bits are copied, never summed.
 class Redistribution
 {
 public:
-  /// `sourceIds`: every id on exactly one rank. `targetIds`: any of these ids, on as many ranks as want them.
+  /// `sourceIds`: every id on exactly one rank. `targetIds`: any of these ids, on as many ranks as
+  /// want them.
   Redistribution(const Comm& comm, const std::vector<GlobalId>& sourceIds,
                  const std::vector<GlobalId>& targetIds);
   ~Redistribution();
   Redistribution(Redistribution&&) noexcept;
   Redistribution& operator=(Redistribution&&) noexcept;
 
-  /// source: rows of this rank's source ids, [row][column]; target: rows of its target ids. Collective.
+  /// source: rows of this rank's source ids, [row][column]; target: rows of its target ids.
+  /// Collective.
   void move(const ConstTable<Real>& source, const Table<Real>& target) const;
 
   /// Convenience for output: one column.
@@ -30,7 +33,8 @@ private:
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Rows [first, first + count) of n rows that rank r of p holds when they are dealt out evenly in order.
+/// Rows [first, first + count) of n rows that rank r of p holds when they are dealt out evenly in
+/// order.
 struct ContiguousRange
 {
   std::int64_t first = 0;

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
+#include <coplane_joint/HyperbolicCoulombJoint.hpp>
+
+#include <cstdint>
+
+namespace coplane
+{
+/// How contact is computed; the manual says when to change each (docs/user/contact.md).
+struct ContactOptions
+{
+  enum class Area : std::uint8_t
+  {
+    Penetrating, ///< only the part of the overlap where the faces penetrate
+    Full         ///< the whole overlap of the projections, as the paper says
+  };
+  enum class Weights : std::uint8_t
+  {
+    Pressure, ///< forces act at the centre of pressure
+    Average,  ///< mean of the shape functions over the area
+    Centroid  ///< shape functions at the centre of gravity, as the paper says
+  };
+  enum class Closure : std::uint8_t
+  {
+    Total,      ///< from the geometry at the end of the step
+    Incremental ///< sum of its increments (Cundall 1988)
+  };
+  Area area = Area::Penetrating;
+  Weights weights = Weights::Pressure;
+  Closure closure = Closure::Total;
+  bool couple = true;    ///< couple that makes the angular momentum exact
+  bool areaRule = true;  ///< new area carries no shear traction
+  bool inherit = true;   ///< history passes to the next face pair while sliding
+  Real cosOpposed = 0.1; ///< candidates have n1.n2 below minus this
+  Real depthMax =
+      0.6; ///< deepest penetration, as a fraction of the thinner element behind the faces
+  Real areaMin = 1e-8; ///< smallest area of a new plane, as a fraction of the smaller face
+  Real dampNormal = 0; ///< fraction of critical damping
+  Real dampShear = 0;
+};
+
+enum class PlaneState : std::uint8_t
+{
+  Slot, ///< candidate pair that has not touched yet
+  Open, ///< has touched, carries nothing now
+  Stick,
+  Slip
+};
+
+/// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
+/// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
+/// to face 1; force and shear traction act on face 1.
+struct Plane
+{
+  GlobalId faceId[2] = {0, 0};
+  int face[2] = {
+      -1, -1}; ///< positions in this rank's table of faces; -1 while the pair is not a candidate
+  bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
+  bool declared = false;    ///< a joint that was closed at the start
+  bool born = false;        ///< steps E and F: a plane exists
+  bool fresh = true;        ///< not evaluated since the slot was made
+  bool foundLate = false;   ///< was penetrated already when the search found it
+  bool tooDeep = false;     ///< deeper than the limit; force frozen
+  PlaneState state = PlaneState::Slot;
+  std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate
+  int joint = 0;                   ///< index of the joint card, for donors and output
+
+  HyperbolicCoulombJoint law; ///< stiffnesses resolved for this pair
+  Real depthLimit = infinity; ///< [m]
+
+  Vec3 normal{};         ///< at the half step
+  Vec3 pointOfContact{}; ///< [m]
+  Vec3 force{};          ///< on face 1 [N]
+  Real area = 0;         ///< that carries traction [m^2]
+  Real overlap = 0;      ///< whole overlap of the projections [m^2]
+  Real gap = 0;     ///< at the centre of gravity, positive when open, offset not subtracted [m]
+  Real offset = 0;  ///< gap at which the joint is just closed [m]
+  Real closure = 0; ///< [m]
+  Real normalTraction = 0; ///< compression positive [Pa]
+  HyperbolicCoulombJoint::State history;
+
+  // Energies since the plane was made [J].
+  Real work = 0;   ///< done on the plane by the nodes
+  Real stored = 0; ///< now, recoverable
+  Real frictionWork = 0;
+  Real hysteresisWork = 0;
+  Real dampingWork = 0;
+
+  Vec3 cornerForce[2][4] = {};     ///< on the nodes of the faces [N]
+  Real cornerStiffness[2][4] = {}; ///< bound on the stiffness that a node feels [N/m]
+};
+
+/// Key of a plane: permanent, independent of the partition.
+inline bool keyLess(const Plane& a, const Plane& b)
+{
+  return a.faceId[0] != b.faceId[0] ? a.faceId[0] < b.faceId[0] : a.faceId[1] < b.faceId[1];
+}
+} // namespace coplane

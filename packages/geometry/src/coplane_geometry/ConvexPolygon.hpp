@@ -1,0 +1,124 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+
+#include <Kokkos_Core.hpp>
+
+namespace coplane
+{
+/// Point of a plane, in coordinates along two axes of that plane [m].
+struct Vec2
+{
+  Real x = 0, y = 0;
+};
+KOKKOS_INLINE_FUNCTION constexpr Vec2 operator+(const Vec2& a, const Vec2& b)
+{
+  return {a.x + b.x, a.y + b.y};
+}
+KOKKOS_INLINE_FUNCTION constexpr Vec2 operator-(const Vec2& a, const Vec2& b)
+{
+  return {a.x - b.x, a.y - b.y};
+}
+KOKKOS_INLINE_FUNCTION constexpr Vec2 operator*(Real s, const Vec2& a)
+{
+  return {s * a.x, s * a.y};
+}
+KOKKOS_INLINE_FUNCTION constexpr Real dot(const Vec2& a, const Vec2& b)
+{
+  return a.x * b.x + a.y * b.y;
+}
+/// z component of the cross product: twice the signed area of the triangle (0, a, b).
+KOKKOS_INLINE_FUNCTION constexpr Real cross(const Vec2& a, const Vec2& b)
+{
+  return a.x * b.y - a.y * b.x;
+}
+
+/// Convex polygon, counter-clockwise, in a fixed array: nothing is allocated in kernels. Two
+/// quadrilaterals share at most an octagon; one more cut adds one vertex.
+struct ConvexPolygon
+{
+  static constexpr int capacity = 12;
+  int size = 0;
+  Vec2 vertex[capacity];
+
+  KOKKOS_INLINE_FUNCTION void add(const Vec2& p)
+  {
+    if (size < capacity)
+      vertex[size++] = p;
+  }
+};
+
+/// Part of the polygon where the function with values `d` at its vertices, linear between them, is
+/// not negative. When `carried` is given, another function's vertex values are cut along (both
+/// arrays are overwritten). Sutherland and Hodgman 1974.
+KOKKOS_INLINE_FUNCTION void cutWhereNegative(ConvexPolygon& polygon, Real* d)
+{
+  ConvexPolygon kept;
+  Real keptValues[ConvexPolygon::capacity];
+  for (int i = 0; i < polygon.size; ++i)
+  {
+    const int j = i + 1 == polygon.size ? 0 : i + 1;
+    if (d[i] >= 0)
+    {
+      keptValues[kept.size < ConvexPolygon::capacity ? kept.size : 0] = d[i];
+      kept.add(polygon.vertex[i]);
+    }
+    if ((d[i] > 0 && d[j] < 0) || (d[i] < 0 && d[j] > 0))
+    {
+      const Real t = d[i] / (d[i] - d[j]);
+      keptValues[kept.size < ConvexPolygon::capacity ? kept.size : 0] = 0;
+      kept.add(polygon.vertex[i] + t * (polygon.vertex[j] - polygon.vertex[i]));
+    }
+  }
+  polygon = kept;
+  for (int i = 0; i < kept.size; ++i)
+    d[i] = keptValues[i];
+}
+
+/// Part of `subject` inside the convex counter-clockwise polygon `clip`. Polygons that only share
+/// an edge or a vertex give something of zero area. No snapping: coincident vertices only add
+/// triangles without area.
+KOKKOS_INLINE_FUNCTION ConvexPolygon intersection(const ConvexPolygon& subject,
+                                                  const ConvexPolygon& clip)
+{
+  ConvexPolygon result = subject;
+  for (int e = 0; e < clip.size && result.size > 0; ++e)
+  {
+    const Vec2 a = clip.vertex[e];
+    const Vec2 edge = clip.vertex[e + 1 == clip.size ? 0 : e + 1] - a;
+    Real d[ConvexPolygon::capacity];
+    for (int i = 0; i < result.size; ++i)
+      d[i] = cross(edge, result.vertex[i] - a);
+    cutWhereNegative(result, d);
+  }
+  return result;
+}
+
+/// Area [m^2] and its first moment about vertex 0.
+struct AreaAndCentroid
+{
+  Real area = 0;
+  Vec2 centroid;
+};
+
+/// By a fan about vertex 0 in relative coordinates, so that a polygon far from the origin loses no
+/// digits.
+KOKKOS_INLINE_FUNCTION AreaAndCentroid areaAndCentroid(const ConvexPolygon& polygon)
+{
+  AreaAndCentroid result;
+  if (polygon.size == 0)
+    return result;
+  const Vec2 origin = polygon.vertex[0];
+  Vec2 moment;
+  for (int i = 1; i + 1 < polygon.size; ++i)
+  {
+    const Vec2 a = polygon.vertex[i] - origin;
+    const Vec2 b = polygon.vertex[i + 1] - origin;
+    const Real area = 0.5 * cross(a, b);
+    result.area += area;
+    moment = moment + (area / 3) * (a + b);
+  }
+  result.centroid = result.area > 0 ? origin + (1 / result.area) * moment : origin;
+  return result;
+}
+} // namespace coplane
