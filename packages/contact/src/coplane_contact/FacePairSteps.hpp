@@ -298,7 +298,6 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
   // Up to four pieces; closure (minus gap plus offset) at the vertices of each.
   ConvexPolygon polygon[4];
   Real closure[4][ConvexPolygon::capacity];
-  Real areas[4] = {};
   int count = 0;
   Real leastClosure = infinity, mostClosure = 0, thickness = 0;
   Vec2 moment, overlapMoment;
@@ -349,7 +348,6 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
         leastClosure = c[v] < leastClosure ? c[v] : leastClosure;
         mostClosure = c[v] > mostClosure ? c[v] : mostClosure;
       }
-      areas[count] = part.area;
       patch.area += part.area;
       moment = moment + part.area * part.centroid;
       ++count;

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <coplane_contact/ContactRules.hpp>
+#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_contact/Faces.hpp>
+#include <coplane_contact/Plane.hpp>
+#include <coplane_contact/Search.hpp>
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_core/NodeViews.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+
+#include <functional>
+#include <map>
+#include <vector>
+
+namespace coplane
+{
+/// Energies of contact since the start, summed over planes that live and planes that have ended
+/// [J].
+struct ContactEnergy
+{
+  Real stored = 0, friction = 0, hysteresis = 0, damping = 0;
+  Real work = 0; ///< done on the planes by the nodes
+  /// What the work is not accounted for by the other terms: areas that change at fixed traction.
+  Real remainder() const { return work - stored - friction - hysteresis - damping; }
+};
+
+/// Numbers of planes over all ranks.
+struct ContactCounts
+{
+  std::int64_t slots = 0, planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, missed = 0;
+};
+
+/// What is known before the first step, over all ranks.
+struct ContactCensus
+{
+  std::int64_t pairs = 0, declaredClosed = 0, declaredWithoutOverlap = 0, overlapping = 0,
+               apart = 0;
+  Real leastGap = infinity, largestGap = -infinity;     ///< of declared joints [m]
+  Real deepestOverlap = 0;                              ///< of pairs that are not declared [m]
+  Real leastStiffness = infinity, largestStiffness = 0; ///< initial normal stiffness [Pa/m]
+};
+
+/// Simple Common Plane contact between all exterior faces of this rank and their neighbours
+/// elsewhere.
+///
+/// A search (steps 1-5) runs in two halves, because the nodes of ghost faces must be known to the
+/// layout in between: findGhosts(), then pairUp(). The update (step 6, A-H) runs every cycle.
+class Contact
+{
+public:
+  Contact(const Comm& comm, int dimension, std::vector<Face> localFaces, ContactOptions options,
+          ContactRules rules, Real skin);
+
+  /// Steps 1 to 4. Returns the ids of the nodes of ghost faces. Collective.
+  std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds);
+  /// Step 5, and slots for all pairs. Call when the layout knows the ghosts' nodes and x holds
+  /// their positions.
+  void pairUp(const ConstNodeVectors& x, const NodeLayout& layout);
+  /// Declared joints become planes that are closed and carry the initial stress of their blocks
+  /// [Pa, tension positive].
+  void closeDeclaredJoints(const ConstNodeVectors& x, const std::vector<SymTensor>& stressOfBlock);
+
+  /// Step 6: steps A to H for every slot.
+  void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                                const ConstArray<Real>& mass, Real dt);
+
+  /// Adds the planes' forces to owned nodes, in the order of the planes' keys.
+  void addForces(const NodeVectors& f) const;
+  /// Bound on the contact stiffness that an owned node feels [N/m].
+  void nodeStiffness(const Array<Real>& stiffness) const;
+
+  const std::vector<Face>& faces() const { return faces_; }
+  const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
+  const ContactOptions& options() const { return options_; }
+  const ContactRules& rules() const { return rules_; }
+  Real skin() const { return skin_; }
+  int dimension() const { return dimension_; }
+  std::int64_t searches() const { return searches_; }
+
+  // Over all ranks, the same bits on all; collective.
+  ContactEnergy energy() const;
+  ContactCounts counts() const;
+  ContactCensus census() const;
+
+  /// This rank's planes to count and to write: those whose lower face it owns, that exist and
+  /// overlap.
+  bool isWrittenHere(const Plane& plane) const
+  {
+    return plane.countedHere && plane.born && plane.face[0] >= 0;
+  }
+
+  /// Default skin: a fraction of the smallest face [m]. Collective.
+  static Real smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,
+                               int dimension, const Comm& comm);
+
+private:
+  std::vector<Donor> livingPlanes() const;
+  void inherit(Plane& plane, const Vec3& normal,
+               const std::map<GlobalId, std::vector<const Donor*>>& donorsOfFace) const;
+  void buildGather(int ownedNodes);
+  FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
+
+  const Comm* comm_;
+  int dimension_;
+  std::vector<Face> localFaces_; ///< sorted by id
+  std::vector<Face> faces_;      ///< local, then ghost
+  ContactOptions options_;
+  ContactRules rules_;
+  Real skin_;
+  Bins bins_;
+  Ghosts ghosts_;
+  std::int64_t searches_ = 0;
+  std::int64_t missed_ = 0;
+  bool searchedSinceUpdate_ = false;
+
+  Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
+  Array<Face> faceTable_;
+  // Gather list: entries of owned node n are [gatherStart(n), gatherStart(n + 1)); an entry is
+  // plane * 8 + face * 4 + corner.
+  Array<std::int64_t> gatherStart_, gatherEntry_;
+
+  // Energies of planes that have ended.
+  ExactSum endedWork_, endedFriction_, endedHysteresis_, endedDamping_;
+};
+} // namespace coplane

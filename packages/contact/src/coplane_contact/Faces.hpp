@@ -1,0 +1,47 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
+
+namespace coplane
+{
+/// An exterior face that this rank knows, local or ghost.
+struct Face
+{
+  GlobalId id = 0;
+  int count = 0;
+  int nodes[4] = {-1, -1, -1, -1}; ///< local nodes, outward normal by the right-hand rule
+  int block = 0;                   ///< element block behind it
+  Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
+  Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
+  bool local = false; ///< this rank owns at least one node
+  bool ownedHere =
+      false; ///< this rank owns the node with the lowest id: it sends the face to others
+};
+
+/// A face on its way to another rank.
+struct GhostFace
+{
+  GlobalId id = 0;
+  GlobalId nodes[4] = {0, 0, 0, 0}; ///< ids
+  int count = 0;
+  int block = 0;
+  Real thickness = 0;
+  Real modulus = 0;
+};
+
+/// What a new plane can inherit from a living one. Travels with ghost faces, so that every rank
+/// that computes a new pair sees the same donors.
+struct Donor
+{
+  GlobalId faceId[2] = {0, 0};
+  int joint = 0;
+  Vec3 normal{};
+  Real area = 0;
+  Real offset = 0;
+  Real maximumClosure = 0;
+  Real closure = 0;
+  Vec3 shearTraction{};
+  Real slip = 0;
+};
+} // namespace coplane

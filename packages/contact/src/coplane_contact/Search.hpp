@@ -1,0 +1,113 @@
+#pragma once
+
+#include <coplane_contact/Faces.hpp>
+#include <coplane_contact/Plane.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/NodeViews.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+// Steps 1 to 5 of the Simple Common Plane algorithm (Vorobiev 2006): who may touch whom.
+
+namespace coplane
+{
+/// Extent of a face, or of all faces [m].
+struct Box
+{
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  void include(const Vec3& p);
+  void grow(Real by);
+  bool overlaps(const Box& other) const;
+};
+
+/// Step 1's result: one grid of orthogonal bins, equal on all ranks.
+struct Bins
+{
+  Box limits;
+  Real edge = 1; ///< [m]
+  using Index = std::array<std::int32_t, 3>;
+  Index indexOf(const Vec3& p) const;
+  /// One number per bin, usable as a sort key.
+  static std::uint64_t key(const Index& index);
+};
+
+/// Faces in the bins that their grown boxes touch.
+struct SortedFaces
+{
+  Bins bins;
+  std::vector<Box> boxes;                             ///< per face, grown by half the skin
+  std::vector<std::array<Bins::Index, 2>> ranges;     ///< lowest and highest bin of each face
+  std::vector<std::pair<std::uint64_t, int>> entries; ///< (bin, face), sorted
+};
+
+struct InteractingRank
+{
+  int rank = 0;
+  std::vector<std::uint64_t> commonBins; ///< sorted
+};
+
+struct CandidatePair
+{
+  int lower = 0, higher = 0; ///< positions in the table of faces; lower has the smaller id
+};
+
+/// Step 1: extent of all faces over all ranks and a bin size from exact reductions only.
+Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real skin,
+                             const Comm& comm);
+
+/// Step 2: local faces into bins.
+SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
+                               const ConstNodeVectors& x, Real skin);
+
+/// Step 3: ranks exchange boxes; those whose boxes overlap exchange occupied bins. Never this rank
+/// itself.
+std::vector<InteractingRank> step3_interactingRanks(const SortedFaces& sorted, const Comm& comm);
+
+/// What step 4 brings: faces of other ranks in common bins, sorted by id, and the living planes
+/// they carry.
+struct Ghosts
+{
+  std::vector<GhostFace> faces;
+  std::vector<Donor> donors; ///< sorted by key, each once
+};
+
+/// Step 4: copies the faces in common bins from the ranks that own them.
+Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
+                            const std::vector<Face>& localFaces,
+                            const std::vector<GlobalId>& nodeIds,
+                            const std::vector<Donor>& livingPlanes, const Comm& comm);
+
+struct CandidateRules
+{
+  Real skin = 0; ///< [m]
+  Real cosOpposed = 0.1;
+  Real depthMax = 0.6;
+  std::function<bool(int, int)> excluded; ///< by block
+  std::function<bool(GlobalId, GlobalId)>
+      inContact; ///< pair keys that carry traction now: they stay candidates
+};
+
+/// Why a pair of faces is, or is not, a candidate.
+enum class Verdict
+{
+  Candidate,
+  SameElement,
+  BothGhost,
+  SharedNode,
+  Excluded,
+  NotOpposed,
+  TooFarApart
+};
+
+/// The tests of step 5 for one pair, cheapest first.
+Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
+                  const ConstNodeVectors& x, int dimension, const CandidateRules& rules);
+
+/// Step 5: all pairs of local and ghost faces that may touch before the next search, sorted by key.
+std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
+                                                const ConstNodeVectors& x, int dimension,
+                                                const CandidateRules& rules);
+} // namespace coplane
