@@ -1,0 +1,144 @@
+#pragma once
+
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/NodeViews.hpp>
+#include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
+#include <coplane_material/Material.hpp>
+#include <coplane_mesh/ElementTopology.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// Resistance against the deformations that the one-point strain does not see (Flanagan and
+/// Belytschko 1981).
+struct HourglassOptions
+{
+  Real stiffness = 0.05; ///< fraction of the stiffness of the element's fastest mode [-]
+  Real viscosity = 0;    ///< fraction of critical damping of the hourglass modes [-]
+};
+
+/// Pressure q = rho l r (linear c_d + quadratic l r) against compression at the rate r = <-tr D>
+/// (von Neumann and Richtmyer).
+struct BulkViscosity
+{
+  Real linear = 0.06;
+  Real quadratic = 1.5;
+};
+
+/// Energies of an element since the start of the run [J]; rows of ElementBlock::energies().
+enum class ElementEnergy : int
+{
+  Internal,           ///< work of the stress, recoverable and plastic part together
+  PlasticDissipation, ///< part of Internal that is lost for good
+  Hourglass,          ///< work of the hourglass forces
+  Viscous             ///< work of the bulk viscosity
+};
+constexpr int elementEnergies = 4;
+
+/// All elements of one type and one law on this rank: from positions and velocities to internal
+/// forces, a cycle at a time. Time levels (central differences): x and stress at n, v at n + 1/2.
+/// What an element gets depends on its own nodes and history only, not on its place in the block,
+/// so it has the same bits on every rank that computes it.
+class ElementBlock
+{
+public:
+  /// One number per component (row) and element (column). Rows are padded to a multiple of
+  /// laneCount; only the first count() columns mean something.
+  using Values = Table<Real>;
+  using ConstValues = ConstTable<Real>;
+  /// [element][corner][component], three components also in two dimensions
+  using CornerVectors = Kokkos::View<Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
+  using ConstCornerVectors = Kokkos::View<const Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
+
+  /// @param connectivity local node indices, topology(type).nodes per element
+  ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
+               const BulkViscosity& viscosity, const std::vector<int>& connectivity);
+
+  /// Takes reference volumes and masses from the nodes' first positions [m] and clears the history.
+  void initialise(const ConstNodeVectors& x);
+
+  /// Gives every element the same stress (tension positive) [Pa]. Call after initialise().
+  void setInitialStress(const SymTensor& stress);
+
+  /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
+  /// steps at x^(n+1). With dt = 0 nothing advances: it gives the forces that belong to the present
+  /// stress, with the bits they had when that stress was computed (start of a run, restart). Never
+  /// throws: see invertedElement().
+  /// @param x positions at n + 1 [m]
+  /// @param v velocities at n + 1/2 [m/s], by which the nodes came from x(n) to x(n+1)
+  void update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
+
+  int count() const { return count_; }
+  ElementType type() const { return type_; }
+  const Material& material() const { return law_; }
+  /// [element][corner] -> local node
+  ConstTable<int> connectivity() const { return connectivity_; }
+
+  /// Force of the element on its nodes [N]: a node's internal force is the sum over its corners
+  /// (minus B sigma).
+  ConstCornerVectors cornerForce() const { return cornerForce_; }
+  Real mass(int element) const { return mass_(element); } ///< [kg]
+  Real cornerMass(int element) const
+  {
+    return mass_(element) / topology(type_).nodes;
+  }                                                           ///< lumped [kg]
+  ConstArray<Real> stableStep() const { return stableStep_; } ///< [s]; 0 when inverted
+  ConstArray<Real> volume() const
+  {
+    return volume_;
+  } ///< [m^3]; area times unit thickness in two dimensions
+  ConstArray<Real> referenceVolume() const { return referenceVolume_; }
+  /// xx, yy, zz, xy, yz, zx; tension positive, without bulk viscosity [Pa]
+  ConstValues stress() const { return stress_; }
+  Real pressure(int element) const; ///< -tr(stress)/3 [Pa]
+  Real vonMises(int element) const; ///< sqrt(3/2 s:s) [Pa]
+  Real density(int element) const { return mass_(element) / volume_(element); } ///< now [kg/m^3]
+  ConstArray<Real> equivalentPlasticStrain() const;
+  ConstArray<Real> viscousPressure() const; ///< q of the last update, not negative [Pa]
+  ConstValues energies() const { return energies_; }
+  Real energy(int element, ElementEnergy kind) const { return energies_(int(kind), element); }
+
+  /// The least stable step of the block [s]; infinity when it has no elements, 0 when one has
+  /// turned inside out.
+  Real smallestStableStep() const;
+  /// The lowest index of an element with a volume that is not positive or a force that is not
+  /// finite; -1 when there is none.
+  int invertedElement() const;
+
+  /// Calls f(name, components, values) for all that a restart needs beside the nodes and
+  /// initialise(): values are a Values table with one row per component.
+  template <class F>
+  void forEachState(F&& f) const
+  {
+    f("stress", int(stress_.extent(0)), stress_);
+    f("equivalent_plastic_strain", int(plasticStrain_.extent(0)), plasticStrain_);
+    f("hourglass_force", int(hourglassForce_.extent(0)), hourglassForce_);
+    f("hourglass_viscous_force", int(hourglassViscousForce_.extent(0)), hourglassViscousForce_);
+    f("compression_rate", int(compression_.extent(0)), compression_);
+    f("element_energy", int(energies_.extent(0)), energies_);
+  }
+
+private:
+  ElementType type_;
+  Material law_;
+  HourglassOptions hourglass_;
+  BulkViscosity viscosity_;
+  int count_ = 0;
+  Table<int> connectivity_;
+
+  // of the reference state
+  Array<Real> mass_, referenceVolume_, referenceLength_;
+
+  // history
+  Values stress_, plasticStrain_, hourglassForce_, hourglassViscousForce_, energies_;
+  Values compression_; // rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
+
+  // of the last update
+  CornerVectors cornerForce_;
+  Array<Real> stableStep_, volume_;
+
+  friend struct ElementBlockAccess;
+};
+} // namespace coplane
