@@ -1,0 +1,1 @@
+coplane_dependencies(PACKAGES core mesh)

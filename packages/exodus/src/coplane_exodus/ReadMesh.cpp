@@ -1,0 +1,354 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_exodus/ExodusCalls.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
+
+#include <exodusII.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <unordered_map>
+
+namespace coplane
+{
+namespace
+{
+std::string upperCase(std::string text)
+{
+  for (char& c : text)
+    c = char(std::toupper(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// One open Exodus file and the steps of reading it.
+class Reader
+{
+public:
+  explicit Reader(const std::string& file) : file_(file)
+  {
+    int memoryWord = 8, fileWord = 0;
+    float version = 0;
+    exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
+    if (exoid_ < 0)
+      fail(ExitCode::Mesh,
+           "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
+           "damaged. Write the mesh with "
+           "coplane_mesh make, or export Exodus II from your mesh generator.",
+           file);
+    ex_set_max_name_length(
+        exoid_, int(std::max<int64_t>(ex_inquire_int(exoid_, EX_INQ_DB_MAX_USED_NAME_LENGTH), 32)));
+  }
+  ~Reader() { ex_close(exoid_); }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  Mesh read()
+  {
+    readSizes();
+    readNodes();
+    readBlocks();
+    readElementIds();
+    readNodeSets();
+    readSideSets();
+    readQaRecords();
+    return std::move(mesh_);
+  }
+
+private:
+  void check(int status, const std::string& what) const
+  {
+    try
+    {
+      checkExodus(status, what);
+    }
+    catch (const ExodusFailure& failure)
+    {
+      fail(ExitCode::Mesh, "{}: cannot be read: {}. The file is damaged; write it again.", file_,
+           failure.what());
+    }
+  }
+
+  void readSizes()
+  {
+    ex_init_params sizes{};
+    if (ex_get_init_ext(exoid_, &sizes) < 0)
+      fail(ExitCode::Mesh,
+           "{}: the file is netCDF but holds no Exodus II mesh. Export Exodus II from your mesh "
+           "generator.",
+           file_);
+    if (sizes.num_dim != 2 && sizes.num_dim != 3)
+      fail(ExitCode::Mesh, "{}: the mesh has {} dimensions; 2 and 3 are accepted.", file_,
+           sizes.num_dim);
+    if (sizes.num_elem == 0 || sizes.num_nodes == 0)
+      fail(ExitCode::Mesh,
+           "{}: the mesh has no elements ({} nodes, {} element blocks). Export the element blocks "
+           "too.",
+           file_, sizes.num_nodes, sizes.num_elem_blk);
+    mesh_.title = sizes.title;
+    mesh_.dimension = int(sizes.num_dim);
+    nodes_ = sizes.num_nodes;
+    elements_ = sizes.num_elem;
+    blocks_ = sizes.num_elem_blk;
+    nodeSets_ = sizes.num_node_sets;
+    sideSets_ = sizes.num_side_sets;
+  }
+
+  void readNodes()
+  {
+    mesh_.nodeIds.resize(nodes_);
+    check(ex_get_id_map(exoid_, EX_NODE_MAP, mesh_.nodeIds.data()), "node ids");
+    checkIds("node", mesh_.nodeIds);
+    std::vector<Real> x(nodes_), y(nodes_), z(nodes_, 0.0);
+    check(ex_get_coord(exoid_, x.data(), y.data(), mesh_.dimension == 3 ? z.data() : nullptr),
+          "coordinates");
+    mesh_.coordinates.resize(nodes_);
+    for (int64_t i = 0; i < nodes_; ++i)
+    {
+      mesh_.coordinates[i] = {x[i], y[i], z[i]};
+      if (!std::isfinite(x[i]) || !std::isfinite(y[i]) || !std::isfinite(z[i]))
+        fail(ExitCode::Mesh,
+             "{}: node {} is at ({}, {}, {}) m; coordinates must be finite. Repair the mesh.",
+             file_, mesh_.nodeIds[i], x[i], y[i], z[i]);
+    }
+  }
+
+  ElementType elementType(const ex_block& b, const std::string& name) const
+  {
+    const std::string type = upperCase(b.topology);
+    const bool quad = (type == "QUAD" || type == "QUAD4") && b.num_nodes_per_entry == 4;
+    const bool hex = (type == "HEX" || type == "HEX8") && b.num_nodes_per_entry == 8;
+    if (!quad && !hex)
+      fail(
+          ExitCode::Mesh,
+          "{}: block {} ('{}') has elements of type '{}' with {} nodes; QUAD4 (also QUAD) with 4 "
+          "nodes in two dimensions and "
+          "HEX8 (also HEX) with 8 nodes in three are accepted. Mesh this block with such elements.",
+          file_, b.id, name, b.topology, b.num_nodes_per_entry);
+    if (quad != (mesh_.dimension == 2))
+      fail(ExitCode::Mesh,
+           "{}: block {} ('{}') has {} elements in a mesh of {} dimensions; QUAD4 needs 2 "
+           "dimensions, HEX8 needs 3. "
+           "Export the mesh with {} coordinates per node.",
+           file_, b.id, name, b.topology, mesh_.dimension, quad ? 2 : 3);
+    return quad ? ElementType::Quad4 : ElementType::Hex8;
+  }
+
+  void readBlocks()
+  {
+    std::vector<ExodusInt> ids(blocks_);
+    check(ex_get_ids(exoid_, EX_ELEM_BLOCK, ids.data()), "block ids");
+    checkIds("element block", ids);
+    for (const ExodusInt id : ids)
+    {
+      ex_block b{};
+      b.id = id;
+      b.type = EX_ELEM_BLOCK;
+      check(ex_get_block_param(exoid_, &b), "element block");
+      if (b.num_entry == 0 && b.num_nodes_per_entry == 0)
+        continue;
+      Mesh::Block block;
+      block.id = id;
+      block.name = nameOf(EX_ELEM_BLOCK, id, "block");
+      block.type = elementType(b, block.name);
+      readConnectivity(block, b);
+      readBodyIds(block, b);
+      mesh_.blocks.push_back(std::move(block));
+    }
+    checkNames("element blocks", mesh_.blocks);
+  }
+
+  void readConnectivity(Mesh::Block& block, const ex_block& b) const
+  {
+    std::vector<ExodusInt> nodes(b.num_entry * b.num_nodes_per_entry);
+    if (!nodes.empty())
+      check(ex_get_conn(exoid_, EX_ELEM_BLOCK, block.id, nodes.data(), nullptr, nullptr),
+            "connectivity");
+    block.elementIds.resize(b.num_entry);
+    block.connectivity.reserve(nodes.size());
+    for (const ExodusInt node : nodes)
+    {
+      if (node < 1 || node > nodes_)
+        fail(ExitCode::Mesh,
+             "{}: an element of block {} ('{}') uses node number {}; the mesh has nodes 1 to {}. "
+             "Write the file again.",
+             file_, block.id, block.name, node, nodes_);
+      block.connectivity.push_back(int(node - 1));
+    }
+  }
+
+  void readBodyIds(Mesh::Block& block, const ex_block& b) const
+  {
+    block.bodyIds.assign(b.num_entry, 0);
+    if (b.num_attribute == 0 || b.num_entry == 0)
+      return;
+    const int length = int(ex_inquire_int(exoid_, EX_INQ_MAX_READ_NAME_LENGTH));
+    ExodusNames names(std::vector<std::string>(b.num_attribute, std::string(length + 1, '\0')));
+    check(ex_get_attr_names(exoid_, EX_ELEM_BLOCK, block.id, names.data()), "attribute names");
+    for (int a = 0; a < int(b.num_attribute); ++a)
+      if (upperCase(names.data()[a]) == "BODY_ID")
+      {
+        std::vector<Real> values(b.num_entry);
+        check(ex_get_one_attr(exoid_, EX_ELEM_BLOCK, block.id, a + 1, values.data()),
+              "attribute body_id");
+        for (int64_t e = 0; e < b.num_entry; ++e)
+          block.bodyIds[e] = int(std::lround(values[e]));
+      }
+  }
+
+  void readElementIds()
+  {
+    std::vector<GlobalId> ids(elements_);
+    check(ex_get_id_map(exoid_, EX_ELEM_MAP, ids.data()), "element ids");
+    checkIds("element", ids);
+    std::size_t next = 0;
+    for (Mesh::Block& block : mesh_.blocks)
+      for (GlobalId& id : block.elementIds)
+        id = ids.at(next++);
+  }
+
+  void readNodeSets()
+  {
+    for (const ExodusInt id : setIds(EX_NODE_SET, "node set", nodeSets_))
+    {
+      Mesh::NodeSet set;
+      set.id = id;
+      set.name = nameOf(EX_NODE_SET, id, "nodelist");
+      std::vector<ExodusInt> nodes(setSize(EX_NODE_SET, id));
+      if (!nodes.empty())
+        check(ex_get_set(exoid_, EX_NODE_SET, id, nodes.data(), nullptr), "node set");
+      for (const ExodusInt node : nodes)
+      {
+        if (node < 1 || node > nodes_)
+          fail(ExitCode::Mesh,
+               "{}: node set {} ('{}') lists node number {}; the mesh has nodes 1 to {}. Write the "
+               "file again.",
+               file_, id, set.name, node, nodes_);
+        set.nodes.push_back(int(node - 1));
+      }
+      mesh_.nodeSets.push_back(std::move(set));
+    }
+    checkNames("node sets", mesh_.nodeSets);
+  }
+
+  void readSideSets()
+  {
+    const int sidesPerElement = mesh_.dimension == 2 ? 4 : 6;
+    for (const ExodusInt id : setIds(EX_SIDE_SET, "side set", sideSets_))
+    {
+      Mesh::SideSet set;
+      set.id = id;
+      set.name = nameOf(EX_SIDE_SET, id, "surface");
+      std::vector<ExodusInt> elements(setSize(EX_SIDE_SET, id)), sides(elements.size());
+      if (!elements.empty())
+        check(ex_get_set(exoid_, EX_SIDE_SET, id, elements.data(), sides.data()), "side set");
+      for (std::size_t i = 0; i < elements.size(); ++i)
+      {
+        if (elements[i] < 1 || elements[i] > elements_ || sides[i] < 1 ||
+            sides[i] > sidesPerElement)
+          fail(ExitCode::Mesh,
+               "{}: side set {} ('{}') lists side {} of element number {}; sides 1 to {} of "
+               "elements 1 to {} exist. Write the "
+               "file again.",
+               file_, id, set.name, sides[i], elements[i], sidesPerElement, elements_);
+        set.elements.push_back(int(elements[i] - 1));
+        set.sides.push_back(int(sides[i] - 1));
+      }
+      mesh_.sideSets.push_back(std::move(set));
+    }
+    checkNames("side sets", mesh_.sideSets);
+  }
+
+  void readQaRecords()
+  {
+    const int count = int(ex_inquire_int(exoid_, EX_INQ_QA));
+    if (count <= 0)
+      return;
+    std::vector<ExodusNames> texts;
+    using Record = char* [4];
+    const auto records = std::make_unique<Record[]>(count);
+    texts.reserve(count);
+    for (int i = 0; i < count; ++i)
+    {
+      texts.emplace_back(std::vector<std::string>(4, std::string(MAX_STR_LENGTH + 1, '\0')));
+      for (int k = 0; k < 4; ++k)
+        records[i][k] = texts[i].data()[k];
+    }
+    check(ex_get_qa(exoid_, records.get()), "QA records");
+    for (int i = 0; i < count; ++i)
+      mesh_.qaRecords.push_back({records[i][0], records[i][1], records[i][2], records[i][3]});
+  }
+
+  std::vector<ExodusInt> setIds(ex_entity_type type, const char* what, int64_t count) const
+  {
+    std::vector<ExodusInt> ids(count);
+    if (count > 0)
+      check(ex_get_ids(exoid_, type, ids.data()), what);
+    checkIds(what, ids);
+    return ids;
+  }
+
+  std::size_t setSize(ex_entity_type type, GlobalId id) const
+  {
+    int64_t entries = 0, factors = 0;
+    check(ex_get_set_param(exoid_, type, id, &entries, &factors), "set");
+    return std::size_t(entries);
+  }
+
+  std::string nameOf(ex_entity_type type, GlobalId id, const char* kind) const
+  {
+    std::string name(ex_inquire_int(exoid_, EX_INQ_MAX_READ_NAME_LENGTH) + 1, '\0');
+    check(ex_get_name(exoid_, type, id, name.data()), "names");
+    name.resize(std::char_traits<char>::length(name.c_str()));
+    return name.empty() ? fmt::format("{}_{}", kind, id) : name;
+  }
+
+  void checkIds(const char* what, const std::vector<GlobalId>& ids) const
+  {
+    std::vector<GlobalId> sorted = ids;
+    std::sort(sorted.begin(), sorted.end());
+    if (!sorted.empty() && sorted.front() < 1)
+      fail(ExitCode::Mesh, "{}: {} id {} is not positive. Renumber the mesh with ids from 1.",
+           file_, what, sorted.front());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    if (twice != sorted.end())
+      fail(ExitCode::Mesh,
+           "{}: {} id {} occurs more than once; ids must be unique. Renumber the mesh.", file_,
+           what, *twice);
+  }
+
+  template <class Entities>
+  void checkNames(const char* what, const Entities& entities) const
+  {
+    std::unordered_map<std::string, GlobalId> idOfName;
+    for (const auto& entity : entities)
+      if (const auto [other, added] = idOfName.emplace(entity.name, entity.id); !added)
+        fail(ExitCode::Mesh,
+             "{}: {} {} and {} are both named '{}'; names must be unique. Rename one.", file_, what,
+             other->second, entity.id, entity.name);
+  }
+
+  std::string file_;
+  int exoid_ = -1;
+  Mesh mesh_;
+  int64_t nodes_ = 0, elements_ = 0, blocks_ = 0, nodeSets_ = 0, sideSets_ = 0;
+};
+} // namespace
+
+Mesh readMesh(const std::string& file)
+{
+  quietExodus();
+  if (!std::filesystem::exists(file))
+    fail(ExitCode::Mesh,
+         "{}: the mesh file does not exist (looked in '{}'). Check the name, or write it with "
+         "coplane_mesh make.",
+         file, std::filesystem::absolute(file).parent_path().string());
+  if (std::filesystem::is_directory(file))
+    fail(ExitCode::Mesh, "{}: this is a folder; name an Exodus II file.", file);
+  if (!std::ifstream(file))
+    fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",
+         file);
+  return Reader(file).read();
+}
+} // namespace coplane

@@ -1,0 +1,96 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_exodus/ExodusCalls.hpp>
+#include <coplane_mesh/Mesh.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// What a results file holds besides the mesh.
+struct ResultsVariables
+{
+  std::vector<std::string> nodal;
+  std::vector<std::string> element; ///< on every block
+  std::vector<std::string> global;
+};
+
+/// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
+/// variables by time step.
+///
+/// One file shared by all ranks: CDF-5, defined by rank 0, then written through PnetCDF and MPI-IO.
+/// Each rank writes contiguous ranges of the file order: items contiguousRange(n, rank, size) of
+/// nodes and of each block's elements. Data go to the file at once, and the number of steps in the
+/// header is raised last, in endStep: a program killed at any moment leaves a file with all
+/// finished steps. Or one file per rank (`base.e.N.r`), which `epu -auto` joins; the calls and the
+/// ranges are the same.
+///
+/// Every rank makes every call. A failed write (full disk, quota) is remembered, decided together
+/// in endStep, and thrown there on all ranks as Error(ExitCode::Output) with file, time and reason;
+/// finished steps stay readable.
+class ResultsFile
+{
+public:
+  /// `mesh` is the whole mesh, the same on every rank. QA records of the mesh are kept and
+  /// Coplane's is appended. Lines of more than 80 characters are split.
+  ResultsFile(const std::string& file, const Comm& comm, const Mesh& mesh,
+              const ResultsVariables& variables, const std::vector<std::string>& infoLines,
+              bool filePerRank = false);
+  /// Closes; errors are lost here, so call close() first where they matter.
+  ~ResultsFile();
+  ResultsFile(const ResultsFile&) = delete;
+  ResultsFile& operator=(const ResultsFile&) = delete;
+
+  IndexRange myNodes() const { return contiguousRange(nodeCount_, comm_.rank(), comm_.size()); }
+  IndexRange myElements(int block) const
+  {
+    return contiguousRange(blockSizes_[block], comm_.rank(), comm_.size());
+  }
+
+  void beginStep(Real time);
+  /// Values of this rank's range; variables and blocks are counted from 0 in the order given at
+  /// construction.
+  void putNodal(int variable, const std::vector<Real>& myRange);
+  void putElement(int variable, int block, const std::vector<Real>& myRangeOfThatBlock);
+  /// All global variables, the same on every rank.
+  void putGlobals(const std::vector<Real>& values);
+  /// Makes the step part of the file.
+  void endStep();
+  void close();
+
+  int steps() const { return steps_; }
+  /// The file that this rank writes.
+  const std::string& file() const { return file_; }
+
+private:
+  void create(const Mesh& mesh, const ResultsVariables& variables,
+              const std::vector<std::string>& infoLines);
+  Mesh partOfThisRank(const Mesh& mesh);
+  std::vector<Real> valuesOfPart(const std::vector<Real>& myRange) const;
+  template <class Action>
+  void attempt(const Action& action);
+  void failTogether(const std::string& doing);
+  void abandon();
+
+  std::string file_;
+  Comm comm_;
+  bool filePerRank_;
+  int exoid_ = -1;
+  int nodeCount_ = 0;
+  std::vector<int> blockSizes_;
+  std::vector<GlobalId> blockIds_;
+  int steps_ = 0;               ///< finished ones
+  Real time_ = 0;               ///< of the step being written [s]
+  std::string failure_;         ///< first reason on this rank
+  std::uint64_t meshBytes_ = 0; ///< shared file: size before the first step
+  std::uint64_t stepBytes_ =
+      0; ///< of one time step: all variables are 8-byte reals, one after another
+
+  // File per rank: the nodes that this rank's elements touch come from the ranks in whose ranges
+  // they lie.
+  std::vector<int> partNodes_;                ///< node indices, ascending
+  std::vector<std::vector<int>> nodesToSend_; ///< by rank: positions in this rank's range
+};
+} // namespace coplane

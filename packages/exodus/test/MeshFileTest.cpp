@@ -1,0 +1,250 @@
+#include "SampleMeshes.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/WriteMesh.hpp>
+
+#include <exodusII.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+namespace coplane
+{
+namespace
+{
+/// These files concern one process: each rank uses a file of its own.
+std::string ownFile(const std::string& name)
+{
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return temporaryFile(std::to_string(rank) + "_" + name);
+}
+
+void expectSame(const Mesh& a, const Mesh& b)
+{
+  EXPECT_EQ(a.title, b.title);
+  EXPECT_EQ(a.dimension, b.dimension);
+  EXPECT_EQ(a.nodeIds, b.nodeIds);
+  ASSERT_EQ(a.coordinates.size(), b.coordinates.size());
+  for (std::size_t i = 0; i < a.coordinates.size(); ++i)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(a.coordinates[i][k], b.coordinates[i][k]);
+  ASSERT_EQ(a.blocks.size(), b.blocks.size());
+  for (std::size_t i = 0; i < a.blocks.size(); ++i)
+  {
+    EXPECT_EQ(a.blocks[i].id, b.blocks[i].id);
+    EXPECT_EQ(a.blocks[i].name, b.blocks[i].name);
+    EXPECT_EQ(a.blocks[i].type, b.blocks[i].type);
+    EXPECT_EQ(a.blocks[i].elementIds, b.blocks[i].elementIds);
+    EXPECT_EQ(a.blocks[i].connectivity, b.blocks[i].connectivity);
+    EXPECT_EQ(a.blocks[i].bodyIds, b.blocks[i].bodyIds);
+  }
+  ASSERT_EQ(a.nodeSets.size(), b.nodeSets.size());
+  for (std::size_t i = 0; i < a.nodeSets.size(); ++i)
+  {
+    EXPECT_EQ(a.nodeSets[i].id, b.nodeSets[i].id);
+    EXPECT_EQ(a.nodeSets[i].name, b.nodeSets[i].name);
+    EXPECT_EQ(a.nodeSets[i].nodes, b.nodeSets[i].nodes);
+  }
+  ASSERT_EQ(a.sideSets.size(), b.sideSets.size());
+  for (std::size_t i = 0; i < a.sideSets.size(); ++i)
+  {
+    EXPECT_EQ(a.sideSets[i].id, b.sideSets[i].id);
+    EXPECT_EQ(a.sideSets[i].name, b.sideSets[i].name);
+    EXPECT_EQ(a.sideSets[i].elements, b.sideSets[i].elements);
+    EXPECT_EQ(a.sideSets[i].sides, b.sideSets[i].sides);
+  }
+  EXPECT_EQ(a.qaRecords, b.qaRecords);
+}
+
+Mesh writtenAndRead(const Mesh& mesh, const std::string& name)
+{
+  const std::string file = ownFile(name);
+  writeMesh(mesh, file);
+  Mesh read = readMesh(file);
+  std::filesystem::remove(file);
+  return read;
+}
+
+/// Text of the error, and that it is one of the mesh.
+template <class Action>
+std::string errorOf(const Action& action, ExitCode code = ExitCode::Mesh)
+{
+  try
+  {
+    action();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), code);
+    return error.what();
+  }
+  return "no error";
+}
+
+std::string readError(const Mesh& mesh, const std::string& name)
+{
+  const std::string text = errorOf([&] { writtenAndRead(mesh, name); });
+  std::filesystem::remove(ownFile(name));
+  return text;
+}
+
+bool contains(const std::string& text, const std::string& part)
+{
+  return text.find(part) != std::string::npos;
+}
+
+/// One block of one element of any type name.
+std::string fileWithElementType(const std::string& type, int nodes, int dimension)
+{
+  const std::string file = ownFile("type.e");
+  int word = 8, fileWord = 8;
+  const int exoid = ex_create(file.c_str(), EX_CLOBBER, &word, &fileWord);
+  ex_put_init(exoid, "types", dimension, nodes, 1, 1, 0, 0);
+  // A unit square, or cube, as far as the nodes go.
+  const double x[] = {0, 1, 1, 0, 0, 1, 1, 0}, y[] = {0, 0, 1, 1, 0, 0, 1, 1},
+               z[] = {0, 0, 0, 0, 1, 1, 1, 1};
+  ex_put_coord(exoid, x, y, z);
+  ex_put_block(exoid, EX_ELEM_BLOCK, 12, type.c_str(), 1, nodes, 0, 0, 0);
+  const int connectivity[] = {1, 2, 3, 4, 5, 6, 7, 8};
+  ex_put_conn(exoid, EX_ELEM_BLOCK, 12, connectivity, nullptr, nullptr);
+  ex_close(exoid);
+  return file;
+}
+} // namespace
+
+TEST(MeshFile, aMeshOfQuadrilateralsComesBackAsItWas)
+{
+  expectSame(writtenAndRead(sampleMesh2d(), "quads.e"), sampleMesh2d());
+}
+
+TEST(MeshFile, aMeshOfHexahedraComesBackAsItWas)
+{
+  expectSame(writtenAndRead(sampleMesh3d(), "hexes.e"), sampleMesh3d());
+}
+
+TEST(MeshFile, idsBeyond32BitsComeBack)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.nodeIds[0] = 5000000000;
+  mesh.blocks[0].elementIds[1] = 6000000000;
+  expectSame(writtenAndRead(mesh, "wide.e"), mesh);
+}
+
+TEST(MeshFile, namesOfMoreThan32CharactersComeBack)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.blocks[0].name = "the_left_wall_of_the_northern_tower_of_the_castle";
+  expectSame(writtenAndRead(mesh, "names.e"), mesh);
+}
+
+TEST(MeshFile, unnamedBlocksAndSetsGetNamesFromTheirIds)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.blocks[0].name = mesh.nodeSets[0].name = mesh.sideSets[0].name = "";
+  const Mesh read = writtenAndRead(mesh, "unnamed.e");
+  EXPECT_EQ(read.blocks[0].name, "block_5");
+  EXPECT_EQ(read.nodeSets[0].name, "nodelist_4");
+  EXPECT_EQ(read.sideSets[0].name, "surface_6");
+}
+
+TEST(MeshFile, elementTypesAreKnownInAnyCaseAndWithoutNumber)
+{
+  for (const char* type : {"QUAD", "quad4", "Quad"})
+    EXPECT_EQ(readMesh(fileWithElementType(type, 4, 2)).blocks[0].type, ElementType::Quad4) << type;
+  for (const char* type : {"HEX", "hex8"})
+    EXPECT_EQ(readMesh(fileWithElementType(type, 8, 3)).blocks[0].type, ElementType::Hex8) << type;
+  std::filesystem::remove(ownFile("type.e"));
+}
+
+TEST(MeshFile, aMissingFileIsNamed)
+{
+  EXPECT_TRUE(contains(errorOf([] { readMesh("nowhere.e"); }),
+                       "nowhere.e: the mesh file does not exist (looked in '"));
+}
+
+TEST(MeshFile, aTextFileIsNotExodus)
+{
+  const std::string file = ownFile("text.e");
+  std::ofstream(file) << "solid cube\n";
+  EXPECT_TRUE(
+      contains(errorOf([&] { readMesh(file); }), "text.e: the file is not an Exodus II file"));
+  std::filesystem::remove(file);
+}
+
+TEST(MeshFile, aFolderIsNotAMesh)
+{
+  EXPECT_TRUE(
+      contains(errorOf([] { readMesh("/"); }), "/: this is a folder; name an Exodus II file."));
+}
+
+TEST(MeshFile, aTetrahedronIsRefusedWithBlockAndAcceptedTypes)
+{
+  const std::string text = errorOf([] { readMesh(fileWithElementType("TETRA", 4, 3)); });
+  EXPECT_TRUE(contains(text,
+                       "block 12 ('block_12') has elements of type 'TETRA' with 4 nodes; QUAD4 "
+                       "(also QUAD) with 4 nodes in "
+                       "two dimensions and HEX8 (also HEX) with 8 nodes in three are accepted"))
+      << text;
+}
+
+TEST(MeshFile, quadrilateralsInSpaceAreRefused)
+{
+  const std::string text = errorOf([] { readMesh(fileWithElementType("QUAD4", 4, 3)); });
+  EXPECT_TRUE(
+      contains(text, "has QUAD4 elements in a mesh of 3 dimensions; QUAD4 needs 2 dimensions"))
+      << text;
+  std::filesystem::remove(ownFile("type.e"));
+}
+
+TEST(MeshFile, coordinatesThatAreNotFiniteAreRefusedWithTheNode)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.coordinates[2].y = std::nan("");
+  EXPECT_TRUE(contains(readError(mesh, "nan.e"),
+                       "node 30 is at (2, nan, 0) m; coordinates must be finite"));
+}
+
+TEST(MeshFile, aMeshWithoutElementsIsRefused)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.blocks.clear();
+  mesh.sideSets.clear();
+  EXPECT_TRUE(contains(readError(mesh, "empty.e"),
+                       "the mesh has no elements (10 nodes, 0 element blocks)"));
+}
+
+TEST(MeshFile, anIdThatOccursTwiceIsRefused)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.blocks[1].elementIds[0] = 7;
+  EXPECT_TRUE(contains(readError(mesh, "twice.e"),
+                       "element id 7 occurs more than once; ids must be unique"));
+}
+
+TEST(MeshFile, anIdThatIsNotPositiveIsRefused)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.nodeIds[1] = 0;
+  EXPECT_TRUE(contains(readError(mesh, "zero.e"), "node id 0 is not positive"));
+}
+
+TEST(MeshFile, twoBlocksOfOneNameAreRefused)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.blocks[1].name = "wall";
+  EXPECT_TRUE(contains(readError(mesh, "names.e"),
+                       "element blocks 5 and 3 are both named 'wall'; names must be unique"));
+}
+
+TEST(MeshFile, writingIntoAMissingFolderIsAnOutputError)
+{
+  const std::string text =
+      errorOf([] { writeMesh(sampleMesh2d(), "/no/such/folder/mesh.e"); }, ExitCode::Output);
+  EXPECT_TRUE(contains(text, "/no/such/folder/mesh.e: the mesh cannot be written (creating the "
+                             "file: No such file or directory)"))
+      << text;
+}
+} // namespace coplane
