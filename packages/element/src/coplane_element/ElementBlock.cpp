@@ -1,0 +1,167 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Lanes.hpp>
+#include <coplane_element/ElementBlock.hpp>
+#include <coplane_element/ElementKernel.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+template <ElementType type>
+Real volumeOf(const ConstTable<int>& connectivity, int element, const ConstNodeVectors& x)
+{
+  using M = Modes<type>;
+  Real modes[M::dimension][M::count], b[M::dimension][M::gradients];
+  for (int i = 0; i < M::dimension; ++i)
+  {
+    Real corner[M::nodes];
+    for (int c = 0; c < M::nodes; ++c)
+      corner[c] = x(connectivity(element, c), i) - x(connectivity(element, 0), i);
+    M::fromCorners(corner, modes[i]);
+  }
+  M::volumeGradient(modes, b);
+  return M::volume(modes, b);
+}
+
+template <ElementType type>
+constexpr int hourglassRows = Modes<type>::hourglass* Modes<type>::dimension;
+} // namespace
+
+ElementBlock::ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
+                           const BulkViscosity& viscosity, const std::vector<int>& connectivity)
+    : type_(type), law_(law), hourglass_(hourglass), viscosity_(viscosity)
+{
+  const int nodes = topology(type).nodes;
+  if (connectivity.size() % nodes != 0)
+    fail(ExitCode::Internal, "element block: {} node indices are no multiple of {} for {}",
+         connectivity.size(), nodes, topology(type).exodusName);
+  count_ = int(connectivity.size() / nodes);
+  const int padded = (count_ + laneCount - 1) / laneCount * laneCount;
+
+  connectivity_ = Table<int>("connectivity", padded, nodes);
+  for (int e = 0; e < padded; ++e)
+    for (int c = 0; c < nodes; ++c)
+      connectivity_(e, c) = connectivity[std::size_t(std::min(e, count_ - 1)) * nodes + c];
+
+  mass_ = Array<Real>("mass", padded);
+  referenceVolume_ = Array<Real>("referenceVolume", padded);
+  referenceLength_ = Array<Real>("referenceLength", padded);
+  volume_ = Array<Real>("volume", padded);
+  stableStep_ = Array<Real>("stableStep", padded);
+  cornerForce_ = CornerVectors("cornerForce", padded, nodes);
+  stress_ = Values("stress", 6, padded);
+  plasticStrain_ = Values("equivalentPlasticStrain", 1, padded);
+  compression_ = Values("compression", 2, padded);
+  energies_ = Values("energies", elementEnergies, padded);
+  const int rows = type == ElementType::Quad4 ? hourglassRows<ElementType::Quad4>
+                                              : hourglassRows<ElementType::Hex8>;
+  hourglassForce_ = Values("hourglassForce", rows, padded);
+  hourglassViscousForce_ =
+      Values("hourglassViscousForce", hourglass.viscosity > 0 ? rows : 0, padded);
+}
+
+void ElementBlock::initialise(const ConstNodeVectors& x)
+{
+  const bool flat = type_ == ElementType::Quad4;
+  const Real rho = coplane::density(law_);
+  for (int e = 0; e < int(mass_.extent(0)); ++e)
+  {
+    const Real volume = flat ? volumeOf<ElementType::Quad4>(connectivity_, e, x)
+                             : volumeOf<ElementType::Hex8>(connectivity_, e, x);
+    referenceVolume_(e) = volume_(e) = volume;
+    referenceLength_(e) = flat ? std::sqrt(volume) : std::cbrt(volume);
+    mass_(e) = rho * volume;
+  }
+  forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
+  Kokkos::deep_copy(cornerForce_, 0.0);
+}
+
+void ElementBlock::setInitialStress(const SymTensor& s)
+{
+  if (type_ == ElementType::Quad4 && (s.yz != 0 || s.zx != 0))
+    fail(ExitCode::Deck,
+         "initial stress: yz = {} Pa and zx = {} Pa, but elements in plane strain carry neither. "
+         "Set both to 0.",
+         s.yz, s.zx);
+  const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
+  for (int k = 0; k < 6; ++k)
+    Kokkos::deep_copy(Kokkos::subview(stress_, k, Kokkos::ALL), values[k]);
+}
+
+void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
+{
+  if (count_ == 0)
+    return;
+  const LinearElastic& elastic = elasticity(law_);
+  const ElementKernelData data{x,
+                               v,
+                               dt,
+                               hourglass_,
+                               viscosity_,
+                               lameLambda(elastic),
+                               elastic.shearModulus,
+                               pWaveModulus(elastic),
+                               soundSpeed(law_),
+                               int(mass_.extent(0)) / laneCount,
+                               connectivity_,
+                               mass_,
+                               referenceVolume_,
+                               referenceLength_,
+                               stress_,
+                               plasticStrain_,
+                               hourglassForce_,
+                               hourglassViscousForce_,
+                               compression_,
+                               energies_,
+                               cornerForce_,
+                               stableStep_,
+                               volume_};
+  if (type_ == ElementType::Quad4)
+    updateQuad4(data, law_);
+  else
+    updateHex8(data, law_);
+}
+
+Real ElementBlock::pressure(int e) const
+{
+  return -(stress_(0, e) + stress_(1, e) + stress_(2, e)) / 3;
+}
+
+Real ElementBlock::vonMises(int e) const
+{
+  const Real p = pressure(e);
+  const Real xx = stress_(0, e) + p, yy = stress_(1, e) + p, zz = stress_(2, e) + p;
+  const Real xy = stress_(3, e), yz = stress_(4, e), zx = stress_(5, e);
+  return std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx)));
+}
+
+ConstArray<Real> ElementBlock::equivalentPlasticStrain() const
+{
+  return ConstArray<Real>(plasticStrain_.data(), plasticStrain_.extent(1));
+}
+
+ConstArray<Real> ElementBlock::viscousPressure() const
+{
+  return ConstArray<Real>(compression_.data() + compression_.extent(1), compression_.extent(1));
+}
+
+Real ElementBlock::smallestStableStep() const
+{
+  const ConstArray<Real> step = stableStep_;
+  return parallelMin(
+      "coplane::element::smallestStableStep", count_,
+      KOKKOS_LAMBDA(const int e) { return step(e); });
+}
+
+int ElementBlock::invertedElement() const
+{
+  const ConstArray<Real> step = stableStep_;
+  const Real lowest = parallelMin(
+      "coplane::element::invertedElement", count_,
+      KOKKOS_LAMBDA(const int e) { return step(e) > 0 ? infinity : Real(e); });
+  return lowest < infinity ? int(lowest) : -1;
+}
+} // namespace coplane

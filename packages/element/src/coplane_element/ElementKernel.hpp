@@ -1,0 +1,434 @@
+#pragma once
+
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/Lanes.hpp>
+#include <coplane_core/NodeViews.hpp>
+#include <coplane_element/ElementBlock.hpp>
+#include <coplane_element/HughesWinget.hpp>
+#include <coplane_element/MeanGradient.hpp>
+#include <coplane_element/StableStep.hpp>
+
+namespace coplane
+{
+/// What one call of ElementBlock::update() reads and writes.
+struct ElementKernelData
+{
+  ConstNodeVectors x, v;
+  Real dt;
+  HourglassOptions hourglass;
+  BulkViscosity viscosity;
+  Real lambda, shearModulus, pWaveModulus, soundSpeed; // [Pa], [m/s]
+  int batches;
+
+  ConstTable<int> connectivity;
+  ConstArray<Real> mass, referenceVolume, referenceLength;
+  Table<Real> stress, plasticStrain, hourglassForce, hourglassViscousForce, compression, energies;
+  ElementBlock::CornerVectors cornerForce;
+  Array<Real> stableStep, volume;
+};
+
+void updateQuad4(const ElementKernelData& data, const Material& law);
+void updateHex8(const ElementKernelData& data, const Material& law);
+
+inline Lanes load(const Real* from)
+{
+  return Lanes(from, stdx::element_aligned);
+}
+inline void store(const Lanes& value, Real* to)
+{
+  value.copy_to(to, stdx::element_aligned);
+}
+
+/// One batch of laneCount elements: everything from positions to corner forces in one pass.
+template <ElementType type, class Law>
+struct ElementKernel
+{
+  using M = Modes<type>;
+  static constexpr int dim = M::dimension;
+  static constexpr int nodes = M::nodes;
+
+  ElementKernelData data;
+  Law law;
+
+  // Not inlined: both back ends call the same machine code.
+  [[gnu::noinline]] void operator()(const int batch) const
+  {
+    const int first = batch * laneCount;
+    Lanes x[dim][M::count], v[dim][M::count];
+    gather(data.x, first, x);
+    gather(data.v, first, v);
+
+    Lanes hourglass[M::hourglass][dim];
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+        hourglass[a][i] = load(&data.hourglassForce(a * dim + i, first));
+
+    SymTensorOf<Lanes> stress = loadStress(first);
+    const Lanes oldViscousPressure = load(&data.compression(1, first));
+    Lanes compression = load(&data.compression(0, first));
+    Lanes dilatation = Lanes(0.0); // tr(D) dt V at n + 1/2
+    if (data.dt > 0)
+    {
+      advance(first, x, v, stress, hourglass, compression, dilatation);
+      store(compression, &data.compression(0, first));
+    }
+
+    Lanes b[dim][M::gradients];
+    M::volumeGradient(x, b);
+    const Lanes volume = M::volume(x, b);
+    const Lanes inverseVolume = Lanes(1.0) / volume;
+    const Lanes mass = load(&data.mass(first));
+    const Lanes rho = mass * inverseVolume;
+    const Lanes length = characteristicLength(volume, first);
+    const Lanes lr = length * compression;
+    const Lanes b1c = Lanes(data.viscosity.linear * data.soundSpeed);
+    const Lanes b2lr = Lanes(data.viscosity.quadratic) * lr;
+    const Lanes viscousPressure = rho * lr * (b1c + b2lr);
+    store(viscousPressure, &data.compression(1, first));
+    store(volume, &data.volume(first));
+    if (data.dt > 0)
+      addTo(data.energies, ElementEnergy::Viscous, first,
+            Lanes(-0.5) * (oldViscousPressure + viscousPressure) * dilatation);
+
+    if (data.hourglass.viscosity > 0)
+      for (int a = 0; a < M::hourglass; ++a)
+        for (int i = 0; i < dim; ++i)
+          hourglass[a][i] += load(&data.hourglassViscousForce(a * dim + i, first));
+
+    const LaneMask finite =
+        storeCornerForces(first, x, b, stress, viscousPressure, hourglass, inverseVolume);
+
+    // Tangent of the viscous pressure over the rate of compression, per density.
+    const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
+    const Lanes step = stableStepOf(x, b, inverseVolume, rho, viscosity);
+    const LaneMask good = finite && volume > Lanes(0.0) && step > Lanes(0.0);
+    store(choose(good, step, Lanes(0.0)), &data.stableStep(first));
+  }
+
+private:
+  void addTo(const Table<Real>& energies, ElementEnergy kind, int first, const Lanes& amount) const
+  {
+    Real* const where = &energies(int(kind), first);
+    store(load(where) + amount, where);
+  }
+
+  /// Modes of a nodal field. Corner 0 is taken off first: a far origin or a common speed then costs
+  /// no digits.
+  void gather(const ConstNodeVectors& field, int first, Lanes (&modes)[dim][M::count]) const
+  {
+    const int* const node = &data.connectivity(first, 0);
+    for (int i = 0; i < dim; ++i)
+    {
+      const auto corner = [&](int c)
+      { return Lanes([&](auto lane) { return field(node[int(lane) * nodes + c], i); }); };
+      const Lanes origin = corner(0);
+      Lanes u[nodes];
+      u[0] = Lanes(0.0);
+#pragma GCC unroll 8
+      for (int c = 1; c < nodes; ++c)
+        u[c] = corner(c) - origin;
+      M::fromCorners(u, modes[i]);
+    }
+  }
+
+  SymTensorOf<Lanes> loadStress(int first) const
+  {
+    const auto row = [&](int k) { return load(&data.stress(k, first)); };
+    if constexpr (dim == 3)
+      return {row(0), row(1), row(2), row(3), row(4), row(5)};
+    else
+      return {row(0), row(1), row(2), row(3), Lanes(0.0), Lanes(0.0)};
+  }
+
+  void storeStress(const SymTensorOf<Lanes>& s, int first) const
+  {
+    store(s.xx, &data.stress(0, first));
+    store(s.yy, &data.stress(1, first));
+    store(s.zz, &data.stress(2, first));
+    store(s.xy, &data.stress(3, first));
+    if constexpr (dim == 3)
+    {
+      store(s.yz, &data.stress(4, first));
+      store(s.zx, &data.stress(5, first));
+    }
+  }
+
+  /// V^(1/3), or A^(1/2) in two dimensions [m]. The cube root is one step of Halley's method from
+  /// the reference length: exact to 1 % while the volume stays between half and twice the first
+  /// one; the viscosity needs no more.
+  Lanes characteristicLength(const Lanes& volume, int first) const
+  {
+    if constexpr (dim == 2)
+      return stdx::sqrt(branchFree::positivePart(volume));
+    const Lanes reference = load(&data.referenceVolume(first));
+    return load(&data.referenceLength(first)) * (reference + Lanes(2.0) * volume) /
+           (Lanes(2.0) * reference + volume);
+  }
+
+  /// Stress, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
+  void advance(int first, const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count],
+               SymTensorOf<Lanes>& stress, Lanes (&hourglass)[M::hourglass][dim],
+               Lanes& compression, Lanes& dilatation) const
+  {
+    const Lanes dt(data.dt), half(0.5);
+    Lanes middle[dim][M::count], b[dim][M::gradients];
+    for (int i = 0; i < dim; ++i)
+      for (int k = 0; k < M::count; ++k)
+        middle[i][k] = x[i][k] - half * dt * v[i][k];
+    M::volumeGradient(middle, b);
+    const Lanes volume = M::volume(middle, b);
+    const Lanes inverseVolume = Lanes(1.0) / volume;
+
+    // L_ij dt = dt sum_I v_iI b_jI
+    const Lanes factor = Lanes(nodes) * inverseVolume * dt;
+    Lanes l[dim][dim];
+    Lanes squares(0.0);
+    for (int j = 0; j < dim; ++j)
+    {
+      for (int i = 0; i < dim; ++i)
+      {
+        Lanes sum = v[i][0] * b[j][0];
+#pragma GCC unroll 8
+        for (int k = 1; k < M::gradients; ++k)
+          sum += v[i][k] * b[j][k];
+        l[i][j] = sum * factor;
+      }
+#pragma GCC unroll 8
+      for (int k = 0; k < M::gradients; ++k)
+        squares += b[j][k] * b[j][k];
+    }
+
+    SymTensorOf<Lanes> de;
+    de.xx = l[0][0];
+    de.yy = l[1][1];
+    de.xy = half * (l[0][1] + l[1][0]);
+    de.zz = de.yz = de.zx = Lanes(0.0);
+    const Lanes quarter(0.25);
+    const SymTensorOf<Lanes> oldStress = stress;
+    Lanes oldHourglass[M::hourglass][dim];
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+        oldHourglass[a][i] = hourglass[a][i];
+
+    if constexpr (dim == 3)
+    {
+      de.zz = l[2][2];
+      de.yz = half * (l[1][2] + l[2][1]);
+      de.zx = half * (l[2][0] + l[0][2]);
+      const Mat3Of<Lanes> r =
+          hughesWinget(Vec3Of<Lanes>{quarter * (l[2][1] - l[1][2]), quarter * (l[0][2] - l[2][0]),
+                                     quarter * (l[1][0] - l[0][1])});
+      stress = rotated(stress, r);
+      for (int a = 0; a < M::hourglass; ++a)
+        for (int i = 0; i < 3; ++i)
+          hourglass[a][i] = r.a[i][0] * oldHourglass[a][0] + r.a[i][1] * oldHourglass[a][1] +
+                            r.a[i][2] * oldHourglass[a][2];
+    }
+    else
+    {
+      const Lanes a = quarter * (l[1][0] - l[0][1]);
+      const Lanes f = Lanes(2.0) / (Lanes(1.0) + a * a);
+      const Lanes cosine = Lanes(1.0) - f * a * a, sine = f * a;
+      stress = rotatedInPlane(stress, cosine, sine);
+      hourglass[0][0] = cosine * oldHourglass[0][0] - sine * oldHourglass[0][1];
+      hourglass[0][1] = sine * oldHourglass[0][0] + cosine * oldHourglass[0][1];
+    }
+
+    Lanes plasticStrain = load(&data.plasticStrain(0, first));
+    const Lanes dissipation = law(de, stress, plasticStrain);
+    store(plasticStrain, &data.plasticStrain(0, first));
+    storeStress(stress, first);
+
+    const Lanes strainSum = de.xx + de.yy + de.zz;
+    dilatation = strainSum * volume;
+    compression = branchFree::positivePart(-strainSum / dt);
+    // The old stress as it was before the rotation: its mean with the new one belongs to n + 1/2 to
+    // second order.
+    const Lanes work =
+        (oldStress.xx + stress.xx) * de.xx + (oldStress.yy + stress.yy) * de.yy +
+        (oldStress.zz + stress.zz) * de.zz +
+        Lanes(2.0) * ((oldStress.xy + stress.xy) * de.xy + (oldStress.yz + stress.yz) * de.yz +
+                      (oldStress.zx + stress.zx) * de.zx);
+    addTo(data.energies, ElementEnergy::Internal, first, half * volume * work);
+    addTo(data.energies, ElementEnergy::PlasticDissipation, first, volume * dissipation);
+
+    // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
+    const Lanes traceG = Lanes(nodes) * squares * inverseVolume * inverseVolume;
+    const Lanes stiffness =
+        Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume * traceG;
+    Lanes increment[M::hourglass][dim]; // q dt [m]
+    Lanes hourglassWork(0.0);
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+      {
+        Lanes sum = dt * v[i][dim + a];
+        for (int j = 0; j < dim; ++j)
+          sum -= middle[j][dim + a] * l[i][j];
+        increment[a][i] = sum;
+        hourglass[a][i] += stiffness * sum;
+        store(hourglass[a][i], &data.hourglassForce(a * dim + i, first));
+        hourglassWork += (oldHourglass[a][i] + hourglass[a][i]) * sum;
+      }
+    if (data.hourglass.viscosity > 0)
+      hourglassWork += advanceHourglassViscosity(first, traceG, volume, increment);
+    addTo(data.energies, ElementEnergy::Hourglass, first, half * hourglassWork);
+  }
+
+  /// Viscous hourglass forces of the step, and twice their work.
+  Lanes advanceHourglassViscosity(int first, const Lanes& traceG, const Lanes& volume,
+                                  const Lanes (&increment)[M::hourglass][dim]) const
+  {
+    const Lanes mass = load(&data.mass(first));
+    const Lanes omega = stdx::sqrt(Lanes(nodes * data.pWaveModulus) * volume / mass * traceG);
+    const Lanes coefficient =
+        Lanes(2.0 * data.hourglass.viscosity / data.dt) * mass * omega; // per q dt
+    Lanes work(0.0);
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+      {
+        Real* const where = &data.hourglassViscousForce(a * dim + i, first);
+        const Lanes now = coefficient * increment[a][i];
+        work += (load(where) + now) * increment[a][i];
+        store(now, where);
+      }
+    return work;
+  }
+
+  /// Force on node I: -(sigma_ij - q delta_ij) B_jI - sum_a Q_ia gamma_aI V^0, the second part with
+  /// gamma at x^(n+1).
+  LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count],
+                             const Lanes (&b)[dim][M::gradients], const SymTensorOf<Lanes>& stress,
+                             const Lanes& viscousPressure,
+                             const Lanes (&hourglass)[M::hourglass][dim],
+                             const Lanes& inverseVolume) const
+  {
+    Lanes s[dim][dim];
+    s[0][0] = stress.xx - viscousPressure;
+    s[1][1] = stress.yy - viscousPressure;
+    s[0][1] = s[1][0] = stress.xy;
+    if constexpr (dim == 3)
+    {
+      s[2][2] = stress.zz - viscousPressure;
+      s[1][2] = s[2][1] = stress.yz;
+      s[2][0] = s[0][2] = stress.zx;
+    }
+    Real force[dim][nodes][laneCount];
+    Lanes all(0.0);
+    for (int i = 0; i < dim; ++i)
+    {
+      // The part of gamma along b joins the stress, the part along h adds to its own mode.
+      for (int j = 0; j < dim; ++j)
+      {
+        Lanes sum = hourglass[0][i] * x[j][dim];
+#pragma GCC unroll 4
+        for (int a = 1; a < M::hourglass; ++a)
+          sum += hourglass[a][i] * x[j][dim + a];
+        s[i][j] -= sum * inverseVolume;
+      }
+      Lanes modes[M::count];
+#pragma GCC unroll 8
+      for (int k = 0; k < M::count; ++k)
+      {
+        modes[k] = Lanes(0.0);
+        if (k < M::gradients)
+          for (int j = 0; j < dim; ++j)
+            modes[k] -= s[i][j] * b[j][k];
+        if (k >= dim)
+          modes[k] -= Lanes(1.0 / nodes) * hourglass[k - dim][i];
+        all += modes[k];
+      }
+      Lanes corners[nodes];
+      M::toCorners(modes, corners);
+#pragma GCC unroll 8
+      for (int c = 0; c < nodes; ++c)
+        store(corners[c], force[i][c]);
+    }
+    for (int lane = 0; lane < laneCount; ++lane)
+    {
+      Real* const out = &data.cornerForce(first + lane, 0, 0);
+      for (int c = 0; c < nodes; ++c)
+        for (int i = 0; i < dim; ++i)
+          out[3 * c + i] = force[i][c][lane];
+    }
+    return all * Lanes(0.0) == Lanes(0.0);
+  }
+
+  Lanes stableStepOf(const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][M::gradients],
+                     const Lanes& inverseVolume, const Lanes& rho, const Lanes& viscosity) const
+  {
+    // g_jk = sum_I b_jI b_kI
+    const Lanes scale = Lanes(nodes) * inverseVolume * inverseVolume;
+    Lanes g[dim][dim];
+    for (int j = 0; j < dim; ++j)
+      for (int k = 0; k <= j; ++k)
+      {
+        Lanes sum = b[j][0] * b[k][0];
+#pragma GCC unroll 8
+        for (int m = 1; m < M::gradients; ++m)
+          sum += b[j][m] * b[k][m];
+        g[j][k] = g[k][j] = sum * scale;
+      }
+    const Real lambda = data.lambda > 0 ? data.lambda : 0;
+    const Real c = lambda / (2 * data.shearModulus);
+    Lanes trace, fastest;
+    if constexpr (dim == 3)
+    {
+      const Lanes m0 = g[1][1] * g[2][2] - g[1][2] * g[1][2];
+      const Lanes m1 = g[0][0] * g[2][2] - g[0][2] * g[0][2];
+      const Lanes m2 = g[0][0] * g[1][1] - g[0][1] * g[0][1];
+      trace = g[0][0] + g[1][1] + g[2][2];
+      const Lanes det = g[0][0] * m0 - g[0][1] * (g[0][1] * g[2][2] - g[1][2] * g[0][2]) +
+                        g[0][2] * (g[0][1] * g[1][2] - g[1][1] * g[0][2]);
+      fastest = fastestStrainMode(trace, m0 + m1 + m2, det, c);
+    }
+    else
+    {
+      trace = g[0][0] + g[1][1];
+      fastest = fastestStrainMode(trace, g[0][0] * g[1][1] - g[0][1] * g[0][1], c);
+    }
+    const Lanes perMass = Lanes(nodes) / rho;
+    const Lanes strain = perMass * Lanes(2 * data.shearModulus) * fastest;
+    Lanes damping = perMass * rho * viscosity * trace;
+
+    // Hourglass: squared lengths of gamma_a, and b_j.gamma_a, which vanishes for parallelepipeds.
+    Lanes lengths(0.0), products(0.0);
+    for (int a = 0; a < M::hourglass; ++a)
+    {
+      Lanes length(1.0 / nodes);
+      for (int j = 0; j < dim; ++j)
+      {
+        Lanes along = x[0][dim + a] * g[0][j];
+        for (int k = 1; k < dim; ++k)
+          along += x[k][dim + a] * g[k][j];
+        Lanes shape(0.0);
+        if (dim + a < M::gradients)
+          shape = b[j][dim + a < M::gradients ? dim + a : 0] * inverseVolume;
+        const Lanes product = shape - along;
+        length -= x[j][dim + a] * (shape + product);
+        products += product * product;
+      }
+      lengths += length;
+    }
+    const Lanes perGamma =
+        Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * trace * perMass;
+    const Lanes coupling =
+        perMass * Lanes(dim * lambda + 2 * data.shearModulus) * perGamma * products;
+    if (data.hourglass.viscosity > 0)
+      damping += Lanes(2.0 * nodes * data.hourglass.viscosity) *
+                 stdx::sqrt(perMass * Lanes(data.pWaveModulus) * trace) * lengths;
+    return stableStep(largestOfSum(strain, perGamma * lengths, coupling), damping);
+  }
+};
+
+template <ElementType type>
+void updateElements(const ElementKernelData& data, const Material& material)
+{
+  std::visit(
+      [&](const auto& law)
+      {
+        using Law = std::decay_t<decltype(law)>;
+        parallelFor("coplane::element::update", data.batches, ElementKernel<type, Law>{data, law});
+      },
+      material);
+}
+} // namespace coplane
