@@ -40,7 +40,7 @@ std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::strin
   std::vector<const double*> columns;
   for (const auto& axis : axes)
     columns.push_back(axis.data());
-  const std::vector<int> strides(mesh.dimension, 1);
+  std::vector<int> strides(mesh.dimension, 1);
   std::vector<const double*> noWeights;
   std::vector<int> noStrides;
   Adapter adapter(int(range.count), ids.data(), columns, strides, noWeights, noStrides);

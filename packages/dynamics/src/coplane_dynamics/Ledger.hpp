@@ -1,0 +1,46 @@
+#pragma once
+
+#include <coplane_contact/Contact.hpp>
+#include <coplane_core/Vec3.hpp>
+
+namespace coplane
+{
+/// All energies at one time, sums over all ranks with the same bits for any number of them [J].
+struct EnergyBalance
+{
+  Real kinetic = 0;  ///< 1/2 sum m v(n-1/2).v(n+1/2)
+  Real internal = 0; ///< of the elements: elastic and plastic work
+  Real plastic = 0;  ///< part of internal that is lost
+  Real hourglass = 0;
+  Real viscous = 0;      ///< bulk viscosity
+  ContactEnergy contact; ///< stored, friction, hysteresis, damping, remainder
+  Real massDamping = 0;  ///< taken out by mass-proportional damping
+  Real externalWork = 0; ///< of loads and reactions
+  Real initial = 0;      ///< total at the start
+  Real nodalWork = 0;    ///< of all forces on nodes; kinetic energy minus its initial value, to
+                         ///< round-off at constant dt
+
+  Real total() const
+  {
+    return kinetic + internal + hourglass + viscous + contact.work + massDamping;
+  }
+  /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
+  Real error() const { return total() - externalWork - initial; }
+  /// The energy in play, by which errors are judged.
+  Real scale() const;
+};
+
+/// Momenta at n + 1/2 and what external forces have added.
+struct Momenta
+{
+  Vec3 linear{};  ///< sum m v [N s]
+  Vec3 angular{}; ///< sum x(n) x m v(n+1/2), about the origin [N m s]
+  Vec3 impulse{}; ///< of loads, reactions and damping since the start
+  Vec3 angularImpulse{};
+  Vec3 initialLinear{};
+  Vec3 initialAngular{};
+  Vec3 linearError() const { return linear - initialLinear - impulse; }
+  Vec3 angularError() const { return angular - initialAngular - angularImpulse; }
+  Real magnitude = 0; ///< sum m |v|, by which errors are judged
+};
+} // namespace coplane

@@ -1,0 +1,26 @@
+#include <coplane_dynamics/NodalState.hpp>
+
+namespace coplane
+{
+NodalState::NodalState(const RankMesh& mesh)
+    : x("x", mesh.nodes()), v("v", mesh.nodes()), mass("mass", mesh.nodes()),
+      reference("reference", mesh.ownedNodes), vPrevious("vPrevious", mesh.ownedNodes),
+      force("force", mesh.ownedNodes), contactForce("contactForce", mesh.ownedNodes),
+      external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
+      impulse("impulse", mesh.ownedNodes), angularImpulse("angularImpulse", mesh.ownedNodes),
+      atSearch("atSearch", mesh.ownedNodes), externalWork("externalWork", mesh.ownedNodes),
+      dampingWork("dampingWork", mesh.ownedNodes), totalWork("totalWork", mesh.ownedNodes)
+{
+  for (int n = 0; n < mesh.nodes(); ++n)
+    set(x, n, mesh.coordinates[n]);
+  for (int n = 0; n < mesh.ownedNodes; ++n)
+    set(reference, n, mesh.coordinates[n]);
+}
+
+void NodalState::resize(const NodeLayout& layout)
+{
+  Kokkos::resize(x, layout.size());
+  Kokkos::resize(v, layout.size());
+  Kokkos::resize(mass, layout.size());
+}
+} // namespace coplane

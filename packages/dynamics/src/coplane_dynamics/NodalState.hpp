@@ -1,0 +1,35 @@
+#pragma once
+
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/NodeViews.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+namespace coplane
+{
+/// What every node knows. x, v and mass exist for all nodes of the layout (owned first); the rest
+/// for owned nodes only.
+struct NodalState
+{
+  NodeVectors x;              ///< position at n [m]
+  NodeVectors v;              ///< velocity at n + 1/2: the kick closes a cycle [m/s]
+  Array<Real> mass;           ///< lumped [kg]
+  NodeVectors reference;      ///< position at the start [m]
+  NodeVectors vPrevious;      ///< velocity at n - 1/2 [m/s]
+  NodeVectors force;          ///< internal and contact force at n [N]
+  NodeVectors contactForce;   ///< part of it [N]
+  NodeVectors external;       ///< loads and reactions at n [N]
+  NodeVectors damping;        ///< mass-proportional damping force at n [N]
+  NodeVectors impulse;        ///< of external and damping forces since the start [N s]
+  NodeVectors angularImpulse; ///< about the origin [N m s]
+  NodeVectors atSearch;       ///< position at the last search [m]
+  Array<Real> externalWork;   ///< since the start [J]
+  Array<Real> dampingWork;    ///< taken out by mass-proportional damping [J]
+  Array<Real> totalWork;      ///< of all forces [J]
+
+  explicit NodalState(const RankMesh& mesh);
+  /// Follows a layout whose ghost nodes have changed; the values of ghosts come with the next
+  /// refresh.
+  void resize(const NodeLayout& layout);
+};
+} // namespace coplane

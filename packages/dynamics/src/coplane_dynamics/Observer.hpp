@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+namespace coplane
+{
+class Solver;
+
+/// Looks at the solver at the end of cycles and never changes it. All calls are collective: every
+/// rank makes each of them.
+class Observer
+{
+public:
+  virtual ~Observer() = default;
+  /// The state at t = 0, before the first cycle.
+  virtual void start(const Solver& solver) = 0;
+  virtual void endOfCycle(const Solver& solver) = 0;
+  /// After the last cycle, also when the run failed or was interrupted; `ending` says why it ended.
+  virtual void finish(const Solver& solver, const std::string& ending) = 0;
+};
+} // namespace coplane

@@ -1,0 +1,648 @@
+#include <coplane_core/Log.hpp>
+#include <coplane_core/StateHash.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Solver.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+constexpr std::int64_t energyCheckEvery = 100; // cycles
+
+std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
+                               const ConstNodeVectors& x)
+{
+  std::vector<Face> faces;
+  for (const ExteriorFace& exterior : exteriorFaces(mesh))
+  {
+    Face face;
+    face.id = exterior.id;
+    face.count = exterior.nodeCount;
+    face.block = exterior.block;
+    face.local = true;
+    face.ownedHere = exterior.ownedHere;
+    Vec3 corners[4];
+    for (int k = 0; k < face.count; ++k)
+    {
+      face.nodes[k] = exterior.nodes[k];
+      corners[k] = at(x, face.nodes[k]);
+    }
+    const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
+                                               : vectorArea<3>(corners, face.count));
+    face.thickness = blocks[exterior.block].referenceVolume()(exterior.element) / area;
+    face.modulus = pWaveModulus(blocks[exterior.block].material());
+    faces.push_back(face);
+  }
+  return faces;
+}
+} // namespace
+
+Solver::Solver(Model model, const Comm& comm)
+    : model_(std::move(model)), comm_(&comm), layout_(comm, model_.mesh), state_(model_.mesh)
+{
+  const RankMesh& mesh = model_.mesh;
+  const int owned = mesh.ownedNodes;
+  elementStep_ = Array<Real>("coplane::dynamics::elementStep", owned);
+  contactStiffness_ = Array<Real>("coplane::dynamics::contactStiffness", owned);
+
+  for (int b = 0; b < int(mesh.blocks.size()); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[b];
+    const BlockSetup& setup = model_.blocks[b];
+    blocks_.emplace_back(part.type, setup.material, setup.hourglass, model_.viscosity,
+                         part.connectivity);
+    ElementBlock& block = blocks_.back();
+    block.initialise(state_.x);
+    block.setInitialStress(setup.stress);
+
+    const int corners = topology(part.type).nodes;
+    // Node to corners, in the order of element ids, so that sums have the same order on every rank.
+    std::vector<int> order(part.elements());
+    for (int e = 0; e < part.elements(); ++e)
+      order[e] = e;
+    std::sort(order.begin(), order.end(),
+              [&](int p, int q) { return part.elementIds[p] < part.elementIds[q]; });
+    Gather gather;
+    gather.start = Array<int>("coplane::dynamics::gatherStart", owned + 1);
+    for (const int node : part.connectivity)
+      if (node < owned)
+        ++gather.start(node + 1);
+    for (int n = 0; n < owned; ++n)
+      gather.start(n + 1) += gather.start(n);
+    gather.entry = Array<int>("coplane::dynamics::gatherEntry", gather.start(owned));
+    std::vector<int> next(gather.start.data(), gather.start.data() + owned);
+    for (const int e : order)
+      for (int k = 0; k < corners; ++k)
+      {
+        const int node = part.connectivity[e * corners + k];
+        if (node < owned)
+        {
+          gather.entry(next[node]++) = e * corners + k;
+          state_.mass(node) += block.cornerMass(e);
+        }
+        const Vec3 x = at(state_.x, node);
+        set(state_.v, node, setup.velocity + cross(setup.angularVelocity, x - setup.center));
+      }
+    gathers_.push_back(gather);
+  }
+  layout_.refresh(state_.mass);
+  constrained_ = model_.conditions.constrainedNodes();
+  beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
+
+  if (model_.contactEnabled)
+  {
+    std::vector<Face> faces = contactFaces(mesh, blocks_, state_.x);
+    const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
+    const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
+    contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
+                                         model_.contactRules, skin);
+  }
+}
+
+void Solver::search()
+{
+  TimedRegion region("coplane::dynamics::search");
+  const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
+  if (layout_.setGhostNodes(ghostNodes))
+  {
+    state_.resize(layout_);
+    layout_.refresh(state_.x, state_.v);
+    layout_.refresh(state_.mass);
+  }
+  contact_->pairUp(state_.x, layout_);
+  const auto x = state_.x;
+  const auto atSearch = state_.atSearch;
+  parallelFor(
+      "coplane::dynamics::rememberPositions", layout_.owned(),
+      KOKKOS_LAMBDA(const int n) { set(atSearch, n, at(x, n)); });
+}
+
+void Solver::gatherElementForces()
+{
+  TimedRegion region("coplane::dynamics::gatherForces");
+  const auto force = state_.force;
+  const auto step = elementStep_;
+  parallelFor(
+      "coplane::dynamics::clearForces", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        set(force, n, Vec3{});
+        step(n) = infinity;
+      });
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const auto start = gathers_[b].start;
+    const auto entry = gathers_[b].entry;
+    const auto cornerForce = blocks_[b].cornerForce();
+    const auto elementStep = blocks_[b].stableStep();
+    const int corners = topology(blocks_[b].type()).nodes;
+    parallelFor(
+        "coplane::dynamics::gatherForces", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+          Vec3 sum = at(force, n);
+          Real least = step(n);
+          for (int i = start(n); i < start(n + 1); ++i)
+          {
+            const int element = entry(i) / corners, corner = entry(i) % corners;
+            sum += {cornerForce(element, corner, 0), cornerForce(element, corner, 1),
+                    cornerForce(element, corner, 2)};
+            const Real candidate = elementStep(element);
+            least = candidate < least ? candidate : least;
+          }
+          set(force, n, sum);
+          step(n) = least;
+        });
+  }
+}
+
+void Solver::findForces(Real dt)
+{
+  if (contact_)
+    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
+  {
+    TimedRegion region("coplane::element::update");
+    for (ElementBlock& block : blocks_)
+      block.update(state_.x, state_.v, dt);
+  }
+  gatherElementForces();
+  if (contact_)
+  {
+    TimedRegion region("coplane::contact::addForces");
+    Kokkos::deep_copy(state_.contactForce, 0.0);
+    contact_->addForces(state_.contactForce);
+    contact_->nodeStiffness(contactStiffness_);
+    const auto force = state_.force;
+    const auto contactForce = state_.contactForce;
+    parallelFor(
+        "coplane::dynamics::addContactForces", layout_.owned(),
+        KOKKOS_LAMBDA(const int n) { set(force, n, at(force, n) + at(contactForce, n)); });
+  }
+}
+
+Real Solver::stableStep()
+{
+  const auto elementStep = elementStep_;
+  const auto stiffness = contactStiffness_;
+  const auto mass = state_.mass;
+  return parallelMin(
+      "coplane::dynamics::stableStep", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        if (!(mass(n) > 0))
+          return infinity; // a node without elements
+        const Real omega = 2 / elementStep(n);
+        const Real squared = omega * omega + stiffness(n) / mass(n);
+        return squared > 0 ? 2 / std::sqrt(squared) : infinity;
+      });
+}
+
+void Solver::drift(Real dt)
+{
+  const auto x = state_.x;
+  const ConstNodeVectors v = state_.v, force = state_.force, external = state_.external,
+                         damping = state_.damping;
+  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
+             totalWork = state_.totalWork;
+  parallelFor(
+      "coplane::dynamics::drift", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 half = (0.5 * dt) * at(v, n);
+        externalWork(n) += dot(at(external, n), half);
+        dampingWork(n) -= dot(at(damping, n), half);
+        totalWork(n) += dot(at(force, n) + at(external, n) + at(damping, n), half);
+        set(x, n, at(x, n) + dt * at(v, n));
+      });
+}
+
+void Solver::kick(Real step)
+{
+  TimedRegion region("coplane::dynamics::kick");
+  const int owned = layout_.owned();
+  const Real dtKick = 0.5 * (clock_.step + step);
+  const Real dtOld = clock_.step;
+  model_.conditions.applyLoads(model_.mesh.dimension, owned, clock_.time, state_);
+
+  const NodeVectors v = state_.v, vPrevious = state_.vPrevious, external = state_.external;
+  const ConstNodeVectors force = state_.force, damping = state_.damping, x = state_.x;
+  const ConstArray<Real> mass = state_.mass;
+  parallelFor(
+      "coplane::dynamics::kickVelocities", owned, KOKKOS_LAMBDA(const int n) {
+        const Vec3 total = at(force, n) + at(external, n) + at(damping, n);
+        set(vPrevious, n, at(v, n));
+        if (mass(n) > 0)
+          set(v, n, at(v, n) + (dtKick / mass(n)) * total);
+      });
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+    set(beforeConstraint_, int(i), at(v, constrained_[i]));
+  model_.conditions.prescribeVelocities(clock_.time + 0.5 * step, v);
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+  {
+    const int n = constrained_[i];
+    const Vec3 reaction = (mass(n) / dtKick) * (at(v, n) - at(beforeConstraint_, int(i)));
+    set(external, n, at(external, n) + reaction);
+  }
+
+  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
+             totalWork = state_.totalWork;
+  const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
+  parallelFor(
+      "coplane::dynamics::bookWork", owned, KOKKOS_LAMBDA(const int n) {
+        const Vec3 half = (0.5 * dtOld) * at(vPrevious, n);
+        const Vec3 given = at(external, n) + at(damping, n);
+        externalWork(n) += dot(at(external, n), half);
+        dampingWork(n) -= dot(at(damping, n), half);
+        totalWork(n) += dot(at(force, n) + given, half);
+        set(impulse, n, at(impulse, n) + dtKick * given);
+        set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), given));
+      });
+}
+
+void Solver::planNextCycle(bool first)
+{
+  // One reduction decides everything that must not differ between ranks.
+  const Real stable = stableStep();
+  int broken = -1;
+  for (std::size_t b = 0; b < blocks_.size() && broken < 0; ++b)
+    broken = blocks_[b].invertedElement() >= 0 ? int(b) : -1;
+  std::vector<Real> extremes{-stable, Real(broken >= 0 || std::isnan(stable)),
+                             Real(int(takeRequest()))};
+  comm_->max(extremes);
+  failed_ = extremes[1] > 0;
+  resultsRequested_ = extremes[2] == Real(int(Request::WriteResults));
+  stopRequested_ = extremes[2] == Real(int(Request::Stop));
+  if (failed_)
+    return;
+
+  Real step = model_.time.stepFactor * -extremes[0];
+  const Real zeta = std::max(model_.contact.dampNormal, model_.contact.dampShear);
+  step *= std::sqrt(1 + zeta * zeta) - zeta;
+  if (model_.time.maximumStep)
+    step = std::min(step, *model_.time.maximumStep);
+  if (model_.time.fixedStep)
+  {
+    if (*model_.time.fixedStep > step)
+      logWarning("fixed step above the stable step",
+                 fmt::format("cycle {}: time.fixed_step = {:.4e} s is above the stable step with "
+                             "its safety factor, {:.4e} s",
+                             clock_.cycle, *model_.time.fixedStep, step));
+    step = *model_.time.fixedStep;
+  }
+  if (!(step < infinity))
+    fail(ExitCode::Computation,
+         "The stable step is not finite: no element or contact limits it. Check the mesh.");
+  kick(step);
+  clock_.nextStep = step;
+  if (first)
+  {
+    const auto v = state_.v;
+    const auto vPrevious = state_.vPrevious;
+    // Energies at t = 0 are those of the given velocities: v(-1/2) mirrors v(1/2).
+    parallelFor(
+        "coplane::dynamics::mirrorVelocities", layout_.owned(),
+        KOKKOS_LAMBDA(const int n) { set(vPrevious, n, 2.0 * at(vPrevious, n) - at(v, n)); });
+  }
+  if (!contact_)
+    return;
+
+  // The next positions are known now: a search falls due when one may be needed by then, from an
+  // exact bound on the relative displacement of any two nodes since the last search.
+  std::vector<Real> range(6, -infinity); // max, -min per axis
+  for (int n = 0; n < layout_.owned(); ++n)
+    for (int c = 0; c < 3; ++c)
+    {
+      const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
+      range[c] = std::max(range[c], moved);
+      range[3 + c] = std::max(range[3 + c], -moved);
+    }
+  comm_->max(range);
+  const bool forced = range[0] + range[3] > 0.5 * contact_->skin() ||
+                      range[1] + range[4] > 0.5 * contact_->skin() ||
+                      range[2] + range[5] > 0.5 * contact_->skin();
+  const bool regular = model_.searchEvery > 0 && (clock_.cycle + 1) % model_.searchEvery == 0;
+  searchIsDue_ = forced || regular;
+}
+
+void Solver::prepare()
+{
+  model_.conditions.prescribeVelocities(0, state_.v);
+  layout_.refresh(state_.x, state_.v);
+  if (contact_)
+  {
+    search();
+    std::vector<SymTensor> stress;
+    for (const BlockSetup& setup : model_.blocks)
+      stress.push_back(setup.stress);
+    contact_->closeDeclaredJoints(state_.x, stress);
+  }
+  findForces(0);
+  planNextCycle(true);
+  if (failed_)
+    failTogether("before the first cycle");
+  initialEnergy_ = {};
+  initialEnergy_ = energy();
+  initialMomenta_ = momenta();
+  // Momenta before any impulse: the first half kick has happened already.
+  initialMomenta_.linear -= initialMomenta_.impulse;
+  initialMomenta_.angular -= initialMomenta_.angularImpulse;
+}
+
+void Solver::advance()
+{
+  const Real dt = clock_.nextStep;
+  drift(dt);
+  {
+    TimedRegion region("coplane::mesh::refreshCopies");
+    layout_.refresh(state_.x, state_.v);
+  }
+  if (searchIsDue_)
+    search();
+  findForces(dt);
+  ++clock_.cycle;
+  clock_.time += dt;
+  clock_.step = dt;
+  planNextCycle(false);
+}
+
+ExitCode Solver::run(Observer& observer)
+{
+  observer.start(*this);
+  std::string ending = "completed";
+  ExitCode code = ExitCode::Success;
+  while (clock_.time < model_.time.end)
+  {
+    advance();
+    if (failed_)
+    {
+      observer.finish(*this, "failed");
+      failTogether("element");
+    }
+    observer.endOfCycle(*this);
+    if (clock_.cycle % energyCheckEvery == 0)
+    {
+      const EnergyBalance balance = energy();
+      if (!(std::abs(balance.error()) <= model_.time.energyTolerance * balance.scale()))
+      {
+        observer.finish(*this, "failed");
+        fail(ExitCode::Computation,
+             "cycle {}, t = {:.6e} s: the energy balance is off by {:.3e} J of {:.3e} J in play "
+             "(accepted: {} of it, "
+             "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
+             clock_.cycle, clock_.time, balance.error(), balance.scale(),
+             model_.time.energyTolerance, worstEntities());
+      }
+    }
+    if (stopRequested_)
+    {
+      ending = "interrupted";
+      code = ExitCode::Interrupted;
+      break;
+    }
+  }
+  observer.finish(*this, ending);
+  return code;
+}
+
+void Solver::failTogether(const std::string& what)
+{
+  // Every rank names its first broken element; together() lets the lowest rank with one speak.
+  comm_->together(
+      [&]
+      {
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+        {
+          const int e = blocks_[b].invertedElement();
+          if (e >= 0)
+            fail(ExitCode::Computation,
+                 "cycle {}, t = {:.6e} s: element {} (block '{}') has turned inside out or has a "
+                 "force that is not finite; its "
+                 "volume is {:.3e} m^3. Refine the mesh there, lower time.step_factor, or raise "
+                 "hourglass.stiffness.",
+                 clock_.cycle, clock_.time, model_.mesh.blocks[b].elementIds[e],
+                 model_.blocks[b].name, blocks_[b].volume()(e));
+        }
+      });
+  fail(ExitCode::Computation, "cycle {}, t = {:.6e} s: the stable step is not a number ({}). {}",
+       clock_.cycle, clock_.time, what, worstEntities());
+}
+
+EnergyBalance Solver::energy() const
+{
+  enum Term
+  {
+    Kinetic,
+    Internal,
+    Plastic,
+    Hourglass,
+    Viscous,
+    Damping,
+    External,
+    Nodal,
+    Terms
+  };
+  std::vector<ExactSum> sums(Terms);
+  for (int n = 0; n < layout_.owned(); ++n)
+  {
+    sums[Kinetic].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
+    sums[Damping].add(state_.dampingWork(n));
+    sums[External].add(state_.externalWork(n));
+    sums[Nodal].add(state_.totalWork(n));
+  }
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (int e = 0; e < blocks_[b].count(); ++e)
+      if (model_.mesh.blocks[b].owned[e])
+      {
+        sums[Internal].add(blocks_[b].energy(e, ElementEnergy::Internal));
+        sums[Plastic].add(blocks_[b].energy(e, ElementEnergy::PlasticDissipation));
+        sums[Hourglass].add(blocks_[b].energy(e, ElementEnergy::Hourglass));
+        sums[Viscous].add(blocks_[b].energy(e, ElementEnergy::Viscous));
+      }
+  const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
+  EnergyBalance balance;
+  balance.kinetic = totals[Kinetic];
+  balance.internal = totals[Internal];
+  balance.plastic = totals[Plastic];
+  balance.hourglass = totals[Hourglass];
+  balance.viscous = totals[Viscous];
+  balance.massDamping = totals[Damping];
+  balance.externalWork = totals[External];
+  balance.nodalWork = totals[Nodal];
+  if (contact_)
+    balance.contact = contact_->energy();
+  balance.initial = initialEnergy_.total();
+  return balance;
+}
+
+Momenta Solver::momenta() const
+{
+  std::vector<ExactSum> sums(13);
+  for (int n = 0; n < layout_.owned(); ++n)
+  {
+    const Vec3 p = state_.mass(n) * at(state_.v, n);
+    const Vec3 l = cross(at(state_.x, n), p);
+    for (int c = 0; c < 3; ++c)
+    {
+      sums[c].add(p[c]);
+      sums[3 + c].add(l[c]);
+      sums[6 + c].add(state_.impulse(n, c));
+      sums[9 + c].add(state_.angularImpulse(n, c));
+    }
+    sums[12].add(norm(p));
+  }
+  const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
+  Momenta momenta;
+  momenta.linear = {totals[0], totals[1], totals[2]};
+  momenta.angular = {totals[3], totals[4], totals[5]};
+  momenta.impulse = {totals[6], totals[7], totals[8]};
+  momenta.angularImpulse = {totals[9], totals[10], totals[11]};
+  momenta.magnitude = totals[12];
+  momenta.initialLinear = initialMomenta_.linear;
+  momenta.initialAngular = initialMomenta_.angular;
+  return momenta;
+}
+
+StepControl Solver::stepControl() const
+{
+  StepControl control;
+  int node = -1;
+  for (int n = 0; n < layout_.owned(); ++n)
+  {
+    if (!(state_.mass(n) > 0))
+      continue;
+    const Real omega = 2 / elementStep_(n);
+    const Real step = 2 / std::sqrt(omega * omega + contactStiffness_(n) / state_.mass(n));
+    if (step < control.stableStep ||
+        (step == control.stableStep && layout_.ids()[n] < layout_.ids()[node]))
+    {
+      control.stableStep = step;
+      node = n;
+    }
+  }
+  const Real least = comm_->min(control.stableStep);
+  constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
+  const bool mine = node >= 0 && control.stableStep == least;
+  control.node = comm_->min(mine ? layout_.ids()[node] : none);
+  bool contact = false;
+  if (mine && layout_.ids()[node] == control.node)
+  {
+    const Real omega = 2 / elementStep_(node);
+    contact = contactStiffness_(node) / state_.mass(node) > omega * omega;
+  }
+  control.contact = comm_->max(std::int64_t(contact)) > 0;
+  control.stableStep = least;
+  return control;
+}
+
+std::uint64_t Solver::stateHash() const
+{
+  StateHash hash;
+  enum Field : std::uint64_t
+  {
+    Position = 1,
+    Velocity,
+    Element = 100,
+    PlaneField = 200,
+    Time = 300
+  };
+  for (int n = 0; n < layout_.owned(); ++n)
+    for (int c = 0; c < 3; ++c)
+    {
+      hash.add(Position, layout_.ids()[n], c, state_.x(n, c));
+      hash.add(Velocity, layout_.ids()[n], c, state_.v(n, c));
+    }
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const RankMesh::Block& part = model_.mesh.blocks[b];
+    std::uint64_t field = Element;
+    blocks_[b].forEachState(
+        [&](const char*, int components, const auto& values)
+        {
+          for (int e = 0; e < part.elements(); ++e)
+            if (part.owned[e])
+              for (int c = 0; c < components; ++c)
+                hash.add(field, part.elementIds[e], c, values(c, e));
+          ++field;
+        });
+  }
+  if (contact_)
+    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
+    {
+      const Plane& plane = contact_->planes()(p);
+      if (!plane.countedHere || !plane.born)
+        continue;
+      const Real values[] = {plane.area,
+                             plane.offset,
+                             plane.closure,
+                             plane.history.maximumClosure,
+                             plane.history.shearTraction.x,
+                             plane.history.shearTraction.y,
+                             plane.history.shearTraction.z,
+                             plane.history.slip,
+                             plane.force.x,
+                             plane.force.y,
+                             plane.force.z,
+                             plane.work,
+                             plane.frictionWork,
+                             plane.hysteresisWork};
+      std::uint64_t component = mix(std::uint64_t(plane.faceId[1]));
+      for (const Real value : values)
+        hash.add(PlaneField, plane.faceId[0], component++, value);
+    }
+  if (comm_->isRoot())
+  {
+    hash.add(Time, clock_.cycle, 0, clock_.time);
+    hash.add(Time, clock_.cycle, 1, clock_.nextStep);
+  }
+  std::vector<std::uint64_t> total{hash.part()};
+  comm_->sum(total);
+  return total[0];
+}
+
+std::string Solver::worstEntities() const
+{
+  // Candidates of every rank, sorted by badness; the three worst are named.
+  struct Entry
+  {
+    Real badness, value;
+    GlobalId a, b;
+  };
+  const auto worst = [&](std::vector<Entry> mine)
+  {
+    const auto worse = [](const Entry& p, const Entry& q)
+    { return std::tie(q.badness, p.a, p.b) < std::tie(p.badness, q.a, q.b); };
+    std::sort(mine.begin(), mine.end(), worse);
+    mine.resize(std::min<std::size_t>(mine.size(), 3));
+    std::vector<Entry> all = comm_->allGather(mine);
+    std::sort(all.begin(), all.end(), worse);
+    all.resize(std::min<std::size_t>(all.size(), 3));
+    return all;
+  };
+  std::string text;
+  if (contact_)
+  {
+    std::vector<Entry> planes;
+    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
+    {
+      const Plane& plane = contact_->planes()(p);
+      if (!plane.countedHere || !plane.born)
+        continue;
+      const Real rest =
+          plane.work - plane.stored - plane.frictionWork - plane.hysteresisWork - plane.dampingWork;
+      planes.push_back({std::abs(rest), rest, plane.faceId[0], plane.faceId[1]});
+    }
+    for (const Entry& e : worst(planes))
+      text += fmt::format(
+          "\n  plane between side {} of element {} and side {} of element {}: {:.3e} J unexplained",
+          sideOfFace(e.a) + 1, elementOfFace(e.a), sideOfFace(e.b) + 1, elementOfFace(e.b),
+          e.value);
+  }
+  std::vector<Entry> elements;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (int e = 0; e < blocks_[b].count(); ++e)
+      if (model_.mesh.blocks[b].owned[e])
+      {
+        const Real ratio = blocks_[b].volume()(e) / blocks_[b].referenceVolume()(e);
+        elements.push_back({std::isnan(ratio) ? infinity : std::abs(ratio - 1), ratio,
+                            model_.mesh.blocks[b].elementIds[e], 0});
+      }
+  for (const Entry& e : worst(elements))
+    text += fmt::format("\n  element {}: volume is {:.4g} times its initial one", e.a, e.value);
+  return "Worst:" + text;
+}
+} // namespace coplane

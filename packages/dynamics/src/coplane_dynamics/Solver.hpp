@@ -1,0 +1,113 @@
+#pragma once
+
+#include <coplane_contact/Contact.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_dynamics/Ledger.hpp>
+#include <coplane_dynamics/Model.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_dynamics/Observer.hpp>
+#include <coplane_dynamics/Signals.hpp>
+#include <coplane_element/ElementBlock.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+struct Clock
+{
+  std::int64_t cycle = 0;
+  Real time = 0;     ///< t(n) [s]
+  Real step = 0;     ///< dt(n-1/2), of the cycle that ended; 0 at the start [s]
+  Real nextStep = 0; ///< dt(n+1/2) [s]
+};
+
+/// What limits the time step.
+struct StepControl
+{
+  Real stableStep = infinity; ///< without the safety factor [s]
+  GlobalId node = 0;          ///< the node with it (the lowest id when several have)
+  bool contact = false;       ///< whether contact adds more than elements to its frequency
+};
+
+/// The equations of motion in time: central differences (kick and drift) with lumped mass.
+///
+/// A cycle takes positions from n to n + 1 with the velocities at n + 1/2, finds the forces there,
+/// and ends with the kick to n + 3/2. So at its end the state holds x(n), v(n-1/2) and v(n+1/2),
+/// from which energies and momenta at n follow exactly.
+class Solver
+{
+public:
+  Solver(Model model, const Comm& comm);
+
+  /// First search, census, joints closed, forces at t = 0, first kick. Collective.
+  void prepare();
+  /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
+  /// Error(ExitCode::Computation) on failure after the observers have finished. Collective.
+  ExitCode run(Observer& observer);
+  /// One cycle. Public for tests and benchmarks.
+  void advance();
+
+  const Comm& comm() const { return *comm_; }
+  const Model& model() const { return model_; }
+  const RankMesh& mesh() const { return model_.mesh; }
+  const NodeLayout& layout() const { return layout_; }
+  const NodalState& state() const { return state_; }
+  const std::vector<ElementBlock>& blocks() const
+  {
+    return blocks_;
+  } ///< in the order of the mesh file
+  bool hasContact() const { return contact_ != nullptr; }
+  const Contact& contact() const { return *contact_; }
+  const Clock& clock() const { return clock_; }
+  std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
+  bool resultsRequested() const { return resultsRequested_; } ///< by SIGUSR1, in this cycle
+
+  // Over all ranks, the same bits on all. Collective.
+  EnergyBalance energy() const;
+  Momenta momenta() const;
+  StepControl stepControl() const;
+  /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
+  /// end.
+  std::uint64_t stateHash() const;
+  /// Text that names the planes with the largest unexplained work and the elements with the
+  /// smallest volume ratio.
+  std::string worstEntities() const;
+
+private:
+  struct Gather
+  {
+    Array<int> start,
+        entry; ///< entries of node n: element * corners + corner, in the order of element ids
+  };
+
+  void search();
+  void findForces(Real dt);
+  void gatherElementForces();
+  Real stableStep();
+  void kick(Real step);
+  void drift(Real dt);
+  void planNextCycle(bool first);
+  [[noreturn]] void failTogether(const std::string& what);
+
+  Model model_;
+  const Comm* comm_;
+  NodeLayout layout_;
+  NodalState state_;
+  std::vector<ElementBlock> blocks_;
+  std::vector<Gather> gathers_;
+  std::unique_ptr<Contact> contact_;
+  Array<Real> elementStep_, contactStiffness_; ///< per owned node
+  std::vector<int> constrained_;
+  NodeVectors beforeConstraint_;
+  Clock clock_;
+  EnergyBalance initialEnergy_;
+  Momenta initialMomenta_;
+  bool searchIsDue_ = false;
+  bool failed_ = false;
+  bool stopRequested_ = false;
+  bool resultsRequested_ = false;
+};
+} // namespace coplane
