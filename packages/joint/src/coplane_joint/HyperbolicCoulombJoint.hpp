@@ -41,12 +41,12 @@ struct HyperbolicCoulombJoint
     Real frictionWork = 0; ///< dissipated by slip in this step [J/m^2]
   };
 
-  /// Closure at which the curve becomes straight.
+  /// Closure at which the curve becomes straight: at once if the cap is below the initial slope.
   KOKKOS_INLINE_FUNCTION Real cappedFrom() const
   {
     if (inverseMaximumClosure <= 0 || !(stiffnessCap < infinity))
       return infinity;
-    return (1 - std::sqrt(initialStiffness / stiffnessCap)) / inverseMaximumClosure;
+    return std::fmax(0.0, 1 - std::sqrt(initialStiffness / stiffnessCap)) / inverseMaximumClosure;
   }
 
   KOKKOS_INLINE_FUNCTION Real hyperbola(Real c) const
@@ -64,7 +64,7 @@ struct HyperbolicCoulombJoint
   /// f'(c) [Pa/m].
   KOKKOS_INLINE_FUNCTION Real loadingStiffness(Real c) const
   {
-    if (c > cappedFrom())
+    if (c >= cappedFrom())
       return stiffnessCap;
     const Real q = 1 - c * inverseMaximumClosure;
     return initialStiffness / (q * q);
