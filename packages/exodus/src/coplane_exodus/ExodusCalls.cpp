@@ -3,7 +3,6 @@
 #include <exodusII.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstring>
 
 namespace coplane
@@ -37,20 +36,5 @@ ExodusNames::ExodusNames(std::vector<std::string> names) : names_(std::move(name
 {
   for (std::string& name : names_)
     pointers_.push_back(name.data());
-}
-
-IndexRange contiguousRange(int n, int rank, int ranks)
-{
-  const int shortest = n / ranks;
-  const int longer = n % ranks;
-  return {rank * shortest + std::min(rank, longer), shortest + (rank < longer ? 1 : 0)};
-}
-
-int rankOfItem(int i, int n, int ranks)
-{
-  const int shortest = n / ranks;
-  const int longer = n % ranks;
-  const int inLonger = longer * (shortest + 1);
-  return i < inLonger ? i / (shortest + 1) : longer + (i - inLonger) / shortest;
 }
 } // namespace coplane

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_mesh/ContiguousRange.hpp>
+
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -35,18 +37,4 @@ private:
   std::vector<std::string> names_;
   std::vector<char*> pointers_;
 };
-
-/// Part [first, first + count) of a list.
-struct IndexRange
-{
-  int first = 0;
-  int count = 0;
-};
-
-/// The contiguous range of n items that rank r of p writes: sizes differ by at most one, the longer
-/// ones first; may be empty.
-IndexRange contiguousRange(int n, int rank, int ranks);
-
-/// The rank whose contiguousRange holds item i.
-int rankOfItem(int i, int n, int ranks);
 } // namespace coplane

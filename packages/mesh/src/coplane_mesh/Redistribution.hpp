@@ -32,17 +32,4 @@ private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
-
-/// Rows [first, first + count) of n rows that rank r of p holds when they are dealt out evenly in
-/// order.
-struct ContiguousRange
-{
-  std::int64_t first = 0;
-  std::int64_t count = 0;
-};
-inline ContiguousRange contiguousRange(std::int64_t n, int rank, int ranks)
-{
-  const std::int64_t first = n * rank / ranks;
-  return {first, n * (rank + 1) / ranks - first};
-}
 } // namespace coplane

@@ -1,4 +1,4 @@
-#include <coplane_mesh/Redistribution.hpp>
+#include <coplane_mesh/ContiguousRange.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -28,10 +28,10 @@ std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::strin
 
   using Types = Zoltan2::BasicUserTypes<double, int, long long>;
   using Adapter = Zoltan2::BasicVectorAdapter<Types>;
-  const ContiguousRange range = contiguousRange(nodes, comm.rank(), comm.size());
+  const IndexRange range = contiguousRange(nodes, comm.rank(), comm.size());
   std::vector<long long> ids(range.count);
   std::vector<std::vector<double>> axes(mesh.dimension, std::vector<double>(range.count));
-  for (std::int64_t i = 0; i < range.count; ++i)
+  for (int i = 0; i < range.count; ++i)
   {
     ids[i] = range.first + i;
     for (int c = 0; c < mesh.dimension; ++c)

@@ -1,0 +1,1 @@
+coplane_dependencies(PACKAGES dynamics exodus core PRIVATE_LIBRARIES nlohmann_json::nlohmann_json)

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_dynamics/Observer.hpp>
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// A place whose motion is recorded: the mean over a node set, or the mass-weighted mean over the
+/// nodes of an element block.
+struct Probe
+{
+  std::string name;
+  int nodeSet = -1; ///< position in Mesh::nodeSets, or
+  int block = -1;   ///< position in Mesh::blocks
+};
+
+struct HistoryOptions
+{
+  std::string file; ///< CSV
+  Real every = 0;   ///< [s]; 0: every cycle
+  std::vector<Probe> probes;
+  bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
+};
+
+/// Writes one line per output time: the whole energy ledger, momenta, counts of planes, probes. All
+/// numbers have the same bits for any number of ranks and threads and are written so that they can
+/// be read back exactly. The header names columns with units; every line is in the file as soon as
+/// its cycle has ended.
+class HistoryObserver : public Observer
+{
+public:
+  /// Creates the file. Collective.
+  HistoryObserver(const Comm& comm, HistoryOptions options);
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver& solver) override;
+  void finish(const Solver& solver, const std::string& ending) override;
+
+private:
+  /// A node of a probe and its share of the mean (not divided by the sum of all shares).
+  struct Share
+  {
+    int node;
+    Real weight;
+  };
+
+  void findShares(const Solver& solver);
+  void write(const Solver& solver);
+  std::vector<Real> probeValues(const Solver& solver) const;
+  void append(const Comm& comm, const std::string& line);
+
+  HistoryOptions options_;
+  OutputSchedule schedule_;
+  std::ofstream stream_; ///< open on rank 0
+  std::int64_t lastCycle_ = -1;
+  std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
+  std::vector<Real> totalWeight_;          ///< per probe, over all ranks
+};
+} // namespace coplane

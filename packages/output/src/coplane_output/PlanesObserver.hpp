@@ -1,0 +1,43 @@
+#pragma once
+
+#include <coplane_dynamics/Observer.hpp>
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coplane
+{
+struct PlanesOptions
+{
+  std::string base; ///< base_planes.pvd and base_planes_0000.vtp, ... are written
+  OutputTimes when; ///< as for the results
+};
+
+/// Writes the common planes as points for ParaView: the point of contact of every plane that exists
+/// and whose faces overlap, with its variables, sorted by key, so that the files do not depend on
+/// the number of ranks. The .pvd names all steps with their times; it is replaced as a whole after
+/// each step, so that a killed run leaves a readable series.
+class PlanesObserver : public Observer
+{
+public:
+  PlanesObserver(const Comm& comm, PlanesOptions options);
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver& solver) override;
+  void finish(const Solver& solver, const std::string& ending) override;
+
+  /// base + "_planes.pvd"
+  std::string file() const { return base_ + "_planes.pvd"; }
+
+private:
+  void write(const Solver& solver);
+  void writeSeries() const;
+
+  std::string base_;
+  OutputSchedule schedule_;
+  std::int64_t lastCycle_ = -1;                     ///< that was written
+  std::vector<std::pair<Real, std::string>> steps_; ///< time [s] and file name without folder
+};
+} // namespace coplane

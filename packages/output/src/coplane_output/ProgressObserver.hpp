@@ -1,0 +1,40 @@
+#pragma once
+
+#include <coplane_dynamics/Observer.hpp>
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace coplane
+{
+struct ProgressOptions
+{
+  double seconds = 5; ///< wall-clock time between lines
+};
+
+/// Prints a line about every few seconds: cycle, time, step and what limits it, energy and its
+/// balance, planes, rate, estimated time left. Rank 0's clock decides: when a line was printed it
+/// tells all ranks after how many cycles to look at the clock again, so that nobody asks in every
+/// cycle.
+class ProgressObserver : public Observer
+{
+public:
+  explicit ProgressObserver(ProgressOptions options = {});
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver& solver) override;
+  void finish(const Solver& solver, const std::string& ending) override;
+
+private:
+  using WallClock = std::chrono::steady_clock;
+  void print(const Solver& solver, double secondsSinceLine) const;
+
+  ProgressOptions options_;
+  std::int64_t elements_ = 0;
+  std::int64_t nextLook_ = 1;  ///< cycle
+  std::int64_t lineCycle_ = 0; ///< of the last line
+  double lineTime_ = 0;        ///< of the last line [s]
+  WallClock::time_point begin_, line_;
+};
+} // namespace coplane

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <coplane_dynamics/Observer.hpp>
+#include <coplane_exodus/ResultsFile.hpp>
+#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/Redistribution.hpp>
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+struct ResultsOptions
+{
+  std::string file; ///< Exodus file, e.g. wall.e
+  OutputTimes when;
+  bool filePerRank = false;           ///< file.N.r, to be joined by `epu -auto`
+  std::vector<std::string> infoLines; ///< kept in the file: command line, deck
+};
+
+/// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
+/// (SIGUSR1) and at the end. Names and their order are those that ParaView's IOSS reader groups
+/// into vectors and tensors; `displacement` comes first, so that the reader applies it to the mesh.
+/// README.md of this package lists all variables with units.
+class ResultsObserver : public Observer
+{
+public:
+  /// Creates the file, so that a folder that cannot be written to is found before anything is
+  /// computed. `mesh` is the whole mesh, the same on every rank, and is not kept. Collective.
+  ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options);
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver& solver) override;
+  /// Writes the last state, unless the last cycle has been written, and closes the file.
+  void finish(const Solver& solver, const std::string& ending) override;
+
+  int steps() const { return file_.steps(); }
+
+private:
+  void write(const Solver& solver);
+  void writeNodes(const Solver& solver);
+  void writeElements(const Solver& solver);
+
+  int dimension_;
+  std::vector<std::int64_t> firstOfBlock_; ///< position of each block's first element in the file
+  OutputSchedule schedule_;
+  ResultsFile file_;
+  std::int64_t lastCycle_ = -1; ///< that was written
+  /// From owned nodes and elements to the contiguous ranges of the file.
+  std::optional<Redistribution> nodesToFile_, elementsToFile_;
+};
+} // namespace coplane

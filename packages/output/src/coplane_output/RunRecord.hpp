@@ -1,0 +1,43 @@
+#pragma once
+
+#include <coplane_dynamics/Observer.hpp>
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+struct RunRecordOptions
+{
+  std::string file; ///< e.g. wall.run.json, next to the results
+  std::string title;
+  std::string commandLine;
+  std::string deckFile;
+  std::string deckText; ///< as it was used, with overrides
+  std::string meshFile;
+};
+
+/// Writes down in JSON what is needed to repeat or judge a run: versions, build, ranks x threads,
+/// where they may run, deck and mesh with their SHA-256, sizes; and at the end how it ended,
+/// energies, wall-clock times, the hash of the state. Written at the start (ending "running") and
+/// replaced at the end. Warns in the log when threads share cores.
+class RunRecord : public Observer
+{
+public:
+  RunRecord(const Comm& comm, RunRecordOptions options);
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver&) override {}
+  void finish(const Solver& solver, const std::string& ending) override;
+
+private:
+  void write(const Solver& solver, const std::string& ending) const;
+
+  RunRecordOptions options_;
+  std::string deckHash_, meshHash_; ///< on rank 0
+  std::string placement_;           ///< JSON array: host, cores and threads of every rank
+  std::string startDate_;
+  std::chrono::steady_clock::time_point begin_;
+};
+} // namespace coplane
