@@ -22,6 +22,24 @@ std::string upperCase(std::string text)
   return text;
 }
 
+[[noreturn]] void refuse(const std::string& file)
+{
+  fail(ExitCode::Mesh,
+       "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
+       "damaged. Write the mesh with "
+       "coplane_mesh make, or export Exodus II from your mesh generator.",
+       file);
+}
+
+/// Whether the file starts like one of the netCDF kinds. Asked first, because the library prints
+/// about others.
+bool looksLikeNetcdf(std::ifstream& file)
+{
+  char magic[4] = {};
+  file.read(magic, 4);
+  return std::string(magic, 3) == "CDF" || std::string(magic, 4) == "\x89HDF";
+}
+
 /// One open Exodus file and the steps of reading it.
 class Reader
 {
@@ -32,11 +50,7 @@ public:
     float version = 0;
     exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
     if (exoid_ < 0)
-      fail(ExitCode::Mesh,
-           "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
-           "damaged. Write the mesh with "
-           "coplane_mesh make, or export Exodus II from your mesh generator.",
-           file);
+      refuse(file);
     ex_set_max_name_length(
         exoid_, int(std::max<int64_t>(ex_inquire_int(exoid_, EX_INQ_DB_MAX_USED_NAME_LENGTH), 32)));
   }
@@ -346,9 +360,13 @@ Mesh readMesh(const std::string& file)
          file, std::filesystem::absolute(file).parent_path().string());
   if (std::filesystem::is_directory(file))
     fail(ExitCode::Mesh, "{}: this is a folder; name an Exodus II file.", file);
-  if (!std::ifstream(file))
+  std::ifstream probe(file, std::ios::binary);
+  if (!probe)
     fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",
          file);
+  if (!looksLikeNetcdf(probe))
+    refuse(file);
+  probe.close();
   return Reader(file).read();
 }
 } // namespace coplane

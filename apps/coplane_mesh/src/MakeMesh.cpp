@@ -1,0 +1,156 @@
+#include "MakeMesh.hpp"
+
+#include "PartReader.hpp"
+#include "Selection.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Version.hpp>
+
+#include <ctime>
+#include <fstream>
+#include <sstream>
+
+namespace coplane
+{
+namespace
+{
+/// Nodes part by part and body by body; elements block by block. Ids count from 1 in that order.
+Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& ownCoordinates)
+{
+  Mesh mesh;
+  mesh.dimension = dimension;
+  const ElementType type = dimension == 2 ? ElementType::Quad4 : ElementType::Hex8;
+  int bodies = 0;
+  for (const Part& part : parts)
+  {
+    Mesh::Block* block = nullptr;
+    for (Mesh::Block& other : mesh.blocks)
+      if (other.name == part.block)
+        block = &other;
+    if (!block)
+      block = &mesh.blocks.emplace_back(
+          Mesh::Block{GlobalId(mesh.blocks.size()) + 1, part.block, type, {}, {}, {}});
+    for (const Body& body : part.bodies)
+    {
+      ++bodies;
+      const int firstNode = int(mesh.coordinates.size());
+      for (const Vec3& own : body.points)
+      {
+        mesh.coordinates.push_back(part.place(own));
+        ownCoordinates.push_back(own);
+      }
+      for (const int node : body.connectivity)
+        block->connectivity.push_back(firstNode + node);
+      block->bodyIds.insert(block->bodyIds.end(), body.elements(), bodies);
+    }
+  }
+  for (std::size_t node = 0; node < mesh.coordinates.size(); ++node)
+    mesh.nodeIds.push_back(GlobalId(node) + 1);
+  GlobalId element = 0;
+  for (Mesh::Block& block : mesh.blocks)
+    for (std::size_t e = 0; e < block.bodyIds.size(); ++e)
+      block.elementIds.push_back(++element);
+  return mesh;
+}
+
+std::array<std::string, 4> qaRecord()
+{
+  const std::time_t now = std::time(nullptr);
+  char date[32], hour[32];
+  std::strftime(date, sizeof date, "%Y/%m/%d", std::localtime(&now));
+  std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
+  return {"coplane_mesh", version().number, date, hour};
+}
+} // namespace
+
+Mesh makeMeshFromText(const std::string& text, const std::string& name)
+{
+  YAML::Node root;
+  try
+  {
+    root = YAML::Load(text);
+  }
+  catch (const YAML::ParserException& error)
+  {
+    fail(ExitCode::Deck, "{}:{}:{}: the recipe is not valid YAML: {}.", name, error.mark.line + 1,
+         error.mark.column + 1, error.msg);
+  }
+  const RecipeMap recipe(root, name, "", {"title", "dimension", "parts", "node_sets", "side_sets"});
+  const int dimension = recipe.count("dimension", 2);
+  if (dimension > 3)
+    recipe.refuse("dimension", fmt::format("= {} must be 2 or 3.", dimension));
+  std::vector<Part> parts;
+  for (const YAML::Node& node : recipe.list("parts"))
+    parts.push_back(readPart(node, name, fmt::format("parts[{}]", parts.size()), dimension));
+  std::vector<Vec3> ownCoordinates;
+  Mesh mesh = assemble(parts, dimension, ownCoordinates);
+  mesh.title = recipe.has("title") ? recipe.text("title") : name;
+  mesh.qaRecords.push_back(qaRecord());
+  addSets(mesh, ownCoordinates, recipe);
+  return mesh;
+}
+
+Mesh makeMesh(const std::string& recipeFile)
+{
+  std::ifstream file(recipeFile);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf()))
+    fail(ExitCode::Deck,
+         "{}: the recipe cannot be read. Check its name; coplane_mesh --help-recipe shows what it "
+         "holds.",
+         recipeFile);
+  return makeMeshFromText(text.str(), recipeFile);
+}
+
+const char* recipeHelp()
+{
+  return R"(A recipe is a YAML file. Lengths are in metres, angles in degrees. [..] are lists of 2 or 3 numbers, by dimension.
+
+title: text                      optional
+dimension: 2 | 3
+parts:                           a list; parts of the same block name make one element block, every body has nodes of its own
+  - shape: box                   one body
+    block: name                  of the element block
+    min: [..]                    lowest corner, default the origin
+    size: [..]  or  max: [..]    lengths, or highest corner
+    divisions: [..]              elements along x, y, z
+  - shape: wall                  running bond: bricks along x, courses upward in y, thickness in z
+    brick: [..]                  size of a whole brick
+    courses: n
+    length_in_bricks: n          odd courses (the second, fourth, ...) are shifted by half a brick, with half bricks at their ends
+    divisions: [..]              of a whole brick; even along x
+  - shape: imbricate             2D wall in layers through its thickness (x), bricks along y, centred on y = 0
+    brick: [thickness, length]
+    layers: n                    layers 1, 3, ... have half bricks at their ends, layers 2, 4, ... whole ones only
+    length_in_bricks: n
+    divisions: [x, y]            of a whole brick; even along y
+  - shape: projectile            axis x, tip of the nose at the origin, body towards -x
+    width: w                     nose of radius w/2
+    length: l                    with the nose
+    across: n                    elements on the width; even, at least 4
+    along: n                     elements on the straight part; default: about as long as wide
+    section: round | square      3D: round with half a ball (default), or square with half a cylinder across z as nose
+  - shape: rock                  joint sets at right angles: equal blocks from the origin
+    blocks: [..]                 numbers of blocks
+    size: [..]                   of one block
+    divisions: [..]              of one block
+  - shape: cylinder              2D disk, 3D cylinder along z from z = 0; centred on the origin
+    radius: r
+    across: n                    elements on the diameter; even, at least 4
+    length: l, along: n          3D
+  every part:
+    rotate: degrees | [x, y, z]  optional; 2D: about z; 3D: about x, then y, then z
+    about: [..]                  point that stays in place; default: the middle of the part's bounding box
+    offset: [..]                 added last
+node_sets:                       optional
+  name:
+    block: name or list          default: all blocks
+    where: {y: 0, x: [0, 1]}     planes and ranges in the mesh; nodes must meet all of them, within 1e-6 of the mesh size
+    where_own: {x: 0}            the same in the part's coordinates before rotate and offset
+side_sets:                       optional; exterior faces whose nodes all meet the selection
+  name:
+    block, where, where_own      as above
+    normal: [..]                 optional; outward normal, within 26 degrees
+)";
+}
+} // namespace coplane

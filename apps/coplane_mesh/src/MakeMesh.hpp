@@ -1,0 +1,18 @@
+#pragma once
+
+#include <coplane_mesh/Mesh.hpp>
+
+#include <string>
+
+namespace coplane
+{
+/// The mesh that a recipe describes; errors of the recipe are Error(ExitCode::Deck) with file, line
+/// and column.
+Mesh makeMesh(const std::string& recipeFile);
+
+/// The same from text; `name` stands for the file in messages.
+Mesh makeMeshFromText(const std::string& recipe, const std::string& name);
+
+/// The manual of recipes.
+const char* recipeHelp();
+} // namespace coplane

@@ -1,0 +1,247 @@
+#include "RecipeMap.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace coplane
+{
+namespace
+{
+std::string joined(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+int editDistance(const std::string& a, const std::string& b)
+{
+  std::vector<int> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    int diagonal = row[0];
+    row[0] = int(i);
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const int above = row[j];
+      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      diagonal = above;
+    }
+  }
+  return row.back();
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& words)
+{
+  const auto near = nearestWord(word, words);
+  return near ? fmt::format(" Did you mean '{}'?", *near) : "";
+}
+} // namespace
+
+std::string placeOf(const std::string& file, const YAML::Node& node)
+{
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? file : fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
+}
+
+std::optional<std::string> nearestWord(const std::string& word,
+                                       const std::vector<std::string>& words)
+{
+  std::optional<std::string> nearest;
+  int least = 3; // two letters wrong at most
+  for (const std::string& candidate : words)
+    if (const int distance = editDistance(word, candidate); distance < least)
+    {
+      least = distance;
+      nearest = candidate;
+    }
+  return nearest;
+}
+
+RecipeMap::RecipeMap(YAML::Node node, std::string file, std::string path,
+                     std::vector<std::string> accepted)
+    : node_(std::move(node)), file_(std::move(file)), path_(std::move(path))
+{
+  const std::string name = path_.empty() ? "the recipe" : path_;
+  if (!node_.IsMap())
+    fail(ExitCode::Deck, "{}: {} must be a map with the keys {}.", placeOf(file_, node_), name,
+         joined(accepted));
+  std::set<std::string> seen;
+  for (const auto& entry : node_)
+  {
+    const std::string key = entry.first.as<std::string>();
+    if (std::find(accepted.begin(), accepted.end(), key) == accepted.end())
+      fail(ExitCode::Deck, "{}: {} is not known; {} accepts {}.{}", placeOf(file_, entry.first),
+           pathOf(key), name, joined(accepted), suggestion(key, accepted));
+    if (!seen.insert(key).second)
+      fail(ExitCode::Deck, "{}: {} is given twice; keep one.", placeOf(file_, entry.first),
+           pathOf(key));
+  }
+}
+
+std::string RecipeMap::pathOf(const std::string& key) const
+{
+  return path_.empty() ? key : path_ + "." + key;
+}
+
+void RecipeMap::refuse(const std::string& key, const std::string& text) const
+{
+  fail(ExitCode::Deck, "{}: {} {}", placeOf(file_, node_[key] ? node_[key] : node_), pathOf(key),
+       text);
+}
+
+YAML::Node RecipeMap::required(const std::string& key) const
+{
+  if (!node_[key])
+    refuse(key, "is missing.");
+  return node_[key];
+}
+
+std::string RecipeMap::text(const std::string& key) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsScalar() || value.Scalar().empty())
+    refuse(key, "must be a word.");
+  return value.Scalar();
+}
+
+std::string RecipeMap::choice(const std::string& key, const std::vector<std::string>& words) const
+{
+  if (!has(key))
+    return words.front();
+  const std::string word = text(key);
+  if (std::find(words.begin(), words.end(), word) == words.end())
+    refuse(key, fmt::format("= '{}' is not known; use {}.{}", word, joined(words),
+                            suggestion(word, words)));
+  return word;
+}
+
+template <class T>
+std::vector<T> RecipeMap::sequence(const std::string& key, int size, const char* what) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsSequence() || int(value.size()) != size)
+    refuse(key, fmt::format("must be a list of {} {}.", size, what));
+  std::vector<T> list;
+  for (const YAML::Node& item : value)
+  {
+    T number{};
+    if (!item.IsScalar() || !YAML::convert<T>::decode(item, number) || !std::isfinite(Real(number)))
+      refuse(key, fmt::format("has the entry '{}'; it must be a list of {} {}.",
+                              item.IsScalar() ? item.Scalar() : "...", size, what));
+    list.push_back(number);
+  }
+  return list;
+}
+
+Real RecipeMap::number(const std::string& key) const
+{
+  const YAML::Node value = required(key);
+  Real number = 0;
+  if (!value.IsScalar() || !YAML::convert<Real>::decode(value, number) || !std::isfinite(number))
+    refuse(key, fmt::format("= '{}' is not a number.", value.IsScalar() ? value.Scalar() : "..."));
+  return number;
+}
+
+Real RecipeMap::positive(const std::string& key) const
+{
+  const Real value = number(key);
+  if (!(value > 0))
+    refuse(key, fmt::format("= {} m must be greater than 0.", value));
+  return value;
+}
+
+int RecipeMap::count(const std::string& key, int least) const
+{
+  const YAML::Node value = required(key);
+  int number = 0;
+  if (!value.IsScalar() || !YAML::convert<int>::decode(value, number))
+    refuse(key,
+           fmt::format("= '{}' is not a whole number.", value.IsScalar() ? value.Scalar() : "..."));
+  if (number < least)
+    refuse(key, fmt::format("= {} must be at least {}.", number, least));
+  return number;
+}
+
+std::vector<Real> RecipeMap::numbers(const std::string& key, int size) const
+{
+  return sequence<Real>(key, size, "numbers");
+}
+
+std::vector<Real> RecipeMap::positives(const std::string& key, int size) const
+{
+  std::vector<Real> list = sequence<Real>(key, size, "lengths [m]");
+  for (const Real value : list)
+    if (!(value > 0))
+      refuse(key, fmt::format("has the entry {} m; every length must be greater than 0.", value));
+  return list;
+}
+
+std::vector<int> RecipeMap::counts(const std::string& key, int size, int least) const
+{
+  std::vector<int> list = sequence<int>(key, size, "whole numbers");
+  for (const int value : list)
+    if (value < least)
+      refuse(key, fmt::format("has the entry {}; every entry must be at least {}.", value, least));
+  return list;
+}
+
+Vec3 RecipeMap::point(const std::string& key, int dimension) const
+{
+  const std::vector<Real> x = numbers(key, dimension);
+  return {x[0], x[1], dimension == 3 ? x[2] : 0.0};
+}
+
+std::vector<std::string> RecipeMap::texts(const std::string& key) const
+{
+  const YAML::Node value = required(key);
+  std::vector<std::string> words;
+  if (value.IsScalar())
+    words.push_back(value.Scalar());
+  else if (value.IsSequence())
+    for (const YAML::Node& item : value)
+      if (item.IsScalar())
+        words.push_back(item.Scalar());
+  if (words.empty() || (value.IsSequence() && words.size() != value.size()))
+    refuse(key, "must be a word or a list of words.");
+  return words;
+}
+
+RecipeMap RecipeMap::map(const std::string& key, const std::vector<std::string>& accepted) const
+{
+  return RecipeMap(required(key), file_, pathOf(key), accepted);
+}
+
+std::vector<YAML::Node> RecipeMap::list(const std::string& key) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsSequence() || value.size() == 0)
+    refuse(key, "must be a list with at least one entry.");
+  return {value.begin(), value.end()};
+}
+
+std::vector<std::pair<std::string, YAML::Node>> RecipeMap::entries(const std::string& key) const
+{
+  std::vector<std::pair<std::string, YAML::Node>> all;
+  if (!has(key))
+    return all;
+  if (!node_[key].IsMap())
+    refuse(key, "must be a map from names to selections.");
+  std::set<std::string> seen;
+  for (const auto& entry : node_[key])
+  {
+    const std::string name = entry.first.as<std::string>();
+    if (!seen.insert(name).second)
+      fail(ExitCode::Deck, "{}: {}.{} is given twice; keep one.", placeOf(file_, entry.first),
+           pathOf(key), name);
+    all.emplace_back(name, entry.second);
+  }
+  return all;
+}
+} // namespace coplane

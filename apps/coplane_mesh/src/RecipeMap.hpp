@@ -1,0 +1,66 @@
+#pragma once
+
+#include <coplane_core/Vec3.hpp>
+
+#include <yaml-cpp/yaml.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coplane
+{
+/// One map of a recipe, read strictly: keys outside the accepted ones, keys given twice and values
+/// of the wrong kind are errors with file, line and column (Error of ExitCode::Deck).
+class RecipeMap
+{
+public:
+  /// `path` is the way to this map for messages: "parts[1]". Refuses keys that are not in
+  /// `accepted`.
+  RecipeMap(YAML::Node node, std::string file, std::string path, std::vector<std::string> accepted);
+
+  bool has(const std::string& key) const { return bool(node_[key]); }
+  std::string text(const std::string& key) const;
+  /// One of the given words; the first when the key is not there.
+  std::string choice(const std::string& key, const std::vector<std::string>& words) const;
+  Real number(const std::string& key) const;
+  Real positive(const std::string& key) const; ///< a length [m]
+  int count(const std::string& key, int least = 1) const;
+  std::vector<Real> numbers(const std::string& key, int size) const;
+  std::vector<Real> positives(const std::string& key, int size) const;
+  std::vector<int> counts(const std::string& key, int size, int least = 1) const;
+  /// A point of `dimension` coordinates; z = 0 in two.
+  Vec3 point(const std::string& key, int dimension) const;
+  /// A word, or a list of words.
+  std::vector<std::string> texts(const std::string& key) const;
+
+  RecipeMap map(const std::string& key, const std::vector<std::string>& accepted) const;
+  /// The maps of a list.
+  std::vector<YAML::Node> list(const std::string& key) const;
+  /// Keys of a map with free keys, in the order of the file.
+  std::vector<std::pair<std::string, YAML::Node>> entries(const std::string& key) const;
+  YAML::Node node(const std::string& key) const { return node_[key]; }
+  const std::string& file() const { return file_; }
+  std::string pathOf(const std::string& key) const;
+
+  /// Error at a key (or at the map, when it is absent): "file:line:column: path.key <text>".
+  [[noreturn]] void refuse(const std::string& key, const std::string& text) const;
+
+private:
+  YAML::Node required(const std::string& key) const;
+  template <class T>
+  std::vector<T> sequence(const std::string& key, int size, const char* what) const;
+
+  YAML::Node node_;
+  std::string file_, path_;
+};
+
+/// "file:line:column", counted from 1.
+std::string placeOf(const std::string& file, const YAML::Node& node);
+
+/// The word of a list that is nearest to a misspelt one, when near enough to be meant.
+std::optional<std::string> nearestWord(const std::string& word,
+                                       const std::vector<std::string>& words);
+} // namespace coplane

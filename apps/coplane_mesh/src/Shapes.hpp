@@ -1,0 +1,61 @@
+#pragma once
+
+#include <coplane_core/Vec3.hpp>
+#include <coplane_mesh/ElementTopology.hpp>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace coplane
+{
+/// Nodes and elements of one body: quadrilaterals in two dimensions, hexahedra in three.
+struct Body
+{
+  int dimension = 3;
+  std::vector<Vec3> points;      ///< [m]
+  std::vector<int> connectivity; ///< 4 or 8 per element
+  int elements() const { return int(connectivity.size()) / (dimension == 2 ? 4 : 8); }
+};
+
+/// Grid of n[0] x n[1] (x n[2]) elements whose node (i, j, k) is at position(i, j, k). The images
+/// of i, j, k must be right-handed.
+Body mappedGrid(int dimension, const std::array<int, 3>& n,
+                const std::function<Vec3(int, int, int)>& position);
+
+/// A plane body swept along z: layers of nodes at the given heights [m], ascending.
+Body extruded(const Body& plane, const std::vector<Real>& heights);
+
+/// Straight-sided box between two corners.
+Body box(int dimension, const Vec3& lowest, const Vec3& highest, const std::array<int, 3>& n);
+
+/// Running bond along x, courses upward in y (from 0), thickness in z. Even courses (0, 2, ...)
+/// hold whole bricks, odd ones begin and end with half bricks. n is for a whole brick; n[0] is
+/// even. Touching bricks have the same coordinates to the bit.
+std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int bricks,
+                              const std::array<int, 3>& n);
+
+/// Imbricate wall in the plane: layers through the thickness along x (from 0), bricks along y,
+/// centred on y = 0. Layers 1, 3, ... begin and end with half bricks, layers 2, 4, ... hold whole
+/// ones; n[1] is even.
+std::vector<Body> imbricate(Real thickness, Real length, int layers, int bricks,
+                            const std::array<int, 3>& n);
+
+/// Rock cut by joint sets at right angles: blocks[0] x blocks[1] (x blocks[2]) equal blocks from
+/// the origin.
+std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, const Vec3& size,
+                              const std::array<int, 3>& n);
+
+/// Disk about the origin: a rounded square in the middle and rings around it; `across` elements on
+/// the diameter (even, >= 4).
+Body disk(Real radius, int across);
+
+/// Rectangle with a semicircular nose: tip at the origin, axis x, body towards -x. `across`
+/// elements on the width (even, >= 4), `along` on the straight part. `length` counts the nose.
+Body roundNosed(Real width, Real length, int across, int along);
+
+/// Round bar with a hemispherical nose: tip at the origin, axis x, body towards -x. One grid of
+/// across x across elements in the section, mapped to a disk and to half a ball, so four lines of
+/// elements have an angle near 180 degrees at the surface.
+Body roundBar(Real width, Real length, int across, int along);
+} // namespace coplane

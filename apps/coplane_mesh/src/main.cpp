@@ -1,0 +1,128 @@
+#include "MakeMesh.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Version.hpp>
+#include <coplane_exodus/MeshReport.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/WriteMesh.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace coplane
+{
+namespace
+{
+void print(const std::string& text)
+{
+  std::fputs((text + "\n").c_str(), stdout);
+}
+
+void printReport(const Mesh& mesh, const MeshReport& report)
+{
+  const char* measure = report.dimension == 2 ? "area" : "volume";
+  const char* unit = report.dimension == 2 ? "m^2" : "m^3";
+  print(fmt::format("{} dimensions, {} nodes, {} elements, {} bodies", report.dimension,
+                    report.nodes, report.elements, report.bodies));
+  for (const auto& block : report.blocks)
+    print(fmt::format("  block {} '{}': {} {}, {} bodies, {} {:.6g} {}", block.id, block.name,
+                      block.elements, block.type, block.bodies, measure, block.volume, unit));
+  for (const auto& set : mesh.nodeSets)
+    print(fmt::format("  node set {} '{}': {} nodes", set.id, set.name, set.nodes.size()));
+  for (const auto& set : mesh.sideSets)
+    print(fmt::format("  side set {} '{}': {} faces", set.id, set.name, set.elements.size()));
+  const char axes[] = "xyz";
+  for (int axis = 0; axis < report.dimension; ++axis)
+    print(fmt::format("  {} from {:.6g} to {:.6g} m", axes[axis], report.lowest[axis],
+                      report.highest[axis]));
+  print(fmt::format("  edges from {:.6g} to {:.6g} m", report.shortestEdge, report.longestEdge));
+}
+
+/// Prints what was found; throws when no computation can use the mesh.
+void judge(const MeshReport& report, const std::string& file)
+{
+  const std::vector<std::string> problems = meshProblems(report);
+  for (const std::string& problem : problems)
+    print((report.usable() ? "note: " : "problem: ") + problem);
+  if (problems.empty())
+    print("no problems found");
+  if (!report.usable())
+    fail(ExitCode::Mesh, "{}: the mesh cannot be used: {}", file, problems.front());
+}
+
+void make(const std::string& recipe, const std::string& output)
+{
+  const Mesh mesh = makeMesh(recipe);
+  const MeshReport report = reportMesh(mesh);
+  printReport(mesh, report);
+  judge(report, recipe);
+  writeMesh(mesh, output);
+  print("wrote " + output);
+}
+
+void check(const std::string& file)
+{
+  const Mesh mesh = readMesh(file);
+  const MeshReport report = reportMesh(mesh);
+  print(fmt::format("{}: {}", file, mesh.title));
+  printReport(mesh, report);
+  judge(report, file);
+}
+
+int run(int argc, char** argv)
+{
+  CLI::App app{"Writes Exodus II meshes from recipes, and checks meshes."};
+  app.set_version_flag("--version",
+                       fmt::format("coplane_mesh {} ({})", version().number, version().revision));
+  bool helpRecipe = false;
+  app.add_flag("--help-recipe", helpRecipe, "Print the keys of recipes");
+  std::string recipe, output, file;
+  CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
+  making->add_option("recipe", recipe, "recipe, a YAML file")->required();
+  making->add_option("-o,--output", output, "Exodus II file to write")->required();
+  CLI::App* checking = app.add_subcommand(
+      "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
+  checking->add_option("mesh", file, "Exodus II file")->required();
+  app.require_subcommand(0, 1);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
+  }
+  if (helpRecipe)
+    std::fputs(recipeHelp(), stdout);
+  else if (making->parsed())
+    make(recipe, output);
+  else if (checking->parsed())
+    check(file);
+  else
+  {
+    std::fputs(app.help().c_str(), stderr);
+    return int(ExitCode::Usage);
+  }
+  return int(ExitCode::Success);
+}
+} // namespace
+} // namespace coplane
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return coplane::run(argc, argv);
+  }
+  catch (const coplane::Error& error)
+  {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return int(error.code());
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: defect of coplane_mesh: %s\n", error.what());
+    return int(coplane::ExitCode::Internal);
+  }
+}

@@ -1,0 +1,112 @@
+#include "MakeMesh.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+std::string errorOf(const std::string& recipe)
+{
+  try
+  {
+    makeMeshFromText(recipe, "r.yaml");
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Deck);
+    return error.what();
+  }
+  return "no error";
+}
+
+const std::string head = "dimension: 2\nparts:\n";
+} // namespace
+
+TEST(Recipe, aMisspeltKeyIsNamedWithPlaceAndSuggestion)
+{
+  EXPECT_EQ(
+      errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n    divisons: [1, 1]\n"),
+      "r.yaml:6:5: parts[0].divisons is not known; parts[0] accepts shape, block, rotate, about, "
+      "offset, min, max, size, "
+      "divisions. Did you mean 'divisions'?");
+}
+
+TEST(Recipe, aMissingKeyIsNamedAtItsMap)
+{
+  EXPECT_EQ(errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n"),
+            "r.yaml:3:5: parts[0].divisions is missing.");
+}
+
+TEST(Recipe, aKeyGivenTwiceIsRefused)
+{
+  EXPECT_EQ(errorOf("dimension: 2\ndimension: 3\nparts: []\n"),
+            "r.yaml:2:1: dimension is given twice; keep one.");
+}
+
+TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: bax, block: b}\n"),
+            "r.yaml:3:13: parts[0].shape = 'bax' is not known; use box, wall, imbricate, "
+            "projectile, rock or cylinder. Did you mean "
+            "'box'?");
+}
+
+TEST(Recipe, aListOfTheWrongLengthIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1, 1], divisions: [1, 1]}\n"),
+            "r.yaml:3:34: parts[0].size must be a list of 2 lengths [m].");
+}
+
+TEST(Recipe, aLengthThatIsNotPositiveIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 0], divisions: [1, 1]}\n"),
+            "r.yaml:3:34: parts[0].size has the entry 0 m; every length must be greater than 0.");
+}
+
+TEST(Recipe, aWordForANumberIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: cylinder, block: b, radius: wide, across: 4}\n"),
+            "r.yaml:3:41: parts[0].radius = 'wide' is not a number.");
+}
+
+TEST(Recipe, oddDivisionsOfAWallAreRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: wall, block: b, brick: [2, 1], courses: 2, "
+                           "length_in_bricks: 2, divisions: [3, 1]}\n"),
+            "r.yaml:3:86: parts[0].divisions has 3 elements along a brick, and a half brick takes "
+            "half of them; it must be even.");
+}
+
+TEST(Recipe, aSetOfAnUnknownBlockIsRefusedWithSuggestion)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: bricks, size: [1, 1], divisions: [1, "
+                           "1]}\nnode_sets: {base: {block: brick}}\n"),
+            "r.yaml:4:27: node_sets.base.block = 'brick' is no block of the parts. Did you mean "
+            "'bricks'?");
+}
+
+TEST(Recipe, anEmptySelectionIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, "
+                           "1]}\nnode_sets: {far: {where: {x: 9}}}\n"),
+            "r.yaml:4:26: node_sets.far.where selects no node. Compare it with the bounding box "
+            "that coplane_mesh check prints.");
+}
+
+TEST(Recipe, invalidYamlIsNamedWithItsPlace)
+{
+  EXPECT_EQ(errorOf("dimension: [2\n").substr(0, 8), "r.yaml:2");
+}
+
+TEST(Recipe, everyShapeAndKeyOfTheHelpIsThere)
+{
+  const std::string help = recipeHelp();
+  for (const char* word : {"box", "wall", "imbricate", "projectile", "rock", "cylinder", "rotate",
+                           "about", "offset", "where_own", "node_sets", "side_sets", "normal",
+                           "courses", "length_in_bricks", "layers", "across", "along", "section"})
+    EXPECT_NE(help.find(word), std::string::npos) << word;
+}
+} // namespace coplane
