@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES core material joint LIBRARIES yaml-cpp::yaml-cpp nlohmann_json::nlohmann_json PRIVATE_LIBRARIES muparser::muparser)
+coplane_dependencies(PACKAGES core PRIVATE_LIBRARIES yaml-cpp::yaml-cpp nlohmann_json::nlohmann_json muparser::muparser)

@@ -11,8 +11,9 @@
 
 namespace coplane
 {
-// The deck as checked, typed values. Names are those of the YAML keys; defaults here are the defaults of the schema.
-// Units: SI. Where a deck value stands in the file is kept as "line:column" in `where` for later messages.
+// The deck as checked, typed values. Names are those of the YAML keys; defaults here are the
+// defaults of the schema. Units: SI. `where` is the place of a card for later messages:
+// "wall.yaml:12:5", or "--set a.b=value" when it came from there.
 
 /// A number, or a muParser expression of t [s] (conditions that vary in time).
 struct TimeFunction
@@ -25,17 +26,18 @@ struct TimeFunction
 struct MaterialCard
 {
   std::string name, where;
-  std::string model;          ///< linear_elastic | j2
-  Real density = 0;           ///< [kg/m^3]
-  Real youngsModulus = 0;     ///< [Pa]
-  Real poissonRatio = 0;      ///< [-]
-  Real yieldStress = 0;       ///< j2 [Pa]
-  Real hardeningModulus = 0;  ///< j2, linear isotropic: slope of yield stress over plastic strain [Pa]
+  std::string model;      ///< linear_elastic | j2
+  Real density = 0;       ///< [kg/m^3]
+  Real youngsModulus = 0; ///< [Pa]
+  Real poissonRatio = 0;  ///< [-]
+  Real yieldStress = 0;   ///< j2 [Pa]
+  Real hardeningModulus =
+      0; ///< j2, linear isotropic: slope of yield stress over plastic strain [Pa]
 };
 
 struct BlockCard
 {
-  std::string name, where;    ///< element block of the mesh
+  std::string name, where; ///< element block of the mesh
   std::string material;
   Real hourglassStiffness = 0.05; ///< [-]
   Real hourglassViscosity = 0;    ///< [-]
@@ -45,16 +47,17 @@ struct BlockCard
 struct JointCard
 {
   std::string name, where;
-  std::string model = "penalty";    ///< penalty | linear | closure_curve
-  Real stiffnessFraction = 0.5;     ///< penalty: alpha of k_n = alpha / (h1/M1 + h2/M2) [-]
-  Real normalStiffness = 0;         ///< linear [Pa/m]
-  Real initialStiffness = 0;        ///< closure_curve: slope at zero closure [Pa/m]
-  Real maximumClosure = 0;          ///< closure_curve: asymptote of the hyperbola [m]
-  std::optional<Real> stiffnessCap; ///< closure_curve: largest slope [Pa/m]; default 0.5 M/h of the softer element
+  std::string model = "penalty"; ///< penalty | linear | closure_curve
+  Real stiffnessFraction = 0.5;  ///< penalty: alpha of k_n = alpha / (h1/M1 + h2/M2) [-]
+  Real normalStiffness = 0;      ///< linear [Pa/m]
+  Real initialStiffness = 0;     ///< closure_curve: slope at zero closure [Pa/m]
+  Real maximumClosure = 0;       ///< closure_curve: asymptote of the hyperbola [m]
+  std::optional<Real>
+      stiffnessCap; ///< closure_curve: largest slope [Pa/m]; default 0.5 M/h of the softer element
   std::optional<Real> shearStiffness; ///< [Pa/m]; default: shear_ratio times the normal stiffness
-  Real shearRatio = 0.5;            ///< k_s / k_n when shear_stiffness is not given [-]
-  Real friction = 0;                ///< coefficient of friction [-]
-  Real cohesion = 0;                ///< [Pa]
+  Real shearRatio = 0.5;              ///< k_s / k_n when shear_stiffness is not given [-]
+  Real friction = 0;                  ///< coefficient of friction [-]
+  Real cohesion = 0;                  ///< [Pa]
 };
 
 /// Which joint law acts between two blocks (by name; "*" means any).
@@ -63,7 +66,8 @@ struct ContactPairCard
   std::string where;
   std::array<std::string, 2> blocks{"*", "*"};
   std::string joint;
-  bool declared = false; ///< closed at t = 0: initial gaps and overlaps are absorbed, stress-free as built
+  bool declared =
+      false; ///< closed at t = 0: initial gaps and overlaps are absorbed, stress-free as built
   bool excluded = false; ///< no contact between these blocks
 };
 
@@ -80,83 +84,87 @@ struct ContactCard
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
   Real areaMin = 1e-8;
-  std::optional<Real> skin;         ///< [m]; default 0.1 (once: 0.5) of the smallest face size
-  int searchEvery = 4;              ///< cycles; 0 means once
-  Real dampNormal = 0;              ///< fraction of critical [-]
+  std::optional<Real> skin; ///< [m]; default 0.1 (once: 0.5) of the smallest face size
+  int searchEvery = 4;      ///< cycles; 0 means once
+  Real dampNormal = 0;      ///< fraction of critical [-]
   Real dampShear = 0;
-  std::string defaultJoint;         ///< empty: built-in penalty law without friction
+  std::string defaultJoint; ///< empty: built-in penalty law without friction
   std::vector<ContactPairCard> pairs;
 };
 
 struct ConditionCard
 {
   std::string where;
-  std::string type;            ///< fixed | velocity | symmetry | pressure
-  std::string set;             ///< node set (fixed, velocity, symmetry) or side set (pressure)
+  std::string type; ///< fixed | velocity | symmetry | pressure
+  std::string set;  ///< node set (fixed, velocity, symmetry) or side set (pressure)
   std::array<bool, 3> components{true, true, true}; ///< fixed, velocity
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
-  Vec3 normal{0, 0, 0};        ///< symmetry
-  TimeFunction pressure;       ///< pressure, follower, positive pushes into the body [Pa]
+  Vec3 normal{0, 0, 0};                             ///< symmetry
+  TimeFunction pressure; ///< pressure, follower, positive pushes into the body [Pa]
 };
 
 struct InitialCard
 {
   std::string where;
   std::string block;
-  Vec3 velocity{0, 0, 0};         ///< of the block as a rigid body [m/s]
-  Vec3 angularVelocity{0, 0, 0};  ///< [rad/s]
-  Vec3 center{0, 0, 0};           ///< a point that moves with `velocity` [m]
+  Vec3 velocity{0, 0, 0};                       ///< of the block as a rigid body [m/s]
+  Vec3 angularVelocity{0, 0, 0};                ///< [rad/s]
+  Vec3 center{0, 0, 0};                         ///< a point that moves with `velocity` [m]
   std::array<Real, 6> stress{0, 0, 0, 0, 0, 0}; ///< xx yy zz xy yz zx, tension positive [Pa]
 };
 
 struct TimeCard
 {
-  Real end = 0;                 ///< [s]
-  Real stepFactor = 0.8;        ///< fraction of the stable step [-]
+  Real end = 0;                    ///< [s]
+  Real stepFactor = 0.8;           ///< fraction of the stable step [-]
   std::optional<Real> maximumStep; ///< [s]
   std::optional<Real> fixedStep;   ///< [s]; refused above the stable step only by a warning
-  Real energyTolerance = 0.1;   ///< stop when the balance is off by this fraction of the energy in play [-]
+  Real energyTolerance =
+      0.1; ///< stop when the balance is off by this fraction of the energy in play [-]
 };
 
 struct OutputCard
 {
-  std::string results;           ///< Exodus file; default <deck>.e beside the working folder; empty string "none" switches off
-  Real every = 0;                ///< [s]; 0: only `times` (and first and last state)
-  std::vector<Real> times;       ///< [s]
-  bool planes = true;            ///< contact planes as .pvd and .vtp
+  std::string results; ///< Exodus file; default <deck>.e in the working folder; empty: switched off
+                       ///< (deck: none)
+  Real every = 0;      ///< [s]; 0: only `times` (and first and last state)
+  std::vector<Real> times; ///< [s]
+  bool planes = true;      ///< contact planes as .pvd and .vtp
   bool filePerRank = false;
 };
 
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet;           ///< mean motion of a node set ...
-  std::string block;             ///< ... or mass-weighted mean motion of a block
+  std::string nodeSet; ///< mean motion of a node set ...
+  std::string block;   ///< ... or mass-weighted mean motion of a block
 };
 
 struct HistoryCard
 {
-  std::string file;              ///< CSV; default <deck>.csv
-  Real every = 0;                ///< [s]; 0: every cycle
+  std::string file; ///< CSV; default <deck>.csv
+  Real every = 0;   ///< [s]; 0: every cycle
   std::vector<ProbeCard> probes;
 };
 
 struct Deck
 {
-  std::string file;              ///< as given on the command line
-  std::string text;              ///< the whole deck after --set, for the info records
+  std::string file; ///< as given on the command line
+  std::string text; ///< the whole deck after --set, for the info records
   std::string title;
-  std::string mesh, meshWhere;   ///< path, relative paths are relative to the deck's folder (resolved)
+  std::string mesh,
+      meshWhere; ///< path, relative paths are relative to the deck's folder (resolved)
   std::vector<MaterialCard> materials;
   std::vector<BlockCard> blocks;
+  std::string blocksWhere;
   std::vector<JointCard> joints;
   ContactCard contact;
   std::vector<ConditionCard> conditions;
   std::vector<InitialCard> initial;
-  Vec3 gravity{0, 0, 0};         ///< [m/s^2]
-  Real viscosityLinear = 0.06;   ///< bulk viscosity b1 [-]
-  Real viscosityQuadratic = 1.5; ///< b2 [-]
-  Real massDamping = 0;          ///< force -alpha m v [1/s]
+  Vec3 gravity{0, 0, 0};                ///< [m/s^2]
+  Real viscosityLinear = 0.06;          ///< bulk viscosity b1 [-]
+  Real viscosityQuadratic = 1.5;        ///< b2 [-]
+  Real massDamping = 0;                 ///< force -alpha m v [1/s]
   std::optional<Real> massDampingUntil; ///< [s]
   TimeCard time;
   OutputCard output;

@@ -1,0 +1,198 @@
+#include "DeckChecks.hpp"
+
+#include "Suggestion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace coplane
+{
+namespace
+{
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+template <class Card>
+Names namesOf(const std::vector<Card>& cards)
+{
+  Names names;
+  for (const auto& card : cards)
+    names.push_back(card.name);
+  return names;
+}
+
+/// "path = 'x' is not a material of this deck. Did you mean 'y'? It has: a, b."
+std::string unknown(const std::string& path, const std::string& name, const std::string& what,
+                    const Names& names)
+{
+  return fmt::format("{} = '{}' is not {}.{} There {}.", path, name, what, didYouMean(name, names),
+                     names.empty() ? "are none" : "is: " + listOf(names));
+}
+
+bool fits(const std::string& pattern, const std::string& name)
+{
+  return pattern == "*" || pattern == name;
+}
+
+bool covers(const ContactPairCard& pair, const std::string& a, const std::string& b)
+{
+  return (fits(pair.blocks[0], a) && fits(pair.blocks[1], b)) ||
+         (fits(pair.blocks[0], b) && fits(pair.blocks[1], a));
+}
+
+void checkPairs(const Deck& deck, const DeckNode& root, const Names& joints, Problems& problems)
+{
+  const auto& pairs = deck.contact.pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    const auto& pair = pairs[i];
+    const std::string path = fmt::format("contact.pairs.{}", i);
+    const auto at = [&](const std::string& key) -> const DeckNode& {
+      return nodeAt(root, {"contact", "pairs", std::to_string(i), key});
+    };
+    if (!pair.joint.empty() && !contains(joints, pair.joint))
+      problems.add(at("joint"), unknown(path + ".joint", pair.joint, "a card in joints", joints));
+    if (pair.excluded && (pair.declared || !pair.joint.empty()))
+      problems.add(at("excluded"), fmt::format("{0}.excluded: true leaves {0}.{1} without effect; "
+                                               "remove one of them.",
+                                               path, pair.declared ? "declared" : "joint"));
+    for (std::size_t k = 0; k < i; ++k)
+      if (covers(pairs[k], pair.blocks[0], pair.blocks[1]))
+      {
+        problems.add(at("blocks"), fmt::format("{}.blocks is covered already by contact.pairs.{}; "
+                                               "the first item that fits counts. Remove this one "
+                                               "or put it first.",
+                                               path, k));
+        break;
+      }
+  }
+}
+
+void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  for (std::size_t i = 0; i < deck.conditions.size(); ++i)
+  {
+    const auto& card = deck.conditions[i];
+    const std::string path = fmt::format("conditions.{}", i);
+    const DeckNode& node = nodeAt(root, {"conditions", std::to_string(i)});
+    if (card.type == "velocity")
+      for (int c = 0; c < 3; ++c)
+      {
+        const auto& value = card.velocity[c];
+        if (!card.components[c] && (!value.expression.empty() || value.constant != 0))
+          problems.add(nodeAt(node, {"value", std::to_string(c)}),
+                       fmt::format("{0}.value.{1} has no effect because {0}.components does not "
+                                   "have {2}; write 0 or add {2} to components.",
+                                   path, c, "xyz"[c]));
+      }
+  }
+}
+} // namespace
+
+void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  const Names materials = namesOf(deck.materials), joints = namesOf(deck.joints);
+  for (const auto& block : deck.blocks)
+    if (!block.material.empty() && !contains(materials, block.material))
+      problems.add(nodeAt(root, {"blocks", block.name, "material"}),
+                   unknown("blocks." + block.name + ".material", block.material,
+                           "a card in materials", materials));
+  for (const auto& joint : deck.joints)
+    if (joint.stiffnessCap && joint.initialStiffness > 0 &&
+        *joint.stiffnessCap < joint.initialStiffness)
+      problems.add(nodeAt(root, {"joints", joint.name, "stiffness_cap"}),
+                   fmt::format("joints.{}.stiffness_cap = {} Pa/m is below initial_stiffness = {} "
+                               "Pa/m; accepted: at least that.",
+                               joint.name, *joint.stiffnessCap, joint.initialStiffness));
+  if (!deck.contact.defaultJoint.empty() && !contains(joints, deck.contact.defaultJoint))
+    problems.add(
+        nodeAt(root, {"contact", "default_joint"}),
+        unknown("contact.default_joint", deck.contact.defaultJoint, "a card in joints", joints));
+  checkPairs(deck, root, joints, problems);
+  checkConditions(deck, root, problems);
+
+  Names seen;
+  for (std::size_t i = 0; i < deck.initial.size(); ++i)
+  {
+    const auto& block = deck.initial[i].block;
+    if (!block.empty() && contains(seen, block))
+      problems.add(nodeAt(root, {"initial", std::to_string(i), "block"}),
+                   fmt::format("initial.{}.block = '{}' has a card already; accepted: one for each "
+                               "block.",
+                               i, block));
+    seen.push_back(block);
+  }
+  seen.clear();
+  for (std::size_t i = 0; i < deck.history.probes.size(); ++i)
+  {
+    const auto& name = deck.history.probes[i].name;
+    if (!name.empty() && contains(seen, name))
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "name"}),
+                   fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
+                               i, name));
+    seen.push_back(name);
+  }
+}
+
+std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,
+                                               const Names& nodeSetNames, const Names& sideSetNames)
+{
+  std::vector<std::string> messages;
+  const auto check = [&](const std::string& where, const std::string& path, const std::string& name,
+                         const std::string& what, const Names& names)
+  {
+    if (!name.empty() && !contains(names, name))
+      messages.push_back(where + ": " + unknown(path, name, what + " of the mesh", names));
+  };
+  const std::string block = "an element block", nodeSet = "a node set", sideSet = "a side set";
+
+  const Names cards = namesOf(deck.blocks);
+  for (const auto& name : blockNames)
+    if (!contains(cards, name))
+      messages.push_back(fmt::format("{}: blocks has no card for the element block '{}' of the "
+                                     "mesh; add '{}: {{material: ...}}'.{}",
+                                     deck.blocksWhere, name, name,
+                                     didYouMean(name, cards).empty()
+                                         ? ""
+                                         : " The card '" + nearest(name, cards) + "' is near."));
+  for (const auto& card : deck.blocks)
+    check(card.where, "blocks", card.name, block, blockNames);
+  for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const auto& name = deck.contact.pairs[i].blocks[k]; name != "*")
+        check(deck.contact.pairs[i].where, fmt::format("contact.pairs.{}.blocks.{}", i, k), name,
+              block, blockNames);
+  for (std::size_t i = 0; i < deck.conditions.size(); ++i)
+  {
+    const auto& card = deck.conditions[i];
+    const bool faces = card.type == "pressure";
+    check(card.where, fmt::format("conditions.{}.{}", i, faces ? "side_set" : "node_set"), card.set,
+          faces ? sideSet : nodeSet, faces ? sideSetNames : nodeSetNames);
+  }
+  for (std::size_t i = 0; i < deck.initial.size(); ++i)
+    check(deck.initial[i].where, fmt::format("initial.{}.block", i), deck.initial[i].block, block,
+          blockNames);
+  for (std::size_t i = 0; i < deck.history.probes.size(); ++i)
+  {
+    const auto& probe = deck.history.probes[i];
+    check(probe.where, fmt::format("history.probes.{}.node_set", i), probe.nodeSet, nodeSet,
+          nodeSetNames);
+    check(probe.where, fmt::format("history.probes.{}.block", i), probe.block, block, blockNames);
+  }
+  return messages;
+}
+
+const ContactPairCard* contactPairFor(const ContactCard& contact, const std::string& blockA,
+                                      const std::string& blockB)
+{
+  for (const auto& pair : contact.pairs)
+    if (covers(pair, blockA, blockB))
+      return &pair;
+  return nullptr;
+}
+} // namespace coplane

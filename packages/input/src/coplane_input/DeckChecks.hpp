@@ -1,0 +1,26 @@
+#pragma once
+
+#include <coplane_input/Deck.hpp>
+#include <coplane_input/DeckNode.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// Checks that take more than one key: names that must exist in the deck, values that must fit each
+/// other.
+void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems);
+
+/// Compares the deck's names with those of the mesh and returns one message for each problem, with
+/// its place and a suggestion; empty when all fits. Every block of the mesh needs a card.
+std::vector<std::string> checkNamesAgainstMesh(const Deck& deck,
+                                               const std::vector<std::string>& blockNames,
+                                               const std::vector<std::string>& nodeSetNames,
+                                               const std::vector<std::string>& sideSetNames);
+
+/// The item of contact.pairs that acts between two blocks: the first that fits in either order;
+/// nullptr: contact.default_joint.
+const ContactPairCard* contactPairFor(const ContactCard& contact, const std::string& blockA,
+                                      const std::string& blockB);
+} // namespace coplane

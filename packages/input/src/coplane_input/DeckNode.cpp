@@ -1,0 +1,263 @@
+#include "DeckNode.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace coplane
+{
+namespace
+{
+/// Where the nodes of one text stand: in the deck, or in the value of a --set.
+struct Source
+{
+  std::string file; // of the deck
+  std::string set;  // the whole --set, or empty
+  int number = 0;   // of the --set
+  int nodes = 0;    // copied so far
+  std::string where(const YAML::Mark& mark) const
+  {
+    return set.empty() ? fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1) : set;
+  }
+  long order(const YAML::Mark& mark) const
+  {
+    constexpr long lineLength = 1000000;
+    return set.empty() ? mark.line * lineLength + mark.column
+                       : std::numeric_limits<long>::max() / 2 + number;
+  }
+};
+
+DeckNode copyNode(const YAML::Node& node, Source& source, int depth)
+{
+  // An alias can contain itself, or double at each of many levels.
+  if (depth > 50 || ++source.nodes > 1000000)
+    fail(ExitCode::Deck,
+         "{}: aliases (*name) make this part of the deck endless or enormous; accepted: 50 "
+         "levels and a million values. Write the values out.",
+         source.where(node.Mark()));
+  DeckNode copy;
+  copy.where = source.where(node.Mark());
+  copy.order = source.order(node.Mark());
+  copy.flow = node.Style() == YAML::EmitterStyle::Flow;
+  if (node.IsScalar())
+  {
+    copy.kind = DeckNode::Kind::Scalar;
+    copy.text = node.Scalar();
+    copy.quoted = node.Tag() == "!"; // yaml-cpp's mark of every scalar that is not plain
+  }
+  else if (node.IsSequence())
+  {
+    copy.kind = DeckNode::Kind::List;
+    for (const auto& item : node)
+      copy.items.push_back(copyNode(item, source, depth + 1));
+  }
+  else if (node.IsMap())
+  {
+    copy.kind = DeckNode::Kind::Map;
+    for (const auto& entry : node)
+      copy.entries.emplace_back(copyNode(entry.first, source, depth + 1),
+                                copyNode(entry.second, source, depth + 1));
+  }
+  return copy;
+}
+
+void emit(YAML::Emitter& out, const DeckNode& node)
+{
+  switch (node.kind)
+  {
+  case DeckNode::Kind::Nothing:
+    out << YAML::Null;
+    break;
+  case DeckNode::Kind::Scalar:
+    if (node.quoted)
+      out << YAML::DoubleQuoted;
+    out << node.text;
+    break;
+  case DeckNode::Kind::List:
+    out << (node.flow ? YAML::Flow : YAML::Block) << YAML::BeginSeq;
+    for (const auto& item : node.items)
+      emit(out, item);
+    out << YAML::EndSeq;
+    break;
+  case DeckNode::Kind::Map:
+    out << (node.flow ? YAML::Flow : YAML::Block) << YAML::BeginMap;
+    for (const auto& [key, value] : node.entries)
+    {
+      out << YAML::Key;
+      emit(out, key);
+      out << YAML::Value;
+      emit(out, value);
+    }
+    out << YAML::EndMap;
+    break;
+  }
+}
+
+std::optional<std::size_t> listIndex(const std::string& word)
+{
+  if (word.empty() || word.size() > 9 || word.find_first_not_of("0123456789") != std::string::npos)
+    return std::nullopt;
+  return std::stoul(word);
+}
+
+DeckNode mapAt(const DeckNode& place)
+{
+  DeckNode map;
+  map.kind = DeckNode::Kind::Map;
+  map.where = place.where;
+  map.order = place.order;
+  return map;
+}
+} // namespace
+
+const DeckNode* DeckNode::find(const std::string& key) const
+{
+  for (const auto& [name, value] : entries)
+    if (name.text == key)
+      return &value;
+  return nullptr;
+}
+
+const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& path)
+{
+  const DeckNode* node = &root;
+  for (const auto& word : path)
+  {
+    const DeckNode* next = node->find(word);
+    if (const auto index = listIndex(word);
+        node->kind == DeckNode::Kind::List && index && *index < node->items.size())
+      next = &node->items[*index];
+    if (!next)
+      break;
+    node = next;
+  }
+  return *node;
+}
+
+void Problems::add(const DeckNode& at, const std::string& text)
+{
+  problems_.emplace_back(at.order, fmt::format("{}: {}", at.where, text));
+}
+
+std::string Problems::text() const
+{
+  auto sorted = problems_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::string text;
+  for (const auto& problem : sorted)
+    text += (text.empty() ? "" : "\n") + problem.second;
+  return text;
+}
+
+DeckNode parseYaml(const std::string& text, const std::string& file)
+{
+  Source source;
+  source.file = file;
+  std::vector<YAML::Node> documents;
+  try
+  {
+    documents = YAML::LoadAll(text);
+  }
+  catch (const YAML::Exception& e)
+  {
+    fail(ExitCode::Deck,
+         "{}: this is not YAML: {}. Look at this line and the one before for a missing colon, "
+         "bracket or quote, or a wrong indentation.",
+         source.where(e.mark), e.msg);
+  }
+  if (documents.empty() || documents[0].IsNull())
+    fail(ExitCode::Deck,
+         "{}: the deck is empty; it needs at least mesh, materials, blocks and time. See "
+         "--help-deck.",
+         file);
+  if (documents.size() > 1)
+    fail(ExitCode::Deck, "{}: the file has {} documents; a deck is one. Remove the lines '---'.",
+         source.where(documents[1].Mark()), documents.size());
+  DeckNode root = copyNode(documents[0], source, 0);
+  if (root.kind != DeckNode::Kind::Map)
+    fail(ExitCode::Deck,
+         "{}: the deck is {}; accepted: keys with values, such as 'mesh: wall.e'. See --help-deck.",
+         root.where, root.kind == DeckNode::Kind::List ? "a list" : "a single value");
+  return root;
+}
+
+void applyOverride(DeckNode& root, const std::string& assignment, int number, Problems& problems)
+{
+  Source source;
+  source.set = "--set " + assignment;
+  source.number = number;
+  DeckNode place; // only where a message stands
+  place.where = source.set;
+  place.order = source.order(YAML::Mark());
+
+  const auto equals = assignment.find('=');
+  const std::string path = assignment.substr(0, equals);
+  if (equals == std::string::npos || path.empty() || path.front() == '.' || path.back() == '.' ||
+      path.find("..") != std::string::npos)
+    return problems.add(place, "is not an assignment; accepted: path=value, such as time.end=0.1 "
+                               "or conditions.0.value=[1, 0, 0].");
+  DeckNode value;
+  try
+  {
+    value = copyNode(YAML::Load(assignment.substr(equals + 1)), source, 0);
+  }
+  catch (const YAML::Exception& e)
+  {
+    return problems.add(place, fmt::format("the value is not YAML: {}.", e.msg));
+  }
+
+  DeckNode* node = &root;
+  std::string done;
+  for (std::string rest = path; !rest.empty();)
+  {
+    std::string word = rest.substr(0, rest.find('.'));
+    if (node->kind == DeckNode::Kind::List)
+    {
+      const auto index = listIndex(word);
+      if (!index || *index >= node->items.size())
+        return problems.add(place, fmt::format("'{}' is no item of {}, which has {}; accepted: a "
+                                               "whole number, the first item is 0.",
+                                               word, done, node->items.size()));
+      node = &node->items[*index];
+    }
+    else if (node->kind == DeckNode::Kind::Scalar)
+      return problems.add(
+          place, fmt::format("{} is the value '{}' and has no key '{}'.", done, node->text, word));
+    else
+    {
+      // Names may hold dots: an existing key that fits further than the next dot is meant.
+      for (const auto& [key, ignored] : node->entries)
+        if (key.text.size() > word.size() && rest.rfind(key.text, 0) == 0 &&
+            (rest.size() == key.text.size() || rest[key.text.size()] == '.'))
+          word = key.text;
+      if (node->kind == DeckNode::Kind::Nothing)
+        *node = mapAt(place);
+      if (!node->find(word))
+      {
+        DeckNode key;
+        key.kind = DeckNode::Kind::Scalar;
+        key.text = word;
+        key.where = place.where;
+        key.order = place.order;
+        node->entries.emplace_back(key, DeckNode{});
+      }
+      node = const_cast<DeckNode*>(node->find(word)); // of our own tree, which is not const
+    }
+    done += (done.empty() ? "" : ".") + word;
+    rest = rest.size() > word.size() ? rest.substr(word.size() + 1) : "";
+  }
+  *node = value;
+}
+
+std::string toYaml(const DeckNode& root)
+{
+  YAML::Emitter out;
+  emit(out, root);
+  return std::string(out.c_str()) + "\n";
+}
+} // namespace coplane

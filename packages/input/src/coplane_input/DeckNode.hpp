@@ -1,0 +1,62 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coplane
+{
+/// One value of a deck as written, before it is checked. Aliases are copies here, so that --set
+/// changes one place only.
+struct DeckNode
+{
+  enum class Kind
+  {
+    Nothing, ///< `key:` without a value, or null
+    Scalar,
+    List,
+    Map
+  };
+
+  Kind kind = Kind::Nothing;
+  std::string text;    ///< of a scalar
+  bool quoted = false; ///< scalar in quotes: text, never a number
+  bool flow = false;   ///< list or map written on one line, [ ] or { }
+  std::string where;   ///< "wall.yaml:12:5", or "--set time.end=1" for a value of the command line
+  long order = 0;      ///< sorts messages by place in the file, those of --set last
+  std::vector<DeckNode> items; ///< of a list
+  std::vector<std::pair<DeckNode, DeckNode>>
+      entries; ///< of a map, in the order written, twins included
+
+  /// The first value with this key, or nullptr.
+  const DeckNode* find(const std::string& key) const;
+};
+
+/// Value at a path such as {"conditions", "0", "value"}, or the deepest value on the way to it.
+const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& path);
+
+/// Collects all errors of a deck, to be thrown together.
+class Problems
+{
+public:
+  void add(const DeckNode& at, const std::string& text);
+  bool empty() const { return problems_.empty(); }
+
+  /// One line each, "where: text", in the order of the file.
+  std::string text() const;
+
+private:
+  std::vector<std::pair<long, std::string>> problems_;
+};
+
+/// Reads YAML. Throws Error(Deck) for wrong syntax, an empty deck, several documents, endless
+/// aliases.
+DeckNode parseYaml(const std::string& text, const std::string& file);
+
+/// Applies "a.b.0.c=value" to the tree; the value is YAML. What cannot be reached becomes a
+/// problem.
+void applyOverride(DeckNode& root, const std::string& assignment, int number, Problems& problems);
+
+/// The tree as YAML text; reading it again gives the same tree.
+std::string toYaml(const DeckNode& root);
+} // namespace coplane

@@ -1,0 +1,476 @@
+#include "DeckReader.hpp"
+
+#include "DeckChecks.hpp"
+#include "DeckNode.hpp"
+#include "Schema.hpp"
+#include "Suggestion.hpp"
+#include "TimeFunctionEvaluator.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <system_error>
+
+namespace coplane
+{
+namespace
+{
+using Kind = DeckNode::Kind;
+
+std::string found(const DeckNode& node)
+{
+  switch (node.kind)
+  {
+  case Kind::Nothing:
+    return "nothing";
+  case Kind::Scalar:
+    return fmt::format(node.quoted ? "\"{}\"" : "'{}'", node.text);
+  case Kind::List:
+    return fmt::format("a list of {}", node.items.size());
+  case Kind::Map:
+    return "a group of keys";
+  }
+  return "";
+}
+
+/// The number written in a text; nothing when it is not one, infinity when it is too large.
+std::optional<Real> numberIn(const std::string& text)
+{
+  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
+  const char* end = text.data() + text.size();
+  Real value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || error == std::errc::invalid_argument || text.empty())
+  {
+    if (text == ".inf" || text == "+.inf" || text == "-.inf" || text == ".nan") // as YAML has them
+      return infinity;
+    return std::nullopt;
+  }
+  return error == std::errc::result_out_of_range ? infinity : value;
+}
+
+/// All places of the schema with a key of this name.
+void collectPlaces(const Key& group, const std::string& path, const std::string& name,
+                   std::vector<std::string>& places)
+{
+  for (const auto& key : group.keys)
+  {
+    const std::string here = path + (path.empty() ? "" : ".") + key.name;
+    if (key.name == name && (places.empty() || places.back() != here))
+      places.push_back(here);
+    collectPlaces(key, key.kind == KeyKind::NamedGroups ? here + ".<name>" : here, name, places);
+  }
+}
+
+class SchemaReader
+{
+public:
+  explicit SchemaReader(Problems& problems) : problems_(problems) {}
+
+  void readGroup(const Key& group, const DeckNode& node, const std::string& path, void* target)
+  {
+    if (node.kind != Kind::Map)
+      return wrong(node, path, "", "keys with values");
+    const std::optional<std::string> model = modelOf(group, node);
+    checkNames(node, path);
+    for (const auto& [name, value] : node.entries)
+      checkKnown(group, model, name, path);
+    for (const auto& key : group.keys)
+    {
+      if (!key.models.empty() && !(model && key.appliesTo(*model)))
+        continue;
+      const DeckNode* value = node.find(key.name);
+      if (value)
+        readKey(key, *value, join(path, key.name), target);
+      else if (key.required)
+        problems_.add(
+            node, fmt::format("{} is missing{}; accepted: {}: {}.", join(path, key.name),
+                              key.models.empty()
+                                  ? ""
+                                  : fmt::format(" ({}: {} needs it)", group.discriminator, *model),
+                              acceptedText(key), key.meaning));
+    }
+    checkAlternatives(group, node, path);
+  }
+
+private:
+  static std::string join(const std::string& path, const std::string& name)
+  {
+    return path.empty() ? name : path + "." + name;
+  }
+
+  void wrong(const DeckNode& node, const std::string& path, const std::string& what,
+             const std::string& accepted)
+  {
+    problems_.add(node, fmt::format("{} = {}{}; accepted: {}.", path.empty() ? "the deck" : path,
+                                    found(node), what, accepted));
+  }
+
+  /// The value that decides which keys there are; nothing when it is missing or wrong, which is
+  /// reported where it is read.
+  std::optional<std::string> modelOf(const Key& group, const DeckNode& node) const
+  {
+    if (group.discriminator.empty())
+      return "";
+    for (const auto& key : group.keys)
+      if (key.name == group.discriminator)
+      {
+        const DeckNode* value = node.find(key.name);
+        if (!value)
+          return key.required ? std::nullopt : std::optional(key.defaultText);
+        const auto& words = key.choices;
+        if (std::find(words.begin(), words.end(), value->text) != words.end())
+          return value->text;
+      }
+    return std::nullopt;
+  }
+
+  /// Keys must be words, given once; merges are refused because yaml-cpp would ignore them.
+  void checkNames(const DeckNode& map, const std::string& path)
+  {
+    std::vector<std::pair<std::string, const DeckNode*>> seen;
+    for (const auto& [name, value] : map.entries)
+    {
+      if (name.kind != Kind::Scalar)
+      {
+        problems_.add(name, fmt::format("a key{} is {}; accepted: a word.",
+                                        path.empty() ? "" : " in " + path, found(name)));
+        continue;
+      }
+      if (name.text == "<<")
+      {
+        problems_.add(name, fmt::format("{} is a merge of YAML 1.1, which decks do not have; write "
+                                        "the keys out.",
+                                        join(path, "<<")));
+        continue;
+      }
+      const auto twin = std::find_if(seen.begin(), seen.end(),
+                                     [&](const auto& one) { return one.first == name.text; });
+      if (twin != seen.end())
+        problems_.add(name, fmt::format("{} is given twice, first at {}; keep one of them.",
+                                        join(path, name.text), twin->second->where));
+      else
+        seen.emplace_back(name.text, &name);
+    }
+  }
+
+  void checkKnown(const Key& group, const std::optional<std::string>& model, const DeckNode& name,
+                  const std::string& path)
+  {
+    if (name.kind != Kind::Scalar || name.text == "<<")
+      return;
+    std::vector<std::string> names, owners;
+    bool known = false, fits = false;
+    for (const auto& key : group.keys)
+    {
+      const bool here = key.models.empty() || !model || key.appliesTo(*model);
+      if (here && std::find(names.begin(), names.end(), key.name) == names.end())
+        names.push_back(key.name);
+      if (key.name != name.text)
+        continue;
+      known = true;
+      fits = fits || here;
+      owners.insert(owners.end(), key.models.begin(), key.models.end());
+    }
+    if (fits)
+      return;
+    if (known)
+      return problems_.add(name,
+                           fmt::format("{} belongs to {}: {}, but {} is {} here; remove it or "
+                                       "change {}.",
+                                       join(path, name.text), group.discriminator, listOf(owners),
+                                       group.discriminator, *model, group.discriminator));
+    std::string hint = didYouMean(name.text, names);
+    if (hint.empty())
+    {
+      std::vector<std::string> places;
+      collectPlaces(deckSchema(), "", name.text, places);
+      if (!places.empty())
+        hint = fmt::format(" Its place is {}.", listOf(places));
+    }
+    problems_.add(name, fmt::format("{} is not known.{} Accepted here: {}.", join(path, name.text),
+                                    hint, listOf(names, 30)));
+  }
+
+  void checkAlternatives(const Key& group, const DeckNode& node, const std::string& path)
+  {
+    for (const auto& alternatives : group.alternatives)
+    {
+      std::vector<std::string> given;
+      for (const auto& name : alternatives.names)
+        if (node.find(name))
+          given.push_back(name);
+      if (given.size() > 1)
+        problems_.add(*node.find(given[1]),
+                      fmt::format("{} and {} exclude each other; keep one of them.",
+                                  join(path, given[0]), join(path, given[1])));
+      if (given.empty() && alternatives.oneNeeded)
+        problems_.add(
+            node, fmt::format("{} needs one of the keys {}.", path, listOf(alternatives.names)));
+    }
+  }
+
+  void readKey(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  {
+    switch (key.kind)
+    {
+    case KeyKind::Group:
+      return readGroup(key, node, path, key.enter(target, "", node.where));
+    case KeyKind::NamedGroups:
+      return readNamedGroups(key, node, path, target);
+    case KeyKind::GroupList:
+      return readGroupList(key, node, path, target);
+    default:
+      if (const auto value = readValue(key, node, path))
+        key.store(target, *value);
+    }
+  }
+
+  void readNamedGroups(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  {
+    if (node.kind != Kind::Map || (key.required && node.entries.empty()))
+      return wrong(node, path, "", acceptedText(key));
+    checkNames(node, path);
+    std::set<std::string> seen;
+    for (const auto& [name, value] : node.entries)
+      if (name.kind == Kind::Scalar && name.text != "<<" && seen.insert(name.text).second)
+        readGroup(key, value, join(path, name.text), key.enter(target, name.text, name.where));
+  }
+
+  void readGroupList(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  {
+    if (node.kind != Kind::List)
+      return wrong(node, path, "", acceptedText(key));
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+      readGroup(key, node.items[i], fmt::format("{}.{}", path, i),
+                key.enter(target, "", node.items[i].where));
+  }
+
+  std::optional<KeyValue> readValue(const Key& key, const DeckNode& node, const std::string& path)
+  {
+    const bool isList = key.kind == KeyKind::Numbers || key.kind == KeyKind::Texts ||
+                        key.kind == KeyKind::TimeFunctions;
+    if (isList)
+      return readList(key, node, path);
+    if (node.kind != Kind::Scalar || node.text.empty())
+    {
+      wrong(node, path, "", acceptedText(key));
+      return std::nullopt;
+    }
+    switch (key.kind)
+    {
+    case KeyKind::Number:
+      return optionalValue(readNumber(key, node, path));
+    case KeyKind::Integer:
+      return readInteger(key, node, path);
+    case KeyKind::Flag:
+      if (!node.quoted && (node.text == "true" || node.text == "false"))
+        return node.text == "true";
+      wrong(node, path, " is not a flag", acceptedText(key));
+      return std::nullopt;
+    case KeyKind::TimeFunction:
+    {
+      const auto function = readTimeFunction(key, node, path);
+      return function ? optionalValue(std::optional(std::vector{*function})) : std::nullopt;
+    }
+    default:
+      return optionalValue(readWord(key, node, path));
+    }
+  }
+
+  template <class T>
+  static std::optional<KeyValue> optionalValue(const std::optional<T>& value)
+  {
+    return value ? std::optional<KeyValue>(*value) : std::nullopt;
+  }
+
+  std::optional<Real> readNumber(const Key& key, const DeckNode& node, const std::string& path)
+  {
+    const auto value = node.kind == Kind::Scalar ? numberIn(node.text) : std::nullopt;
+    std::string problem;
+    if (!value)
+      problem = " is not a number";
+    else if (node.quoted)
+      problem = " is text in quotes, not a number; remove the quotes";
+    else if (!std::isfinite(*value))
+      problem = " is not a finite number";
+    else if ((key.lower && (*value < *key.lower || (key.lowerOpen && *value == *key.lower))) ||
+             (key.upper && (*value > *key.upper || (key.upperOpen && *value == *key.upper))))
+      problem = " is out of range";
+    if (problem.empty())
+      return value;
+    wrong(node, path, problem, acceptedText(key));
+    return std::nullopt;
+  }
+
+  std::optional<KeyValue> readInteger(const Key& key, const DeckNode& node, const std::string& path)
+  {
+    if (std::find(key.choices.begin(), key.choices.end(), node.text) != key.choices.end())
+      return 0; // the word stands for zero
+    int value = 0;
+    const char* end = node.text.data() + node.text.size();
+    const auto [stop, error] = std::from_chars(node.text.data(), end, value);
+    if (node.quoted || stop != end || error != std::errc())
+      wrong(node, path, " is not a whole number", acceptedText(key));
+    else if (key.lower && value < *key.lower)
+      wrong(node, path, " is out of range", acceptedText(key));
+    else
+      return value;
+    return std::nullopt;
+  }
+
+  std::optional<std::string> readWord(const Key& key, const DeckNode& node, const std::string& path)
+  {
+    const auto& words = key.choices;
+    if (node.kind != Kind::Scalar || node.text.empty())
+      wrong(node, path, " is not text", acceptedText(key));
+    else if (!words.empty() && std::find(words.begin(), words.end(), node.text) == words.end())
+      problems_.add(node, fmt::format("{} = {} is not known.{} Accepted: {}.", path, found(node),
+                                      didYouMean(node.text, words), acceptedText(key)));
+    else
+      return node.text;
+    return std::nullopt;
+  }
+
+  std::optional<TimeFunction> readTimeFunction(const Key& key, const DeckNode& node,
+                                               const std::string& path)
+  {
+    TimeFunction function;
+    function.where = node.where;
+    if (node.kind != Kind::Scalar || node.text.empty())
+    {
+      wrong(node, path, "", acceptedText(key));
+      return std::nullopt;
+    }
+    if (const auto number = numberIn(node.text))
+    {
+      if (!std::isfinite(*number))
+      {
+        wrong(node, path, " is not a finite number", acceptedText(key));
+        return std::nullopt;
+      }
+      function.constant = *number;
+      return function;
+    }
+    if (const auto problem = expressionProblem(node.text); !problem.empty())
+    {
+      wrong(node, path, fmt::format(" is not an expression of t ({})", problem), acceptedText(key));
+      return std::nullopt;
+    }
+    function.expression = node.text;
+    return function;
+  }
+
+  std::optional<KeyValue> readList(const Key& key, const DeckNode& node, const std::string& path)
+  {
+    if (node.kind != Kind::List || (key.length && node.items.size() != key.length))
+    {
+      wrong(node, path, "", acceptedText(key));
+      return std::nullopt;
+    }
+    std::vector<Real> numbers;
+    std::vector<std::string> words;
+    std::vector<TimeFunction> functions;
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+    {
+      const DeckNode& item = node.items[i];
+      const std::string here = fmt::format("{}.{}", path, i);
+      if (key.kind == KeyKind::Numbers)
+      {
+        if (const auto number = readNumber(oneOf(key, KeyKind::Number), item, here))
+          numbers.push_back(*number);
+      }
+      else if (key.kind == KeyKind::TimeFunctions)
+      {
+        if (const auto one = readTimeFunction(oneOf(key, KeyKind::TimeFunction), item, here))
+          functions.push_back(*one);
+      }
+      else if (const auto word = readWord(oneOf(key, KeyKind::Text), item, here))
+        words.push_back(*word);
+    }
+    if (numbers.size() + functions.size() + words.size() != node.items.size())
+      return std::nullopt; // reported
+    if (key.notAllZero &&
+        std::all_of(numbers.begin(), numbers.end(), [](Real v) { return v == 0; }))
+    {
+      wrong(node, path, " without direction", acceptedText(key));
+      return std::nullopt;
+    }
+    if (key.kind == KeyKind::Numbers)
+      return numbers;
+    if (key.kind == KeyKind::TimeFunctions)
+      return functions;
+    if (!key.choices.empty() &&
+        (words.empty() || std::set<std::string>(words.begin(), words.end()).size() < words.size()))
+    {
+      wrong(node, path, words.empty() ? " without items" : " with an item given twice",
+            acceptedText(key));
+      return std::nullopt;
+    }
+    return words;
+  }
+
+  /// What is accepted of one item of a list.
+  static Key oneOf(const Key& list, KeyKind kind)
+  {
+    Key key = list;
+    key.kind = kind;
+    return key;
+  }
+
+  Problems& problems_;
+};
+} // namespace
+
+std::string readDeckFile(const std::string& file)
+{
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    fail(ExitCode::Deck, "{}: this is a folder; accepted: a deck, which is a YAML file.", file);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf() || stream.peek() == EOF))
+    fail(ExitCode::Deck, "{}: the deck cannot be read ({}). Check the path and its permissions.",
+         file, std::generic_category().message(errno));
+  return text.str();
+}
+
+Deck parseDeck(const std::string& text, const std::string& file,
+               const std::vector<std::string>& overrides)
+{
+  Problems problems;
+  DeckNode root = parseYaml(text, file);
+  for (std::size_t i = 0; i < overrides.size(); ++i)
+    applyOverride(root, overrides[i], static_cast<int>(i), problems);
+
+  const std::filesystem::path path(file);
+  Deck deck;
+  deck.file = file;
+  deck.text = overrides.empty() ? text : toYaml(root);
+  deck.output.results = path.stem().string() + ".e";
+  deck.history.file = path.stem().string() + ".csv";
+  SchemaReader(problems).readGroup(deckSchema(), root, "", &deck);
+  if (const DeckNode* mesh = root.find("mesh"))
+    deck.meshWhere = mesh->where;
+  if (const DeckNode* blocks = root.find("blocks"))
+    deck.blocksWhere = blocks->where;
+  checkDeck(deck, root, problems);
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
+  deck.mesh = (path.parent_path() / deck.mesh).lexically_normal().string();
+  return deck;
+}
+
+Deck readDeck(const std::string& file, const std::vector<std::string>& overrides)
+{
+  return parseDeck(readDeckFile(file), file, overrides);
+}
+} // namespace coplane

@@ -1,0 +1,600 @@
+#include "SchemaBuilder.hpp"
+
+#include <algorithm>
+
+namespace coplane
+{
+using namespace schema;
+
+namespace
+{
+Key materials()
+{
+  return named("materials", &Deck::materials,
+               {
+                   text("model", &MaterialCard::model)
+                       .needed()
+                       .oneOf({"linear_elastic", "j2"})
+                       .means("law of the continuum")
+                       .like("j2"),
+                   number("density", &MaterialCard::density)
+                       .needed()
+                       .in("kg/m^3")
+                       .above(0)
+                       .means("mass per reference volume")
+                       .like("7850"),
+                   number("youngs_modulus", &MaterialCard::youngsModulus)
+                       .needed()
+                       .in("Pa")
+                       .above(0)
+                       .means("Young's modulus")
+                       .like("210e9"),
+                   number("poisson_ratio", &MaterialCard::poissonRatio)
+                       .needed()
+                       .in("-")
+                       .above(-1)
+                       .below(0.5)
+                       .means("Poisson's ratio")
+                       .like("0.3"),
+                   number("yield_stress", &MaterialCard::yieldStress)
+                       .onlyFor({"j2"})
+                       .needed()
+                       .in("Pa")
+                       .above(0)
+                       .means("uniaxial stress at first yield")
+                       .like("1e9"),
+                   number("hardening_modulus", &MaterialCard::hardeningModulus)
+                       .onlyFor({"j2"})
+                       .in("Pa")
+                       .atLeast(0)
+                       .like("1e9")
+                       .means("slope of the yield stress over equivalent plastic strain"),
+               })
+      .needed()
+      .decidedBy("model")
+      .means("laws of the continuum, by a name of your choice");
+}
+
+Key blocks()
+{
+  return named("blocks", &Deck::blocks,
+               {
+                   text("material", &BlockCard::material)
+                       .needed()
+                       .like("concrete")
+                       .means("name of a card in materials"),
+                   section("hourglass",
+                           {
+                               number("stiffness", &BlockCard::hourglassStiffness)
+                                   .in("-")
+                                   .atLeast(0)
+                                   .like("0.1")
+                                   .means("elastic resistance to hourglass modes"),
+                               number("viscosity", &BlockCard::hourglassViscosity)
+                                   .in("-")
+                                   .atLeast(0)
+                                   .like("0.02")
+                                   .means("viscous resistance to hourglass modes"),
+                           })
+                       .means("control of the zero-energy modes of one-point elements"),
+               })
+      .needed()
+      .means("element blocks of the mesh, by the names that the mesh gives them; all "
+             "blocks need a card");
+}
+
+Key joints()
+{
+  return named("joints", &Deck::joints,
+               {
+                   text("model", &JointCard::model)
+                       .oneOf({"penalty", "linear", "closure_curve"})
+                       .like("linear")
+                       .means("law of the plane: stiffness from the elements behind the faces, a "
+                              "given stiffness, or a hyperbola of the closure"),
+                   number("stiffness_fraction", &JointCard::stiffnessFraction)
+                       .onlyFor({"penalty"})
+                       .in("-")
+                       .above(0)
+                       .like("0.7")
+                       .means("normal stiffness over 1 / (h1/M1 + h2/M2), with thickness h and "
+                              "wave modulus M of the two elements"),
+                   number("normal_stiffness", &JointCard::normalStiffness)
+                       .onlyFor({"linear"})
+                       .needed()
+                       .in("Pa/m")
+                       .above(0)
+                       .means("traction per closure")
+                       .like("2e10"),
+                   number("initial_stiffness", &JointCard::initialStiffness)
+                       .onlyFor({"closure_curve"})
+                       .needed()
+                       .in("Pa/m")
+                       .above(0)
+                       .like("2e10")
+                       .means("slope of the closure curve at zero closure"),
+                   number("maximum_closure", &JointCard::maximumClosure)
+                       .onlyFor({"closure_curve"})
+                       .needed()
+                       .in("m")
+                       .above(0)
+                       .means("asymptote of the hyperbola")
+                       .like("5e-4"),
+                   number("stiffness_cap", &JointCard::stiffnessCap)
+                       .onlyFor({"closure_curve"})
+                       .in("Pa/m")
+                       .above(0)
+                       .defaultIs("0.5 M/h of the softer element")
+                       .like("3e11")
+                       .means("largest slope of the closure curve; at least initial_stiffness"),
+                   number("shear_stiffness", &JointCard::shearStiffness)
+                       .in("Pa/m")
+                       .atLeast(0)
+                       .defaultIs("shear_ratio times the normal stiffness")
+                       .like("5e9")
+                       .means("shear traction per slip"),
+                   number("shear_ratio", &JointCard::shearRatio)
+                       .in("-")
+                       .atLeast(0)
+                       .like("0.4")
+                       .means("shear stiffness over normal stiffness"),
+                   number("friction", &JointCard::friction)
+                       .in("-")
+                       .atLeast(0)
+                       .like("0.6")
+                       .means("tangent of the friction angle"),
+                   number("cohesion", &JointCard::cohesion)
+                       .in("Pa")
+                       .atLeast(0)
+                       .like("1e5")
+                       .means("shear strength without normal traction"),
+               })
+      .decidedBy("model")
+      .atMostOneOf({"shear_stiffness", "shear_ratio"})
+      .means("laws of the contact planes, by a name of your choice");
+}
+
+Key contactPairs()
+{
+  const auto takeBlocks = [](std::array<std::string, 2>& field, const std::vector<std::string>& v) {
+    field = {v[0], v[1]};
+  };
+  Key pairOfBlocks = bound<std::vector<std::string>>("blocks", KeyKind::Texts,
+                                                     &ContactPairCard::blocks, takeBlocks)
+                         .needed()
+                         .like("[bricks, \"*\"]")
+                         .means("two blocks, or one twice; \"*\" is any block");
+  pairOfBlocks.length = 2;
+  return list("pairs", &ContactCard::pairs,
+              {
+                  pairOfBlocks,
+                  text("joint", &ContactPairCard::joint)
+                      .like("dry")
+                      .defaultIs("contact.default_joint")
+                      .means("name of a card in joints"),
+                  flag("declared", &ContactPairCard::declared)
+                      .like("true")
+                      .means("closed and free of stress at t = 0 as built: initial gaps and "
+                             "overlaps are absorbed"),
+                  flag("excluded", &ContactPairCard::excluded)
+                      .like("true")
+                      .means("no contact between these blocks"),
+              })
+      .means("what acts between two blocks; the first item that fits a pair of blocks counts");
+}
+
+Key contact()
+{
+  // The preset comes first here, so that it is stored before keys that overrule it, wherever they
+  // stand in the deck.
+  const std::function<void(ContactCard&)> applyPreset = [](ContactCard& card)
+  {
+    if (card.preset != "seed")
+      return;
+    card.area = "full";
+    card.weights = "centroid";
+    card.closure = "incremental";
+  };
+  const auto takeInterval = [](int& field, int value) { field = value; };
+  const Key searchEvery =
+      bound<int>("search_every", KeyKind::Integer, &ContactCard::searchEvery, takeInterval)
+          .atLeast(1)
+          .oneOf({"once"})
+          .in("cycles")
+          .like("2")
+          .defaultIs(fmt::format("{}", ContactCard{}.searchEvery))
+          .means("largest number of cycles between searches; once: only at the start");
+  return group(
+             "contact", &Deck::contact,
+             {
+                 text("preset", &ContactCard::preset)
+                     .oneOf({"default", "seed"})
+                     .like("seed")
+                     .andThen(applyPreset)
+                     .means("seed sets area: full, weights: centroid, closure: incremental, as in "
+                            "the paper of 2006; these keys overrule it where they are given"),
+                 flag("enabled", &ContactCard::enabled).means("contact at all").like("false"),
+                 text("default_joint", &ContactCard::defaultJoint)
+                     .like("dry")
+                     .defaultIs("penalty without friction")
+                     .means("card in joints for all blocks that no item of pairs names"),
+                 contactPairs(),
+                 searchEvery,
+                 number("skin", &ContactCard::skin)
+                     .in("m")
+                     .above(0)
+                     .like("0.02")
+                     .defaultIs("0.1 (search_every once: 0.5) of the smallest face size")
+                     .means("distance within which a search takes pairs of faces"),
+                 text("area", &ContactCard::area)
+                     .oneOf({"penetrating", "full"})
+                     .like("full")
+                     .means("area of a plane: where the faces overlap, or all of the shadows"),
+                 text("weights", &ContactCard::weights)
+                     .oneOf({"pressure", "average", "centroid"})
+                     .like("average")
+                     .means("how a plane's force is shared among the nodes of its faces"),
+                 text("closure", &ContactCard::closure)
+                     .oneOf({"total", "incremental"})
+                     .like("incremental")
+                     .means("closure from positions, or summed up from velocities"),
+                 flag("couple", &ContactCard::couple)
+                     .like("false")
+                     .means("balance the moment of a plane's two forces exactly"),
+                 flag("area_rule", &ContactCard::areaRule)
+                     .like("false")
+                     .means("shear traction is diluted when the area grows"),
+                 flag("inherit", &ContactCard::inherit)
+                     .like("false")
+                     .means("a new plane takes over the history of its neighbours"),
+                 number("cos_opposed", &ContactCard::cosOpposed)
+                     .in("-")
+                     .atLeast(0)
+                     .below(1)
+                     .like("0.2")
+                     .means("faces are paired when n1.n2 < -cos_opposed"),
+                 number("depth_max", &ContactCard::depthMax)
+                     .in("-")
+                     .above(0)
+                     .atMost(1)
+                     .like("0.5")
+                     .means("largest overlap over the thinner element's thickness"),
+                 number("area_min", &ContactCard::areaMin)
+                     .in("-")
+                     .atLeast(0)
+                     .below(1)
+                     .like("1e-6")
+                     .means("least area of a plane over that of its smaller face"),
+                 section("damping",
+                         {
+                             number("normal", &ContactCard::dampNormal)
+                                 .in("-")
+                                 .atLeast(0)
+                                 .like("0.1")
+                                 .means("of closure, fraction of critical"),
+                             number("shear", &ContactCard::dampShear)
+                                 .in("-")
+                                 .atLeast(0)
+                                 .like("0.1")
+                                 .means("of slip, fraction of critical"),
+                         })
+                     .means("viscous damping on the planes"),
+             })
+      .means("Simple Common Plane contact between all exterior faces");
+}
+
+Key conditions()
+{
+  const auto takeComponents = [](std::array<bool, 3>& field, const std::vector<std::string>& words)
+  {
+    const auto has = [&](const char* word)
+    { return std::find(words.begin(), words.end(), word) != words.end(); };
+    field = {has("x"), has("y"), has("z")};
+  };
+  const auto takeOne = [](TimeFunction& field, const std::vector<TimeFunction>& v)
+  { field = v[0]; };
+  const auto takeThree = [](std::array<TimeFunction, 3>& field, const std::vector<TimeFunction>& v)
+  {
+    field = {v[0], v[1], v[2]};
+  };
+  Key velocity = bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunctions,
+                                                  &ConditionCard::velocity, takeThree)
+                     .onlyFor({"velocity"})
+                     .needed()
+                     .in("m/s")
+                     .like("[\"0.1*t\", 0, 0]")
+                     .means("velocity in x, y, z; 0 for components that are left free");
+  velocity.length = 3;
+  return list("conditions", &Deck::conditions,
+              {
+                  text("type", &ConditionCard::type)
+                      .needed()
+                      .oneOf({"fixed", "velocity", "symmetry", "pressure"})
+                      .like("fixed")
+                      .means("fixed: no motion; velocity: prescribed motion; symmetry: no motion "
+                             "along the normal; pressure: follows the moving faces"),
+                  text("node_set", &ConditionCard::set)
+                      .onlyFor({"fixed", "velocity", "symmetry"})
+                      .needed()
+                      .means("node set of the mesh")
+                      .like("base"),
+                  text("side_set", &ConditionCard::set)
+                      .onlyFor({"pressure"})
+                      .needed()
+                      .means("side set of the mesh")
+                      .like("top"),
+                  bound<std::vector<std::string>>("components", KeyKind::Texts,
+                                                  &ConditionCard::components, takeComponents)
+                      .onlyFor({"fixed", "velocity"})
+                      .oneOf({"x", "y", "z"})
+                      .like("[x]")
+                      .defaultIs("[x, y, z]")
+                      .means("axes along which the condition acts"),
+                  velocity,
+                  bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunction,
+                                                   &ConditionCard::pressure, takeOne)
+                      .onlyFor({"pressure"})
+                      .needed()
+                      .in("Pa")
+                      .like("\"1e5*min(t/0.01, 1)\"")
+                      .means("pressure; positive pushes into the body"),
+                  vector("normal", &ConditionCard::normal)
+                      .onlyFor({"symmetry"})
+                      .needed()
+                      .in("-")
+                      .notAllZero()
+                      .like("[0, 0, 1]")
+                      .means("normal of the plane, of any length"),
+              })
+      .decidedBy("type")
+      .means("boundary conditions; t is the time [s], _pi is 3.14159...");
+}
+
+Key initial()
+{
+  return list("initial", &Deck::initial,
+              {
+                  text("block", &InitialCard::block)
+                      .needed()
+                      .like("bar")
+                      .means("element block of the mesh"),
+                  vector("velocity", &InitialCard::velocity)
+                      .in("m/s")
+                      .like("[0, -35, 60.6]")
+                      .means("velocity of the point `center` of the block, a rigid body at t = 0"),
+                  vector("angular_velocity", &InitialCard::angularVelocity)
+                      .in("rad/s")
+                      .like("[0, 0, 2]")
+                      .means("spin of the block about `center`"),
+                  vector("center", &InitialCard::center)
+                      .in("m")
+                      .like("[1, 0, 0]")
+                      .means("point about which angular_velocity turns"),
+                  numbers("stress", &InitialCard::stress, 6)
+                      .in("Pa")
+                      .like("[-1e6, 0, 0, 0, 0, 0]")
+                      .means("xx, yy, zz, xy, yz, zx; tension is positive"),
+              })
+      .means("state of blocks at t = 0; at rest and free of stress where nothing is said");
+}
+
+Key timeGroup()
+{
+  return group("time", &Deck::time,
+               {
+                   number("end", &TimeCard::end)
+                       .needed()
+                       .in("s")
+                       .above(0)
+                       .like("0.041")
+                       .means("time at which the run ends"),
+                   number("step_factor", &TimeCard::stepFactor)
+                       .in("-")
+                       .above(0)
+                       .atMost(1)
+                       .like("0.9")
+                       .means("time step over the stable step"),
+                   number("maximum_step", &TimeCard::maximumStep)
+                       .in("s")
+                       .above(0)
+                       .defaultIs("no limit")
+                       .like("1e-5")
+                       .means("largest time step"),
+                   number("fixed_step", &TimeCard::fixedStep)
+                       .in("s")
+                       .above(0)
+                       .defaultIs("the step follows the stable step")
+                       .like("1e-6")
+                       .means("time step of all cycles"),
+                   number("energy_tolerance", &TimeCard::energyTolerance)
+                       .in("-")
+                       .above(0)
+                       .like("0.05")
+                       .means("the run stops when the energy balance is off by this fraction of "
+                              "the energy in play"),
+               })
+      .needed()
+      .atMostOneOf({"maximum_step", "fixed_step"})
+      .means("time and its steps");
+}
+
+Key output()
+{
+  const std::function<void(OutputCard&)> noneIsEmpty = [](OutputCard& card)
+  {
+    if (card.results == "none")
+      card.results.clear();
+  };
+  return group("output", &Deck::output,
+               {
+                   text("results", &OutputCard::results)
+                       .defaultIs("<name of the deck>.e")
+                       .andThen(noneIsEmpty)
+                       .like("wall.e")
+                       .means("Exodus file, relative to the working folder; none: no results"),
+                   number("every", &OutputCard::every)
+                       .in("s")
+                       .atLeast(0)
+                       .like("1e-3")
+                       .means("interval between results; 0: only at `times`, start and end"),
+                   numbers("times", &OutputCard::times)
+                       .in("s")
+                       .atLeast(0)
+                       .like("[0.0013, 0.002]")
+                       .means("times at which results are written besides"),
+                   flag("planes", &OutputCard::planes)
+                       .like("false")
+                       .means("contact planes as .pvd and .vtp beside the results"),
+                   flag("file_per_rank", &OutputCard::filePerRank)
+                       .like("true")
+                       .means("one results file for each rank instead of a shared one"),
+               })
+      .means("fields for ParaView");
+}
+
+Key history()
+{
+  return group("history", &Deck::history,
+               {
+                   text("file", &HistoryCard::file)
+                       .defaultIs("<name of the deck>.csv")
+                       .like("wall.csv")
+                       .means("CSV file, relative to the working folder"),
+                   number("every", &HistoryCard::every)
+                       .in("s")
+                       .atLeast(0)
+                       .like("1e-4")
+                       .means("interval between lines; 0: every cycle"),
+                   list("probes", &HistoryCard::probes,
+                        {
+                            text("name", &ProbeCard::name)
+                                .needed()
+                                .like("tip")
+                                .means("start of the column names; each once"),
+                            text("node_set", &ProbeCard::nodeSet)
+                                .like("tip")
+                                .means("mean motion of a node set of the mesh"),
+                            text("block", &ProbeCard::block)
+                                .like("bar")
+                                .means("mass-weighted mean motion of an element block"),
+                        })
+                       .exactlyOneOf({"node_set", "block"})
+                       .means("motions to be recorded"),
+               })
+      .means("energies, momenta and probes over time");
+}
+
+Key makeSchema()
+{
+  return section(
+      "", {
+              text("title", &Deck::title).means("for the records").like("Bar through a wall"),
+              text("mesh", &Deck::mesh)
+                  .needed()
+                  .like("wall.e")
+                  .means("Exodus file, relative to the folder of the deck"),
+              materials(),
+              blocks(),
+              joints(),
+              contact(),
+              conditions(),
+              initial(),
+              vector("gravity", &Deck::gravity)
+                  .in("m/s^2")
+                  .like("[0, -9.81, 0]")
+                  .means("acceleration of everything"),
+              section("damping",
+                      {
+                          number("mass", &Deck::massDamping)
+                              .in("1/s")
+                              .atLeast(0)
+                              .like("10")
+                              .means("alpha of the force -alpha m v on every node"),
+                          number("until", &Deck::massDampingUntil)
+                              .in("s")
+                              .above(0)
+                              .defaultIs("the end")
+                              .like("1.5")
+                              .means("time after which the damping is off"),
+                      })
+                  .means("damping of all motion, to find states of rest"),
+              section("viscosity",
+                      {
+                          number("linear", &Deck::viscosityLinear)
+                              .in("-")
+                              .atLeast(0)
+                              .like("0.1")
+                              .means("bulk viscosity b1, in compression"),
+                          number("quadratic", &Deck::viscosityQuadratic)
+                              .in("-")
+                              .atLeast(0)
+                              .like("1.2")
+                              .means("bulk viscosity b2, in compression"),
+                      })
+                  .means("bulk viscosity, which spreads shocks over a few elements"),
+              timeGroup(),
+              output(),
+              history(),
+              section("partition",
+                      {
+                          text("method", &Deck::partitionMethod)
+                              .oneOf({"multijagged", "rcb"})
+                              .like("rcb")
+                              .means("method of Zoltan2"),
+                      })
+                  .means("how elements are dealt out to ranks; the results do not depend on it"),
+          });
+}
+} // namespace
+
+bool Key::appliesTo(const std::string& model) const
+{
+  return models.empty() || std::find(models.begin(), models.end(), model) != models.end();
+}
+
+const Key& deckSchema()
+{
+  static const Key schema = makeSchema();
+  return schema;
+}
+
+std::string acceptedText(const Key& key)
+{
+  std::string range;
+  if (key.lower)
+    range += fmt::format(" {} {}", key.lowerOpen ? ">" : ">=", *key.lower);
+  if (key.upper)
+    range +=
+        fmt::format("{} {} {}", key.lower ? " and" : "", key.upperOpen ? "<" : "<=", *key.upper);
+  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+  const std::string words = fmt::format("{}", fmt::join(key.choices, ", "));
+  const std::string count = key.length ? fmt::format("{} ", key.length) : "";
+  switch (key.kind)
+  {
+  case KeyKind::Text:
+    return key.choices.empty() ? "text" : "one of " + words;
+  case KeyKind::Number:
+    return "a number" + range + unit;
+  case KeyKind::Integer:
+    return "a whole number" + range + unit + (words.empty() ? "" : " or " + words);
+  case KeyKind::Flag:
+    return "true or false";
+  case KeyKind::Numbers:
+    return fmt::format("a list of {}numbers{}{}{}", count, range,
+                       key.notAllZero ? ", not all zero" : "", unit);
+  case KeyKind::Texts:
+    return fmt::format("a list of {}names{}", count, words.empty() ? "" : " out of " + words);
+  case KeyKind::TimeFunction:
+    return "a number or an expression of t" + unit;
+  case KeyKind::TimeFunctions:
+    return fmt::format("a list of {}numbers or expressions of t{}", count, unit);
+  case KeyKind::Group:
+    return "keys with values";
+  case KeyKind::NamedGroups:
+    return "names, each with keys and values";
+  case KeyKind::GroupList:
+    return "a list of items with keys and values";
+  }
+  return "";
+}
+} // namespace coplane

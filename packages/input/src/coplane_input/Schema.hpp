@@ -1,0 +1,80 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+#include <coplane_input/Deck.hpp>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace coplane
+{
+/// What a key of the deck holds.
+enum class KeyKind
+{
+  Text,
+  Number,
+  Integer,
+  Flag,
+  Numbers,       ///< list of numbers
+  Texts,         ///< list of words
+  TimeFunction,  ///< a number or an expression of t
+  TimeFunctions, ///< a list of them
+  Group,         ///< keys
+  NamedGroups,   ///< names, each with the same keys
+  GroupList      ///< list of groups
+};
+
+using KeyValue = std::variant<bool, int, Real, std::string, std::vector<Real>,
+                              std::vector<std::string>, std::vector<TimeFunction>>;
+
+/// Keys of one group of which at most one, or exactly one, may be given.
+struct Alternatives
+{
+  std::vector<std::string> names;
+  bool oneNeeded = false;
+};
+
+/// One key of the deck: everything that is said about it anywhere is said here. The checks,
+/// --help-deck, the manual's page and the JSON Schema are made from it, and `store` or `enter`
+/// binds it to a field of Deck, so that no key can be without effect.
+struct Key
+{
+  std::string name;
+  KeyKind kind = KeyKind::Text;
+  std::string unit;        ///< "-" for a pure number, empty where no number is expected
+  std::string defaultText; ///< empty: none
+  std::string meaning;
+  std::string example;   ///< a value other than the default, as YAML
+  bool required = false; ///< among `models` when these are given
+  std::vector<std::string>
+      models; ///< only with these values of the group's discriminator; empty: always
+
+  // values
+  std::vector<std::string> choices; ///< Text, Texts: accepted words; Integer: words beside numbers
+  std::optional<Real> lower, upper;
+  bool lowerOpen = false, upperOpen = false; ///< the limit itself is refused
+  std::size_t length = 0;                    ///< of a list; 0: any
+  bool notAllZero = false;                   ///< Numbers: a direction
+  std::function<void(void* target, const KeyValue&)> store;
+
+  // groups
+  std::vector<Key> keys;
+  std::string discriminator; ///< the key (`model`, `type`) that decides which others there are
+  std::vector<Alternatives> alternatives;
+  /// The place in the Deck that the group's keys fill; lists grow by one item.
+  std::function<void*(void* target, const std::string& name, const std::string& where)> enter;
+
+  bool isGroup() const { return kind >= KeyKind::Group; }
+  bool appliesTo(const std::string& model) const;
+};
+
+/// The whole deck: a Group whose target is a Deck.
+const Key& deckSchema();
+
+/// What may be written: "a number > 0 [kg/m^3]", "linear_elastic or j2", "a list of 3 numbers
+/// [m/s]".
+std::string acceptedText(const Key& key);
+} // namespace coplane

@@ -1,0 +1,228 @@
+#pragma once
+
+#include <coplane_input/Schema.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace coplane::schema
+{
+// Words with which DeckSchema.cpp is written. A key's default is read from a default-made card, so
+// it is stated once, in Deck.hpp.
+
+/// A key under construction; every word returns it for the next.
+class KeyBuilder
+{
+public:
+  explicit KeyBuilder(Key key) : key_(std::move(key)) {}
+  operator Key() const { return key_; }
+
+  KeyBuilder& in(const std::string& unit) { return set(key_.unit, unit); }
+  KeyBuilder& means(const std::string& meaning) { return set(key_.meaning, meaning); }
+  KeyBuilder& like(const std::string& example) { return set(key_.example, example); }
+  KeyBuilder& defaultIs(const std::string& text) { return set(key_.defaultText, text); }
+  KeyBuilder& onlyFor(std::vector<std::string> models) { return set(key_.models, models); }
+  KeyBuilder& oneOf(std::vector<std::string> words) { return set(key_.choices, words); }
+  KeyBuilder& needed()
+  {
+    key_.required = true;
+    key_.defaultText.clear();
+    return *this;
+  }
+  KeyBuilder& above(Real limit) { return lower(limit, true); }
+  KeyBuilder& atLeast(Real limit) { return lower(limit, false); }
+  KeyBuilder& below(Real limit) { return upper(limit, true); }
+  KeyBuilder& atMost(Real limit) { return upper(limit, false); }
+
+  /// After the value is stored: something else in the same card that follows from it.
+  template <class Card>
+  KeyBuilder& andThen(std::function<void(Card&)> action)
+  {
+    key_.store = [store = key_.store, action](void* target, const KeyValue& value)
+    {
+      store(target, value);
+      action(*static_cast<Card*>(target));
+    };
+    return *this;
+  }
+
+  KeyBuilder& notAllZero() { return set(key_.notAllZero, true); }
+  KeyBuilder& decidedBy(const std::string& name) { return set(key_.discriminator, name); }
+  KeyBuilder& atMostOneOf(std::vector<std::string> names) { return alternatives(names, false); }
+  KeyBuilder& exactlyOneOf(std::vector<std::string> names) { return alternatives(names, true); }
+
+private:
+  template <class T>
+  KeyBuilder& set(T& field, const T& value)
+  {
+    field = value;
+    return *this;
+  }
+  KeyBuilder& lower(Real limit, bool open)
+  {
+    key_.lower = limit;
+    key_.lowerOpen = open;
+    return *this;
+  }
+  KeyBuilder& upper(Real limit, bool open)
+  {
+    key_.upper = limit;
+    key_.upperOpen = open;
+    return *this;
+  }
+  KeyBuilder& alternatives(const std::vector<std::string>& names, bool oneNeeded)
+  {
+    key_.alternatives.push_back({names, oneNeeded});
+    return *this;
+  }
+
+  Key key_;
+};
+
+inline std::string defaultOf(Real value)
+{
+  return fmt::format("{}", value);
+}
+inline std::string defaultOf(bool value)
+{
+  return value ? "true" : "false";
+}
+inline std::string defaultOf(const std::string& value)
+{
+  return value;
+}
+inline std::string defaultOf(const std::optional<Real>&)
+{
+  return "";
+}
+inline std::string defaultOf(const std::vector<Real>&)
+{
+  return "[]";
+}
+inline std::string defaultOf(const Vec3& v)
+{
+  return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
+}
+inline std::string defaultOf(const std::array<Real, 6>& v)
+{
+  return fmt::format("[{}]", fmt::join(v, ", "));
+}
+
+inline void assign(Vec3& field, const std::vector<Real>& v)
+{
+  field = {v[0], v[1], v[2]};
+}
+inline void assign(std::vector<Real>& field, const std::vector<Real>& v)
+{
+  field = v;
+}
+inline void assign(std::array<Real, 6>& field, const std::vector<Real>& v)
+{
+  std::copy(v.begin(), v.end(), field.begin());
+}
+
+/// A key whose value of type Value goes to a member of the card.
+template <class Value, class Card, class Field, class Assign>
+KeyBuilder bound(const std::string& name, KeyKind kind, Field Card::*member, Assign assignValue)
+{
+  Key key;
+  key.name = name;
+  key.kind = kind;
+  key.store = [member, assignValue](void* target, const KeyValue& value)
+  { assignValue(static_cast<Card*>(target)->*member, std::get<Value>(value)); };
+  return KeyBuilder(key);
+}
+
+const auto copyTo = [](auto& field, const auto& value) { field = value; };
+
+template <class Card, class Field> // Real or std::optional<Real>
+KeyBuilder number(const std::string& name, Field Card::*member)
+{
+  return bound<Real>(name, KeyKind::Number, member, copyTo).defaultIs(defaultOf(Card{}.*member));
+}
+
+template <class Card>
+KeyBuilder flag(const std::string& name, bool Card::*member)
+{
+  return bound<bool>(name, KeyKind::Flag, member, copyTo).defaultIs(defaultOf(Card{}.*member));
+}
+
+template <class Card>
+KeyBuilder text(const std::string& name, std::string Card::*member)
+{
+  return bound<std::string>(name, KeyKind::Text, member, copyTo)
+      .defaultIs(defaultOf(Card{}.*member));
+}
+
+template <class Card, class Field> // Vec3, std::array<Real, 6> or std::vector<Real>
+KeyBuilder numbers(const std::string& name, Field Card::*member, std::size_t length = 0)
+{
+  Key key = bound<std::vector<Real>>(name, KeyKind::Numbers, member,
+                                     [](auto& field, const auto& value) { assign(field, value); })
+                .defaultIs(defaultOf(Card{}.*member));
+  key.length = length;
+  return KeyBuilder(key);
+}
+
+template <class Card>
+KeyBuilder vector(const std::string& name, Vec3 Card::*member)
+{
+  return numbers(name, member, 3);
+}
+
+/// Keys in a group of their own whose target is the same card.
+inline KeyBuilder section(const std::string& name, std::vector<Key> keys)
+{
+  Key key;
+  key.name = name;
+  key.kind = KeyKind::Group;
+  key.keys = std::move(keys);
+  key.enter = [](void* target, const std::string&, const std::string&) { return target; };
+  return KeyBuilder(key);
+}
+
+/// Keys of a card that is a member of the card around it.
+template <class Outer, class Card>
+KeyBuilder group(const std::string& name, Card Outer::*member, std::vector<Key> keys)
+{
+  Key key = section(name, std::move(keys));
+  key.enter = [member](void* target, const std::string&, const std::string&) -> void*
+  { return &(static_cast<Outer*>(target)->*member); };
+  return KeyBuilder(key);
+}
+
+/// Cards with names: `steel: {...}`.
+template <class Outer, class Card>
+KeyBuilder named(const std::string& name, std::vector<Card> Outer::*member, std::vector<Key> keys)
+{
+  Key key = section(name, std::move(keys));
+  key.kind = KeyKind::NamedGroups;
+  key.enter = [member](void* target, const std::string& cardName, const std::string& where) -> void*
+  {
+    auto& cards = static_cast<Outer*>(target)->*member;
+    cards.emplace_back();
+    cards.back().name = cardName;
+    cards.back().where = where;
+    return &cards.back();
+  };
+  return KeyBuilder(key);
+}
+
+/// A list of cards: `- {...}`.
+template <class Outer, class Card>
+KeyBuilder list(const std::string& name, std::vector<Card> Outer::*member, std::vector<Key> keys)
+{
+  Key key = section(name, std::move(keys));
+  key.kind = KeyKind::GroupList;
+  key.enter = [member](void* target, const std::string&, const std::string& where) -> void*
+  {
+    auto& cards = static_cast<Outer*>(target)->*member;
+    cards.emplace_back();
+    cards.back().where = where;
+    return &cards.back();
+  };
+  return KeyBuilder(key);
+}
+} // namespace coplane::schema

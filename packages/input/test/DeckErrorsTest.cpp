@@ -1,0 +1,467 @@
+#include "TestDecks.hpp"
+
+namespace coplane
+{
+namespace
+{
+/// The least deck with its own text on line 5 and after.
+std::string errorWith(const std::string& lines)
+{
+  return errorOf(leastDeck + lines);
+}
+
+/// The least deck with a material of this content on line 6, from column 6 on.
+std::string errorOfMaterial(const std::string& content)
+{
+  return errorOf("mesh: wall.e\n"
+                 "blocks: {bar: {material: m}}\n"
+                 "time: {end: 1}\n"
+                 "\n"
+                 "materials:\n"
+                 "  m: {" +
+                 content + "}\n");
+}
+
+/// The least deck with a joint of this content on line 6, from column 6 on.
+std::string errorOfJoint(const std::string& content)
+{
+  return errorWith("joints:\n  j: {" + content + "}\n");
+}
+
+TEST(DeckErrors, theLeastDeckHasNone)
+{
+  EXPECT_EQ(errorOf(leastDeck), "no error");
+}
+
+TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
+{
+  EXPECT_EQ(errorOf("mesh: wall.e\n"
+                    "materials:\n"
+                    "  steel: {model: j3, density: -1, youngs_modulus: 200e9}\n"
+                    "blocks: {bar: {material: stel}}\n"
+                    "time: {end: 0}\n"
+                    "tilte: x\n"),
+            "wall.yaml:3:10: materials.steel.poisson_ratio is missing; accepted: a number > -1 and "
+            "< 0.5 [-]: Poisson's ratio.\n"
+            "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
+            "Accepted: one of linear_elastic, j2.\n"
+            "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
+            "0 [kg/m^3].\n"
+            "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
+            "'steel'? There is: steel.\n"
+            "wall.yaml:5:13: time.end = '0' is out of range; accepted: a number > 0 [s].\n"
+            "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
+            "time, output, history, partition.");
+}
+
+TEST(DeckErrors, anUnknownKeyBringsASuggestion)
+{
+  EXPECT_EQ(errorWith("damping: {mas: 1}\n"),
+            "wall.yaml:5:11: damping.mas is not known. Did you mean 'mass'? Accepted here: mass, "
+            "until.");
+}
+
+TEST(DeckErrors, aKeyInTheWrongPlaceIsToldItsPlace)
+{
+  EXPECT_EQ(errorWith("damping: {fixed_step: 1}\n"),
+            "wall.yaml:5:11: damping.fixed_step is not known. Its place is time.fixed_step. "
+            "Accepted here: mass, until.");
+}
+
+TEST(DeckErrors, aKeyGivenTwice)
+{
+  EXPECT_EQ(errorWith("damping:\n  mass: 1\n  mass: 2\n"),
+            "wall.yaml:7:3: damping.mass is given twice, first at wall.yaml:6:3; keep one of "
+            "them.");
+}
+
+TEST(DeckErrors, anUnknownKeyGivenTwiceIsStillUnknown)
+{
+  EXPECT_EQ(errorWith("damping: {a: 1, a: 2}\n"),
+            "wall.yaml:5:11: damping.a is not known. Accepted here: mass, until.\n"
+            "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
+            "wall.yaml:5:17: damping.a is not known. Accepted here: mass, until.");
+}
+
+TEST(DeckErrors, aNameGivenTwice)
+{
+  EXPECT_EQ(errorWith("joints:\n  a: {friction: 1}\n  a: {friction: 2}\n"),
+            "wall.yaml:7:3: joints.a is given twice, first at wall.yaml:6:3; keep one of them.");
+}
+
+TEST(DeckErrors, aMerge)
+{
+  EXPECT_EQ(errorWith("joints:\n  a: &a {friction: 1}\n  b: {<<: *a}\n"),
+            "wall.yaml:7:7: joints.b.<< is a merge of YAML 1.1, which decks do not have; write the "
+            "keys out.");
+}
+
+TEST(DeckErrors, aKeyThatIsNoWord)
+{
+  EXPECT_EQ(errorWith("damping: {[1, 2]: 3}\n"),
+            "wall.yaml:5:11: a key in damping is a list of 2; accepted: a word.");
+}
+
+TEST(DeckErrors, textForANumber)
+{
+  EXPECT_EQ(errorWith("damping: {mass: 10 1/s}\n"),
+            "wall.yaml:5:17: damping.mass = '10 1/s' is not a number; accepted: a number >= 0 "
+            "[1/s].");
+}
+
+TEST(DeckErrors, aNumberInQuotes)
+{
+  EXPECT_EQ(errorWith("damping: {mass: \"10\"}\n"),
+            "wall.yaml:5:17: damping.mass = \"10\" is text in quotes, not a number; remove the "
+            "quotes; accepted: a number >= 0 [1/s].");
+}
+
+TEST(DeckErrors, aNumberThatIsNotFinite)
+{
+  for (const std::string text : {"nan", "inf", "-inf", ".inf", ".nan", "1e999"})
+    EXPECT_EQ(errorWith("damping: {mass: " + text + "}\n"),
+              "wall.yaml:5:17: damping.mass = '" + text +
+                  "' is not a finite number; accepted: a number >= 0 [1/s].");
+}
+
+TEST(DeckErrors, aKeyWithoutValue)
+{
+  EXPECT_EQ(errorWith("damping: {mass: }\n"),
+            "wall.yaml:5:17: damping.mass = nothing; accepted: a number >= 0 [1/s].");
+}
+
+TEST(DeckErrors, aGroupWhereAValueBelongs)
+{
+  EXPECT_EQ(errorWith("title: {a: 1}\n"),
+            "wall.yaml:5:8: title = a group of keys; accepted: text.");
+}
+
+TEST(DeckErrors, aValueWhereAGroupBelongs)
+{
+  EXPECT_EQ(errorWith("damping: 3\n"),
+            "wall.yaml:5:10: damping = '3'; accepted: keys with values.");
+}
+
+TEST(DeckErrors, aMapWhereAListBelongs)
+{
+  EXPECT_EQ(errorWith("initial: {block: bar}\n"),
+            "wall.yaml:5:10: initial = a group of keys; accepted: a list of items with keys and "
+            "values.");
+}
+
+TEST(DeckErrors, aListWhereNamesBelong)
+{
+  EXPECT_EQ(errorWith("joints: [{friction: 1}]\n"),
+            "wall.yaml:5:9: joints = a list of 1; accepted: names, each with keys and values.");
+}
+
+TEST(DeckErrors, aFlagThatIsNeitherTrueNorFalse)
+{
+  EXPECT_EQ(errorWith("contact: {couple: yes}\n"),
+            "wall.yaml:5:19: contact.couple = 'yes' is not a flag; accepted: true or false.");
+}
+
+TEST(DeckErrors, aVectorOfTwoNumbers)
+{
+  EXPECT_EQ(errorWith("gravity: [0, 1]\n"),
+            "wall.yaml:5:10: gravity = a list of 2; accepted: a list of 3 numbers [m/s^2].");
+}
+
+TEST(DeckErrors, anItemOfAVectorThatIsNoNumber)
+{
+  EXPECT_EQ(errorWith("gravity: [0, g, 0]\n"),
+            "wall.yaml:5:14: gravity.1 = 'g' is not a number; accepted: a number [m/s^2].");
+}
+
+TEST(DeckErrors, aSearchIntervalOfZero)
+{
+  EXPECT_EQ(errorWith("contact: {search_every: 0}\n"),
+            "wall.yaml:5:25: contact.search_every = '0' is out of range; accepted: a whole number "
+            ">= 1 [cycles] or once.");
+}
+
+TEST(DeckErrors, aSearchIntervalThatIsNotWhole)
+{
+  EXPECT_EQ(errorWith("contact: {search_every: 1.5}\n"),
+            "wall.yaml:5:25: contact.search_every = '1.5' is not a whole number; accepted: a whole "
+            "number >= 1 [cycles] or once.");
+}
+
+TEST(DeckErrors, aComponentGivenTwice)
+{
+  EXPECT_EQ(errorWith("conditions: [{type: fixed, node_set: a, components: [x, x]}]\n"),
+            "wall.yaml:5:53: conditions.0.components = a list of 2 with an item given twice; "
+            "accepted: a list of names out of x, y, z.");
+}
+
+TEST(DeckErrors, modulesDensitiesAndRatiosOutOfRange)
+{
+  EXPECT_EQ(errorOfMaterial("model: j2, density: 0, youngs_modulus: -1, poisson_ratio: 0.5, "
+                            "yield_stress: 0, hardening_modulus: -1"),
+            "wall.yaml:6:27: materials.m.density = '0' is out of range; accepted: a number > 0 "
+            "[kg/m^3].\n"
+            "wall.yaml:6:46: materials.m.youngs_modulus = '-1' is out of range; accepted: a number "
+            "> 0 [Pa].\n"
+            "wall.yaml:6:65: materials.m.poisson_ratio = '0.5' is out of range; accepted: a number "
+            "> -1 and < 0.5 [-].\n"
+            "wall.yaml:6:84: materials.m.yield_stress = '0' is out of range; accepted: a number > "
+            "0 [Pa].\n"
+            "wall.yaml:6:106: materials.m.hardening_modulus = '-1' is out of range; accepted: a "
+            "number >= 0 [Pa].");
+}
+
+TEST(DeckErrors, aKeyOfAnotherModel)
+{
+  EXPECT_EQ(errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
+                            "poisson_ratio: 0, yield_stress: 1"),
+            "wall.yaml:6:78: materials.m.yield_stress belongs to model: j2, but model is "
+            "linear_elastic here; remove it or change model.");
+}
+
+TEST(DeckErrors, aKeyThatTheModelNeeds)
+{
+  EXPECT_EQ(errorOfMaterial("model: j2, density: 1, youngs_modulus: 1, poisson_ratio: 0"),
+            "wall.yaml:6:6: materials.m.yield_stress is missing (model: j2 needs it); accepted: a "
+            "number > 0 [Pa]: uniaxial stress at first yield.");
+}
+
+TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
+{
+  EXPECT_EQ(errorOfMaterial("density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1"),
+            "wall.yaml:6:6: materials.m.model is missing; accepted: one of linear_elastic, j2: law "
+            "of the continuum.");
+}
+
+TEST(DeckErrors, aJointWithoutModelIsAPenalty)
+{
+  EXPECT_EQ(errorOfJoint("normal_stiffness: 1"),
+            "wall.yaml:6:7: joints.j.normal_stiffness belongs to model: linear, but model is "
+            "penalty here; remove it or change model.");
+}
+
+TEST(DeckErrors, aStiffnessCapBelowTheInitialStiffness)
+{
+  EXPECT_EQ(errorOfJoint("model: closure_curve, initial_stiffness: 2e10, maximum_closure: 1e-4, "
+                         "stiffness_cap: 1e10"),
+            "wall.yaml:6:92: joints.j.stiffness_cap = 10000000000 Pa/m is below initial_stiffness "
+            "= 20000000000 Pa/m; accepted: at least that.");
+}
+
+TEST(DeckErrors, shearStiffnessAndItsRatio)
+{
+  EXPECT_EQ(errorOfJoint("shear_stiffness: 1, shear_ratio: 1"),
+            "wall.yaml:6:40: joints.j.shear_stiffness and joints.j.shear_ratio exclude each other; "
+            "keep one of them.");
+}
+
+TEST(DeckErrors, fixedAndMaximumStep)
+{
+  EXPECT_EQ(errorOf("mesh: wall.e\n"
+                    "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
+                    "poisson_ratio: 0}}\n"
+                    "blocks: {bar: {material: steel}}\n"
+                    "time:\n"
+                    "  end: 1\n"
+                    "  fixed_step: 1e-6\n"
+                    "  maximum_step: 1e-6\n"),
+            "wall.yaml:6:15: time.maximum_step and time.fixed_step exclude each other; keep one of "
+            "them.");
+}
+
+TEST(DeckErrors, requiredKeysThatAreMissing)
+{
+  EXPECT_EQ(errorOf("title: x\n"),
+            "wall.yaml:1:1: mesh is missing; accepted: text: Exodus file, relative to the folder "
+            "of the deck.\n"
+            "wall.yaml:1:1: materials is missing; accepted: names, each with keys and values: laws "
+            "of the continuum, by a name of your choice.\n"
+            "wall.yaml:1:1: blocks is missing; accepted: names, each with keys and values: element "
+            "blocks of the mesh, by the names that the mesh gives them; all blocks need a card.\n"
+            "wall.yaml:1:1: time is missing; accepted: keys with values: time and its steps.");
+}
+
+TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
+{
+  EXPECT_EQ(errorWith("history: {probes: [{name: a}, {name: b, block: c, node_set: d}]}\n"),
+            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block.\n"
+            "wall.yaml:5:48: history.probes.1.node_set and history.probes.1.block exclude each "
+            "other; keep one of them.");
+}
+
+TEST(DeckErrors, twoProbesOfOneName)
+{
+  EXPECT_EQ(errorWith("history: {probes: [{name: a, block: b}, {name: a, block: c}]}\n"),
+            "wall.yaml:5:48: history.probes.1.name = 'a' is taken; accepted: each name once.");
+}
+
+TEST(DeckErrors, twoInitialStatesOfOneBlock)
+{
+  EXPECT_EQ(errorWith("initial: [{block: b}, {block: b}]\n"),
+            "wall.yaml:5:31: initial.1.block = 'b' has a card already; accepted: one for each "
+            "block.");
+}
+
+TEST(DeckErrors, jointsThatDoNotExist)
+{
+  EXPECT_EQ(errorWith("joints: {dry: {friction: 1}}\n"
+                      "contact:\n"
+                      "  default_joint: dri\n"
+                      "  pairs: [{blocks: [a, b], joint: wet}]\n"),
+            "wall.yaml:7:18: contact.default_joint = 'dri' is not a card in joints. Did you mean "
+            "'dry'? There is: dry.\n"
+            "wall.yaml:8:35: contact.pairs.0.joint = 'wet' is not a card in joints. There is: "
+            "dry.");
+}
+
+TEST(DeckErrors, aPairThatAnEarlierOneCovers)
+{
+  EXPECT_EQ(errorWith("contact: {pairs: [{blocks: [\"*\", a], declared: true}, {blocks: [a, b], "
+                      "excluded: true}]}\n"),
+            "wall.yaml:5:64: contact.pairs.1.blocks is covered already by contact.pairs.0; the "
+            "first item that fits counts. Remove this one or put it first.");
+}
+
+TEST(DeckErrors, anExcludedPairWithAJoint)
+{
+  EXPECT_EQ(errorWith("joints: {dry: {friction: 1}}\n"
+                      "contact: {pairs: [{blocks: [a, b], joint: dry, excluded: true}]}\n"),
+            "wall.yaml:6:58: contact.pairs.0.excluded: true leaves contact.pairs.0.joint without "
+            "effect; remove one of them.");
+}
+
+TEST(DeckErrors, aSymmetryWithoutDirection)
+{
+  EXPECT_EQ(errorWith("conditions: [{type: symmetry, node_set: a, normal: [0, 0, 0.0]}]\n"),
+            "wall.yaml:5:52: conditions.0.normal = a list of 3 without direction; accepted: a list "
+            "of 3 numbers, not all zero [-].");
+}
+
+TEST(DeckErrors, aVelocityOfAComponentThatIsFree)
+{
+  EXPECT_EQ(errorWith("conditions: [{type: velocity, node_set: a, components: [x], value: [1, 2, "
+                      "0]}]\n"),
+            "wall.yaml:5:72: conditions.0.value.1 has no effect because conditions.0.components "
+            "does not have y; write 0 or add y to components.");
+}
+
+TEST(DeckErrors, aWrongExpression)
+{
+  EXPECT_EQ(errorWith("conditions: [{type: pressure, side_set: a, value: \"2*sn(t)\"}]\n"),
+            "wall.yaml:5:51: conditions.0.value = \"2*sn(t)\" is not an expression of t "
+            "(Unexpected token \"sn(t)\" found at position 2); accepted: a number or an expression "
+            "of t [Pa].");
+}
+
+TEST(DeckErrors, wrongYaml)
+{
+  EXPECT_EQ(errorOf("mesh: wall.e\ntime: {end: 1\n"),
+            "wall.yaml:3:1: this is not YAML: end of map flow not found. Look at this line and the "
+            "one before for a missing colon, bracket or quote, or a wrong indentation.");
+}
+
+TEST(DeckErrors, anEmptyDeck)
+{
+  for (const std::string text : {"", "\n\n", "# only a remark\n", "---\n", "~\n"})
+    EXPECT_EQ(errorOf(text), "wall.yaml: the deck is empty; it needs at least mesh, materials, "
+                             "blocks and time. See --help-deck.");
+}
+
+TEST(DeckErrors, aDeckThatIsAList)
+{
+  EXPECT_EQ(errorOf("- mesh: wall.e\n"),
+            "wall.yaml:1:1: the deck is a list; accepted: keys with values, such as 'mesh: "
+            "wall.e'. See --help-deck.");
+}
+
+TEST(DeckErrors, twoDocuments)
+{
+  EXPECT_EQ(errorOf("mesh: a\n---\nmesh: b\n"),
+            "wall.yaml:3:1: the file has 2 documents; a deck is one. Remove the lines '---'.");
+}
+
+TEST(DeckErrors, anAliasOfItself)
+{
+  EXPECT_EQ(errorWith("initial: &a [*a]\n"),
+            "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
+            "accepted: 50 levels and a million values. Write the values out.");
+}
+
+TEST(DeckErrors, aDeckThatDoesNotExist)
+{
+  try
+  {
+    readDeck("no/such/deck.yaml");
+    FAIL() << "no error";
+  }
+  catch (const Error& e)
+  {
+    EXPECT_EQ(e.code(), ExitCode::Deck);
+    EXPECT_STREQ(e.what(), "no/such/deck.yaml: the deck cannot be read (No such file or "
+                           "directory). Check the path and its permissions.");
+  }
+}
+
+TEST(DeckErrors, aFolderForADeck)
+{
+  try
+  {
+    readDeck("/");
+    FAIL() << "no error";
+  }
+  catch (const Error& e)
+  {
+    EXPECT_STREQ(e.what(), "/: this is a folder; accepted: a deck, which is a YAML file.");
+  }
+}
+
+TEST(DeckSetErrors, anAssignmentWithoutEqualsSign)
+{
+  EXPECT_EQ(errorOf(leastDeck, {"time.end"}),
+            "--set time.end: is not an assignment; accepted: path=value, such as time.end=0.1 or "
+            "conditions.0.value=[1, 0, 0].");
+}
+
+TEST(DeckSetErrors, anUnknownKey)
+{
+  EXPECT_EQ(errorOf(leastDeck, {"time.and=3"}),
+            "--set time.and=3: time.and is not known. Did you mean 'end'? Accepted here: end, "
+            "step_factor, maximum_step, fixed_step, energy_tolerance.");
+}
+
+TEST(DeckSetErrors, aWrongValueNamesTheSetAndNotTheFile)
+{
+  EXPECT_EQ(errorOf(leastDeck, {"time.end=soon"}),
+            "--set time.end=soon: time.end = 'soon' is not a number; accepted: a number > 0 [s].");
+}
+
+TEST(DeckSetErrors, anItemThatTheListDoesNotHave)
+{
+  EXPECT_EQ(errorOf(leastDeck + "gravity: [0, 0, 0]\n", {"gravity.3=1"}),
+            "--set gravity.3=1: '3' is no item of gravity, which has 3; accepted: a whole number, "
+            "the first item is 0.");
+}
+
+TEST(DeckSetErrors, aKeyOfAValue)
+{
+  EXPECT_EQ(errorOf(leastDeck, {"mesh.name=1"}),
+            "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.");
+}
+
+TEST(DeckSetErrors, aValueThatIsNotYaml)
+{
+  EXPECT_EQ(errorOf(leastDeck, {"gravity=[1, 2"}),
+            "--set gravity=[1, 2: the value is not YAML: end of sequence flow not found.");
+}
+
+TEST(DeckSetErrors, comeAfterThoseOfTheFile)
+{
+  EXPECT_EQ(errorOf(leastDeck + "titel: x\n", {"mesh.name=1", "time.end=-1"}),
+            "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
+            "time, output, history, partition.\n"
+            "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"
+            "--set time.end=-1: time.end = '-1' is out of range; accepted: a number > 0 [s].");
+}
+} // namespace
+} // namespace coplane

@@ -1,0 +1,231 @@
+#include "TestDecks.hpp"
+
+#include <coplane_input/Schema.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+
+namespace coplane
+{
+namespace
+{
+// A deck with one card of each model, so that each key has a place. Cards are named after their
+// models.
+const std::string deckOfAllModels = R"(mesh: a.e
+materials:
+  linear_elastic: {model: linear_elastic, density: 1, youngs_modulus: 1, poisson_ratio: 0}
+  j2: {model: j2, density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1}
+  concrete: {model: linear_elastic, density: 1, youngs_modulus: 1, poisson_ratio: 0}
+blocks:
+  a: {material: j2}
+joints:
+  penalty: {model: penalty}
+  linear: {model: linear, normal_stiffness: 1}
+  closure_curve: {model: closure_curve, initial_stiffness: 1, maximum_closure: 1}
+  dry: {}
+contact:
+  pairs: [{blocks: [a, b]}]
+conditions:
+  - {type: symmetry, node_set: a, normal: [1, 0, 0]}
+  - {type: velocity, node_set: a, value: [0, 0, 0]}
+  - {type: pressure, side_set: a, value: 0}
+  - {type: fixed, node_set: a}
+initial: [{block: a}]
+time: {end: 1}
+history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
+)";
+
+void show(std::string& out, const std::string& value)
+{
+  out += "'" + value + "' ";
+}
+void show(std::string& out, Real value)
+{
+  out += fmt::format("{} ", value);
+}
+void show(std::string& out, int value)
+{
+  out += fmt::format("{} ", value);
+}
+void show(std::string& out, bool value)
+{
+  out += fmt::format("{} ", value);
+}
+void show(std::string& out, const std::optional<Real>& v)
+{
+  out += v ? fmt::format("{} ", *v) : "- ";
+}
+void show(std::string& out, const Vec3& v)
+{
+  out += fmt::format("[{} {} {}] ", v.x, v.y, v.z);
+}
+void show(std::string& out, const TimeFunction& f)
+{
+  out += fmt::format("'{}'|{} ", f.expression, f.constant);
+}
+template <class T, std::size_t n>
+void show(std::string& out, const std::array<T, n>& values)
+{
+  for (const auto& value : values)
+    show(out, value);
+}
+template <class... T>
+void showAll(std::string& out, const T&... values)
+{
+  (show(out, values), ...);
+  out += "\n";
+}
+
+/// All fields of a deck that keys fill. A key whose field is not here fails the test below.
+std::string show(const Deck& d)
+{
+  std::string out;
+  showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
+          d.massDampingUntil, d.partitionMethod);
+  for (const auto& m : d.materials)
+    showAll(out, m.name, m.model, m.density, m.youngsModulus, m.poissonRatio, m.yieldStress,
+            m.hardeningModulus);
+  for (const auto& b : d.blocks)
+    showAll(out, b.name, b.material, b.hourglassStiffness, b.hourglassViscosity);
+  for (const auto& j : d.joints)
+    showAll(out, j.name, j.model, j.stiffnessFraction, j.normalStiffness, j.initialStiffness,
+            j.maximumClosure, j.stiffnessCap, j.shearStiffness, j.shearRatio, j.friction,
+            j.cohesion);
+  const auto& c = d.contact;
+  showAll(out, c.enabled, c.preset, c.area, c.weights, c.closure, c.couple, c.areaRule, c.inherit,
+          c.cosOpposed, c.depthMax, c.areaMin, c.skin, c.searchEvery, c.dampNormal, c.dampShear,
+          c.defaultJoint);
+  for (const auto& p : c.pairs)
+    showAll(out, p.blocks, p.joint, p.declared, p.excluded);
+  for (const auto& k : d.conditions)
+    showAll(out, k.type, k.set, k.components, k.velocity, k.normal, k.pressure);
+  for (const auto& i : d.initial)
+    showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.stress);
+  showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
+          d.time.energyTolerance);
+  showAll(out, d.output.results, d.output.every, d.output.planes, d.output.filePerRank);
+  for (const Real t : d.output.times)
+    showAll(out, t);
+  showAll(out, d.history.file, d.history.every);
+  for (const auto& p : d.history.probes)
+    showAll(out, p.name, p.nodeSet, p.block);
+  return out;
+}
+
+struct Leaf
+{
+  std::string path; // in deckOfAllModels
+  Key key;
+};
+
+/// The card of deckOfAllModels that has room for a key: of its model where it has one.
+std::string cardFor(const Key& group, const Key& key)
+{
+  if (group.kind == KeyKind::Group)
+    return "";
+  if (group.name == "blocks")
+    return ".a";
+  if (group.name == "materials")
+    return key.models.empty() ? ".concrete" : "." + key.models[0];
+  if (group.name == "joints")
+    return key.models.empty() ? ".dry" : "." + key.models[0];
+  if (group.name == "conditions")
+    return key.appliesTo("pressure")   ? ".2"
+           : key.appliesTo("fixed")    ? ".3"
+           : key.appliesTo("velocity") ? ".1"
+                                       : ".0";
+  return key.name == "block" && group.name == "probes" ? ".1" : ".0";
+}
+
+/// All keys with values but those that decide about others: each value of these is in
+/// deckOfAllModels.
+void collect(const Key& group, const std::string& path, std::vector<Leaf>& leaves)
+{
+  for (const auto& key : group.keys)
+  {
+    const std::string here = path + (path.empty() ? "" : cardFor(group, key) + ".") + key.name;
+    if (key.isGroup())
+      collect(key, here, leaves);
+    else if (key.name != group.discriminator)
+      leaves.push_back({here, key});
+  }
+}
+
+TEST(DeckKeys, eachKeyActsOnTheDeck)
+{
+  std::vector<Leaf> leaves;
+  collect(
+      deckSchema(), [](const Key& key) { return key.name; }, leaves);
+  EXPECT_GT(leaves.size(), 60u); // the walk does find the schema
+  const std::string before = show(parseDeck(deckOfAllModels, "x.yaml"));
+  for (const auto& [path, key] : leaves)
+  {
+    const std::string assignment = path + "=" + key.example;
+    try
+    {
+      EXPECT_NE(before, show(parseDeck(deckOfAllModels, "x.yaml", {assignment}))) << assignment;
+    }
+    catch (const Error& e)
+    {
+      ADD_FAILURE() << assignment << " is refused: " << e.what();
+    }
+  }
+}
+
+TEST(DeckKeys, modelsAndTypesActOnTheDeck)
+{
+  const Deck deck = parseDeck(deckOfAllModels, "x.yaml");
+  EXPECT_EQ(deck.materials[0].model, "linear_elastic");
+  EXPECT_EQ(deck.materials[1].model, "j2");
+  EXPECT_EQ(deck.joints[0].model, "penalty");
+  EXPECT_EQ(deck.joints[1].model, "linear");
+  EXPECT_EQ(deck.joints[2].model, "closure_curve");
+  EXPECT_EQ(deck.conditions[0].type, "symmetry");
+  EXPECT_EQ(deck.conditions[1].type, "velocity");
+  EXPECT_EQ(deck.conditions[2].type, "pressure");
+  EXPECT_EQ(deck.conditions[3].type, "fixed");
+}
+
+void eachKey(const Key& group, const std::function<void(const Key& group, const Key& key)>& action)
+{
+  for (const auto& key : group.keys)
+  {
+    action(group, key);
+    eachKey(key, action);
+  }
+}
+
+TEST(DeckKeys, eachKeyIsDocumented)
+{
+  eachKey(deckSchema(),
+          [](const Key&, const Key& key)
+          {
+            EXPECT_FALSE(key.meaning.empty()) << key.name;
+            EXPECT_TRUE(key.isGroup() || !key.example.empty()) << key.name;
+            const bool number = key.kind == KeyKind::Number || key.kind == KeyKind::Integer ||
+                                key.kind == KeyKind::Numbers || key.kind == KeyKind::TimeFunction ||
+                                key.kind == KeyKind::TimeFunctions;
+            EXPECT_EQ(number, !key.unit.empty()) << key.name << " [" << key.unit << "]";
+          });
+}
+
+TEST(DeckKeys, modelsOfAKeyAreChoicesOfItsGroup)
+{
+  eachKey(deckSchema(),
+          [](const Key& group, const Key& key)
+          {
+            for (const auto& model : key.models)
+            {
+              bool known = false;
+              for (const auto& other : group.keys)
+                if (other.name == group.discriminator)
+                  for (const auto& word : other.choices)
+                    known = known || word == model;
+              EXPECT_TRUE(known) << group.name << "." << key.name << ": " << model;
+            }
+          });
+}
+} // namespace
+} // namespace coplane

@@ -1,0 +1,72 @@
+#include <coplane_input/DeckReference.hpp>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace coplane
+{
+namespace
+{
+nlohmann::json schema()
+{
+  return nlohmann::json::parse(deckJsonSchema());
+}
+
+TEST(DeckReferenceText, showsPathTypeUnitDefaultAndMeaning)
+{
+  const std::string text = deckReferenceText();
+  EXPECT_NE(text.find("time.step_factor\n"
+                      "    a number > 0 and <= 1 [-]; default: 0.8\n"
+                      "    time step over the stable step. Example: 0.9\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(DeckReferenceText, saysForWhichModelAKeyIs)
+{
+  EXPECT_NE(deckReferenceText().find("materials.<name>.yield_stress   (model: j2)\n"
+                                     "    a number > 0 [Pa]; required\n"),
+            std::string::npos);
+}
+
+TEST(DeckReferenceMarkdown, hasATableForEachGroup)
+{
+  const std::string text = deckReferenceMarkdown();
+  EXPECT_NE(text.find("## `contact.damping`\n\nViscous damping on the planes.\n\n"
+                      "| Key | Accepted | Default | Meaning | Example |\n|---|---|---|---|---|\n"
+                      "| `normal` | a number \\>= 0 [-] | 0 | of closure, fraction of critical | "
+                      "`0.1` |\n"),
+            std::string::npos)
+      << text;
+}
+
+TEST(DeckJsonSchema, requiresWhatTheReaderRequires)
+{
+  EXPECT_EQ(schema()["required"], (nlohmann::json{"mesh", "materials", "blocks", "time"}));
+}
+
+TEST(DeckJsonSchema, refusesUnknownKeys)
+{
+  EXPECT_EQ(schema()["additionalProperties"], false);
+  EXPECT_EQ(schema()["properties"]["materials"]["additionalProperties"]["additionalProperties"],
+            false);
+}
+
+TEST(DeckJsonSchema, hasTheRangeOfANumber)
+{
+  const auto ratio =
+      schema()["properties"]["materials"]["additionalProperties"]["properties"]["poisson_ratio"];
+  EXPECT_EQ(ratio["type"], "number");
+  EXPECT_EQ(ratio["exclusiveMinimum"], -1);
+  EXPECT_EQ(ratio["exclusiveMaximum"], 0.5);
+}
+
+TEST(DeckJsonSchema, givesAModelItsKeysAndTakesThemFromTheOthers)
+{
+  const auto rules = schema()["properties"]["materials"]["additionalProperties"]["allOf"];
+  ASSERT_EQ(rules.size(), 2u); // linear_elastic, j2
+  EXPECT_EQ(rules[0]["then"]["properties"]["yield_stress"], false);
+  EXPECT_EQ(rules[1]["then"]["required"], (nlohmann::json{"yield_stress"}));
+}
+} // namespace
+} // namespace coplane
