@@ -159,9 +159,10 @@ Real ElementBlock::smallestStableStep() const
 int ElementBlock::invertedElement() const
 {
   const ConstArray<Real> step = stableStep_;
+  const Real none = count_;
   const Real lowest = parallelMin(
       "coplane::element::invertedElement", count_,
-      KOKKOS_LAMBDA(const int e) { return step(e) > 0 ? infinity : Real(e); });
-  return lowest < infinity ? int(lowest) : -1;
+      KOKKOS_LAMBDA(const int e) { return step(e) > 0 ? none : Real(e); });
+  return lowest < none ? int(lowest) : -1;
 }
 } // namespace coplane

@@ -138,7 +138,5 @@ private:
   // of the last update
   CornerVectors cornerForce_;
   Array<Real> stableStep_, volume_;
-
-  friend struct ElementBlockAccess;
 };
 } // namespace coplane

@@ -3,6 +3,8 @@
 #include <coplane_core/Real.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
+#include <Kokkos_Core.hpp>
+
 namespace coplane
 {
 // Mean-gradient operators of the one-point elements (Flanagan and Belytschko 1981), written in
