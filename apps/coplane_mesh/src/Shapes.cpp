@@ -6,10 +6,10 @@ namespace coplane
 {
 namespace
 {
-/// How far the corners of the middle square of a disk are drawn in, as a fraction: between 0
-/// (square) and 0.3 (circle) the angles of its corner elements and of the ring's lie about equally
-/// far from 90 degrees.
-constexpr Real cornerDrawnIn = 0.2;
+/// How far the corners of the middle square of a disk are drawn in, as a fraction d. Three elements
+/// meet at such a corner; the square's own angle there is 90 degrees + 2 atan(2 d / (1 - d)), which
+/// is 120 degrees, an equal share, for d = 0.118.
+constexpr Real cornerDrawnIn = 0.118;
 
 /// Elements on a side of the middle square for `across` on the diameter: two thirds, and even.
 int coreDivisions(int across)

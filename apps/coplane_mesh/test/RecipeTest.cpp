@@ -76,7 +76,7 @@ TEST(Recipe, oddDivisionsOfAWallAreRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: wall, block: b, brick: [2, 1], courses: 2, "
                            "length_in_bricks: 2, divisions: [3, 1]}\n"),
-            "r.yaml:3:86: parts[0].divisions has 3 elements along a brick, and a half brick takes "
+            "r.yaml:3:88: parts[0].divisions has 3 elements along a brick, and a half brick takes "
             "half of them; it must be even.");
 }
 

@@ -143,7 +143,7 @@ TEST(Shapes, aDiskFillsThePolygonOnItsCircleWithGoodQuadrilaterals)
   EXPECT_TRUE(meshProblems(report).empty());
   const auto [least, largest] = angles(disk(0.05, 12));
   EXPECT_GT(least, 45);
-  EXPECT_LT(largest, 135);
+  EXPECT_LT(largest, 130);
 }
 
 TEST(Shapes, everyFinenessOfADiskIsValid)
@@ -151,8 +151,8 @@ TEST(Shapes, everyFinenessOfADiskIsValid)
   for (int across = 4; across <= 40; across += 2)
   {
     const auto [least, largest] = angles(disk(1, across));
-    EXPECT_GT(least, 40) << across;
-    EXPECT_LT(largest, 140) << across;
+    EXPECT_GT(least, 45) << across;
+    EXPECT_LT(largest, 135) << across;
   }
 }
 
@@ -176,7 +176,7 @@ TEST(Shapes, aRoundNosedProjectileIsRectangleAndHalfPolygon)
   EXPECT_TRUE(meshProblems(report).empty());
   const auto [least, largest] = angles(roundNosed(2, 5, 12, 24));
   EXPECT_GT(least, 45);
-  EXPECT_LT(largest, 135);
+  EXPECT_LT(largest, 130);
 }
 
 TEST(Shapes, aRoundBarApproachesCylinderAndHalfBall)

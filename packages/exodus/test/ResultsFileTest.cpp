@@ -266,18 +266,21 @@ TEST(ResultsFile, aMissingFolderIsAnOutputErrorOnAllRanks)
   }
 }
 
-// A file-size limit imitates a full disk.
-TEST(ResultsFile, aFullDiskIsAnErrorOnAllRanksAndFinishedStepsStay)
+namespace
 {
-  const Comm comm;
-  const std::string file = temporaryFile("full.e");
+/// Text of the error that all ranks get when the disk is full after three steps; a file-size limit
+/// imitates the full disk.
+std::string errorOfFullDisk(const std::string& base, const Comm& comm, bool filePerRank,
+                            std::string& file)
+{
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   std::string text = "no error";
   int finished = 0;
   {
     const Mesh mesh = sampleMesh2d();
-    ResultsFile results(file, comm, mesh, sampleVariables, {});
+    ResultsFile results(base, comm, mesh, sampleVariables, {}, filePerRank);
+    file = results.file();
     for (; finished < 3; ++finished)
       writeStep(results, finished, 2);
     comm.barrier();
@@ -295,14 +298,36 @@ TEST(ResultsFile, aFullDiskIsAnErrorOnAllRanksAndFinishedStepsStay)
     }
   }
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_NE(text.find(file + ": writing the step at t = 0.75 s failed on rank"), std::string::npos)
+  return text;
+}
+} // namespace
+
+TEST(ResultsFile, aFullDiskIsAnErrorOnAllRanksAndFinishedStepsStay)
+{
+  const Comm comm;
+  std::string file;
+  const std::string text = errorOfFullDisk(temporaryFile("full.e"), comm, false, file);
+  EXPECT_NE(text.find(file + ": writing the step at t = 0.75 s failed on rank 0: reserving "),
+            std::string::npos)
       << text;
-  EXPECT_NE(text.find("The file keeps 3 finished time steps."), std::string::npos) << text;
+  EXPECT_NE(text.find("File too large. The file keeps 3 finished time steps."), std::string::npos)
+      << text;
   if (comm.isRoot())
   {
     expectSampleSteps(file, 3);
     std::filesystem::remove(file);
   }
   comm.barrier();
+}
+
+TEST(ResultsFile, aFullDiskIsAnErrorWithAFilePerRankToo)
+{
+  const Comm comm;
+  std::string file;
+  const std::string text = errorOfFullDisk(temporaryFile("fullsplit.e"), comm, true, file);
+  EXPECT_NE(text.find(": writing the step at t = 0."), std::string::npos) << text;
+  EXPECT_NE(text.find("The file keeps 3 finished time steps."), std::string::npos) << text;
+  EXPECT_EQ(Results(file).steps(), 3);
+  std::filesystem::remove(file);
 }
 } // namespace coplane
