@@ -52,12 +52,12 @@ private:
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;
-  void append(const Comm& comm, const std::string& line);
 
   HistoryOptions options_;
   OutputSchedule schedule_;
-  std::ofstream stream_; ///< open on rank 0
-  std::int64_t lastCycle_ = -1;
+  std::ofstream stream_;                   ///< open on rank 0
+  std::int64_t lastCycle_ = -1;            ///< that was written
+  Real initialKinetic_ = 0;                ///< [J]
   std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
   std::vector<Real> totalWeight_;          ///< per probe, over all ranks
 };

@@ -1,0 +1,207 @@
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/TextFile.hpp>
+
+#include <cerrno>
+
+namespace coplane
+{
+namespace
+{
+constexpr const char* axes = "xyz";
+
+/// Names and values of one line, so that header and lines cannot differ.
+class Line
+{
+public:
+  void add(const std::string& name, Real value) { put(name, fmt::format("{:.17g}", value)); }
+  void add(const std::string& name, std::int64_t value) { put(name, fmt::format("{}", value)); }
+  void add(const std::string& name, const std::string& text) { put(name, text); }
+  void add(const std::string& name, const char* unit, const Vec3& value)
+  {
+    for (int c = 0; c < 3; ++c)
+      add(fmt::format("{}_{}{}", name, axes[c], unit), value[c]);
+  }
+
+  std::string names, values;
+
+private:
+  void put(const std::string& name, const std::string& text)
+  {
+    const char* comma = names.empty() ? "" : ",";
+    names += comma + name;
+    values += comma + text;
+  }
+};
+
+void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
+{
+  line.add("kinetic[J]", energy.kinetic);
+  line.add("internal[J]", energy.internal);
+  line.add("plastic[J]", energy.plastic);
+  line.add("hourglass[J]", energy.hourglass);
+  line.add("viscous[J]", energy.viscous);
+  line.add("contact_stored[J]", energy.contact.stored);
+  line.add("contact_friction[J]", energy.contact.friction);
+  line.add("contact_hysteresis[J]", energy.contact.hysteresis);
+  line.add("contact_damping[J]", energy.contact.damping);
+  line.add("contact_remainder[J]", energy.contact.remainder());
+  line.add("mass_damping[J]", energy.massDamping);
+  line.add("external_work[J]", energy.externalWork);
+  line.add("initial[J]", energy.initial);
+  line.add("error[J]", energy.error());
+  line.add("nodal_work[J]", energy.nodalWork);
+  line.add("nodal_error[J]", energy.kinetic - initialKinetic - energy.nodalWork);
+}
+
+void addMomenta(Line& line, const Momenta& momenta)
+{
+  line.add("momentum", "[N*s]", momenta.linear);
+  line.add("impulse", "[N*s]", momenta.impulse);
+  line.add("momentum_error", "[N*s]", momenta.linearError());
+  line.add("angular_momentum", "[N*m*s]", momenta.angular);
+  line.add("angular_impulse", "[N*m*s]", momenta.angularImpulse);
+  line.add("angular_momentum_error", "[N*m*s]", momenta.angularError());
+}
+
+void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
+{
+  line.add("pairs", counts.slots);
+  line.add("planes", counts.planes);
+  line.add("open", counts.open);
+  line.add("stick", counts.stick);
+  line.add("slip", counts.slip);
+  line.add("too_deep", counts.tooDeep);
+  line.add("missed", counts.missed);
+  line.add("searches", searches);
+}
+} // namespace
+
+HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
+    : options_(std::move(options)), schedule_(OutputTimes{options_.every, {}})
+{
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        errno = 0;
+        stream_.open(options_.file, std::ios::trunc);
+        if (!stream_)
+          failToWrite(options_.file);
+      });
+}
+
+void HistoryObserver::start(const Solver& solver)
+{
+  initialKinetic_ = solver.energy().kinetic;
+  findShares(solver);
+  schedule_.startAt(solver.clock().time);
+  write(solver);
+}
+
+void HistoryObserver::endOfCycle(const Solver& solver)
+{
+  if (options_.every <= 0 || schedule_.isDue(solver.clock().time))
+    write(solver);
+}
+
+void HistoryObserver::finish(const Solver& solver, const std::string&)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
+void HistoryObserver::findShares(const Solver& solver)
+{
+  const RankMesh& mesh = solver.mesh();
+  std::vector<ExactSum> sums(options_.probes.size());
+  shares_.clear();
+  for (const Probe& probe : options_.probes)
+  {
+    std::vector<Share> shares;
+    if (probe.nodeSet >= 0)
+      for (const int node : mesh.nodeSets[probe.nodeSet])
+        shares.push_back({node, 1});
+    else
+    {
+      // Mass that the block's own elements bring to a node. Elements stand in the order of the file
+      // on every rank, so the sums have the same bits.
+      const RankMesh::Block& block = mesh.blocks[probe.block];
+      const int corners = topology(block.type).nodes;
+      std::vector<Real> mass(mesh.ownedNodes, 0);
+      for (int i = 0; i < int(block.connectivity.size()); ++i)
+        if (block.connectivity[i] < mesh.ownedNodes)
+          mass[block.connectivity[i]] += solver.blocks()[probe.block].cornerMass(i / corners);
+      for (int n = 0; n < mesh.ownedNodes; ++n)
+        if (mass[n] > 0)
+          shares.push_back({n, mass[n]});
+    }
+    for (const Share& share : shares)
+      sums[shares_.size()].add(share.weight);
+    shares_.push_back(std::move(shares));
+  }
+  totalWeight_.clear();
+  if (!sums.empty())
+    totalWeight_ = ExactSum::overRanks(sums, solver.comm());
+}
+
+std::vector<Real> HistoryObserver::probeValues(const Solver& solver) const
+{
+  if (shares_.empty())
+    return {};
+  const NodalState& state = solver.state();
+  std::vector<ExactSum> sums(6 * shares_.size());
+  for (std::size_t p = 0; p < shares_.size(); ++p)
+    for (const Share& share : shares_[p])
+      for (int c = 0; c < 3; ++c)
+      {
+        const int n = share.node;
+        sums[6 * p + c].add(share.weight * (state.x(n, c) - state.reference(n, c)));
+        sums[6 * p + 3 + c].add(share.weight * (0.5 * (state.vPrevious(n, c) + state.v(n, c))));
+      }
+  std::vector<Real> values = ExactSum::overRanks(sums, solver.comm());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] /= totalWeight_[i / 6];
+  return values;
+}
+
+void HistoryObserver::write(const Solver& solver)
+{
+  TimedRegion region("coplane::output::history");
+  Line line;
+  line.add("time[s]", solver.clock().time);
+  line.add("cycle", solver.clock().cycle);
+  line.add("dt[s]", solver.clock().step);
+  addEnergies(line, solver.energy(), initialKinetic_);
+  addMomenta(line, solver.momenta());
+  addCounts(line, solver.hasContact() ? solver.contact().counts() : ContactCounts{},
+            solver.searches());
+  const std::vector<Real> probes = probeValues(solver);
+  for (std::size_t p = 0; p < options_.probes.size(); ++p)
+  {
+    const Real* value = &probes[6 * p];
+    const std::string& name = options_.probes[p].name;
+    line.add(name + "_displacement", "[m]", {value[0], value[1], value[2]});
+    line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
+  }
+  if (options_.stateHash)
+    line.add("state_hash", fmt::format("{:016x}", solver.stateHash()));
+
+  const bool first = lastCycle_ < 0;
+  solver.comm().together(
+      [&]
+      {
+        if (!solver.comm().isRoot())
+          return;
+        errno = 0;
+        if (first)
+          stream_ << line.names << '\n';
+        stream_ << line.values << '\n' << std::flush;
+        if (!stream_)
+          failToWrite(options_.file);
+      });
+  lastCycle_ = solver.clock().cycle;
+}
+} // namespace coplane

@@ -1,0 +1,41 @@
+#include <coplane_output/MultiObserver.hpp>
+
+#include <exception>
+
+namespace coplane
+{
+void MultiObserver::add(std::unique_ptr<Observer> observer)
+{
+  observers_.push_back(std::move(observer));
+}
+
+void MultiObserver::start(const Solver& solver)
+{
+  for (const auto& observer : observers_)
+    observer->start(solver);
+}
+
+void MultiObserver::endOfCycle(const Solver& solver)
+{
+  for (const auto& observer : observers_)
+    observer->endOfCycle(solver);
+}
+
+void MultiObserver::finish(const Solver& solver, const std::string& ending)
+{
+  // Errors are thrown on all ranks alike, so all ranks go on with the next observer.
+  std::exception_ptr first;
+  for (const auto& observer : observers_)
+    try
+    {
+      observer->finish(solver, ending);
+    }
+    catch (...)
+    {
+      if (!first)
+        first = std::current_exception();
+    }
+  if (first)
+    std::rethrow_exception(first);
+}
+} // namespace coplane

@@ -1,0 +1,48 @@
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_output/NodalContact.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+NodalContact nodalContact(const Solver& solver)
+{
+  const int owned = solver.layout().owned();
+  NodalContact nodal;
+  nodal.pressure.assign(owned, 0);
+  nodal.gap.assign(owned, 0);
+  nodal.slip.assign(owned, 0);
+  nodal.state.assign(owned, 0);
+  if (!solver.hasContact())
+    return nodal;
+  const Contact& contact = solver.contact();
+  std::vector<Real> area(owned, 0); // of the planes around a node [m^2]
+  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  {
+    const Plane& plane = contact.planes()(p);
+    // Without overlap the gap belongs to a moment long ago.
+    if (!plane.born || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
+      continue;
+    for (const int f : plane.face)
+    {
+      const Face& face = contact.faces()[f];
+      for (int k = 0; k < face.count; ++k)
+      {
+        const int node = face.nodes[k];
+        if (node >= owned)
+          continue;
+        const Real gap = plane.gap - plane.offset;
+        nodal.gap[node] = nodal.state[node] == 0 ? gap : std::min(nodal.gap[node], gap);
+        nodal.slip[node] = std::max(nodal.slip[node], plane.history.slip);
+        nodal.state[node] = std::max(nodal.state[node], Real(int(plane.state)));
+        nodal.pressure[node] += plane.area * plane.normalTraction;
+        area[node] += plane.area;
+      }
+    }
+  }
+  for (int n = 0; n < owned; ++n)
+    if (area[n] > 0)
+      nodal.pressure[n] /= area[n];
+  return nodal;
+}
+} // namespace coplane

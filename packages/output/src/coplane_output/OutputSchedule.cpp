@@ -1,0 +1,43 @@
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+/// The latest due time that counts as reached: a little ahead, for the rounding of summed steps.
+Real reached(Real time)
+{
+  return time + 1e-10 * std::abs(time);
+}
+} // namespace
+
+OutputSchedule::OutputSchedule(OutputTimes times) : times_(std::move(times))
+{
+  std::sort(times_.times.begin(), times_.times.end());
+}
+
+std::int64_t OutputSchedule::multiplesUntil(Real time) const
+{
+  return times_.every > 0 ? std::int64_t(std::floor(reached(time) / times_.every)) : 0;
+}
+
+void OutputSchedule::startAt(Real time)
+{
+  isDue(time);
+}
+
+bool OutputSchedule::isDue(Real time)
+{
+  const std::int64_t multiples = multiplesUntil(time);
+  const auto& times = times_.times;
+  const std::size_t single =
+      std::upper_bound(times.begin(), times.end(), reached(time)) - times.begin();
+  const bool due = multiples > multiplesDone_ || single > timesDone_;
+  multiplesDone_ = std::max(multiples, multiplesDone_);
+  timesDone_ = std::max(single, timesDone_);
+  return due;
+}
+} // namespace coplane

@@ -1,0 +1,188 @@
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/Log.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_core/Version.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_output/Placement.hpp>
+#include <coplane_output/RunRecord.hpp>
+#include <coplane_output/Sha256.hpp>
+#include <coplane_output/TextFile.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <ctime>
+#include <sys/resource.h>
+
+namespace coplane
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// Local date and time with the offset from UTC (ISO 8601).
+std::string dateNow()
+{
+  const std::time_t now = std::time(nullptr);
+  char text[64];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S%z", std::localtime(&now));
+  return text;
+}
+
+std::string mpiLibrary()
+{
+  char text[MPI_MAX_LIBRARY_VERSION_STRING] = {};
+  int length = 0;
+  MPI_Get_library_version(text, &length);
+  return text;
+}
+
+std::string kokkosVersion()
+{
+  return fmt::format("{}.{}.{}", KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100,
+                     KOKKOS_VERSION % 100);
+}
+
+Json softwareOf()
+{
+  const Version& v = version();
+  return {{"coplane", v.number}, {"revision", v.revision}, {"compiler", v.compiler},
+          {"flags", v.flags},    {"trilinos", v.trilinos}, {"kokkos", kokkosVersion()},
+          {"mpi", mpiLibrary()}};
+}
+
+Json sizesOf(const Solver& solver)
+{
+  std::int64_t elements = 0;
+  for (const RankMesh::Block& block : solver.mesh().blocks)
+    for (const char owned : block.owned)
+      elements += owned != 0;
+  const Comm& comm = solver.comm();
+  const ContactCounts counts = solver.hasContact() ? solver.contact().counts() : ContactCounts{};
+  std::vector<std::int64_t> sums{solver.layout().owned(), elements};
+  comm.sum(sums);
+  return {{"dimension", solver.mesh().dimension},
+          {"nodes", sums[0]},
+          {"elements", sums[1]},
+          {"candidate_pairs", counts.slots},
+          {"planes", counts.planes},
+          {"searches", solver.searches()},
+          {"cycles", solver.clock().cycle}};
+}
+
+Json energiesOf(const EnergyBalance& e)
+{
+  return {{"kinetic", e.kinetic},
+          {"internal", e.internal},
+          {"plastic", e.plastic},
+          {"hourglass", e.hourglass},
+          {"viscous", e.viscous},
+          {"contact_stored", e.contact.stored},
+          {"contact_friction", e.contact.friction},
+          {"contact_hysteresis", e.contact.hysteresis},
+          {"contact_damping", e.contact.damping},
+          {"contact_remainder", e.contact.remainder()},
+          {"mass_damping", e.massDamping},
+          {"external_work", e.externalWork},
+          {"initial", e.initial},
+          {"error", e.error()},
+          {"scale", e.scale()}};
+}
+
+/// Seconds of the slowest rank by label; labels are those of rank 0.
+Json slowestTimers(const Comm& comm)
+{
+  std::string labels;
+  for (const auto& [label, seconds] : timers())
+    labels += label + "\n";
+  labels = comm.broadcast(labels);
+  std::vector<std::string> names;
+  std::vector<Real> values;
+  for (std::size_t at = 0; at < labels.size();)
+  {
+    const std::size_t end = labels.find('\n', at);
+    names.push_back(labels.substr(at, end - at));
+    const auto found = timers().find(names.back());
+    values.push_back(found == timers().end() ? 0 : found->second);
+    at = end + 1;
+  }
+  comm.max(values);
+  Json json = Json::object();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    json[names[i]] = values[i];
+  return json;
+}
+
+/// Largest resident memory of a rank so far [bytes].
+std::int64_t peakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t(usage.ru_maxrss) * 1024;
+}
+} // namespace
+
+RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
+    : options_(std::move(options)), startDate_(dateNow()), begin_(std::chrono::steady_clock::now())
+{
+  const std::vector<Placement> ranks = comm.allGather(std::vector<Placement>{myPlacement()});
+  Json placement = Json::array();
+  for (const Placement& rank : ranks)
+    placement.push_back(
+        {{"host", rank.host}, {"cores", coreList(rank.cores)}, {"threads", rank.threads}});
+  placement_ = placement.dump();
+  for (const std::string& problem : placementProblems(ranks))
+    logWarning("threads share cores", problem);
+  if (comm.isRoot())
+  {
+    deckHash_ = sha256(options_.deckText);
+    meshHash_ = sha256OfFile(options_.meshFile);
+  }
+}
+
+void RunRecord::start(const Solver& solver)
+{
+  write(solver, "running");
+}
+
+void RunRecord::finish(const Solver& solver, const std::string& ending)
+{
+  write(solver, ending);
+}
+
+void RunRecord::write(const Solver& solver, const std::string& ending) const
+{
+  const Comm& comm = solver.comm();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  Json json{{"title", options_.title}, {"ending", ending}};
+  json["software"] = softwareOf();
+  json["command_line"] = options_.commandLine;
+  json["backend"] = name(currentBackend());
+  json["ranks"] = comm.size();
+  json["threads_per_rank"] = threadCount();
+  json["placement"] = Json::parse(placement_);
+  json["deck"] = {{"file", options_.deckFile}, {"sha256", deckHash_}, {"text", options_.deckText}};
+  json["mesh"] = {{"file", options_.meshFile}, {"sha256", meshHash_}};
+  json["sizes"] = sizesOf(solver);
+  json["started"] = startDate_;
+  if (ending != "running")
+  {
+    const std::int64_t memory = peakMemory();
+    json["ended"] = dateNow();
+    json["wall_seconds"] = seconds;
+    json["time_s"] = solver.clock().time;
+    json["energies_J"] = energiesOf(solver.energy());
+    json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
+    json["peak_memory_bytes"] = {{"largest_rank", comm.max(memory)}, {"sum", comm.sum(memory)}};
+    json["timers_s"] = slowestTimers(comm);
+  }
+  comm.together(
+      [&]
+      {
+        // Text that is not UTF-8 (a deck in another encoding) must not stop a run at its end.
+        if (comm.isRoot())
+          replaceFile(options_.file,
+                      json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+      });
+}
+} // namespace coplane

@@ -1,0 +1,84 @@
+#include <coplane_output/VtpFile.hpp>
+
+#include <fmt/format.h>
+
+namespace coplane
+{
+namespace
+{
+template <class T>
+std::string bytesOf(const std::vector<T>& values)
+{
+  return std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+/// A DataArray whose bytes follow their number.
+template <class T>
+std::string dataArray(const char* type, const std::string& name, int components,
+                      const std::vector<T>& values)
+{
+  const std::vector<std::uint64_t> header{values.size() * sizeof(T)};
+  return fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" "
+                     "format=\"binary\">{}</DataArray>\n",
+                     type, name, components, base64(bytesOf(header) + bytesOf(values)));
+}
+} // namespace
+
+std::string base64(const std::string& bytes)
+{
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3)
+  {
+    std::uint32_t group = 0;
+    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    for (std::size_t k = 0; k < 3; ++k)
+      group = (group << 8) | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= here ? digits[(group >> (18 - 6 * k)) & 63] : '=';
+  }
+  return text;
+}
+
+VtpPoints::VtpPoints(const std::vector<Real>& coordinates)
+    : count_(std::int64_t(coordinates.size() / 3)),
+      points_(dataArray("Float64", "Points", 3, coordinates))
+{
+}
+
+void VtpPoints::addScalar(const std::string& name, const std::vector<Real>& values)
+{
+  data_ += dataArray("Float64", name, 1, values);
+}
+
+void VtpPoints::addVector(const std::string& name, const std::vector<Real>& values)
+{
+  data_ += dataArray("Float64", name, 3, values);
+}
+
+void VtpPoints::addIntegers(const std::string& name, const std::vector<std::int64_t>& values)
+{
+  data_ += dataArray("Int64", name, 1, values);
+}
+
+std::string VtpPoints::text() const
+{
+  std::vector<std::int64_t> connectivity(count_), offsets(count_);
+  for (std::int64_t i = 0; i < count_; ++i)
+  {
+    connectivity[i] = i;
+    offsets[i] = i + 1;
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+      "header_type=\"UInt64\">\n  <PolyData>\n"
+      "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+      "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
+      "      <Points>\n{1}      </Points>\n      <Verts>\n{2}{3}      </Verts>\n"
+      "      <PointData>\n{4}      </PointData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n",
+      count_, points_, dataArray("Int64", "connectivity", 1, connectivity),
+      dataArray("Int64", "offsets", 1, offsets), data_);
+}
+} // namespace coplane

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// Text of a VTK XML PolyData file (.vtp) of points with named data: version 1.0, 64-bit headers,
+/// arrays in base64. Every point is also a vertex cell, so that viewers show it at once.
+class VtpPoints
+{
+public:
+  explicit VtpPoints(const std::vector<Real>& coordinates);
+
+  void addScalar(const std::string& name, const std::vector<Real>& values);
+  void addVector(const std::string& name, const std::vector<Real>& values); ///< x y z x y z ...
+  void addIntegers(const std::string& name, const std::vector<std::int64_t>& values);
+
+  std::string text() const;
+
+private:
+  std::int64_t count_;
+  std::string points_, data_;
+};
+
+/// Bytes as base64 (RFC 4648).
+std::string base64(const std::string& bytes);
+} // namespace coplane

@@ -1,0 +1,120 @@
+#include "TwoCubes.hpp"
+
+#include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/MultiObserver.hpp>
+#include <coplane_output/PlanesObserver.hpp>
+#include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/TextFile.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+const std::string nowhere = "/nowhere/to/be/found/";
+
+/// Every rank must get the error, with the file and the system's reason.
+template <class F>
+void expectOutputError(const F& action, const std::string& file)
+{
+  try
+  {
+    action();
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Output);
+    EXPECT_NE(std::string(error.what()).find(file), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("No such file or directory"), std::string::npos)
+        << error.what();
+  }
+}
+
+struct Recorder : Observer
+{
+  std::string& calls;
+  bool fails;
+  Recorder(std::string& c, bool f) : calls(c), fails(f) {}
+  void start(const Solver&) override { calls += "s"; }
+  void endOfCycle(const Solver&) override { calls += "c"; }
+  void finish(const Solver&, const std::string&) override
+  {
+    calls += "f";
+    if (fails)
+      fail(ExitCode::Output, "disk full");
+  }
+};
+} // namespace
+
+TEST(MissingFolder, ofResultsIsAnErrorOnAllRanks)
+{
+  const Comm comm;
+  const ResultsOptions options{nowhere + "a.e", {}, false, {}};
+  expectOutputError([&] { ResultsObserver(comm, twoCubes(), options); }, nowhere + "a.e");
+}
+
+TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)
+{
+  const Comm comm;
+  expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.pvd");
+}
+
+TEST(MissingFolder, ofTheHistoryIsAnErrorOnAllRanks)
+{
+  const Comm comm;
+  const HistoryOptions options{nowhere + "a.csv", 0, {}, false};
+  expectOutputError([&] { HistoryObserver(comm, options); }, nowhere + "a.csv");
+}
+
+TEST(ReplaceFile, leavesNoDraftBehind)
+{
+  const Comm comm;
+  const TestFolder folder(comm);
+  if (comm.isRoot())
+  {
+    replaceFile(folder / "a.txt", "first");
+    replaceFile(folder / "a.txt", "second");
+    EXPECT_EQ(contentOf(folder / "a.txt"), "second");
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt.part"));
+  }
+}
+
+TEST(ReplaceFile, fullDiskIsAnErrorAndKeepsTheOldText)
+{
+  // /dev/full answers every write like a full disk; a link named as the draft leads there.
+  const Comm comm;
+  const TestFolder folder(comm);
+  if (!comm.isRoot())
+    GTEST_SKIP() << "rank 0 writes";
+  replaceFile(folder / "a.txt", "old");
+  std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
+  try
+  {
+    replaceFile(folder / "a.txt", "new");
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos)
+        << error.what();
+  }
+  EXPECT_EQ(contentOf(folder / "a.txt"), "old");
+}
+
+TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)
+{
+  const Comm comm;
+  const Mesh mesh = twoCubes();
+  const Solver solver(cubesInContact(mesh, comm), comm);
+  std::string calls;
+  MultiObserver observers;
+  observers.add(std::make_unique<Recorder>(calls, true));
+  observers.add(std::make_unique<Recorder>(calls, false));
+  observers.start(solver);
+  observers.endOfCycle(solver);
+  EXPECT_THROW(observers.finish(solver, "completed"), Error);
+  EXPECT_EQ(calls, "ssccff");
+}
+} // namespace coplane

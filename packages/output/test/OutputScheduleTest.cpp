@@ -1,0 +1,66 @@
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+/// Cycles of 1 s, counted from 1, in which output is due.
+std::vector<int> dueCycles(OutputSchedule schedule, int cycles)
+{
+  std::vector<int> due;
+  schedule.startAt(0);
+  for (int cycle = 1; cycle <= cycles; ++cycle)
+    if (schedule.isDue(cycle))
+      due.push_back(cycle);
+  return due;
+}
+} // namespace
+
+TEST(OutputSchedule, firstCycleAtOrAfterEachMultipleIsDue)
+{
+  // Multiples of 2.5: 2.5, 5, 7.5, 10.
+  EXPECT_EQ(dueCycles(OutputSchedule({2.5, {}}), 10), (std::vector<int>{3, 5, 8, 10}));
+}
+
+TEST(OutputSchedule, explicitTimesAreDueInAnyOrder)
+{
+  EXPECT_EQ(dueCycles(OutputSchedule({0, {7.2, 3}}), 10), (std::vector<int>{3, 8}));
+}
+
+TEST(OutputSchedule, severalDueTimesInOneCycleGiveOneOutput)
+{
+  // Every 0.25 s and at 2.5 and 2.75 s: each cycle of 1 s passes several.
+  EXPECT_EQ(dueCycles(OutputSchedule({0.25, {2.5, 2.75}}), 3), (std::vector<int>{1, 2, 3}));
+}
+
+TEST(OutputSchedule, nothingIsDueWithoutTimes)
+{
+  EXPECT_TRUE(dueCycles(OutputSchedule(OutputTimes{}), 10).empty());
+}
+
+TEST(OutputSchedule, multiplesDoNotDrift)
+{
+  // 0.1 is no binary fraction: summing it 10^5 times drifts by many units in the last place, but
+  // the cycle of each output stays k * 10.
+  OutputSchedule schedule({0.1, {}});
+  schedule.startAt(0);
+  Real time = 0;
+  for (int cycle = 1; cycle <= 100000; ++cycle)
+  {
+    time += 0.01;
+    ASSERT_EQ(schedule.isDue(time), cycle % 10 == 0) << "cycle " << cycle;
+  }
+}
+
+TEST(OutputSchedule, whatLiesBeforeTheStartIsNotDue)
+{
+  OutputSchedule schedule({1, {0.5, 3.5}});
+  schedule.startAt(3);
+  EXPECT_FALSE(schedule.isDue(3.25));
+  EXPECT_TRUE(schedule.isDue(3.5));
+  EXPECT_FALSE(schedule.isDue(3.75));
+  EXPECT_TRUE(schedule.isDue(4));
+}
+} // namespace coplane

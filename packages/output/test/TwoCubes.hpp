@@ -1,0 +1,122 @@
+#pragma once
+
+#include <coplane_core/Error.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/Mesh.hpp>
+#include <coplane_partition/Partition.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+
+namespace coplane
+{
+/// A cube of n^3 hexahedra of side 1 m with its lowest corner at `corner`, as a block of its own.
+inline void addCube(Mesh& mesh, const std::string& name, int n, const Vec3& corner)
+{
+  const int firstNode = mesh.nodes();
+  const GlobalId firstElement = mesh.elements() + 1;
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+      {
+        mesh.nodeIds.push_back(mesh.nodes() + 1);
+        mesh.coordinates.push_back(corner + Vec3{Real(i) / n, Real(j) / n, Real(k) / n});
+      }
+  const auto node = [&](int i, int j, int k)
+  { return firstNode + i + (n + 1) * (j + (n + 1) * k); };
+  Mesh::Block block;
+  block.id = GlobalId(mesh.blocks.size()) + 1;
+  block.name = name;
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+      {
+        block.elementIds.push_back(firstElement + block.elements());
+        block.bodyIds.push_back(int(block.id));
+        for (const int corner : {node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k),
+                                 node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
+                                 node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)})
+          block.connectivity.push_back(corner);
+      }
+  mesh.blocks.push_back(block);
+}
+
+/// Two cubes, the upper one shifted sideways so that every face meets several.
+///
+///      +-------+        z
+///      | upper |        |
+///    +-+-----+-+        +-- x
+///    | lower |
+///    +-------+
+inline Mesh twoCubes()
+{
+  Mesh mesh;
+  mesh.title = "two cubes";
+  addCube(mesh, "lower", 2, {0, 0, 0});
+  addCube(mesh, "upper", 2, {0.125, 0.0625, 1});
+  Mesh::NodeSet top{1, "top", {}};
+  for (int n = 0; n < mesh.nodes(); ++n)
+    if (mesh.coordinates[n].z == 2)
+      top.nodes.push_back(n);
+  mesh.nodeSets.push_back(top);
+  return mesh;
+}
+
+/// The upper cube falls on the lower one and slides over it.
+inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
+{
+  Model model;
+  model.mesh = distribute(mesh, nodeOwners(mesh, comm, "multijagged"), comm.rank());
+  model.blocks.resize(2);
+  for (int b = 0; b < 2; ++b)
+  {
+    model.blocks[b].name = mesh.blocks[b].name;
+    model.blocks[b].material = makeLinearElastic(1e9, 0.25, 1000);
+  }
+  model.blocks[1].velocity = {0.5, 0, -1};
+  JointRecipe joint;
+  joint.name = "rough";
+  joint.friction = 0.25;
+  model.contactRules.joints = {joint};
+  model.contactRules.blocks = 2;
+  model.contactRules.table.resize(4);
+  model.time.end = 5e-3;
+  return model;
+}
+
+/// A folder of this test program, the same on all ranks, made fresh; removed at the end.
+class TestFolder
+{
+public:
+  explicit TestFolder(const Comm& comm) : comm_(comm)
+  {
+    std::string pattern = (std::filesystem::temp_directory_path() / "coplane_output_XXXXXX");
+    if (comm.isRoot() && !::mkdtemp(pattern.data()))
+      pattern.clear();
+    path_ = comm.broadcast(pattern);
+  }
+  ~TestFolder()
+  {
+    comm_.barrier();
+    std::error_code ignored;
+    if (comm_.isRoot())
+      std::filesystem::remove_all(path_, ignored);
+  }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+private:
+  Comm comm_;
+  std::string path_;
+};
+
+inline std::string contentOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+} // namespace coplane
