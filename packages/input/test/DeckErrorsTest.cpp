@@ -215,7 +215,7 @@ TEST(DeckErrors, aKeyOfAnotherModel)
 {
   EXPECT_EQ(errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
                             "poisson_ratio: 0, yield_stress: 1"),
-            "wall.yaml:6:78: materials.m.yield_stress belongs to model: j2, but model is "
+            "wall.yaml:6:79: materials.m.yield_stress belongs to model: j2, but model is "
             "linear_elastic here; remove it or change model.");
 }
 
@@ -349,7 +349,7 @@ TEST(DeckErrors, aWrongExpression)
 {
   EXPECT_EQ(errorWith("conditions: [{type: pressure, side_set: a, value: \"2*sn(t)\"}]\n"),
             "wall.yaml:5:51: conditions.0.value = \"2*sn(t)\" is not an expression of t "
-            "(Unexpected token \"sn(t)\" found at position 2); accepted: a number or an expression "
+            "(Unexpected token \"sn\" found at character 3); accepted: a number or an expression "
             "of t [Pa].");
 }
 

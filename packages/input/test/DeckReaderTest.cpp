@@ -10,7 +10,7 @@ namespace coplane
 namespace
 {
 // One deck with everything that the manual's examples use.
-const std::string wall = R"(title: Bar against a wall
+const std::string wall = R"yaml(title: Bar against a wall
 mesh: meshes/wall.e
 materials:
   steel:    {model: j2, density: 7850, youngs_modulus: 200e9, poisson_ratio: 0.3, yield_stress: 1e9, hardening_modulus: 1e9}
@@ -32,8 +32,7 @@ contact:
   preset: default
 conditions:
   - {type: fixed, node_set: base, components: [x, y, z]}
-  - {type: velocity, node_set: left, components: [x], value: ["0.05*sin(2*_pi*200*t)", 0, 0]
-}
+  - {type: velocity, node_set: left, components: [x], value: ["0.05*sin(2*_pi*200*t)", 0, 0]}
   - {type: symmetry, node_set: mid, normal: [0, 0, 1]}
   - {type: pressure, side_set: top, value: "1e5*min(t/0.01,1)"}
 initial:
@@ -45,164 +44,160 @@ time: {end: 0.041, step_factor: 0.8, maximum_step: 1e-5, energy_tolerance: 0.1}
 output: {results: wall.e, every: 1e-3, times: [0.0013], planes: true, file_per_rank: false}
 history: {file: wall.csv, every: 1e-4, probes: [{name: tip, node_set: tip}, {name: bar, block: bar}]}
 partition: {method: multijagged}
-)";
+)yaml";
 
 TEST(DeckReader, readsTheManualsDeck)
-  {
-    const Deck deck = parseDeck(wall, "decks/wall.yaml");
-    ASSERT_EQ(deck.materials.size(), 2u);
-    EXPECT_EQ(deck.materials[0].name, "steel");
-    EXPECT_EQ(deck.materials[0].youngsModulus, 200e9);
-    EXPECT_EQ(deck.materials[1].model, "linear_elastic");
-    ASSERT_EQ(deck.joints.size(), 3u);
-    EXPECT_EQ(deck.joints[0].stiffnessCap, 2e11);
-    EXPECT_FALSE(deck.joints[1].shearStiffness.has_value());
-    EXPECT_EQ(deck.contact.searchEvery, 0); // once
-    ASSERT_EQ(deck.conditions.size(), 4u);
-    EXPECT_EQ(deck.conditions[1].velocity[0].expression, "0.05*sin(2*_pi*200*t)");
-    EXPECT_EQ(deck.conditions[1].components, (std::array<bool, 3>{true, false, false}));
-    EXPECT_EQ(deck.conditions[3].set, "top");
-    EXPECT_EQ(deck.initial[0].velocity.z, 60.6);
-    EXPECT_EQ(deck.time.maximumStep, 1e-5);
-    EXPECT_EQ(deck.history.probes[1].block, "bar");
-  }
+{
+  const Deck deck = parseDeck(wall, "decks/wall.yaml");
+  ASSERT_EQ(deck.materials.size(), 2u);
+  EXPECT_EQ(deck.materials[0].name, "steel");
+  EXPECT_EQ(deck.materials[0].youngsModulus, 200e9);
+  EXPECT_EQ(deck.materials[1].model, "linear_elastic");
+  ASSERT_EQ(deck.joints.size(), 3u);
+  EXPECT_EQ(deck.joints[0].stiffnessCap, 2e11);
+  EXPECT_FALSE(deck.joints[1].shearStiffness.has_value());
+  EXPECT_EQ(deck.contact.searchEvery, 0); // once
+  ASSERT_EQ(deck.conditions.size(), 4u);
+  EXPECT_EQ(deck.conditions[1].velocity[0].expression, "0.05*sin(2*_pi*200*t)");
+  EXPECT_EQ(deck.conditions[1].components, (std::array<bool, 3>{true, false, false}));
+  EXPECT_EQ(deck.conditions[3].set, "top");
+  EXPECT_EQ(deck.initial[0].velocity.z, 60.6);
+  EXPECT_EQ(deck.time.maximumStep, 1e-5);
+  EXPECT_EQ(deck.history.probes[1].block, "bar");
+}
 
-  TEST(DeckReader, theMeshIsSoughtInTheFolderOfTheDeck)
-  {
-    EXPECT_EQ(parseDeck(wall, "decks/wall.yaml").mesh, "decks/meshes/wall.e");
-  }
+TEST(DeckReader, theMeshIsSoughtInTheFolderOfTheDeck)
+{
+  EXPECT_EQ(parseDeck(wall, "decks/wall.yaml").mesh, "decks/meshes/wall.e");
+}
 
-  TEST(DeckReader, anAbsoluteMeshPathStays)
-  {
-    EXPECT_EQ(parseDeck(wall, "decks/wall.yaml", {"mesh=/data/wall.e"}).mesh, "/data/wall.e");
-  }
+TEST(DeckReader, anAbsoluteMeshPathStays)
+{
+  EXPECT_EQ(parseDeck(wall, "decks/wall.yaml", {"mesh=/data/wall.e"}).mesh, "/data/wall.e");
+}
 
-  TEST(DeckReader, outputsAreNamedAfterTheDeckInTheWorkingFolder)
-  {
-    const Deck deck = parseDeck(leastDeck, "decks/bar.yaml");
-    EXPECT_EQ(deck.output.results, "bar.e");
-    EXPECT_EQ(deck.history.file, "bar.csv");
-  }
+TEST(DeckReader, outputsAreNamedAfterTheDeckInTheWorkingFolder)
+{
+  const Deck deck = parseDeck(leastDeck, "decks/bar.yaml");
+  EXPECT_EQ(deck.output.results, "bar.e");
+  EXPECT_EQ(deck.history.file, "bar.csv");
+}
 
-  TEST(DeckReader, resultsNoneSwitchesThemOff)
-  {
-    EXPECT_EQ(parseDeck(leastDeck, "bar.yaml", {"output.results=none"}).output.results, "");
-  }
+TEST(DeckReader, resultsNoneSwitchesThemOff)
+{
+  EXPECT_EQ(parseDeck(leastDeck, "bar.yaml", {"output.results=none"}).output.results, "");
+}
 
-  TEST(DeckReader, cardsKnowTheirPlace)
-  {
-    const Deck deck = parseDeck(wall, "wall.yaml");
-    EXPECT_EQ(deck.materials[1].where, "wall.yaml:5:3");
-    EXPECT_EQ(deck.conditions[0].where, "wall.yaml:22:5");
-    EXPECT_EQ(deck.conditions[3].pressure.where, "wall.yaml:25:43");
-    EXPECT_EQ(deck.meshWhere, "wall.yaml:2:7");
-  }
+TEST(DeckReader, cardsKnowTheirPlace)
+{
+  const Deck deck = parseDeck(wall, "wall.yaml");
+  EXPECT_EQ(deck.materials[1].where, "wall.yaml:5:3");
+  EXPECT_EQ(deck.conditions[0].where, "wall.yaml:22:5");
+  EXPECT_EQ(deck.conditions[3].pressure.where, "wall.yaml:25:44");
+  EXPECT_EQ(deck.meshWhere, "wall.yaml:2:7");
+}
 
-  TEST(DeckReader, readsFromAFile)
-  {
-    const std::string file = ::testing::TempDir() + "coplane_deck_reader_test.yaml";
-    std::ofstream(file) << leastDeck;
-    const Deck deck = readDeck(file, {"time.end=3"});
-    std::remove(file.c_str());
-    EXPECT_EQ(deck.time.end, 3);
-    EXPECT_EQ(deck.file, file);
-  }
+TEST(DeckReader, readsFromAFile)
+{
+  const std::string file = ::testing::TempDir() + "coplane_deck_reader_test.yaml";
+  std::ofstream(file) << leastDeck;
+  const Deck deck = readDeck(file, {"time.end=3"});
+  std::remove(file.c_str());
+  EXPECT_EQ(deck.time.end, 3);
+  EXPECT_EQ(deck.file, file);
+}
 
-  TEST(DeckPreset, seedSetsThreeKeys)
-  {
-    const Deck deck = parseDeck(leastDeck + "contact: {preset: seed}\n", "wall.yaml");
-    EXPECT_EQ(deck.contact.area, "full");
-    EXPECT_EQ(deck.contact.weights, "centroid");
-    EXPECT_EQ(deck.contact.closure, "incremental");
-  }
+TEST(DeckPreset, seedSetsThreeKeys)
+{
+  const Deck deck = parseDeck(leastDeck + "contact: {preset: seed}\n", "wall.yaml");
+  EXPECT_EQ(deck.contact.area, "full");
+  EXPECT_EQ(deck.contact.weights, "centroid");
+  EXPECT_EQ(deck.contact.closure, "incremental");
+}
 
-  TEST(DeckPreset, anExplicitKeyWinsEvenWhenItStandsBeforeThePreset)
-  {
-    const Deck deck =
-        parseDeck(leastDeck + "contact: {closure: total, preset: seed}\n", "wall.yaml");
-    EXPECT_EQ(deck.contact.area, "full");
-    EXPECT_EQ(deck.contact.closure, "total");
-  }
+TEST(DeckPreset, anExplicitKeyWinsEvenWhenItStandsBeforeThePreset)
+{
+  const Deck deck = parseDeck(leastDeck + "contact: {closure: total, preset: seed}\n", "wall.yaml");
+  EXPECT_EQ(deck.contact.area, "full");
+  EXPECT_EQ(deck.contact.closure, "total");
+}
 
-  TEST(DeckText, isTheFileWordForWordWithoutSet)
-  {
-    EXPECT_EQ(parseDeck(wall, "wall.yaml").text, wall);
-  }
+TEST(DeckText, isTheFileWordForWordWithoutSet)
+{
+  EXPECT_EQ(parseDeck(wall, "wall.yaml").text, wall);
+}
 
-  TEST(DeckText, isTheWholeDeckAfterSet)
-  {
-    const Deck deck = parseDeck(leastDeck, "wall.yaml", {"time.end=0.5", "title=Another bar"});
-    EXPECT_EQ(deck.text,
-              "mesh: wall.e\n"
-              "materials: {steel: {model: linear_elastic, density: 7850, youngs_modulus: "
-              "200e9, poisson_ratio: 0.3}}\n"
-              "blocks: {bar: {material: steel}}\n"
-              "time: {end: 0.5}\n"
-              "title: Another bar\n");
-  }
+TEST(DeckText, isTheWholeDeckAfterSet)
+{
+  const Deck deck = parseDeck(leastDeck, "wall.yaml", {"time.end=0.5", "title=Another bar"});
+  EXPECT_EQ(deck.text, "mesh: wall.e\n"
+                       "materials: {steel: {model: linear_elastic, density: 7850, youngs_modulus: "
+                       "200e9, poisson_ratio: 0.3}}\n"
+                       "blocks: {bar: {material: steel}}\n"
+                       "time: {end: 0.5}\n"
+                       "title: Another bar\n");
+}
 
-  TEST(DeckText, afterSetReadsBackToItself)
-  {
-    const Deck first = parseDeck(wall, "wall.yaml", {"time.end=0.5"});
-    const Deck second = parseDeck(first.text, "wall.yaml", {"time.end=0.5"});
-    EXPECT_EQ(first.text, second.text);
-    EXPECT_EQ(second.conditions[1].velocity[0].expression, "0.05*sin(2*_pi*200*t)");
-  }
+TEST(DeckText, afterSetReadsBackToItself)
+{
+  const Deck first = parseDeck(wall, "wall.yaml", {"time.end=0.5"});
+  const Deck second = parseDeck(first.text, "wall.yaml", {"time.end=0.5"});
+  EXPECT_EQ(first.text, second.text);
+  EXPECT_EQ(second.conditions[1].velocity[0].expression, "0.05*sin(2*_pi*200*t)");
+}
 
-  TEST(DeckSet, replacesAnItemOfAList)
-  {
-    const Deck deck =
-        parseDeck(wall, "wall.yaml", {"conditions.1.value=[3, 0, 0]", "gravity.1=-1"});
-    EXPECT_EQ(deck.conditions[1].velocity[0].constant, 3);
-    EXPECT_EQ(deck.gravity.y, -1);
-  }
+TEST(DeckSet, replacesAnItemOfAList)
+{
+  const Deck deck = parseDeck(wall, "wall.yaml", {"conditions.1.value=[3, 0, 0]", "gravity.1=-1"});
+  EXPECT_EQ(deck.conditions[1].velocity[0].constant, 3);
+  EXPECT_EQ(deck.gravity.y, -1);
+}
 
-  TEST(DeckSet, makesGroupsThatTheDeckDoesNotHave)
-  {
-    const Deck deck = parseDeck(leastDeck, "wall.yaml", {"contact.damping.normal=0.2"});
-    EXPECT_EQ(deck.contact.dampNormal, 0.2);
-  }
+TEST(DeckSet, makesGroupsThatTheDeckDoesNotHave)
+{
+  const Deck deck = parseDeck(leastDeck, "wall.yaml", {"contact.damping.normal=0.2"});
+  EXPECT_EQ(deck.contact.dampNormal, 0.2);
+}
 
-  TEST(DeckSet, theLastOneWins)
-  {
-    EXPECT_EQ(parseDeck(leastDeck, "wall.yaml", {"time.end=2", "time.end=3"}).time.end, 3);
-  }
+TEST(DeckSet, theLastOneWins)
+{
+  EXPECT_EQ(parseDeck(leastDeck, "wall.yaml", {"time.end=2", "time.end=3"}).time.end, 3);
+}
 
-  TEST(DeckSet, reachesNamesWithDots)
-  {
-    const std::string text = "mesh: wall.e\n"
-                             "materials: {steel.1: {model: linear_elastic, density: 7850, "
-                             "youngs_modulus: 200e9, poisson_ratio: 0.3}}\n"
-                             "blocks: {bar: {material: steel.1}}\n"
-                             "time: {end: 1}\n";
-    EXPECT_EQ(parseDeck(text, "wall.yaml", {"materials.steel.1.density=9"}).materials[0].density,
-              9);
-  }
+TEST(DeckSet, reachesNamesWithDots)
+{
+  const std::string text = "mesh: wall.e\n"
+                           "materials: {steel.1: {model: linear_elastic, density: 7850, "
+                           "youngs_modulus: 200e9, poisson_ratio: 0.3}}\n"
+                           "blocks: {bar: {material: steel.1}}\n"
+                           "time: {end: 1}\n";
+  EXPECT_EQ(parseDeck(text, "wall.yaml", {"materials.steel.1.density=9"}).materials[0].density, 9);
+}
 
-  TEST(DeckSet, changesOneOfTwoAliasedCards)
-  {
-    const std::string text = "mesh: wall.e\n"
-                             "materials:\n"
-                             "  a: &a {model: linear_elastic, density: 1, youngs_modulus: 1, "
-                             "poisson_ratio: 0}\n"
-                             "  b: *a\n"
-                             "blocks: {bar: {material: a}}\n"
-                             "time: {end: 1}\n";
-    const Deck deck = parseDeck(text, "wall.yaml", {"materials.a.density=5"});
-    EXPECT_EQ(deck.materials[0].density, 5);
-    EXPECT_EQ(deck.materials[1].density, 1);
-  }
+TEST(DeckSet, changesOneOfTwoAliasedCards)
+{
+  const std::string text = "mesh: wall.e\n"
+                           "materials:\n"
+                           "  a: &a {model: linear_elastic, density: 1, youngs_modulus: 1, "
+                           "poisson_ratio: 0}\n"
+                           "  b: *a\n"
+                           "blocks: {bar: {material: a}}\n"
+                           "time: {end: 1}\n";
+  const Deck deck = parseDeck(text, "wall.yaml", {"materials.a.density=5"});
+  EXPECT_EQ(deck.materials[0].density, 5);
+  EXPECT_EQ(deck.materials[1].density, 1);
+}
 
-  TEST(DeckPairs, theFirstItemThatFitsCountsInEitherOrder)
-  {
-    const Deck deck = parseDeck(leastDeck + "contact:\n"
-                                            "  pairs:\n"
-                                            "    - {blocks: [bar, wall], excluded: true}\n"
-                                            "    - {blocks: [bar, \"*\"], declared: true}\n",
-                                "wall.yaml");
-    EXPECT_EQ(contactPairFor(deck.contact, "wall", "bar"), &deck.contact.pairs[0]);
-    EXPECT_EQ(contactPairFor(deck.contact, "floor", "bar"), &deck.contact.pairs[1]);
-    EXPECT_EQ(contactPairFor(deck.contact, "wall", "wall"), nullptr);
-  }
-  } // namespace
-  } // namespace coplane
+TEST(DeckPairs, theFirstItemThatFitsCountsInEitherOrder)
+{
+  const Deck deck = parseDeck(leastDeck + "contact:\n"
+                                          "  pairs:\n"
+                                          "    - {blocks: [bar, wall], excluded: true}\n"
+                                          "    - {blocks: [bar, \"*\"], declared: true}\n",
+                              "wall.yaml");
+  EXPECT_EQ(contactPairFor(deck.contact, "wall", "bar"), &deck.contact.pairs[0]);
+  EXPECT_EQ(contactPairFor(deck.contact, "floor", "bar"), &deck.contact.pairs[1]);
+  EXPECT_EQ(contactPairFor(deck.contact, "wall", "wall"), nullptr);
+}
+} // namespace
+} // namespace coplane

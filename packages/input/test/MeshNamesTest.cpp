@@ -45,7 +45,7 @@ TEST(CheckNamesAgainstMesh, aCardNeedsABlock)
             (std::vector<std::string>{
                 "wall.yaml:3:9: blocks has no card for the element block 'bricks' of the mesh; add "
                 "'bricks: {material: ...}'. The card 'brick' is near.",
-                "wall.yaml:3:33: blocks = 'brick' is not an element block of the mesh. Did you "
+                "wall.yaml:3:34: blocks = 'brick' is not an element block of the mesh. Did you "
                 "mean 'bricks'? There is: bar, bricks."}));
 }
 

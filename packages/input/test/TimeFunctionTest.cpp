@@ -71,7 +71,7 @@ TEST(ExpressionProblem, isEmptyForAGoodExpression)
 
 TEST(ExpressionProblem, namesWhatIsNotKnown)
 {
-  EXPECT_EQ(expressionProblem("2*x"), "Unexpected token \"x\" found at position 2");
+  EXPECT_EQ(expressionProblem("2*x"), "Unexpected token \"x\" found at character 3");
 }
 
 TEST(ExpressionProblem, refusesToSetTheTime)

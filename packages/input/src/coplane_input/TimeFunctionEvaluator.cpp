@@ -5,6 +5,7 @@
 #include <muParser.h>
 
 #include <cmath>
+#include <regex>
 
 namespace coplane
 {
@@ -84,7 +85,10 @@ std::string expressionProblem(const std::string& expression)
   }
   catch (const mu::Parser::exception_type& e)
   {
-    std::string text = e.GetMsg();
+    // muParser counts from zero; people count characters from one.
+    std::string text =
+        std::regex_replace(e.GetMsg(), std::regex("at position [0-9]+"),
+                           fmt::format("at character {}", static_cast<long>(e.GetPos()) + 1));
     while (!text.empty() && (text.back() == '.' || text.back() == ' ' || text.back() == '\n'))
       text.pop_back();
     return text;
