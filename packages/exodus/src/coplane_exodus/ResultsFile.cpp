@@ -43,15 +43,15 @@ void probeWritable(const std::string& file)
   std::fclose(probe);
 }
 
-/// Claims room on the disk for the first `bytes` of the file. MPI-IO may lose the error of a write
-/// (Open MPI 4.1 prints "File too large" and reports success), so a full disk must be found before
-/// writing.
-void reserve(const std::string& file, std::uint64_t bytes)
+/// Claims room on the disk for `bytes` of the file from `first` on. MPI-IO may lose the error of a
+/// write (Open MPI 4.1 prints "File too large" and reports success), so a full disk must be found
+/// before writing.
+void reserve(const std::string& file, std::uint64_t first, std::uint64_t bytes)
 {
   const int descriptor = ::open(file.c_str(), O_RDWR);
   if (descriptor < 0)
     throw ExodusFailure(std::strerror(errno));
-  const int error = ::posix_fallocate(descriptor, 0, off_t(bytes));
+  const int error = ::posix_fallocate(descriptor, off_t(first), off_t(bytes));
   ::close(descriptor);
   // A file system that cannot reserve answers EINVAL or EOPNOTSUPP; there the write itself has to
   // tell.
@@ -139,7 +139,7 @@ void ResultsFile::create(const Mesh& mesh, const ResultsVariables& variables,
             checkExodus(ex_close(closing), "creating the file");
             // Closing has extended the file to the end of what is not a time step.
             meshBytes_ = std::filesystem::file_size(file_);
-            reserve(file_, meshBytes_);
+            reserve(file_, 0, meshBytes_);
           });
     }
     failTogether("defining the mesh");
@@ -217,7 +217,7 @@ void ResultsFile::beginStep(Real time)
   if (!filePerRank_)
   {
     if (comm_.isRoot())
-      attempt([&] { reserve(file_, meshBytes_ + std::uint64_t(steps_ + 1) * stepBytes_); });
+      attempt([&] { reserve(file_, meshBytes_ + std::uint64_t(steps_) * stepBytes_, stepBytes_); });
     failTogether(fmt::format("writing the step at t = {:.6g} s", time_));
   }
   if (filePerRank_ || comm_.isRoot())
