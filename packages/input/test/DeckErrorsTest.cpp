@@ -117,6 +117,13 @@ TEST(DeckErrors, aNumberInQuotes)
             "quotes; accepted: a number >= 0 [1/s].");
 }
 
+TEST(DeckErrors, areOneLineEachEvenWhenTheTextIsNot)
+{
+  EXPECT_EQ(errorWith("damping: {mass: \"a\\nb\"}\n"),
+            "wall.yaml:5:17: damping.mass = \"a\\nb\" is not a number; accepted: a number >= 0 "
+            "[1/s].");
+}
+
 TEST(DeckErrors, aNumberThatIsNotFinite)
 {
   for (const std::string text : {"nan", "inf", "-inf", ".inf", ".nan", "1e999"})

@@ -140,7 +140,11 @@ const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& pat
 
 void Problems::add(const DeckNode& at, const std::string& text)
 {
-  problems_.emplace_back(at.order, fmt::format("{}: {}", at.where, text));
+  // A quoted word may hold line ends; a problem is one line.
+  std::string line = fmt::format("{}: {}", at.where, text);
+  for (std::size_t end = 0; (end = line.find('\n', end)) != std::string::npos;)
+    line.replace(end, 1, "\\n");
+  problems_.emplace_back(at.order, line);
 }
 
 std::string Problems::text() const
