@@ -138,6 +138,6 @@ void Comm::together(const std::function<void()>& action) const
     return;
   text = broadcast(text, int(lowest));
   MPI_Bcast(&code, 1, MPI_INT, int(lowest), comm_);
-  throw Error(ExitCode(code), text);
+  throw Error(ExitCode(code), text, true);
 }
 } // namespace coplane

@@ -21,20 +21,33 @@ enum class ExitCode : int
 };
 
 /// An error for the user. The text says where, what was found, what is accepted, and what to try.
-/// Thrown on all ranks alike.
 class Error : public std::runtime_error
 {
 public:
-  Error(ExitCode code, const std::string& text) : std::runtime_error(text), code_(code) {}
+  Error(ExitCode code, const std::string& text, bool onAllRanks = false)
+      : std::runtime_error(text), code_(code), onAllRanks_(onAllRanks)
+  {
+  }
   ExitCode code() const { return code_; }
+  /// Whether every rank throws this error, so that the program can end in order. Otherwise other
+  /// ranks may wait in a collective operation, and the program has to abort them.
+  bool onAllRanks() const { return onAllRanks_; }
 
 private:
   ExitCode code_;
+  bool onAllRanks_;
 };
 
 template <class... Args>
 [[noreturn]] void fail(ExitCode code, fmt::format_string<Args...> text, Args&&... args)
 {
   throw Error(code, fmt::format(text, std::forward<Args>(args)...));
+}
+
+/// For decisions that every rank takes alike, from identical numbers.
+template <class... Args>
+[[noreturn]] void failOnAllRanks(ExitCode code, fmt::format_string<Args...> text, Args&&... args)
+{
+  throw Error(code, fmt::format(text, std::forward<Args>(args)...), true);
 }
 } // namespace coplane

@@ -380,7 +380,7 @@ ExitCode Solver::run(Observer& observer)
       if (!(std::abs(balance.error()) <= model_.time.energyTolerance * balance.scale()))
       {
         observer.finish(*this, "failed");
-        fail(ExitCode::Computation,
+        failOnAllRanks(ExitCode::Computation,
              "cycle {}, t = {:.6e} s: the energy balance is off by {:.3e} J of {:.3e} J in play "
              "(accepted: {} of it, "
              "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
@@ -418,7 +418,7 @@ void Solver::failTogether(const std::string& what)
                  model_.blocks[b].name, blocks_[b].volume()(e));
         }
       });
-  fail(ExitCode::Computation, "cycle {}, t = {:.6e} s: the stable step is not a number ({}). {}",
+  failOnAllRanks(ExitCode::Computation, "cycle {}, t = {:.6e} s: the stable step is not a number ({}). {}",
        clock_.cycle, clock_.time, what, worstEntities());
 }
 

@@ -1,0 +1,190 @@
+#include "BuildModel.hpp"
+
+#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/TimeFunctionEvaluator.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace coplane
+{
+namespace
+{
+Material materialOf(const MaterialCard& card)
+{
+  if (card.model == "j2")
+    return makeJ2Plasticity(card.youngsModulus, card.poissonRatio, card.density, card.yieldStress, card.hardeningModulus);
+  return makeLinearElastic(card.youngsModulus, card.poissonRatio, card.density);
+}
+
+JointRecipe recipeOf(const JointCard& card)
+{
+  JointRecipe recipe;
+  recipe.name = card.name;
+  recipe.penalty = card.model == "penalty";
+  recipe.stiffnessFraction = card.stiffnessFraction;
+  recipe.initialStiffness = card.model == "linear" ? card.normalStiffness : card.initialStiffness;
+  recipe.inverseMaximumClosure = card.model == "closure_curve" ? 1 / card.maximumClosure : 0;
+  recipe.stiffnessCap = card.stiffnessCap;
+  recipe.shearStiffness = card.shearStiffness;
+  recipe.shearRatio = card.shearRatio;
+  recipe.friction = card.friction;
+  recipe.cohesion = card.cohesion;
+  return recipe;
+}
+
+ContactOptions optionsOf(const ContactCard& card)
+{
+  ContactOptions options;
+  options.area = card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
+  options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
+                    : card.weights == "average" ? ContactOptions::Weights::Average
+                                                : ContactOptions::Weights::Pressure;
+  options.closure =
+      card.closure == "incremental" ? ContactOptions::Closure::Incremental : ContactOptions::Closure::Total;
+  options.couple = card.couple;
+  options.areaRule = card.areaRule;
+  options.inherit = card.inherit;
+  options.cosOpposed = card.cosOpposed;
+  options.depthMax = card.depthMax;
+  options.areaMin = card.areaMin;
+  options.dampNormal = card.dampNormal;
+  options.dampShear = card.dampShear;
+  return options;
+}
+
+ContactRules rulesOf(const Deck& deck, const Mesh& mesh)
+{
+  ContactRules rules;
+  JointRecipe builtIn;
+  builtIn.name = "penalty (built in)";
+  rules.joints.push_back(builtIn);
+  const auto jointIndex = [&](const std::string& name)
+  {
+    const auto found = std::find_if(rules.joints.begin(), rules.joints.end(),
+                                    [&](const JointRecipe& recipe) { return recipe.name == name; });
+    return int(found - rules.joints.begin());
+  };
+  for (const JointCard& card : deck.joints)
+    rules.joints.push_back(recipeOf(card));
+  rules.blocks = int(mesh.blocks.size());
+  ContactRule general;
+  general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
+  rules.table.assign(rules.blocks * rules.blocks, general);
+  for (int a = 0; a < rules.blocks; ++a)
+    for (int b = 0; b < rules.blocks; ++b)
+      if (const ContactPairCard* card = contactPairFor(deck.contact, mesh.blocks[a].name, mesh.blocks[b].name))
+      {
+        ContactRule& rule = rules.table[a * rules.blocks + b];
+        if (!card->joint.empty())
+          rule.joint = jointIndex(card->joint);
+        rule.declared = card->declared;
+        rule.excluded = card->excluded;
+      }
+  return rules;
+}
+
+OfTime functionOf(const TimeFunction& card)
+{
+  if (card.expression.empty())
+    return [value = card.constant](Real) { return value; };
+  const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
+  return [evaluator](Real t) { return (*evaluator)(t); };
+}
+
+template <class Sets>
+int indexOf(const Sets& sets, const std::string& name)
+{
+  for (int i = 0; i < int(sets.size()); ++i)
+    if (sets[i].name == name)
+      return i;
+  return -1;
+}
+
+Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part)
+{
+  Conditions conditions;
+  conditions.gravity = deck.gravity;
+  conditions.massDamping = deck.massDamping;
+  if (deck.massDampingUntil)
+    conditions.massDampingUntil = *deck.massDampingUntil;
+  for (const ConditionCard& card : deck.conditions)
+  {
+    if (card.type == "pressure")
+    {
+      FacePressure load;
+      load.pressure = functionOf(card.pressure);
+      for (const RankMesh::Side& side : part.sideSets[indexOf(mesh.sideSets, card.set)])
+      {
+        const RankMesh::Block& block = part.blocks[side.block];
+        const ElementTopology& shape = topology(block.type);
+        FacePressure::Side face;
+        face.id = faceId(block.elementIds[side.element], side.side);
+        face.count = shape.nodesPerSide;
+        face.nodes = {-1, -1, -1, -1};
+        for (int k = 0; k < face.count; ++k)
+          face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+        load.sides.push_back(face);
+      }
+      std::sort(load.sides.begin(), load.sides.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+      conditions.pressures.push_back(std::move(load));
+      continue;
+    }
+    const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
+    if (card.type == "symmetry")
+      conditions.symmetries.push_back({nodes, normalised(card.normal)});
+    else
+    {
+      PrescribedVelocity condition;
+      condition.nodes = nodes;
+      condition.components = card.components;
+      if (card.type == "velocity")
+        for (int c = 0; c < 3; ++c)
+          condition.velocity[c] = functionOf(card.velocity[c]);
+      conditions.velocities.push_back(std::move(condition));
+    }
+  }
+  return conditions;
+}
+} // namespace
+
+Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
+{
+  Model model;
+  model.conditions = conditionsOf(deck, mesh, part);
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& b) { return b.name == block.name; });
+    const auto material = std::find_if(deck.materials.begin(), deck.materials.end(),
+                                       [&](const MaterialCard& m) { return m.name == card->material; });
+    BlockSetup setup;
+    setup.name = block.name;
+    setup.material = materialOf(*material);
+    setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
+    for (const InitialCard& initial : deck.initial)
+      if (initial.block == block.name)
+      {
+        setup.velocity = initial.velocity;
+        setup.angularVelocity = initial.angularVelocity;
+        setup.center = initial.center;
+        const auto& s = initial.stress;
+        setup.stress = {s[0], s[1], s[2], s[3], s[4], s[5]};
+      }
+    model.blocks.push_back(std::move(setup));
+  }
+  model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
+  model.contactEnabled = deck.contact.enabled;
+  model.contact = optionsOf(deck.contact);
+  model.contactRules = rulesOf(deck, mesh);
+  model.skin = deck.contact.skin;
+  model.searchEvery = deck.contact.searchEvery;
+  model.time.end = deck.time.end;
+  model.time.stepFactor = deck.time.stepFactor;
+  model.time.maximumStep = deck.time.maximumStep;
+  model.time.fixedStep = deck.time.fixedStep;
+  model.time.energyTolerance = deck.time.energyTolerance;
+  model.mesh = std::move(part);
+  return model;
+}
+} // namespace coplane

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/Mesh.hpp>
+
+namespace coplane
+{
+/// Logs masses per block, the stable step and what limits it, and the census of contact pairs. Collective.
+void reportModel(const Solver& solver, const Mesh& mesh);
+} // namespace coplane

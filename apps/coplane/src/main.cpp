@@ -1,0 +1,183 @@
+#include "BuildModel.hpp"
+#include "Report.hpp"
+
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/Log.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_core/Version.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/MeshReport.hpp>
+#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/DeckReader.hpp>
+#include <coplane_input/DeckReference.hpp>
+#include <coplane_partition/Partition.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+using namespace coplane;
+
+struct CommandLine
+{
+  std::string deck;
+  std::vector<std::string> overrides;
+  std::string backend = "threads";
+  int threads = 0; ///< 0: OMP_NUM_THREADS, else 1
+  bool check = false, quiet = false, helpDeck = false, helpDeckMarkdown = false, schema = false;
+};
+
+/// Exit code when the program should end now, -1 to go on.
+int parse(int argc, char** argv, bool isRoot, CommandLine& line)
+{
+  CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
+               "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
+  app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
+  app.add_option("--set", line.overrides, "Overrides a deck value: --set time.end=0.1 (may be repeated)")->take_all()->expected(1);
+  app.add_option("--backend", line.backend, "Where kernels run: serial or threads")->check(CLI::IsMember({"serial", "threads"}));
+  app.add_option("--threads", line.threads, "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--check", line.check, "Check deck and mesh, print masses, step and contact pairs, and stop");
+  app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
+  app.add_flag("--help-deck", line.helpDeck, "Print every key of a deck and stop");
+  app.add_flag("--help-deck-markdown", line.helpDeckMarkdown, "The same as Markdown");
+  app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
+  app.set_version_flag("--version",
+                       [] { return fmt::format("coplane {} ({}; {}; {}; Trilinos {})", version().number, version().revision,
+                                               version().compiler, version().flags, version().trilinos); });
+  try
+  {
+    app.parse(argc, argv);
+    if (!line.helpDeck && !line.helpDeckMarkdown && !line.schema && line.deck.empty())
+      throw CLI::RequiredError("deck");
+  }
+  catch (const CLI::ParseError& error)
+  {
+    int code = error.get_exit_code();
+    if (isRoot)
+      app.exit(error);
+    return code == 0 ? 0 : int(ExitCode::Usage);
+  }
+  return -1;
+}
+
+int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
+{
+  Deck deck;
+  Mesh mesh;
+  comm.together([&] { deck = readDeck(line.deck, line.overrides); });
+  comm.together([&] { mesh = readMesh(deck.mesh); });
+  comm.together(
+      [&]
+      {
+        std::vector<std::string> blocks, nodeSets, sideSets;
+        for (const auto& block : mesh.blocks)
+          blocks.push_back(block.name);
+        for (const auto& set : mesh.nodeSets)
+          nodeSets.push_back(set.name);
+        for (const auto& set : mesh.sideSets)
+          sideSets.push_back(set.name);
+        const auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
+        if (!problems.empty())
+          fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
+        const auto unusable = meshProblems(mesh);
+        if (!unusable.empty())
+          fail(ExitCode::Mesh, "{}", fmt::join(unusable, "\n"));
+      });
+
+  logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number, version().revision, version().flags,
+          comm.size(), threadCount(), name(currentBackend()));
+  logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
+
+  const std::vector<int> owners = nodeOwners(mesh, comm, deck.partitionMethod);
+  Solver solver(buildModel(deck, mesh, distribute(mesh, owners, comm.rank())), comm);
+  solver.prepare();
+  reportModel(solver, mesh);
+  if (line.check)
+  {
+    logInfo("check: deck and mesh are fine; nothing was run");
+    return int(ExitCode::Success);
+  }
+  (void)command;
+  listenToSignals();
+  struct NoObserver : Observer
+  {
+    void start(const Solver&) override {}
+    void endOfCycle(const Solver&) override {}
+    void finish(const Solver&, const std::string&) override {}
+  } observer;
+  const ExitCode code = solver.run(observer);
+  const EnergyBalance e = solver.energy();
+  const Momenta m = solver.momenta();
+  logInfo("cycles {} t {:.6e}; KE {:.9e} IE {:.9e} HG {:.3e} visc {:.3e} con {:.3e} fric {:.3e} hyst {:.3e} R {:.3e} ext {:.3e} err {:.3e} nodal {:.3e}", solver.clock().cycle, solver.clock().time, e.kinetic,
+          e.internal, e.hourglass, e.viscous, e.contact.stored, e.contact.friction, e.contact.hysteresis, e.contact.remainder(), e.externalWork, e.error(), e.kinetic - e.nodalWork);
+  logInfo("P {} {} {} err {:.3e} L err {:.3e} mag {:.3e}", m.linear.x, m.linear.y, m.linear.z, norm(m.linearError()), norm(m.angularError()), m.magnitude);
+  const ContactCounts counts = solver.contact().counts();
+  logInfo("planes {} open {} stick {} slip {} deep {} missed {} searches {}", counts.planes, counts.open, counts.stick, counts.slip, counts.tooDeep, counts.missed, solver.searches());
+  for (auto& [label, t] : timers()) logInfo("  {:50s} {:.3f}", label, t);
+  logInfo("state hash {:016x}", solver.stateHash());
+  return int(code);
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  MPI_Init(&argc, &argv);
+  int code = 0;
+  {
+    const Comm comm;
+    CommandLine line;
+    code = parse(argc, argv, comm.isRoot(), line);
+    if (code >= 0)
+    {
+      MPI_Finalize();
+      return code;
+    }
+    logSetup(comm.isRoot(), line.quiet);
+    Kokkos::InitArguments arguments;
+    const char* fromEnvironment = std::getenv("OMP_NUM_THREADS");
+    arguments.num_threads = line.threads > 0 ? line.threads : fromEnvironment ? std::max(1, std::atoi(fromEnvironment)) : 1;
+    arguments.disable_warnings = true;
+    Kokkos::initialize(arguments);
+    setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
+    std::string command;
+    for (int i = 0; i < argc; ++i)
+      command += (i ? " " : "") + std::string(argv[i]);
+    try
+    {
+      if (line.helpDeck || line.helpDeckMarkdown || line.schema)
+      {
+        if (comm.isRoot())
+          std::cout << (line.schema ? deckJsonSchema() : line.helpDeck ? deckReferenceText() : deckReferenceMarkdown());
+      }
+      else
+        code = runDeck(line, comm, command);
+      code = std::max(code, 0);
+      logSummary();
+    }
+    catch (const Error& error)
+    {
+      code = int(error.code());
+      if (!error.onAllRanks())
+      {
+        // Other ranks may be waiting for this one: end them too.
+        fmt::print(stderr, "ERROR: rank {}: {}\n", comm.rank(), error.what());
+        MPI_Abort(comm.mpi(), code);
+      }
+      logError(error.what());
+    }
+    catch (const std::exception& error)
+    {
+      fmt::print(stderr, "ERROR: rank {}: {} (a defect of the program: please report it)\n", comm.rank(), error.what());
+      MPI_Abort(comm.mpi(), int(ExitCode::Internal));
+    }
+    Kokkos::finalize();
+  }
+  MPI_Finalize();
+  return code;
+}
