@@ -286,10 +286,10 @@ TEST_F(Files, contactForcesInTheResultsBalanceAndPressTheCubesApart)
 {
   const Mesh mesh = twoCubes();
   const Exodus results(file("all.e"));
-  const int last = results.steps() - 1;
-  const auto force = results.values(last, EX_NODAL, "contact_force_z", 1, mesh.nodes());
-  const auto pressure = results.values(last, EX_NODAL, "contact_pressure", 1, mesh.nodes());
-  const auto state = results.values(last, EX_NODAL, "contact_state", 1, mesh.nodes());
+  const int during = 1; // after 1 ms; waves cross a cube in about that time, and then it rebounds
+  const auto force = results.values(during, EX_NODAL, "contact_force_z", 1, mesh.nodes());
+  const auto pressure = results.values(during, EX_NODAL, "contact_pressure", 1, mesh.nodes());
+  const auto state = results.values(during, EX_NODAL, "contact_state", 1, mesh.nodes());
   Real upward = 0, sum = 0;
   for (int n = 0; n < mesh.nodes(); ++n)
   {
