@@ -13,7 +13,8 @@ namespace
 Material materialOf(const MaterialCard& card)
 {
   if (card.model == "j2")
-    return makeJ2Plasticity(card.youngsModulus, card.poissonRatio, card.density, card.yieldStress, card.hardeningModulus);
+    return makeJ2Plasticity(card.youngsModulus, card.poissonRatio, card.density, card.yieldStress,
+                            card.hardeningModulus);
   return makeLinearElastic(card.youngsModulus, card.poissonRatio, card.density);
 }
 
@@ -36,12 +37,13 @@ JointRecipe recipeOf(const JointCard& card)
 ContactOptions optionsOf(const ContactCard& card)
 {
   ContactOptions options;
-  options.area = card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
+  options.area =
+      card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
                     : card.weights == "average" ? ContactOptions::Weights::Average
                                                 : ContactOptions::Weights::Pressure;
-  options.closure =
-      card.closure == "incremental" ? ContactOptions::Closure::Incremental : ContactOptions::Closure::Total;
+  options.closure = card.closure == "incremental" ? ContactOptions::Closure::Incremental
+                                                  : ContactOptions::Closure::Total;
   options.couple = card.couple;
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
@@ -73,7 +75,8 @@ ContactRules rulesOf(const Deck& deck, const Mesh& mesh)
   rules.table.assign(rules.blocks * rules.blocks, general);
   for (int a = 0; a < rules.blocks; ++a)
     for (int b = 0; b < rules.blocks; ++b)
-      if (const ContactPairCard* card = contactPairFor(deck.contact, mesh.blocks[a].name, mesh.blocks[b].name))
+      if (const ContactPairCard* card =
+              contactPairFor(deck.contact, mesh.blocks[a].name, mesh.blocks[b].name))
       {
         ContactRule& rule = rules.table[a * rules.blocks + b];
         if (!card->joint.empty())
@@ -123,10 +126,12 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
         face.count = shape.nodesPerSide;
         face.nodes = {-1, -1, -1, -1};
         for (int k = 0; k < face.count; ++k)
-          face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+          face.nodes[k] =
+              block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
         load.sides.push_back(face);
       }
-      std::sort(load.sides.begin(), load.sides.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+      std::sort(load.sides.begin(), load.sides.end(),
+                [](const auto& a, const auto& b) { return a.id < b.id; });
       conditions.pressures.push_back(std::move(load));
       continue;
     }
@@ -156,8 +161,9 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   {
     const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
                                    [&](const BlockCard& b) { return b.name == block.name; });
-    const auto material = std::find_if(deck.materials.begin(), deck.materials.end(),
-                                       [&](const MaterialCard& m) { return m.name == card->material; });
+    const auto material =
+        std::find_if(deck.materials.begin(), deck.materials.end(),
+                     [&](const MaterialCard& m) { return m.name == card->material; });
     BlockSetup setup;
     setup.name = block.name;
     setup.material = materialOf(*material);

@@ -1,8 +1,7 @@
 #include "Report.hpp"
 
 #include <coplane_core/Log.hpp>
-
-#include <array>
+#include <coplane_core/Timers.hpp>
 
 namespace coplane
 {
@@ -15,14 +14,16 @@ void reportModel(const Solver& solver, const Mesh& mesh)
       if (solver.mesh().blocks[b].owned[e])
         masses[b].add(solver.blocks()[b].mass(e));
   const std::vector<Real> totals = ExactSum::overRanks(masses, comm);
-  logInfo("mesh: {} nodes, {} elements, dimension {}", mesh.nodes(), mesh.elements(), mesh.dimension);
+  logInfo("mesh: {} nodes, {} elements, dimension {}", mesh.nodes(), mesh.elements(),
+          mesh.dimension);
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-    logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.blocks[b].name, mesh.blocks[b].id,
-            mesh.blocks[b].elements(), totals[b]);
+    logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.blocks[b].name,
+            mesh.blocks[b].id, mesh.blocks[b].elements(), totals[b]);
 
   const StepControl control = solver.stepControl();
-  logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {} at node {}", control.stableStep,
-          solver.model().time.stepFactor, solver.clock().nextStep, control.contact ? "contact" : "elements", control.node);
+  logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {} at node {}",
+          control.stableStep, solver.model().time.stepFactor, solver.clock().nextStep,
+          control.contact ? "contact" : "elements", control.node);
 
   if (!solver.hasContact())
   {
@@ -33,12 +34,46 @@ void reportModel(const Solver& solver, const Mesh& mesh)
   logInfo("contact: skin {:.4e} m; {} candidate pairs", solver.contact().skin(), census.pairs);
   if (census.pairs == 0)
     return;
-  logInfo("  normal stiffness of pairs: {:.4e} to {:.4e} Pa/m", census.leastStiffness, census.largestStiffness);
-  logInfo("  declared joints: {} closed, {} without overlap", census.declaredClosed, census.declaredWithoutOverlap);
+  logInfo("  normal stiffness of pairs: {:.4e} to {:.4e} Pa/m", census.leastStiffness,
+          census.largestStiffness);
+  logInfo("  declared joints: {} closed; {} more pairs of their faces only neighbour each other",
+          census.declaredClosed, census.declaredWithoutOverlap);
   if (census.declaredClosed > 0)
-    logInfo("    gaps of the mesh that were absorbed: {:.3e} to {:.3e} m", census.leastGap, census.largestGap);
+    logInfo("    gaps of the mesh that were absorbed: {:.3e} to {:.3e} m", census.leastGap,
+            census.largestGap);
   logInfo("  other pairs: {} apart, {} overlapping", census.apart, census.overlapping);
   if (census.overlapping > 0)
-    logInfo("    deepest overlap {:.3e} m: overlaps at the start carry no force", census.deepestOverlap);
+    logInfo("    deepest overlap {:.3e} m: overlaps at the start carry no force",
+            census.deepestOverlap);
+}
+
+void reportEnd(const Solver& solver)
+{
+  const EnergyBalance energy = solver.energy();
+  const Momenta momenta = solver.momenta();
+  logInfo("energies [J]: kinetic {:.6e}, internal {:.6e} (plastic {:.3e}), hourglass {:.3e}, "
+          "viscous {:.3e}",
+          energy.kinetic, energy.internal, energy.plastic, energy.hourglass, energy.viscous);
+  logInfo("  contact: stored {:.3e}, friction {:.3e}, hysteresis {:.3e}, damping {:.3e}, remainder "
+          "{:.3e}",
+          energy.contact.stored, energy.contact.friction, energy.contact.hysteresis,
+          energy.contact.damping, energy.contact.remainder());
+  logInfo("  external work {:.3e}, mass damping {:.3e}; balance off by {:.3e} of {:.3e} in play",
+          energy.externalWork, energy.massDamping, energy.error(), energy.scale());
+  logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,
+          momenta.linear.y, momenta.linear.z, norm(momenta.linearError()), momenta.magnitude);
+  if (solver.hasContact())
+  {
+    const ContactCounts counts = solver.contact().counts();
+    logInfo("planes: {} ({} open, {} stick, {} slip) in {} slots; {} deeper than the limit; {} "
+            "contacts missed; {} searches",
+            counts.planes, counts.open, counts.stick, counts.slip, counts.slots, counts.tooDeep,
+            counts.missed, solver.searches());
+  }
+  logInfo("seconds on rank 0:");
+  for (const auto& [label, seconds] : timers())
+    logInfo("  {:<46} {:9.3f}", label, seconds);
+  logInfo("cycles {}, time {:.9e} s", solver.clock().cycle, solver.clock().time);
+  logInfo("state hash {:016x}", solver.stateHash());
 }
 } // namespace coplane

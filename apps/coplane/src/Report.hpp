@@ -5,6 +5,9 @@
 
 namespace coplane
 {
-/// Logs masses per block, the stable step and what limits it, and the census of contact pairs. Collective.
+/// Logs masses per block, the stable step and what limits it, and the census of contact pairs.
+/// Collective.
 void reportModel(const Solver& solver, const Mesh& mesh);
+/// Logs where the time went, the energy balance and the hash of the state. Collective.
+void reportEnd(const Solver& solver);
 } // namespace coplane

@@ -1,13 +1,13 @@
 #include "BuildModel.hpp"
+#include "Observers.hpp"
 #include "Report.hpp"
 
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
-#include <coplane_core/Timers.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/MeshReport.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/DeckReference.hpp>
@@ -38,18 +38,29 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
                "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
   app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
-  app.add_option("--set", line.overrides, "Overrides a deck value: --set time.end=0.1 (may be repeated)")->take_all()->expected(1);
-  app.add_option("--backend", line.backend, "Where kernels run: serial or threads")->check(CLI::IsMember({"serial", "threads"}));
-  app.add_option("--threads", line.threads, "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
+  app.add_option("--set", line.overrides,
+                 "Overrides a deck value: --set time.end=0.1 (may be repeated)")
+      ->take_all()
+      ->expected(1);
+  app.add_option("--backend", line.backend, "Where kernels run: serial or threads")
+      ->check(CLI::IsMember({"serial", "threads"}));
+  app.add_option("--threads", line.threads,
+                 "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
       ->check(CLI::PositiveNumber);
-  app.add_flag("--check", line.check, "Check deck and mesh, print masses, step and contact pairs, and stop");
+  app.add_flag("--check", line.check,
+               "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
   app.add_flag("--help-deck", line.helpDeck, "Print every key of a deck and stop");
   app.add_flag("--help-deck-markdown", line.helpDeckMarkdown, "The same as Markdown");
   app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
   app.set_version_flag("--version",
-                       [] { return fmt::format("coplane {} ({}; {}; {}; Trilinos {})", version().number, version().revision,
-                                               version().compiler, version().flags, version().trilinos); });
+                       []
+                       {
+                         return fmt::format("coplane {} ({}; {}; {}; Trilinos {})",
+                                            version().number, version().revision,
+                                            version().compiler, version().flags,
+                                            version().trilinos);
+                       });
   try
   {
     app.parse(argc, argv);
@@ -90,8 +101,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           fail(ExitCode::Mesh, "{}", fmt::join(unusable, "\n"));
       });
 
-  logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number, version().revision, version().flags,
-          comm.size(), threadCount(), name(currentBackend()));
+  logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number,
+          version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
   const std::vector<int> owners = nodeOwners(mesh, comm, deck.partitionMethod);
@@ -103,24 +114,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     logInfo("check: deck and mesh are fine; nothing was run");
     return int(ExitCode::Success);
   }
-  (void)command;
   listenToSignals();
-  struct NoObserver : Observer
-  {
-    void start(const Solver&) override {}
-    void endOfCycle(const Solver&) override {}
-    void finish(const Solver&, const std::string&) override {}
-  } observer;
-  const ExitCode code = solver.run(observer);
-  const EnergyBalance e = solver.energy();
-  const Momenta m = solver.momenta();
-  logInfo("cycles {} t {:.6e}; KE {:.9e} IE {:.9e} HG {:.3e} visc {:.3e} con {:.3e} fric {:.3e} hyst {:.3e} R {:.3e} ext {:.3e} err {:.3e} nodal {:.3e}", solver.clock().cycle, solver.clock().time, e.kinetic,
-          e.internal, e.hourglass, e.viscous, e.contact.stored, e.contact.friction, e.contact.hysteresis, e.contact.remainder(), e.externalWork, e.error(), e.kinetic - e.nodalWork);
-  logInfo("P {} {} {} err {:.3e} L err {:.3e} mag {:.3e}", m.linear.x, m.linear.y, m.linear.z, norm(m.linearError()), norm(m.angularError()), m.magnitude);
-  const ContactCounts counts = solver.contact().counts();
-  logInfo("planes {} open {} stick {} slip {} deep {} missed {} searches {}", counts.planes, counts.open, counts.stick, counts.slip, counts.tooDeep, counts.missed, solver.searches());
-  for (auto& [label, t] : timers()) logInfo("  {:50s} {:.3f}", label, t);
-  logInfo("state hash {:016x}", solver.stateHash());
+  MultiObserver observers = observersOf(deck, mesh, comm, command);
+  const ExitCode code = solver.run(observers);
+  reportEnd(solver);
   return int(code);
 }
 } // namespace
@@ -141,7 +138,9 @@ int main(int argc, char** argv)
     logSetup(comm.isRoot(), line.quiet);
     Kokkos::InitArguments arguments;
     const char* fromEnvironment = std::getenv("OMP_NUM_THREADS");
-    arguments.num_threads = line.threads > 0 ? line.threads : fromEnvironment ? std::max(1, std::atoi(fromEnvironment)) : 1;
+    arguments.num_threads = line.threads > 0  ? line.threads
+                            : fromEnvironment ? std::max(1, std::atoi(fromEnvironment))
+                                              : 1;
     arguments.disable_warnings = true;
     Kokkos::initialize(arguments);
     setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
@@ -153,7 +152,9 @@ int main(int argc, char** argv)
       if (line.helpDeck || line.helpDeckMarkdown || line.schema)
       {
         if (comm.isRoot())
-          std::cout << (line.schema ? deckJsonSchema() : line.helpDeck ? deckReferenceText() : deckReferenceMarkdown());
+          std::cout << (line.schema     ? deckJsonSchema()
+                        : line.helpDeck ? deckReferenceText()
+                                        : deckReferenceMarkdown());
       }
       else
         code = runDeck(line, comm, command);
@@ -173,7 +174,8 @@ int main(int argc, char** argv)
     }
     catch (const std::exception& error)
     {
-      fmt::print(stderr, "ERROR: rank {}: {} (a defect of the program: please report it)\n", comm.rank(), error.what());
+      fmt::print(stderr, "ERROR: rank {}: {} (a defect of the program: please report it)\n",
+                 comm.rank(), error.what());
       MPI_Abort(comm.mpi(), int(ExitCode::Internal));
     }
     Kokkos::finalize();

@@ -64,6 +64,7 @@ Real parallelMin(const std::string& label, int n, const Body& body)
     Kokkos::parallel_reduce(label, Kokkos::RangePolicy<HostParallel>(0, n), update,
                             Kokkos::Min<Real>(least));
   Kokkos::fence();
-  return least;
+  // Kokkos::Min starts from the largest finite number.
+  return least < std::numeric_limits<Real>::max() ? least : infinity;
 }
 } // namespace coplane

@@ -1,0 +1,84 @@
+#include "Observers.hpp"
+
+#include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/PlanesObserver.hpp>
+#include <coplane_output/ProgressObserver.hpp>
+#include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/RunRecord.hpp>
+
+#include <filesystem>
+#include <sstream>
+
+namespace coplane
+{
+namespace
+{
+std::vector<std::string> linesOf(const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+template <class Items>
+int positionOf(const Items& items, const std::string& name)
+{
+  for (int i = 0; i < int(items.size()); ++i)
+    if (items[i].name == name)
+      return i;
+  return -1;
+}
+
+std::string withoutExtension(const std::string& file)
+{
+  return std::filesystem::path(file).replace_extension().string();
+}
+} // namespace
+
+MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
+                          const std::string& command)
+{
+  MultiObserver observers;
+  const OutputTimes when{deck.output.every, deck.output.times};
+
+  RunRecordOptions record;
+  record.file = withoutExtension(deck.history.file) + ".run.json";
+  record.title = deck.title;
+  record.commandLine = command;
+  record.deckFile = deck.file;
+  record.deckText = deck.text;
+  record.meshFile = deck.mesh;
+  observers.add(std::make_unique<RunRecord>(comm, record));
+
+  HistoryOptions history;
+  history.file = deck.history.file;
+  history.every = deck.history.every;
+  for (const ProbeCard& card : deck.history.probes)
+  {
+    Probe probe;
+    probe.name = card.name;
+    probe.nodeSet = positionOf(mesh.nodeSets, card.nodeSet);
+    probe.block = positionOf(mesh.blocks, card.block);
+    history.probes.push_back(probe);
+  }
+  observers.add(std::make_unique<HistoryObserver>(comm, history));
+
+  if (!deck.output.results.empty())
+  {
+    ResultsOptions results;
+    results.file = deck.output.results;
+    results.when = when;
+    results.filePerRank = deck.output.filePerRank;
+    results.infoLines = linesOf(deck.text);
+    results.infoLines.insert(results.infoLines.begin(), command);
+    observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
+    if (deck.output.planes && deck.contact.enabled)
+      observers.add(std::make_unique<PlanesObserver>(
+          comm, PlanesOptions{withoutExtension(deck.output.results), when}));
+  }
+  observers.add(std::make_unique<ProgressObserver>());
+  return observers;
+}
+} // namespace coplane
