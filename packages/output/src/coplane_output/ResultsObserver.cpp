@@ -26,10 +26,12 @@ ResultsVariables variablesOf(int dimension)
   for (const char* name : {"contact_pressure", "contact_gap", "contact_slip", "contact_state"})
     names.nodal.push_back(name);
   // The six stresses stand together in this order, which the reader takes for a symmetric tensor.
+  // `body` is not called body_id, because the reader refuses a variable with the name of an
+  // attribute of the block.
   names.element = {"stress_xx", "stress_yy", "stress_zz",
                    "stress_xy", "stress_yz", "stress_zx",
                    "von_mises", "pressure",  "equivalent_plastic_strain",
-                   "density",   "body_id",   "alive"};
+                   "density",   "body",      "alive"};
   names.global = {"time_step",          "kinetic_energy",  "internal_energy",   "plastic_work",
                   "hourglass_energy",   "viscous_work",    "contact_stored",    "contact_friction",
                   "contact_hysteresis", "contact_damping", "contact_remainder", "mass_damping_work",
