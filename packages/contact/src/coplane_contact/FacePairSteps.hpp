@@ -257,9 +257,21 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   Real at = patch.centroid.x;
   if (options.weights == ContactOptions::Weights::Pressure)
   {
-    const Real closureLo = gapLo < 0 ? -gapLo : 0, closureHi = gapHi < 0 ? -gapHi : 0;
-    if (closureLo + closureHi > 0)
-      at = lo + (hi - lo) * (closureLo + 2 * closureHi) / (3 * (closureLo + closureHi));
+    // Only the closed part of a full area carries pressure.
+    Real from = lo, to = hi, closureFrom = -gapLo, closureTo = -gapHi;
+    const Real cut = lo + (hi - lo) * gapLo / (gapLo - gapHi);
+    if (closureFrom < 0)
+    {
+      from = cut;
+      closureFrom = 0;
+    }
+    if (closureTo < 0)
+    {
+      to = cut;
+      closureTo = 0;
+    }
+    if (closureFrom + closureTo > 0)
+      at = from + (to - from) * (closureFrom + 2 * closureTo) / (3 * (closureFrom + closureTo));
   }
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
@@ -299,6 +311,8 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
   ConvexPolygon polygon[4];
   Real closure[4][ConvexPolygon::capacity];
   int count = 0;
+  ConvexPolygon pressed; // the closed part of a full area, and its closure
+  Real pressedClosure[ConvexPolygon::capacity];
   Real leastClosure = infinity, mostClosure = 0, thickness = 0;
   Vec2 moment, overlapMoment;
   for (int i = 0; i < piecesA.count; ++i)
@@ -339,6 +353,13 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
       {
         cutWhereNegative(q, c);
         part = areaAndCentroid(q);
+      }
+      else if (options.weights == Options::Weights::Pressure && !allClosed)
+      {
+        pressed = q;
+        for (int v = 0; v < q.size; ++v)
+          pressedClosure[v] = c[v];
+        cutWhereNegative(pressed, pressedClosure);
       }
       if (!(part.area > 0))
         continue;
@@ -387,42 +408,60 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
   }
   const bool byPressure = options.weights == Options::Weights::Pressure &&
                           mostClosure - leastClosure > 1e-14 * thickness;
-  // Fan triangles of the polygon. Mid-edge rule, exact to degree 2, for the average; four-point
-  // rule, exact to degree 3, for the pressure (shape functions of a parallelogram are of degree 2,
-  // the closure is linear).
+  // Triangles of the polygon. Mid-edge rule, exact to degree 2, for the average; four-point rule,
+  // exact to degree 3, for the pressure (shape functions of a parallelogram are of degree 2, the
+  // closure is linear). Where the rule is exact any fan will do. Elsewhere the fan is about the
+  // centroid: about a vertex it would depend on the node that the face happens to start from.
+  const auto flat = [](const Shadow& s, Real size)
+  {
+    return s.count == 3 ||
+           std::abs((s.height[0] - s.height[1]) + (s.height[2] - s.height[3])) <= 1e-14 * size;
+  };
+  const bool exact =
+      map[0].affine && map[1].affine && (!byPressure || (flat(a, thickness) && flat(b, thickness)));
+  // Invertible maps: there is one piece.
+  const bool partly = byPressure && pressed.size > 0;
+  const ConvexPolygon& q = partly ? pressed : polygon[0];
+  const Real* closureAt = partly ? pressedClosure : closure[0];
+  Vec2 apex = q.vertex[0];
+  Real apexClosure = closureAt[0];
+  if (!exact)
+  {
+    apex = areaAndCentroid(q).centroid;
+    const Real gap = map[1].interpolate(b.height, map[1].coordinates(apex)) -
+                     map[0].interpolate(a.height, map[0].coordinates(apex)) - offset;
+    apexClosure = gap < 0 ? -gap : 0;
+  }
   MapMeans means[2];
   Real total = 0;
-  for (int i = 0; i < count; ++i)
+  for (int v = exact ? 1 : 0; v < (exact ? q.size - 1 : q.size); ++v)
   {
-    const ConvexPolygon& q = polygon[i];
-    for (int v = 1; v + 1 < q.size; ++v)
+    const int next = v + 1 == q.size ? 0 : v + 1;
+    const Vec2 p[3] = {apex, q.vertex[v], q.vertex[next]};
+    const Real c[3] = {apexClosure, closureAt[v], closureAt[next]};
+    const Real triangle = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
+    const int points = byPressure ? 4 : 3;
+    for (int g = 0; g < points; ++g)
     {
-      const Vec2 p[3] = {q.vertex[0], q.vertex[v], q.vertex[v + 1]};
-      const Real c[3] = {closure[i][0], closure[i][v], closure[i][v + 1]};
-      const Real triangle = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
-      const int points = byPressure ? 4 : 3;
-      for (int g = 0; g < points; ++g)
+      Real l[3];
+      Real weight = triangle;
+      if (byPressure)
       {
-        Real l[3];
-        Real weight = triangle;
-        if (byPressure)
-        {
-          for (int k = 0; k < 3; ++k)
-            l[k] = g == 3 ? 1.0 / 3 : k == g ? 0.6 : 0.2;
-          weight *= g == 3 ? -27.0 / 48 : 25.0 / 48;
-          weight *= l[0] * c[0] + l[1] * c[1] + l[2] * c[2];
-        }
-        else
-        {
-          for (int k = 0; k < 3; ++k)
-            l[k] = k == g ? 0 : 0.5;
-          weight *= 1.0 / 3;
-        }
-        const Vec2 at = l[0] * p[0] + (l[1] * p[1] + l[2] * p[2]);
-        total += weight;
-        accumulate(means[0], weight, map[0].coordinates(at));
-        accumulate(means[1], weight, map[1].coordinates(at));
+        for (int k = 0; k < 3; ++k)
+          l[k] = g == 3 ? 1.0 / 3 : k == g ? 0.6 : 0.2;
+        weight *= g == 3 ? -27.0 / 48 : 25.0 / 48;
+        weight *= l[0] * c[0] + l[1] * c[1] + l[2] * c[2];
       }
+      else
+      {
+        for (int k = 0; k < 3; ++k)
+          l[k] = k == g ? 0 : 0.5;
+        weight *= 1.0 / 3;
+      }
+      const Vec2 at = l[0] * p[0] + (l[1] * p[1] + l[2] * p[2]);
+      total += weight;
+      accumulate(means[0], weight, map[0].coordinates(at));
+      accumulate(means[1], weight, map[1].coordinates(at));
     }
   }
   for (int f = 0; f < 2; ++f)

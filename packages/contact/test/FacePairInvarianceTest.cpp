@@ -1,0 +1,210 @@
+#include "FacePairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace coplane;
+using namespace coplane::facepairs;
+
+namespace
+{
+constexpr Real dt = .01;
+
+/// Three steps of a pair with friction, positions carried on with the velocities.
+Plane history(FaceNodes a, FaceNodes b, const ContactOptions& o, int steps = 3)
+{
+  Plane plane = touchingPlane(1e3, .5);
+  for (int step = 0; step < steps; ++step)
+  {
+    updatePlane<3>(plane, a, b, o, dt);
+    for (FaceNodes* face : {&a, &b})
+      for (int i = 0; i < face->count; ++i)
+        face->x[i] += dt * face->v[i];
+  }
+  return plane;
+}
+
+/// Largest relative difference of force and shear traction. `sign` is -1 after a swap of labels.
+Real difference(const Plane& p, const Plane& q, const Mat3& r, Real sign)
+{
+  const Real size = norm(p.force);
+  Real d = norm(r * p.force - sign * q.force) / size;
+  d = std::max(d,
+               norm(r * p.history.shearTraction - sign * q.history.shearTraction) * p.area / size);
+  d = std::max(d, std::abs(p.area - q.area) / p.area);
+  return std::max(d, norm(sign * q.normal - r * p.normal));
+}
+
+const Mat3 none = rotation({0, 0, 1}, 0);
+
+template <class Change>
+Real worstOver(int pairs, Real warp, const ContactOptions& o, const Change& change)
+{
+  std::mt19937 random(21);
+  Real worst = 0;
+  for (int n = 0; n < pairs;)
+  {
+    const auto [a, b] = randomPair(random, warp);
+    const Plane reference = history(a, b, o);
+    if (!(norm(reference.force) > .01))
+      continue;
+    ++n;
+    worst = std::max(worst, change(a, b, reference));
+  }
+  return worst;
+}
+
+Real worstSwap(Real warp, const ContactOptions& o)
+{
+  return worstOver(200, warp, o,
+                   [&](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+                   {
+                     const Plane swapped = history(b, a, o);
+                     Real worst = difference(reference, swapped, none, -1);
+                     for (int i = 0; i < 4; ++i)
+                       worst = std::max(
+                           worst, (norm(reference.cornerForce[0][i] - swapped.cornerForce[1][i]) +
+                                   norm(reference.cornerForce[1][i] - swapped.cornerForce[0][i])) /
+                                      norm(reference.force));
+                     return worst;
+                   });
+}
+
+Real worstStart(Real warp, const ContactOptions& o)
+{
+  return worstOver(200, warp, o,
+                   [&](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+                   {
+                     Real worst = 0;
+                     for (int i = 0; i < a.count; ++i)
+                       for (int j = 0; j < b.count; ++j)
+                       {
+                         const Plane turned = history(startedAt(a, i), startedAt(b, j), o);
+                         worst = std::max(worst, difference(reference, turned, none, 1));
+                         for (int k = 0; k < a.count; ++k)
+                           worst =
+                               std::max(worst, norm(reference.cornerForce[0][(k + i) % a.count] -
+                                                    turned.cornerForce[0][k]) /
+                                                   norm(reference.force));
+                       }
+                     return worst;
+                   });
+}
+
+/// A segment as the side of a slab of thickness 1: nodes at z = 0 and z = 1.
+FaceNodes extruded(const FaceNodes& s)
+{
+  FaceNodes f;
+  f.count = 4;
+  const Vec3 z{0, 0, 1};
+  const int node[4] = {0, 0, 1, 1};
+  const Real height[4] = {1, 0, 0, 1};
+  for (int i = 0; i < 4; ++i)
+  {
+    f.x[i] = s.x[node[i]] + height[i] * z;
+    f.v[i] = s.v[node[i]];
+    f.mass[i] = .5 * s.mass[node[i]];
+  }
+  return f;
+}
+} // namespace
+
+TEST(FacePair_Invariance, labelsOfWarpedFacesCanBeSwappedWithCentroidWeights)
+{
+  for (const auto area : allAreas)
+    EXPECT_LT(worstSwap(.1, options(area, ContactOptions::Weights::Centroid)), 1e-11);
+}
+
+TEST(FacePair_Invariance, warpedFacesCanBeNumberedFromAnyNodeWithCentroidWeights)
+{
+  for (const auto area : allAreas)
+    EXPECT_LT(worstStart(.1, options(area, ContactOptions::Weights::Centroid)), 1e-11);
+}
+
+TEST(FacePair_Invariance, labelsCanBeSwappedWithAllWeights)
+{
+  for (const Real warp : {0.0, .1})
+    for (const auto area : allAreas)
+      for (const auto weights : allWeights)
+        EXPECT_LT(worstSwap(warp, options(area, weights)), 1e-11)
+            << warp << ' ' << int(area) << ' ' << int(weights);
+}
+
+TEST(FacePair_Invariance, facesCanBeNumberedFromAnyNodeWithAllWeights)
+{
+  for (const Real warp : {0.0, .1})
+    for (const auto area : allAreas)
+      for (const auto weights : allWeights)
+        EXPECT_LT(worstStart(warp, options(area, weights)), 1e-11)
+            << warp << ' ' << int(area) << ' ' << int(weights);
+}
+
+TEST(FacePair_Invariance, forcesTurnWithTheFaces)
+{
+  const Real worst = worstOver(
+      200, .1, options(ContactOptions::Area::Penetrating, ContactOptions::Weights::Centroid),
+      [](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+      {
+        const Vec3 shift{10, -20, 5};
+        const Plane turned =
+            history(moved(a, oblique(), shift), moved(b, oblique(), shift),
+                    options(ContactOptions::Area::Penetrating, ContactOptions::Weights::Centroid));
+        return difference(reference, turned, oblique(), 1);
+      });
+  EXPECT_LT(worst, 1e-11);
+}
+
+TEST(FacePair_Invariance, commonVelocityChangesNothing)
+{
+  const Real worst = worstOver(200, .1, ContactOptions{},
+                               [](FaceNodes a, FaceNodes b, const Plane& reference)
+                               {
+                                 for (FaceNodes* face : {&a, &b})
+                                   for (int i = 0; i < face->count; ++i)
+                                     face->v[i] += Vec3{100, -50, 20};
+                                 // x(n+1) is the same at the first step only; the others follow.
+                                 for (FaceNodes* face : {&a, &b})
+                                   (void)face;
+                                 return difference(reference, history(a, b, {}), none, 1);
+                               });
+  EXPECT_LT(worst, 1e-8);
+}
+
+TEST(FacePair_Dimensions, segmentsAndTheirExtrusionAgreeAlongAPath)
+{
+  // 20 steps of random motion: force, closure, area and shear traction of a pair of segments and of
+  // the pair of rectangles 1 m wide that they are the sections of.
+  std::mt19937 random(22);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  int loaded = 0;
+  for (int n = 0; n < 100; ++n)
+    for (const auto area : allAreas)
+      for (const auto weights : allWeights)
+      {
+        ContactOptions o = options(area, weights);
+        o.dampNormal = .1;
+        auto [a, b] = randomSegments(random);
+        Plane flat = touchingPlane(1e3, .5), solid = flat;
+        for (int step = 0; step < 20; ++step)
+        {
+          for (FaceNodes* face : {&a, &b})
+            for (int i = 0; i < 2; ++i)
+            {
+              face->v[i] = {u(random), u(random), 0};
+              face->x[i] += .01 * face->v[i];
+            }
+          updatePlane<2>(flat, a, b, o, .01);
+          updatePlane<3>(solid, extruded(a), extruded(b), o, .01);
+          const Real size = 1 + norm(flat.force);
+          ASSERT_NEAR(flat.area, solid.area, 1e-12);
+          ASSERT_NEAR(flat.closure, solid.closure, 1e-12);
+          ASSERT_LT(norm(flat.force - solid.force), 1e-10 * size);
+          ASSERT_LT(norm(flat.history.shearTraction - solid.history.shearTraction), 1e-9);
+          ASSERT_NEAR(flat.work, solid.work, 1e-10 * size);
+          ASSERT_NEAR(flat.frictionWork, solid.frictionWork, 1e-10 * size);
+          loaded += norm(flat.force) > 0;
+        }
+      }
+  EXPECT_GT(loaded, 1000);
+}

@@ -1,0 +1,336 @@
+#include "FacePairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace coplane;
+using namespace coplane::facepairs;
+
+// Birth, history and degenerate states of a plane.
+
+namespace
+{
+/// Unit square looking up at z = 0.
+FaceNodes below(const Vec3& velocity = {})
+{
+  return face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, velocity);
+}
+
+/// Square looking down, sunk in by `depth`, covering `width` of the lower one.
+FaceNodes above(Real depth, const Vec3& velocity = {}, Real width = 1)
+{
+  return face({{0, 0, -depth}, {0, 1, -depth}, {width, 1, -depth}, {width, 0, -depth}}, velocity);
+}
+
+/// A plane in stick with a shear traction along x.
+Plane sheared(Real traction, Real area)
+{
+  Plane plane = touchingPlane(1e3, 10);
+  plane.normal = {0, 0, 1};
+  plane.area = area;
+  plane.history.shearTraction = {traction, 0, 0};
+  return plane;
+}
+
+bool finite(const Vec3& v)
+{
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+} // namespace
+
+TEST(StepA_HalfStepFace, isHalfAStepBehindTheEndOfTheStep)
+{
+  const HalfStepFace half = stepA_halfStepFace<3>(below({0, 0, 4}), .5);
+  EXPECT_EQ(half.center.z, -1.0); // 0 - .25 s * 4 m/s
+  EXPECT_EQ(half.area, 1.0);
+  EXPECT_EQ(half.normal.z, 1.0);
+}
+
+TEST(StepA_HalfStepFace, facesWithoutAreaHaveNoNormal)
+{
+  const FaceNodes line = face({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1.5, 0, 0}});
+  EXPECT_EQ(norm(stepA_halfStepFace<3>(line, 0).normal), 0.0);
+  const FaceNodes point = face({{1, 2, 0}, {1, 2, 0}});
+  EXPECT_EQ(norm(stepA_halfStepFace<2>(point, 0).normal), 0.0);
+}
+
+TEST(StepB_TrialPointOfContact, normalIsTheMeanOfTheFacesNormals)
+{
+  // Face B tilted by 20 degrees about y: the plane is tilted by 10.
+  const FaceNodes b = moved(above(0), rotation({0, 1, 0}, 20 * pi / 180));
+  const TrialPlane trial =
+      stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(below(), 0), stepA_halfStepFace<3>(b, 0));
+  EXPECT_NEAR(trial.normal.x, std::sin(10 * pi / 180), 1e-15);
+  EXPECT_NEAR(trial.normal.z, std::cos(10 * pi / 180), 1e-15);
+  EXPECT_NEAR(dot(cross(trial.e1, trial.e2), trial.normal), 1, 1e-15);
+}
+
+TEST(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
+{
+  Plane plane = touchingPlane(1e3);
+  plane.born = false;
+  plane.fresh = true;
+  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  EXPECT_FALSE(plane.born);
+  EXPECT_NEAR(plane.gap, .01, 1e-15);
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_TRUE(plane.born);
+  EXPECT_FALSE(plane.foundLate);
+  EXPECT_EQ(plane.offset, 0.0);
+  EXPECT_NEAR(plane.force.z, 10, 1e-12); // 1e3 * .01 * 1
+}
+
+TEST(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
+{
+  Plane plane = touchingPlane(1e3);
+  plane.born = false;
+  plane.fresh = true;
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_TRUE(plane.foundLate);
+  EXPECT_EQ(norm(plane.force), 0.0);
+  EXPECT_EQ(plane.offset, plane.gap);
+  // From there on it reacts as usual.
+  updatePlane<3>(plane, below(), above(.011), {}, 1);
+  EXPECT_FALSE(plane.foundLate);
+  EXPECT_NEAR(plane.force.z, 1, 1e-12); // 1e3 * .001
+}
+
+TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
+{
+  ContactOptions o;
+  o.areaMin = .1;
+  Plane plane = touchingPlane(1e3);
+  plane.born = plane.fresh = false;
+  FaceNodes b = above(.01);
+  for (int i = 0; i < 4; ++i)
+    b.x[i].x += .95; // 5 % of the face overlap
+  updatePlane<3>(plane, below(), b, o, 1);
+  EXPECT_FALSE(plane.born);
+  EXPECT_EQ(norm(plane.force), 0.0);
+}
+
+TEST(StepG_PlacePointOfContact, isHalfWayBetweenTheFacesAtTheCentreOfTheArea)
+{
+  Plane plane = touchingPlane();
+  updatePlane<3>(plane, below(), above(.02, {}, .5), {}, 1);
+  EXPECT_NEAR(plane.pointOfContact.x, .25, 1e-15);
+  EXPECT_NEAR(plane.pointOfContact.y, .5, 1e-15);
+  EXPECT_NEAR(plane.pointOfContact.z, -.01, 1e-15);
+}
+
+TEST(StepH_UpdatePlaneVariables, closureIsThatOfTheEndOfTheStep)
+{
+  // Sinks with 1 m/s, dt = .002: half a step earlier the depth is .009. A force from there would be
+  // late by half a step and feed energy in.
+  Plane plane = touchingPlane(1e3);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), {}, .002);
+  EXPECT_NEAR(plane.closure, .01, 1e-16);
+  EXPECT_NEAR(plane.force.z, 10, 1e-12);
+}
+
+TEST(StepH_UpdatePlaneVariables, shearTractionOpposesTheSlipOfTheHigherFace)
+{
+  // ks = 500 Pa/m, 1e-3 m along x: -.5 Pa on face 1.
+  Plane plane = touchingPlane(1e3, 10);
+  updatePlane<3>(plane, below(), above(.01, {.1, 0, 0}), {}, .01);
+  EXPECT_NEAR(plane.history.shearTraction.x, -.5, 1e-13);
+  EXPECT_LT(plane.force.x, 0);
+}
+
+TEST(StepH_UpdatePlaneVariables, newAreaCarriesNoShear)
+{
+  // Half of the area carried 2 Pa; now all of it does 1 Pa, the same force.
+  Plane plane = sheared(2, .5);
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_NEAR(plane.history.shearTraction.x, 1, 1e-14);
+  EXPECT_NEAR(plane.force.x, 1, 1e-14);
+}
+
+TEST(StepH_UpdatePlaneVariables, lostAreaTakesItsShearAway)
+{
+  Plane plane = sheared(2, 1);
+  updatePlane<3>(plane, below(), above(.01, {}, .5), {}, 1);
+  EXPECT_NEAR(plane.history.shearTraction.x, 2, 1e-14);
+  EXPECT_NEAR(plane.force.x, 1, 1e-14);
+}
+
+TEST(StepH_UpdatePlaneVariables, withoutTheAreaRuleTheTractionStays)
+{
+  ContactOptions o;
+  o.areaRule = false;
+  Plane plane = sheared(2, .5);
+  updatePlane<3>(plane, below(), above(.01), o, 1);
+  EXPECT_NEAR(plane.history.shearTraction.x, 2, 1e-14);
+}
+
+TEST(StepH_UpdatePlaneVariables, depthBeyondTheLimitFreezesTheForce)
+{
+  Plane plane = touchingPlane(1e3);
+  plane.depthLimit = .02;
+  updatePlane<3>(plane, below(), above(.02), {}, 1);
+  EXPECT_FALSE(plane.tooDeep);
+  const Real atTheLimit = plane.force.z;
+  updatePlane<3>(plane, below(), above(.05), {}, 1);
+  EXPECT_TRUE(plane.tooDeep);
+  EXPECT_NEAR(plane.force.z, atTheLimit, 1e-12);
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_FALSE(plane.tooDeep);
+  EXPECT_NEAR(plane.force.z, 10, 1e-12);
+}
+
+TEST(StepH_UpdatePlaneVariables, dampingNeverPulls)
+{
+  ContactOptions o;
+  o.dampNormal = 1;
+  for (const Real speed : {.1, 1.0, 10.0, 1000.0})
+  {
+    Plane plane = touchingPlane(1e3);
+    updatePlane<3>(plane, below(), above(.01, {0, 0, speed}), o, 1e-6);
+    EXPECT_GE(plane.force.z, 0) << speed;
+    EXPECT_LT(plane.force.z, 10) << speed;
+  }
+}
+
+TEST(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheTwoFaces)
+{
+  // Weights 1/4 on nodes of 1 kg: 1/m = 2 * 4/16, m = 2 kg. k = 1e3 N/m. Force 2 zeta sqrt(k m) v
+  // on top of the 10 N of the closure.
+  ContactOptions o;
+  o.dampNormal = .1;
+  Plane plane = touchingPlane(1e3);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -.5}), o, 1e-9);
+  EXPECT_NEAR(plane.force.z, 10 + .2 * std::sqrt(2000.0) * .5, 1e-10);
+}
+
+TEST(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)
+{
+  // Flat faces, constant area: the trapezoid is exact for a linear joint.
+  Plane plane = touchingPlane(1e3);
+  for (int step = 1; step <= 10; ++step)
+    updatePlane<3>(plane, below(), above(.001 * step, {0, 0, -1}), {}, .001);
+  EXPECT_NEAR(plane.stored, .5 * 1e3 * 1e-4, 1e-15);
+  EXPECT_NEAR(plane.work, plane.stored, 1e-15);
+}
+
+TEST(StepH_UpdatePlaneVariables, workIsStoredOrDissipatedWhileSlipping)
+{
+  // Pressed by 10 Pa, then dragged: work = stored + friction while the gap changes neither the arm
+  // nor the area. The couple does no work on a translation.
+  Plane plane = touchingPlane(1e3, .5);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), {}, .01);
+  const FaceNodes lower = face({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
+  for (int step = 1; step <= 100; ++step)
+  {
+    FaceNodes b = above(.01, {1, 0, 0});
+    for (int i = 0; i < 4; ++i)
+      b.x[i].x += .001 * step;
+    updatePlane<3>(plane, lower, b, {}, .001);
+  }
+  EXPECT_EQ(plane.state, PlaneState::Slip);
+  EXPECT_NEAR(plane.history.slip, .1 - .01, 1e-14); // elastic part 5 Pa / 500 Pa/m
+  EXPECT_NEAR(plane.work, plane.stored + plane.frictionWork, 1e-13);
+}
+
+TEST(OpenUp, clearsTheShearTractionAndKeepsTheLargestClosure)
+{
+  Plane plane = sheared(2, 1);
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_EQ(plane.state, PlaneState::Stick);
+  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  EXPECT_EQ(plane.state, PlaneState::Open);
+  EXPECT_TRUE(plane.born);
+  EXPECT_EQ(norm(plane.history.shearTraction), 0.0);
+  EXPECT_NEAR(plane.history.maximumClosure, .01, 1e-16);
+  EXPECT_EQ(plane.area, 0.0);
+  EXPECT_EQ(norm(plane.force), 0.0);
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < 4; ++i)
+      EXPECT_EQ(norm(plane.cornerForce[f][i]), 0.0);
+}
+
+TEST(TurnIntoPlane, keepsTheLengthAndLiesInTheNewPlane)
+{
+  std::mt19937 random(31);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  for (int n = 0; n < 1000; ++n)
+  {
+    const Vec3 from = normalised({u(random), u(random), u(random)});
+    const Vec3 to = normalised(from + .5 * Vec3{u(random), u(random), u(random)});
+    const Vec3 any{u(random), u(random), u(random)};
+    const Vec3 tau = any - dot(any, from) * from;
+    const Vec3 got = turnIntoPlane(tau, from, to, {u(random), u(random), u(random)}, .3);
+    EXPECT_NEAR(norm(got), norm(tau), 1e-14);
+    EXPECT_NEAR(dot(got, to), 0, 1e-14);
+  }
+}
+
+TEST(TurnIntoPlane, turnsWithTheSpinAboutTheNormal)
+{
+  const Vec3 got = turnIntoPlane({2, 0, 0}, {0, 0, 1}, {0, 0, 1}, {5, 7, .3}, .5);
+  EXPECT_NEAR(got.x, 2 * std::cos(.15), 1e-15);
+  EXPECT_NEAR(got.y, 2 * std::sin(.15), 1e-15);
+}
+
+TEST(TurnIntoPlane, followsTheLeastRotation)
+{
+  // Normal from z towards x by 30 degrees: y stays, x goes to the new in-plane direction.
+  const Real c = std::cos(pi / 6), s = std::sin(pi / 6);
+  const Vec3 y = turnIntoPlane({0, 1, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
+  EXPECT_NEAR(y.y, 1, 1e-15);
+  const Vec3 x = turnIntoPlane({1, 0, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
+  EXPECT_NEAR(x.x, c, 1e-15);
+  EXPECT_NEAR(x.z, -s, 1e-15);
+}
+
+TEST(FacePair_Degenerate, hundredThousandSliversStayFiniteWithinTheirAreaAndInBalance)
+{
+  // Flattened, nearly collapsed and nearly coincident faces: coordinates are rounded to a coarse
+  // grid and then disturbed by 0 to 1e-3.
+  std::mt19937 random(32);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  std::uniform_int_distribution<int> grid(-2, 2), magnitude(0, 15), corners(3, 4);
+  int touching = 0;
+  for (int n = 0; n < 100000; ++n)
+  {
+    FaceNodes f[2];
+    const Real disturbance = std::pow(10.0, -3 - magnitude(random));
+    for (int k = 0; k < 2; ++k)
+    {
+      f[k].count = corners(random);
+      for (int i = 0; i < f[k].count; ++i)
+      {
+        f[k].x[i] = {.5 * grid(random) + disturbance * u(random),
+                     .5 * grid(random) + disturbance * u(random), disturbance * u(random)};
+        f[k].v[i] = {u(random), u(random), u(random)};
+      }
+      // Turn it over if it looks away.
+      if ((vectorArea<3>(f[k].x, f[k].count).z > 0) != (k == 0))
+        std::reverse(f[k].x, f[k].x + f[k].count);
+    }
+    Plane plane = touchingPlane(1e3, .5);
+    ContactOptions o = options(allAreas[n % 2], allWeights[n % 3]);
+    updatePlane<3>(plane, f[0], f[1], o, 1e-4);
+    ASSERT_TRUE(finite(plane.force) && finite(plane.normal) && std::isfinite(plane.gap) &&
+                std::isfinite(plane.work))
+        << n;
+    ASSERT_GE(plane.area, 0) << n;
+    if (!(plane.area > 0))
+      continue;
+    ++touching;
+    const HalfStepFace a = stepA_halfStepFace<3>(f[0], 1e-4), b = stepA_halfStepFace<3>(f[1], 1e-4);
+    ASSERT_LE(plane.area, std::min(a.area, b.area) * (1 + 1e-10) + 1e-14) << n;
+    ASSERT_LE(plane.area, plane.overlap * (1 + 1e-12)) << n;
+    Real largest = norm(plane.force);
+    for (int k = 0; k < 2; ++k)
+      for (int i = 0; i < f[k].count; ++i)
+      {
+        ASSERT_TRUE(finite(plane.cornerForce[k][i])) << n;
+        largest = std::max(largest, norm(plane.cornerForce[k][i]));
+      }
+    const Resultant sum = resultant(f[0], f[1], plane.cornerForce);
+    ASSERT_LE(norm(sum.force), 1e-12 * largest) << n;
+    ASSERT_LE(norm(sum.moment), 1e-11 * largest) << n;
+  }
+  EXPECT_GT(touching, 10000);
+}
