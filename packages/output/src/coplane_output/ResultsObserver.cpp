@@ -26,12 +26,12 @@ ResultsVariables variablesOf(int dimension)
   for (const char* name : {"contact_pressure", "contact_gap", "contact_slip", "contact_state"})
     names.nodal.push_back(name);
   // The six stresses stand together in this order, which the reader takes for a symmetric tensor.
-  // `body` is not called body_id, because the reader refuses a variable with the name of an
-  // attribute of the block.
+  // Body ids are an attribute of the blocks; the reader shows it, and refuses a variable of the
+  // same name.
   names.element = {"stress_xx", "stress_yy", "stress_zz",
                    "stress_xy", "stress_yz", "stress_zx",
                    "von_mises", "pressure",  "equivalent_plastic_strain",
-                   "density",   "body",      "alive"};
+                   "density",   "alive"};
   names.global = {"time_step",          "kinetic_energy",  "internal_energy",   "plastic_work",
                   "hourglass_energy",   "viscous_work",    "contact_stored",    "contact_friction",
                   "contact_hysteresis", "contact_damping", "contact_remainder", "mass_damping_work",
@@ -151,7 +151,7 @@ void ResultsObserver::writeNodes(const Solver& solver)
 
 void ResultsObserver::writeElements(const Solver& solver)
 {
-  constexpr int columns = 12;
+  constexpr int columns = 11;
   const RankMesh& mesh = solver.mesh();
   int owned = 0, rows = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -178,8 +178,7 @@ void ResultsObserver::writeElements(const Solver& solver)
       mine(row, 7) = block.pressure(e);
       mine(row, 8) = plasticStrain(e);
       mine(row, 9) = block.density(e);
-      mine(row, 10) = part.bodyIds[e];
-      mine(row, 11) = 1; // alive: no element dies yet
+      mine(row, 10) = 1; // alive: no element dies yet
       ++row;
     }
   }
