@@ -23,6 +23,7 @@ paraview.simple._DisableFirstRenderCameraReset()
 STEEL = [0.45, 0.52, 0.60]
 BRICK = [0.85, 0.82, 0.76]
 SIZE = [1600, 900]
+LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be dark
 TITLES = {
     "von_mises": "von Mises stress [Pa]",
     "displacement": "displacement [m]",
@@ -45,16 +46,13 @@ def arguments():
     return parser.parse_args()
 
 
-def blocks_of(reader):
-    """Names of the element blocks."""
-    selection = list(reader.ElementBlocks.Available) if hasattr(reader.ElementBlocks, "Available") else list(reader.ElementBlocks)
-    return [name for name in selection if isinstance(name, str)]
-
-
-def extracted(reader, names):
-    """The given element blocks, as one unstructured grid."""
-    part = ExtractBlock(Input=reader, Selectors=["/IOSS/element_blocks/" + name for name in names])
-    return MergeBlocks(Input=part, MergePoints=0)
+def only(results, names):
+    """A reader, the names of all element blocks, and the chosen ones as one grid."""
+    reader = IOSSReader(FileName=[results])
+    reader.UpdatePipelineInformation()
+    present = list(reader.ElementBlocks)
+    reader.ElementBlocks = [name for name in names if name in present]
+    return reader, present, MergeBlocks(Input=reader, MergePoints=0)
 
 
 def association(source, variable):
@@ -101,15 +99,22 @@ def write_time(view, time):
     return label
 
 
+def in_one_color(shown, color):
+    # ColorBy(shown, None) of ParaView 5.11 fails where nothing was coloured before.
+    shown.ColorArrayName = ["POINTS", ""]
+    shown.AmbientColor = shown.DiffuseColor = color
+
+
 def picture_of_bricks(bricks, bar, kind, variable, top, time, file):
     view = new_view()
     view.ViewTime = time
     shown = Show(bricks, view)
     shown.Representation = "Surface With Edges"
-    shown.EdgeColor = [0.25, 0.25, 0.25]
+    shown.EdgeColor = [0.35, 0.35, 0.35]
+    shown.Ambient, shown.Diffuse = LIGHT
     ColorBy(shown, (kind, variable, "Magnitude") if kind == "POINTS" else (kind, variable))
     colors = GetColorTransferFunction(variable)
-    colors.ApplyPreset("Viridis (matplotlib)", True)
+    colors.ApplyPreset("Linear YGB 1211g", True)
     colors.RescaleTransferFunction(0.0, top)
     shown.SetScalarBarVisibility(view, True)
     scale = GetScalarBar(colors, view)
@@ -120,8 +125,8 @@ def picture_of_bricks(bricks, bar, kind, variable, top, time, file):
     steel = Show(bar, view)
     steel.Representation = "Surface With Edges"
     steel.EdgeColor = [0.2, 0.24, 0.3]
-    ColorBy(steel, None)
-    steel.AmbientColor = steel.DiffuseColor = STEEL
+    steel.Ambient, steel.Diffuse = LIGHT
+    in_one_color(steel, STEEL)
     label = write_time(view, time)
     SaveScreenshot(file, view, ImageResolution=SIZE)
     Delete(label)
@@ -135,15 +140,13 @@ def picture_of_contacts(bricks, bar, planes, time, file):
         shown = Show(source, view)
         shown.Representation = "Surface With Edges"
         shown.EdgeColor = [0.6, 0.6, 0.6]
-        ColorBy(shown, None)
-        shown.AmbientColor = shown.DiffuseColor = color
+        in_one_color(shown, color)
         shown.Opacity = opacity
     planes.UpdatePipeline(time)
     if planes.GetDataInformation().GetNumberOfPoints() > 0:
         dots = Show(planes, view)
         dots.Representation = "Points"
-        ColorBy(dots, None)
-        dots.AmbientColor = dots.DiffuseColor = [0, 0, 0]
+        in_one_color(dots, [0, 0, 0])
         dots.PointSize = 4
         dots.RenderPointsAsSpheres = 1
     label = write_time(view, time)
@@ -155,15 +158,10 @@ def picture_of_contacts(bricks, bar, planes, time, file):
 def main():
     options = arguments()
     os.makedirs(options.folder, exist_ok=True)
-    reader = OpenDataFile(options.results)
-    if reader is None:
-        raise SystemExit(f"{options.results} cannot be opened.")
-    reader.UpdatePipeline()
-    names = blocks_of(reader)
+    reader, names, bar = only(options.results, [options.bar])
     if options.bar not in names:
         raise SystemExit(f"{options.results} has no element block '{options.bar}'; it has {', '.join(names)}. Use --bar.")
-    bricks = extracted(reader, [name for name in names if name != options.bar])
-    bar = extracted(reader, [options.bar])
+    _, _, bricks = only(options.results, [name for name in names if name != options.bar])
     bricks.UpdatePipeline()
     kind = association(bricks, options.color)
     times = sorted({nearest(reader.TimestepValues, time) for time in options.times})
