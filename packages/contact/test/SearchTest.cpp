@@ -66,7 +66,7 @@ struct Scene
 /// `count` squares (segments in 2D) with directions at random, ids in no order of place; `middleOf`
 /// gives their places.
 template <class MiddleOf>
-Scene randomScene(int count, int dimension, Real side, unsigned seed, const MiddleOf& middleOf)
+Scene randomScene(int count, int dimension, Real side, unsigned seed, MiddleOf middleOf)
 {
   std::mt19937_64 random(seed);
   std::normal_distribution<Real> normal;
@@ -130,8 +130,8 @@ Pairs bruteForce(const Scene& scene, const CandidateRules& rules)
   Pairs pairs;
   for (std::size_t p = 0; p < faces.size(); ++p)
     for (std::size_t q = p + 1; q < faces.size(); ++q)
-      if (judgePair(faces[p], faces[q], boxes[p], boxes[q], x, scene.dimension, rules) ==
-          Verdict::Candidate)
+      if (judgePair(faces[p], faces[q], boxes[p], boxes[q], facePlane(faces[p], x, scene.dimension),
+                    facePlane(faces[q], x, scene.dimension), x, rules) == Verdict::Candidate)
         pairs.insert({faces[p].id, faces[q].id});
   return pairs;
 }
@@ -443,8 +443,7 @@ TEST(Step4CopyGhostFaces, bringsEachForeignFaceOnceSortedAndAsItsOwnerHasIt)
     for (int k = 0; k < 4; ++k)
       EXPECT_EQ(ghost.nodes[k], original->nodes[k]);
   }
-  if (comm.size() == 1)
-    EXPECT_TRUE(found.ghosts.faces.empty());
+  EXPECT_EQ(found.ghosts.faces.empty(), comm.size() == 1);
 }
 
 TEST(Step4CopyGhostFaces, bringsTheLivingPlanesOfGhostFacesEachOnce)
@@ -498,7 +497,8 @@ Verdict judgeSquares(Real gap, Real thickness, const std::function<void(Face&, F
     change(a, b);
   const NodeVectors x = positions(scene);
   rules.skin = 0.1;
-  return judgePair(a, b, grownBox(a, x, 0.1), grownBox(b, x, 0.1), x, 3, rules);
+  return judgePair(a, b, grownBox(a, x, 0.1), grownBox(b, x, 0.1), facePlane(a, x, 3),
+                   facePlane(b, x, 3), x, rules);
 }
 } // namespace
 
