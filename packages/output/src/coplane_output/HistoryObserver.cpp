@@ -1,3 +1,4 @@
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_core/ExactSum.hpp>
+#include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 

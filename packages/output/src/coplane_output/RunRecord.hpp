@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Observer.hpp>
 
 #include <chrono>
