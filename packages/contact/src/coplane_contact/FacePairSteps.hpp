@@ -293,8 +293,10 @@ KOKKOS_INLINE_FUNCTION void accumulate(MapMeans& means, Real weight, const Vec2&
   means.xiEta += weight * (c.x * c.y);
 }
 
+/// `byMaps`: weights and gaps from the faces' inverse maps; without, from affine weights of least
+/// norm, for faces that have no such map. `lost` is set where a map was asked for but failed.
 KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, Real offset,
-                                             const ContactOptions& options)
+                                             const ContactOptions& options, bool byMaps, bool& lost)
 {
   using Options = ContactOptions;
   Patch patch;
@@ -305,7 +307,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
     return patch;
   }
   const FaceMap map[2] = {FaceMap(a.p, a.count), FaceMap(b.p, b.count)};
-  const bool invertible = piecesA.count == 1 && piecesB.count == 1;
+  const bool invertible = byMaps && piecesA.count == 1 && piecesB.count == 1;
 
   // Up to four pieces; closure (minus gap plus offset) at the vertices of each.
   ConvexPolygon polygon[4];
@@ -377,6 +379,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
     patch.overlapCentroid = (1 / patch.overlap) * overlapMoment;
   if (!(patch.leastGap < 0) || !(patch.area > 0))
   {
+    lost = map[0].lost || map[1].lost;
     patch.area = 0;
     return patch;
   }
@@ -399,6 +402,9 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
     const Vec2 c = map[f].coordinates(patch.centroid);
     map[f].weights(c.x, c.y, c.x * c.y, patch.centroidWeights[f]);
   }
+  lost = map[0].lost || map[1].lost;
+  if (lost)
+    return patch;
   if (options.weights == Options::Weights::Centroid)
   {
     for (int f = 0; f < 2; ++f)
@@ -467,6 +473,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, R
   for (int f = 0; f < 2; ++f)
     map[f].weights(means[f].xi / total, means[f].eta / total, means[f].xiEta / total,
                    patch.weights[f]);
+  lost = map[0].lost || map[1].lost;
   return patch;
 }
 } // namespace detail
@@ -481,7 +488,11 @@ KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& 
   if constexpr (Dim == 2)
     return detail::patchOfSegments(a, b, offset, options);
   else
-    return detail::patchOfPolygons(a, b, offset, options);
+  {
+    bool lost = false;
+    const Patch patch = detail::patchOfPolygons(a, b, offset, options, true, lost);
+    return lost ? detail::patchOfPolygons(a, b, offset, options, false, lost) : patch;
+  }
 }
 
 /// Step E: whether the pair has its plane already. Every candidate pair has a slot, so this is a

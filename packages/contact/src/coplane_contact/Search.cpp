@@ -238,58 +238,60 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
   return ghosts;
 }
 
-Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
-                  const ConstNodeVectors& x, int dimension, const CandidateRules& rules)
+FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
-  if (elementOfFace(a.id) == elementOfFace(b.id))
-    return Verdict::SameElement;
+  FaceNodes nodes;
+  nodes.count = face.count;
+  for (int k = 0; k < face.count; ++k)
+    nodes.x[k] = at(x, face.nodes[k]);
+  const HalfStepFace now =
+      dimension == 2 ? stepA_halfStepFace<2>(nodes, 0) : stepA_halfStepFace<3>(nodes, 0);
+  return {now.center, now.normal};
+}
+
+Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
+                  const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
+                  const CandidateRules& rules)
+{
   if (!a.local && !b.local)
     return Verdict::BothGhost;
-  if (rules.excluded && rules.excluded(a.block, b.block))
-    return Verdict::Excluded;
-  if (!boxA.overlaps(boxB))
-    return Verdict::TooFarApart;
-
-  const auto nodesOf = [&](const Face& face)
-  {
-    FaceNodes nodes;
-    nodes.count = face.count;
-    for (int k = 0; k < face.count; ++k)
-      nodes.x[k] = at(x, face.nodes[k]);
-    return nodes;
-  };
-  const auto halfStep = [&](const Face& face)
-  {
-    return dimension == 2 ? stepA_halfStepFace<2>(nodesOf(face), 0)
-                          : stepA_halfStepFace<3>(nodesOf(face), 0);
-  };
-  const HalfStepFace faceA = halfStep(a), faceB = halfStep(b);
-  const Real cosine = dot(faceA.normal, faceB.normal);
+  const Real cosine = dot(planeA.normal, planeB.normal);
   if (!(cosine < 0))
     return Verdict::NotOpposed;
+  if (!boxA.overlaps(boxB))
+    return Verdict::TooFarApart;
+  if (elementOfFace(a.id) == elementOfFace(b.id))
+    return Verdict::SameElement;
   // Faces of one body that share a node are neighbours on its surface.
   for (int i = 0; i < a.count; ++i)
     for (int j = 0; j < b.count; ++j)
       if (a.nodes[i] == b.nodes[j])
         return Verdict::SharedNode;
-  if (rules.inContact && rules.inContact(a.id, b.id))
-    return Verdict::Candidate;
+  if (rules.excluded && rules.excluded(a.block, b.block))
+    return Verdict::Excluded;
+  Verdict verdict = Verdict::Candidate;
   if (!(cosine < -rules.cosOpposed))
-    return Verdict::NotOpposed;
-  const Vec3 n = normalised(faceA.normal - faceB.normal);
-  const auto halfExtent = [&](const HalfStepFace& face)
+    verdict = Verdict::NotOpposed;
+  else
   {
-    Real extent = 0;
-    for (int k = 0; k < face.count; ++k)
-      extent = std::max(extent, std::abs(dot(n, face.x[k] - face.center)));
-    return extent;
-  };
-  const Real gap = dot(n, faceB.center - faceA.center);
-  const Real extents = halfExtent(faceA) + halfExtent(faceB);
-  if (gap > rules.skin + extents ||
-      gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
-    return Verdict::TooFarApart;
-  return Verdict::Candidate;
+    const Vec3 n = normalised(planeA.normal - planeB.normal);
+    const auto halfExtent = [&](const Face& face, const Vec3& center)
+    {
+      Real extent = 0;
+      for (int k = 0; k < face.count; ++k)
+        extent = std::max(extent, std::abs(dot(n, at(x, face.nodes[k]) - center)));
+      return extent;
+    };
+    const Real gap = dot(n, planeB.center - planeA.center);
+    const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
+    if (gap > rules.skin + extents ||
+        gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
+      verdict = Verdict::TooFarApart;
+  }
+  // Planes that carry traction stay candidates while their faces oppose each other at all.
+  if (verdict != Verdict::Candidate && rules.inContact && rules.inContact(a.id, b.id))
+    verdict = Verdict::Candidate;
+  return verdict;
 }
 
 std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
@@ -297,6 +299,10 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
                                                 const CandidateRules& rules)
 {
   const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, rules.skin);
+  std::vector<FacePlane> facePlanes;
+  facePlanes.reserve(faces.size());
+  for (const Face& face : faces)
+    facePlanes.push_back(facePlane(face, x, dimension));
   std::vector<CandidatePair> pairs;
   for (std::size_t begin = 0; begin < sorted.entries.size();)
   {
@@ -308,6 +314,8 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
       for (std::size_t j = i + 1; j < end; ++j)
       {
         int p = sorted.entries[i].second, q = sorted.entries[j].second;
+        if (!(dot(facePlanes[p].normal, facePlanes[q].normal) < 0))
+          continue;
         // Two faces may share several bins; the pair is treated in the lowest one.
         Bins::Index lowest;
         for (int c = 0; c < 3; ++c)
@@ -316,8 +324,8 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
           continue;
         if (faces[p].id > faces[q].id)
           std::swap(p, q);
-        if (judgePair(faces[p], faces[q], sorted.boxes[p], sorted.boxes[q], x, dimension, rules) ==
-            Verdict::Candidate)
+        if (judgePair(faces[p], faces[q], sorted.boxes[p], sorted.boxes[q], facePlanes[p],
+                      facePlanes[q], x, rules) == Verdict::Candidate)
           pairs.push_back({p, q});
       }
     begin = end;

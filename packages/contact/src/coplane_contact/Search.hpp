@@ -102,9 +102,18 @@ enum class Verdict
   TooFarApart
 };
 
-/// The tests of step 5 for one pair, cheapest first.
+/// Centre and outward unit normal of a face; the normal of a degenerate face is zero, so it opposes
+/// nothing.
+struct FacePlane
+{
+  Vec3 center{}, normal{};
+};
+FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
+
+/// The tests of step 5 for one pair, cheapest first. Labels: a has the smaller id.
 Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
-                  const ConstNodeVectors& x, int dimension, const CandidateRules& rules);
+                  const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
+                  const CandidateRules& rules);
 
 /// Step 5: all pairs of local and ghost faces that may touch before the next search, sorted by key.
 std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,

@@ -13,6 +13,8 @@ struct FaceMap
   int nodes = 4;
   bool affine = true;
   Vec2 origin, a, b, c;
+  /// Set when a point had no coordinates: the quadrilateral is flat, or nearly so at that point.
+  mutable bool lost = false;
 
   KOKKOS_INLINE_FUNCTION FaceMap() = default;
 
@@ -47,6 +49,11 @@ struct FaceMap
       const Vec2 db = b + xi * c;
       const Vec2 residual = r - xi * a - eta * b - (xi * eta) * c;
       const Real determinant = cross(da, db);
+      if (!(std::abs(determinant) > 1e-14 * (dot(a, a) + dot(b, b))))
+      {
+        lost = true;
+        return {0, 0};
+      }
       const Real dxi = cross(residual, db) / determinant;
       const Real deta = cross(da, residual) / determinant;
       xi += dxi;
