@@ -1,0 +1,89 @@
+"""Decks and mesh recipes as Python dictionaries, and the same problem seen in another frame."""
+
+import copy
+import math
+import re
+
+import numpy
+import yaml
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML reads 5e10 as text (YAML 1.1 wants 5.0e+10); decks mean a number."""
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"^[-+]?(\d[\d_]*\.?\d*|\.\d+)([eE][-+]?\d+)?$"),
+    list("-+0123456789."),
+)
+_Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?\d+$"), list("-+0123456789"))
+
+
+def load(path):
+    """A deck or recipe."""
+    with open(path) as file:
+        return yaml.load(file, _Loader)
+
+
+def save(document, path):
+    """Numbers are written with all digits."""
+    with open(path, "w") as file:
+        yaml.safe_dump(document, file, sort_keys=False, default_flow_style=None, width=120)
+
+
+def rotation(angles):
+    """About x, then y, then z [degrees]; one number: about z."""
+    if numpy.isscalar(angles):
+        angles = (0, 0, angles)
+    matrix = numpy.eye(3)
+    for axis, angle in enumerate(angles):
+        c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        turn = numpy.eye(3)
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        turn[i, i] = turn[j, j] = c
+        turn[i, j], turn[j, i] = -s, s
+        matrix = turn @ matrix
+    return matrix
+
+
+def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
+    """The same problem, turned about the origin, moved, and with `velocity` added to all.
+
+    Returns recipe, deck and the matrix that takes vectors of the original to the new frame. Parts must
+    not be turned or moved already.
+    """
+    recipe, deck = copy.deepcopy(recipe), copy.deepcopy(deck)
+    matrix = rotation(angles)
+    dimension = recipe["dimension"]
+    for part in recipe["parts"]:
+        assert not {"rotate", "offset", "about"} & set(part)
+        part["rotate"] = angles if dimension == 2 or not numpy.isscalar(angles) else [0, 0, angles]
+        part["about"] = [0.0] * dimension
+        part["offset"] = [float(value) for value in offset[:dimension]]
+    for selection in list(recipe.get("node_sets", {}).values()) + list(recipe.get("side_sets", {}).values()):
+        if "where" in selection:
+            selection["where_own"] = selection.pop("where")
+        if "normal" in selection:
+            normal = matrix @ numpy.array((selection["normal"] + [0])[:3])
+            selection["normal"] = [float(value) for value in normal[:dimension]]
+
+    def turn(vector):
+        return [float(value) for value in matrix @ numpy.array(vector, float)]
+
+    moving = {item["block"]: item for item in deck.get("initial", [])}
+    if any(velocity):
+        for block in deck["blocks"]:
+            moving.setdefault(block, {"block": block})
+    for item in moving.values():
+        item["velocity"] = [
+            v + float(w) for v, w in zip(turn(item.get("velocity", [0, 0, 0])), velocity)
+        ]
+    if moving:
+        deck["initial"] = list(moving.values())
+    if "gravity" in deck:
+        deck["gravity"] = turn(deck["gravity"])
+    for condition in deck.get("conditions", []):
+        if "normal" in condition:
+            condition["normal"] = turn(condition["normal"])
+    return recipe, deck, matrix

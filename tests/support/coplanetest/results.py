@@ -1,0 +1,71 @@
+"""Exodus results through netCDF4."""
+
+import netCDF4
+import numpy
+
+
+def _text(row):
+    return b"".join(numpy.asarray(row).tolist()).split(b"\0")[0].decode()
+
+
+class Results:
+    def __init__(self, path):
+        self.file = netCDF4.Dataset(path)
+        self.file.set_auto_mask(False)
+        self.times = self.file["time_whole"][:]
+        axes = [axis for axis in "xyz" if f"coord{axis}" in self.file.variables]
+        self.dimension = len(axes)
+        self.coordinates = numpy.stack([self.file[f"coord{axis}"][:] for axis in axes], axis=1)
+        self._nodal = self._names("name_nod_var")
+        self._element = self._names("name_elem_var")
+        self.blocks = self._names("eb_names")
+
+    def _names(self, variable):
+        if variable not in self.file.variables:
+            return []
+        return [_text(row) for row in self.file[variable][:]]
+
+    def nodal(self, name, step=-1):
+        """One value per node; a vector's stem gives all its components."""
+        if name in self._nodal:
+            return self.file[f"vals_nod_var{self._nodal.index(name) + 1}"][step]
+        return numpy.stack([self.nodal(f"{name}_{axis}", step) for axis in "xyz"[: self.dimension]], axis=1)
+
+    def element(self, block, name, step=-1):
+        """One value per element of a block."""
+        number = self._element.index(name) + 1
+        return self.file[f"vals_elem_var{number}eb{self.blocks.index(block) + 1}"][step]
+
+    def connectivity(self, block):
+        """Positions of nodes, from 0."""
+        return self.file[f"connect{self.blocks.index(block) + 1}"][:] - 1
+
+    def nodes_of(self, block):
+        return numpy.unique(self.connectivity(block))
+
+    def centres(self, block):
+        """Middles of the elements in the reference state."""
+        return self.coordinates[self.connectivity(block)].mean(axis=1)
+
+
+# Records of who ran what, when and how: the only things that may differ between equal runs.
+_RECORDS = {"qa_records", "info_records"}
+
+
+def differences(first, second):
+    """Names of what differs between two results files, bit by bit, but for QA and info records."""
+    with netCDF4.Dataset(first) as a, netCDF4.Dataset(second) as b:
+        found = []
+        for file in (a, b):
+            file.set_auto_mask(False)
+            file.set_auto_scale(False)
+        if set(a.variables) - _RECORDS != set(b.variables) - _RECORDS:
+            found.append(f"variables: {sorted(set(a.variables) ^ set(b.variables))}")
+        for name in set(a.variables) & set(b.variables) - _RECORDS:
+            x, y = a[name][:], b[name][:]
+            if x.dtype != y.dtype or x.shape != y.shape or x.tobytes() != y.tobytes():
+                found.append(name)
+        for name in set(a.ncattrs()) | set(b.ncattrs()):
+            if name not in a.ncattrs() or name not in b.ncattrs() or a.getncattr(name) != b.getncattr(name):
+                found.append(f"attribute {name}")
+        return sorted(found)

@@ -1,0 +1,48 @@
+"""V24: a block bounces off a linear contact, without and with damping."""
+
+import math
+
+import numpy
+from coplanetest import Case
+
+case = Case("V24", __file__)
+length, density, modulus, stiffness, speed = 0.1, 2300.0, 33e9, 1e9, 1.0
+frequency = math.sqrt(stiffness / (density * length))  # of the rigid block [rad/s]
+# An elastic bar, free at its top, on a spring at its base: beta L tan(beta L) = k L / E, of which the first root
+# gives omega = sqrt(k/m) (1 - epsilon/6), epsilon = k L / E.
+elastic = frequency * (1 - stiffness * length / modulus / 6)
+
+deck = case.load()
+run = case.run("elastic", case.load("mesh.yaml"), deck, remainder=1e-3)
+h = run.history
+touching = h["time"][numpy.flatnonzero(h["stick"] + h["slip"])]
+case.check("time in contact [s]", touching[-1] - touching[0], math.pi / elastic, 0.01, relative=True)
+case.check("largest closure [m]", -numpy.min(h["base_displacement_y"]), speed / frequency, 0.01, relative=True)
+case.check("restitution", h["block_velocity_y"][-1] / speed, 1, 0.01)
+# A closure taken half a step too early would feed energy in at a rate of omega^2 dt / 2.
+case.check("drift of the energy", numpy.max(numpy.abs(h["error"])) / h["kinetic"][0], 0, 1e-3)
+
+
+def restitution(zeta):
+    """Of a rigid mass on a spring k and a dashpot 2 zeta sqrt(k m) that push but never pull.
+
+    In units of 1/frequency, with w^2 = 1 - zeta^2: x = exp(-zeta t) sin(w t) / w. The force vanishes, and the mass
+    leaves, when tan(w t) = -2 zeta w / (1 - 2 zeta^2); its speed is then exp(-zeta t). (A dashpot that may
+    pull until the closure is zero would give exp(-pi zeta / w).)
+    """
+    w = math.sqrt(1 - zeta**2)
+    return math.exp(-zeta / w * (math.pi - math.atan2(2 * zeta * w, 1 - 2 * zeta**2)))
+
+
+# A plane's damping is a fraction of critical for the mass that it sees: 1/m_n = sum w_i^2/m_i over its nodes. Each of
+# the two nodes under the one-element block has weight 1/2 and a quarter of the block's mass, so m_n is half of it and
+# the block as a whole feels zeta / sqrt(2). The anvil is made so heavy that its nodes do not count.
+deck["materials"]["anvil"]["density"] = 2.3e9
+for zeta in (0.05, 0.21545, 0.6):
+    deck["contact"]["damping"] = {"normal": zeta * math.sqrt(2)}
+    run = case.run(f"damped_{zeta}", case.load("mesh_element.yaml"), deck)
+    h = run.history
+    e = restitution(zeta)
+    case.check(f"restitution, zeta {zeta}", h["block_velocity_y"][-1] / speed, e, 0.01, relative=True)
+    case.check(f"damping work, zeta {zeta} [J]", h["contact_damping"][-1], (1 - e**2) * h["kinetic"][0], 0.02, relative=True)
+case.finish()
