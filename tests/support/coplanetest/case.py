@@ -49,7 +49,7 @@ class Case:
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         if recipe is not None:
-            documents.save(recipe, folder / "mesh.yaml")
+            documents.save({"title": self.name, **recipe}, folder / "mesh.yaml")
             program.make_mesh(str(folder / "mesh.yaml"), str(folder / "mesh.e"))
         documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")
         arguments = ["run.yaml", "--backend", backend, "--threads", str(threads), *options]

@@ -1,0 +1,61 @@
+"""V62: how often the program searches for contacts does not change the answer."""
+
+import copy
+
+import numpy
+from coplanetest import Case, differences
+
+case = Case("V62", __file__)
+
+
+
+def spread(runs, every, reference):
+    """Largest difference of final displacements and velocities, each over its largest value."""
+    a, b = runs[every].results, runs[reference].results
+    return max(
+        numpy.max(numpy.abs(a.nodal(f) - b.nodal(f))) / numpy.max(numpy.abs(b.nodal(f))) for f in ("displacement", "velocity")
+    )
+
+
+# --- joints that stay: one search is enough, to the last bit ----------------------------------------
+deck = case.load("deck_wave.yaml")
+for name in ("wave", "grid"):
+    runs = {}
+    for every in ("once", 1, 7):
+        deck["contact"]["search_every"] = every
+        runs[every] = case.run(f"{name}_{every}", case.load(f"mesh_{name}.yaml"), deck)
+    if name == "grid":
+        # Faces beside each other along a joint begin to overlap by slivers as the blocks bulge. Such
+        # planes inherit from their neighbours at searches only, so the answer is close, not equal.
+        for every in ("once", 7):
+            case.check(f"grid: {every} against every cycle", spread(runs, every, 1), 0, 1e-6, report=True)
+        break
+    cycles = int(runs[1].history["cycle"][-1])
+    case.check("wave: searches, once", int(runs["once"].history["searches"][-1]), 1, 0)
+    case.check("wave: searches, every cycle", int(runs[1].history["searches"][-1]), cycles + 1, 0)
+    for every in runs:
+        h = runs[every].history
+        case.check(f"wave_{every}: planes, always seven joints of four faces", int(numpy.max(numpy.abs(h["planes"] - 28))), 0, 0)
+    for every in (1, 7):
+        case.check_equal(f"wave: results that differ, every {every} cycles against once",
+                         differences(runs[every].path("run.e"), runs["once"].path("run.e")), [])
+
+# --- impact and sliding -----------------------------------------------------------------------------
+incline = "tests/verification/V14_incline"
+slide = case.load(f"{incline}/deck.yaml")
+slide["time"] = {"end": 0.3, "fixed_step": 1.2e-4}
+# Two blocks collide corner first, turning (free eccentric collision).
+impact = case.load("deck_impact.yaml")
+for name, recipe, deck in (
+    ("slide", case.load(f"{incline}/mesh.yaml"), slide),
+    ("impact", case.load("mesh_impact.yaml"), impact),
+):
+    runs = {}
+    for every in (1, 2, 4, 16):
+        deck = copy.deepcopy(deck)
+        deck["contact"]["search_every"] = every
+        runs[every] = case.run(f"{name}_{every}", recipe, deck)
+    case.check_within(f"{name}: friction work [J]", runs[1].history["contact_friction"][-1], 1e-3, float("inf"))
+    for every in (2, 4, 16):
+        case.check(f"{name}: every {every} cycles against every one", spread(runs, every, 1), 0, 1e-6)
+case.finish()
