@@ -13,6 +13,7 @@ function(coplane_unit_test package)
   set(_target coplane_${package}_test)
   add_executable(${_target} ${T_SOURCES})
   target_link_libraries(${_target} PRIVATE coplane::${package} coplane::testing ${T_LIBRARIES})
+  add_dependencies(unit_tests ${_target})
   if(NOT T_RANKS)
     set(T_RANKS 1)
   endif()
@@ -43,3 +44,6 @@ function(coplane_program_test name)
   set_tests_properties(${name} PROPERTIES LABELS "${T_LABELS}" PROCESSORS ${T_PROCESSORS} TIMEOUT ${T_TIMEOUT}
     ENVIRONMENT "${COPLANE_MPI_ENVIRONMENT};COPLANE_BIN=${CMAKE_RUNTIME_OUTPUT_DIRECTORY};COPLANE_SOURCE=${PROJECT_SOURCE_DIR};COPLANE_EXODIFF=${Trilinos_DIR}/../../../bin/exodiff")
 endfunction()
+
+# `ninja unit_tests` builds the unit tests only (for the sanitizers).
+add_custom_target(unit_tests)

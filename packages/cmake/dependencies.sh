@@ -37,8 +37,12 @@ install_packages() { # files with package names
   done
   [ ${#missing[@]} = 0 ] && return
   say "installing Debian packages: ${missing[*]}"
-  as_root apt-get update -qq >&2
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >&2
+  local log
+  log=$(mktemp)
+  { as_root apt-get update -qq &&
+    as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1 ||
+    { tail -n 20 "$log" >&2; die "installing Debian packages failed, see $log"; }
+  rm -f "$log"
 }
 
 install_packages "$here/debian-packages.txt"

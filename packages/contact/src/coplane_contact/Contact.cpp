@@ -22,9 +22,9 @@ Vec3 traction(const SymTensor& s, const Vec3& n)
 } // namespace
 
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
-                 ContactOptions options, ContactRules rules, Real skin)
+                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
     : comm_(&comm), dimension_(dimension), localFaces_(std::move(localFaces)), faces_(localFaces_),
-      options_(options), rules_(std::move(rules)), skin_(skin)
+      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace)
 {
 }
 
@@ -144,6 +144,7 @@ void Contact::inherit(Plane& plane, const Vec3& normal,
   }
   if (!(area > 0))
     return;
+  plane.inherited = true;
   plane.offset = mean.offset / area;
   plane.history.maximumClosure = mean.maximumClosure / area;
   plane.closure = mean.closure / area;
@@ -236,6 +237,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
     {
       // Slots that have not touched yet look for donors again at every search.
       plane.offset = 0;
+      plane.closure = 0;
+      plane.inherited = false;
       plane.history = {};
       const FaceNodes nodesA = nodesOf(a, x), nodesB = nodesOf(b, x);
       const TrialPlane trial = dimension_ == 2
@@ -312,6 +315,10 @@ void Contact::buildGather(int ownedNodes)
   forEachEntry([&](int node, std::int64_t) { ++start[node + 1]; });
   for (int n = 0; n < ownedNodes; ++n)
     start[n + 1] += start[n];
+  cornerLoads_ =
+      CornerLoads(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::cornerLoads"),
+                  8 * planes_.extent(0));
+  loaded_ = Array<bool>("coplane::contact::loaded", planes_.extent(0));
   gatherStart_ = Array<std::int64_t>("coplane::contact::gatherStart", ownedNodes + 1);
   gatherEntry_ = Array<std::int64_t>("coplane::contact::gatherEntry", start.back());
   std::copy(start.begin(), start.end(), gatherStart_.data());
@@ -399,12 +406,15 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   const auto planes = planes_;
   const auto faces = faceTable_;
+  const auto loads = cornerLoads_;
+  const auto loaded = loaded_;
   const ContactOptions options = options_;
   const int dimension = dimension_;
   parallelFor(
       "coplane::contact::step6_updateCommonPlanes", int(planes.extent(0)),
       KOKKOS_LAMBDA(const int p) {
         Plane& plane = planes(p);
+        loaded(p) = false;
         if (plane.face[0] < 0)
           return;
         FaceNodes nodes[2];
@@ -423,45 +433,58 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
           updatePlane<2>(plane, nodes[0], nodes[1], options, dt);
         else
           updatePlane<3>(plane, nodes[0], nodes[1], options, dt);
+        // Forces once more in a compact table, for the sums at the nodes.
+        bool any = false;
+        for (int c = 0; c < 8; ++c)
+        {
+          const Vec3& force = plane.cornerForce[c / 4][c % 4];
+          const Real stiffness = plane.cornerStiffness[c / 4][c % 4];
+          any = any || stiffness > 0 || dot(force, force) > 0;
+          loads(8 * p + c, 0) = force.x;
+          loads(8 * p + c, 1) = force.y;
+          loads(8 * p + c, 2) = force.z;
+          loads(8 * p + c, 3) = stiffness;
+        }
+        loaded(p) = any;
       });
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).foundLate && planes_(p).countedHere && planes_(p).face[0] >= 0)
-        ++missed_;
+        missed_ += wasMissed(planes_(p), x);
   searchedSinceUpdate_ = false;
 }
 
-void Contact::addForces(const NodeVectors& f) const
+bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
 {
-  const auto planes = planes_;
+  // Between two searches nodes move by at most half a skin relative to each other, so a face turns
+  // by at most skin / size. A pair whose normals were not opposed enough, or that was too deep, at
+  // the last search became a candidate by turning or rising: the search has not missed it.
+  const FacePlane a = facePlane(faces_[plane.face[0]], x, dimension_);
+  const FacePlane b = facePlane(faces_[plane.face[1]], x, dimension_);
+  const Real turn = 2 * skin_ / smallestFace_;
+  return dot(a.normal, b.normal) < -options_.cosOpposed - turn &&
+         -plane.gap < plane.depthLimit - skin_;
+}
+
+void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
+{
+  const auto loads = cornerLoads_;
+  const auto loaded = loaded_;
   const auto start = gatherStart_;
   const auto entries = gatherEntry_;
   parallelFor(
       "coplane::contact::addForces", int(start.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
-        for (std::int64_t i = start(node); i < start(node + 1); ++i)
-        {
-          const std::int64_t entry = entries(i);
-          const Vec3& force = planes(entry / 8).cornerForce[(entry / 4) % 2][entry % 4];
-          f(node, 0) += force.x;
-          f(node, 1) += force.y;
-          f(node, 2) += force.z;
-        }
-      });
-}
-
-void Contact::nodeStiffness(const Array<Real>& stiffness) const
-{
-  const auto planes = planes_;
-  const auto start = gatherStart_;
-  const auto entries = gatherEntry_;
-  parallelFor(
-      "coplane::contact::nodeStiffness", int(start.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
+        Vec3 force = at(f, node);
         Real sum = 0;
         for (std::int64_t i = start(node); i < start(node + 1); ++i)
         {
           const std::int64_t entry = entries(i);
-          sum += planes(entry / 8).cornerStiffness[(entry / 4) % 2][entry % 4];
+          if (!loaded(entry / 8))
+            continue;
+          force += {loads(entry, 0), loads(entry, 1), loads(entry, 2)};
+          sum += loads(entry, 3);
         }
+        set(f, node, force);
         stiffness(node) = sum;
       });
 }

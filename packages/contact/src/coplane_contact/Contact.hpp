@@ -51,8 +51,10 @@ struct ContactCensus
 class Contact
 {
 public:
+  /// skin: how far apart faces may be to become candidates [m]; smallestFace: smallestFaceSize()
+  /// [m]
   Contact(const Comm& comm, int dimension, std::vector<Face> localFaces, ContactOptions options,
-          ContactRules rules, Real skin);
+          ContactRules rules, Real skin, Real smallestFace);
 
   /// Steps 1 to 4. Returns the ids of the nodes of ghost faces. Collective.
   std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds);
@@ -67,10 +69,9 @@ public:
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                 const ConstArray<Real>& mass, Real dt);
 
-  /// Adds the planes' forces to owned nodes, in the order of the planes' keys.
-  void addForces(const NodeVectors& f) const;
-  /// Bound on the contact stiffness that an owned node feels [N/m].
-  void nodeStiffness(const Array<Real>& stiffness) const;
+  /// Adds the planes' forces to owned nodes, in the order of the planes' keys, and bounds the
+  /// contact stiffness that each node feels [N/m].
+  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const;
 
   const std::vector<Face>& faces() const { return faces_; }
   const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
@@ -101,6 +102,7 @@ private:
   void inherit(Plane& plane, const Vec3& normal,
                const std::map<GlobalId, std::vector<const Donor*>>& donorsOfFace) const;
   void buildGather(int ownedNodes);
+  bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
   const Comm* comm_;
@@ -109,7 +111,7 @@ private:
   std::vector<Face> faces_;      ///< local, then ghost
   ContactOptions options_;
   ContactRules rules_;
-  Real skin_;
+  Real skin_, smallestFace_;
   Bins bins_;
   Ghosts ghosts_;
   std::int64_t searches_ = 0;
@@ -121,6 +123,12 @@ private:
   // Gather list: entries of owned node n are [gatherStart(n), gatherStart(n + 1)); an entry is
   // plane * 8 + face * 4 + corner.
   Array<std::int64_t> gatherStart_, gatherEntry_;
+
+  // What each corner of each plane adds to its node: force (3) and stiffness, at plane * 8 + face *
+  // 4 + corner; and whether a plane adds anything.
+  using CornerLoads = Kokkos::View<Real* [4], Kokkos::LayoutRight, Kokkos::HostSpace>;
+  CornerLoads cornerLoads_;
+  Array<bool> loaded_;
 
   // Energies of planes that have ended.
   ExactSum endedWork_, endedFriction_, endedHysteresis_, endedDamping_;

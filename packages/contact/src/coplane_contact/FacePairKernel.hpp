@@ -145,11 +145,11 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const FaceNodes& a, const FaceN
   plane.force = {};
   plane.area = 0;
   plane.normalTraction = 0;
-  plane.closure = 0;
   plane.stored = 0;
   plane.tooDeep = false;
   if (plane.born)
   {
+    plane.closure = 0;
     plane.history.shearTraction = {};
     plane.state = PlaneState::Open;
   }
@@ -274,6 +274,22 @@ KOKKOS_INLINE_FUNCTION bool shadowsApart(const Shadow& a, const Shadow& b)
          (a.count > 2 && (low[0].y >= high[1].y || low[1].y >= high[0].y));
 }
 
+/// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
+/// contact.
+constexpr Real deepestBirth = 0.25;
+
+/// Bound on the speed at which corners of the faces approach each other along the normal [m/s].
+KOKKOS_INLINE_FUNCTION Real approachSpeed(const Vec3& normal, const FaceNodes& a,
+                                          const FaceNodes& b)
+{
+  Real towards = 0, away = 0;
+  for (int i = 0; i < a.count; ++i)
+    towards = std::fmax(towards, dot(normal, a.v[i] - b.v[0]));
+  for (int i = 0; i < b.count; ++i)
+    away = std::fmax(away, dot(normal, b.v[0] - b.v[i]));
+  return towards + away;
+}
+
 /// Steps A to H of one candidate pair in one cycle.
 template <int Dim>
 KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const FaceNodes& a, const FaceNodes& b,
@@ -294,7 +310,21 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const FaceNodes& a, const 
   const Real smallest = options.areaMin * (faceA.area < faceB.area ? faceA.area : faceB.area);
   plane.foundLate = plane.fresh && !plane.declared && !plane.born && patch.area > smallest;
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
-  const bool inContact = patch.area > smallest;
+  bool inContact = patch.area > smallest;
+  if (inContact && !stepE_planeExists(plane) && !plane.fresh && !plane.declared && !plane.inherited)
+  {
+    // A new contact begins at the surface. Faces that share area for the first time while one lies
+    // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
+    // horizontal joint closed by a hair.
+    const Real depth =
+        -dot(trial.normal, weighted(patch.centroidWeights[1], faceB.x, faceB.count) -
+                               weighted(patch.centroidWeights[0], faceA.x, faceA.count));
+    const Real approach = 2 * dt * approachSpeed(trial.normal, a, b);
+    plane.released = plane.released || depth > std::fmax(approach, deepestBirth * plane.depthLimit);
+  }
+  if (!(patch.area > 0))
+    plane.released = false;
+  inContact = inContact && !plane.released;
   if (!inContact)
   {
     patch.area = 0;
@@ -315,16 +345,7 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const FaceNodes& a, const 
     stepH_updatePlaneVariables<Dim>(plane, patch, trial, a, b, motion, options, dt);
   }
   plane.fresh = false;
-  Real speed = 0; // of approach, bounded by the fastest corners
-  if (trial.opposed)
-  {
-    Real towards = 0, away = 0;
-    for (int i = 0; i < a.count; ++i)
-      towards = std::fmax(towards, dot(trial.normal, a.v[i] - b.v[0]));
-    for (int i = 0; i < b.count; ++i)
-      away = std::fmax(away, dot(trial.normal, b.v[0] - b.v[i]));
-    speed = towards + away;
-  }
+  const Real speed = trial.opposed ? approachSpeed(trial.normal, a, b) : 0;
   boundCornerStiffness(plane, patch, faceA, faceB, 2 * dt * speed);
 }
 } // namespace coplane

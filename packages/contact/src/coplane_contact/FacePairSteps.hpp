@@ -508,7 +508,7 @@ KOKKOS_INLINE_FUNCTION void stepF_createPlane(Plane& plane, const Vec3& normal, 
 {
   plane.born = true;
   plane.normal = normal;
-  if (plane.fresh && !plane.declared && gap < plane.offset)
+  if (plane.fresh && !plane.declared && !plane.inherited && gap < plane.offset)
     plane.offset = gap;
 }
 

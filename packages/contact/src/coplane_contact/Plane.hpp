@@ -62,6 +62,8 @@ struct Plane
   bool born = false;        ///< steps E and F: a plane exists
   bool fresh = true;        ///< not evaluated since the slot was made
   bool foundLate = false;   ///< was penetrated already when the search found it
+  bool inherited = false;   ///< took its history from living neighbours
+  bool released = false;    ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep = false;     ///< deeper than the limit; force frozen
   PlaneState state = PlaneState::Slot;
   std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate

@@ -98,7 +98,7 @@ Solver::Solver(Model model, const Comm& comm)
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
-                                         model_.contactRules, skin);
+                                         model_.contactRules, skin, smallest);
   }
 }
 
@@ -169,8 +169,7 @@ void Solver::findForces(Real dt)
   {
     TimedRegion region("coplane::contact::addForces");
     Kokkos::deep_copy(state_.contactForce, 0.0);
-    contact_->addForces(state_.contactForce);
-    contact_->nodeStiffness(contactStiffness_);
+    contact_->addForces(state_.contactForce, contactStiffness_);
     const auto force = state_.force;
     const auto contactForce = state_.contactForce;
     parallelFor(
@@ -380,12 +379,13 @@ ExitCode Solver::run(Observer& observer)
       if (!(std::abs(balance.error()) <= model_.time.energyTolerance * balance.scale()))
       {
         observer.finish(*this, "failed");
-        failOnAllRanks(ExitCode::Computation,
-             "cycle {}, t = {:.6e} s: the energy balance is off by {:.3e} J of {:.3e} J in play "
-             "(accepted: {} of it, "
-             "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
-             clock_.cycle, clock_.time, balance.error(), balance.scale(),
-             model_.time.energyTolerance, worstEntities());
+        failOnAllRanks(
+            ExitCode::Computation,
+            "cycle {}, t = {:.6e} s: the energy balance is off by {:.3e} J of {:.3e} J in play "
+            "(accepted: {} of it, "
+            "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
+            clock_.cycle, clock_.time, balance.error(), balance.scale(),
+            model_.time.energyTolerance, worstEntities());
       }
     }
     if (stopRequested_)
@@ -418,8 +418,9 @@ void Solver::failTogether(const std::string& what)
                  model_.blocks[b].name, blocks_[b].volume()(e));
         }
       });
-  failOnAllRanks(ExitCode::Computation, "cycle {}, t = {:.6e} s: the stable step is not a number ({}). {}",
-       clock_.cycle, clock_.time, what, worstEntities());
+  failOnAllRanks(ExitCode::Computation,
+                 "cycle {}, t = {:.6e} s: the stable step is not a number ({}). {}", clock_.cycle,
+                 clock_.time, what, worstEntities());
 }
 
 EnergyBalance Solver::energy() const

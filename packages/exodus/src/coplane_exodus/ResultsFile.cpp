@@ -193,11 +193,12 @@ void ResultsFile::failTogether(const std::string& doing)
   const std::string reason = comm_.broadcast(failure_, failed);
   const std::string file = comm_.broadcast(file_, failed);
   abandon();
-  fail(ExitCode::Output,
-       "{}: {} failed on rank {}: {}. The file keeps {} finished time steps. Make room (disk, "
-       "quota, file-size limit) and restart, "
-       "or write fewer variables or steps.",
-       file, doing, failed, reason, steps_);
+  failOnAllRanks(
+      ExitCode::Output,
+      "{}: {} failed on rank {}: {}. The file keeps {} finished time steps. Make room (disk, "
+      "quota, file-size limit) and restart, "
+      "or write fewer variables or steps.",
+      file, doing, failed, reason, steps_);
 }
 
 void ResultsFile::abandon()
