@@ -1,0 +1,118 @@
+"""Checks of the documents and of the installed package; one per argument. Run by ctest, in a folder of its own."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
+BINARIES = pathlib.Path(os.environ["COPLANE_BIN"])
+BUILD = BINARIES.parent
+
+
+def run(command, **options):
+    return subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, **options)
+
+
+def tracked(*patterns):
+    listed = run(["git", "ls-files", *patterns], cwd=SOURCE)
+    if listed.returncode:
+        sys.exit(listed.stdout)
+    return [name for name in listed.stdout.splitlines() if (SOURCE / name).is_file()]
+
+
+def check_format():
+    """Every C++ file is as clang-format leaves it."""
+    names = tracked("*.cpp", "*.hpp")
+    assert names, "no C++ files found"
+    done = run(["clang-format", "--dry-run", "-Werror", *names], cwd=SOURCE)
+    assert done.returncode == 0, done.stdout[:4000]
+    print(f"{len(names)} files are formatted")
+
+
+def check_packages():
+    """The picture of the packages is the one that their dependency files give."""
+    picture = pathlib.Path("packages.svg")
+    done = run([sys.executable, str(SOURCE / "packages/cmake/draw-packages.py"), str(picture)])
+    assert done.returncode == 0, done.stdout
+    kept = (SOURCE / "docs/developer/packages.svg").read_text()
+    assert picture.read_text() == kept, "docs/developer/packages.svg is old: run packages/cmake/draw-packages.py"
+
+
+def check_deck():
+    """The deck reference is what the program prints."""
+    printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])
+    assert printed.returncode == 0, printed.stdout
+    kept = (SOURCE / "docs/user/deck.md").read_text()
+    assert printed.stdout == kept, "docs/user/deck.md is old: build/bin/coplane --help-deck-markdown > docs/user/deck.md"
+
+
+def check_links():
+    """Relative links of all Markdown files lead to files of the project."""
+    broken = []
+    for name in tracked("*.md"):
+        text = re.sub(r"```.*?```", "", (SOURCE / name).read_text(), flags=re.S)
+        for target in re.findall(r"\]\(([^)#\s]+)", text):
+            if "://" not in target and not ((SOURCE / name).parent / target).exists():
+                broken.append(f"{name}: {target}")
+    assert not broken, "\n".join(broken)
+
+
+def readme_commands():
+    text = (SOURCE / "README.md").read_text()
+    return [line for block in re.findall(r"```bash\n(.*?)```", text, flags=re.S) for line in block.splitlines() if line]
+
+
+def check_readme():
+    """Every command of the README runs. The main job runs for its first 0.3 ms here, without pictures (the test paper.bar_wall runs
+    all of it); the test command is the one that runs this test."""
+    folder = pathlib.Path("readme").absolute()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    for name in ("exodus_inputs", "packages"):
+        (folder / name).symlink_to(SOURCE / name)
+    (folder / "build").symlink_to(BUILD)
+    environment = dict(os.environ, PWD=str(folder))
+    for command in readme_commands():
+        if command == "packages/cmake/run-tests.sh":
+            assert os.access(SOURCE / command, os.X_OK)
+            continue
+        if command == "packages/cmake/main-job.sh":
+            command = f"bash {SOURCE}/{command} --no-pictures --end 3e-4 --folder {folder}/main-job"
+        done = run(["bash", "-euc", command], cwd=folder, env=environment)
+        print(f"$ {command}\n{done.stdout[-1500:]}")
+        assert done.returncode == 0, f"exit code {done.returncode}: {command}"
+    for name in ("bars.e", "bars.csv", "bars.run.json", "bars_planes.pvd", "main-job/wall.e", "main-job/wall.csv"):
+        assert (folder / name).stat().st_size > 0, name
+
+
+def check_install():
+    """The install target gives a package that another project finds, links and runs."""
+    prefix = pathlib.Path("prefix").absolute()
+    done = run(["cmake", "--install", str(BUILD), "--prefix", str(prefix)])
+    assert done.returncode == 0, done.stdout[-3000:]
+    user = pathlib.Path("user")
+    user.mkdir(exist_ok=True)
+    (user / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(user C CXX)\nfind_package(Coplane 0.1 REQUIRED)\n"
+        "add_executable(user main.cpp)\ntarget_link_libraries(user coplane::contact)\n"
+    )
+    (user / "main.cpp").write_text(
+        "#include <coplane_core/Version.hpp>\n#include <coplane_joint/HyperbolicCoulombJoint.hpp>\n#include <cstdio>\n"
+        'int main() { coplane::HyperbolicCoulombJoint joint; joint.initialStiffness = 2; '
+        'std::printf("%s %g\\n", coplane::version().number.c_str(), joint.loadingTraction(3)); }\n'
+    )
+    done = run(["cmake", "-S", str(user), "-B", "user-build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"])
+    assert done.returncode == 0, done.stdout[-3000:]
+    done = run(["cmake", "--build", "user-build"])
+    assert done.returncode == 0, done.stdout[-3000:]
+    printed = run(["user-build/user"]).stdout
+    assert printed.split()[1:] == ["6"], printed
+    version = run([str(prefix / "bin/coplane"), "--version"])
+    assert version.returncode == 0 and version.stdout.startswith("coplane "), version.stdout
+
+
+if __name__ == "__main__":
+    globals()[f"check_{sys.argv[1]}"]()

@@ -1,0 +1,57 @@
+"""The main job to its end, and what must be true of it (README.md beside this file)."""
+
+import os
+import pathlib
+import sys
+
+import numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
+from coplanetest import program  # noqa: E402
+from coplanetest.program import Run, make_mesh, run_program  # noqa: E402
+import json  # noqa: E402
+
+inputs = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/bar_wall_3d"
+folder = pathlib.Path("run")
+folder.mkdir(exist_ok=True)
+make_mesh(str(inputs / "mesh.yaml"), str(folder / "bar_wall_3d.e"))
+arguments = [str(inputs / "wall.yaml"), "--backend", "serial",
+             "--set", f"mesh={(folder / 'bar_wall_3d.e').resolve()}",
+             "--set", "output.results=run.e", "--set", "history.file=run.csv"]
+code, output = run_program(arguments, str(folder), ranks=2, timeout=1150)
+print("\n".join(output.splitlines()[-40:]))
+run = Run(folder, code, output)
+failures = 0
+
+
+def check(quantity, value, low, high):
+    global failures
+    passed = bool(low <= value <= high)
+    failures += not passed
+    print(json.dumps({"case": "bar_wall", "quantity": quantity, "value": float(value), "accepted": [low, high], "passed": passed}))
+
+
+check("exit code", code, 0, 0)
+history = run.history
+start = history["initial"][-1]
+check("energy balance over initial energy", numpy.abs(history["error"]).max() / start, 0, 0.02)
+check("contact remainder over initial energy", history["contact_remainder"].max() / start, 0, 0.05)
+check("contact remainder is a loss", history["contact_remainder"].min() / start, -1e-3, 0.05)
+mass_speed = 4019.2 * 70
+error = max(numpy.abs(history[f"momentum_error_{axis}"]).max() for axis in "xyz")
+check("momentum with impulses over initial momentum", error / mass_speed, 0, 1e-10)
+check("planes too deep", history["too_deep"].max(), 0, 0)
+check("contacts missed", history["missed"][-1], 0, 0)
+check("forward speed of the bar at the end", history["bar_velocity_z"][-1], 5, 60)
+
+results = run.results
+last = len(results.times) - 1
+moved = results.nodal("displacement_z", last)
+x, y, z = results.coordinates.T[:3]
+bricks = (z >= -1e-9) & (z <= 0.64 + 1e-9)
+middle = bricks & (numpy.abs(x) < 1) & (y > 2.2) & (y < 3.8)
+corners = bricks & (numpy.abs(x) > 2.5) & (y < 1)
+check("largest forward motion of bricks in the middle", moved[middle].max(), 0.2, 10)
+check("motion of bricks at the lower corners", numpy.abs(moved[corners]).max(), 0, 0.2)
+check("friction work over initial energy", history["contact_friction"][-1] / start, 0.05, 0.9)
+sys.exit(1 if failures else 0)
