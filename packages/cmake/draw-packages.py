@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Draws docs/developer/packages.svg from packages/PackagesList.cmake and packages/*/cmake/Dependencies.cmake.
 
-    packages/cmake/draw-packages.py            writes the picture
-    packages/cmake/draw-packages.py --check    exit code 1 when the committed picture differs from what would be written
+    packages/cmake/draw-packages.py [FILE]
 
 A package stands one level above the highest package that it uses. A dependency that another one implies is not drawn: the
 picture shows the least set of arrows from which all declared ones follow. Needs the Python standard library only.
@@ -87,13 +86,9 @@ def picture():
 
 
 def main():
-    if sys.argv[1:] == ["--check"]:
-        if not PICTURE.exists() or PICTURE.read_text() != picture():
-            sys.exit(f"{PICTURE} does not follow from the Dependencies.cmake files; run packages/cmake/draw-packages.py")
-    elif not sys.argv[1:]:
-        PICTURE.write_text(picture())
-    else:
+    if len(sys.argv) > 2 or (sys.argv[1:] and sys.argv[1].startswith("-")):
         sys.exit(__doc__)
+    Path(sys.argv[1] if sys.argv[1:] else PICTURE).write_text(picture())
 
 
 main()

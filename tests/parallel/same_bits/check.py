@@ -1,6 +1,6 @@
 """V59, V60: one run, bit for bit, on any number of ranks and threads and on either back end.
 
-Usage: check.py 2d|3d|tiny [full]
+Usage: check.py 2d|3d|tiny [all]
 """
 
 import itertools
@@ -8,7 +8,7 @@ import sys
 
 from coplanetest import Case, differences
 
-dimension, full = sys.argv[1], "full" in sys.argv[2:]
+dimension, full = sys.argv[1], "all" in sys.argv[2:]
 case = Case(f"V59 V60 {dimension}", __file__)
 recipe, deck = case.load(f"mesh_{dimension}.yaml"), case.load()
 velocity, end = {"2d": ([100, 20, 0], 1.2e-4), "3d": ([5, -40, 90], 5e-4), "tiny": ([20, 5, 0], 5e-4)}[dimension]
