@@ -372,7 +372,16 @@ ExitCode Solver::run(Observer& observer)
       observer.finish(*this, "failed");
       failTogether("element");
     }
-    observer.endOfCycle(*this);
+    try
+    {
+      observer.endOfCycle(*this);
+    }
+    catch (const Error& error)
+    {
+      if (error.onAllRanks())
+        finishAfter(error, observer);
+      throw;
+    }
     if (clock_.cycle % energyCheckEvery == 0)
     {
       const EnergyBalance balance = energy();
@@ -397,6 +406,20 @@ ExitCode Solver::run(Observer& observer)
   }
   observer.finish(*this, ending);
   return code;
+}
+
+void Solver::finishAfter(const Error& error, Observer& observer) const
+{
+  // An output has failed: the others still close their files.
+  try
+  {
+    observer.finish(*this, "failed");
+  }
+  catch (const Error& again)
+  {
+    if (std::string(again.what()) != error.what())
+      logError(again.what());
+  }
 }
 
 void Solver::failTogether(const std::string& what)

@@ -90,6 +90,7 @@ private:
   void kick(Real step);
   void drift(Real dt);
   void planNextCycle(bool first);
+  void finishAfter(const Error& error, Observer& observer) const;
   [[noreturn]] void failTogether(const std::string& what);
 
   Model model_;
