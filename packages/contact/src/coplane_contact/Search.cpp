@@ -1,5 +1,6 @@
 #include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
 #include <algorithm>
@@ -303,33 +304,53 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
   facePlanes.reserve(faces.size());
   for (const Face& face : faces)
     facePlanes.push_back(facePlane(face, x, dimension));
-  std::vector<CandidatePair> pairs;
-  for (std::size_t begin = 0; begin < sorted.entries.size();)
+  // Bins in a fixed number of shares; every share collects its own pairs, and the order comes from
+  // sorting by key.
+  constexpr int shares = 64;
+  const std::size_t entries = sorted.entries.size();
+  const auto borderOfShare = [&](int share)
   {
-    const std::uint64_t key = sorted.entries[begin].first;
-    std::size_t end = begin;
-    while (end < sorted.entries.size() && sorted.entries[end].first == key)
-      ++end;
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t j = i + 1; j < end; ++j)
-      {
-        int p = sorted.entries[i].second, q = sorted.entries[j].second;
-        if (!(dot(facePlanes[p].normal, facePlanes[q].normal) < 0))
-          continue;
-        // Two faces may share several bins; the pair is treated in the lowest one.
-        Bins::Index lowest;
-        for (int c = 0; c < 3; ++c)
-          lowest[c] = std::max(sorted.ranges[p][0][c], sorted.ranges[q][0][c]);
-        if (Bins::key(lowest) != key)
-          continue;
-        if (faces[p].id > faces[q].id)
-          std::swap(p, q);
-        if (judgePair(faces[p], faces[q], sorted.boxes[p], sorted.boxes[q], facePlanes[p],
-                      facePlanes[q], x, rules) == Verdict::Candidate)
-          pairs.push_back({p, q});
-      }
-    begin = end;
-  }
+    std::size_t border = entries * share / shares;
+    while (border > 0 && border < entries &&
+           sorted.entries[border].first == sorted.entries[border - 1].first)
+      ++border;
+    return border;
+  };
+  std::vector<std::vector<CandidatePair>> found(shares);
+  const auto pairsOfShare = [&](const int share)
+  {
+    const std::size_t last = borderOfShare(share + 1);
+    for (std::size_t begin = borderOfShare(share); begin < last;)
+    {
+      const std::uint64_t key = sorted.entries[begin].first;
+      std::size_t end = begin;
+      while (end < last && sorted.entries[end].first == key)
+        ++end;
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t j = i + 1; j < end; ++j)
+        {
+          int p = sorted.entries[i].second, q = sorted.entries[j].second;
+          if (!(dot(facePlanes[p].normal, facePlanes[q].normal) < 0))
+            continue;
+          // Two faces may share several bins; the pair is treated in the lowest one.
+          Bins::Index lowest;
+          for (int c = 0; c < 3; ++c)
+            lowest[c] = std::max(sorted.ranges[p][0][c], sorted.ranges[q][0][c]);
+          if (Bins::key(lowest) != key)
+            continue;
+          if (faces[p].id > faces[q].id)
+            std::swap(p, q);
+          if (judgePair(faces[p], faces[q], sorted.boxes[p], sorted.boxes[q], facePlanes[p],
+                        facePlanes[q], x, rules) == Verdict::Candidate)
+            found[share].push_back({p, q});
+        }
+      begin = end;
+    }
+  };
+  parallelFor("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
+  std::vector<CandidatePair> pairs;
+  for (const auto& some : found)
+    pairs.insert(pairs.end(), some.begin(), some.end());
   std::sort(pairs.begin(), pairs.end(),
             [&](const CandidatePair& a, const CandidatePair& b)
             {
