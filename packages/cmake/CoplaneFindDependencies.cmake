@@ -71,6 +71,8 @@ if(Trilinos_FOUND)
     target_link_libraries(coplane_trilinos INTERFACE ${Trilinos_LIBRARIES} ${Trilinos_TPL_LIBRARIES})
     target_include_directories(coplane_trilinos SYSTEM INTERFACE ${Trilinos_INCLUDE_DIRS} ${Trilinos_TPL_INCLUDE_DIRS})
   endif()
+  # Trilinos names all its libraries; only those that are used are linked (some have symbols that only others of its programs bring).
+  target_link_options(coplane_trilinos INTERFACE -Wl,--as-needed)
   target_link_libraries(coplane_trilinos INTERFACE OpenMP::OpenMP_CXX MPI::MPI_CXX)
   set_target_properties(coplane_trilinos PROPERTIES EXPORT_NAME trilinos)
   add_library(coplane::trilinos ALIAS coplane_trilinos)

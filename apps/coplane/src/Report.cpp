@@ -66,9 +66,10 @@ void reportEnd(const Solver& solver)
   {
     const ContactCounts counts = solver.contact().counts();
     logInfo("planes: {} ({} open, {} stick, {} slip) in {} slots; {} deeper than the limit; {} "
+            "released; {} "
             "contacts missed; {} searches",
             counts.planes, counts.open, counts.stick, counts.slip, counts.slots, counts.tooDeep,
-            counts.missed, solver.searches());
+            counts.released, counts.missed, solver.searches());
   }
   logInfo("seconds on rank 0:");
   for (const auto& [label, seconds] : timers())

@@ -79,6 +79,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
 
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
+  listenToSignals();
   Deck deck;
   Mesh mesh;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
@@ -96,9 +97,11 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
         const auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
-        const auto unusable = meshProblems(mesh);
-        if (!unusable.empty())
-          fail(ExitCode::Mesh, "{}", fmt::join(unusable, "\n"));
+        const MeshReport report = reportMesh(mesh);
+        if (!report.usable())
+          fail(ExitCode::Mesh, "{}: {}", deck.mesh, fmt::join(meshProblems(report), "\n"));
+        for (const std::string& note : meshProblems(report))
+          logWarning("mesh", fmt::format("{}: {}", deck.mesh, note));
       });
 
   logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number,
@@ -114,7 +117,6 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     logInfo("check: deck and mesh are fine; nothing was run");
     return int(ExitCode::Success);
   }
-  listenToSignals();
   MultiObserver observers = observersOf(deck, mesh, comm, command);
   const ExitCode code = solver.run(observers);
   reportEnd(solver);

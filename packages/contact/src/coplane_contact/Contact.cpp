@@ -519,7 +519,7 @@ ContactEnergy Contact::energy() const
 
 ContactCounts Contact::counts() const
 {
-  std::vector<std::int64_t> n(7, 0);
+  std::vector<std::int64_t> n(8, 0);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
     const Plane& plane = planes_(p);
@@ -531,10 +531,11 @@ ContactCounts Contact::counts() const
     n[3] += plane.state == PlaneState::Stick;
     n[4] += plane.state == PlaneState::Slip;
     n[5] += plane.tooDeep;
+    n[6] += plane.released;
   }
-  n[6] = missed_;
+  n[7] = missed_;
   comm_->sum(n);
-  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6]};
+  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
 }
 
 ContactCensus Contact::census() const

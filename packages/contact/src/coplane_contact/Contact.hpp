@@ -30,7 +30,8 @@ struct ContactEnergy
 /// Numbers of planes over all ranks.
 struct ContactCounts
 {
-  std::int64_t slots = 0, planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, missed = 0;
+  std::int64_t slots = 0, planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, released = 0,
+               missed = 0;
 };
 
 /// What is known before the first step, over all ranks.

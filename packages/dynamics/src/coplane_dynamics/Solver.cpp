@@ -189,7 +189,8 @@ Real Solver::stableStep()
           return infinity; // a node without elements
         const Real omega = 2 / elementStep(n);
         const Real squared = omega * omega + stiffness(n) / mass(n);
-        return squared > 0 ? 2 / std::sqrt(squared) : infinity;
+        // Not a number: a force or stiffness is broken; planNextCycle() stops the run.
+        return squared > 0 ? 2 / std::sqrt(squared) : squared == 0 ? infinity : 0;
       });
 }
 
@@ -260,8 +261,7 @@ void Solver::planNextCycle(bool first)
   int broken = -1;
   for (std::size_t b = 0; b < blocks_.size() && broken < 0; ++b)
     broken = blocks_[b].invertedElement() >= 0 ? int(b) : -1;
-  std::vector<Real> extremes{-stable, Real(broken >= 0 || std::isnan(stable)),
-                             Real(int(takeRequest()))};
+  std::vector<Real> extremes{-stable, Real(broken >= 0 || !(stable > 0)), Real(int(takeRequest()))};
   comm_->max(extremes);
   failed_ = extremes[1] > 0;
   resultsRequested_ = extremes[2] == Real(int(Request::WriteResults));

@@ -129,7 +129,8 @@ Key contactKeys()
           .in("cycles")
           .like("2")
           .defaultIs(fmt::format("{}", ContactCard{}.searchEvery))
-          .means("largest number of cycles between searches; once: only at the start");
+          .means("largest number of cycles between searches; once: at the start, and again only if "
+                 "faces move so far that a contact might be missed");
   return group(
              "contact", &Deck::contact,
              {

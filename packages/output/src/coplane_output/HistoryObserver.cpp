@@ -74,6 +74,7 @@ void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
   line.add("stick", counts.stick);
   line.add("slip", counts.slip);
   line.add("too_deep", counts.tooDeep);
+  line.add("released", counts.released);
   line.add("missed", counts.missed);
   line.add("searches", searches);
 }
