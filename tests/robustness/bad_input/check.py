@@ -1,0 +1,125 @@
+"""Bad meshes, decks and disks: the right exit code on every rank, and a message that says what to mend."""
+
+import copy
+import math
+import os
+import pathlib
+import re
+import shutil
+
+import netCDF4
+from coplanetest import Case, documents, program
+
+case = Case("bad input", __file__)
+recipe, good = case.load("mesh.yaml"), case.load()
+documents.save({"title": "bad input", **recipe}, "mesh.yaml")
+program.make_mesh("mesh.yaml", "good.e")
+
+# As docs/user/exit-codes.md has them.
+DECK, MESH, OUTPUT, COMPUTATION = 3, 4, 5, 6
+
+
+def attempt(name, deck=None, spoil=None, limit="unlimited", ranks=3):
+    """Runs in a fresh folder; returns mpirun's exit code, every rank's and the output. `limit`: of the size
+    of files, in blocks of 1024 bytes. A rank that waits for ever meets the time limit.
+    """
+    folder = pathlib.Path(name.replace(" ", "_")).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    shutil.copy("good.e", folder / "mesh.e")
+    if spoil:
+        spoil(folder / "mesh.e")
+    documents.save({"mesh": "mesh.e", **(deck or good)}, folder / "run.yaml")
+    # The shells outlive mpirun's request to end, which comes as soon as the first rank has ended. A full disk sends
+    # no signal, unlike the limit that imitates it.
+    shell = f'trap "" XFSZ TERM; ulimit -f {limit}; "$@"; code=$?; echo $code > code.$OMPI_COMM_WORLD_RANK; exit $code'
+    command = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(ranks), "--bind-to", "none"]
+    command += ["--mca", "orte_abort_on_non_zero_status", "0", "bash", "-c", shell, "bash"]
+    code, output = program.run_program(["run.yaml"], folder, prefix=command, timeout=60)
+    (folder / "output.txt").write_text(output)
+    return code, [int(path.read_text()) for path in sorted(folder.glob("code.*"))], output
+
+
+def expect(name, code, texts, deck=None, spoil=None, limit="unlimited"):
+    launched, codes, output = attempt(name, deck, spoil, limit)
+    case.check_equal(f"{name}: exit codes of ranks", codes, [code] * 3)
+    case.check_equal(f"{name}: exit code of mpirun", launched, code)
+    missing = [text for text in texts if text not in output]
+    if not case.check_equal(f"{name}: words missing in the message", missing, []):
+        print(output)
+    # Once, not once per rank.
+    case.check_equal(f"{name}: times that an error is printed", len(re.findall(r"(?m)^ERROR", output)), 1)
+
+
+def changed(path, value):
+    """The good deck with one value changed; None removes it."""
+    deck = copy.deepcopy(good)
+    place = deck
+    for key in path[:-1]:
+        place = place[key]
+    if value is None:
+        del place[path[-1]]
+    else:
+        place[path[-1]] = value
+    return deck
+
+
+def edit(change):
+    def spoil(path):
+        with netCDF4.Dataset(path, "a") as file:
+            file.set_auto_mask(False)
+            change(file)
+
+    return spoil
+
+
+def invert(file):
+    connectivity = file["connect1"][:]
+    connectivity[4] = connectivity[4][::-1]
+    file["connect1"][:] = connectivity
+
+
+def not_a_number(file):
+    file["coordx"][7] = math.nan
+
+
+def truncate(path):
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 3])
+
+
+# --- meshes -----------------------------------------------------------------------------------------
+expect("missing mesh", MESH, ["mesh.e"], spoil=lambda path: path.unlink())
+expect("text as mesh", MESH, ["mesh.e"], spoil=lambda path: path.write_text("solid cube\n"))
+expect("empty mesh file", MESH, ["mesh.e"], spoil=lambda path: path.write_bytes(b""))
+expect("truncated mesh", MESH, ["mesh.e"], spoil=truncate)
+expect("folder as mesh", MESH, ["mesh.e"], spoil=lambda path: (path.unlink(), path.mkdir()))
+expect("inverted element", MESH, ["5", "left"], spoil=edit(invert))
+expect("coordinate not a number", MESH, ["8"], spoil=edit(not_a_number))
+
+# --- decks ------------------------------------------------------------------------------------------
+expect("block without material", DECK, ["right"], changed(["blocks", "right"], None))
+expect("block not in mesh", DECK, ["middle", "left"], changed(["blocks", "middle"], {"material": "soft"}))
+expect("unknown material", DECK, ["sotf", "soft"], changed(["blocks", "left"], {"material": "sotf"}))
+expect("missing node set", DECK, ["bottom", "end"], changed(["conditions", 0, "node_set"], "bottom"))
+expect("negative modulus", DECK, ["youngs_modulus", "> 0"], changed(["materials", "soft", "youngs_modulus"], -1e9))
+expect("modulus not a number", DECK, ["youngs_modulus"], changed(["materials", "soft", "youngs_modulus"], math.nan))
+expect("infinite end", DECK, ["time.end"], changed(["time", "end"], math.inf))
+expect("misspelt key", DECK, ["densty", "density"], changed(["materials", "soft", "densty"], 1))
+
+# --- runs that cannot go on -------------------------------------------------------------------------
+unstable = changed(["time"], {"end": 1e-2, "fixed_step": 2e-4})
+expect("step far too large", COMPUTATION, ["cycle", "step"], unstable)
+
+# --- disks ------------------------------------------------------------------------------------------
+expect("results in a folder that is missing", OUTPUT, ["no_such_folder"], changed(["output", "results"], "no_such_folder/run.e"))
+# A full disk, imitated by a limit on the size of files of 10 MB: MPI's own files must stay below it.
+for part, number in zip(recipe["parts"], (60, 61)):
+    part["divisions"] = [number, number]
+documents.save({"title": "bad input", **recipe}, "mesh.yaml")
+program.make_mesh("mesh.yaml", "good.e")
+full = changed(["output"], {"every": 1e-6})
+expect("full disk", OUTPUT, ["run.e"], full, limit="10240")
+steps = netCDF4.Dataset("full_disk/run.e")["time_whole"]
+case.check_within("full disk: steps that can be read", len(steps), 2, 1000)
+case.finish()

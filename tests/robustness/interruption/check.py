@@ -1,0 +1,96 @@
+"""SIGTERM ends a run in order, SIGUSR1 asks for results, and a killed rank ends the run and spoils no file."""
+
+import csv
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import time
+
+import numpy
+from coplanetest import Case, Results, documents, program
+
+case = Case("interruption", __file__)
+INTERRUPTED = 7
+
+
+def start(name, ranks, every):
+    """A run in a folder of its own; returns mpirun (or the program) and the process ids of the ranks, when it has
+    run for a while.
+    """
+    folder = pathlib.Path(name.replace(" ", "_")).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    documents.save({"title": case.name, **case.load("mesh.yaml")}, folder / "mesh.yaml")
+    program.make_mesh(str(folder / "mesh.yaml"), str(folder / "mesh.e"))
+    documents.save({"mesh": "mesh.e", **case.load(), "output": {"every": every}}, folder / "run.yaml")
+    told = ["sh", "-c", 'echo $$ > pid.${OMPI_COMM_WORLD_RANK:-0}; exec "$@"', "sh", program.binary("coplane"), "run.yaml"]
+    if ranks > 1:
+        told = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(ranks), "--bind-to", "none"] + told
+    with open(folder / "output.txt", "w") as output:
+        process = subprocess.Popen(told, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
+    history = folder / "run.csv"
+    deadline = time.time() + 60
+    while time.time() < deadline and not (history.exists() and history.read_bytes().count(b"\n") > 200):
+        time.sleep(0.02)
+    pids = [int(path.read_text()) for path in sorted(folder.glob("pid.*"))]
+    case.check(f"{name}: ranks", len(pids), ranks, 0)
+    return folder, process, pids
+
+
+def read(folder):
+    """Times of the results, the last displacements, the last complete line of the history."""
+    results = Results(str(folder / "run.e"))
+    lines = [row for row in csv.reader(open(folder / "run.csv"))]
+    complete = [row for row in lines[1:] if len(row) == len(lines[0])]
+    return results, float(complete[-1][0])
+
+
+def ends(name, process):
+    try:
+        return process.wait(timeout=60)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        case.check_equal(f"{name}: ended by itself", False, True)
+        return None
+
+
+for ranks in (1, 3):
+    name = f"SIGTERM on {ranks} ranks"
+    folder, process, pids = start(name, ranks, 1.0)
+    os.kill(pids[-1], signal.SIGTERM)  # one rank is told; all end
+    case.check_equal(f"{name}: exit code", ends(name, process), INTERRUPTED)
+    results, last = read(folder)
+    # Results are due at 1 s only: the second step is the one that the signal wrote.
+    case.check(f"{name}: steps", len(results.times), 2, 0)
+    case.check(f"{name}: time of the last step [s]", results.times[-1], last, 0)
+    record = json.loads((folder / "run.run.json").read_text())
+    case.check_equal(f"{name}: ending in the record", record["ending"], "interrupted")
+
+name = "SIGUSR1"
+folder, process, pids = start(name, 2, 1.0)
+os.kill(pids[0], signal.SIGUSR1)
+time.sleep(1)
+os.kill(pids[0], signal.SIGTERM)
+case.check_equal(f"{name}: exit code", ends(name, process), INTERRUPTED)
+case.check(f"{name}: steps", len(read(folder)[0].times), 3, 0)
+
+# A killed rank: the others wait for it, and mpirun has to end them. Every step costs time, so that the kill falls
+# into the writing now and then.
+for attempt in range(3):
+    name = f"killed rank {attempt}"
+    folder, process, pids = start(name, 3, 2e-6)
+    time.sleep(0.05 * attempt)
+    os.kill(pids[attempt], signal.SIGKILL)
+    code = ends(name, process)
+    case.check_equal(f"{name}: mpirun ends with an error", code not in (0, None), True)
+    results, last = read(folder)
+    case.check_within(f"{name}: steps that can be read", len(results.times), 10, 1e9)
+    case.check_equal(f"{name}: times grow", bool(numpy.all(numpy.diff(results.times) > 0)), True)
+    finite = all(numpy.all(numpy.isfinite(results.nodal(f, -2))) for f in ("displacement", "velocity"))
+    case.check_equal(f"{name}: values of the last whole step are numbers", finite, True)
+    series = (folder / "run_planes.pvd").read_text()
+    case.check_equal(f"{name}: the series of planes is whole", series.rstrip().endswith("</VTKFile>"), True)
+case.finish()
