@@ -82,7 +82,12 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
 {
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
-    bins_ = step1_globalSpaceLimits(localFaces_, x, skin_, *comm_);
+    Real depth = 0;
+    for (std::size_t p = 0; p < planes_.extent(0); ++p)
+      if (planes_(p).area > 0)
+        depth = std::max(depth, -planes_(p).gap);
+    reach_ = skin_ + comm_->max(depth);
+    bins_ = step1_globalSpaceLimits(localFaces_, x, reach_, *comm_);
   }
   ghosts_ = {};
   std::vector<GlobalId> nodes;
@@ -91,7 +96,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   SortedFaces sorted;
   {
     TimedRegion region("coplane::contact::step2_sortIntoBins");
-    sorted = step2_sortIntoBins(bins_, localFaces_, x, skin_);
+    sorted = step2_sortIntoBins(bins_, localFaces_, x, reach_);
   }
   std::vector<InteractingRank> ranks;
   {
@@ -183,6 +188,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
 
   CandidateRules candidates;
   candidates.skin = skin_;
+  candidates.reach = reach_;
   candidates.cosOpposed = options_.cosOpposed;
   candidates.depthMax = options_.depthMax;
   candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
@@ -459,11 +465,14 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   // Between two searches nodes move by at most half a skin relative to each other, so a face turns
   // by at most skin / size. A pair whose normals were not opposed enough, or that was too deep, at
   // the last search became a candidate by turning or rising: the search has not missed it.
-  const FacePlane a = facePlane(faces_[plane.face[0]], x, dimension_);
-  const FacePlane b = facePlane(faces_[plane.face[1]], x, dimension_);
+  const Face& faceA = faces_[plane.face[0]];
+  const Face& faceB = faces_[plane.face[1]];
+  const FacePlane a = facePlane(faceA, x, dimension_);
+  const FacePlane b = facePlane(faceB, x, dimension_);
   const Real turn = 2 * skin_ / smallestFace_;
-  return dot(a.normal, b.normal) < -options_.cosOpposed - turn &&
-         -plane.gap < plane.depthLimit - skin_;
+  const Real gap = dot(plane.normal, b.center - a.center);
+  const Real deepest = options_.depthMax * std::min(faceA.thickness, faceB.thickness);
+  return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
 }
 
 void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const

@@ -74,7 +74,7 @@ void forEachBin(const std::array<Bins::Index, 2>& range, const Visit& visit)
 }
 } // namespace
 
-Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real skin,
+Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
                              const Comm& comm)
 {
   // Histogram of face sizes in steps of 2^(1/4): integer counts have the same sum on any number of
@@ -109,16 +109,16 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
   int percentile = 0;
   while (percentile + 1 < classes && (count += histogram[percentile]) * 10 < total * 9)
     ++percentile;
-  bins.edge = std::exp2((percentile + 1 - classes / 2) / 4.0) * 1.5 + skin;
+  bins.edge = std::exp2((percentile + 1 - classes / 2) / 4.0) * 1.5 + reach;
   // At most 2^20 bins along an axis, for the keys.
-  bins.edge = std::max(bins.edge, (longestSide(bins.limits) + 4 * skin) / (1 << 19));
+  bins.edge = std::max(bins.edge, (longestSide(bins.limits) + 4 * reach) / (1 << 19));
   if (!(bins.edge > 0) || !(bins.edge < infinity))
     bins.edge = 1;
   return bins;
 }
 
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
-                               const ConstNodeVectors& x, Real skin)
+                               const ConstNodeVectors& x, Real reach)
 {
   SortedFaces sorted;
   sorted.bins = bins;
@@ -127,7 +127,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
   for (int f = 0; f < int(faces.size()); ++f)
   {
     Box box = boxOf(faces[f], x);
-    box.grow(0.5 * skin);
+    box.grow(0.5 * reach);
     sorted.boxes.push_back(box);
     sorted.ranges.push_back({bins.indexOf(box.low), bins.indexOf(box.high)});
     forEachBin(sorted.ranges.back(),
@@ -299,7 +299,7 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
                                                 const ConstNodeVectors& x, int dimension,
                                                 const CandidateRules& rules)
 {
-  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, rules.skin);
+  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, std::max(rules.skin, rules.reach));
   std::vector<FacePlane> facePlanes;
   facePlanes.reserve(faces.size());
   for (const Face& face : faces)

@@ -38,7 +38,7 @@ struct Bins
 struct SortedFaces
 {
   Bins bins;
-  std::vector<Box> boxes;                             ///< per face, grown by half the skin
+  std::vector<Box> boxes;                             ///< per face, grown by half the reach
   std::vector<std::array<Bins::Index, 2>> ranges;     ///< lowest and highest bin of each face
   std::vector<std::pair<std::uint64_t, int>> entries; ///< (bin, face), sorted
 };
@@ -54,13 +54,16 @@ struct CandidatePair
   int lower = 0, higher = 0; ///< positions in the table of faces; lower has the smaller id
 };
 
+/// Faces whose boxes are within `reach` of each other share a bin: the skin, and the depth to which
+/// bodies lie in each other now, because the faces of a contact are apart by that depth.
+
 /// Step 1: extent of all faces over all ranks and a bin size from exact reductions only.
-Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real skin,
+Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
                              const Comm& comm);
 
 /// Step 2: local faces into bins.
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
-                               const ConstNodeVectors& x, Real skin);
+                               const ConstNodeVectors& x, Real reach);
 
 /// Step 3: ranks exchange boxes; those whose boxes overlap exchange occupied bins. Never this rank
 /// itself.
@@ -82,7 +85,8 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
 
 struct CandidateRules
 {
-  Real skin = 0; ///< [m]
+  Real skin = 0;  ///< largest gap of a candidate [m]
+  Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
   std::function<bool(int, int)> excluded; ///< by block
