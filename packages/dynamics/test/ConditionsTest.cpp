@@ -1,0 +1,135 @@
+#include "Rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+bool everywhere(const Vec3&)
+{
+  return true;
+}
+} // namespace
+
+TEST(PrescribedVelocity, isTheFunctionAtMidStep)
+{
+  // v_x = 6 t: v(n + 1/2) = 6 (n + 1/2) dt, and x moves by the sum of dt v = 3 (n dt)^2. The step
+  // is a power of two, so all of this is exact.
+  const Comm comm;
+  Model model = rockModel(unitBox(1, 1, 1), comm);
+  PrescribedVelocity condition;
+  condition.nodes = ownedNodesWhere(model.mesh, everywhere);
+  condition.components = {true, false, false};
+  condition.velocity[0] = [](Real t) { return 6 * t; };
+  model.conditions.velocities = {condition};
+  const Real dt = 1.0 / 8192;
+  model.time.fixedStep = dt;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 20);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+  {
+    EXPECT_EQ(solver.state().v(n, 0), 6 * 20.5 * dt);
+    EXPECT_EQ(solver.state().x(n, 0) - solver.state().reference(n, 0), 3 * 400 * dt * dt);
+  }
+}
+
+TEST(PrescribedVelocity, withoutAFunctionFixesTheChosenComponentsOnly)
+{
+  const Comm comm;
+  Model model = rockModel(unitBox(1, 1, 1), comm);
+  model.blocks[0].velocity = {1, 2, 3};
+  PrescribedVelocity condition;
+  condition.nodes = ownedNodesWhere(model.mesh, everywhere);
+  condition.components = {false, true, false};
+  model.conditions.velocities = {condition};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 10);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+  {
+    EXPECT_EQ(solver.state().x(n, 1), solver.state().reference(n, 1));
+    EXPECT_NEAR(solver.state().v(n, 0), 1, 1e-12); // the cube moves as a rigid body: round-off
+    EXPECT_NEAR(solver.state().v(n, 2), 3, 1e-12);
+  }
+}
+
+TEST(PrescribedVelocity, winsOverASymmetryPlane)
+{
+  Conditions conditions;
+  conditions.symmetries = {{{0}, {0.6, 0.8, 0}}};
+  PrescribedVelocity condition;
+  condition.nodes = {0};
+  condition.components = {true, false, false};
+  condition.velocity[0] = [](Real) { return 7.0; };
+  conditions.velocities = {condition};
+  const NodeVectors v("v", 1);
+  set(v, 0, {1, 1, 1});
+  conditions.prescribeVelocities(0, v);
+  EXPECT_EQ(v(0, 0), 7);
+}
+
+TEST(SymmetryPlane, atAnAngleKeepsTheNormalVelocityZeroAndDoesNoWork)
+{
+  // A cube lies on a slope with the normal n and slides down under gravity: all external work is
+  // that of gravity, sum m g . u.
+  //
+  //        n  /\                          .
+  //         \/  \  cube
+  //        /  \  \                        .
+  //       /    \ /
+  const Comm comm;
+  const Vec3 n{0.6, 0, 0.8}, along{0.8, 0, -0.6};
+  Mesh mesh = unitBox(2, 2, 2);
+  for (Vec3& x : mesh.coordinates)
+    x = x.x * along + x.y * Vec3{0, 1, 0} + x.z * n;
+  Model model = rockModel(mesh, comm);
+  const std::vector<int> foot =
+      ownedNodesWhere(model.mesh, [&](const Vec3& x) { return std::abs(dot(x, n)) < 1e-12; });
+  model.conditions.symmetries = {{foot, n}};
+  model.conditions.gravity = {0, 0, -10};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  for (int i = 0; i < 100; ++i)
+  {
+    solver.advance();
+    for (const int node : foot)
+      EXPECT_NEAR(dot(at(solver.state().v, node), n), 0, 1e-15); // of speeds below 1 m/s
+  }
+  std::vector<ExactSum> ofGravity(1);
+  for (int node = 0; node < solver.layout().owned(); ++node)
+    ofGravity[0].add(-10 * solver.state().mass(node) *
+                     (solver.state().x(node, 2) - solver.state().reference(node, 2)));
+  const Real work = ExactSum::overRanks(ofGravity, comm)[0];
+  EXPECT_GT(work, 0);
+  EXPECT_NEAR(solver.energy().externalWork, work,
+              1e-10 * work); // differences of positions near 2 m
+}
+
+TEST(SymmetryPlane, pairsAtRightAnglesLeaveTheirCommonNodesOnlyTheCommonLine)
+{
+  // Planes with the normals x and (0, 0.6, 0.8) meet along (0, 0.8, -0.6), in whose direction
+  // (1, 1, 1) has the component 0.2.
+  Conditions conditions;
+  conditions.symmetries = {{{0}, {1, 0, 0}}, {{0}, {0, 0.6, 0.8}}};
+  const NodeVectors v("v", 1);
+  set(v, 0, {1, 1, 1});
+  conditions.prescribeVelocities(0, v);
+  EXPECT_NEAR(v(0, 0), 0, 1e-15);
+  EXPECT_NEAR(v(0, 1), 0.16, 1e-15);
+  EXPECT_NEAR(v(0, 2), -0.12, 1e-15);
+}
+
+TEST(Conditions, constrainedNodesAreSortedAndNamedOnce)
+{
+  Conditions conditions;
+  conditions.symmetries = {{{5, 2}, {1, 0, 0}}};
+  PrescribedVelocity fixed;
+  fixed.nodes = {9, 2, 0};
+  conditions.velocities = {fixed};
+  EXPECT_EQ(conditions.constrainedNodes(), (std::vector<int>{0, 2, 5, 9}));
+}
+} // namespace coplane

@@ -1,0 +1,172 @@
+#include "Rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+/// Two blocks of 1 x 1 x 1 m, meshes that do not match, one on the other.
+///
+///      +-+-+-+-+     4 x 4 x 2 elements
+///      |_|_|_|_|
+///      +--+--+--+    3 x 3 x 2 elements
+///      |__|__|__|
+Mesh stack(Real gap)
+{
+  Mesh mesh;
+  addBox(mesh, "lower", {3, 3, 2}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {4, 4, 2}, {0, 0, 1 + gap}, {1, 1, 1});
+  return mesh;
+}
+
+Model declaredStack(Real gap, const Comm& comm, Real friction = 0.5)
+{
+  Model model = rockModel(stack(gap), comm, friction);
+  for (ContactRule& rule : model.contactRules.table)
+    rule.declared = true;
+  return model;
+}
+
+bool isTop(const Vec3& x)
+{
+  return x.z > 1.9;
+}
+bool isFoot(const Vec3& x)
+{
+  return x.z == 0;
+}
+
+void press(Model& model, Real pressure)
+{
+  model.conditions.pressures = {pressureWhere(model.mesh, pressure, isTop),
+                                pressureWhere(model.mesh, pressure, isFoot)};
+}
+
+/// Displacements of all nodes of all ranks by position in the file.
+std::vector<Vec3> displacements(const Solver& solver, int nodes)
+{
+  std::vector<Real> values(3 * nodes, -infinity);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    for (int c = 0; c < 3; ++c)
+      values[3 * solver.mesh().nodePositions[n] + c] =
+          solver.state().x(n, c) - solver.state().reference(n, c);
+  solver.comm().max(values);
+  std::vector<Vec3> result(nodes);
+  for (int n = 0; n < nodes; ++n)
+    result[n] = {values[3 * n], values[3 * n + 1], values[3 * n + 2]};
+  return result;
+}
+} // namespace
+
+TEST(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
+{
+  // 1 MPa of uniaxial compression in the blocks, in the joint, and as pressure on foot and top.
+  // Round-off of nodal forces of about 1e5 N on masses of about 10 kg: 1e-12 m/s a cycle.
+  const Comm comm;
+  Model model = declaredStack(0, comm);
+  for (BlockSetup& block : model.blocks)
+    block.stress.zz = -1e6;
+  press(model, 1e6);
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  EXPECT_GT(solver.contact().counts().stick, 0);
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+}
+
+TEST(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
+{
+  const Comm comm;
+  Model model = declaredStack(1e-4, comm);
+  JointRecipe curved;
+  curved.penalty = false;
+  curved.initialStiffness = 1e9;      // [Pa/m]
+  curved.inverseMaximumClosure = 1e3; // closes by 1 mm at most
+  curved.stiffnessCap = 1e11;
+  curved.friction = 0.5;
+  model.contactRules.joints = {curved};
+  for (BlockSetup& block : model.blocks)
+    block.stress.zz = -1e6;
+  press(model, 1e6);
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+}
+
+TEST(DeclaredJoint, withoutStressAndLoadStaysAtRestWhateverTheMeshGap)
+{
+  const Comm comm;
+  for (const Real gap : {-1e-3, 0.0, 1e-3})
+  {
+    Solver solver(declaredStack(gap, comm), comm);
+    solver.prepare();
+    cycles(solver, 50);
+    EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9) << "gap " << gap;
+  }
+}
+
+TEST(DeclaredJoint, absorbsGapsAndOverlapsOfTheMesh)
+{
+  // The gap moves one block by 1e-5 of its size and changes nothing else: same displacements under
+  // a sudden pressure, to 1e-6 of the largest. The step is fixed, so that all runs end at the same
+  // time: 3 ms, when the wave from either end has crossed the joint.
+  const Comm comm;
+  const auto run = [&](Real gap)
+  {
+    Model model = declaredStack(gap, comm);
+    press(model, 1e5);
+    model.time.fixedStep = 1e-4;
+    const int nodes = stack(gap).nodes();
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    cycles(solver, 30);
+    return displacements(solver, nodes);
+  };
+  const std::vector<Vec3> exact = run(0), gap = run(1e-5), overlap = run(-1e-5);
+  Real size = 0, offGap = 0, offOverlap = 0;
+  for (std::size_t n = 0; n < exact.size(); ++n)
+  {
+    size = std::max(size, norm(exact[n]));
+    offGap = std::max(offGap, norm(gap[n] - exact[n]));
+    offOverlap = std::max(offOverlap, norm(overlap[n] - exact[n]));
+  }
+  EXPECT_GT(size, 1e-5); // 1e5 Pa over 1e9 Pa on 2 m, dynamic
+  EXPECT_LT(offGap, 1e-6 * size);
+  EXPECT_LT(offOverlap, 1e-6 * size);
+}
+
+TEST(UndeclaredContact, doesNotPushOverlapsOfTheMeshApart)
+{
+  const Comm comm;
+  Solver solver(rockModel(stack(-1e-3), comm, 0.5), comm);
+  solver.prepare();
+  EXPECT_GT(solver.contact().census().overlapping, 0);
+  EXPECT_NEAR(solver.contact().census().deepestOverlap, 1e-3, 1e-12);
+  for (int i = 0; i < 50; ++i)
+  {
+    solver.advance();
+    EXPECT_LT(largest(solver.state().contactForce, solver.layout().owned(), comm), 1e-6);
+  }
+  // Contact stiffness times round-off of positions is all that may act: 1e9 N/m times 1e-16 m.
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+}
+
+TEST(UndeclaredContact, acrossAnInitialGapActsOnlyWhenItIsClosed)
+{
+  // A gap of 1 mm at 1 m/s closes after 1 ms.
+  const Comm comm;
+  Model model = rockModel(stack(1e-3), comm);
+  model.blocks[1].velocity = {0, 0, -1};
+  model.time.fixedStep = 5e-5;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 19); // t = 0.95 ms
+  EXPECT_EQ(largest(solver.state().contactForce, solver.layout().owned(), comm), 0);
+  cycles(solver, 3); // t = 1.1 ms: 0.1 mm into contact
+  EXPECT_GT(largest(solver.state().contactForce, solver.layout().owned(), comm), 0);
+}
+} // namespace coplane

@@ -1,0 +1,113 @@
+#include "Rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+/// The sliding cubes with everything that puts momentum and energy in or takes it out.
+Model loadedCubes(const Comm& comm)
+{
+  Model model = slidingCubes(comm);
+  model.conditions.gravity = {1, 2, -10};
+  model.conditions.massDamping = 5;
+  model.conditions.pressures = {
+      pressureWhere(model.mesh, 1e4, [](const Vec3& x) { return x.z == 2; })};
+  PrescribedVelocity foot;
+  foot.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z == 0; });
+  foot.components = {true, false, true};
+  model.conditions.velocities = {foot};
+  return model;
+}
+} // namespace
+
+TEST(Energy, workOfAllNodalForcesIsTheGainOfKineticEnergyToRoundOff)
+{
+  // With a constant step, m v(n-1/2).v(n+1/2) / 2 grows by exactly dt v.(f(n) + f(n+1)) / 2.
+  const Comm comm;
+  Model model = loadedCubes(comm);
+  model.time.fixedStep = 1e-4;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  const Real before = solver.energy().kinetic;
+  cycles(solver, 100);
+  const EnergyBalance after = solver.energy();
+  EXPECT_GT(after.contact.friction, 0);
+  EXPECT_NEAR(after.kinetic - before, after.nodalWork, 1e-12 * after.scale());
+}
+
+TEST(Energy, balanceOfCollidingAndSlidingCubesCloses)
+{
+  // Truncation of central differences and areas that change at fixed traction are all that is
+  // left; both are second order in the step.
+  const Comm comm;
+  Model model = loadedCubes(comm);
+  model.time.stepFactor = 0.25;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  const EnergyBalance balance = solver.energy();
+  EXPECT_GT(balance.contact.friction, 0);
+  EXPECT_GT(balance.massDamping, 0);
+  EXPECT_NEAR(balance.error(), 0, 1e-3 * balance.scale());
+}
+
+TEST(Energy, ofTheStartIsThatOfTheGivenVelocities)
+{
+  // 1000 kg at |v|^2 = 0.25 + 0.0625 + 1 (m/s)^2; nothing acts before contact, so the mirrored half
+  // steps have the same velocity.
+  const Comm comm;
+  Solver solver(slidingCubes(comm), comm);
+  solver.prepare();
+  EXPECT_NEAR(solver.energy().kinetic, 500 * 1.3125, 1e-9);
+  EXPECT_EQ(solver.energy().error(), 0);
+}
+
+TEST(Momenta, changeByTheImpulsesToRoundOff)
+{
+  const Comm comm;
+  Solver solver(loadedCubes(comm), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  const Momenta momenta = solver.momenta();
+  EXPECT_GT(norm(momenta.impulse), 0.1 * momenta.magnitude); // the conditions matter here
+  EXPECT_LT(norm(momenta.linearError()), 1e-13 * momenta.magnitude);
+  EXPECT_LT(norm(momenta.angularError()), 1e-13 * momenta.magnitude * 2); // arms up to 2 m
+}
+
+TEST(Momenta, ofAnIsolatedFrictionalCollisionAreConserved)
+{
+  const Comm comm;
+  Solver solver(slidingCubes(comm), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  const Momenta momenta = solver.momenta();
+  EXPECT_GT(solver.energy().contact.friction, 0);
+  EXPECT_EQ(norm(momenta.impulse), 0);
+  EXPECT_LT(norm(momenta.linearError()), 1e-13 * momenta.magnitude);
+  EXPECT_LT(norm(momenta.angularError()), 1e-13 * momenta.magnitude * 2);
+}
+
+TEST(Momenta, aSpinningFreeCubeKeepsItsAngularMomentum)
+{
+  // 100 rad/s about a skew axis through the middle of a unit cube of 1000 kg in 8 elements. The
+  // polar inertia of its lumped nodes at -1/2, 0, 1/2 with masses 1:2:1 per axis is m/8 per
+  // direction, m/4 = 250 kg m^2 about every axis.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "cube", {2, 2, 2}, {-0.5, -0.5, -0.5}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  const Vec3 spin{20, 40, 80};
+  model.blocks[0].angularVelocity = spin;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  const Momenta start = solver.momenta();
+  for (int c = 0; c < 3; ++c)
+    EXPECT_NEAR(start.initialAngular[c], 250 * spin[c], 1e-9);
+  cycles(solver, 1000); // about 4 turns
+  const Momenta end = solver.momenta();
+  EXPECT_LT(norm(end.angularError()), 1e-12 * norm(end.initialAngular));
+  EXPECT_LT(norm(end.linear), 1e-12 * end.magnitude);
+}
+} // namespace coplane

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_core/StateHash.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_partition/Partition.hpp>
+
+#include <BoxMesh.hpp>
+#include <functional>
+#include <string>
+
+namespace coplane
+{
+/// Every block of the same elastic rock (1 GPa, 0.25, 1000 kg/m^3: waves run at 1095 m/s), every
+/// pair of blocks with the same penalty law.
+inline Model rockModel(const Mesh& mesh, const Comm& comm, Real friction = 0,
+                       const std::string& method = "multijagged")
+{
+  Model model;
+  model.mesh = distribute(mesh, nodeOwners(mesh, comm, method), comm.rank());
+  model.blocks.resize(mesh.blocks.size());
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  {
+    model.blocks[b].name = mesh.blocks[b].name;
+    model.blocks[b].material = makeLinearElastic(1e9, 0.25, 1000);
+  }
+  JointRecipe joint;
+  joint.friction = friction;
+  model.contactRules.joints = {joint};
+  model.contactRules.blocks = int(mesh.blocks.size());
+  model.contactRules.table.resize(mesh.blocks.size() * mesh.blocks.size());
+  return model;
+}
+
+/// Two cubes of 2^3 elements of 0.5 m, the upper one shifted so that every face meets several.
+///
+///      +-------+        z
+///      | upper |        |
+///    +-+-----+-+        +-- x
+///    | lower |
+///    +-------+
+inline Mesh twoCubes(Real gap = 0)
+{
+  Mesh mesh;
+  addBox(mesh, "lower", {2, 2, 2}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {2, 2, 2}, {0.125, 0.0625, 1 + gap}, {1, 1, 1});
+  return mesh;
+}
+
+/// The upper cube falls on the lower one and slides over it.
+inline Model slidingCubes(const Comm& comm, const std::string& method = "multijagged")
+{
+  Model model = rockModel(twoCubes(), comm, 0.25, method);
+  model.blocks[1].velocity = {0.5, 0.25, -1};
+  return model;
+}
+
+inline std::vector<int> ownedNodesWhere(const RankMesh& mesh,
+                                        const std::function<bool(const Vec3&)>& chosen)
+{
+  std::vector<int> nodes;
+  for (int n = 0; n < mesh.ownedNodes; ++n)
+    if (chosen(mesh.coordinates[n]))
+      nodes.push_back(n);
+  return nodes;
+}
+
+/// Exterior faces of which all corners are chosen.
+inline std::vector<FacePressure::Side> sidesWhere(const RankMesh& mesh,
+                                                  const std::function<bool(const Vec3&)>& chosen)
+{
+  std::vector<FacePressure::Side> sides;
+  for (const ExteriorFace& face : exteriorFaces(mesh))
+  {
+    bool all = true;
+    for (int k = 0; k < face.nodeCount; ++k)
+      all = all && chosen(mesh.coordinates[face.nodes[k]]);
+    if (all)
+      sides.push_back({face.id, face.nodeCount, face.nodes});
+  }
+  return sides;
+}
+
+inline FacePressure pressureWhere(const RankMesh& mesh, Real pressure,
+                                  const std::function<bool(const Vec3&)>& chosen)
+{
+  return {sidesWhere(mesh, chosen), [pressure](Real) { return pressure; }};
+}
+
+/// Sum over the owned nodes of all ranks.
+inline Vec3 sumOverRanks(const NodeVectors& vectors, int owned, const Comm& comm)
+{
+  std::vector<ExactSum> sums(3);
+  for (int n = 0; n < owned; ++n)
+    for (int c = 0; c < 3; ++c)
+      sums[c].add(vectors(n, c));
+  const std::vector<Real> totals = ExactSum::overRanks(sums, comm);
+  return {totals[0], totals[1], totals[2]};
+}
+
+/// Largest |vector| of all nodes of all ranks.
+inline Real largest(const NodeVectors& vectors, int owned, const Comm& comm)
+{
+  Real most = 0;
+  for (int n = 0; n < owned; ++n)
+    most = std::max(most, norm(at(vectors, n)));
+  return comm.max(most);
+}
+
+/// Hash of positions and velocities, without planes and elements.
+inline std::uint64_t nodeHash(const Solver& solver)
+{
+  StateHash hash;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    for (int c = 0; c < 3; ++c)
+    {
+      hash.add(1, solver.layout().ids()[n], c, solver.state().x(n, c));
+      hash.add(2, solver.layout().ids()[n], c, solver.state().v(n, c));
+    }
+  std::vector<std::uint64_t> total{hash.part()};
+  solver.comm().sum(total);
+  return total[0];
+}
+
+inline void cycles(Solver& solver, int n)
+{
+  for (int i = 0; i < n; ++i)
+    solver.advance();
+}
+
+/// Counts its calls and remembers how the run ended.
+struct Recorder : Observer
+{
+  int starts = 0, ends = 0;
+  std::string ending;
+  void start(const Solver&) override { ++starts; }
+  void endOfCycle(const Solver&) override { ++ends; }
+  void finish(const Solver&, const std::string& how) override { ending = how; }
+};
+} // namespace coplane

@@ -1,0 +1,99 @@
+#include "Rig.hpp"
+
+#include <coplane_dynamics/Signals.hpp>
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+namespace coplane
+{
+namespace
+{
+/// Sends this process a signal at the end of one cycle and notes the cycles with requested results.
+struct Signaller : Recorder
+{
+  int signal;
+  bool sends;
+  std::vector<std::int64_t> requested;
+  Signaller(int s, bool here) : signal(s), sends(here) {}
+  void endOfCycle(const Solver& solver) override
+  {
+    Recorder::endOfCycle(solver);
+    if (solver.resultsRequested())
+      requested.push_back(solver.clock().cycle);
+    if (sends && solver.clock().cycle == 3)
+      std::raise(signal);
+  }
+};
+
+Model shortRun(const Comm& comm)
+{
+  Model model = rockModel(unitBox(1, 1, 1), comm);
+  model.time.fixedStep = 1e-4;
+  model.time.end = 9.5e-4; // 10 cycles
+  return model;
+}
+} // namespace
+
+TEST(TakeRequest, tellsEachSignalOnce)
+{
+  listenToSignals();
+  EXPECT_EQ(takeRequest(), Request::None);
+  std::raise(SIGUSR1);
+  EXPECT_EQ(takeRequest(), Request::WriteResults);
+  EXPECT_EQ(takeRequest(), Request::None);
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR2})
+  {
+    std::raise(signal);
+    EXPECT_EQ(takeRequest(), Request::Stop) << "signal " << signal;
+    EXPECT_EQ(takeRequest(), Request::None);
+  }
+}
+
+TEST(TakeRequest, stopIsStrongerThanWriteResults)
+{
+  listenToSignals();
+  std::raise(SIGTERM);
+  std::raise(SIGUSR1);
+  EXPECT_EQ(takeRequest(), Request::Stop);
+  EXPECT_EQ(takeRequest(), Request::None);
+}
+
+TEST(Run, withoutSignalsCompletes)
+{
+  const Comm comm;
+  Solver solver(shortRun(comm), comm);
+  solver.prepare();
+  Recorder observer;
+  EXPECT_EQ(solver.run(observer), ExitCode::Success);
+  EXPECT_EQ(observer.starts, 1);
+  EXPECT_EQ(observer.ends, 10);
+  EXPECT_EQ(observer.ending, "completed");
+}
+
+TEST(Run, stopsOnAllRanksWhenOneOfThemIsToldTo)
+{
+  // The signal comes after cycle 3; the end of cycle 4 hears of it.
+  listenToSignals();
+  const Comm comm;
+  Solver solver(shortRun(comm), comm);
+  solver.prepare();
+  Signaller observer(SIGTERM, comm.rank() == comm.size() - 1);
+  EXPECT_EQ(solver.run(observer), ExitCode::Interrupted);
+  EXPECT_EQ(observer.ends, 4);
+  EXPECT_EQ(observer.ending, "interrupted");
+}
+
+TEST(Run, asksAllRanksForResultsInTheSameCycle)
+{
+  listenToSignals();
+  const Comm comm;
+  Solver solver(shortRun(comm), comm);
+  solver.prepare();
+  Signaller observer(SIGUSR1, comm.rank() == comm.size() - 1);
+  EXPECT_EQ(solver.run(observer), ExitCode::Success);
+  EXPECT_EQ(observer.ends, 10);
+  EXPECT_EQ(observer.requested, (std::vector<std::int64_t>{4}));
+}
+} // namespace coplane

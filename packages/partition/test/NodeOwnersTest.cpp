@@ -1,0 +1,116 @@
+#include <coplane_core/Comm.hpp>
+#include <coplane_partition/Partition.hpp>
+
+#include <gtest/gtest.h>
+
+#include <BoxMesh.hpp>
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+struct NodeOwners : testing::TestWithParam<const char*>
+{
+};
+
+void expectValidAndAgreed(const std::vector<int>& owners, const Mesh& mesh, const Comm& comm)
+{
+  ASSERT_EQ(int(owners.size()), mesh.nodes());
+  for (const int owner : owners)
+  {
+    EXPECT_GE(owner, 0);
+    EXPECT_LT(owner, comm.size());
+  }
+  const std::vector<int> all = comm.allGather(owners);
+  for (int r = 0; r < comm.size(); ++r)
+    EXPECT_TRUE(std::equal(owners.begin(), owners.end(), all.begin() + r * mesh.nodes()))
+        << "rank " << r << " has another answer";
+}
+} // namespace
+
+TEST_P(NodeOwners, areTheSameOnAllRanks)
+{
+  const Comm comm;
+  const Mesh mesh = unitBox(9, 9, 9);
+  expectValidAndAgreed(nodeOwners(mesh, comm, GetParam()), mesh, comm);
+}
+
+TEST_P(NodeOwners, haveSharesOfABoxWithin20PercentOfTheMean)
+{
+  const Comm comm;
+  const Mesh mesh = unitBox(9, 9, 9); // 1000 nodes
+  const std::vector<int> owners = nodeOwners(mesh, comm, GetParam());
+  const Real mean = Real(mesh.nodes()) / comm.size();
+  for (int r = 0; r < comm.size(); ++r)
+    EXPECT_NEAR(Real(std::count(owners.begin(), owners.end(), r)), mean, 0.2 * mean)
+        << "rank " << r;
+}
+
+TEST_P(NodeOwners, sharesAreCompact)
+{
+  // Halving a cube twice leaves boxes of 10 x 5 x 5 nodes: few elements (at most 2 of the 9 layers
+  // in each of two directions, 9^3 - 8 * 8 * 9 = 153) have nodes of two ranks. Dealt like cards,
+  // all of them would.
+  const Comm comm;
+  const Mesh mesh = unitBox(9, 9, 9);
+  const std::vector<int> owners = nodeOwners(mesh, comm, GetParam());
+  int shared = 0;
+  const std::vector<int>& corners = mesh.blocks[0].connectivity;
+  for (int e = 0; e < mesh.elements(); ++e)
+    shared += std::any_of(&corners[8 * e], &corners[8 * e] + 8,
+                          [&](int n) { return owners[n] != owners[corners[8 * e]]; });
+  EXPECT_LE(shared, comm.size() == 1 ? 0 : 3 * 81);
+}
+
+TEST_P(NodeOwners, treatFlatMeshesAndCoincidentNodes)
+{
+  // Two sheets of quadrilaterals in the same place: every node exists twice.
+  const Comm comm;
+  Mesh mesh;
+  addRectangle(mesh, "a", {9, 9}, {0, 0, 0}, {1, 1, 0});
+  addRectangle(mesh, "b", {9, 9}, {0, 0, 0}, {1, 1, 0});
+  const std::vector<int> owners = nodeOwners(mesh, comm, GetParam());
+  expectValidAndAgreed(owners, mesh, comm);
+  const Real mean = Real(mesh.nodes()) / comm.size();
+  for (int r = 0; r < comm.size(); ++r)
+    EXPECT_NEAR(Real(std::count(owners.begin(), owners.end(), r)), mean, 0.2 * mean);
+}
+
+TEST_P(NodeOwners, ofTwoElementsAreValid)
+{
+  const Comm comm;
+  const Mesh mesh = unitBox(2, 1, 1);
+  expectValidAndAgreed(nodeOwners(mesh, comm, GetParam()), mesh, comm);
+}
+
+TEST_P(NodeOwners, ofMeshesJustAboveTheSmallestAreValid)
+{
+  // 36 nodes: with 4 ranks a few more than the 8 per rank below which nodes are dealt in order.
+  const Comm comm;
+  const Mesh mesh = unitBox(3, 2, 2);
+  ASSERT_EQ(mesh.nodes(), 36);
+  expectValidAndAgreed(nodeOwners(mesh, comm, GetParam()), mesh, comm);
+}
+
+TEST_P(NodeOwners, ofFewerNodesThanRanksLeaveRanksEmpty)
+{
+  const Comm comm;
+  Mesh mesh;
+  mesh.nodeIds = {1, 2};
+  mesh.coordinates = {{0, 0, 0}, {1, 0, 0}};
+  const std::vector<int> owners = nodeOwners(mesh, comm, GetParam());
+  expectValidAndAgreed(owners, mesh, comm);
+  EXPECT_EQ(owners[0] == owners[1], comm.size() == 1);
+}
+
+TEST_P(NodeOwners, ofNoNodesAreNone)
+{
+  const Comm comm;
+  EXPECT_TRUE(nodeOwners(Mesh{}, comm, GetParam()).empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, NodeOwners, testing::Values("multijagged", "rcb"),
+                         [](const auto& info) { return std::string(info.param); });
+} // namespace coplane
