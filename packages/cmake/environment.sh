@@ -3,6 +3,7 @@ export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1     # container
 export OMPI_MCA_rmaps_base_oversubscribe=1                           # tests use more ranks than small machines have cores
 export OMPI_MCA_btl_vader_single_copy_mechanism=none                 # not permitted in many containers
 export OMPI_MCA_hwloc_base_binding_policy=none
+export OMPI_MCA_mpi_yield_when_idle=1                               # so do ranks that poll
 export OMP_WAIT_POLICY=passive                                       # spinning threads starve oversubscribed ranks
 
 # coplane_configure_and_build TARGET ...: in build/, for this processor. More CMake options in $COPLANE_CMAKE_OPTIONS.

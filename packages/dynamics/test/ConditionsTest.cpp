@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace coplane
@@ -121,6 +122,31 @@ TEST(SymmetryPlane, pairsAtRightAnglesLeaveTheirCommonNodesOnlyTheCommonLine)
   EXPECT_NEAR(v(0, 0), 0, 1e-15);
   EXPECT_NEAR(v(0, 1), 0.16, 1e-15);
   EXPECT_NEAR(v(0, 2), -0.12, 1e-15);
+}
+
+TEST(SymmetryPlane, obliquePairsLeaveTheirCommonNodesOnlyTheCommonLine)
+{
+  // The normals x and (0.6, 0.8, 0) span the x-y plane: of (1, 1, 1) only z is left, in either
+  // order.
+  const Vec3 x{1, 0, 0}, oblique{0.6, 0.8, 0};
+  for (const auto& normals : {std::array<Vec3, 2>{x, oblique}, std::array<Vec3, 2>{oblique, x}})
+  {
+    Conditions conditions;
+    conditions.symmetries = {{{0}, normals[0]}, {{0}, normals[1]}};
+    const NodeVectors v("v", 1);
+    set(v, 0, {1, 1, 1});
+    conditions.prescribeVelocities(0, v);
+    EXPECT_NEAR(v(0, 0), 0, 1e-15);
+    EXPECT_NEAR(v(0, 1), 0, 1e-15);
+    EXPECT_EQ(v(0, 2), 1);
+  }
+}
+
+TEST(SymmetryPlane, aPlaneGivenTwiceActsOnce)
+{
+  Conditions conditions;
+  conditions.symmetries = {{{0}, {0.6, 0.8, 0}}, {{0}, {0.6, 0.8, 0}}};
+  EXPECT_EQ(conditions.projections().size(), 1u);
 }
 
 TEST(Conditions, constrainedNodesAreSortedAndNamedOnce)

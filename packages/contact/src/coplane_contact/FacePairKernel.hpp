@@ -162,7 +162,7 @@ KOKKOS_INLINE_FUNCTION void boundCornerStiffness(Plane& plane, const Patch& patc
                                                  const HalfStepFace& a, const HalfStepFace& b,
                                                  Real approach)
 {
-  const bool near = plane.area > 0 || patch.leastGap <= approach;
+  const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
   const Real k = near ? std::fmax(plane.law.loadingStiffness(plane.history.maximumClosure),
                                   plane.law.shearStiffness)
                       : 0;

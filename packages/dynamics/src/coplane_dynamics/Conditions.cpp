@@ -2,6 +2,7 @@
 #include <coplane_dynamics/Conditions.hpp>
 
 #include <algorithm>
+#include <map>
 
 namespace coplane
 {
@@ -36,14 +37,41 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
   }
 }
 
+std::vector<Conditions::Projection> Conditions::projections() const
+{
+  constexpr Real dependent =
+      1e-6; // sine of the angle below which a normal counts as one that is there already
+  std::map<int, std::vector<Vec3>> normalsOf;
+  for (const SymmetryPlane& plane : symmetries)
+    for (const int node : plane.nodes)
+    {
+      std::vector<Vec3>& earlier = normalsOf[node];
+      Vec3 normal = plane.normal;
+      for (const Vec3& other : earlier)
+        normal -= dot(normal, other) * other;
+      if (norm(normal) > dependent)
+        earlier.push_back(normalised(normal));
+    }
+  std::vector<Projection> result;
+  for (const auto& [node, normals] : normalsOf)
+    for (const Vec3& normal : normals)
+      result.push_back({node, normal});
+  return result;
+}
+
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const
 {
-  for (const SymmetryPlane& plane : symmetries)
-    for (const int n : plane.nodes)
-    {
-      const Vec3 velocity = at(v, n);
-      set(v, n, velocity - dot(velocity, plane.normal) * plane.normal);
-    }
+  prescribeVelocities(t, v, projections());
+}
+
+void Conditions::prescribeVelocities(Real t, const NodeVectors& v,
+                                     const std::vector<Projection>& fromSymmetry) const
+{
+  for (const Projection& projection : fromSymmetry)
+  {
+    const Vec3 velocity = at(v, projection.node);
+    set(v, projection.node, velocity - dot(velocity, projection.normal) * projection.normal);
+  }
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
     {

@@ -43,6 +43,14 @@ struct FacePressure
 
 struct Conditions
 {
+  /// A direction along which a node does not move; several of one node are orthogonal to each
+  /// other.
+  struct Projection
+  {
+    int node;
+    Vec3 normal; ///< unit
+  };
+
   std::vector<PrescribedVelocity> velocities;
   std::vector<SymmetryPlane> symmetries;
   std::vector<FacePressure> pressures;
@@ -57,6 +65,14 @@ struct Conditions
   /// Overwrites prescribed velocities; where symmetry planes and prescribed components meet, the
   /// latter win.
   void prescribeVelocities(Real t, const NodeVectors& v) const;
+  /// The same with projections() at hand, for a call in every cycle.
+  void prescribeVelocities(Real t, const NodeVectors& v,
+                           const std::vector<Projection>& fromSymmetry) const;
+
+  /// What the symmetry planes forbid, node by node: the normals of planes that meet at a node are
+  /// made orthogonal (Gram and Schmidt), so that taking them out one after the other satisfies all;
+  /// a normal that depends on earlier ones is left out.
+  std::vector<Projection> projections() const;
 
   /// Owned nodes that some condition on velocities touches, sorted.
   std::vector<int> constrainedNodes() const;

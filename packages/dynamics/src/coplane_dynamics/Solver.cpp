@@ -90,6 +90,7 @@ Solver::Solver(Model model, const Comm& comm)
   }
   layout_.refresh(state_.mass);
   constrained_ = model_.conditions.constrainedNodes();
+  projections_ = model_.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
 
   if (model_.contactEnabled)
@@ -231,7 +232,7 @@ void Solver::kick(Real step)
       });
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     set(beforeConstraint_, int(i), at(v, constrained_[i]));
-  model_.conditions.prescribeVelocities(clock_.time + 0.5 * step, v);
+  model_.conditions.prescribeVelocities(clock_.time + 0.5 * step, v, projections_);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
   {
     const int n = constrained_[i];

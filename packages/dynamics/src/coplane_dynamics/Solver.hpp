@@ -102,6 +102,7 @@ private:
   std::unique_ptr<Contact> contact_;
   Array<Real> elementStep_, contactStiffness_; ///< per owned node
   std::vector<int> constrained_;
+  std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;
   Clock clock_;
   EnergyBalance initialEnergy_;
