@@ -1,15 +1,13 @@
 """The main job to its end, and what must be true of it (README.md beside this file)."""
 
+import json
 import os
 import pathlib
 import sys
 
 import numpy
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "support"))
-from coplanetest import program  # noqa: E402
-from coplanetest.program import Run, make_mesh, run_program  # noqa: E402
-import json  # noqa: E402
+from coplanetest.program import Run, make_mesh, run_program
 
 inputs = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/bar_wall_3d"
 folder = pathlib.Path("run")
