@@ -85,7 +85,8 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name)
     parts.push_back(readPart(node, name, fmt::format("parts[{}]", parts.size()), dimension));
   std::vector<Vec3> ownCoordinates;
   Mesh mesh = assemble(parts, dimension, ownCoordinates);
-  mesh.title = recipe.has("title") ? recipe.text("title") : std::filesystem::path(name).filename().string();
+  mesh.title =
+      recipe.has("title") ? recipe.text("title") : std::filesystem::path(name).filename().string();
   mesh.qaRecords.push_back(qaRecord());
   addSets(mesh, ownCoordinates, recipe);
   return mesh;
