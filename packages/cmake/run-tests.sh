@@ -32,14 +32,15 @@ stage() {
   table+=$(printf '%-14s %6d s of %5s s%s' "$name" "$used" "$((${allowed:-0} * 60))" "$([ $used -gt $((${allowed:-0} * 60)) ] && echo '   OVER BUDGET')")$'\n'
   return $status
 }
-# tests FOLDER LABEL: runs a label's tests and adds to the counts.
+# tests FOLDER LABEL [CTEST ARGUMENT ...]: runs a label's tests and adds to the counts.
 tests() {
   local folder=$1 report=$1/junit-$2.xml bad all
   shift
   local label=$1
+  shift
   local exclude=()
   [ $label = slow ] || exclude=(-LE slow)
-  ctest --test-dir "$folder" -L "^$label\$" "${exclude[@]}" -j "$(nproc)" --output-on-failure --no-tests=error --output-junit "$report"
+  ctest --test-dir "$folder" -L "^$label\$" "${exclude[@]}" -j "$(nproc)" --output-on-failure --no-tests=error --output-junit "$report" "$@"
   local status=$?
   all=$(grep -c '<testcase ' "$report" 2>/dev/null || true)
   bad=$(grep -c '<failure' "$report" 2>/dev/null || true)
@@ -66,7 +67,7 @@ build_sanitized() {
 sanitized_tests() {
   build_sanitized &&
     # Open MPI keeps memory until exit, and Trilinos is not instrumented.
-    ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 tests "$top/build-sanitize" unit
+    ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 tests "$top/build-sanitize" unit -R "^unit[.]"
 }
 
 stage dependencies get_dependencies || { failed=1; finish; exit 1; }
