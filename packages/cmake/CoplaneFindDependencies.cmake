@@ -151,7 +151,6 @@ if(COPLANE_BENCHMARKS)
     set(COPLANE_BENCHMARKS OFF)
   endif()
 endif()
-find_package(Python3 COMPONENTS Interpreter QUIET)
 
 get_property(_table GLOBAL PROPERTY COPLANE_TABLE)
 message(STATUS "Coplane stands on\n${_table}")
