@@ -116,6 +116,13 @@ parts:                           a list; parts of the same block name make one e
     min: [..]                    lowest corner, default the origin
     size: [..]  or  max: [..]    lengths, or highest corner
     divisions: [..]              elements along x, y, z
+    bias: [..]                   optional: last element over first element along x, y, z, the others in geometric progression
+    lines: {x: .., y: ..}        instead of all these: the grid lines, each a list of coordinates, or a map
+                                 {ends: [x0, x1, ..], divisions: [n01, ..], bias: [b01, ..]} of the segments between the ends
+  - shape: quadrilateral         2D: one body between four corners
+  - shape: hexahedron            3D: between eight; a wedge is one with close corners
+    corners: [[x, y], ..]        counter-clockwise; 3D: four seen from above, then the four above them
+    divisions: [..]              along corners 1-2, 1-4, and 1-5 in 3D
   - shape: wall                  running bond: bricks along x, courses upward in y, thickness in z
     brick: [..]                  size of a whole brick
     courses: n
@@ -139,6 +146,17 @@ parts:                           a list; parts of the same block name make one e
   - shape: cylinder              2D disk, 3D cylinder along z from z = 0; centred on the origin
     radius: r
     across: n                    elements on the diameter; even, at least 4
+    length: l, along: n          3D
+  - shape: sector                ring sectors about the origin (arch stones); 3D: swept from z = 0
+    inner_radius: r, outer_radius: r
+    from: degrees, to: degrees   from x towards y
+    count: n                     bodies of equal angle, default 1; they touch and do not share nodes
+    divisions: [radial, around, along z]  of one body
+    length: l                    3D
+  - shape: half_disc             lower half of a disc of centre (0, radius): lowest point at the origin, fine there; 3D: swept from z = 0
+    radius: r
+    fine: l                      length of elements at the lowest point
+    fine_radius: r               so far reach such elements (at most radius / 4); beyond, they grow with the distance
     length: l, along: n          3D
   every part:
     rotate: degrees | [x, y, z]  optional; 2D: about z; 3D: about x, then y, then z

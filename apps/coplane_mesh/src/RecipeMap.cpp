@@ -183,6 +183,23 @@ std::vector<Real> RecipeMap::positives(const std::string& key, int size) const
   return list;
 }
 
+std::vector<Real> RecipeMap::numbers(const std::string& key) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsSequence())
+    refuse(key, "must be a list of numbers.");
+  return numbers(key, int(value.size()));
+}
+
+std::vector<Real> RecipeMap::ratios(const std::string& key, int size) const
+{
+  std::vector<Real> list = numbers(key, size);
+  for (const Real value : list)
+    if (!(value > 0))
+      refuse(key, fmt::format("has the entry {}; every ratio must be greater than 0.", value));
+  return list;
+}
+
 std::vector<int> RecipeMap::counts(const std::string& key, int size, int least) const
 {
   std::vector<int> list = sequence<int>(key, size, "whole numbers");
@@ -196,6 +213,27 @@ Vec3 RecipeMap::point(const std::string& key, int dimension) const
 {
   const std::vector<Real> x = numbers(key, dimension);
   return {x[0], x[1], dimension == 3 ? x[2] : 0.0};
+}
+
+std::vector<Vec3> RecipeMap::points(const std::string& key, int size, int dimension) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsSequence() || int(value.size()) != size)
+    refuse(key, fmt::format("must be a list of {} points.", size));
+  std::vector<Vec3> list;
+  for (const YAML::Node& item : value)
+  {
+    Vec3 x{};
+    bool good = item.IsSequence() && int(item.size()) == dimension;
+    for (int axis = 0; good && axis < dimension; ++axis)
+      good = item[axis].IsScalar() && YAML::convert<Real>::decode(item[axis], x[axis]) &&
+             std::isfinite(x[axis]);
+    if (!good)
+      refuse(key, fmt::format("has as entry {} no point; a point is a list of {} numbers.",
+                              list.size() + 1, dimension));
+    list.push_back(x);
+  }
+  return list;
 }
 
 std::vector<std::string> RecipeMap::texts(const std::string& key) const

@@ -29,10 +29,14 @@ public:
   Real positive(const std::string& key) const; ///< a length [m]
   int count(const std::string& key, int least = 1) const;
   std::vector<Real> numbers(const std::string& key, int size) const;
+  std::vector<Real> numbers(const std::string& key) const;          ///< any number of them
+  std::vector<Real> ratios(const std::string& key, int size) const; ///< greater than 0 [-]
   std::vector<Real> positives(const std::string& key, int size) const;
   std::vector<int> counts(const std::string& key, int size, int least = 1) const;
   /// A point of `dimension` coordinates; z = 0 in two.
   Vec3 point(const std::string& key, int dimension) const;
+  /// A list of `size` such points.
+  std::vector<Vec3> points(const std::string& key, int size, int dimension) const;
   /// A word, or a list of words.
   std::vector<std::string> texts(const std::string& key) const;
 

@@ -53,6 +53,15 @@ public:
     return edge;
   }
 
+  /// Half disk: the nodes of its arc from (radius, 0) to (-radius, 0).
+  std::vector<int> outerArc() const
+  {
+    std::vector<int> arc;
+    for (int b = 0; b < int(border_.size()); ++b)
+      arc.push_back(ringNode(rings_, b));
+    return arc;
+  }
+
 private:
   int coreNode(int i, int j) const { return j * (core_ + 1) + i; }
   int ringNode(int ring, int b) const
@@ -168,6 +177,44 @@ Body box(int dimension, const Vec3& lowest, const Vec3& highest, const std::arra
       });
 }
 
+std::vector<Real> gradedLine(Real a, Real b, int n, Real bias)
+{
+  const Real ratio = n > 1 ? std::pow(bias, 1.0 / (n - 1)) : 1.0;
+  std::vector<Real> ends{0.0};
+  Real length = 1;
+  for (int i = 0; i < n; ++i, length *= ratio)
+    ends.push_back(ends.back() + length);
+  std::vector<Real> line;
+  for (int i = 0; i <= n; ++i)
+    line.push_back((a * (ends[n] - ends[i]) + b * ends[i]) / ends[n]);
+  return line;
+}
+
+Body boxOfLines(int dimension, const std::array<std::vector<Real>, 3>& lines)
+{
+  const auto divisions = [&](int axis) { return int(lines[axis].size()) - 1; };
+  return mappedGrid(dimension, {divisions(0), divisions(1), dimension == 3 ? divisions(2) : 1},
+                    [&](int i, int j, int k) {
+                      return Vec3{lines[0][i], lines[1][j], dimension == 3 ? lines[2][k] : 0.0};
+                    });
+}
+
+Body cornered(int dimension, const std::vector<Vec3>& corners, const std::array<int, 3>& n)
+{
+  return mappedGrid(dimension, n,
+                    [&](int i, int j, int k)
+                    {
+                      const int layer[2] = {dimension == 3 ? n[2] - k : 1, k};
+                      const int column[2] = {n[0] - i, i}, row[2] = {n[1] - j, j};
+                      const int c[4] = {column[0] * row[0], column[1] * row[0], column[1] * row[1],
+                                        column[0] * row[1]};
+                      Vec3 sum{};
+                      for (std::size_t a = 0; a < corners.size(); ++a)
+                        sum += Real(c[a % 4]) * Real(layer[a / 4]) * corners[a];
+                      return (1.0 / (Real(n[0]) * n[1] * (dimension == 3 ? n[2] : 1))) * sum;
+                    });
+}
+
 std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int bricks,
                               const std::array<int, 3>& n)
 {
@@ -238,6 +285,97 @@ std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, c
 Body disk(Real radius, int across)
 {
   return RoundGrid(radius, across, false).body();
+}
+
+std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
+                          Real length, const std::array<int, 3>& n)
+{
+  std::vector<Body> bodies;
+  const int around = count * n[1];
+  for (int sector = 0; sector < count; ++sector)
+    bodies.push_back(mappedGrid(dimension, n,
+                                [&](int i, int j, int k)
+                                {
+                                  const Real r = (inner * (n[0] - i) + outer * i) / n[0];
+                                  const int step = sector * n[1] + j;
+                                  const Real degrees =
+                                      (from * (around - step) + to * step) / around;
+                                  const Real angle = degrees * pi / 180;
+                                  return Vec3{r * std::cos(angle), r * std::sin(angle),
+                                              dimension == 3 ? length * k / n[2] : 0.0};
+                                }));
+  return bodies;
+}
+
+Body halfDisc(Real radius, Real fine, Real fineRadius)
+{
+  // Polar coordinates about the lowest point. A circle of radius rho about it meets the disc's
+  // border under the angle asin(rho / 2 R) to the tangent; between these ends its nodes have equal
+  // angles.
+  const auto directionAt = [](Real leastAngle, Real part)
+  {
+    // Measured from the axis of symmetry, so that the mesh is symmetric to the bit.
+    const Real angle = (0.5 - part) * (pi - 2 * leastAngle);
+    return Vec3{std::sin(angle), std::cos(angle), 0};
+  };
+  const auto bent = [&](Real rho, Real part)
+  { return rho * directionAt(std::asin(rho / (2 * radius)), part); };
+
+  const int across = std::max(4, 2 * int(std::ceil(fineRadius / fine - 1e-9)));
+  const RoundGrid centre(fineRadius, across, true);
+  Body body = centre.body();
+  for (Vec3& p : body.points)
+    p = bent(std::hypot(p.x, p.y), std::atan2(p.y, p.x) / pi);
+  std::vector<int> arc = centre.outerArc();
+  const int around = int(arc.size()) - 1;
+  const auto addRow = [&](const std::function<Vec3(int)>& position)
+  {
+    std::vector<int> next;
+    for (int j = 0; j <= around; ++j)
+    {
+      next.push_back(int(body.points.size()));
+      body.points.push_back(position(j));
+    }
+    for (int j = 0; j < around; ++j)
+      body.connectivity.insert(body.connectivity.end(), {arc[j], next[j], next[j + 1], arc[j + 1]});
+    arc = next;
+  };
+
+  // Rings as thick as their elements are long, up to half the radius ...
+  const Real last = radius / 2;
+  const Real perRing = (pi - 2 * std::asin(last / (2 * radius))) / around;
+  const int rings = std::max(1, int(std::lround(std::log(last / fineRadius) / perRing)));
+  for (int ring = 1; ring <= rings; ++ring)
+    addRow(
+        [&](int j) {
+          return bent(fineRadius * std::pow(last / fineRadius, Real(ring) / rings),
+                      Real(j) / around);
+        });
+
+  // ... then blended into the straight edge, by transfinite interpolation: the ends follow the
+  // border of the disc.
+  const Real cornerDistance = std::sqrt(2.0) * radius, cornerAngle = pi / 4;
+  const int rows = std::max(1, int(std::lround(std::log(radius / last) / perRing)));
+  for (int row = 1; row <= rows; ++row)
+  {
+    const Real rho = last * std::pow(cornerDistance / last, Real(row) / rows);
+    const Real s = (rho - last) / (cornerDistance - last);
+    const Vec3 chord = (1 - s) * bent(last, 0) + s * Vec3{radius, radius, 0};
+    const Vec3 bulge = (row == rows ? Vec3{radius, radius, 0} : bent(rho, 0)) - chord;
+    addRow(
+        [&](int j)
+        {
+          const Real part = Real(j) / around;
+          const Vec3 ray = directionAt(cornerAngle, part);
+          const Vec3 top{j == 0        ? radius
+                         : j == around ? -radius
+                                       : radius * ray.x / ray.y,
+                         radius, 0};
+          const Vec3 straight = (1 - s) * bent(last, part) + s * top;
+          return straight + Vec3{(1 - 2 * part) * bulge.x, bulge.y, 0};
+        });
+  }
+  return body;
 }
 
 Body roundNosed(Real width, Real length, int across, int along)

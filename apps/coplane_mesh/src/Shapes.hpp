@@ -26,8 +26,19 @@ Body mappedGrid(int dimension, const std::array<int, 3>& n,
 /// A plane body swept along z: layers of nodes at the given heights [m], ascending.
 Body extruded(const Body& plane, const std::vector<Real>& heights);
 
+/// n + 1 coordinates from a to b [m]; the last element is `bias` times as long as the first, those
+/// between in geometric progression.
+std::vector<Real> gradedLine(Real a, Real b, int n, Real bias);
+
 /// Straight-sided box between two corners.
 Body box(int dimension, const Vec3& lowest, const Vec3& highest, const std::array<int, 3>& n);
+
+/// Straight-sided box whose grid lines lie at the given coordinates [m], ascending, per axis.
+Body boxOfLines(int dimension, const std::array<std::vector<Real>, 3>& lines);
+
+/// Quadrilateral or hexahedron between 4 or 8 corners in the order of element nodes, mapped
+/// (bi- or trilinear).
+Body cornered(int dimension, const std::vector<Vec3>& corners, const std::array<int, 3>& n);
 
 /// Running bond along x, courses upward in y (from 0), thickness in z. Even courses (0, 2, ...)
 /// hold whole bricks, odd ones begin and end with half bricks. n is for a whole brick; n[0] is
@@ -49,6 +60,16 @@ std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, c
 /// Disk about the origin: a rounded square in the middle and rings around it; `across` elements on
 /// the diameter (even, >= 4).
 Body disk(Real radius, int across);
+
+/// Annular sectors about the origin, `count` of equal angle between two angles [degrees, from x to
+/// y], with nodes of their own; n is radial, around, and along z (3D: from 0 to length). Touching
+/// sectors have the same coordinates to the bit.
+std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
+                          Real length, const std::array<int, 3>& n);
+
+/// Lower half of a disc of centre (0, radius): its lowest point is the origin. Elements have the
+/// length `fine` within `fineRadius` <= radius / 4 of the origin and grow with the distance beyond.
+Body halfDisc(Real radius, Real fine, Real fineRadius);
 
 /// Rectangle with a semicircular nose: tip at the origin, axis x, body towards -x. `across`
 /// elements on the width (even, >= 4), `along` on the straight part. `length` counts the nose.

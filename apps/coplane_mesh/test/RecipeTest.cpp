@@ -31,7 +31,7 @@ TEST(Recipe, aMisspeltKeyIsNamedWithPlaceAndSuggestion)
       errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n    divisons: [1, 1]\n"),
       "r.yaml:6:5: parts[0].divisons is not known; parts[0] accepts shape, block, rotate, about, "
       "offset, min, max, size, "
-      "divisions. Did you mean 'divisions'?");
+      "divisions, bias, lines. Did you mean 'divisions'?");
 }
 
 TEST(Recipe, aMissingKeyIsNamedAtItsMap)
@@ -48,10 +48,11 @@ TEST(Recipe, aKeyGivenTwiceIsRefused)
 
 TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
 {
-  EXPECT_EQ(errorOf(head + "  - {shape: bax, block: b}\n"),
-            "r.yaml:3:13: parts[0].shape = 'bax' is not known; use box, wall, imbricate, "
-            "projectile, rock or cylinder. Did you mean "
-            "'box'?");
+  EXPECT_EQ(
+      errorOf(head + "  - {shape: bax, block: b}\n"),
+      "r.yaml:3:13: parts[0].shape = 'bax' is not known; use box, quadrilateral, hexahedron, wall, "
+      "imbricate, rock, cylinder, projectile, sector or half_disc. Did you mean "
+      "'box'?");
 }
 
 TEST(Recipe, aListOfTheWrongLengthIsRefused)
@@ -80,6 +81,52 @@ TEST(Recipe, oddDivisionsOfAWallAreRefused)
             "half of them; it must be even.");
 }
 
+TEST(Recipe, linesThatGoBackAreRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, lines: {x: [0, 2, 1], y: [0, 1]}}\n"),
+            "r.yaml:3:39: parts[0].lines.x has 1 m after 2 m; coordinates must be ascending.");
+}
+
+TEST(Recipe, linesAndDivisionsTogetherAreRefused)
+{
+  EXPECT_EQ(errorOf(head +
+                    "  - {shape: box, block: b, divisions: [1, 1], lines: {x: [0, 1], y: [0, "
+                    "1]}}\n"),
+            "r.yaml:3:39: parts[0].divisions has no place beside lines; leave one of them out.");
+}
+
+TEST(Recipe, cornersInTheWrongSenseAreRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: quadrilateral, block: b, corners: [[0, 0], [0, 1], [1, 1], "
+                           "[1, 0]], divisions: [1, 1]}\n"),
+            "r.yaml:3:47: parts[0].corners turn inside out at corner 1. Give them "
+            "counter-clockwise; every angle is below 180 degrees.");
+}
+
+TEST(Recipe, aCornerOfTheWrongDimensionIsRefused)
+{
+  EXPECT_EQ(
+      errorOf(head + "  - {shape: quadrilateral, block: b, corners: [[0, 0], [0, 1, 2], [1, "
+                     "1], [1, 0]], divisions: [1, 1]}\n"),
+      "r.yaml:3:47: parts[0].corners has as entry 2 no point; a point is a list of 2 numbers.");
+}
+
+TEST(Recipe, aSectorThatEndsBeforeItBeginsIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: sector, block: b, inner_radius: 1, outer_radius: 2, from: "
+                           "90, to: 0, divisions: [1, 1]}\n"),
+            "r.yaml:3:79: parts[0].to = 0 degrees must be greater than from = 90 degrees, by 360 "
+            "at most.");
+}
+
+TEST(Recipe, aFineZoneLargerThanAQuarterOfTheRadiusIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: half_disc, block: b, radius: 1, fine: 0.1, "
+                           "fine_radius: 0.6}\n"),
+            "r.yaml:3:69: parts[0].fine_radius = 0.6 m must not exceed a quarter of the radius = "
+            "0.25 m.");
+}
+
 TEST(Recipe, aSetOfAnUnknownBlockIsRefusedWithSuggestion)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: bricks, size: [1, 1], divisions: [1, "
@@ -104,9 +151,14 @@ TEST(Recipe, invalidYamlIsNamedWithItsPlace)
 TEST(Recipe, everyShapeAndKeyOfTheHelpIsThere)
 {
   const std::string help = recipeHelp();
-  for (const char* word : {"box", "wall", "imbricate", "projectile", "rock", "cylinder", "rotate",
-                           "about", "offset", "where_own", "node_sets", "side_sets", "normal",
-                           "courses", "length_in_bricks", "layers", "across", "along", "section"})
+  for (const char* word :
+       {"box",        "wall",      "imbricate", "projectile",   "rock",
+        "cylinder",   "rotate",    "about",     "offset",       "where_own",
+        "node_sets",  "side_sets", "normal",    "courses",      "length_in_bricks",
+        "layers",     "across",    "along",     "section",      "quadrilateral",
+        "hexahedron", "corners",   "sector",    "inner_radius", "outer_radius",
+        "count",      "half_disc", "fine",      "fine_radius",  "lines",
+        "ends",       "bias"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 } // namespace coplane

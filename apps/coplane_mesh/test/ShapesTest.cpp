@@ -200,4 +200,146 @@ TEST(Shapes, aSquareBarHasAHalfCylinderAsNose)
   EXPECT_DOUBLE_EQ(report.highest.z, 1);
   EXPECT_TRUE(meshProblems(report).empty());
 }
+
+TEST(Shapes, aBiasIsTheRatioOfTheLastElementToTheFirst)
+{
+  // Three elements 1 : 2 : 4 on a length of 7.
+  const std::vector<Real> line = gradedLine(1, 8, 3, 4);
+  ASSERT_EQ(line.size(), 4u);
+  EXPECT_EQ(line[0], 1);
+  EXPECT_NEAR(line[1], 2, 1e-14);
+  EXPECT_NEAR(line[2], 4, 1e-14);
+  EXPECT_EQ(line[3], 8);
+}
+
+TEST(Shapes, aBoxOfLinesHasItsNodesOnThem)
+{
+  const Mesh mesh = makeMeshFromText(
+      "{dimension: 2, parts: [{shape: box, block: b, lines: {x: [0, 0.1, 1], y: {ends: [-1, 0, 7], "
+      "divisions: [2, 3], bias: [1, 4]}}}]}",
+      "test.yaml");
+  std::set<Real> x, y;
+  for (const Vec3& p : mesh.coordinates)
+  {
+    x.insert(p.x);
+    y.insert(p.y);
+  }
+  EXPECT_EQ(x, (std::set<Real>{0, 0.1, 1}));
+  ASSERT_EQ(y.size(), 6u);
+  const Real wanted[] = {-1, -0.5, 0, 1, 3, 7};
+  int k = 0;
+  for (const Real value : y)
+    EXPECT_NEAR(value, wanted[k++], 1e-14);
+  EXPECT_EQ(mesh.elements(), 10);
+  EXPECT_TRUE(meshProblems(mesh).empty());
+}
+
+TEST(Shapes, aQuadrilateralFillsItsCorners)
+{
+  // A kite of diagonals 2 and 3: area 3. Bilinear elements fill a quadrilateral exactly.
+  const MeshReport report = reportOf(
+      "{dimension: 2, parts: [{shape: quadrilateral, block: w, corners: [[0, 0], [1, 2], [0, 3], "
+      "[-1, 2]], divisions: [3, 5]}]}");
+  EXPECT_EQ(report.elements, 15);
+  EXPECT_NEAR(report.blocks[0].volume, 3, 1e-14);
+  EXPECT_EQ(report.lowest.y, 0);
+  EXPECT_EQ(report.highest.y, 3);
+  EXPECT_TRUE(meshProblems(report).empty());
+}
+
+TEST(Shapes, aHexahedronFillsItsCorners)
+{
+  // A frustum: base 2 x 2, top 1 x 1, height 3: 3 (4 + 2 + 1) / 3 = 7.
+  const MeshReport report = reportOf(
+      "{dimension: 3, parts: [{shape: hexahedron, block: w, corners: [[-1, -1, 0], [1, -1, 0], [1, "
+      "1, 0], [-1, 1, 0], [-0.5, -0.5, 3], [0.5, -0.5, 3], [0.5, 0.5, 3], [-0.5, 0.5, 3]], "
+      "divisions: [3, 4, 5]}]}");
+  EXPECT_EQ(report.elements, 60);
+  EXPECT_NEAR(report.blocks[0].volume, 7, 1e-13);
+  EXPECT_TRUE(meshProblems(report).empty());
+}
+
+TEST(Shapes, voussoirsFillTheirPolygonAndTouchToTheBit)
+{
+  // 9 stones of 4 elements around over 180 degrees: chords of 5 degrees.
+  const MeshReport report = reportOf("{dimension: 2, parts: [{shape: sector, block: a, "
+                                     "inner_radius: 9, outer_radius: 11, from: 0, "
+                                     "to: 180, count: 9, divisions: [2, 4]}]}");
+  EXPECT_EQ(report.bodies, 9);
+  EXPECT_EQ(report.elements, 72);
+  EXPECT_NEAR(report.blocks[0].volume, 0.5 * (polygonArea(72, 11) - polygonArea(72, 9)), 1e-12);
+  EXPECT_TRUE(meshProblems(report).empty());
+  std::set<std::pair<Real, Real>> places;
+  for (const Body& stone : sectors(2, 9, 11, 0, 180, 9, 0, {2, 4, 1}))
+    for (const Vec3& p : stone.points)
+      places.insert({p.x, p.y});
+  EXPECT_EQ(places.size(), 37u * 3u);
+}
+
+TEST(Shapes, aSweptSectorIsItsAreaTimesItsLength)
+{
+  const MeshReport report = reportOf(
+      "{dimension: 3, parts: [{shape: sector, block: a, inner_radius: 9, outer_radius: 11, from: "
+      "30, to: 60, divisions: [2, 6, 3], length: 2}]}");
+  EXPECT_NEAR(report.blocks[0].volume, 2 * (polygonArea(72, 11) - polygonArea(72, 9)) / 12, 1e-12);
+  EXPECT_TRUE(meshProblems(report).empty());
+}
+
+TEST(Shapes, halfADiscForHertzContactIsFineAtItsLowestPoint)
+{
+  const Real radius = 0.05, fine = 5.4e-4 / 8, fineRadius = 1.1e-3;
+  const Body half = halfDisc(radius, fine, fineRadius);
+  const auto [least, largest] = angles(half);
+  EXPECT_GT(least, 45);
+  EXPECT_LT(largest, 135);
+  // Nodes of the round border, by x: on the circle, symmetric, and about `fine` apart in the
+  // middle.
+  std::vector<Vec3> border;
+  for (const Vec3& p : half.points)
+    if (std::abs(std::hypot(p.x, p.y - radius) - radius) < 1e-12)
+      border.push_back(p);
+  std::sort(border.begin(), border.end(), [](const Vec3& a, const Vec3& b) { return a.x < b.x; });
+  EXPECT_NEAR(border.front().x, -radius, 1e-15);
+  EXPECT_NEAR(border.back().x, radius, 1e-15);
+  const std::size_t middle = border.size() / 2;
+  EXPECT_NEAR(border[middle].x, 0, 1e-18);
+  EXPECT_NEAR(border[middle].y, 0, 1e-18);
+  for (std::size_t i = 0; i < border.size(); ++i)
+    EXPECT_EQ(border[i].x, -border[border.size() - 1 - i].x);
+  for (int i = -8; i < 8; ++i)
+    EXPECT_NEAR(norm(border[middle + i + 1] - border[middle + i]), fine, 0.1 * fine) << i;
+  // Its area is that of the polygon on the border.
+  Real polygon = 0, area = 0;
+  for (std::size_t i = 0; i + 1 < border.size(); ++i)
+    polygon += 0.5 * (border[i + 1].x - border[i].x) * (2 * radius - border[i].y - border[i + 1].y);
+  for (int e = 0; e < half.elements(); ++e)
+  {
+    const auto p = [&](int k) { return half.points[half.connectivity[4 * e + k]]; };
+    area += 0.5 * cross(p(2) - p(0), p(3) - p(1)).z;
+  }
+  EXPECT_NEAR(area / polygon, 1, 1e-12);
+  EXPECT_NEAR(area / (pi * radius * radius / 2), 1, 2e-3);
+  EXPECT_LT(half.elements(), 5000);
+}
+
+TEST(Shapes, everyHalfDiscIsValid)
+{
+  for (const Real fineRadius : {0.002, 0.02, 0.1, 0.25})
+    for (const Real fine : {1.0, 0.5, 0.2, 0.06})
+    {
+      const auto [least, largest] = angles(halfDisc(1, fine * fineRadius, fineRadius));
+      EXPECT_GT(least, 45) << fineRadius << ' ' << fine;
+      EXPECT_LT(largest, 140) << fineRadius << ' ' << fine;
+    }
+}
+
+TEST(Shapes, aSweptHalfDiscIsItsAreaTimesItsLength)
+{
+  const std::string plane = "shape: half_disc, block: c, radius: 1, fine: 0.05, fine_radius: 0.2";
+  const MeshReport two = reportOf("{dimension: 2, parts: [{" + plane + "}]}");
+  const MeshReport three =
+      reportOf("{dimension: 3, parts: [{" + plane + ", length: 2, along: 3}]}");
+  EXPECT_NEAR(three.blocks[0].volume, 2 * two.blocks[0].volume, 1e-13);
+  EXPECT_TRUE(meshProblems(three).empty());
+}
 } // namespace coplane
