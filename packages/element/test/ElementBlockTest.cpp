@@ -16,18 +16,17 @@ NodeVectors wild(const TestMesh& mesh, Real size)
 {
   std::mt19937 random(9);
   std::uniform_real_distribution<Real> number(-size, size);
-  return field(mesh.x,
-               [&](const Vec3&)
-               {
-                 return Vec3{number(random), number(random),
-                             mesh.type == ElementType::Quad4 ? 0 : number(random)};
-               });
+  return field(
+      mesh.x,
+      [&](const Vec3&) {
+        return Vec3{number(random), number(random), isFlat(mesh.type) ? 0 : number(random)};
+      });
 }
 } // namespace
 
 TEST(ElementBlock, forcesOfAnElementHaveNoResultantAndNoMoment)
 {
-  for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
+  for (const ElementType type : allTypes)
   {
     const TestMesh mesh = distorted(type, 3, 0.2);
     ElementBlock block(type, steel, {0.1, 0.1}, {}, mesh.connectivity);
@@ -71,6 +70,49 @@ TEST(ElementBlock, tensionPullsTheNodesOfABarTogether)
   }
   EXPECT_NEAR(block.cornerMass(0), 7850.0 / 8, 1e-10);
   EXPECT_NEAR(block.volume()(0), 1, 1e-15);
+}
+
+TEST(ElementBlock, aTetrahedronUnderPressureIsPushedAtEveryCornerByAThirdOfItsThreeFaces)
+{
+  // The corner of a unit cube: faces of 1/2 m^2 on the coordinate planes, and B = dV/dx: node 0 has
+  // -(1,1,1)/6, the others unit vectors over 6. Force sigma B with sigma = -6 Pa, taken negative.
+  TestMesh mesh{ElementType::Tet4, NodeVectors("x", 4), {0, 1, 2, 3}, {}};
+  for (int i = 0; i < 3; ++i)
+    mesh.x(i + 1, i) = 1;
+  ElementBlock block(ElementType::Tet4, steel, {}, {}, mesh.connectivity);
+  block.initialise(mesh.x);
+  block.setInitialStress({-6, -6, -6, 0, 0, 0});
+  block.update(mesh.x, NodeVectors("v", 4), 0);
+  for (int i = 0; i < 3; ++i)
+  {
+    EXPECT_NEAR(block.cornerForce()(0, 0, i), -1, 1e-14);
+    for (int c = 1; c < 4; ++c)
+      EXPECT_NEAR(block.cornerForce()(0, c, i), c == i + 1 ? 1 : 0, 1e-14);
+  }
+  EXPECT_NEAR(block.volume()(0), 1.0 / 6, 1e-16);
+  EXPECT_NEAR(block.cornerMass(0), 7850.0 / 24, 1e-11);
+}
+
+TEST(ElementBlock, triangleAndTetrahedronHaveNoHourglassForces)
+{
+  for (const ElementType type : {ElementType::Tri3, ElementType::Tet4})
+  {
+    const TestMesh mesh = distorted(type, 2, 0.2);
+    ElementBlock with(type, steel, {0.5, 0.5}, noViscosity, mesh.connectivity);
+    ElementBlock without(type, steel, {0, 0}, noViscosity, mesh.connectivity);
+    const NodeVectors v = wild(mesh, 100);
+    const NodeVectors x = plus(mesh.x, 1e-5, v);
+    for (ElementBlock* block : {&with, &without})
+    {
+      block->initialise(mesh.x);
+      block->update(x, v, 1e-5);
+    }
+    EXPECT_EQ(
+        largest(plus(nodalForces(with, mesh.nodes()), -1, nodalForces(without, mesh.nodes()))), 0);
+    for (int e = 0; e < with.count(); ++e)
+      EXPECT_EQ(with.energy(e, ElementEnergy::Hourglass), 0);
+    EXPECT_EQ(with.smallestStableStep(), without.smallestStableStep());
+  }
 }
 
 TEST(ElementBlock, hourglassMotionIsResistedWithTheFrequencyThatTheOptionNames)

@@ -1,3 +1,4 @@
+#include <coplane_core/Vec3.hpp>
 #include <coplane_element/MeanGradient.hpp>
 
 #include <gtest/gtest.h>
@@ -16,14 +17,17 @@ struct Element
 
   explicit Element(unsigned seed)
   {
+    static const int order[][8] = {
+        {0, 1, 2}, {0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 2, 3, 4, 5, 6, 7}}; // corners of the cube
     const Real xi[] = {-1, 1, 1, -1, -1, 1, 1, -1}, eta[] = {-1, -1, 1, 1, -1, -1, 1, 1};
     std::mt19937 random(seed);
     std::uniform_real_distribution<Real> push(-0.3, 0.3);
     for (int c = 0; c < M::nodes; ++c)
     {
-      corner[0][c] = xi[c] + push(random);
-      corner[1][c] = eta[c] + push(random);
-      corner[2][c] = (c < 4 ? -1 : 1) + push(random);
+      const int of = order[int(type)][c];
+      corner[0][c] = xi[of] + push(random);
+      corner[1][c] = eta[of] + push(random);
+      corner[2][c] = (of < 4 ? -1 : 1) + push(random);
     }
   }
   Real volume() const
@@ -86,6 +90,16 @@ void expectModesAndCornersToBeInverse()
 }
 } // namespace
 
+TEST(MeanGradient, isTheDerivativeOfTheVolumeOfATriangle)
+{
+  expectGradientOfVolume<ElementType::Tri3>();
+}
+
+TEST(MeanGradient, isTheDerivativeOfTheVolumeOfATetrahedron)
+{
+  expectGradientOfVolume<ElementType::Tet4>();
+}
+
 TEST(MeanGradient, isTheDerivativeOfTheVolumeOfAQuadrilateral)
 {
   expectGradientOfVolume<ElementType::Quad4>();
@@ -126,8 +140,25 @@ TEST(MeanGradient, cubeOfEdgeTwoHasVolumeEight)
   EXPECT_EQ(cube.volume(), 8);
 }
 
+TEST(MeanGradient, volumesOfTriangleAndTetrahedronAreThoseOfTheirEdges)
+{
+  const Element<ElementType::Tri3> triangle(4);
+  const Element<ElementType::Tet4> tet(4);
+  const auto edge = [](const auto& of, int c)
+  {
+    return Vec3{of.corner[0][c] - of.corner[0][0], of.corner[1][c] - of.corner[1][0],
+                of.corner[2][c] - of.corner[2][0]};
+  };
+  EXPECT_NEAR(triangle.volume(), 0.5 * cross(edge(triangle, 1), edge(triangle, 2)).z, 1e-14);
+  EXPECT_NEAR(tet.volume(), dot(cross(edge(tet, 1), edge(tet, 2)), edge(tet, 3)) / 6, 1e-14);
+  EXPECT_GT(triangle.volume(), 0);
+  EXPECT_GT(tet.volume(), 0);
+}
+
 TEST(MeanGradient, modesAndCornerValuesAreInverse)
 {
+  expectModesAndCornersToBeInverse<ElementType::Tri3>();
+  expectModesAndCornersToBeInverse<ElementType::Tet4>();
   expectModesAndCornersToBeInverse<ElementType::Quad4>();
   expectModesAndCornersToBeInverse<ElementType::Hex8>();
 }

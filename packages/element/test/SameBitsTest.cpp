@@ -25,7 +25,7 @@ void play(ElementBlock& block, const TestMesh& mesh)
               [cycle, &mesh](const Vec3& p)
               {
                 return Vec3{300 * std::sin(9 * p.y + cycle), -200 * std::cos(7 * p.x),
-                            mesh.type == ElementType::Quad4 ? 0 : 250 * std::sin(5 * p.x * p.y)};
+                            isFlat(mesh.type) ? 0 : 250 * std::sin(5 * p.x * p.y)};
               });
     x = plus(x, dt, v);
     block.update(x, v, dt);
@@ -48,7 +48,7 @@ void expectSameElement(const ElementBlock& a, int i, const ElementBlock& b, int 
 
 TEST(SameBits, anElementDoesNotFeelItsPlaceInTheBlock)
 {
-  for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
+  for (const ElementType type : allTypes)
   {
     const TestMesh mesh = distorted(type, 5, 0.2);
     ElementBlock whole(type, steel, {0.05, 0.03}, {}, mesh.connectivity);
@@ -75,42 +75,48 @@ TEST(SameBits, anElementDoesNotFeelItsPlaceInTheBlock)
 TEST(SameBits, bothBackEndsAgree)
 {
   const Backend before = currentBackend();
-  const TestMesh mesh = distorted(ElementType::Hex8, 5, 0.2);
-  ElementBlock serial(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
-  ElementBlock threads(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
-  setBackend(Backend::Serial);
-  play(serial, mesh);
-  setBackend(Backend::Threads);
-  play(threads, mesh);
-  setBackend(before);
-  for (int e = 0; e < serial.count(); ++e)
-    expectSameElement(serial, e, threads, e);
+  for (const ElementType type : allTypes)
+  {
+    const TestMesh mesh = distorted(type, 5, 0.2);
+    ElementBlock serial(type, steel, {}, {}, mesh.connectivity);
+    ElementBlock threads(type, steel, {}, {}, mesh.connectivity);
+    setBackend(Backend::Serial);
+    play(serial, mesh);
+    setBackend(Backend::Threads);
+    play(threads, mesh);
+    setBackend(before);
+    for (int e = 0; e < serial.count(); ++e)
+      expectSameElement(serial, e, threads, e);
+  }
 }
 
 TEST(SameBits, updateOverNoTimeGivesTheSameForcesAgain)
 {
-  const TestMesh mesh = distorted(ElementType::Hex8, 3, 0.2);
-  ElementBlock block(ElementType::Hex8, steel, {0.05, 0.03}, {}, mesh.connectivity);
-  ElementBlock copy(ElementType::Hex8, steel, {0.05, 0.03}, {}, mesh.connectivity);
-  NodeVectors x = plus(mesh.x, 0, mesh.x);
-  block.initialise(x);
-  const Real dt = 1e-5;
-  const NodeVectors v = field(x,
-                              [](const Vec3& p) {
-                                return Vec3{-300 * p.x, 200 * std::sin(9 * p.z), 100 * p.y * p.x};
-                              });
-  x = plus(x, dt, v);
-  block.update(x, v, dt);
+  for (const ElementType type : {ElementType::Tet4, ElementType::Hex8})
+  {
+    const TestMesh mesh = distorted(type, 3, 0.2);
+    ElementBlock block(type, steel, {0.05, 0.03}, {}, mesh.connectivity);
+    ElementBlock copy(type, steel, {0.05, 0.03}, {}, mesh.connectivity);
+    NodeVectors x = plus(mesh.x, 0, mesh.x);
+    block.initialise(x);
+    const Real dt = 1e-5;
+    const NodeVectors v = field(x,
+                                [](const Vec3& p) {
+                                  return Vec3{-300 * p.x, 200 * std::sin(9 * p.z), 100 * p.y * p.x};
+                                });
+    x = plus(x, dt, v);
+    block.update(x, v, dt);
 
-  // what a restart does: reference state, then all registered state, then forces
-  copy.initialise(mesh.x);
-  std::vector<ElementBlock::Values> saved;
-  block.forEachState([&](const char*, int, const ElementBlock::Values& values)
-                     { saved.push_back(values); });
-  int table = 0;
-  copy.forEachState([&](const char*, int, const ElementBlock::Values& values)
-                    { Kokkos::deep_copy(values, saved[table++]); });
-  copy.update(x, v, 0);
-  for (int e = 0; e < block.count(); ++e)
-    expectSameElement(block, e, copy, e);
+    // what a restart does: reference state, then all registered state, then forces
+    copy.initialise(mesh.x);
+    std::vector<ElementBlock::Values> saved;
+    block.forEachState([&](const char*, int, const ElementBlock::Values& values)
+                       { saved.push_back(values); });
+    int table = 0;
+    copy.forEachState([&](const char*, int, const ElementBlock::Values& values)
+                      { Kokkos::deep_copy(values, saved[table++]); });
+    copy.update(x, v, 0);
+    for (int e = 0; e < block.count(); ++e)
+      expectSameElement(block, e, copy, e);
+  }
 }

@@ -3,7 +3,9 @@
 #include <coplane_element/ElementBlock.hpp>
 
 #include <functional>
+#include <initializer_list>
 #include <random>
+#include <utility>
 #include <vector>
 
 // Small meshes and nodal fields for the tests of this package.
@@ -19,13 +21,18 @@ struct TestMesh
   int corners() const { return topology(type).nodes; }
 };
 
-/// Unit square or cube of n elements along each edge, all nodes moved by up to `distortion` element
-/// sizes.
+inline bool isFlat(ElementType type)
+{
+  return topology(type).dimension == 2;
+}
+
+/// Unit square or cube of n cells along each edge, all nodes moved by up to `distortion` cell
+/// sizes. A cell is one quadrilateral or hexahedron, two triangles or six tetrahedra.
 inline TestMesh distorted(ElementType type, int n, Real distortion, unsigned seed = 7)
 {
   std::mt19937 random(seed);
   std::uniform_real_distribution<Real> push(-distortion / n, distortion / n);
-  const bool flat = type == ElementType::Quad4;
+  const bool flat = isFlat(type);
   const int m = n + 1, layers = flat ? 1 : m;
   TestMesh mesh{type, NodeVectors("x", m * m * layers), {}, {}};
   for (int k = 0; k < layers; ++k)
@@ -43,15 +50,37 @@ inline TestMesh distorted(ElementType type, int n, Real distortion, unsigned see
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
       {
-        const int o = (k * m + j) * m + i;
-        for (const int c : {o, o + 1, o + m + 1, o + m})
-          mesh.connectivity.push_back(c);
-        if (!flat)
-          for (const int c : {o, o + 1, o + m + 1, o + m})
-            mesh.connectivity.push_back(c + m * m);
+        const int o = (k * m + j) * m + i, far = o + m + 1, up = m * m;
+        const auto add = [&](std::initializer_list<int> corners)
+        { mesh.connectivity.insert(mesh.connectivity.end(), corners); };
+        if (type == ElementType::Quad4 || type == ElementType::Hex8)
+          add({o, o + 1, far, o + m});
+        if (type == ElementType::Hex8)
+          add({o + up, o + 1 + up, far + up, o + m + up});
+        if (type == ElementType::Tri3)
+          for (const auto& [a, b] : {std::pair{o + 1, far}, {far, o + m}})
+            add({o, a, b});
+        if (type ==
+            ElementType::Tet4) // paths along the edges from one end of a diagonal to the other
+          for (const auto& [a, b] : {std::pair{1, far - o}, {m, m + up}, {up, up + 1}})
+            add({o, o + a, o + b, far + up});
+        if (type == ElementType::Tet4)
+          for (const auto& [a, b] : {std::pair{m, far - o}, {up, m + up}, {1, up + 1}})
+            add({o, o + b, o + a, far + up});
       }
   return mesh;
 }
+
+/// One element, the first of the distorted cell; other nodes belong to nothing.
+inline TestMesh single(ElementType type, Real distortion, unsigned seed = 7)
+{
+  TestMesh mesh = distorted(type, 1, distortion, seed);
+  mesh.connectivity.resize(mesh.corners());
+  return mesh;
+}
+
+constexpr ElementType allTypes[] = {ElementType::Tri3, ElementType::Quad4, ElementType::Tet4,
+                                    ElementType::Hex8};
 
 inline NodeVectors field(const ConstNodeVectors& x, const std::function<Vec3(const Vec3&)>& f)
 {

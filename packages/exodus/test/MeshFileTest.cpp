@@ -154,6 +154,10 @@ TEST(MeshFile, elementTypesAreKnownInAnyCaseAndWithoutNumber)
 {
   for (const char* type : {"QUAD", "quad4", "Quad"})
     EXPECT_EQ(readMesh(fileWithElementType(type, 4, 2)).blocks[0].type, ElementType::Quad4) << type;
+  for (const char* type : {"TRI", "tri3", "Triangle"})
+    EXPECT_EQ(readMesh(fileWithElementType(type, 3, 2)).blocks[0].type, ElementType::Tri3) << type;
+  for (const char* type : {"TETRA", "tet4", "TETRA4", "tet"})
+    EXPECT_EQ(readMesh(fileWithElementType(type, 4, 3)).blocks[0].type, ElementType::Tet4) << type;
   for (const char* type : {"HEX", "hex8"})
     EXPECT_EQ(readMesh(fileWithElementType(type, 8, 3)).blocks[0].type, ElementType::Hex8) << type;
   std::filesystem::remove(ownFile("type.e"));
@@ -180,21 +184,25 @@ TEST(MeshFile, aFolderIsNotAMesh)
       contains(errorOf([] { readMesh("/"); }), "/: this is a folder; name an Exodus II file."));
 }
 
-TEST(MeshFile, aTetrahedronIsRefusedWithBlockAndAcceptedTypes)
+TEST(MeshFile, aWedgeIsRefusedWithBlockAndAcceptedTypes)
 {
-  const std::string text = errorOf([] { readMesh(fileWithElementType("TETRA", 4, 3)); });
-  EXPECT_TRUE(contains(text,
-                       "block 12 ('block_12') has elements of type 'TETRA' with 4 nodes; QUAD4 "
-                       "(also QUAD) with 4 nodes in "
-                       "two dimensions and HEX8 (also HEX) with 8 nodes in three are accepted"))
+  const std::string text = errorOf([] { readMesh(fileWithElementType("WEDGE", 6, 3)); });
+  EXPECT_TRUE(contains(text, "block 12 ('block_12') has elements of type 'WEDGE' with 6 nodes; "
+                             "accepted are TRI3 (also TRI, TRIANGLE) with 3 nodes and QUAD4"))
       << text;
+}
+
+TEST(MeshFile, aTetrahedronWithMidsideNodesIsRefused)
+{
+  const std::string text = errorOf([] { readMesh(fileWithElementType("TETRA", 8, 3)); });
+  EXPECT_TRUE(contains(text, "has elements of type 'TETRA' with 8 nodes")) << text;
 }
 
 TEST(MeshFile, quadrilateralsInSpaceAreRefused)
 {
   const std::string text = errorOf([] { readMesh(fileWithElementType("QUAD4", 4, 3)); });
-  EXPECT_TRUE(
-      contains(text, "has QUAD4 elements in a mesh of 3 dimensions; QUAD4 needs 2 dimensions"))
+  EXPECT_TRUE(contains(
+      text, "has QUAD4 elements in a mesh of 3 dimensions; TRI3 and QUAD4 need 2 dimensions"))
       << text;
   std::filesystem::remove(ownFile("type.e"));
 }

@@ -30,6 +30,17 @@ TEST(ElementVolume, aClockwiseQuadrilateralIsNegative)
   EXPECT_DOUBLE_EQ(elementVolume(ElementType::Quad4, c), -6);
 }
 
+TEST(ElementVolume, ofTriangleAndTetrahedron)
+{
+  // Right-angled, legs 2 and 3: area 3; with height 4 above: 3 * 4 / 3 = 4.
+  std::array<Vec3, 8> c{Vec3{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {1, 1, 4}};
+  EXPECT_DOUBLE_EQ(elementVolume(ElementType::Tri3, c), 3);
+  EXPECT_DOUBLE_EQ(elementVolume(ElementType::Tet4, c), 4);
+  std::swap(c[1], c[2]);
+  EXPECT_DOUBLE_EQ(elementVolume(ElementType::Tri3, c), -3);
+  EXPECT_DOUBLE_EQ(elementVolume(ElementType::Tet4, c), -4);
+}
+
 TEST(MeshReport, sizesOfTheSampleAreCounted)
 {
   const MeshReport report = reportMesh(sampleMesh2d());

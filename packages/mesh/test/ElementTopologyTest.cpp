@@ -52,6 +52,40 @@ TEST(Quad4, everySideHasItsOutwardNormalToTheRightOfItsDirection)
   }
 }
 
+TEST(Tri3, everySideHasItsOutwardNormalToTheRightOfItsDirection)
+{
+  // Sides 1 to 3 of the Exodus manual join nodes 1-2, 2-3, 3-1.
+  const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const Vec3 outward[] = {{0, -1, 0}, {1, 1, 0}, {-1, 0, 0}}; // times the length
+  const ElementTopology& triangle = topology(ElementType::Tri3);
+  ASSERT_EQ(triangle.sides, 3);
+  for (int s = 0; s < triangle.sides; ++s)
+  {
+    EXPECT_EQ(triangle.sideNodes[s][0], s);
+    const Vec3 a = corners[triangle.sideNodes[s][0]], b = corners[triangle.sideNodes[s][1]];
+    EXPECT_EQ(b.y - a.y, outward[s].x) << "side " << s + 1;
+    EXPECT_EQ(a.x - b.x, outward[s].y) << "side " << s + 1;
+  }
+}
+
+TEST(Tet4, everySideHasItsOutwardNormalByTheRightHandRule)
+{
+  // Sides 1 to 4 of the Exodus manual: nodes 1-2-4, 2-3-4, 1-4-3, 1-3-2.
+  const Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const std::set<int> nodes[] = {{0, 1, 3}, {1, 2, 3}, {0, 2, 3}, {0, 1, 2}};
+  const Vec3 outward[] = {{0, -1, 0}, {1, 1, 1}, {-1, 0, 0}, {0, 0, -1}}; // times twice the area
+  const ElementTopology& tet = topology(ElementType::Tet4);
+  ASSERT_EQ(tet.sides, 4);
+  for (int s = 0; s < tet.sides; ++s)
+  {
+    const auto& k = tet.sideNodes[s];
+    EXPECT_EQ(std::set<int>({k[0], k[1], k[2]}), nodes[s]) << "side " << s + 1;
+    const Vec3 area = cross(corners[k[1]] - corners[k[0]], corners[k[2]] - corners[k[0]]);
+    for (int c = 0; c < 3; ++c)
+      EXPECT_EQ(area[c], outward[s][c]) << "side " << s + 1;
+  }
+}
+
 TEST(FaceId, tellsElementAndSide)
 {
   std::set<GlobalId> seen;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace coplane
 {
@@ -26,8 +27,22 @@ Real volumeOf(const ConstTable<int>& connectivity, int element, const ConstNodeV
   return M::volume(modes, b);
 }
 
-template <ElementType type>
-constexpr int hourglassRows = Modes<type>::hourglass* Modes<type>::dimension;
+/// Calls f with the type as a constant.
+template <class F>
+auto withType(ElementType type, F&& f)
+{
+  switch (type)
+  {
+  case ElementType::Tri3:
+    return f(std::integral_constant<ElementType, ElementType::Tri3>{});
+  case ElementType::Quad4:
+    return f(std::integral_constant<ElementType, ElementType::Quad4>{});
+  case ElementType::Tet4:
+    return f(std::integral_constant<ElementType, ElementType::Tet4>{});
+  default:
+    return f(std::integral_constant<ElementType, ElementType::Hex8>{});
+  }
+}
 } // namespace
 
 ElementBlock::ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
@@ -56,8 +71,8 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   plasticStrain_ = Values("equivalentPlasticStrain", 1, padded);
   compression_ = Values("compression", 2, padded);
   energies_ = Values("energies", elementEnergies, padded);
-  const int rows = type == ElementType::Quad4 ? hourglassRows<ElementType::Quad4>
-                                              : hourglassRows<ElementType::Hex8>;
+  const int rows =
+      withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; });
   hourglassForce_ = Values("hourglassForce", rows, padded);
   hourglassViscousForce_ =
       Values("hourglassViscousForce", hourglass.viscosity > 0 ? rows : 0, padded);
@@ -65,12 +80,11 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
 
 void ElementBlock::initialise(const ConstNodeVectors& x)
 {
-  const bool flat = type_ == ElementType::Quad4;
+  const bool flat = topology(type_).dimension == 2;
   const Real rho = coplane::density(law_);
   for (int e = 0; e < int(mass_.extent(0)); ++e)
   {
-    const Real volume = flat ? volumeOf<ElementType::Quad4>(connectivity_, e, x)
-                             : volumeOf<ElementType::Hex8>(connectivity_, e, x);
+    const Real volume = withType(type_, [&](auto t) { return volumeOf<t()>(connectivity_, e, x); });
     referenceVolume_(e) = volume_(e) = volume;
     referenceLength_(e) = flat ? std::sqrt(volume) : std::cbrt(volume);
     mass_(e) = rho * volume;
@@ -79,16 +93,22 @@ void ElementBlock::initialise(const ConstNodeVectors& x)
   Kokkos::deep_copy(cornerForce_, 0.0);
 }
 
-void ElementBlock::setInitialStress(const SymTensor& s)
+void ElementBlock::setInitialStress(const SymTensor& stress)
 {
-  if (type_ == ElementType::Quad4 && (s.yz != 0 || s.zx != 0))
+  for (int e = 0; e < int(mass_.extent(0)); ++e)
+    setInitialStress(e, stress);
+}
+
+void ElementBlock::setInitialStress(int element, const SymTensor& s)
+{
+  if (topology(type_).dimension == 2 && (s.yz != 0 || s.zx != 0))
     fail(ExitCode::Deck,
          "initial stress: yz = {} Pa and zx = {} Pa, but elements in plane strain carry neither. "
          "Set both to 0.",
          s.yz, s.zx);
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
-    Kokkos::deep_copy(Kokkos::subview(stress_, k, Kokkos::ALL), values[k]);
+    stress_(k, element) = values[k];
 }
 
 void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
@@ -119,10 +139,17 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
                                cornerForce_,
                                stableStep_,
                                volume_};
-  if (type_ == ElementType::Quad4)
-    updateQuad4(data, law_);
-  else
-    updateHex8(data, law_);
+  switch (type_)
+  {
+  case ElementType::Tri3:
+    return updateTri3(data, law_);
+  case ElementType::Quad4:
+    return updateQuad4(data, law_);
+  case ElementType::Tet4:
+    return updateTet4(data, law_);
+  case ElementType::Hex8:
+    return updateHex8(data, law_);
+  }
 }
 
 Real ElementBlock::pressure(int e) const

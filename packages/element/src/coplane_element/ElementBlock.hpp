@@ -61,6 +61,8 @@ public:
 
   /// Gives every element the same stress (tension positive) [Pa]. Call after initialise().
   void setInitialStress(const SymTensor& stress);
+  /// The same for one element.
+  void setInitialStress(int element, const SymTensor& stress);
 
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
   /// steps at x^(n+1). With dt = 0 nothing advances: it gives the forces that belong to the present

@@ -27,7 +27,9 @@ struct ElementKernelData
   Array<Real> stableStep, volume;
 };
 
+void updateTri3(const ElementKernelData& data, const Material& law);
 void updateQuad4(const ElementKernelData& data, const Material& law);
+void updateTet4(const ElementKernelData& data, const Material& law);
 void updateHex8(const ElementKernelData& data, const Material& law);
 
 inline Lanes load(const Real* from)
@@ -46,6 +48,9 @@ struct ElementKernel
   using M = Modes<type>;
   static constexpr int dim = M::dimension;
   static constexpr int nodes = M::nodes;
+  static constexpr bool hasHourglass = M::hourglass > 0;
+  /// One vector per hourglass mode; an unused one where the strain sees every deformation.
+  using HourglassVectors = Lanes[hasHourglass ? M::hourglass : 1][dim];
 
   ElementKernelData data;
   Law law;
@@ -58,7 +63,7 @@ struct ElementKernel
     gather(data.x, first, x);
     gather(data.v, first, v);
 
-    Lanes hourglass[M::hourglass][dim];
+    HourglassVectors hourglass;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         hourglass[a][i] = load(&data.hourglassForce(a * dim + i, first));
@@ -167,8 +172,8 @@ private:
 
   /// Stress, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
   void advance(int first, const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count],
-               SymTensorOf<Lanes>& stress, Lanes (&hourglass)[M::hourglass][dim],
-               Lanes& compression, Lanes& dilatation) const
+               SymTensorOf<Lanes>& stress, HourglassVectors& hourglass, Lanes& compression,
+               Lanes& dilatation) const
   {
     const Lanes dt(data.dt), half(0.5);
     Lanes middle[dim][M::count], b[dim][M::gradients];
@@ -205,7 +210,7 @@ private:
     de.zz = de.yz = de.zx = Lanes(0.0);
     const Lanes quarter(0.25);
     const SymTensorOf<Lanes> oldStress = stress;
-    Lanes oldHourglass[M::hourglass][dim];
+    HourglassVectors oldHourglass;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         oldHourglass[a][i] = hourglass[a][i];
@@ -230,8 +235,11 @@ private:
       const Lanes f = Lanes(2.0) / (Lanes(1.0) + a * a);
       const Lanes cosine = Lanes(1.0) - f * a * a, sine = f * a;
       stress = rotatedInPlane(stress, cosine, sine);
-      hourglass[0][0] = cosine * oldHourglass[0][0] - sine * oldHourglass[0][1];
-      hourglass[0][1] = sine * oldHourglass[0][0] + cosine * oldHourglass[0][1];
+      for (int h = 0; h < M::hourglass; ++h)
+      {
+        hourglass[h][0] = cosine * oldHourglass[h][0] - sine * oldHourglass[h][1];
+        hourglass[h][1] = sine * oldHourglass[h][0] + cosine * oldHourglass[h][1];
+      }
     }
 
     Lanes plasticStrain = load(&data.plasticStrain(0, first));
@@ -252,11 +260,25 @@ private:
     addTo(data.energies, ElementEnergy::Internal, first, half * volume * work);
     addTo(data.energies, ElementEnergy::PlasticDissipation, first, volume * dissipation);
 
+    if constexpr (hasHourglass)
+      advanceHourglass(first, middle, v, l, volume,
+                       Lanes(nodes) * squares * inverseVolume * inverseVolume, oldHourglass,
+                       hourglass);
+  }
+
+  /// Hourglass forces, already turned with the element, from n to n + 1, and their work.
+  /// @param l velocity gradient times dt
+  /// @param traceG sum of b_jI^2 over nodes and axes [1/m^2]
+  void advanceHourglass(int first, const Lanes (&middle)[dim][M::count],
+                        const Lanes (&v)[dim][M::count], const Lanes (&l)[dim][dim],
+                        const Lanes& volume, const Lanes& traceG,
+                        const HourglassVectors& oldHourglass, HourglassVectors& hourglass) const
+  {
+    const Lanes dt(data.dt), half(0.5);
     // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
-    const Lanes traceG = Lanes(nodes) * squares * inverseVolume * inverseVolume;
     const Lanes stiffness =
         Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume * traceG;
-    Lanes increment[M::hourglass][dim]; // q dt [m]
+    HourglassVectors increment; // q dt [m]
     Lanes hourglassWork(0.0);
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
@@ -276,7 +298,7 @@ private:
 
   /// Viscous hourglass forces of the step, and twice their work.
   Lanes advanceHourglassViscosity(int first, const Lanes& traceG, const Lanes& volume,
-                                  const Lanes (&increment)[M::hourglass][dim]) const
+                                  const HourglassVectors& increment) const
   {
     const Lanes mass = load(&data.mass(first));
     const Lanes omega = stdx::sqrt(Lanes(nodes * data.pWaveModulus) * volume / mass * traceG);
@@ -298,8 +320,7 @@ private:
   /// gamma at x^(n+1).
   LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count],
                              const Lanes (&b)[dim][M::gradients], const SymTensorOf<Lanes>& stress,
-                             const Lanes& viscousPressure,
-                             const Lanes (&hourglass)[M::hourglass][dim],
+                             const Lanes& viscousPressure, const HourglassVectors& hourglass,
                              const Lanes& inverseVolume) const
   {
     Lanes s[dim][dim];
@@ -317,14 +338,15 @@ private:
     for (int i = 0; i < dim; ++i)
     {
       // The part of gamma along b joins the stress, the part along h adds to its own mode.
-      for (int j = 0; j < dim; ++j)
-      {
-        Lanes sum = hourglass[0][i] * x[j][dim];
+      if constexpr (hasHourglass)
+        for (int j = 0; j < dim; ++j)
+        {
+          Lanes sum = hourglass[0][i] * x[j][dim];
 #pragma GCC unroll 4
-        for (int a = 1; a < M::hourglass; ++a)
-          sum += hourglass[a][i] * x[j][dim + a];
-        s[i][j] -= sum * inverseVolume;
-      }
+          for (int a = 1; a < M::hourglass; ++a)
+            sum += hourglass[a][i] * x[j][dim + a];
+          s[i][j] -= sum * inverseVolume;
+        }
       Lanes modes[M::count];
 #pragma GCC unroll 8
       for (int k = 0; k < M::count; ++k)
@@ -333,7 +355,7 @@ private:
         if (k < M::gradients)
           for (int j = 0; j < dim; ++j)
             modes[k] -= s[i][j] * b[j][k];
-        if (k >= dim)
+        if (hasHourglass && k >= dim)
           modes[k] -= Lanes(1.0 / nodes) * hourglass[k - dim][i];
         all += modes[k];
       }

@@ -13,14 +13,62 @@ namespace coplane
 //
 //   u(corner I) = mean + u[0] xi_I + u[1] eta_I + ...        u[k] = (1/n) sum_I pattern_k(I) u_I
 //
+//   Tri3   patterns: sqrt(3/2) (-1, 1, 0), sqrt(1/2) (-1, -1, 2) | none    n = 3
 //   Quad4  patterns: xi, eta | xi eta                              n = 4
+//   Tet4   patterns: (-1, 1, -1, 1), (-1, -1, 1, 1), (1, -1, -1, 1) | none     n = 4
 //   Hex8   patterns: xi, eta, zeta | eta zeta, zeta xi, xi eta, xi eta zeta       n = 8
 //
 // Patterns right of the bar are the hourglass base vectors. Volume gradients B_iI = dV/dx_iI,
 // contractions with B and hourglass shapes are short in this basis because each of them has few
-// modes; nothing is approximated. T is Real or Lanes.
+// modes; nothing is approximated. Triangles and tetrahedra have no corner signs: their patterns are
+// chosen like the others, orthogonal, without mean, of squared length n, so that one kernel serves
+// all shapes. T is Real or Lanes.
 template <ElementType type>
 struct Modes;
+
+template <>
+struct Modes<ElementType::Tri3>
+{
+  static constexpr int dimension = 2, nodes = 3, count = 2, hourglass = 0;
+  static constexpr int gradients = 2;
+  static constexpr Real rootOfHalf = 0.70710678118654752440;        ///< sqrt(1/2)
+  static constexpr Real rootOfThreeHalves = 1.22474487139158904910; ///< sqrt(3/2)
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void fromCorners(const T (&u)[3], T (&mode)[2])
+  {
+    const T step = u[1] - u[0];
+    mode[0] = T(rootOfThreeHalves / 3) * step;
+    mode[1] = T(rootOfHalf / 3) * ((u[2] - u[0]) + (u[2] - u[1]));
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void toCorners(const T (&mode)[2], T (&u)[3])
+  {
+    const T along = T(rootOfThreeHalves) * mode[0], up = T(rootOfHalf) * mode[1];
+    u[0] = -along - up;
+    u[1] = along - up;
+    u[2] = up + up;
+  }
+
+  /// dA/dx = 1/2 [y2-y3, y3-y1, y1-y2] and so on.
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void volumeGradient(const T (&x)[2][2], T (&b)[2][2])
+  {
+    const T factor(0.5 * rootOfThreeHalves / rootOfHalf); // sqrt(3)/2
+    b[0][0] = factor * x[1][1];
+    b[0][1] = -factor * x[1][0];
+    b[1][0] = -factor * x[0][1];
+    b[1][1] = factor * x[0][0];
+  }
+
+  /// V = sum_I x_I B_xI [m^3], unit thickness.
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION T volume(const T (&x)[2][2], const T (&b)[2][2])
+  {
+    return T(3.0) * (x[0][0] * b[0][0] + x[0][1] * b[0][1]);
+  }
+};
 
 template <>
 struct Modes<ElementType::Quad4>
@@ -64,6 +112,56 @@ struct Modes<ElementType::Quad4>
   static KOKKOS_INLINE_FUNCTION T volume(const T (&x)[2][3], const T (&b)[2][2])
   {
     return T(4.0) * (x[0][0] * b[0][0] + x[0][1] * b[0][1]);
+  }
+};
+
+template <>
+struct Modes<ElementType::Tet4>
+{
+  static constexpr int dimension = 3, nodes = 4, count = 3, hourglass = 0;
+  static constexpr int gradients = 3;
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void fromCorners(const T (&u)[4], T (&mode)[3])
+  {
+    const T quarter(0.25);
+    mode[0] = quarter * ((u[1] - u[0]) + (u[3] - u[2]));
+    mode[1] = quarter * ((u[2] - u[0]) + (u[3] - u[1]));
+    mode[2] = quarter * ((u[0] - u[1]) + (u[3] - u[2]));
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void toCorners(const T (&mode)[3], T (&u)[4])
+  {
+    u[0] = mode[2] - (mode[0] + mode[1]);
+    u[1] = mode[0] - (mode[1] + mode[2]);
+    u[2] = mode[1] - (mode[0] + mode[2]);
+    u[3] = mode[0] + mode[1] + mode[2];
+  }
+
+  /// With V = (8/3) det of the modes of x, y, z: B_x = (2/3) (y x z), and so on.
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void volumeGradient(const T (&x)[3][3], T (&b)[3][3])
+  {
+    gradientAlong(x[1], x[2], b[0]);
+    gradientAlong(x[2], x[0], b[1]);
+    gradientAlong(x[0], x[1], b[2]);
+  }
+
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION T volume(const T (&x)[3][3], const T (&b)[3][3])
+  {
+    return T(4.0) * (x[0][0] * b[0][0] + x[0][1] * b[0][1] + x[0][2] * b[0][2]);
+  }
+
+private:
+  template <class T>
+  static KOKKOS_INLINE_FUNCTION void gradientAlong(const T (&y)[3], const T (&z)[3], T (&b)[3])
+  {
+    const T factor(2.0 / 3.0);
+    b[0] = factor * (y[1] * z[2] - y[2] * z[1]);
+    b[1] = factor * (y[2] * z[0] - y[0] * z[2]);
+    b[2] = factor * (y[0] * z[1] - y[1] * z[0]);
   }
 };
 

@@ -42,7 +42,7 @@ void measureEdges(MeshReport& report, const ElementTopology& shape,
                   const std::array<Vec3, 8>& corners)
 {
   for (int side = 0; side < shape.sides; ++side)
-    for (int k = 0; k < (shape.dimension == 2 ? 1 : 4); ++k)
+    for (int k = 0; k < (shape.dimension == 2 ? 1 : shape.nodesPerSide); ++k)
     {
       const Vec3& a = corners[shape.sideNodes[side][k]];
       const Vec3& b = corners[shape.sideNodes[side][(k + 1) % shape.nodesPerSide]];
@@ -88,6 +88,10 @@ std::string firstOf(const Items& items, const Text& text)
 
 Real elementVolume(ElementType type, const std::array<Vec3, 8>& c)
 {
+  if (type == ElementType::Tri3)
+    return 0.5 * ((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y));
+  if (type == ElementType::Tet4)
+    return dot(cross(c[1] - c[0], c[2] - c[0]), c[3] - c[0]) / 6;
   if (type == ElementType::Quad4)
     return 0.5 * ((c[2].x - c[0].x) * (c[3].y - c[1].y) + (c[1].x - c[3].x) * (c[2].y - c[0].y));
   // V = sum_I x_I B_I, with B_1 of Flanagan & Belytschko 1981 and their index permutations for the

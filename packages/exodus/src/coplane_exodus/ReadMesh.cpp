@@ -130,23 +130,36 @@ private:
 
   ElementType elementType(const ex_block& b, const std::string& name) const
   {
-    const std::string type = upperCase(b.topology);
-    const bool quad = (type == "QUAD" || type == "QUAD4") && b.num_nodes_per_entry == 4;
-    const bool hex = (type == "HEX" || type == "HEX8") && b.num_nodes_per_entry == 8;
-    if (!quad && !hex)
-      fail(
-          ExitCode::Mesh,
-          "{}: block {} ('{}') has elements of type '{}' with {} nodes; QUAD4 (also QUAD) with 4 "
-          "nodes in two dimensions and "
-          "HEX8 (also HEX) with 8 nodes in three are accepted. Mesh this block with such elements.",
-          file_, b.id, name, b.topology, b.num_nodes_per_entry);
-    if (quad != (mesh_.dimension == 2))
-      fail(ExitCode::Mesh,
-           "{}: block {} ('{}') has {} elements in a mesh of {} dimensions; QUAD4 needs 2 "
-           "dimensions, HEX8 needs 3. "
-           "Export the mesh with {} coordinates per node.",
-           file_, b.id, name, b.topology, mesh_.dimension, quad ? 2 : 3);
-    return quad ? ElementType::Quad4 : ElementType::Hex8;
+    struct Known
+    {
+      ElementType type;
+      std::vector<std::string> names;
+    };
+    static const Known known[] = {{ElementType::Tri3, {"TRI", "TRI3", "TRIANGLE"}},
+                                  {ElementType::Quad4, {"QUAD", "QUAD4"}},
+                                  {ElementType::Tet4, {"TET", "TET4", "TETRA", "TETRA4"}},
+                                  {ElementType::Hex8, {"HEX", "HEX8"}}};
+    const std::string written = upperCase(b.topology);
+    for (const Known& candidate : known)
+    {
+      const ElementTopology& shape = topology(candidate.type);
+      if (b.num_nodes_per_entry != shape.nodes ||
+          std::find(candidate.names.begin(), candidate.names.end(), written) ==
+              candidate.names.end())
+        continue;
+      if (shape.dimension != mesh_.dimension)
+        fail(ExitCode::Mesh,
+             "{}: block {} ('{}') has {} elements in a mesh of {} dimensions; TRI3 and QUAD4 need "
+             "2 dimensions, TETRA4 and HEX8 need 3. Export the mesh with {} coordinates per node.",
+             file_, b.id, name, b.topology, mesh_.dimension, shape.dimension);
+      return candidate.type;
+    }
+    fail(ExitCode::Mesh,
+         "{}: block {} ('{}') has elements of type '{}' with {} nodes; accepted are TRI3 (also "
+         "TRI, TRIANGLE) with 3 nodes and QUAD4 (also QUAD) with 4 in two dimensions, TETRA4 (also "
+         "TETRA, TET4, TET) with 4 and HEX8 (also HEX) with 8 in three. Mesh this block with such "
+         "elements.",
+         file_, b.id, name, b.topology, b.num_nodes_per_entry);
   }
 
   void readBlocks()
@@ -248,7 +261,9 @@ private:
 
   void readSideSets()
   {
-    const int sidesPerElement = mesh_.dimension == 2 ? 4 : 6;
+    std::vector<int> sidesOf; // of each element of the file, in the order of blocks
+    for (const Mesh::Block& block : mesh_.blocks)
+      sidesOf.insert(sidesOf.end(), block.elements(), topology(block.type).sides);
     for (const ExodusInt id : setIds(EX_SIDE_SET, "side set", sideSets_))
     {
       Mesh::SideSet set;
@@ -259,13 +274,16 @@ private:
         check(ex_get_set(exoid_, EX_SIDE_SET, id, elements.data(), sides.data()), "side set");
       for (std::size_t i = 0; i < elements.size(); ++i)
       {
-        if (elements[i] < 1 || elements[i] > elements_ || sides[i] < 1 ||
-            sides[i] > sidesPerElement)
+        if (elements[i] < 1 || elements[i] > elements_)
           fail(ExitCode::Mesh,
-               "{}: side set {} ('{}') lists side {} of element number {}; sides 1 to {} of "
-               "elements 1 to {} exist. Write the "
-               "file again.",
-               file_, id, set.name, sides[i], elements[i], sidesPerElement, elements_);
+               "{}: side set {} ('{}') lists a side of element number {}; elements 1 to {} exist. "
+               "Write the file again.",
+               file_, id, set.name, elements[i], elements_);
+        if (const int count = sidesOf.at(elements[i] - 1); sides[i] < 1 || sides[i] > count)
+          fail(ExitCode::Mesh,
+               "{}: side set {} ('{}') lists side {} of element number {}, which has sides 1 to "
+               "{}. Write the file again.",
+               file_, id, set.name, sides[i], elements[i], count);
         set.elements.push_back(int(elements[i] - 1));
         set.sides.push_back(int(sides[i] - 1));
       }
