@@ -1,0 +1,39 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
+
+namespace coplane
+{
+/// What a plane keeps of its joint card once it is fitted to a pair of faces.
+struct JointFit
+{
+  Real normalStiffness = 0;     ///< slope of the closure curve at zero closure [Pa/m]
+  Real stiffnessCap = infinity; ///< largest slope of the closure curve [Pa/m]
+  Real shearStiffness = 0;      ///< [Pa/m]
+};
+
+/// History of a plane.
+struct JointState
+{
+  Real maximumClosure = 0; ///< largest closure so far [m]
+  Vec3 shearTraction{};    ///< on the face with the higher id [Pa]
+  Real slip = 0;           ///< length of the slip path [m]
+  Real opening = 0;        ///< inelastic opening [m]
+  Real shearing = 0;       ///< inelastic slip of the bond [m]
+  bool bonded = false;     ///< carries tension and cohesion until broken
+};
+
+/// What a step gives, with the increments of dissipated work per area.
+struct JointResponse
+{
+  Real normalTraction = 0;  ///< compression positive; negative: tension of a bonded joint [Pa]
+  Real normalStiffness = 0; ///< slope of the branch in use [Pa/m]
+  bool slipping = false;
+  Real frictionWork = 0;   ///< [J/m^2]
+  Real fractureWork = 0;   ///< [J/m^2]
+  Real hysteresisWork = 0; ///< of the closure curve [J/m^2]
+  Real dilation = 0; ///< by which the plane's offset rises in this step [m]; the tractions are
+                     ///< those at the raised offset
+};
+} // namespace coplane
