@@ -20,7 +20,6 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
 {
   Mesh mesh;
   mesh.dimension = dimension;
-  const ElementType type = dimension == 2 ? ElementType::Quad4 : ElementType::Hex8;
   int bodies = 0;
   for (const Part& part : parts)
   {
@@ -28,6 +27,13 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
     for (Mesh::Block& other : mesh.blocks)
       if (other.name == part.block)
         block = &other;
+    const ElementType type = part.bodies.front().type;
+    if (block && block->type != type)
+      fail(ExitCode::Deck,
+           "{} = '{}' has {} elements in other parts and {} in this one; a block has elements of "
+           "one "
+           "type. Give this part a block of its own, or split all parts of the block.",
+           part.keyPlace, part.block, topology(block->type).exodusName, topology(type).exodusName);
     if (!block)
       block = &mesh.blocks.emplace_back(
           Mesh::Block{GlobalId(mesh.blocks.size()) + 1, part.block, type, {}, {}, {}});
@@ -159,6 +165,7 @@ parts:                           a list; parts of the same block name make one e
     fine_radius: r               so far reach such elements (at most radius / 4); beyond, they grow with the distance
     length: l, along: n          3D
   every part:
+    split: none | triangles | tetrahedra  optional; every quadrilateral into 2 triangles, every hexahedron into 5 tetrahedra
     rotate: degrees | [x, y, z]  optional; 2D: about z; 3D: about x, then y, then z
     about: [..]                  point that stays in place; default: the middle of the part's bounding box
     offset: [..]                 added last

@@ -36,7 +36,7 @@ std::vector<std::string> keysOf(const std::string& shape)
       {"cylinder", {"radius", "across", "length", "along"}},
       {"sector", {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length"}},
       {"half_disc", {"radius", "fine", "fine_radius", "length", "along"}}};
-  std::vector<std::string> keys{"shape", "block", "rotate", "about", "offset"};
+  std::vector<std::string> keys{"shape", "block", "split", "rotate", "about", "offset"};
   keys.insert(keys.end(), own.at(shape).begin(), own.at(shape).end());
   return keys;
 }
@@ -290,6 +290,20 @@ std::vector<Body> readBodies(const std::string& shape, const RecipeMap& map, int
   return readCylinder(map, dimension);
 }
 
+/// The bodies as they are, or split into triangles or tetrahedra.
+std::vector<Body> splitAsAsked(std::vector<Body> bodies, const RecipeMap& map, int dimension)
+{
+  const std::string split = map.choice("split", {"none", "triangles", "tetrahedra"});
+  if (split == "none")
+    return bodies;
+  if ((split == "triangles") != (dimension == 2))
+    map.refuse("split", dimension == 2 ? "= 'tetrahedra' needs three dimensions; use triangles."
+                                       : "= 'triangles' needs two dimensions; use tetrahedra.");
+  for (Body& body : bodies)
+    body = inSimplices(body);
+  return bodies;
+}
+
 /// Right-handed rotation about one axis, angle in degrees. Quarter turns are exact.
 Mat3 rotationAbout(int axis, Real degrees)
 {
@@ -350,7 +364,8 @@ Part readPart(const YAML::Node& node, const std::string& file, const std::string
   const RecipeMap map(node, file, path, keysOf(shape));
   Part part;
   part.block = map.text("block");
-  part.bodies = readBodies(shape, map, dimension);
+  part.bodies = splitAsAsked(readBodies(shape, map, dimension), map, dimension);
+  part.keyPlace = fmt::format("{}: {}", placeOf(file, map.node("block")), map.pathOf("block"));
   part.rotation = readRotation(map, dimension);
   part.centre = map.has("about") ? map.point("about", dimension) : middleOf(part.bodies);
   if (map.has("offset"))

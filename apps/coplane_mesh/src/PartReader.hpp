@@ -12,6 +12,7 @@ namespace coplane
 struct Part
 {
   std::string block;
+  std::string keyPlace; ///< of the key `block` in the recipe, for messages
   std::vector<Body> bodies;
   Mat3 rotation; ///< about `centre`
   Vec3 centre{}; ///< in own coordinates [m]

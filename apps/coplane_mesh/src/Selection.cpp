@@ -152,7 +152,8 @@ Vec3 normalOf(const Mesh& mesh, const ExteriorFace& face)
     const Vec3 edge = x(1) - x(0);
     return normalised(Vec3{edge.y, -edge.x, 0});
   }
-  return normalised(cross(x(2) - x(0), x(3) - x(1)));
+  const Vec3 last = face.nodes[3] < 0 ? x(0) : x(3); // of a triangle: x(0), x(1), x(2), x(0)
+  return normalised(cross(x(2) - x(0), last - x(1)));
 }
 
 void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,

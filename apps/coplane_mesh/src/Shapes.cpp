@@ -1,5 +1,7 @@
 #include "Shapes.hpp"
 
+#include <coplane_core/Error.hpp>
+
 #include <cmath>
 
 namespace coplane
@@ -26,7 +28,7 @@ public:
       : radius_(radius), across_(across), core_(coreDivisions(across)),
         rings_((across - core_) / 2), half_(half)
   {
-    body_.dimension = 2;
+    body_.type = ElementType::Quad4;
     const int rows = half_ ? core_ / 2 : core_;
     for (int j = 0; j <= rows; ++j)
       for (int i = 0; i <= core_; ++i)
@@ -135,7 +137,7 @@ Body mappedGrid(int dimension, const std::array<int, 3>& n,
                 const std::function<Vec3(int, int, int)>& position)
 {
   Body body;
-  body.dimension = dimension;
+  body.type = dimension == 2 ? ElementType::Quad4 : ElementType::Hex8;
   const int layers = dimension == 3 ? n[2] : 0;
   for (int k = 0; k <= layers; ++k)
     for (int j = 0; j <= n[1]; ++j)
@@ -175,6 +177,69 @@ Body box(int dimension, const Vec3& lowest, const Vec3& highest, const std::arra
       [&](int i, int j, int k) {
         return Vec3{between(0, i), between(1, j), dimension == 3 ? between(2, k) : 0.0};
       });
+}
+
+namespace
+{
+/// Two colours, 0 and 1, such that the ends of every edge differ. A body of quadrilaterals or
+/// hexahedra without hole has such colours: every loop of edges has an even number of them.
+std::vector<int> coloursOfNodes(const Body& body)
+{
+  const ElementTopology& shape = topology(body.type);
+  std::vector<std::vector<int>> neighbours(body.points.size());
+  for (int e = 0; e < body.elements(); ++e)
+    for (int side = 0; side < shape.sides; ++side)
+      for (int k = 0; k < shape.nodesPerSide; ++k)
+      {
+        const int next = (k + 1) % shape.nodesPerSide;
+        neighbours[body.connectivity[e * shape.nodes + shape.sideNodes[side][k]]].push_back(
+            body.connectivity[e * shape.nodes + shape.sideNodes[side][next]]);
+      }
+  std::vector<int> colour(body.points.size(), -1);
+  std::vector<int> queue{body.connectivity.front()};
+  colour[queue.front()] = 0;
+  for (std::size_t i = 0; i < queue.size(); ++i)
+    for (const int other : neighbours[queue[i]])
+    {
+      if (colour[other] < 0)
+      {
+        colour[other] = 1 - colour[queue[i]];
+        queue.push_back(other);
+      }
+      if (colour[other] == colour[queue[i]])
+        fail(ExitCode::Internal, "the diagonals of a body cannot alternate");
+    }
+  return colour;
+}
+} // namespace
+
+Body inSimplices(const Body& body)
+{
+  // Diagonals join nodes of colour 0. The tables are for first nodes of that colour; otherwise the
+  // element is turned by a quarter.
+  static const int triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+  static const int tetrahedra[5][4] = {
+      {0, 2, 7, 5}, {1, 2, 0, 5}, {3, 0, 2, 7}, {4, 5, 0, 7}, {6, 2, 5, 7}};
+  static const int turned[8] = {1, 2, 3, 0, 5, 6, 7, 4};
+  const std::vector<int> colour = coloursOfNodes(body);
+  const bool plane = body.type == ElementType::Quad4;
+  Body split;
+  split.type = plane ? ElementType::Tri3 : ElementType::Tet4;
+  split.points = body.points;
+  const int perElement = topology(body.type).nodes;
+  for (int e = 0; e < body.elements(); ++e)
+  {
+    const int* nodes = &body.connectivity[e * perElement];
+    const auto add = [&](int corner)
+    { split.connectivity.push_back(nodes[colour[nodes[0]] == 0 ? corner : turned[corner]]); };
+    for (const auto& triangle : triangles)
+      for (int k = 0; plane && k < 3; ++k)
+        add(triangle[k]);
+    for (const auto& tetrahedron : tetrahedra)
+      for (int k = 0; !plane && k < 4; ++k)
+        add(tetrahedron[k]);
+  }
+  return split;
 }
 
 std::vector<Real> gradedLine(Real a, Real b, int n, Real bias)

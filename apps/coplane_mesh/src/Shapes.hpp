@@ -9,13 +9,14 @@
 
 namespace coplane
 {
-/// Nodes and elements of one body: quadrilaterals in two dimensions, hexahedra in three.
+/// Nodes and elements of one body: quadrilaterals in two dimensions, hexahedra in three, until they
+/// are split.
 struct Body
 {
-  int dimension = 3;
-  std::vector<Vec3> points;      ///< [m]
-  std::vector<int> connectivity; ///< 4 or 8 per element
-  int elements() const { return int(connectivity.size()) / (dimension == 2 ? 4 : 8); }
+  ElementType type = ElementType::Hex8;
+  std::vector<Vec3> points; ///< [m]
+  std::vector<int> connectivity;
+  int elements() const { return int(connectivity.size()) / topology(type).nodes; }
 };
 
 /// Grid of n[0] x n[1] (x n[2]) elements whose node (i, j, k) is at position(i, j, k). The images
@@ -25,6 +26,11 @@ Body mappedGrid(int dimension, const std::array<int, 3>& n,
 
 /// A plane body swept along z: layers of nodes at the given heights [m], ascending.
 Body extruded(const Body& plane, const std::vector<Real>& heights);
+
+/// Every quadrilateral split into two triangles, every hexahedron into five tetrahedra, with
+/// diagonals that alternate from element to element, so that they agree on common faces. Nodes
+/// stay.
+Body inSimplices(const Body& body);
 
 /// n + 1 coordinates from a to b [m]; the last element is `bias` times as long as the first, those
 /// between in geometric progression.

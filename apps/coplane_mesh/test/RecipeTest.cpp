@@ -29,8 +29,8 @@ TEST(Recipe, aMisspeltKeyIsNamedWithPlaceAndSuggestion)
 {
   EXPECT_EQ(
       errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n    divisons: [1, 1]\n"),
-      "r.yaml:6:5: parts[0].divisons is not known; parts[0] accepts shape, block, rotate, about, "
-      "offset, min, max, size, "
+      "r.yaml:6:5: parts[0].divisons is not known; parts[0] accepts shape, block, split, rotate, "
+      "about, offset, min, max, size, "
       "divisions, bias, lines. Did you mean 'divisions'?");
 }
 
@@ -127,6 +127,24 @@ TEST(Recipe, aFineZoneLargerThanAQuarterOfTheRadiusIsRefused)
             "0.25 m.");
 }
 
+TEST(Recipe, tetrahedraInTwoDimensionsAreRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1], split: "
+                           "tetrahedra}\n"),
+            "r.yaml:3:68: parts[0].split = 'tetrahedra' needs three dimensions; use triangles.");
+}
+
+TEST(Recipe, twoElementTypesInABlockAreRefused)
+{
+  EXPECT_EQ(
+      errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1]}\n"
+                     "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1], split: "
+                     "triangles}\n"),
+      "r.yaml:4:25: parts[1].block = 'b' has QUAD4 elements in other parts and TRI3 in this "
+      "one; a block has elements of one type. Give this part a block of its own, or split all "
+      "parts of the block.");
+}
+
 TEST(Recipe, aSetOfAnUnknownBlockIsRefusedWithSuggestion)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: bricks, size: [1, 1], divisions: [1, "
@@ -158,7 +176,7 @@ TEST(Recipe, everyShapeAndKeyOfTheHelpIsThere)
         "layers",     "across",    "along",     "section",      "quadrilateral",
         "hexahedron", "corners",   "sector",    "inner_radius", "outer_radius",
         "count",      "half_disc", "fine",      "fine_radius",  "lines",
-        "ends",       "bias"})
+        "ends",       "bias",      "split",     "triangles",    "tetrahedra"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 } // namespace coplane

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace coplane
@@ -341,5 +342,92 @@ TEST(Shapes, aSweptHalfDiscIsItsAreaTimesItsLength)
       reportOf("{dimension: 3, parts: [{" + plane + ", length: 2, along: 3}]}");
   EXPECT_NEAR(three.blocks[0].volume, 2 * two.blocks[0].volume, 1e-13);
   EXPECT_TRUE(meshProblems(three).empty());
+}
+
+TEST(Shapes, trianglesHaveAlternatingDiagonals)
+{
+  // Four quadrilaterals: the diagonals meet in the middle node, or form a diamond around it.
+  //   +--+--+
+  //   |\ | /|
+  //   +--+--+
+  //   |/ | \|
+  //   +--+--+
+  const Body split = inSimplices(box(2, {0, 0, 0}, {2, 2, 0}, {2, 2, 1}));
+  ASSERT_EQ(split.elements(), 8);
+  std::vector<int> trianglesOf(9, 0);
+  for (const int node : split.connectivity)
+    ++trianglesOf[node];
+  EXPECT_EQ(trianglesOf, (std::vector<int>{2, 2, 2, 2, 8, 2, 2, 2, 2}));
+}
+
+TEST(Shapes, everyShapeInTrianglesFillsTheSameArea)
+{
+  for (const std::string shape :
+       {"shape: box, size: [3, 2], divisions: [3, 5]",
+        "shape: wall, brick: [0.4, 0.2], courses: 3, length_in_bricks: 2, divisions: [4, 3]",
+        "shape: cylinder, radius: 1, across: 10",
+        "shape: projectile, width: 1, length: 3, across: 8",
+        "shape: sector, inner_radius: 1, outer_radius: 2, from: 0, to: 90, count: 2, divisions: "
+        "[3, 5]",
+        "shape: half_disc, radius: 1, fine: 0.03, fine_radius: 0.1"})
+  {
+    const std::string part = "{dimension: 2, parts: [{block: b, " + shape;
+    const MeshReport whole = reportOf(part + "}]}"),
+                     split = reportOf(part + ", split: triangles}]}");
+    EXPECT_EQ(split.elements, 2 * whole.elements) << shape;
+    EXPECT_EQ(split.nodes, whole.nodes) << shape;
+    EXPECT_EQ(split.bodies, whole.bodies) << shape;
+    EXPECT_EQ(split.blocks[0].type, "TRI3");
+    EXPECT_NEAR(split.blocks[0].volume / whole.blocks[0].volume, 1, 1e-13) << shape;
+    EXPECT_TRUE(meshProblems(split).empty()) << shape;
+  }
+}
+
+TEST(Shapes, tetrahedraOfABodyAreConforming)
+{
+  // 3 x 4 x 5 hexahedra: every face inside belongs to two tetrahedra; those outside are two for
+  // every outer face: 2 * 2 (12 + 15 + 20).
+  const Body split = inSimplices(box(3, {0, 0, 0}, {3, 4, 5}, {3, 4, 5}));
+  EXPECT_EQ(split.elements(), 5 * 60);
+  std::map<std::array<int, 3>, int> elementsOf;
+  const ElementTopology& shape = topology(split.type);
+  Real volume = 0;
+  for (int e = 0; e < split.elements(); ++e)
+  {
+    std::array<Vec3, 8> corners{};
+    for (int k = 0; k < 4; ++k)
+      corners[k] = split.points[split.connectivity[4 * e + k]];
+    const Real own = elementVolume(split.type, corners);
+    EXPECT_GT(own, 0.16); // a sixth or a third
+    volume += own;
+    for (int side = 0; side < 4; ++side)
+    {
+      std::array<int, 3> face;
+      for (int k = 0; k < 3; ++k)
+        face[k] = split.connectivity[4 * e + shape.sideNodes[side][k]];
+      std::sort(face.begin(), face.end());
+      ++elementsOf[face];
+    }
+  }
+  EXPECT_NEAR(volume, 60, 1e-12);
+  int outside = 0;
+  for (const auto& [face, elements] : elementsOf)
+  {
+    EXPECT_LE(elements, 2);
+    outside += elements == 1;
+  }
+  EXPECT_EQ(outside, 2 * 2 * (12 + 15 + 20));
+}
+
+TEST(Shapes, aCylinderInTetrahedraFillsTheSameVolume)
+{
+  const std::string part = "{dimension: 3, parts: [{shape: cylinder, block: c, radius: 0.5, "
+                           "across: 12, length: 3, along: 4";
+  const MeshReport whole = reportOf(part + "}]}"),
+                   split = reportOf(part + ", split: tetrahedra}]}");
+  EXPECT_EQ(split.elements, 5 * whole.elements);
+  EXPECT_EQ(split.blocks[0].type, "TETRA4");
+  EXPECT_NEAR(split.blocks[0].volume / whole.blocks[0].volume, 1, 1e-13);
+  EXPECT_TRUE(meshProblems(split).empty());
 }
 } // namespace coplane
