@@ -1,8 +1,8 @@
 """Whole-program tests of Coplane: meshes, decks, runs, results, conservation, one JSON line per check."""
 
-from . import documents, program
+from . import documents, program, waves
 from .case import Case
 from .documents import turned
 from .results import Results, differences
 
-__all__ = ["Case", "Results", "differences", "documents", "program", "turned"]
+__all__ = ["Case", "Results", "differences", "documents", "program", "turned", "waves"]

@@ -20,6 +20,13 @@ class Case:
         self.name = name
         self.source = pathlib.Path(folder_of).resolve().parent
         self.failures = 0
+        # All lines once more in a file, of which support/verification_page.py makes a page.
+        folder = os.environ.get("COPLANE_CHECKS_DIR")
+        arguments = [argument for argument in sys.argv[1:] if not argument.startswith("-")]
+        name = "_".join([self.source.name, *arguments]) + ".jsonl"
+        self.record = pathlib.Path(folder, name) if folder else pathlib.Path("checks.jsonl").resolve()
+        self.record.parent.mkdir(parents=True, exist_ok=True)
+        self.record.write_text("")
 
     # --- documents ---------------------------------------------------------------------------------
 
@@ -32,25 +39,39 @@ class Case:
 
     # --- runs --------------------------------------------------------------------------------------
 
-    def run(self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), **tolerances):
+    def run(
+        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), change_mesh=None, **tolerances
+    ):
         """Makes the mesh, runs the deck, demands exit code 0 and checks conservation.
 
         Tolerances: see conservation().
         """
-        result = self.attempt(name, recipe, deck, ranks, threads, backend, options)
+        result = self.attempt(name, recipe, deck, ranks, threads, backend, options, change_mesh=change_mesh)
         if result.code:
             sys.exit(f"{self.name}, run '{name}': exit code {result.code}\n{result.output}")
         self.conservation(name, result, deck, **tolerances)
         return result
 
-    def attempt(self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), prefix=()):
-        """The same without demands on how the run ends. `recipe` None: no mesh is made."""
+    def same_bits(self, name, recipe, deck, run, ranks=2, threads=2, backend="threads", change_mesh=None):
+        """The run again, on other ranks and threads: every bit of the state must be the same."""
+        again = self.attempt(f"{name}_again", recipe, deck, ranks, threads, backend, change_mesh=change_mesh)
+        self.check_equal(f"{name}: exit code on {ranks} ranks x {threads} threads", again.code, 0)
+        self.check_equal(f"{name}: state hash on {ranks} ranks x {threads} threads", again.state_hash, run.state_hash)
+
+    def attempt(
+        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), prefix=(), change_mesh=None
+    ):
+        """The same without demands on how the run ends. `recipe` None: no mesh is made. `change_mesh`
+        gets the mesh's coordinates (node, axis) and returns those that are used.
+        """
         folder = pathlib.Path(name).resolve()
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         if recipe is not None:
             documents.save({"title": self.name, **recipe}, folder / "mesh.yaml")
             program.make_mesh(str(folder / "mesh.yaml"), str(folder / "mesh.e"))
+        if change_mesh is not None:
+            program.change_coordinates(str(folder / "mesh.e"), change_mesh)
         documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")
         arguments = ["run.yaml", "--backend", backend, "--threads", str(threads), *options]
         code, output = program.run_program(arguments, folder, ranks, prefix)
@@ -78,28 +99,28 @@ class Case:
             quantity: numpy.sqrt(sum(h[f"{quantity}_error_{axis}"] ** 2 for axis in "xyz"))
             for quantity in ("momentum", "angular_momentum")
         }
-        self.check(f"{name}: energy balance", numpy.max(numpy.abs(h["error"])) / in_play, 0, energy)
-        self.check(f"{name}: momentum", numpy.max(vectors["momentum"]) / scale, 0, momentum)
-        self.check(
-            f"{name}: angular momentum", numpy.max(vectors["angular_momentum"]) / (scale * reach), 0, angular
-        )
-        self.check(f"{name}: missed contacts", int(numpy.max(h["missed"])), 0, 0)
+
+        def kept(what, value, tolerance):
+            self.check(f"{name}: {what}", value, 0, tolerance, kept=what)
+
+        kept("energy balance", numpy.max(numpy.abs(h["error"])) / in_play, energy)
+        kept("momentum", numpy.max(vectors["momentum"]) / scale, momentum)
+        kept("angular momentum", numpy.max(vectors["angular_momentum"]) / (scale * reach), angular)
+        kept("missed contacts", int(numpy.max(h["missed"])), 0)
         if remainder is not None:
-            self.check(
-                f"{name}: contact remainder", numpy.max(numpy.abs(h["contact_remainder"])) / in_play, 0, remainder
-            )
+            kept("contact remainder", numpy.max(numpy.abs(h["contact_remainder"])) / in_play, remainder)
 
     # --- checks ------------------------------------------------------------------------------------
 
-    def check(self, quantity, value, reference, tolerance, relative=False, report=False):
+    def check(self, quantity, value, reference, tolerance, relative=False, report=False, kept=None):
         """One JSON line. `tolerance` is absolute, or relative to the reference. `report`: the line is
-        printed, but does not fail the case.
+        printed, but does not fail the case. `kept`: the balance that this line is about.
         """
         error = abs(value - reference)
         if relative:
             error /= abs(reference)
         passed = bool(error <= tolerance)  # false for NaN
-        self.line(quantity, value, reference, error, tolerance, passed, report)
+        self.line(quantity, value, reference, error, tolerance, passed, report, kept, relative)
         return passed
 
     def check_equal(self, quantity, value, reference):
@@ -114,7 +135,9 @@ class Case:
         self.line(quantity, value, [low, high], 0 if passed else min(abs(value - low), abs(value - high)), 0, passed)
         return passed
 
-    def line(self, quantity, value, reference, error, tolerance, passed, report=False):
+    def line(
+        self, quantity, value, reference, error, tolerance, passed, report=False, kept=None, relative=False
+    ):
         def plain(x):
             return x.item() if isinstance(x, numpy.generic) else x
 
@@ -132,6 +155,13 @@ class Case:
         elif not passed:
             self.failures += 1
         print(json.dumps(record), flush=True)
+        record["folder"] = self.source.name
+        if kept:
+            record["kept"] = kept
+        if relative:
+            record["relative"] = True
+        with open(self.record, "a") as file:
+            file.write(json.dumps(record) + "\n")
 
     def finish(self):
         """Call last: the exit code tells whether all checks passed."""

@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 
+import netCDF4
 import numpy
 
 from .results import Results
@@ -49,6 +50,16 @@ def make_mesh(recipe, output):
     )
     if done.returncode:
         sys.exit(f"coplane_mesh make {recipe}: exit code {done.returncode}\n{done.stdout}")
+
+
+def change_coordinates(mesh, change):
+    """Moves the nodes of a mesh: `change` takes and returns an array (node, axis)."""
+    with netCDF4.Dataset(mesh, "a") as file:
+        file.set_auto_mask(False)
+        names = [f"coord{axis}" for axis in "xyz" if f"coord{axis}" in file.variables]
+        changed = change(numpy.stack([file[name][:] for name in names], axis=1))
+        for axis, name in enumerate(names):
+            file[name][:] = changed[:, axis]
 
 
 class Run:
