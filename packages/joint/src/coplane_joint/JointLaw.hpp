@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_joint/BartonBandis.hpp>
+#include <coplane_joint/Bond.hpp>
 #include <coplane_joint/ClosureCurve.hpp>
 #include <coplane_joint/JointState.hpp>
 
@@ -12,9 +14,17 @@ namespace coplane
 /// by all planes; each plane has its own JointFit and JointState.
 ///
 /// Closure c > 0 when the joint closes [m]; normal traction sigma > 0 in compression [Pa]; the
-/// shear traction acts on the face with the higher id and opposes its slip.
+/// shear traction acts on the face with the higher id and opposes its slip. Compression follows the
+/// closure curve; a bonded joint also carries tension and cohesion until it is broken. Shear is
+/// elastic up to a strength of cohesion and friction.
 struct JointLaw
 {
+  enum class Strength : std::uint8_t
+  {
+    Coulomb,
+    BartonBandis
+  };
+
   /// Penalty contact takes its normal stiffness from the elements behind the faces: fraction /
   /// (h0/M0 + h1/M1), which is `fraction` times the stiffness of the two elements in series.
   bool penalty = true;
@@ -24,8 +34,16 @@ struct JointLaw
   Real stiffnessCap = 0;    ///< of curves [Pa/m]; 0: 0.5 M/h of the softer element
   Real shearStiffness = -1; ///< [Pa/m]; negative: shearRatio times the initial stiffness
   Real shearRatio = 0.5;    ///< [-]
-  Real friction = 0;        ///< [-]
-  Real cohesion = 0;        ///< shear strength without normal traction of a closed joint [Pa]
+
+  Strength strength = Strength::Coulomb;
+  Real friction = 0;         ///< at rest [-]
+  Real dynamicFriction = -1; ///< of fast slip [-]; negative: as at rest
+  Real slipSpeed = 1;        ///< v_c of mu_d + (mu_s - mu_d) exp(-v / v_c) [m/s]
+  Real cohesion = 0;         ///< shear strength of a closed or bonded joint; does not soften [Pa]
+  Real dilation = 0;         ///< tangent of the dilation angle of Coulomb friction [-]
+  Real dilationSlip = infinity; ///< slip path after which nothing dilates any more [m]
+  BartonBandis rough;
+  Bond bond;
 
   /// h: thickness of the elements behind the faces at birth [m]; M: their undamaged P-wave modulus
   /// [Pa].
@@ -46,33 +64,54 @@ struct JointLaw
   }
 
   /// Whether a declared joint with this law starts bonded.
-  KOKKOS_INLINE_FUNCTION bool cohesive() const { return false; }
+  KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
+
+  /// 0: as at the start, 1: a bond that is broken, or never was. A joint without bond has none.
+  KOKKOS_INLINE_FUNCTION Real damage(const JointState& state) const
+  {
+    if (bond.kind == Bond::Kind::None)
+      return 0;
+    if (!state.bonded)
+      return 1;
+    return bond.softens() ? 1 - bond.share(state) : 0;
+  }
 
   /// One step: closure at its end, tangential displacement increment of the higher face relative to
   /// the lower one during it [m], its length [s]. The stored shear traction has been turned into
-  /// the plane by the caller.
+  /// the plane by the caller. The caller raises the plane's offset, hence the closure, by the
+  /// dilation of the response.
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
-                                                  const Vec3& tangentialIncrement, Real /*dt*/,
+                                                  const Vec3& tangentialIncrement, Real dt,
                                                   JointState& state) const
   {
-    JointResponse response = close(fit, closure, state);
+    if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
+          dilation <= 0))
+      return general(fit, closure, tangentialIncrement, dt, state);
+    JointResponse response;
+    close(fit, closure, state, response);
     if (response.normalTraction > 0)
       shear(fit, tangentialIncrement, cohesion + friction * response.normalTraction, state,
             response);
     else
-      release(fit, tangentialIncrement, state, response);
+      response.frictionWork = release(fit, tangentialIncrement, state);
     return response;
   }
 
-  /// Recoverable energy of the normal and the shear traction [J/m^2].
+  /// Recoverable energy of the normal and the shear traction [J/m^2]; the closure after dilation.
   KOKKOS_INLINE_FUNCTION Real stored(const JointFit& fit, Real closure,
                                      const JointState& state) const
   {
     Real energy = 0;
     const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
-    const Real sigma = top.traction - top.stiffness * (state.maximumClosure - closure);
+    const Real c = closure + bond.permanentOpening(state);
+    const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
     if (sigma > 0)
       energy = 0.5 * sigma * sigma / top.stiffness;
+    else if (state.bonded)
+    {
+      const Real opened = -sigma / top.stiffness;
+      energy = 0.5 * bond.tensionStiffness(fit.normalStiffness, state) * opened * opened;
+    }
     if (fit.shearStiffness > 0)
       energy += 0.5 * dot(state.shearTraction, state.shearTraction) / fit.shearStiffness;
     return energy;
@@ -84,24 +123,28 @@ struct JointLaw
     return curve.hysteresis(fit, maximumClosure);
   }
 
-  /// Closure under a compressive traction at first loading [m].
+  /// Closure under a compressive traction at first loading; under tension that of an undamaged
+  /// bond, at most its strength [m].
   KOKKOS_INLINE_FUNCTION Real closureUnder(const JointFit& fit, Real compression) const
   {
+    if (compression < 0 && cohesive())
+      return std::fmax(compression, -bond.tensileStrength) / fit.normalStiffness;
     return curve.closureUnder(fit, compression);
   }
 
   /// Largest slope that the next step can see, of the normal or the shear traction, for the stable
-  /// step [Pa/m].
+  /// step [Pa/m]. Slip with dilation couples both; its largest eigenvalue is a mean of the two.
   KOKKOS_INLINE_FUNCTION Real stiffnessBound(const JointFit& fit, const JointState& state) const
   {
     return std::fmax(curve.slopeAhead(fit, state.maximumClosure), fit.shearStiffness);
   }
 
 private:
-  /// Compression at closure c; raises the maximum closure.
-  KOKKOS_INLINE_FUNCTION JointResponse close(const JointFit& fit, Real c, JointState& state) const
+  /// Compression at closure c; raises the maximum closure. Returns how far a joint is open beyond
+  /// the closure at which it carries nothing [m]; negative: it is pressed.
+  KOKKOS_INLINE_FUNCTION Real close(const JointFit& fit, Real c, JointState& state,
+                                    JointResponse& response) const
   {
-    JointResponse response;
     const Real before = state.maximumClosure;
     const bool loading = c > before;
     if (loading)
@@ -111,44 +154,204 @@ private:
     const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
     response.normalTraction = sigma > 0 ? sigma : 0;
     if (loading && !curve.straight())
-      response.hysteresisWork = curve.hysteresis(fit, c) - curve.hysteresis(fit, before);
-    return response;
+      response.hysteresisWork +=
+          std::fmax(0.0, curve.hysteresis(fit, c) - curve.hysteresis(fit, before));
+    return -sigma / top.stiffness;
   }
 
   /// Elastic shear up to the strength, slip beyond. Work of the mean traction of the step is stored
   /// or dissipated to round-off, whatever the strength does.
-  KOKKOS_INLINE_FUNCTION void shear(const JointFit& fit, const Vec3& increment, Real strength,
+  KOKKOS_INLINE_FUNCTION void shear(const JointFit& fit, const Vec3& increment, Real most,
                                     JointState& state, JointResponse& response) const
   {
     const Vec3 before = state.shearTraction;
     const Vec3 trial = before - fit.shearStiffness * increment;
     const Real size = norm(trial);
-    if (!(size > strength))
-    {
+    if (size > most)
+      response.frictionWork = slip(fit, before, trial, size, most, state, response);
+    else
       state.shearTraction = trial;
-      return;
-    }
-    response.slipping = true;
-    state.shearTraction = (strength / size) * trial;
-    if (!(fit.shearStiffness > 0))
-      return;
-    const Vec3 slip = (1 / fit.shearStiffness) * (state.shearTraction - trial);
-    state.slip += (size - strength) / fit.shearStiffness;
-    const Real work = -0.5 * dot(before + state.shearTraction, slip);
-    response.frictionWork = work > 0 ? work : 0;
   }
 
-  /// The joint is open: its shear traction is gone, and what it had stored counts as friction.
-  KOKKOS_INLINE_FUNCTION void release(const JointFit& fit, const Vec3& increment, JointState& state,
-                                      JointResponse& response) const
+  /// Brings the traction from its trial back to the strength; work of the slip [J/m^2].
+  KOKKOS_INLINE_FUNCTION Real slip(const JointFit& fit, const Vec3& before, const Vec3& trial,
+                                   Real size, Real most, JointState& state,
+                                   JointResponse& response) const
   {
-    if (fit.shearStiffness > 0)
-    {
-      const Vec3 before = state.shearTraction;
-      const Real work = 0.5 * (dot(before, before) / fit.shearStiffness - dot(before, increment));
-      response.frictionWork = work > 0 ? work : 0;
-    }
+    response.slipping = true;
+    state.shearTraction = (most / size) * trial;
+    if (!(fit.shearStiffness > 0))
+      return 0;
+    const Vec3 path = (1 / fit.shearStiffness) * (state.shearTraction - trial);
+    state.slip += (size - most) / fit.shearStiffness;
+    const Real work = -0.5 * dot(before + state.shearTraction, path);
+    return work > 0 ? work : 0;
+  }
+
+  /// The joint is open: its shear traction is gone. Returns what it had stored and the work done on
+  /// it in this step, which are dissipated [J/m^2].
+  KOKKOS_INLINE_FUNCTION Real release(const JointFit& fit, const Vec3& increment,
+                                      JointState& state) const
+  {
+    const Vec3 before = state.shearTraction;
     state.shearTraction = {};
+    if (!(fit.shearStiffness > 0))
+      return 0;
+    const Real work = 0.5 * (dot(before, before) / fit.shearStiffness - dot(before, increment));
+    return work > 0 ? work : 0;
+  }
+
+  /// Shear strength by friction over normal traction.
+  KOKKOS_INLINE_FUNCTION Real frictionAt(Real sigma, Real slipPath, Real speed) const
+  {
+    if (strength == Strength::BartonBandis)
+      return rough.friction(sigma, slipPath);
+    if (dynamicFriction < 0)
+      return friction;
+    return dynamicFriction + (friction - dynamicFriction) * std::exp(-speed / slipSpeed);
+  }
+
+  /// Tension of a bonded joint that is open by `opened`; it may break.
+  KOKKOS_INLINE_FUNCTION void pull(const JointFit& fit, Real opened, JointState& state,
+                                   JointResponse& response) const
+  {
+    const Real k = fit.normalStiffness;
+    if (bond.kind == Bond::Kind::Brittle)
+    {
+      response.normalStiffness = k;
+      response.normalTraction = -k * opened;
+      if (k * opened <= bond.tensileStrength)
+        return;
+      response.normalTraction = 0;
+      response.fractureWork += 0.5 * bond.tensileStrength * bond.tensileStrength / k;
+      state.bonded = false;
+      return;
+    }
+    const Real elastic = bond.kind == Bond::Kind::Linear ? opened - state.opening : opened;
+    const Real q = bond.wear(state);
+    if (k * elastic > bond.tensileStrength * bond.share(q))
+    {
+      const Real jump =
+          bond.inelasticJump(k * elastic, k, 0, bond.tensileStrength, bond.openingLength, q);
+      response.fractureWork += bond.openingWork(q, state.opening, jump);
+      state.opening += jump;
+      response.normalTraction = -bond.tensileStrength * bond.share(state);
+      response.normalStiffness = bond.tensionStiffness(k, state);
+    }
+    else
+    {
+      response.normalStiffness = bond.tensionStiffness(k, state);
+      response.normalTraction = -response.normalStiffness * opened;
+    }
+  }
+
+  /// Breaks the bond: its tension is gone. A joint that is pressed keeps what opened inelastically
+  /// between its faces, as dilation.
+  KOKKOS_INLINE_FUNCTION void breakBond(JointState& state, JointResponse& response) const
+  {
+    if (response.normalTraction > 0)
+      response.dilation += bond.permanentOpening(state);
+    else if (response.normalTraction < 0)
+    {
+      response.fractureWork +=
+          0.5 * response.normalTraction * response.normalTraction / response.normalStiffness;
+      response.normalTraction = 0;
+    }
+    state.bonded = false;
+  }
+
+  /// All laws; operator() has a shorter way for dry joints with constant friction.
+  KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
+                                        Real dt, JointState& state) const
+  {
+    JointResponse response;
+    const bool wasBonded = state.bonded;
+    const Real shift = bond.permanentOpening(state);
+    const Real opened = close(fit, closure + shift, state, response);
+    if (wasBonded && response.normalTraction <= 0)
+      pull(fit, opened, state, response);
+    if (state.bonded && bond.softens() && bond.share(state) < Bond::brokenAt)
+      breakBond(state, response);
+    if (response.normalTraction <= 0 && !state.bonded)
+    {
+      (wasBonded ? response.fractureWork : response.frictionWork) += release(fit, increment, state);
+      return response;
+    }
+
+    const bool softening = state.bonded && bond.softens();
+    const Real q = softening ? bond.wear(state) : 0;
+    const Real pressed = response.normalTraction > 0 ? response.normalTraction : 0;
+    const Real speed = dt > 0 ? norm(increment) / dt : 0;
+    const Real slipBefore = state.slip;
+    Real mu = pressed > 0 ? frictionAt(pressed, slipBefore, speed) : 0;
+    Real held = softening ? bond.cohesion * bond.share(q) : cohesion;
+    const Vec3 before = state.shearTraction;
+    const Vec3 trial = before - fit.shearStiffness * increment;
+    const Real size = norm(trial);
+    if (!(size > held + mu * pressed))
+    {
+      state.shearTraction = trial;
+      return response;
+    }
+    if (state.bonded && bond.kind == Bond::Kind::Brittle)
+    {
+      breakBond(state, response);
+      if (pressed <= 0)
+      {
+        response.fractureWork += release(fit, increment, state);
+        return response;
+      }
+    }
+
+    // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
+    Real tangent = 0;
+    if (pressed > 0 && slipBefore < dilationSlip)
+      tangent = strength == Strength::BartonBandis ? rough.dilation(pressed, slipBefore) : dilation;
+    const Real slope = fit.shearStiffness + mu * response.normalStiffness * tangent;
+    Real x = 0;
+    if (slope > 0)
+      x = softening
+              ? bond.inelasticJump(size, slope, mu * pressed, bond.cohesion, bond.shearingLength, q)
+              : (size - held - mu * pressed) / slope;
+    Real lift = 0;
+    Real sigma = pressed;
+    if (tangent > 0)
+    {
+      lift = tangent * (x < dilationSlip - slipBefore ? x : dilationSlip - slipBefore);
+      close(fit, closure + shift + lift, state, response);
+      sigma = response.normalTraction;
+      mu = frictionAt(sigma, slipBefore, speed);
+      response.dilation += lift;
+    }
+    if (softening)
+    {
+      state.shearing += x;
+      held = bond.cohesion * bond.share(state);
+    }
+    const Real most = std::fmin(held + mu * sigma, size);
+    const Real work = slip(fit, before, trial, size, most, state, response);
+    // Raising the offset stores energy, which the slip pays for.
+    const Real paid = std::fmax(work - 0.5 * (pressed + sigma) * lift, 0.0);
+    const Real fracture = softening && most > 0 ? paid * (held / most) : 0;
+    response.fractureWork += fracture;
+    response.frictionWork = paid - fracture;
+
+    if (softening && response.normalTraction < 0 && bond.kind == Bond::Kind::Linear)
+    {
+      // Slip has worn the tension as well: its secant is lower.
+      const Real secant = bond.tensionStiffness(fit.normalStiffness, state);
+      const Real tension = -secant * opened;
+      response.fractureWork += 0.5 * (tension - response.normalTraction) * opened;
+      response.normalTraction = tension;
+      response.normalStiffness = secant;
+    }
+    if (softening && bond.share(state) < Bond::brokenAt)
+    {
+      breakBond(state, response);
+      if (pressed <= 0)
+        response.fractureWork += release(fit, {}, state);
+    }
+    return response;
   }
 };
 
