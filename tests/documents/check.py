@@ -41,6 +41,17 @@ def check_packages():
     assert picture.read_text() == kept, "docs/developer/packages.svg is old: run packages/cmake/draw-packages.py"
 
 
+def check_classic():
+    """The picture of corners under both kinds of common plane is the one that the contact package gives."""
+    table = run([str(BINARIES / "coplane_classic_corner_table")])
+    assert table.returncode == 0, table.stdout
+    picture = pathlib.Path("classic-corners.svg")
+    done = run([sys.executable, str(SOURCE / "docs/theory/pictures/draw-classic.py"), str(picture)], input=table.stdout)
+    assert done.returncode == 0, done.stdout
+    kept = (SOURCE / "docs/theory/pictures/classic-corners.svg").read_text()
+    assert picture.read_text() == kept, "docs/theory/pictures/classic-corners.svg is old: see docs/theory/pictures/draw-classic.py"
+
+
 def check_deck():
     """The deck reference is what the program prints."""
     printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])

@@ -414,6 +414,24 @@ Agreement agreement(unsigned seed, int kind, int pairs)
 }
 } // namespace
 
+TEST(ClassicFaceOnFace, strikesSidewaysWhereTheOverlapIsNarrowerThanDeep)
+{
+  const Vec3 square[4] = {{-.5, -.5, 0}, {.5, -.5, 0}, {.5, .5, 0}, {-.5, .5, 0}};
+  const ConvexBlock a = blockOfElement<2>(square, 4);
+  const ConvexBlock b = moved(a, rotation({0, 0, 1}, 0), {.92, .9, 0});
+  for (const Search search : searches)
+  {
+    const ClassicPlane plane = classicCommonPlane<2>(a, b, classicOptions(search));
+    EXPECT_NEAR(plane.gap, -.08, 1e-14);
+    EXPECT_NEAR(plane.normal.x, 1, 1e-14);
+    EXPECT_NEAR(plane.area, .1, 1e-14);
+  }
+  Plane simple = touchingPlane();
+  updatePlane<2>(simple, faceOf(a, 2), faceOf(b, 0), {}, 1);
+  EXPECT_NEAR(simple.normal.y, 1, 1e-14);
+  EXPECT_NEAR(simple.area, .08, 1e-14);
+}
+
 TEST(ClassicSearch, bothSearchesEndAtTheSameNormal)
 {
   // Overlap .02 of blocks of the size 2. Where they do not end at the least overlap, the overlap is
