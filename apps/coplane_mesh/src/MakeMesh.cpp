@@ -8,8 +8,6 @@
 
 #include <ctime>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace coplane
 {
@@ -59,6 +57,7 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
       block.elementIds.push_back(++element);
   return mesh;
 }
+} // namespace
 
 std::array<std::string, 4> qaRecord()
 {
@@ -68,21 +67,10 @@ std::array<std::string, 4> qaRecord()
   std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
   return {"coplane_mesh", version().number, date, hour};
 }
-} // namespace
-
 Mesh makeMeshFromText(const std::string& text, const std::string& name)
 {
-  YAML::Node root;
-  try
-  {
-    root = YAML::Load(text);
-  }
-  catch (const YAML::ParserException& error)
-  {
-    fail(ExitCode::Deck, "{}:{}:{}: the recipe is not valid YAML: {}.", name, error.mark.line + 1,
-         error.mark.column + 1, error.msg);
-  }
-  const RecipeMap recipe(root, name, "", {"title", "dimension", "parts", "node_sets", "side_sets"});
+  const RecipeMap recipe(parseRecipe(text, name), name, "",
+                         {"title", "dimension", "parts", "node_sets", "side_sets"});
   const int dimension = recipe.count("dimension", 2);
   if (dimension > 3)
     recipe.refuse("dimension", fmt::format("= {} must be 2 or 3.", dimension));
@@ -100,14 +88,7 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name)
 
 Mesh makeMesh(const std::string& recipeFile)
 {
-  std::ifstream file(recipeFile);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf()))
-    fail(ExitCode::Deck,
-         "{}: the recipe cannot be read. Check its name; coplane_mesh --help-recipe shows what it "
-         "holds.",
-         recipeFile);
-  return makeMeshFromText(text.str(), recipeFile);
+  return makeMeshFromText(textOfRecipe(recipeFile, "coplane_mesh --help-recipe"), recipeFile);
 }
 
 const char* recipeHelp()

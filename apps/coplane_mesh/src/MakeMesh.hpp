@@ -2,6 +2,7 @@
 
 #include <coplane_mesh/Mesh.hpp>
 
+#include <array>
 #include <string>
 
 namespace coplane
@@ -12,6 +13,9 @@ Mesh makeMesh(const std::string& recipeFile);
 
 /// The same from text; `name` stands for the file in messages.
 Mesh makeMeshFromText(const std::string& recipe, const std::string& name);
+
+/// Program, version, date and time, for the file.
+std::array<std::string, 4> qaRecord();
 
 /// The manual of recipes.
 const char* recipeHelp();

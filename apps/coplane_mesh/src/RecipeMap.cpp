@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace coplane
 {
@@ -43,6 +45,29 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return near ? fmt::format(" Did you mean '{}'?", *near) : "";
 }
 } // namespace
+
+std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
+{
+  std::ifstream file(recipeFile);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf()))
+    fail(ExitCode::Deck, "{}: the recipe cannot be read. Check its name; {} shows what it holds.",
+         recipeFile, help);
+  return text.str();
+}
+
+YAML::Node parseRecipe(const std::string& text, const std::string& name)
+{
+  try
+  {
+    return YAML::Load(text);
+  }
+  catch (const YAML::ParserException& error)
+  {
+    fail(ExitCode::Deck, "{}:{}:{}: the recipe is not valid YAML: {}.", name, error.mark.line + 1,
+         error.mark.column + 1, error.msg);
+  }
+}
 
 std::string placeOf(const std::string& file, const YAML::Node& node)
 {
@@ -87,7 +112,7 @@ RecipeMap::RecipeMap(YAML::Node node, std::string file, std::string path,
 
 std::string RecipeMap::pathOf(const std::string& key) const
 {
-  return path_.empty() ? key : path_ + "." + key;
+  return path_.empty() ? key : key.empty() ? path_ : path_ + "." + key;
 }
 
 void RecipeMap::refuse(const std::string& key, const std::string& text) const
@@ -234,6 +259,14 @@ std::vector<Vec3> RecipeMap::points(const std::string& key, int size, int dimens
     list.push_back(x);
   }
   return list;
+}
+
+std::vector<Vec3> RecipeMap::points(const std::string& key, int dimension) const
+{
+  const YAML::Node value = required(key);
+  if (!value.IsSequence() || value.size() < 3)
+    refuse(key, "must be a list of three points or more.");
+  return points(key, int(value.size()), dimension);
 }
 
 std::vector<std::string> RecipeMap::texts(const std::string& key) const

@@ -35,8 +35,9 @@ public:
   std::vector<int> counts(const std::string& key, int size, int least = 1) const;
   /// A point of `dimension` coordinates; z = 0 in two.
   Vec3 point(const std::string& key, int dimension) const;
-  /// A list of `size` such points.
+  /// A list of `size` such points, or of three and more.
   std::vector<Vec3> points(const std::string& key, int size, int dimension) const;
+  std::vector<Vec3> points(const std::string& key, int dimension) const;
   /// A word, or a list of words.
   std::vector<std::string> texts(const std::string& key) const;
 
@@ -49,7 +50,8 @@ public:
   const std::string& file() const { return file_; }
   std::string pathOf(const std::string& key) const;
 
-  /// Error at a key (or at the map, when it is absent): "file:line:column: path.key <text>".
+  /// Error at a key (or at the map, when it is absent or empty): "file:line:column: path.key
+  /// <text>".
   [[noreturn]] void refuse(const std::string& key, const std::string& text) const;
 
 private:
@@ -60,6 +62,11 @@ private:
   YAML::Node node_;
   std::string file_, path_;
 };
+
+/// The text of a file, or an Error(ExitCode::Deck) that says where its keys are explained.
+std::string textOfRecipe(const std::string& file, const std::string& help);
+/// The root of a YAML text; `name` stands for the file in messages.
+YAML::Node parseRecipe(const std::string& text, const std::string& name);
 
 /// "file:line:column", counted from 1.
 std::string placeOf(const std::string& file, const YAML::Node& node);

@@ -1,11 +1,12 @@
 #include "Selection.hpp"
 
+#include "MeshFaces.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <set>
 
 namespace coplane
@@ -25,19 +26,6 @@ struct Ranges
     return true;
   }
 };
-
-/// Planes are met within a millionth of the size of the mesh.
-Real toleranceOf(const Mesh& mesh)
-{
-  Vec3 low{infinity, infinity, infinity}, high = -low;
-  for (const Vec3& x : mesh.coordinates)
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      low[axis] = std::min(low[axis], x[axis]);
-      high[axis] = std::max(high[axis], x[axis]);
-    }
-  return 1e-6 * norm(high - low);
-}
 
 Ranges readRanges(const RecipeMap& selection, const std::string& key, int dimension, Real tolerance)
 {
@@ -104,58 +92,6 @@ Filter readFilter(const Mesh& mesh, const RecipeMap& map, Real tolerance)
   return filter;
 }
 
-/// Faces of exactly one element, with their element (index in the mesh), side and block.
-struct ExteriorFace
-{
-  int element, side, block;
-  std::array<int, 4> nodes;
-};
-
-std::vector<ExteriorFace> exteriorFaces(const Mesh& mesh)
-{
-  std::map<std::array<int, 4>, std::pair<int, ExteriorFace>>
-      faces; // by sorted nodes; with the number of elements
-  int element = 0;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-  {
-    const Mesh::Block& block = mesh.blocks[b];
-    const ElementTopology& shape = topology(block.type);
-    for (int e = 0; e < block.elements(); ++e, ++element)
-      for (int side = 0; side < shape.sides; ++side)
-      {
-        std::array<int, 4> nodes{-1, -1, -1, -1};
-        for (int k = 0; k < shape.nodesPerSide; ++k)
-          nodes[k] = block.connectivity[e * shape.nodes + shape.sideNodes[side][k]];
-        std::array<int, 4> key = nodes;
-        std::sort(key.begin(), key.end());
-        const auto place =
-            faces.try_emplace(key, 0, ExteriorFace{element, side, int(b), nodes}).first;
-        ++place->second.first;
-      }
-  }
-  std::vector<ExteriorFace> exterior;
-  for (const auto& [key, face] : faces)
-    if (face.first == 1)
-      exterior.push_back(face.second);
-  std::sort(exterior.begin(), exterior.end(),
-            [](const ExteriorFace& a, const ExteriorFace& b)
-            { return std::pair(a.element, a.side) < std::pair(b.element, b.side); });
-  return exterior;
-}
-
-/// Outward unit normal: of the diagonals in three dimensions, to the right of the edge in two.
-Vec3 normalOf(const Mesh& mesh, const ExteriorFace& face)
-{
-  const auto x = [&](int k) { return mesh.coordinates[face.nodes[k]]; };
-  if (mesh.dimension == 2)
-  {
-    const Vec3 edge = x(1) - x(0);
-    return normalised(Vec3{edge.y, -edge.x, 0});
-  }
-  const Vec3 last = face.nodes[3] < 0 ? x(0) : x(3); // of a triangle: x(0), x(1), x(2), x(0)
-  return normalised(cross(x(2) - x(0), last - x(1)));
-}
-
 void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
                 const std::string& name, Real tolerance)
 {
@@ -173,7 +109,8 @@ void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
 }
 
 void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
-                const std::string& name, Real tolerance, const std::vector<ExteriorFace>& faces)
+                const std::string& name, Real tolerance, const std::vector<MeshFace>& faces,
+                const std::vector<ElementPlace>& places)
 {
   const Filter filter = readFilter(mesh, map, tolerance);
   Vec3 normal{};
@@ -188,15 +125,15 @@ void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
   // nose.
   constexpr Real leastCosine = 0.9;
   Mesh::SideSet set{GlobalId(mesh.sideSets.size()) + 1, name, {}, {}};
-  for (const ExteriorFace& face : faces)
+  for (const MeshFace& face : faces)
   {
-    bool inside = filter.blocks[face.block];
+    bool inside = face.count == 1 && filter.blocks[places[face.elements[0]].block];
     for (const int node : face.nodes)
       inside = inside && (node < 0 || filter.holds(mesh.coordinates[node], own[node]));
     if (!inside || (map.has("normal") && dot(normalOf(mesh, face), normal) < leastCosine))
       continue;
-    set.elements.push_back(face.element);
-    set.sides.push_back(face.side);
+    set.elements.push_back(face.elements[0]);
+    set.sides.push_back(face.sides[0]);
   }
   if (set.elements.empty())
     map.refuse("where", "selects no exterior face. All nodes of a face must lie there, and its "
@@ -207,7 +144,7 @@ void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
 
 void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const RecipeMap& recipe)
 {
-  const Real tolerance = toleranceOf(mesh);
+  const Real tolerance = 1e-6 * sizeOf(mesh);
   for (const auto& [name, node] : recipe.entries("node_sets"))
     addNodeSet(mesh, ownCoordinates,
                RecipeMap(node, recipe.file(), "node_sets." + name, {"block", "where", "where_own"}),
@@ -215,11 +152,12 @@ void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const RecipeMa
   const auto sideSets = recipe.entries("side_sets");
   if (sideSets.empty())
     return;
-  const std::vector<ExteriorFace> faces = exteriorFaces(mesh);
+  const std::vector<MeshFace> faces = facesOf(mesh);
+  const std::vector<ElementPlace> places = placesOfElements(mesh);
   for (const auto& [name, node] : sideSets)
     addSideSet(mesh, ownCoordinates,
                RecipeMap(node, recipe.file(), "side_sets." + name,
                          {"block", "where", "where_own", "normal"}),
-               name, tolerance, faces);
+               name, tolerance, faces, places);
 }
 } // namespace coplane

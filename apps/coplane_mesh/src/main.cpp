@@ -1,4 +1,6 @@
+#include "Cuts.hpp"
 #include "MakeMesh.hpp"
+#include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Version.hpp>
@@ -61,6 +63,37 @@ void make(const std::string& recipe, const std::string& output)
   print("wrote " + output);
 }
 
+void split(const std::string& file, const std::string& recipe, const std::string& output)
+{
+  const Mesh mesh = readMesh(file);
+  const std::vector<MeshFace> faces = facesOf(mesh);
+  const CutSelection selection =
+      selectCuts(textOfRecipe(recipe, "coplane_mesh --help-split"), recipe, mesh, faces);
+  SplitMesh result = splitMesh(mesh, faces, selection.cuts);
+  for (std::size_t c = 0; c < result.cuts.size(); ++c)
+  {
+    const int closed = result.cuts[c].closed;
+    if (result.cuts[c].opened == 0)
+      fail(
+          ExitCode::Deck,
+          "{}: joints.{} opens nothing: all nodes of its {} faces lie on its rim, where both sides "
+          "hang together. Make it longer, or the mesh finer.",
+          recipe, result.cuts[c].name, closed);
+    print(selection.notes[c] +
+          (closed > 0
+               ? fmt::format("; {} of them stay closed: all their nodes are on the rim", closed)
+               : ""));
+  }
+  print(fmt::format("{} nodes copied; {} bodies became {}", result.copies, result.bodiesBefore,
+                    result.bodies));
+  result.mesh.qaRecords.push_back(qaRecord());
+  const MeshReport report = reportMesh(result.mesh);
+  printReport(result.mesh, report);
+  judge(report, file);
+  writeMesh(result.mesh, output);
+  print("wrote " + output);
+}
+
 void check(const std::string& file)
 {
   const Mesh mesh = readMesh(file);
@@ -77,6 +110,8 @@ int run(int argc, char** argv)
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
   bool helpRecipe = false;
   app.add_flag("--help-recipe", helpRecipe, "Print the keys of recipes");
+  bool helpSplit = false;
+  app.add_flag("--help-split", helpSplit, "Print the keys of recipes of joints");
   std::string recipe, output, file;
   CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
   making->add_option("recipe", recipe, "recipe, a YAML file")->required();
@@ -84,6 +119,11 @@ int run(int argc, char** argv)
   CLI::App* checking = app.add_subcommand(
       "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
   checking->add_option("mesh", file, "Exodus II file")->required();
+  CLI::App* splitting =
+      app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
+  splitting->add_option("mesh", file, "Exodus II file")->required();
+  splitting->add_option("recipe", recipe, "recipe of joints, a YAML file")->required();
+  splitting->add_option("-o,--output", output, "Exodus II file to write")->required();
   app.require_subcommand(0, 1);
   try
   {
@@ -95,8 +135,12 @@ int run(int argc, char** argv)
   }
   if (helpRecipe)
     std::fputs(recipeHelp(), stdout);
+  else if (helpSplit)
+    std::fputs(cutsHelp(), stdout);
   else if (making->parsed())
     make(recipe, output);
+  else if (splitting->parsed())
+    split(file, recipe, output);
   else if (checking->parsed())
     check(file);
   else

@@ -16,6 +16,14 @@ expect()
 }
 expect 0 make "$recipe" -o mesh.e
 expect 0 check mesh.e
+cat > cuts.yaml <<'END'
+joints: {slab_joint: {planes: {point: [0.6, 0], normal: [1, 0], tolerance: 0.03, box: {min: [0, -1], max: [2, 0]}}}}
+END
+expect 0 split mesh.e cuts.yaml -o split.e
+expect 0 check split.e
+expect 3 split mesh.e missing.yaml -o split.e
+expect 4 split missing.e cuts.yaml -o split.e
+expect 0 --help-split
 expect 0 --version
 expect 0 --help-recipe
 expect 2 check
