@@ -614,3 +614,53 @@ TEST(ClassicPlane, staysFiniteAndWithinTheShadowsForWarpedBlocks)
   }
   EXPECT_GT(withArea, 1000);
 }
+
+TEST(ClassicWeights, meetThePointFromBothFaces)
+{
+  Random random(8);
+  const auto check = [](const auto dim, const ClassicPlane& plane, const ConvexBlock& block, int f)
+  {
+    constexpr int Dim = decltype(dim)::value;
+    Vec3 x[4];
+    for (int i = 0; i < block.faceSize[f]; ++i)
+      x[i] = block.x[block.faceNode[f][i]];
+    Real w[4], sum = 0;
+    classicWeights<Dim>(plane, x, block.faceSize[f], w);
+    Vec3 off = Vec3{} - plane.point;
+    for (int i = 0; i < block.faceSize[f]; ++i)
+    {
+      sum += w[i];
+      off += w[i] * x[i];
+    }
+    ASSERT_NEAR(sum, 1, 1e-12);
+    ASSERT_LT(norm(off - dot(off, plane.normal) * plane.normal), 1e-11);
+  };
+  for (int n = 0; n < 200; ++n)
+  {
+    const Blocks solid = overlapping<3>(random, n % 3, .02), flat = overlapping<2>(random, 0, .02);
+    for (const Area area : {Area::Section, Area::Shadow})
+    {
+      const ClassicOptions o = classicOptions(Search::Candidates, area);
+      const ClassicPlane plane = classicCommonPlane<3>(solid.a, solid.b, o);
+      check(std::integral_constant<int, 3>(), plane, solid.a, plane.face[0]);
+      check(std::integral_constant<int, 3>(), plane, solid.b, plane.face[1]);
+      const ClassicPlane line = classicCommonPlane<2>(flat.a, flat.b, o);
+      check(std::integral_constant<int, 2>(), line, flat.a, line.face[0]);
+      check(std::integral_constant<int, 2>(), line, flat.b, line.face[1]);
+    }
+  }
+}
+
+TEST(ClassicWeights, putTheForceOfACornerOnItsNode)
+{
+  const ConvexBlock slab = slabBlock3D();
+  const ConvexBlock cube = cornerBlock3D(std::asin(1 / std::sqrt(3.0)), .01);
+  const ClassicPlane plane = classicCommonPlane<3>(slab, cube, {});
+  Vec3 x[4];
+  for (int i = 0; i < 4; ++i)
+    x[i] = cube.x[cube.faceNode[plane.face[1]][i]];
+  Real w[4];
+  classicWeights<3>(plane, x, 4, w);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(w[i], cube.faceNode[plane.face[1]][i] == 0 ? 1 : 0, 1e-12);
+}

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Vec3.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
+#include <coplane_geometry/FaceMap.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -556,5 +557,56 @@ KOKKOS_INLINE_FUNCTION ClassicPlane classicCommonPlane(const ConvexBlock& blockA
   }
   plane.point = origin + (at.x * plane.e1 + at.y * plane.e2 + level * plane.normal);
   return plane;
+}
+
+/// Shares of the nodes of a face in a force at the plane's point: their sum is 1, and their mean of
+/// the nodes lies on the line through the point along the normal, inside the face or not. Shape
+/// functions; of least norm where the face has none at that point.
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void classicWeights(const ClassicPlane& plane, const Vec3* x, int count,
+                                           Real* w)
+{
+  Vec2 p[4]; // from the point
+  Vec2 mean;
+  for (int i = 0; i < count; ++i)
+  {
+    const Vec3 r = x[i] - plane.point;
+    p[i] = {dot(plane.e1, r), Dim == 2 ? 0.0 : dot(plane.e2, r)};
+    mean = mean + (1.0 / count) * p[i];
+    w[i] = 1.0 / count; // for a face that stands on the plane
+  }
+  if constexpr (Dim == 2)
+  {
+    const Real length = p[1].x - p[0].x;
+    if (length != 0)
+    {
+      w[1] = -p[0].x / length;
+      w[0] = 1 - w[1];
+    }
+    return;
+  }
+  const FaceMap map(p, count);
+  const Vec2 at = map.coordinates({0, 0});
+  // Beyond the face by more than its own size the shape functions are of no use.
+  if (!map.lost && std::abs(at.x) <= 3 && std::abs(at.y) <= 3)
+  {
+    map.weights(at.x, at.y, at.x * at.y, w);
+    return;
+  }
+  Real xx = 0, xy = 0, yy = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const Vec2 r = p[i] - mean;
+    xx += r.x * r.x;
+    xy += r.x * r.y;
+    yy += r.y * r.y;
+  }
+  const Real determinant = xx * yy - xy * xy;
+  if (!(determinant > 1e-14 * (xx + yy) * (xx + yy)))
+    return;
+  const Vec2 slope{(xy * mean.y - yy * mean.x) / determinant,
+                   (xy * mean.x - xx * mean.y) / determinant};
+  for (int i = 0; i < count; ++i)
+    w[i] += dot(p[i] - mean, slope);
 }
 } // namespace coplane
