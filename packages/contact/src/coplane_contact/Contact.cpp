@@ -164,17 +164,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
   const std::vector<Donor> living = livingPlanes();
   faces_ = localFaces_;
   for (const GhostFace& ghost : ghosts_.faces)
-  {
-    Face face;
-    face.id = ghost.id;
-    face.count = ghost.count;
-    face.block = ghost.block;
-    face.thickness = ghost.thickness;
-    face.modulus = ghost.modulus;
-    for (int k = 0; k < ghost.count; ++k)
-      face.nodes[k] = layout.localNode(ghost.nodes[k]);
-    faces_.push_back(face);
-  }
+    faces_.push_back(toFace(ghost, [&](GlobalId id) { return layout.localNode(id); }));
 
   const auto findPlane = [&](GlobalId lower, GlobalId higher)
   {
@@ -230,7 +220,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
     plane.missedSearches = 0;
     if (!existing)
     {
-      const ContactRule& rule = rules_.between(a.block, b.block);
+      const ContactRule& rule = rules_.between(a.group, b.group);
       plane.faceId[0] = a.id;
       plane.faceId[1] = b.id;
       plane.joint = rule.joint;
@@ -356,7 +346,7 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x,
       continue;
     const Face& faceA = faces_[plane.face[0]];
     const Face& faceB = faces_[plane.face[1]];
-    if (!rules_.between(faceA.block, faceB.block).declared)
+    if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
     const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
     const HalfStepFace a =
@@ -563,7 +553,7 @@ ContactCensus Contact::census() const
     extremes[3] = std::max(extremes[3], -plane.law.initialStiffness);
     extremes[4] = std::max(extremes[4], plane.law.initialStiffness);
     const bool joint =
-        rules_.between(faces_[plane.face[0]].block, faces_[plane.face[1]].block).declared;
+        rules_.between(faces_[plane.face[0]].group, faces_[plane.face[1]].group).declared;
     if (plane.declared)
     {
       ++n[1];

@@ -3,6 +3,8 @@
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
 
+#include <vector>
+
 namespace coplane
 {
 /// An exterior face that this rank knows, local or ghost.
@@ -12,6 +14,7 @@ struct Face
   int count = 0;
   int nodes[4] = {-1, -1, -1, -1}; ///< local nodes, outward normal by the right-hand rule
   int block = 0;                   ///< element block behind it
+  int group = 0;                   ///< row of the table of contact rules
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
   bool local = false; ///< this rank owns at least one node
@@ -26,9 +29,41 @@ struct GhostFace
   GlobalId nodes[4] = {0, 0, 0, 0}; ///< ids
   int count = 0;
   int block = 0;
+  int group = 0;
   Real thickness = 0;
   Real modulus = 0;
 };
+
+/// A face as it is sent; `nodeIds` turns local nodes into ids.
+inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds)
+{
+  GhostFace ghost;
+  ghost.id = face.id;
+  ghost.count = face.count;
+  ghost.block = face.block;
+  ghost.group = face.group;
+  ghost.thickness = face.thickness;
+  ghost.modulus = face.modulus;
+  for (int k = 0; k < face.count; ++k)
+    ghost.nodes[k] = nodeIds[face.nodes[k]];
+  return ghost;
+}
+
+/// A face that has arrived; `localNode(id)` is the place of a node here.
+template <class LocalNode>
+Face toFace(const GhostFace& ghost, const LocalNode& localNode)
+{
+  Face face;
+  face.id = ghost.id;
+  face.count = ghost.count;
+  face.block = ghost.block;
+  face.group = ghost.group;
+  face.thickness = ghost.thickness;
+  face.modulus = ghost.modulus;
+  for (int k = 0; k < ghost.count; ++k)
+    face.nodes[k] = localNode(ghost.nodes[k]);
+  return face;
+}
 
 /// What a new plane can inherit from a living one. Travels with ghost faces, so that every rank
 /// that computes a new pair sees the same donors.

@@ -1,11 +1,11 @@
 #pragma once
 
+#include <coplane_contact/Bins.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/NodeViews.hpp>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -14,39 +14,20 @@
 
 namespace coplane
 {
-/// Extent of a face, or of all faces [m].
-struct Box
-{
-  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-  void include(const Vec3& p);
-  void grow(Real by);
-  bool overlaps(const Box& other) const;
-};
-
-/// Step 1's result: one grid of orthogonal bins, equal on all ranks.
-struct Bins
-{
-  Box limits;
-  Real edge = 1; ///< [m]
-  using Index = std::array<std::int32_t, 3>;
-  Index indexOf(const Vec3& p) const;
-  /// One number per bin, usable as a sort key.
-  static std::uint64_t key(const Index& index);
-};
-
-/// Faces in the bins that their grown boxes touch.
+/// Faces in the bins that their grown boxes touch: those of their own level and of all coarser
+/// levels, so that two faces that are near each other share a bin of the level of the larger one.
 struct SortedFaces
 {
   Bins bins;
-  std::vector<Box> boxes;                             ///< per face, grown by half the reach
-  std::vector<std::array<Bins::Index, 2>> ranges;     ///< lowest and highest bin of each face
-  std::vector<std::pair<std::uint64_t, int>> entries; ///< (bin, face), sorted
+  std::vector<Box> boxes;        ///< per face, grown by half the reach
+  std::vector<BinEntry> entries; ///< sorted by key, then face
 };
 
 struct InteractingRank
 {
   int rank = 0;
-  std::vector<std::uint64_t> commonBins; ///< sorted
+  Box box;                               ///< of all its faces, grown by half the reach
+  std::vector<std::uint64_t> commonBins; ///< keys, sorted
 };
 
 struct CandidatePair
@@ -57,7 +38,7 @@ struct CandidatePair
 /// Faces whose boxes are within `reach` of each other share a bin: the skin, and the depth to which
 /// bodies lie in each other now, because the faces of a contact are apart by that depth.
 
-/// Step 1: extent of all faces over all ranks and a bin size from exact reductions only.
+/// Step 1: extent of all faces over all ranks and sizes of bins, from exact reductions only.
 Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
                              const Comm& comm);
 
@@ -65,8 +46,8 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                                const ConstNodeVectors& x, Real reach);
 
-/// Step 3: ranks exchange boxes; those whose boxes overlap exchange occupied bins. Never this rank
-/// itself.
+/// Step 3: ranks exchange boxes; those whose boxes overlap exchange the bins of the faces that
+/// reach into both boxes. Never this rank itself.
 std::vector<InteractingRank> step3_interactingRanks(const SortedFaces& sorted, const Comm& comm);
 
 /// What step 4 brings: faces of other ranks in common bins, sorted by id, and the living planes
@@ -77,7 +58,8 @@ struct Ghosts
   std::vector<Donor> donors; ///< sorted by key, each once
 };
 
-/// Step 4: copies the faces in common bins from the ranks that own them.
+/// Step 4: copies the faces in common bins, as far as they reach into the other rank's box, from
+/// the ranks that own them.
 Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
                             const std::vector<Face>& localFaces,
                             const std::vector<GlobalId>& nodeIds,
@@ -89,7 +71,7 @@ struct CandidateRules
   Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
-  std::function<bool(int, int)> excluded; ///< by block
+  std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(GlobalId, GlobalId)>
       inContact; ///< pair keys that carry traction now: they stay candidates
 };

@@ -21,6 +21,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     face.id = exterior.id;
     face.count = exterior.nodeCount;
     face.block = exterior.block;
+    face.group = exterior.block;
     face.local = true;
     face.ownedHere = exterior.ownedHere;
     Vec3 corners[4];

@@ -1,0 +1,231 @@
+#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_contact/RadixSort.hpp>
+#include <coplane_contact/Search.hpp>
+#include <coplane_core/Backend.hpp>
+#include <coplane_mesh/ElementTopology.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace coplane
+{
+FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
+{
+  FaceNodes nodes;
+  nodes.count = face.count;
+  for (int k = 0; k < face.count; ++k)
+    nodes.x[k] = at(x, face.nodes[k]);
+  const HalfStepFace now =
+      dimension == 2 ? stepA_halfStepFace<2>(nodes, 0) : stepA_halfStepFace<3>(nodes, 0);
+  return {now.center, now.normal};
+}
+
+Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
+                  const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
+                  const CandidateRules& rules)
+{
+  if (!a.local && !b.local)
+    return Verdict::BothGhost;
+  const Real cosine = dot(planeA.normal, planeB.normal);
+  if (!(cosine < 0))
+    return Verdict::NotOpposed;
+  if (!boxA.overlaps(boxB))
+    return Verdict::TooFarApart;
+  if (elementOfFace(a.id) == elementOfFace(b.id))
+    return Verdict::SameElement;
+  // Faces of one body that share a node are neighbours on its surface.
+  for (int i = 0; i < a.count; ++i)
+    for (int j = 0; j < b.count; ++j)
+      if (a.nodes[i] == b.nodes[j])
+        return Verdict::SharedNode;
+  if (rules.excluded && rules.excluded(a.group, b.group))
+    return Verdict::Excluded;
+  Verdict verdict = Verdict::Candidate;
+  if (!(cosine < -rules.cosOpposed))
+    verdict = Verdict::NotOpposed;
+  else
+  {
+    const Vec3 n = normalised(planeA.normal - planeB.normal);
+    const auto halfExtent = [&](const Face& face, const Vec3& center)
+    {
+      Real extent = 0;
+      for (int k = 0; k < face.count; ++k)
+        extent = std::max(extent, std::abs(dot(n, at(x, face.nodes[k]) - center)));
+      return extent;
+    };
+    const Real gap = dot(n, planeB.center - planeA.center);
+    const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
+    if (gap > rules.skin + extents ||
+        gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
+      verdict = Verdict::TooFarApart;
+  }
+  // Planes that carry traction stay candidates while their faces oppose each other at all.
+  if (verdict != Verdict::Candidate && rules.inContact && rules.inContact(a.id, b.id))
+    verdict = Verdict::Candidate;
+  return verdict;
+}
+
+namespace
+{
+bool shareNode(const Face& a, const Face& b)
+{
+  bool any = false;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      any |= (a.nodes[i] == b.nodes[j]) & (a.nodes[i] >= 0);
+  return any;
+}
+
+/// Finds candidates in single bins.
+struct BinSearch
+{
+  const std::vector<Face>& faces;
+  const std::vector<Box>& boxes;
+  const ConstArray<FacePlane>& planes;
+  const ConstNodeVectors& x;
+  const CandidateRules& rules;
+
+  /// A face while its bin is treated: the tests that refuse most pairs run on these.
+  struct BinFace
+  {
+    Box box;
+    Vec3 normal;
+    std::int32_t face;
+    std::uint8_t corner;
+  };
+
+  /// What judgePair says of two faces whose boxes overlap and whose normals oppose each other. Most
+  /// pairs that are left here are near: then nodes need not be looked up.
+  bool isCandidate(int p, int q) const
+  {
+    const Face& a = faces[p];
+    const Face& b = faces[q];
+    if ((!a.local && !b.local) || elementOfFace(a.id) == elementOfFace(b.id) || shareNode(a, b))
+      return false;
+    if (dot(planes(p).normal, planes(q).normal) < -rules.cosOpposed)
+    {
+      const Vec3 n = normalised(planes(p).normal - planes(q).normal);
+      const Real gap = dot(n, planes(q).center - planes(p).center);
+      if (gap <= rules.skin && gap >= -rules.depthMax * std::min(a.thickness, b.thickness))
+        return !(rules.excluded && rules.excluded(a.group, b.group));
+    }
+    return judgePair(a, b, boxes[p], boxes[q], planes(p), planes(q), x, rules) ==
+           Verdict::Candidate;
+  }
+
+  /// Calls found(p, q) for the candidates of one bin, each pair once. A pair that shares several
+  /// bins is treated in the lowest one: along each axis that is the first bin of one of both.
+  /// `inBin` is memory to use.
+  template <class Found>
+  void operator()(const BinEntry* begin, const BinEntry* end, std::vector<BinFace>& inBin,
+                  const Found& found) const
+  {
+    inBin.clear();
+    const auto take = [&](bool resident)
+    {
+      for (const BinEntry* e = begin; e != end; ++e)
+        if (e->resident == resident)
+          inBin.push_back({boxes[e->face], planes(e->face).normal, e->face, e->corner});
+      return inBin.size();
+    };
+    const std::size_t residents = take(true);
+    if (residents == 0)
+      return;
+    const std::size_t all = residents == std::size_t(end - begin) ? residents : take(false);
+    for (std::size_t i = 0; i < residents; ++i)
+      for (std::size_t j = i + 1; j < all; ++j)
+      {
+        const BinFace& p = inBin[i];
+        const BinFace& q = inBin[j];
+        if (!(((p.corner | q.corner) == 7) & p.box.overlaps(q.box) & (dot(p.normal, q.normal) < 0)))
+          continue;
+        if (faces[p.face].id < faces[q.face].id ? isCandidate(p.face, q.face)
+                                                : isCandidate(q.face, p.face))
+          found(p.face, q.face);
+      }
+  }
+};
+
+/// Places of faces in the order of their ids. Local and ghost faces are in order already, each by
+/// themselves.
+std::vector<std::int32_t> orderById(const std::vector<Face>& faces)
+{
+  std::vector<std::int32_t> order(faces.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto less = [&](std::int32_t a, std::int32_t b) { return faces[a].id < faces[b].id; };
+  const auto middle = std::is_sorted_until(order.begin(), order.end(), less);
+  if (!std::is_sorted(middle, order.end(), less))
+    std::sort(middle, order.end(), less);
+  std::inplace_merge(order.begin(), middle, order.end(), less);
+  return order;
+}
+} // namespace
+
+std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
+                                                const ConstNodeVectors& x, int dimension,
+                                                const CandidateRules& rules)
+{
+  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, std::max(rules.skin, rules.reach));
+  const Array<FacePlane> planes(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.size());
+  parallelFor("coplane::contact::step5_facePlanes", int(faces.size()),
+              [&](const int f) { planes(f) = facePlane(faces[f], x, dimension); });
+  const std::vector<std::int32_t> order = orderById(faces);
+  std::vector<std::int32_t> rankOf(faces.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    rankOf[order[i]] = std::int32_t(i);
+
+  // Bins in shares; every share collects its own pairs, as one number each: the places of both
+  // faces in the order of ids. Sorting these numbers brings the pairs of all shares into one order.
+  constexpr int shares = 64;
+  const int bits = bitsFor(faces.size());
+  const std::vector<BinEntry>& entries = sorted.entries;
+  const auto borderOfShare = [&](int share)
+  {
+    std::size_t border = entries.size() * share / shares;
+    while (border > 0 && border < entries.size() && entries[border].key == entries[border - 1].key)
+      ++border;
+    return border;
+  };
+  const BinSearch search{faces, sorted.boxes, planes, x, rules};
+  std::vector<std::vector<std::uint64_t>> found(shares);
+  const auto pairsOfShare = [&](const int share)
+  {
+    std::vector<BinSearch::BinFace> inBin;
+    std::vector<std::uint64_t> mine;
+    const BinEntry* const last = entries.data() + borderOfShare(share + 1);
+    for (const BinEntry* begin = entries.data() + borderOfShare(share); begin < last;)
+    {
+      const BinEntry* end = begin;
+      while (end < last && end->key == begin->key)
+        ++end;
+      search(begin, end, inBin,
+             [&](int p, int q)
+             {
+               const auto a = std::uint64_t(rankOf[p]), b = std::uint64_t(rankOf[q]);
+               mine.push_back(std::min(a, b) << bits | std::max(a, b));
+             });
+      begin = end;
+    }
+    found[share] = std::move(mine);
+  };
+  parallelFor("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
+
+  std::vector<std::uint64_t> codes;
+  std::size_t count = 0;
+  for (const auto& some : found)
+    count += some.size();
+  codes.reserve(count);
+  for (const auto& some : found)
+    codes.insert(codes.end(), some.begin(), some.end());
+  radixSort(codes, 2 * bits, [](std::uint64_t code) { return code; });
+  std::vector<CandidatePair> pairs(count);
+  const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
+  parallelFor("coplane::contact::step5_pairs", int(count),
+              [&](const int p) {
+                pairs[p] = {order[codes[p] >> bits], order[codes[p] & mask]};
+              });
+  return pairs;
+}
+} // namespace coplane

@@ -1,0 +1,87 @@
+#include "FaceClouds.hpp"
+
+// Step 5: reasons to refuse a pair.
+
+namespace coplane::testing
+{
+namespace
+{
+/// Two squares of side 1 face to face, `gap` apart along z; judged with a skin of 0.1 m.
+Verdict judgeSquares(Real gap, Real thickness, const std::function<void(Face&, Face&)>& change = {},
+                     const Vec3& secondNormal = {0, 0, -1}, CandidateRules rules = {})
+{
+  Scene scene;
+  scene.add(faceId(1, 0), {0, 0, 0}, {0, 0, 1}, 1, thickness);
+  scene.add(faceId(2, 0), {0.2, 0.1, gap}, secondNormal, 1, thickness);
+  Face a = scene.faces[0], b = scene.faces[1];
+  a.local = b.local = true;
+  if (change)
+    change(a, b);
+  const NodeVectors x = positions(scene);
+  rules.skin = rules.reach = 0.1;
+  return judgePair(a, b, grownBox(a, x, 0.1), grownBox(b, x, 0.1), facePlane(a, x, 3),
+                   facePlane(b, x, 3), x, rules);
+}
+} // namespace
+
+TEST(Step5CandidatePairs, squaresFaceToFaceWithinTheSkinAreACandidate)
+{
+  EXPECT_EQ(judgeSquares(0.05, 1), Verdict::Candidate);
+  EXPECT_EQ(judgeSquares(-0.05, 1), Verdict::Candidate); // overlapping
+}
+
+TEST(Step5CandidatePairs, squaresFartherApartThanTheSkinAreNot)
+{
+  EXPECT_EQ(judgeSquares(0.11, 1), Verdict::TooFarApart);
+}
+
+TEST(Step5CandidatePairs, facesOfTheSameElementAreNeverPaired)
+{
+  EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { b.id = faceId(elementOfFace(a.id), 3); }),
+            Verdict::SameElement);
+}
+
+TEST(Step5CandidatePairs, twoGhostsAreLeftToTheRanksThatOwnThem)
+{
+  EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { a.local = b.local = false; }),
+            Verdict::BothGhost);
+  EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face&) { a.local = false; }), Verdict::Candidate);
+}
+
+TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)
+{
+  EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { b.nodes[2] = a.nodes[0]; }),
+            Verdict::SharedNode);
+}
+
+TEST(Step5CandidatePairs, facesThatLookTheSameWayAreNotOpposed)
+{
+  EXPECT_EQ(judgeSquares(0.05, 1, {}, {0, 0, 1}), Verdict::NotOpposed);
+  // At right angles, as the top of one brick and the side of the next.
+  EXPECT_EQ(judgeSquares(0.05, 1, {}, {1, 0, 0}), Verdict::NotOpposed);
+}
+
+TEST(Step5CandidatePairs, oppositeFacesOfAThinBodyDoNotFaceEachOther)
+{
+  // A plate 0.1 m thick, two elements of 0.05 m: its bottom (looking down) lies 0.1 m below its
+  // top. As a pair they would overlap by twice the elements' thickness; the limit is 0.6 of it.
+  EXPECT_EQ(judgeSquares(-0.1, 0.05), Verdict::TooFarApart);
+  EXPECT_EQ(judgeSquares(-0.02, 0.05), Verdict::Candidate);
+}
+
+TEST(Step5CandidatePairs, excludedGroupsAreNotPaired)
+{
+  CandidateRules rules;
+  rules.excluded = [](int a, int b) { return a == 0 && b == 0; };
+  EXPECT_EQ(judgeSquares(0.05, 1, {}, {0, 0, -1}, rules), Verdict::Excluded);
+}
+
+TEST(Step5CandidatePairs, pairsInContactStayWhileTheirFacesOpposeEachOther)
+{
+  CandidateRules rules;
+  rules.inContact = [](GlobalId, GlobalId) { return true; };
+  EXPECT_EQ(judgeSquares(-0.1, 0.05, {}, {0, 0, -1}, rules), Verdict::Candidate); // deep
+  EXPECT_EQ(judgeSquares(0.05, 1, {}, {1, 0, -0.05}, rules), Verdict::Candidate); // nearly upright
+  EXPECT_EQ(judgeSquares(0.05, 1, {}, {1, 0, 0.05}, rules), Verdict::NotOpposed);
+}
+} // namespace coplane::testing

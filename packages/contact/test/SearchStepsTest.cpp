@@ -1,0 +1,211 @@
+#include "FaceClouds.hpp"
+
+namespace coplane::testing
+{
+TEST(Step1GlobalSpaceLimits, areEqualOnAllRanksAndThoseOfOneRank)
+{
+  const Comm comm;
+  const Scene scene = Cloud{}.make();
+  const RankPart part(scene, comm);
+  RankPart whole(scene, comm);
+  whole.faces = scene.faces;
+  for (Face& face : whole.faces)
+    face.ownedHere = comm.isRoot(); // every face once, all on rank 0
+  for (int n = 0; n < int(scene.x.size()); ++n)
+    set(whole.x, n, scene.x[n]);
+  const Bins split = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
+  const Bins single = step1_globalSpaceLimits(whole.faces, whole.x, 0.02, comm);
+  ASSERT_EQ(split.levels.size(), single.levels.size());
+  for (std::size_t level = 0; level < split.levels.size(); ++level)
+  {
+    EXPECT_EQ(split.levels[level].edge, single.levels[level].edge);
+    EXPECT_EQ(split.levels[level].largestFace, single.levels[level].largestFace);
+  }
+  for (int c = 0; c < 3; ++c)
+  {
+    EXPECT_EQ(split.limits.low[c], single.limits.low[c]);
+    EXPECT_EQ(split.limits.high[c], single.limits.high[c]);
+  }
+}
+
+TEST(Step1GlobalSpaceLimits, facesOfOneSizeShareOneLevelAndEachFaceFitsItsBins)
+{
+  Cloud cloud;
+  cloud.variation = 1.5;
+  for (const Real side : {1e-6, 0.1, 0.17, 1e6})
+  {
+    cloud.side = side;
+    const Scene scene = cloud.make();
+    const Comm comm;
+    RankPart part(scene, comm);
+    // Boxes of squares that look in all directions differ by a factor of 1.5 sqrt(2) = 2.1.
+    const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.1 * side, comm);
+    EXPECT_LE(bins.levels.size(), 3u);
+    for (const Face& face : part.faces)
+    {
+      const Box box = grownBox(face, part.x, 0);
+      EXPECT_LE(box.longestSide() + 0.1 * side, bins.levels[bins.levelOf(box)].edge);
+    }
+  }
+}
+
+TEST(Step2SortIntoBins, aFaceOnABinBorderIsInBoth)
+{
+  //  bins of 1 m along x:  | 0 | 1 | 2 |     the limits begin in the middle of bin 0, so the face
+  //  at
+  //                            ^             x = 0.5 stands on a border: without a skin its box has
+  //                                          no extent there; with one it reaches both sides.
+  Scene scene;
+  scene.add(faceId(0, 0), {0.5, 1, 1}, {1, 0, 0}, 0.5);
+  Bins bins;
+  bins.limits.low = {0, 0, 0};
+  bins.limits.high = {3, 2, 2};
+  const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, positions(scene), 0.1);
+  ASSERT_EQ(sorted.entries.size(), 2u);
+  EXPECT_EQ(sorted.entries[0].key, Bins::key(0, {0, 1, 1}));
+  EXPECT_EQ(sorted.entries[0].corner, 7); // first bin along all axes
+  EXPECT_EQ(sorted.entries[1].key, Bins::key(0, {1, 1, 1}));
+  EXPECT_EQ(sorted.entries[1].corner, 6); // second bin along x
+}
+
+TEST(Step2SortIntoBins, entriesAreSortedAndLargeFacesEnterFewBins)
+{
+  // One face is ten thousand times as large as the others: it enters bins of its own size, which
+  // are at most eight, and so do the others.
+  Scene scene = Cloud{}.make();
+  scene.add(faceId(100000, 0), {0.5, 0.5, 0.5}, {1, 2, 3}, 1000);
+  const Comm comm;
+  RankPart part(scene, comm, [&](int) { return comm.rank(); });
+  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
+  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 0.02);
+  ASSERT_EQ(bins.levelOf(grownBox(scene.faces.back(), part.x, 0)), int(bins.levels.size()) - 1);
+  std::map<int, std::map<int, int>> binsOfFace; // by face and level
+  std::set<std::pair<int, int>> resident;
+  for (std::size_t e = 0; e < sorted.entries.size(); ++e)
+  {
+    const BinEntry& entry = sorted.entries[e];
+    EXPECT_LE(sorted.entries[e == 0 ? 0 : e - 1].key, entry.key);
+    ++binsOfFace[entry.face][int(entry.key >> 57)];
+    if (entry.resident)
+      resident.insert({entry.face, int(entry.key >> 57)});
+  }
+  EXPECT_EQ(binsOfFace.size(), scene.faces.size());
+  EXPECT_EQ(resident.size(), scene.faces.size()) << "each face is resident of one level";
+  for (const auto& [face, levels] : binsOfFace)
+    for (const auto& [level, count] : levels)
+      EXPECT_LE(count, 8) << "face " << face << " on level " << level;
+}
+
+TEST(Step3InteractingRanks, areMutualShareTheSameBinsAndNeverThisRank)
+{
+  const Comm comm;
+  const Scene scene = Cloud{}.make();
+  const RankPart part(scene, comm);
+  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
+  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 0.02);
+  std::vector<std::vector<std::uint64_t>> toRank(comm.size());
+  std::vector<std::uint64_t> mine;
+  for (const InteractingRank& other : step3_interactingRanks(sorted, comm))
+  {
+    EXPECT_NE(other.rank, comm.rank());
+    EXPECT_TRUE(std::is_sorted(other.commonBins.begin(), other.commonBins.end()));
+    toRank[other.rank] = other.commonBins;
+    mine.insert(mine.end(), other.commonBins.begin(), other.commonBins.end());
+  }
+  // What the others hold in common with this rank, in rank order, is what this rank found.
+  EXPECT_EQ(comm.exchange(toRank), mine);
+}
+
+TEST(Step4CopyGhostFaces, bringsEachForeignFaceOnceSortedAndAsItsOwnerHasIt)
+{
+  const Comm comm;
+  Scene scene = Cloud{}.make();
+  for (Face& face : scene.faces)
+  {
+    face.block = int(face.id % 7);
+    face.group = int(face.id % 5);
+  }
+  const RankPart part(scene, comm);
+  std::set<GlobalId> local;
+  for (const Face& face : part.faces)
+    local.insert(face.id);
+  const Found found = search(scene, part, rulesWithSkin(0.02), comm);
+  GlobalId last = -1;
+  for (const GhostFace& ghost : found.ghosts.faces)
+  {
+    EXPECT_GT(ghost.id, last);
+    last = ghost.id;
+    EXPECT_FALSE(local.count(ghost.id));
+    const auto original = std::find_if(scene.faces.begin(), scene.faces.end(),
+                                       [&](const Face& face) { return face.id == ghost.id; });
+    ASSERT_NE(original, scene.faces.end());
+    EXPECT_EQ(ghost.thickness, original->thickness);
+    EXPECT_EQ(ghost.block, original->block);
+    EXPECT_EQ(ghost.group, original->group);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(ghost.nodes[k], original->nodes[k]);
+  }
+  EXPECT_EQ(found.ghosts.faces.empty(), comm.size() == 1);
+}
+
+TEST(Step4CopyGhostFaces, bringsTheLivingPlanesOfGhostFacesEachOnce)
+{
+  // Every rank holds the planes between its local faces and any others. A ghost face must bring all
+  // planes it has, also those with faces that this rank does not know.
+  const Comm comm;
+  const Scene scene = Cloud{}.make();
+  const CandidateRules rules = rulesWithSkin(0.02);
+  const Pairs all = bruteForce(scene, rules);
+  const RankPart part(scene, comm);
+  std::vector<Donor> planes;
+  for (const Pair& pair : concerning(all, part))
+  {
+    Donor donor;
+    donor.faceId[0] = pair.first;
+    donor.faceId[1] = pair.second;
+    donor.area = Real(pair.first) + 1e-3 * Real(pair.second);
+    planes.push_back(donor);
+  }
+  const Ghosts ghosts = search(scene, part, rules, comm, 1, planes).ghosts;
+  std::set<GlobalId> ghostIds;
+  for (const GhostFace& ghost : ghosts.faces)
+    ghostIds.insert(ghost.id);
+  Pairs received, expected;
+  for (const Donor& donor : ghosts.donors)
+  {
+    EXPECT_TRUE(received.insert({donor.faceId[0], donor.faceId[1]}).second) << "a plane came twice";
+    EXPECT_EQ(donor.area, Real(donor.faceId[0]) + 1e-3 * Real(donor.faceId[1]));
+  }
+  for (const Pair& pair : all)
+    if (ghostIds.count(pair.first) || ghostIds.count(pair.second))
+      expected.insert(pair);
+  EXPECT_TRUE(std::includes(received.begin(), received.end(), expected.begin(), expected.end()));
+}
+
+TEST(Step4CopyGhostFaces, bringsOnlyFacesThatReachIntoTheBoxOfThisRank)
+{
+  // Ranks own slabs; a huge face of rank 0 has one bin in common with everything, yet faces
+  // that cannot touch anything of the other rank stay where they are.
+  const Comm comm;
+  Scene scene = Cloud{}.make();
+  scene.add(faceId(100000, 0), {0.01, 0.5, 0.5}, {1, 0, 0}, 3);
+  scene.sortById();
+  const auto slab = [&](int node)
+  { return std::clamp(int(comm.size() * scene.x[4 * (node / 4)].x), 0, comm.size() - 1); };
+  const RankPart part(scene, comm, slab);
+  const CandidateRules rules = rulesWithSkin(0.02);
+  const Found found = search(scene, part, rules, comm);
+  EXPECT_EQ(found.pairs, concerning(bruteForce(scene, rules), part));
+  Box mine;
+  for (const Face& face : part.faces)
+    mine.include(grownBox(face, part.x, rules.reach));
+  const NodeVectors x = positions(scene);
+  for (const GhostFace& ghost : found.ghosts.faces)
+  {
+    const Face face = toFace(ghost, [](GlobalId node) { return int(node); });
+    EXPECT_TRUE(mine.overlaps(grownBox(face, x, rules.reach)));
+  }
+  for (const InteractingRank& other : found.ranks)
+    EXPECT_TRUE(mine.overlaps(other.box));
+}
+} // namespace coplane::testing

@@ -1,0 +1,186 @@
+// Faces per second of a whole contact search, steps 1 to 5, on one rank:
+//   flat      two planes of N x N and (N+1) x (N+1) quadrilaterals that lie on each other
+//   huge      the same, and one face as large as both
+//   graded    the same, where the sides of the quadrilaterals grow a hundredfold along both axes
+// The memory bandwidth of the same machine at the same time is measured beside them.
+// Options: those of Google Benchmark, and --threads N. Times are wall times.
+#include <coplane_contact/Search.hpp>
+#include <coplane_core/Backend.hpp>
+#include <coplane_mesh/ElementTopology.hpp>
+
+#include <Kokkos_Core.hpp>
+#include <benchmark/benchmark.h>
+#include <mpi.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+namespace
+{
+struct Scene
+{
+  std::vector<Face> faces; ///< sorted by id
+  std::vector<Vec3> x;
+  Real smallest = infinity; ///< [m]
+
+  /// A plane of n x n quadrilaterals over the unit square; `grading` is the ratio of the largest to
+  /// the smallest side.
+  void addPlane(int n, Real z, bool up, Real grading)
+  {
+    const auto place = [&](int i)
+    { return grading == 1 ? Real(i) / n : (std::pow(grading, Real(i) / n) - 1) / (grading - 1); };
+    const int first = int(x.size());
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i)
+        x.push_back({place(i), place(j), z});
+    const GlobalId firstElement = GlobalId(faces.size());
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i)
+      {
+        const int corner = first + j * (n + 1) + i;
+        add({corner, corner + 1, corner + n + 2, corner + n + 1}, up, firstElement + j * n + i);
+      }
+    smallest = std::min(smallest, place(1));
+  }
+
+  void add(const std::array<int, 4>& nodes, bool up, GlobalId element)
+  {
+    Face face;
+    face.id = faceId(element, 0);
+    face.count = 4;
+    for (int k = 0; k < 4; ++k)
+      face.nodes[k] = nodes[up ? k : 3 - k];
+    face.thickness = 1;
+    face.modulus = 1;
+    face.local = face.ownedHere = true;
+    faces.push_back(face);
+  }
+};
+
+Scene twoPlanes(int n, Real grading)
+{
+  Scene scene;
+  scene.addPlane(n, 0, true, grading);
+  scene.addPlane(n + 1, 0.02 * scene.smallest, false, grading);
+  return scene;
+}
+
+Scene flat(int n)
+{
+  return twoPlanes(n, 1);
+}
+
+Scene graded(int n)
+{
+  return twoPlanes(n, 100);
+}
+
+Scene huge(int n)
+{
+  Scene scene = flat(n);
+  const int first = int(scene.x.size());
+  for (const Vec3& corner :
+       {Vec3{-0.1, -0.1, 0}, Vec3{1.1, -0.1, 0}, Vec3{1.1, 1.1, 0}, Vec3{-0.1, 1.1, 0}})
+    scene.x.push_back(corner + Vec3{0, 0, 0.01 * scene.smallest});
+  scene.add({first, first + 1, first + 2, first + 3}, false, GlobalId(scene.faces.size()));
+  return scene;
+}
+
+void search(benchmark::State& state, Backend backend, Scene (*make)(int))
+{
+  setBackend(backend);
+  const Scene scene = make(int(state.range(0)));
+  NodeVectors x("x", scene.x.size());
+  std::vector<GlobalId> nodeIds(scene.x.size());
+  for (int n = 0; n < int(scene.x.size()); ++n)
+  {
+    set(x, n, scene.x[n]);
+    nodeIds[n] = n;
+  }
+  const Comm comm;
+  CandidateRules rules;
+  rules.skin = rules.reach = 0.1 * scene.smallest;
+  std::size_t pairs = 0;
+  for (auto _ : state)
+  {
+    const Bins bins = step1_globalSpaceLimits(scene.faces, x, rules.reach, comm);
+    const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, x, rules.reach);
+    const auto ranks = step3_interactingRanks(sorted, comm);
+    const Ghosts ghosts = step4_copyGhostFaces(ranks, sorted, scene.faces, nodeIds, {}, comm);
+    pairs = step5_candidatePairs(bins, scene.faces, x, 3, rules).size() + ghosts.faces.size();
+  }
+  const auto rate = [](std::size_t count)
+  { return benchmark::Counter(Real(count), benchmark::Counter::kIsIterationInvariantRate); };
+  state.counters["faces"] = Real(scene.faces.size());
+  state.counters["faces/s"] = rate(scene.faces.size());
+  state.counters["pairs"] = Real(pairs);
+  state.counters["pairs/s"] = rate(pairs);
+  state.counters["threads"] = threadCount();
+}
+
+/// a = b + s c: what the memory of the machine gives meanwhile.
+void triad(benchmark::State& state, Backend backend)
+{
+  setBackend(backend);
+  const int n = 1 << 24;
+  const Array<Real> a("a", n), b("b", n), c("c", n);
+  for (auto _ : state)
+    parallelFor(
+        "triad", n, KOKKOS_LAMBDA(const int i) { a(i) = b(i) + 3.0 * c(i); });
+  state.SetBytesProcessed(state.iterations() * 3 * sizeof(Real) * n);
+  state.counters["threads"] = threadCount();
+}
+} // namespace
+} // namespace coplane
+
+int main(int argc, char** argv)
+{
+  using namespace coplane;
+  MPI_Init(&argc, &argv);
+  Kokkos::InitArguments arguments;
+  arguments.num_threads = 1;
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::strcmp(argv[i], "--threads") == 0)
+    {
+      arguments.num_threads = std::atoi(argv[i + 1]);
+      for (int j = i; j + 2 < argc; ++j)
+        argv[j] = argv[j + 2];
+      argc -= 2;
+      break;
+    }
+  int status = 0;
+  {
+    const Kokkos::ScopeGuard kokkos(arguments);
+    for (const Backend backend : {Backend::Serial, Backend::Threads})
+    {
+      const auto add = [&](const char* what, Scene (*make)(int), std::initializer_list<int> sizes)
+      {
+        for (const int n : sizes)
+          benchmark::RegisterBenchmark((std::string(what) + "/" + name(backend)).c_str(), search,
+                                       backend, make)
+              ->Arg(n)
+              ->UseRealTime()
+              ->Unit(benchmark::kMillisecond);
+      };
+      benchmark::RegisterBenchmark((std::string("triad/") + name(backend)).c_str(), triad, backend)
+          ->UseRealTime()
+          ->Unit(benchmark::kMillisecond);
+      add("flat", flat, {70, 200, 707});
+      add("huge", huge, {200});
+      add("graded", graded, {200});
+    }
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv))
+      status = 2;
+    else
+      benchmark::RunSpecifiedBenchmarks();
+  }
+  MPI_Finalize();
+  return status;
+}
