@@ -1,3 +1,4 @@
+#include "ConvertGmsh.hpp"
 #include "Cuts.hpp"
 #include "MakeMesh.hpp"
 #include "RecipeMap.hpp"
@@ -11,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 
 namespace coplane
 {
@@ -94,6 +96,20 @@ void split(const std::string& file, const std::string& recipe, const std::string
   print("wrote " + output);
 }
 
+void convert(const std::string& file, const std::string& output)
+{
+  ConvertedMesh converted = convertGmsh(readGmshFile(file), file);
+  for (const std::string& note : converted.notes)
+    print("note: " + note);
+  converted.mesh.title = std::filesystem::path(file).filename().string();
+  converted.mesh.qaRecords.push_back(qaRecord());
+  const MeshReport report = reportMesh(converted.mesh);
+  printReport(converted.mesh, report);
+  judge(report, file);
+  writeMesh(converted.mesh, output);
+  print("wrote " + output);
+}
+
 void check(const std::string& file)
 {
   const Mesh mesh = readMesh(file);
@@ -105,7 +121,7 @@ void check(const std::string& file)
 
 int run(int argc, char** argv)
 {
-  CLI::App app{"Writes Exodus II meshes from recipes, and checks meshes."};
+  CLI::App app{"Writes Exodus II meshes from recipes, opens joints, converts and checks meshes."};
   app.set_version_flag("--version",
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
   bool helpRecipe = false;
@@ -124,6 +140,9 @@ int run(int argc, char** argv)
   splitting->add_option("mesh", file, "Exodus II file")->required();
   splitting->add_option("recipe", recipe, "recipe of joints, a YAML file")->required();
   splitting->add_option("-o,--output", output, "Exodus II file to write")->required();
+  CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
+  converting->add_option("mesh", file, "file of Gmsh, format 4.1")->required();
+  converting->add_option("-o,--output", output, "Exodus II file to write")->required();
   app.require_subcommand(0, 1);
   try
   {
@@ -141,6 +160,8 @@ int run(int argc, char** argv)
     make(recipe, output);
   else if (splitting->parsed())
     split(file, recipe, output);
+  else if (converting->parsed())
+    convert(file, output);
   else if (checking->parsed())
     check(file);
   else

@@ -1,7 +1,8 @@
 #!/bin/sh
-# Usage: program-test.sh <coplane_mesh> <recipe>: exit codes of the program as docs/user/exit-codes.md states them.
+# Usage: program-test.sh <coplane_mesh> <recipe> <model of Gmsh>: exit codes of the program as docs/user/exit-codes.md states them.
 program=$1
 recipe=$2
+model=$3
 expect()
 {
   wanted=$1
@@ -24,6 +25,10 @@ expect 0 check split.e
 expect 3 split mesh.e missing.yaml -o split.e
 expect 4 split missing.e cuts.yaml -o split.e
 expect 0 --help-split
+expect 0 convert "$model" -o converted.e
+expect 0 check converted.e
+expect 4 convert missing.msh -o converted.e
+expect 4 convert "$recipe" -o converted.e
 expect 0 --version
 expect 0 --help-recipe
 expect 2 check
