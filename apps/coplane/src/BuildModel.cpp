@@ -22,15 +22,16 @@ JointRecipe recipeOf(const JointCard& card)
 {
   JointRecipe recipe;
   recipe.name = card.name;
-  recipe.penalty = card.model == "penalty";
-  recipe.stiffnessFraction = card.stiffnessFraction;
-  recipe.initialStiffness = card.model == "linear" ? card.normalStiffness : card.initialStiffness;
-  recipe.inverseMaximumClosure = card.model == "closure_curve" ? 1 / card.maximumClosure : 0;
-  recipe.stiffnessCap = card.stiffnessCap;
-  recipe.shearStiffness = card.shearStiffness;
-  recipe.shearRatio = card.shearRatio;
-  recipe.friction = card.friction;
-  recipe.cohesion = card.cohesion;
+  JointLaw& law = recipe.law;
+  law.penalty = card.model == "penalty";
+  law.stiffnessFraction = card.stiffnessFraction;
+  law.initialStiffness = card.model == "linear" ? card.normalStiffness : card.initialStiffness;
+  law.curve.inverseMaximumClosure = card.model == "closure_curve" ? 1 / card.maximumClosure : 0;
+  law.stiffnessCap = card.stiffnessCap.value_or(0);
+  law.shearStiffness = card.shearStiffness.value_or(-1);
+  law.shearRatio = card.shearRatio;
+  law.friction = card.friction;
+  law.cohesion = card.cohesion;
   return recipe;
 }
 

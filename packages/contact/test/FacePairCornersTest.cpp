@@ -94,7 +94,7 @@ Total pushed(const std::vector<FaceNodes>& lower, const std::vector<FaceNodes>& 
       if (!(dot(stepA_halfStepFace<Dim>(a, 0).normal, stepA_halfStepFace<Dim>(b, 0).normal) <
             -o.cosOpposed))
         continue; // step 5 makes no candidate of it
-      Plane plane = touchingPlane();
+      PairPlane plane = touchingPlane();
       updatePlane<Dim>(plane, a, b, o, dt);
       total.force += plane.force;
       total.planes += plane.area > 1e-12;

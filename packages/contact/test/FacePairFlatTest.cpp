@@ -99,7 +99,7 @@ PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const
   for (int i = 0; i < int(lower.faces.size()); ++i)
     for (int j = 0; j < int(upper.faces.size()); ++j)
     {
-      Plane plane = touchingPlane(k);
+      PairPlane plane = touchingPlane(k);
       updatePlane<Dim>(plane, lower.face(i), upper.face(j), o, 1);
       result.overlap += plane.overlap;
       const int f[2] = {i, j};
@@ -337,7 +337,7 @@ TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
     const Vec3 shift{.7 * u(random), .7 * u(random), 1 - sunk};
     const Block lower = cube({0, 0, 0}, r), upper = cube(shift, r);
     const ClassicPlane classic = classicCommonPlane(lower, upper);
-    Plane plane = touchingPlane(1e5);
+    PairPlane plane = touchingPlane(1e5);
     updatePlane<3>(plane, lower.top(), upper.bottom(), ContactOptions{}, 1);
     for (int tilt = 0; tilt < 20; ++tilt)
       EXPECT_LT(gapAlong(normalised(classic.normal + 1e-3 * Vec3{u(random), u(random), u(random)}),
@@ -354,7 +354,7 @@ TEST(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
 {
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const FaceNodes b = face({{1.5, 0, -.1}, {1.5, 1, -.1}, {2.5, 1, -.1}, {2.5, 0, -.1}});
-  Plane plane = touchingPlane();
+  PairPlane plane = touchingPlane();
   updatePlane<3>(plane, a, b, ContactOptions{}, 1);
   EXPECT_EQ(plane.area, 0.0);
   EXPECT_EQ(norm(plane.force), 0.0);
@@ -362,7 +362,7 @@ TEST(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
 
 TEST(FacePair_FaceToFace, segmentsEndToEndDoNotTouch)
 {
-  Plane plane = touchingPlane();
+  PairPlane plane = touchingPlane();
   updatePlane<2>(plane, face({{1, 0, 0}, {0, 0, 0}}), face({{1, -.1, 0}, {2, -.1, 0}}), {}, 1);
   EXPECT_EQ(plane.area, 0.0);
 }
@@ -370,7 +370,7 @@ TEST(FacePair_FaceToFace, segmentsEndToEndDoNotTouch)
 TEST(FacePair_FaceToFace, facesAtARightAngleOrLookingTheSameWayDoNotTouch)
 {
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  Plane plane = touchingPlane();
+  PairPlane plane = touchingPlane();
   updatePlane<3>(plane, a, a, {}, 1);
   EXPECT_EQ(plane.area, 0.0);
   updatePlane<3>(plane, a, face({{.5, 0, 0}, {.5, 0, 1}, {.5, 1, 1}, {.5, 1, 0}}), {}, 1);
@@ -383,7 +383,7 @@ TEST(FacePair_FaceToFace, pressureOnATiltedFaceActsAtTheCentreOfPressure)
   // 1 carry two thirds.
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const FaceNodes b = face({{0, 0, 0}, {0, 1, 0}, {1, 1, -.01}, {1, 0, -.01}});
-  Plane plane = touchingPlane();
+  PairPlane plane = touchingPlane();
   updatePlane<3>(plane, a, b, {}, 1);
   const Real near = norm(plane.cornerForce[0][0]) + norm(plane.cornerForce[0][3]);
   const Real far = norm(plane.cornerForce[0][1]) + norm(plane.cornerForce[0][2]);

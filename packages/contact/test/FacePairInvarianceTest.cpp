@@ -12,9 +12,9 @@ namespace
 constexpr Real dt = .01;
 
 /// Three steps of a pair with friction, positions carried on with the velocities.
-Plane history(FaceNodes a, FaceNodes b, const ContactOptions& o, int steps = 3)
+PairPlane history(FaceNodes a, FaceNodes b, const ContactOptions& o, int steps = 3)
 {
-  Plane plane = touchingPlane(1e3, .5);
+  PairPlane plane = touchingPlane(1e3, .5);
   for (int step = 0; step < steps; ++step)
   {
     updatePlane<3>(plane, a, b, o, dt);
@@ -26,7 +26,7 @@ Plane history(FaceNodes a, FaceNodes b, const ContactOptions& o, int steps = 3)
 }
 
 /// Largest relative difference of force and shear traction. `sign` is -1 after a swap of labels.
-Real difference(const Plane& p, const Plane& q, const Mat3& r, Real sign)
+Real difference(const PairPlane& p, const PairPlane& q, const Mat3& r, Real sign)
 {
   const Real size = norm(p.force);
   Real d = norm(r * p.force - sign * q.force) / size;
@@ -46,7 +46,7 @@ Real worstOver(int pairs, Real warp, const ContactOptions& o, const Change& chan
   for (int n = 0; n < pairs;)
   {
     const auto [a, b] = randomPair(random, warp);
-    const Plane reference = history(a, b, o);
+    const PairPlane reference = history(a, b, o);
     if (!(norm(reference.force) > .01))
       continue;
     ++n;
@@ -58,9 +58,9 @@ Real worstOver(int pairs, Real warp, const ContactOptions& o, const Change& chan
 Real worstSwap(Real warp, const ContactOptions& o)
 {
   return worstOver(200, warp, o,
-                   [&](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+                   [&](const FaceNodes& a, const FaceNodes& b, const PairPlane& reference)
                    {
-                     const Plane swapped = history(b, a, o);
+                     const PairPlane swapped = history(b, a, o);
                      Real worst = difference(reference, swapped, none, -1);
                      for (int i = 0; i < 4; ++i)
                        worst = std::max(
@@ -74,13 +74,13 @@ Real worstSwap(Real warp, const ContactOptions& o)
 Real worstStart(Real warp, const ContactOptions& o)
 {
   return worstOver(200, warp, o,
-                   [&](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+                   [&](const FaceNodes& a, const FaceNodes& b, const PairPlane& reference)
                    {
                      Real worst = 0;
                      for (int i = 0; i < a.count; ++i)
                        for (int j = 0; j < b.count; ++j)
                        {
-                         const Plane turned = history(startedAt(a, i), startedAt(b, j), o);
+                         const PairPlane turned = history(startedAt(a, i), startedAt(b, j), o);
                          worst = std::max(worst, difference(reference, turned, none, 1));
                          for (int k = 0; k < a.count; ++k)
                            worst =
@@ -144,10 +144,10 @@ TEST(FacePair_Invariance, forcesTurnWithTheFaces)
 {
   const Real worst = worstOver(
       200, .1, options(ContactOptions::Area::Penetrating, ContactOptions::Weights::Centroid),
-      [](const FaceNodes& a, const FaceNodes& b, const Plane& reference)
+      [](const FaceNodes& a, const FaceNodes& b, const PairPlane& reference)
       {
         const Vec3 shift{10, -20, 5};
-        const Plane turned =
+        const PairPlane turned =
             history(moved(a, oblique(), shift), moved(b, oblique(), shift),
                     options(ContactOptions::Area::Penetrating, ContactOptions::Weights::Centroid));
         return difference(reference, turned, oblique(), 1);
@@ -158,7 +158,7 @@ TEST(FacePair_Invariance, forcesTurnWithTheFaces)
 TEST(FacePair_Invariance, commonVelocityChangesNothing)
 {
   const Real worst = worstOver(200, .1, ContactOptions{},
-                               [](FaceNodes a, FaceNodes b, const Plane& reference)
+                               [](FaceNodes a, FaceNodes b, const PairPlane& reference)
                                {
                                  for (FaceNodes* face : {&a, &b})
                                    for (int i = 0; i < face->count; ++i)
@@ -185,7 +185,7 @@ TEST(FacePair_Dimensions, segmentsAndTheirExtrusionAgreeAlongAPath)
         ContactOptions o = options(area, weights);
         o.dampNormal = .1;
         auto [a, b] = randomSegments(random);
-        Plane flat = touchingPlane(1e3, .5), solid = flat;
+        PairPlane flat = touchingPlane(1e3, .5), solid = flat;
         for (int step = 0; step < 20; ++step)
         {
           for (FaceNodes* face : {&a, &b})

@@ -31,21 +31,26 @@ Worst worstOf(const ContactOptions& o, int pairs)
       continue;
     ++worst.pairs;
     const Vec3 force = normalised({u(random), u(random), Dim == 2 ? 0 : u(random)});
+    PairPlane plane;
+    std::copy(&c.patch.weights[0][0], &c.patch.weights[0][0] + 8, &plane.weights[0][0]);
+    const Vec3 arm =
+        weighted(c.patch.weights[1], b.x, b.count) - weighted(c.patch.weights[0], a.x, a.count);
+    plane.force = force;
+    plane.moment = cross(arm, force);
     Vec3 forces[2][4];
-    cornerForces<Dim>(a, b, c.patch, force, true, forces);
+    cornerForces<Dim>(plane, a, b, forces);
     const Resultant sum = resultant(a, b, forces);
     worst.force = std::max(worst.force, norm(sum.force));
     worst.moment = std::max(worst.moment, norm(sum.moment));
     Real power = 0;
     for (int i = 0; i < 4; ++i)
       power += dot(forces[0][i], a.v[i]) + dot(forces[1][i], b.v[i]);
-    const Vec3 jump = relativeMotion<Dim>(c.a, c.b, a, b, c.patch).jump;
+    const Vec3 jump = c.motion().jump;
     worst.power = std::max(worst.power, std::abs(power - dot(force, jump)));
 
     // Without the couple the moment is arm x force.
-    cornerForces<Dim>(a, b, c.patch, force, false, forces);
-    const Vec3 arm =
-        weighted(c.patch.weights[1], b.x, b.count) - weighted(c.patch.weights[0], a.x, a.count);
+    plane.moment = {};
+    cornerForces<Dim>(plane, a, b, forces);
     const Real uncoupled = norm(resultant(a, b, forces).moment);
     worst.spurious = std::max(worst.spurious, std::abs(uncoupled - norm(cross(arm, force))));
     worst.uncoupled = std::min(worst.uncoupled, uncoupled / norm(cross(arm, force)));
@@ -101,7 +106,7 @@ TEST(FacePair_UpdatePlane, forcesOfMovingPairsConserveBothMomentaAtTheEndOfTheSt
   while (pairs < 1000)
   {
     const auto [a, b] = randomPair(random, .1);
-    Plane plane = touchingPlane(1e3, .5);
+    PairPlane plane = touchingPlane(1e3, .5);
     plane.history.shearTraction = {1, 2, 3};
     plane.normal =
         stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(a, 0), stepA_halfStepFace<3>(b, 0))
@@ -133,7 +138,7 @@ TEST(FacePair_RelativeMotion, vanishesForAnyRigidMotionAlsoAcrossAGap)
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
-    const RelativeMotion motion = relativeMotion<3>(c.a, c.b, a, b, c.patch);
+    const RelativeMotion motion = c.motion();
     EXPECT_LT(norm(motion.jump), 2e-14);
     EXPECT_LT(norm(motion.spin - spin), 1e-13);
   }
@@ -163,7 +168,7 @@ TEST(FacePair_RelativeMotion, vanishesForAFiniteRotationOfOneRadianInOneStep)
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
-    const RelativeMotion motion = relativeMotion<3>(c.a, c.b, a, b, c.patch);
+    const RelativeMotion motion = c.motion();
     EXPECT_LT(dt * norm(motion.jump), 1e-13);
     EXPECT_NEAR(norm(motion.spin) * dt, 2 * std::tan(.5), 1e-12);
   }
@@ -189,7 +194,7 @@ TEST(FacePair_RelativeMotion, segmentsThatTurnOneRadianTogetherDoNotSlip)
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
-    EXPECT_LT(dt * norm(relativeMotion<2>(c.a, c.b, a, b, c.patch).jump), 1e-13);
+    EXPECT_LT(dt * norm(c.motion().jump), 1e-13);
   }
 }
 
@@ -207,7 +212,7 @@ TEST(FacePair_RelativeMotion, relativeTranslationIsReturnedUnchanged)
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
-    EXPECT_LT(norm(relativeMotion<3>(c.a, c.b, a, b, c.patch).jump - velocity), 2e-14);
+    EXPECT_LT(norm(c.motion().jump - velocity), 2e-14);
   }
 }
 

@@ -69,16 +69,52 @@ inline FaceNodes startedAt(const FaceNodes& face, int first)
   return result;
 }
 
-/// A plane that exists already and whose joint is just closed at zero gap.
-inline Plane touchingPlane(Real stiffness = 1, Real friction = 0)
+/// A plane with its law, and with the forces on the corners of its two faces that a cycle with
+/// this plane alone gives.
+struct PairPlane : coplane::Plane
 {
-  Plane plane;
+  JointLaw law;
+  Vec3 cornerForce[2][4] = {};
+  Real storedNow() const { return stored(law); }
+};
+
+/// A plane that exists already and whose joint is just closed at zero gap.
+inline PairPlane touchingPlane(Real stiffness = 1, Real friction = 0)
+{
+  PairPlane plane;
   plane.born = true;
   plane.fresh = false;
+  plane.law.penalty = false;
   plane.law.initialStiffness = stiffness;
-  plane.law.shearStiffness = 0.5 * stiffness;
   plane.law.friction = friction;
+  plane.fit = plane.law.fittedTo(1, 1, 1, 1);
   return plane;
+}
+
+/// Forces of a plane on the corners of its faces.
+template <int Dim>
+void cornerForces(const coplane::Plane& plane, const FaceNodes& a, const FaceNodes& b,
+                  Vec3 (&forces)[2][4])
+{
+  const FaceNodes* faces[2] = {&a, &b};
+  for (int f = 0; f < 2; ++f)
+  {
+    FaceLoad load;
+    load.add(plane, f, faces[f]->count);
+    load.balanceMoment<Dim>(faces[f]->x, faces[f]->count);
+    for (int i = 0; i < 4; ++i)
+      forces[f][i] = load.force[i];
+  }
+}
+
+/// Steps A to H.
+template <int Dim>
+void updatePlane(PairPlane& plane, const FaceNodes& a, const FaceNodes& b, const ContactOptions& o,
+                 Real dt)
+{
+  updatePlane<Dim>(plane, stepA_halfStepFace<Dim>(a, dt), stepA_halfStepFace<Dim>(b, dt), plane.law,
+                   o, dt);
+  cornerForces<Dim>(plane, a, b, plane.cornerForce);
 }
 
 inline ContactOptions options(ContactOptions::Area area, ContactOptions::Weights weights)
@@ -184,12 +220,18 @@ inline Resultant resultant(const FaceNodes& a, const FaceNodes& b, const Vec3 (&
   return sum;
 }
 
-/// Steps A to D alone, on faces at rest.
+/// Steps A to D alone.
 struct Contact
 {
   HalfStepFace a, b;
   TrialPlane trial;
+  Shadow shadowA, shadowB;
   Patch patch;
+
+  RelativeMotion motion() const
+  {
+    return relativeMotion(a, b, patch, armBetween(trial, shadowA, shadowB, patch));
+  }
 };
 
 template <int Dim>
@@ -199,9 +241,13 @@ Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& 
   c.a = stepA_halfStepFace<Dim>(a, dt);
   c.b = stepA_halfStepFace<Dim>(b, dt);
   c.trial = stepB_trialPointOfContact<Dim>(c.a, c.b);
-  if (c.trial.opposed)
-    c.patch = stepD_areaOfContact<Dim>(stepC_projectOntoPlane<Dim>(c.trial, c.a),
-                                       stepC_projectOntoPlane<Dim>(c.trial, c.b), 0, o);
+  if (!c.trial.opposed)
+    return c;
+  c.shadowA = stepC_projectOntoPlane<Dim>(c.trial, c.a);
+  c.shadowB = stepC_projectOntoPlane<Dim>(c.trial, c.b);
+  const AreaInUse use =
+      o.area == ContactOptions::Area::Full ? AreaInUse::Full : AreaInUse::Penetrating;
+  c.patch = stepD_areaOfContact<Dim>(c.shadowA, c.shadowB, 0, use, o.weights);
   return c;
 }
 } // namespace coplane::facepairs

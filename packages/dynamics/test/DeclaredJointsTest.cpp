@@ -82,11 +82,11 @@ TEST(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
   const Comm comm;
   Model model = declaredStack(1e-4, comm);
   JointRecipe curved;
-  curved.penalty = false;
-  curved.initialStiffness = 1e9;      // [Pa/m]
-  curved.inverseMaximumClosure = 1e3; // closes by 1 mm at most
-  curved.stiffnessCap = 1e11;
-  curved.friction = 0.5;
+  curved.law.penalty = false;
+  curved.law.initialStiffness = 1e9;            // [Pa/m]
+  curved.law.curve.inverseMaximumClosure = 1e3; // closes by 1 mm at most
+  curved.law.stiffnessCap = 1e11;
+  curved.law.friction = 0.5;
   model.contactRules.joints = {curved};
   for (BlockSetup& block : model.blocks)
     block.stress.zz = -1e6;

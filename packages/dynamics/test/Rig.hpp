@@ -25,7 +25,7 @@ inline Model rockModel(const Mesh& mesh, const Comm& comm, Real friction = 0,
     model.blocks[b].material = makeLinearElastic(1e9, 0.25, 1000);
   }
   JointRecipe joint;
-  joint.friction = friction;
+  joint.law.friction = friction;
   model.contactRules.joints = {joint};
   model.contactRules.blocks = int(mesh.blocks.size());
   model.contactRules.table.resize(mesh.blocks.size() * mesh.blocks.size());

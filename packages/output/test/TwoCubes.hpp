@@ -79,7 +79,7 @@ inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
   model.blocks[1].velocity = {0.5, 0, -1};
   JointRecipe joint;
   joint.name = "rough";
-  joint.friction = 0.25;
+  joint.law.friction = 0.25;
   model.contactRules.joints = {joint};
   model.contactRules.blocks = 2;
   model.contactRules.table.resize(4);

@@ -1,9 +1,7 @@
 #include <coplane_contact/Contact.hpp>
-#include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_core/Timers.hpp>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace coplane
 {
@@ -12,6 +10,70 @@ namespace
 std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
 {
   return {plane.faceId[0], plane.faceId[1]};
+}
+
+bool isDonor(const Plane& plane)
+{
+  return plane.born && plane.area > 0;
+}
+
+Donor donorOf(const Plane& plane)
+{
+  Donor donor;
+  donor.faceId[0] = plane.faceId[0];
+  donor.faceId[1] = plane.faceId[1];
+  donor.joint = plane.joint;
+  donor.normal = plane.normal;
+  donor.area = plane.area;
+  donor.offset = plane.offset;
+  donor.maximumClosure = plane.history.maximumClosure;
+  donor.closure = plane.closure;
+  donor.shearTraction = plane.history.shearTraction;
+  donor.slip = plane.history.slip;
+  return donor;
+}
+
+/// Means of the donors, weighted by their areas and summed in the order of their keys.
+void inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
+{
+  const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
+  std::sort(donors.begin(), donors.end(),
+            [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
+  Real area = 0;
+  Donor mean;
+  for (std::size_t i = 0; i < donors.size(); ++i)
+  {
+    const Donor& donor = donors[i];
+    if (donor.joint != plane.joint || !(dot(donor.normal, normal) > 0.9) ||
+        (i > 0 && key(donors[i - 1]) == key(donor)))
+      continue;
+    area += donor.area;
+    mean.offset += donor.area * donor.offset;
+    mean.maximumClosure += donor.area * donor.maximumClosure;
+    mean.closure += donor.area * donor.closure;
+    mean.slip += donor.area * donor.slip;
+    mean.shearTraction +=
+        donor.area * turnIntoPlane(donor.shearTraction, donor.normal, normal, Vec3{}, 0);
+  }
+  if (!(area > 0))
+    return;
+  plane.inherited = true;
+  plane.offset = mean.offset / area;
+  plane.history.maximumClosure = mean.maximumClosure / area;
+  plane.closure = mean.closure / area;
+  plane.history.slip = mean.slip / area;
+  plane.history.shearTraction = (1 / area) * mean.shearTraction;
+  plane.normal = normal;
+}
+
+/// Carries nothing until its faces are candidates again.
+void makeDormant(Plane& plane)
+{
+  plane.face[0] = plane.face[1] = -1;
+  plane.area = plane.overlap = plane.normalTraction = plane.stiffness = 0;
+  plane.force = plane.moment = {};
+  plane.history.shearTraction = {};
+  plane.state = PlaneState::Open;
 }
 
 Vec3 traction(const SymTensor& s, const Vec3& n)
@@ -24,8 +86,11 @@ Vec3 traction(const SymTensor& s, const Vec3& n)
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
                  ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
     : comm_(&comm), dimension_(dimension), localFaces_(std::move(localFaces)), faces_(localFaces_),
-      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace)
+      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
+      laws_("coplane::contact::laws", rules_.joints.size())
 {
+  for (std::size_t j = 0; j < rules_.joints.size(); ++j)
+    laws_(j) = rules_.joints[j].law;
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,
@@ -57,23 +122,8 @@ std::vector<Donor> Contact::livingPlanes() const
 {
   std::vector<Donor> donors;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    const Plane& plane = planes_(p);
-    if (!plane.born || !(plane.area > 0))
-      continue;
-    Donor donor;
-    donor.faceId[0] = plane.faceId[0];
-    donor.faceId[1] = plane.faceId[1];
-    donor.joint = plane.joint;
-    donor.normal = plane.normal;
-    donor.area = plane.area;
-    donor.offset = plane.offset;
-    donor.maximumClosure = plane.history.maximumClosure;
-    donor.closure = plane.closure;
-    donor.shearTraction = plane.history.shearTraction;
-    donor.slip = plane.history.slip;
-    donors.push_back(donor);
-  }
+    if (isDonor(planes_(p)))
+      donors.push_back(donorOf(planes_(p)));
   return donors;
 }
 
@@ -112,56 +162,9 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   return nodes;
 }
 
-void Contact::inherit(Plane& plane, const Vec3& normal,
-                      const std::map<GlobalId, std::vector<const Donor*>>& donorsOfFace) const
-{
-  std::vector<const Donor*> donors;
-  for (const GlobalId id : plane.faceId)
-  {
-    const auto found = donorsOfFace.find(id);
-    if (found != donorsOfFace.end())
-      for (const Donor* donor : found->second)
-        if (donor->joint == plane.joint && dot(donor->normal, normal) > 0.9)
-          donors.push_back(donor);
-  }
-  std::sort(donors.begin(), donors.end(),
-            [](const Donor* a, const Donor* b)
-            {
-              return std::make_pair(a->faceId[0], a->faceId[1]) <
-                     std::make_pair(b->faceId[0], b->faceId[1]);
-            });
-  donors.erase(std::unique(donors.begin(), donors.end(),
-                           [](const Donor* a, const Donor* b) {
-                             return a->faceId[0] == b->faceId[0] && a->faceId[1] == b->faceId[1];
-                           }),
-               donors.end());
-  Real area = 0;
-  Donor mean;
-  for (const Donor* donor : donors)
-  {
-    area += donor->area;
-    mean.offset += donor->area * donor->offset;
-    mean.maximumClosure += donor->area * donor->maximumClosure;
-    mean.closure += donor->area * donor->closure;
-    mean.slip += donor->area * donor->slip;
-    mean.shearTraction +=
-        donor->area * turnIntoPlane(donor->shearTraction, donor->normal, normal, Vec3{}, 0);
-  }
-  if (!(area > 0))
-    return;
-  plane.inherited = true;
-  plane.offset = mean.offset / area;
-  plane.history.maximumClosure = mean.maximumClosure / area;
-  plane.closure = mean.closure / area;
-  plane.history.slip = mean.slip / area;
-  plane.history.shearTraction = (1 / area) * mean.shearTraction;
-  plane.normal = normal;
-}
-
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
-  const std::vector<Donor> living = livingPlanes();
   faces_ = localFaces_;
   for (const GhostFace& ghost : ghosts_.faces)
     faces_.push_back(toFace(ghost, [&](GlobalId id) { return layout.localNode(id); }));
@@ -191,153 +194,200 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
   const std::vector<CandidatePair> pairs =
       step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
 
-  // Donors of each face: living planes of this rank and those that came with ghost faces, from
-  // before this search.
-  std::map<GlobalId, std::vector<const Donor*>> donorsOfFace;
-  if (options_.inherit)
-    for (const std::vector<Donor>* donors :
-         {&living, static_cast<const std::vector<Donor>*>(&ghosts_.donors)})
-      for (const Donor& donor : *donors)
-        for (const GlobalId id : donor.faceId)
-          donorsOfFace[id].push_back(&donor);
-
-  std::vector<Plane> next;
-  next.reserve(pairs.size());
-  std::vector<char> kept(planes_.extent(0), 0);
-  for (const CandidatePair& pair : pairs)
+  // Both lists are sorted by key: which pairs have their plane already.
+  const std::size_t old = planes_.extent(0);
+  std::vector<std::int64_t> existing(pairs.size(), -1);
+  std::vector<std::int64_t> dormant;
+  const auto keep = [&](std::size_t p)
   {
-    const Face& a = faces_[pair.lower];
-    const Face& b = faces_[pair.higher];
-    Plane plane;
-    const Plane* existing = findPlane(a.id, b.id);
-    if (existing)
-    {
-      kept[existing - planes_.data()] = 1;
-      plane = *existing;
-    }
-    plane.face[0] = pair.lower;
-    plane.face[1] = pair.higher;
-    plane.missedSearches = 0;
-    if (!existing)
-    {
-      const ContactRule& rule = rules_.between(a.group, b.group);
-      plane.faceId[0] = a.id;
-      plane.faceId[1] = b.id;
-      plane.joint = rule.joint;
-      plane.countedHere = a.ownedHere;
-      plane.law =
-          rules_.joints[rule.joint].fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
-      plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
-    }
-    if (!plane.born && options_.inherit)
-    {
-      // Slots that have not touched yet look for donors again at every search.
-      plane.offset = 0;
-      plane.closure = 0;
-      plane.inherited = false;
-      plane.history = {};
-      const FaceNodes nodesA = nodesOf(a, x), nodesB = nodesOf(b, x);
-      const TrialPlane trial = dimension_ == 2
-                                   ? stepB_trialPointOfContact<2>(stepA_halfStepFace<2>(nodesA, 0),
-                                                                  stepA_halfStepFace<2>(nodesB, 0))
-                                   : stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(nodesA, 0),
-                                                                  stepA_halfStepFace<3>(nodesB, 0));
-      inherit(plane, trial.normal, donorsOfFace);
-    }
-    next.push_back(plane);
-  }
-
-  // Planes that are no candidates now: kept dormant for two searches, joints for ever; their energy
-  // is booked at their end.
-  const std::size_t active = next.size();
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    if (kept[p] || !planes_(p).born)
-      continue;
-    Plane plane = planes_(p);
-    plane.face[0] = plane.face[1] = -1;
-    plane.missedSearches = std::uint8_t(std::min(255, plane.missedSearches + 1));
-    if (plane.declared || plane.missedSearches < 2)
-    {
-      plane.area = plane.overlap = plane.normalTraction = plane.stored = 0;
-      plane.force = {};
-      plane.history.shearTraction = {};
-      plane.state = PlaneState::Open;
-      for (int f = 0; f < 2; ++f)
-        for (int k = 0; k < 4; ++k)
-        {
-          plane.cornerForce[f][k] = {};
-          plane.cornerStiffness[f][k] = 0;
-        }
-      next.push_back(plane);
-    }
+    // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
+    // booked at their end.
+    const Plane& plane = planes_(p);
+    if (!plane.born)
+      return;
+    if (plane.declared || plane.missedSearches == 0)
+      dormant.push_back(std::int64_t(p));
     else if (plane.countedHere)
     {
       endedWork_.add(plane.work);
       endedFriction_.add(plane.frictionWork);
       endedHysteresis_.add(plane.hysteresisWork);
+      endedFracture_.add(plane.fractureWork);
       endedDamping_.add(plane.dampingWork);
     }
+  };
+  const auto keyOfPair = [&](const CandidatePair& pair)
+  { return std::make_pair(faces_[pair.lower].id, faces_[pair.higher].id); };
+  std::size_t p = 0;
+  std::vector<std::int64_t> source; // of each new slot: a pair, or ~p of a dormant plane
+  source.reserve(pairs.size());
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+  {
+    const auto key = keyOfPair(pairs[i]);
+    for (; p < old && keyOf(planes_(p)) < key; ++p)
+    {
+      const std::size_t before = dormant.size();
+      keep(p);
+      if (dormant.size() > before)
+        source.push_back(~dormant.back());
+    }
+    if (p < old && keyOf(planes_(p)) == key)
+      existing[i] = std::int64_t(p++);
+    source.push_back(std::int64_t(i));
   }
-  std::inplace_merge(next.begin(), next.begin() + active, next.end(), keyLess);
+  for (; p < old; ++p)
+  {
+    const std::size_t before = dormant.size();
+    keep(p);
+    if (dormant.size() > before)
+      source.push_back(~dormant.back());
+  }
 
-  planes_ = Kokkos::View<Plane*, Kokkos::HostSpace>(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), next.size());
-  std::copy(next.begin(), next.end(), planes_.data());
+  // Donors of a face, from before this search: a local face has all its planes here, those of a
+  // ghost have come with it.
+  std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost;
+  for (std::size_t d = 0; d < ghosts_.donors.size(); ++d)
+    for (const GlobalId id : ghosts_.donors[d].faceId)
+      donorsOfGhost.emplace_back(id, d);
+  std::sort(donorsOfGhost.begin(), donorsOfGhost.end());
+  const auto addDonors = [&](int face, std::vector<Donor>& donors)
+  {
+    if (faces_[face].local)
+    {
+      if (searches_ > 0)
+        for (std::int32_t i = planesStart_(face); i < planesStart_(face + 1); ++i)
+          if (isDonor(planes_(planesEntry_(i) / 2)))
+            donors.push_back(donorOf(planes_(planesEntry_(i) / 2)));
+      return;
+    }
+    const GlobalId id = faces_[face].id;
+    for (auto d = std::lower_bound(donorsOfGhost.begin(), donorsOfGhost.end(),
+                                   std::make_pair(id, std::size_t(0)));
+         d != donorsOfGhost.end() && d->first == id; ++d)
+      donors.push_back(ghosts_.donors[d->second]);
+  };
+
+  const Kokkos::View<Plane*, Kokkos::HostSpace> next(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
+  const auto fillSlot = [&](const int slot)
+  {
+    Plane& plane = next(slot);
+    if (source[slot] < 0)
+    {
+      plane = planes_(~source[slot]);
+      plane.missedSearches = std::uint8_t(std::min(255, plane.missedSearches + 1));
+      makeDormant(plane);
+      return;
+    }
+    const CandidatePair& pair = pairs[source[slot]];
+    const Face& a = faces_[pair.lower];
+    const Face& b = faces_[pair.higher];
+    const std::int64_t known = existing[source[slot]];
+    if (known >= 0)
+      plane = planes_(known);
+    else
+    {
+      plane = Plane{};
+      const ContactRule& rule = rules_.between(a.group, b.group);
+      plane.faceId[0] = a.id;
+      plane.faceId[1] = b.id;
+      plane.joint = std::uint16_t(rule.joint);
+      plane.countedHere = a.ownedHere;
+      plane.fit =
+          rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
+      plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
+    }
+    plane.face[0] = pair.lower;
+    plane.face[1] = pair.higher;
+    plane.missedSearches = 0;
+    if (plane.born || !options_.inherit)
+      return;
+    // Slots that have not touched yet look for donors again at every search.
+    plane.offset = 0;
+    plane.closure = 0;
+    plane.inherited = false;
+    plane.history = {};
+    std::vector<Donor> donors;
+    addDonors(pair.lower, donors);
+    addDonors(pair.higher, donors);
+    if (!donors.empty())
+    {
+      const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
+      inherit(plane, normalised(planeA.normal - planeB.normal), donors);
+    }
+  };
+  parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
+
+  planes_ = next;
   faceTable_ = Array<Face>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::faces"),
                            faces_.size());
   std::copy(faces_.begin(), faces_.end(), faceTable_.data());
-  buildGather(layout.owned());
+  buildLists(layout.owned());
   ++searches_;
   searchedSinceUpdate_ = true;
 }
 
-void Contact::buildGather(int ownedNodes)
+void Contact::buildLists(int ownedNodes)
 {
-  std::vector<std::int64_t> start(ownedNodes + 1, 0);
-  const auto forEachEntry = [&](const auto& visit)
-  {
-    for (std::size_t p = 0; p < planes_.extent(0); ++p)
-      for (int f = 0; f < 2; ++f)
+  const std::size_t local = localFaces_.size();
+  halfStepFaces_ = decltype(halfStepFaces_)(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
+  paired_ = Array<bool>("coplane::contact::paired", faces_.size());
+  planesStart_ = Array<std::int32_t>("coplane::contact::planesStart", local + 1);
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+    for (const int face : planes_(p).face)
+      if (face >= 0)
       {
-        if (planes_(p).face[f] < 0)
-          continue;
-        const Face& face = faces_[planes_(p).face[f]];
-        for (int k = 0; k < face.count; ++k)
-          if (face.nodes[k] < ownedNodes)
-            visit(face.nodes[k], std::int64_t(p) * 8 + f * 4 + k);
+        paired_(face) = true;
+        if (faces_[face].local)
+          ++planesStart_(face + 1);
       }
-  };
-  forEachEntry([&](int node, std::int64_t) { ++start[node + 1]; });
-  for (int n = 0; n < ownedNodes; ++n)
-    start[n + 1] += start[n];
-  cornerLoads_ =
-      CornerLoads(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::cornerLoads"),
-                  8 * planes_.extent(0));
-  loaded_ = Array<bool>("coplane::contact::loaded", planes_.extent(0));
-  gatherStart_ = Array<std::int64_t>("coplane::contact::gatherStart", ownedNodes + 1);
-  gatherEntry_ = Array<std::int64_t>("coplane::contact::gatherEntry", start.back());
-  std::copy(start.begin(), start.end(), gatherStart_.data());
-  // Planes are visited in the order of their keys, so each node's list is in that order on every
+  for (std::size_t f = 0; f < local; ++f)
+    planesStart_(f + 1) += planesStart_(f);
+  planesEntry_ =
+      Array<std::int32_t>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planesEntry"),
+                          planesStart_(local));
+  // Planes are visited in the order of their keys, so each face's list is in that order on every
   // rank.
-  forEachEntry([&](int node, std::int64_t entry) { gatherEntry_(start[node]++) = entry; });
+  std::vector<std::int32_t> next(planesStart_.data(), planesStart_.data() + local);
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+    for (int side = 0; side < 2; ++side)
+    {
+      const int face = planes_(p).face[side];
+      if (face >= 0 && faces_[face].local)
+        planesEntry_(next[face]++) = std::int32_t(2 * p + side);
+    }
+  if (facesStart_.extent(0) == std::size_t(ownedNodes) + 1)
+    return;
+  faceLoads_ = decltype(faceLoads_)("coplane::contact::faceLoads", local);
+  facesStart_ = Array<std::int32_t>("coplane::contact::facesStart", ownedNodes + 1);
+  const auto forEachCorner = [&](const auto& visit)
+  {
+    for (std::size_t f = 0; f < local; ++f)
+      for (int k = 0; k < localFaces_[f].count; ++k)
+        if (localFaces_[f].nodes[k] < ownedNodes)
+          visit(localFaces_[f].nodes[k], std::int32_t(4 * f + k));
+  };
+  forEachCorner([&](int node, std::int32_t) { ++facesStart_(node + 1); });
+  for (int n = 0; n < ownedNodes; ++n)
+    facesStart_(n + 1) += facesStart_(n);
+  facesEntry_ = Array<std::int32_t>("coplane::contact::facesEntry", facesStart_(ownedNodes));
+  next.assign(facesStart_.data(), facesStart_.data() + ownedNodes);
+  forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
 }
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                                   const std::vector<SymTensor>& stressOfBlock)
 {
-  ContactOptions whole = options_;
-  whole.area = ContactOptions::Area::Full;
-  whole.weights = ContactOptions::Weights::Centroid;
   const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
   {
-    // With an offset beyond every gap the whole overlap counts as closed.
-    const Real beyond = 10 * (skin_ + norm(b.center - a.center)) + std::sqrt(a.area + b.area);
-    return dimension_ == 2
-               ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a),
-                                        stepC_projectOntoPlane<2>(trial, b), beyond, whole)
-               : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a),
-                                        stepC_projectOntoPlane<3>(trial, b), beyond, whole);
+    constexpr auto weights = ContactOptions::Weights::Centroid;
+    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a),
+                                                    stepC_projectOntoPlane<2>(trial, b), 0,
+                                                    AreaInUse::Bonded, weights)
+                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a),
+                                                    stepC_projectOntoPlane<3>(trial, b), 0,
+                                                    AreaInUse::Bonded, weights);
   };
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
@@ -377,22 +427,22 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x,
               0.5 * (stress.yz + other.yz), 0.5 * (stress.zx + other.zx)};
     const Vec3 t = traction(stress, trial.normal);
     const Real compression = -dot(t, trial.normal);
-    const Real closure = plane.law.closureUnder(compression);
-    plane.history.maximumClosure = closure;
+    const JointLaw& law = lawOf(plane);
+    plane.history.bonded = law.cohesive();
+    const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
+                         : plane.history.bonded ? compression / plane.fit.normalStiffness
+                                                : 0;
+    plane.history.maximumClosure = std::max(closure, 0.0);
     plane.offset = plane.gap + closure;
     plane.closure = closure;
-    if (compression > 0)
+    if (compression > 0 || plane.history.bonded)
+    {
       plane.history.shearTraction = Vec3{} - (t + compression * trial.normal);
-    plane.area = compression > 0 ? patch.area : 0;
+      plane.area = patch.area;
+    }
     // The energy that the initial stress has put into the joint.
-    plane.hysteresisWork = plane.area * plane.law.hysteresisWork(closure);
-    plane.stored =
-        plane.area * 0.5 * compression * compression / plane.law.loadingStiffness(closure);
-    if (plane.law.shearStiffness > 0)
-      plane.stored += plane.area * 0.5 *
-                      dot(plane.history.shearTraction, plane.history.shearTraction) /
-                      plane.law.shearStiffness;
-    plane.work = plane.stored + plane.hysteresisWork;
+    plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
+    plane.work = plane.stored(law) + plane.hysteresisWork;
   }
 }
 
@@ -402,46 +452,38 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   const auto planes = planes_;
   const auto faces = faceTable_;
-  const auto loads = cornerLoads_;
-  const auto loaded = loaded_;
+  const auto halfStep = halfStepFaces_;
+  const auto paired = paired_;
+  const auto laws = laws_;
   const ContactOptions options = options_;
   const int dimension = dimension_;
   parallelFor(
-      "coplane::contact::step6_updateCommonPlanes", int(planes.extent(0)),
-      KOKKOS_LAMBDA(const int p) {
+      "coplane::contact::stepA_halfStepFace", int(faces.extent(0)), KOKKOS_LAMBDA(const int f) {
+        if (!paired(f))
+          return;
+        const Face& face = faces(f);
+        FaceNodes nodes;
+        nodes.count = face.count;
+        for (int k = 0; k < face.count; ++k)
+        {
+          nodes.x[k] = at(x, face.nodes[k]);
+          nodes.v[k] = at(v, face.nodes[k]);
+          nodes.mass[k] = mass(face.nodes[k]);
+        }
+        halfStep(f) =
+            dimension == 2 ? stepA_halfStepFace<2>(nodes, dt) : stepA_halfStepFace<3>(nodes, dt);
+      });
+  parallelFor(
+      "coplane::contact::stepsBtoH", int(planes.extent(0)), KOKKOS_LAMBDA(const int p) {
         Plane& plane = planes(p);
-        loaded(p) = false;
         if (plane.face[0] < 0)
           return;
-        FaceNodes nodes[2];
-        for (int f = 0; f < 2; ++f)
-        {
-          const Face& face = faces(plane.face[f]);
-          nodes[f].count = face.count;
-          for (int k = 0; k < face.count; ++k)
-          {
-            nodes[f].x[k] = at(x, face.nodes[k]);
-            nodes[f].v[k] = at(v, face.nodes[k]);
-            nodes[f].mass[k] = mass(face.nodes[k]);
-          }
-        }
+        const HalfStepFace& a = halfStep(plane.face[0]);
+        const HalfStepFace& b = halfStep(plane.face[1]);
         if (dimension == 2)
-          updatePlane<2>(plane, nodes[0], nodes[1], options, dt);
+          updatePlane<2>(plane, a, b, laws(plane.joint), options, dt);
         else
-          updatePlane<3>(plane, nodes[0], nodes[1], options, dt);
-        // Forces once more in a compact table, for the sums at the nodes.
-        bool any = false;
-        for (int c = 0; c < 8; ++c)
-        {
-          const Vec3& force = plane.cornerForce[c / 4][c % 4];
-          const Real stiffness = plane.cornerStiffness[c / 4][c % 4];
-          any = any || stiffness > 0 || dot(force, force) > 0;
-          loads(8 * p + c, 0) = force.x;
-          loads(8 * p + c, 1) = force.y;
-          loads(8 * p + c, 2) = force.z;
-          loads(8 * p + c, 3) = stiffness;
-        }
-        loaded(p) = any;
+          updatePlane<3>(plane, a, b, laws(plane.joint), options, dt);
       });
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
@@ -465,23 +507,43 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
 }
 
-void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
+void Contact::addForces(const ConstNodeVectors& x, const NodeVectors& f,
+                        const Array<Real>& stiffness) const
 {
-  const auto loads = cornerLoads_;
-  const auto loaded = loaded_;
-  const auto start = gatherStart_;
-  const auto entries = gatherEntry_;
+  const auto planes = planes_;
+  const auto faces = faceTable_;
+  const auto loads = faceLoads_;
+  const auto planesStart = planesStart_, planesEntry = planesEntry_;
+  const auto facesStart = facesStart_, facesEntry = facesEntry_;
+  const int dimension = dimension_;
   parallelFor(
-      "coplane::contact::addForces", int(start.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
+      "coplane::contact::faceLoads", int(loads.extent(0)), KOKKOS_LAMBDA(const int n) {
+        const Face& face = faces(n);
+        FaceLoad load;
+        for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
+        {
+          const Plane& plane = planes(planesEntry(i) / 2);
+          if (plane.area > 0 || plane.stiffness > 0)
+            load.add(plane, planesEntry(i) % 2, face.count);
+        }
+        Vec3 corners[4];
+        for (int k = 0; k < face.count; ++k)
+          corners[k] = at(x, face.nodes[k]);
+        if (dimension == 2)
+          load.balanceMoment<2>(corners, face.count);
+        else
+          load.balanceMoment<3>(corners, face.count);
+        loads(n) = load;
+      });
+  parallelFor(
+      "coplane::contact::addForces", int(facesStart.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
         Vec3 force = at(f, node);
         Real sum = 0;
-        for (std::int64_t i = start(node); i < start(node + 1); ++i)
+        for (std::int32_t i = facesStart(node); i < facesStart(node + 1); ++i)
         {
-          const std::int64_t entry = entries(i);
-          if (!loaded(entry / 8))
-            continue;
-          force += {loads(entry, 0), loads(entry, 1), loads(entry, 2)};
-          sum += loads(entry, 3);
+          const FaceLoad& load = loads(facesEntry(i) / 4);
+          force += load.force[facesEntry(i) % 4];
+          sum += load.stiffness[facesEntry(i) % 4];
         }
         set(f, node, force);
         stiffness(node) = sum;
@@ -490,21 +552,23 @@ void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) cons
 
 ContactEnergy Contact::energy() const
 {
-  std::vector<ExactSum> sums(5);
+  std::vector<ExactSum> sums(6);
   sums[0] = endedWork_;
   sums[2] = endedFriction_;
   sums[3] = endedHysteresis_;
   sums[4] = endedDamping_;
+  sums[5] = endedFracture_;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
     const Plane& plane = planes_(p);
     if (!plane.countedHere || !plane.born)
       continue;
     sums[0].add(plane.work);
-    sums[1].add(plane.stored);
+    sums[1].add(plane.stored(lawOf(plane)));
     sums[2].add(plane.frictionWork);
     sums[3].add(plane.hysteresisWork);
     sums[4].add(plane.dampingWork);
+    sums[5].add(plane.fractureWork);
   }
   const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
   ContactEnergy energy;
@@ -513,6 +577,7 @@ ContactEnergy Contact::energy() const
   energy.friction = totals[2];
   energy.hysteresis = totals[3];
   energy.damping = totals[4];
+  energy.fracture = totals[5];
   return energy;
 }
 
@@ -550,8 +615,8 @@ ContactCensus Contact::census() const
     if (!plane.countedHere || plane.face[0] < 0)
       continue;
     ++n[0];
-    extremes[3] = std::max(extremes[3], -plane.law.initialStiffness);
-    extremes[4] = std::max(extremes[4], plane.law.initialStiffness);
+    extremes[3] = std::max(extremes[3], -plane.fit.normalStiffness);
+    extremes[4] = std::max(extremes[4], plane.fit.normalStiffness);
     const bool joint =
         rules_.between(faces_[plane.face[0]].group, faces_[plane.face[1]].group).declared;
     if (plane.declared)

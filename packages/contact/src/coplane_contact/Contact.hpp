@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_contact/ContactRules.hpp>
-#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
@@ -12,7 +12,6 @@
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <functional>
-#include <map>
 #include <vector>
 
 namespace coplane
@@ -21,10 +20,10 @@ namespace coplane
 /// [J].
 struct ContactEnergy
 {
-  Real stored = 0, friction = 0, hysteresis = 0, damping = 0;
+  Real stored = 0, friction = 0, hysteresis = 0, fracture = 0, damping = 0;
   Real work = 0; ///< done on the planes by the nodes
   /// What the work is not accounted for by the other terms: areas that change at fixed traction.
-  Real remainder() const { return work - stored - friction - hysteresis - damping; }
+  Real remainder() const { return work - stored - friction - hysteresis - fracture - damping; }
 };
 
 /// Numbers of planes over all ranks.
@@ -70,9 +69,10 @@ public:
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                 const ConstArray<Real>& mass, Real dt);
 
-  /// Adds the planes' forces to owned nodes, in the order of the planes' keys, and bounds the
-  /// contact stiffness that each node feels [N/m].
-  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const;
+  /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
+  /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
+  void addForces(const ConstNodeVectors& x, const NodeVectors& f,
+                 const Array<Real>& stiffness) const;
 
   const std::vector<Face>& faces() const { return faces_; }
   const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
@@ -87,6 +87,9 @@ public:
   ContactCounts counts() const;
   ContactCensus census() const;
 
+  /// Law of a plane.
+  const JointLaw& lawOf(const Plane& plane) const { return rules_.joints[plane.joint].law; }
+
   /// This rank's planes to count and to write: those whose lower face it owns, that exist and
   /// overlap.
   bool isWrittenHere(const Plane& plane) const
@@ -100,9 +103,7 @@ public:
 
 private:
   std::vector<Donor> livingPlanes() const;
-  void inherit(Plane& plane, const Vec3& normal,
-               const std::map<GlobalId, std::vector<const Donor*>>& donorsOfFace) const;
-  void buildGather(int ownedNodes);
+  void buildLists(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
@@ -121,18 +122,18 @@ private:
   bool searchedSinceUpdate_ = false;
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
+  Array<JointLaw> laws_;                           ///< by joint card
   Array<Face> faceTable_;
-  // Gather list: entries of owned node n are [gatherStart(n), gatherStart(n + 1)); an entry is
-  // plane * 8 + face * 4 + corner.
-  Array<std::int64_t> gatherStart_, gatherEntry_;
-
-  // What each corner of each plane adds to its node: force (3) and stiffness, at plane * 8 + face *
-  // 4 + corner; and whether a plane adds anything.
-  using CornerLoads = Kokkos::View<Real* [4], Kokkos::LayoutRight, Kokkos::HostSpace>;
-  CornerLoads cornerLoads_;
-  Array<bool> loaded_;
+  Array<bool> paired_;                                           ///< faces that have a slot
+  Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
+  // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an
+  // entry is 2 * plane + side. What they add to its nodes.
+  Array<std::int32_t> planesStart_, planesEntry_;
+  Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_;
+  // Local faces of owned node n, in the order of ids; an entry is 4 * face + corner.
+  Array<std::int32_t> facesStart_, facesEntry_;
 
   // Energies of planes that have ended.
-  ExactSum endedWork_, endedFriction_, endedHysteresis_, endedDamping_;
+  ExactSum endedWork_, endedFriction_, endedHysteresis_, endedFracture_, endedDamping_;
 };
 } // namespace coplane

@@ -21,13 +21,80 @@ struct FaceNodes
   Real mass[4] = {1, 1, 1, 1}; ///< [kg]; used by contact damping only
 };
 
+/// Corners of a face relative to their mean, and the tensor sum |r|^2 I - r (x) r that turns a spin
+/// into a moment; in two dimensions only its zz entry is used.
+template <int Dim>
+struct FaceInertia
+{
+  Vec3 r[4];
+  Real xx = 0, yy = 0, zz = 0, xy = 0, yz = 0, zx = 0;
+  int count = 0;
+
+  KOKKOS_INLINE_FUNCTION FaceInertia(const Vec3* x, int n) : count(n)
+  {
+    Vec3 mean{};
+    for (int i = 0; i < n; ++i)
+      mean += x[i];
+    mean = (1.0 / n) * mean;
+    for (int i = 0; i < n; ++i)
+    {
+      r[i] = x[i] - mean;
+      const Vec3& q = r[i];
+      zz += q.x * q.x + q.y * q.y;
+      if constexpr (Dim == 3)
+      {
+        xx += q.y * q.y + q.z * q.z;
+        yy += q.z * q.z + q.x * q.x;
+        xy -= q.x * q.y;
+        yz -= q.y * q.z;
+        zx -= q.z * q.x;
+      }
+    }
+  }
+
+  /// inertia^-1 * moment; nothing for a face 3000 times longer than wide: the forces of a couple
+  /// about its axis grow without bound, and round-off with them.
+  KOKKOS_INLINE_FUNCTION Vec3 solve(const Vec3& m) const
+  {
+    if constexpr (Dim == 2)
+      return {0, 0, m.z / zz};
+    else
+    {
+      const Real cxx = yy * zz - yz * yz, cyy = zz * xx - zx * zx, czz = xx * yy - xy * xy;
+      const Real cxy = yz * zx - xy * zz, cyz = zx * xy - yz * xx, czx = xy * yz - zx * yy;
+      const Real determinant = xx * cxx + xy * cxy + zx * czx;
+      const Real trace = xx + yy + zz;
+      if (!(determinant > 1e-8 * trace * trace * trace))
+        return {};
+      const Real s = 1 / determinant;
+      return {s * (cxx * m.x + cxy * m.y + czx * m.z), s * (cxy * m.x + cyy * m.y + cyz * m.z),
+              s * (czx * m.x + cyz * m.y + czz * m.z)};
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION Vec3 momentOf(const Vec3* v) const
+  {
+    Vec3 moment{};
+    for (int i = 0; i < count; ++i)
+      moment += cross(r[i], v[i]);
+    return moment;
+  }
+};
+
+/// Step A's result: all that the pairs of a face have in common in a cycle.
 struct HalfStepFace
 {
   int count = 0;
   Vec3 x[4]; ///< x(n+1/2) [m]
+  Vec3 v[4]; ///< v(n+1/2) [m/s]
   Vec3 center{};
   Vec3 normal{}; ///< outward unit normal; zero for a degenerate face
   Real area = 0; ///< [m^2]
+  Vec3 spin{};   ///< of the rigid motion nearest to the corner velocities [1/s]
+  /// The same by the corners at x(n) and at x(n+1), on which the forces of the old and the new time
+  /// act: what a couple works on.
+  Vec3 spinAtStart{}, spinAtEnd{};
+  Real inverseMass[4] = {0, 0, 0, 0}; ///< [1/kg]; used by contact damping only
 };
 
 /// Vector area of a face: exact for the bilinear patch of a warped quadrilateral.
@@ -51,7 +118,9 @@ KOKKOS_INLINE_FUNCTION HalfStepFace stepA_halfStepFace(const FaceNodes& nodes, R
   for (int i = 0; i < nodes.count; ++i)
   {
     face.x[i] = nodes.x[i] - (0.5 * dt) * nodes.v[i];
+    face.v[i] = nodes.v[i];
     face.center += face.x[i];
+    face.inverseMass[i] = 1 / nodes.mass[i];
   }
   face.center = (1.0 / nodes.count) * face.center;
   const Vec3 area = vectorArea<Dim>(face.x, face.count);
@@ -59,11 +128,22 @@ KOKKOS_INLINE_FUNCTION HalfStepFace stepA_halfStepFace(const FaceNodes& nodes, R
   Real longest = 0;
   for (int i = 0; i < face.count; ++i)
   {
-    const Vec3 edge = face.x[(i + 1) % face.count] - face.x[i];
+    const Vec3 edge = face.x[i + 1 == face.count ? 0 : i + 1] - face.x[i];
     longest = dot(edge, edge) > longest ? dot(edge, edge) : longest;
   }
   const bool degenerate = Dim == 2 ? !(face.area > 0) : !(face.area > 1e-12 * longest);
-  face.normal = degenerate ? Vec3{} : (1 / face.area) * area;
+  if (degenerate)
+    return face;
+  face.normal = (1 / face.area) * area;
+
+  const FaceInertia<Dim> inertia(face.x, face.count);
+  const Vec3 moment = inertia.momentOf(face.v); // the same at all three times: v x v = 0
+  face.spin = inertia.solve(moment);
+  Vec3 start[4];
+  for (int i = 0; i < face.count; ++i)
+    start[i] = nodes.x[i] - dt * nodes.v[i];
+  face.spinAtStart = FaceInertia<Dim>(start, face.count).solve(moment);
+  face.spinAtEnd = FaceInertia<Dim>(nodes.x, face.count).solve(moment);
   return face;
 }
 
@@ -92,6 +172,7 @@ KOKKOS_INLINE_FUNCTION TrialPlane stepB_trialPointOfContact(const HalfStepFace& 
     plane.e1 = {-n.y, n.x, 0};
   else
   {
+    // The axis with the smallest component of the normal, less that component.
     const Vec3 size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
     const int k = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
     Vec3 axis{};
@@ -126,70 +207,70 @@ KOKKOS_INLINE_FUNCTION Shadow stepC_projectOntoPlane(const TrialPlane& plane,
   return shadow;
 }
 
-/// Means over the patch of 1, xi, eta and xi eta of one face's map, which determine its node
-/// weights.
-struct MapMeans
+/// Which part of the overlap carries traction.
+enum class AreaInUse : std::uint8_t
 {
-  Real xi = 0, eta = 0, xiEta = 0;
+  Penetrating, ///< where the gap is below the offset
+  Full,        ///< all of it, as soon as the gap is below the offset somewhere
+  Bonded       ///< all of it, also across an open gap: a joint that carries tension
 };
 
 /// Area of contact and what follows from it.
 struct Patch
 {
-  bool folded = false;      ///< a face is turned over: the pair is skipped
-  Real overlap = 0;         ///< whole overlap of the shadows [m^2]
-  Real area = 0;            ///< that carries traction [m^2]
-  Real leastGap = infinity; ///< smallest local gap minus offset over the overlap [m]
-  Vec2 centroid;            ///< of the area that carries traction
-  Vec2 overlapCentroid;
+  bool folded = false;             ///< a face is turned over: the pair is skipped
+  Real overlap = 0;                ///< whole overlap of the shadows [m^2]
+  Real area = 0;                   ///< that carries traction [m^2]
+  Real leastGap = infinity;        ///< smallest local gap minus offset over the overlap [m]
+  Vec2 centroid;                   ///< of the area that carries traction
   Real weights[2][4] = {};         ///< where force acts and slip is measured
   Real centroidWeights[2][4] = {}; ///< where the closure is measured
 };
 
 namespace detail
 {
-/// A shadow as one or two convex counter-clockwise pieces; the shadow of the higher face is
-/// clockwise and gets reversed.
+/// The shadow as a polygon; that of the higher face is clockwise and gets reversed.
+KOKKOS_INLINE_FUNCTION ConvexPolygon outline(const Shadow& shadow, bool reversed)
+{
+  ConvexPolygon polygon;
+  polygon.size = shadow.count;
+  for (int i = 0; i < shadow.count; ++i)
+    polygon.vertex[i] = shadow.p[reversed ? shadow.count - 1 - i : i];
+  return polygon;
+}
+
+/// A quadrilateral warped by more than about 45 degrees, as the two counter-clockwise triangles
+/// that one of its diagonals leaves; none where the shadow is folded.
 struct Pieces
 {
   int count = 0;
   ConvexPolygon polygon[2];
-};
 
-KOKKOS_INLINE_FUNCTION Pieces convexPieces(const Shadow& shadow, bool reversed)
-{
-  Vec2 p[4];
-  for (int i = 0; i < shadow.count; ++i)
-    p[i] = shadow.p[reversed ? shadow.count - 1 - i : i];
-  Pieces pieces;
-  if (isConvex(p, shadow.count))
+  KOKKOS_INLINE_FUNCTION explicit Pieces(const ConvexPolygon& whole)
   {
-    pieces.count = 1;
-    for (int i = 0; i < shadow.count; ++i)
-      pieces.polygon[0].add(p[i]);
-    return pieces;
-  }
-  if (shadow.count == 3)
-    return pieces;
-  // A quadrilateral warped by more than about 45 degrees: the diagonal that leaves two
-  // counter-clockwise triangles.
-  for (int d = 0; d < 2; ++d)
-  {
-    const Vec2 first[3] = {p[d], p[d + 1], p[d + 2]};
-    const Vec2 second[3] = {p[d], p[d + 2], p[(d + 3) % 4]};
-    if (isConvex(first, 3) && isConvex(second, 3))
+    if (isConvex(whole.vertex, whole.size))
     {
-      pieces.count = 2;
+      count = 1;
+      polygon[0] = whole;
+      return;
+    }
+    for (int d = 0; d < 2 && whole.size == 4; ++d)
+    {
+      const Vec2* p = whole.vertex;
+      const Vec2 first[3] = {p[d], p[d + 1], p[d + 2]};
+      const Vec2 second[3] = {p[d], p[d + 2], p[(d + 3) % 4]};
+      if (!isConvex(first, 3) || !isConvex(second, 3))
+        continue;
+      count = 2;
       for (int i = 0; i < 3; ++i)
       {
-        pieces.polygon[0].add(first[i]);
-        pieces.polygon[1].add(second[i]);
+        polygon[0].add(first[i]);
+        polygon[1].add(second[i]);
       }
-      return pieces;
+      return;
     }
   }
-  return pieces;
-}
+};
 
 /// Node weights that reproduce a point from any points that are not collinear, affine and of least
 /// norm: for faces whose bilinear map cannot be inverted.
@@ -214,7 +295,7 @@ KOKKOS_INLINE_FUNCTION void affineWeights(const Shadow& shadow, const Vec2& at, 
 }
 
 KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, Real offset,
-                                             const ContactOptions& options)
+                                             AreaInUse use, bool byPressure)
 {
   Patch patch;
   const auto parameter = [](const Shadow& s, Real at)
@@ -228,50 +309,30 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   if (!(hi > lo))
     return patch;
   patch.overlap = hi - lo;
-  patch.overlapCentroid = {0.5 * (lo + hi), 0};
-  Real gapLo = height(b, lo) - height(a, lo) - offset;
-  Real gapHi = height(b, hi) - height(a, hi) - offset;
+  const Real gapLo = height(b, lo) - height(a, lo) - offset;
+  const Real gapHi = height(b, hi) - height(a, hi) - offset;
   patch.leastGap = gapLo < gapHi ? gapLo : gapHi;
-  if (options.area == ContactOptions::Area::Penetrating)
+  if (use != AreaInUse::Bonded && !(patch.leastGap < 0))
+    return patch;
+  // The closed part.
+  const Real cut = lo + (hi - lo) * gapLo / (gapLo - gapHi);
+  const Real closedLo = gapLo > 0 ? cut : lo, closedHi = gapHi > 0 ? cut : hi;
+  if (use == AreaInUse::Penetrating)
   {
-    if (!(patch.leastGap < 0))
+    lo = closedLo;
+    hi = closedHi;
+    if (!(hi > lo))
       return patch;
-    const Real cut = lo + (hi - lo) * gapLo / (gapLo - gapHi);
-    if (gapLo > 0)
-    {
-      lo = cut;
-      gapLo = 0;
-    }
-    if (gapHi > 0)
-    {
-      hi = cut;
-      gapHi = 0;
-    }
   }
-  else if (!(patch.leastGap < 0))
-    return patch;
-  if (!(hi > lo))
-    return patch;
   patch.area = hi - lo;
   patch.centroid = {0.5 * (lo + hi), 0};
   Real at = patch.centroid.x;
-  if (options.weights == ContactOptions::Weights::Pressure)
+  if (byPressure && use != AreaInUse::Bonded)
   {
-    // Only the closed part of a full area carries pressure.
-    Real from = lo, to = hi, closureFrom = -gapLo, closureTo = -gapHi;
-    const Real cut = lo + (hi - lo) * gapLo / (gapLo - gapHi);
-    if (closureFrom < 0)
-    {
-      from = cut;
-      closureFrom = 0;
-    }
-    if (closureTo < 0)
-    {
-      to = cut;
-      closureTo = 0;
-    }
-    if (closureFrom + closureTo > 0)
-      at = from + (to - from) * (closureFrom + 2 * closureTo) / (3 * (closureFrom + closureTo));
+    const Real closureLo = gapLo > 0 ? 0 : -gapLo, closureHi = gapHi > 0 ? 0 : -gapHi;
+    if (closureLo + closureHi > 0)
+      at = closedLo +
+           (closedHi - closedLo) * (closureLo + 2 * closureHi) / (3 * (closureLo + closureHi));
   }
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
@@ -285,213 +346,274 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   return patch;
 }
 
-/// Adds weight * (xi, eta, xi eta) of a point.
-KOKKOS_INLINE_FUNCTION void accumulate(MapMeans& means, Real weight, const Vec2& c)
+/// Closure (offset minus gap) between two faces as a function of the point of the plane.
+struct ClosureField
 {
-  means.xi += weight * c.x;
-  means.eta += weight * c.y;
-  means.xiEta += weight * (c.x * c.y);
+  Real atOrigin = 0;
+  Vec2 slope;
+  Real warp[2] = {0, 0};
+
+  KOKKOS_INLINE_FUNCTION ClosureField(const FaceMap (&map)[2], const Shadow& a, const Shadow& b,
+                                      Real offset, Real size)
+  {
+    atOrigin = offset;
+    const Shadow* shadows[2] = {&a, &b};
+    for (int f = 0; f < 2; ++f)
+    {
+      const FaceHeights h(map[f], shadows[f]->height);
+      const Vec2 gradient = h.xi * map[f].gradXi + h.eta * map[f].gradEta;
+      const Real sign = f == 0 ? 1 : -1;
+      slope = slope + sign * gradient;
+      atOrigin += sign * (h.mean - dot(gradient, map[f].origin));
+      warp[f] = std::abs(h.warp) > 1e-14 * size ? sign * h.warp : 0;
+    }
+  }
+  KOKKOS_INLINE_FUNCTION bool linear() const { return warp[0] == 0 && warp[1] == 0; }
+  KOKKOS_INLINE_FUNCTION Real at(const FaceMap (&map)[2], const Vec2& p) const
+  {
+    Real c = atOrigin + dot(slope, p);
+    for (int f = 0; f < 2; ++f)
+      if (warp[f] != 0)
+        c += warp[f] * map[f].product(map[f].straight(p));
+    return c;
+  }
+};
+
+/// Integrals over a polygon of a function that is linear in the triangles of a fan: of itself, and
+/// times the coordinates relative to the apex, and their products. Exact.
+struct Moments
+{
+  Real total = 0;
+  Vec2 first;
+  Real xx = 0, xy = 0, yy = 0;
+
+  KOKKOS_INLINE_FUNCTION void add(const Vec2& a, const Vec2& b, Real c0, Real ca, Real cb)
+  {
+    const Real area = 0.5 * cross(a, b);
+    const Real sum = c0 + ca + cb;
+    const Vec2 both = a + b;
+    const Vec2 weighted = ca * a + cb * b;
+    total += area / 3 * sum;
+    first = first + (area / 12) * (sum * both + weighted);
+    const Real w = area / 60;
+    xx += w * (sum * (both.x * both.x + (a.x * a.x + b.x * b.x)) + 2 * both.x * weighted.x +
+               2 * (ca * a.x * a.x + cb * b.x * b.x));
+    yy += w * (sum * (both.y * both.y + (a.y * a.y + b.y * b.y)) + 2 * both.y * weighted.y +
+               2 * (ca * a.y * a.y + cb * b.y * b.y));
+    xy += w * (sum * (both.x * both.y + (a.x * a.y + b.x * b.y)) + both.x * weighted.y +
+               both.y * weighted.x + 2 * (ca * a.x * a.y + cb * b.x * b.y));
+  }
+};
+
+/// Weights of the pair's nodes at the centre of pressure, c at the vertices, or at the mean of the
+/// shape functions over the polygon (c = 1 there). Parallelograms: polygon moments in closed form.
+/// Other quadrilaterals: the small difference between xi eta and the product of the straight
+/// coordinates by a rule of degree 3 on the triangles about the centroid; a fan about a vertex
+/// would make it depend on the node that the face happens to start from.
+KOKKOS_INLINE_FUNCTION void weightsOver(const FaceMap (&map)[2], const ConvexPolygon& q,
+                                        const Real* c, const Vec2& center, Real centerClosure,
+                                        bool linear, Real (&weights)[2][4])
+{
+  const bool aboutVertex = map[0].affine && map[1].affine && linear;
+  const Vec2 apex = aboutVertex ? q.vertex[0] : center;
+  const Real atApex = aboutVertex ? c[0] : centerClosure;
+  Moments moments;
+  Real correction[2] = {0, 0};
+  for (int v = aboutVertex ? 1 : 0; v < (aboutVertex ? q.size - 1 : q.size); ++v)
+  {
+    const int next = v + 1 == q.size ? 0 : v + 1;
+    const Vec2 a = q.vertex[v] - apex, b = q.vertex[next] - apex;
+    moments.add(a, b, atApex, c[v], c[next]);
+    if (aboutVertex)
+      continue;
+    const Real triangle = 0.5 * cross(a, b);
+    const Vec2 points[4] = {0.2 * (a + b), 0.6 * a + 0.2 * b, 0.2 * a + 0.6 * b,
+                            (1.0 / 3) * (a + b)};
+    const Real sum = atApex + c[v] + c[next];
+    const Real w[4] = {25.0 / 48 * (0.2 * sum + 0.4 * atApex), 25.0 / 48 * (0.2 * sum + 0.4 * c[v]),
+                       25.0 / 48 * (0.2 * sum + 0.4 * c[next]), -27.0 / 48 * (sum / 3)};
+    for (int f = 0; f < 2; ++f)
+      if (!map[f].affine)
+        for (int g = 0; g < 4; ++g)
+        {
+          const Vec2 s = map[f].straight(apex + points[g]);
+          correction[f] += triangle * w[g] * (map[f].product(s) - s.x * s.y);
+        }
+  }
+  const Real inverse = 1 / moments.total;
+  const Vec2 mean = inverse * moments.first;
+  for (int f = 0; f < 2; ++f)
+  {
+    const FaceMap& m = map[f];
+    Real xiEta = 0;
+    if (m.nodes == 4)
+    {
+      const Vec2 s = m.straight(apex);
+      const Vec2 &gx = m.gradXi, &gy = m.gradEta;
+      xiEta = s.x * s.y + s.x * dot(gy, mean) + s.y * dot(gx, mean) +
+              inverse * (gx.x * gy.x * moments.xx + (gx.x * gy.y + gx.y * gy.x) * moments.xy +
+                         gx.y * gy.y * moments.yy + correction[f]);
+    }
+    m.weightsAt(apex + mean, xiEta, weights[f]);
+  }
 }
 
-/// `byMaps`: weights and gaps from the faces' inverse maps; without, from affine weights of least
-/// norm, for faces that have no such map. `lost` is set where a map was asked for but failed.
-KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b, Real offset,
-                                             const ContactOptions& options, bool byMaps, bool& lost)
+/// For convex shadows whose maps can be inverted, which is nearly all; `lost` is set where they
+/// cannot.
+KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b,
+                                             const ConvexPolygon& outlineA,
+                                             const ConvexPolygon& outlineB, Real offset,
+                                             AreaInUse use, ContactOptions::Weights weights,
+                                             bool& lost)
 {
-  using Options = ContactOptions;
   Patch patch;
-  const Pieces piecesA = convexPieces(a, false), piecesB = convexPieces(b, true);
-  if (piecesA.count == 0 || piecesB.count == 0)
-  {
-    patch.folded = true;
+  ConvexPolygon q = intersection(outlineA, outlineB);
+  AreaAndCentroid part = areaAndCentroid(q);
+  if (!(part.area > 0))
     return patch;
-  }
+  patch.overlap = part.area;
   const FaceMap map[2] = {FaceMap(a.p, a.count), FaceMap(b.p, b.count)};
-  const bool invertible = byMaps && piecesA.count == 1 && piecesB.count == 1;
+  lost = map[0].lost || map[1].lost;
+  if (lost)
+    return patch;
+  const ClosureField field(map, a, b, offset, std::sqrt(part.area));
+  Real c[ConvexPolygon::capacity];
+  Real least = infinity, most = -infinity;
+  for (int v = 0; v < q.size; ++v)
+  {
+    c[v] = field.at(map, q.vertex[v]);
+    least = c[v] < least ? c[v] : least;
+    most = c[v] > most ? c[v] : most;
+  }
+  patch.leastGap = -most;
+  if (use != AreaInUse::Bonded && !(most > 0))
+    return patch;
+  const bool byPressure = weights == ContactOptions::Weights::Pressure && use != AreaInUse::Bonded;
+  ConvexPolygon pressed; // the closed part of a full area
+  const bool partly = use == AreaInUse::Full && byPressure && least < 0;
+  if (partly)
+    pressed = q;
+  if (least < 0 && (use == AreaInUse::Penetrating || partly))
+  {
+    cutWhereNegative(partly ? pressed : q, c);
+    if (!partly)
+      part = areaAndCentroid(q);
+    if (!(part.area > 0))
+      return patch;
+    least = 0;
+  }
+  patch.area = part.area;
+  patch.centroid = part.centroid;
+  for (int f = 0; f < 2; ++f)
+    map[f].weightsAt(part.centroid, map[f].product(map[f].straight(part.centroid)),
+                     patch.centroidWeights[f]);
+  if (weights == ContactOptions::Weights::Centroid)
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        patch.weights[f][k] = patch.centroidWeights[f][k];
+  else
+  {
+    const ConvexPolygon& used = partly ? pressed : q;
+    const bool uneven = byPressure && most - least > 1e-14 * std::sqrt(part.area);
+    Vec2 center = part.centroid;
+    Real centerClosure = 1;
+    if (uneven)
+    {
+      if (partly)
+        center = areaAndCentroid(used).centroid;
+      centerClosure = field.at(map, center);
+      centerClosure = centerClosure > 0 ? centerClosure : 0;
+    }
+    else
+      for (int v = 0; v < used.size; ++v)
+        c[v] = 1;
+    weightsOver(map, used, c, center, centerClosure, !uneven || field.linear(), patch.weights);
+  }
+  lost = map[0].lost || map[1].lost;
+  return patch;
+}
 
-  // Up to four pieces; closure (minus gap plus offset) at the vertices of each.
-  ConvexPolygon polygon[4];
-  Real closure[4][ConvexPolygon::capacity];
-  int count = 0;
-  ConvexPolygon pressed; // the closed part of a full area, and its closure
-  Real pressedClosure[ConvexPolygon::capacity];
-  Real leastClosure = infinity, mostClosure = 0, thickness = 0;
-  Vec2 moment, overlapMoment;
+/// For faces whose shadow is not convex or has no bilinear map: up to four pieces, weights and gaps
+/// from affine weights of least norm.
+KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b,
+                                           const ConvexPolygon& outlineA,
+                                           const ConvexPolygon& outlineB, Real offset,
+                                           AreaInUse use)
+{
+  Patch patch;
+  const Pieces piecesA(outlineA), piecesB(outlineB);
+  patch.folded = piecesA.count == 0 || piecesB.count == 0;
+  Vec2 moment;
   for (int i = 0; i < piecesA.count; ++i)
     for (int j = 0; j < piecesB.count; ++j)
     {
-      ConvexPolygon& q = polygon[count];
-      q = intersection(piecesA.polygon[i], piecesB.polygon[j]);
-      const AreaAndCentroid whole = areaAndCentroid(q);
-      if (!(whole.area > 0))
+      ConvexPolygon q = intersection(piecesA.polygon[i], piecesB.polygon[j]);
+      AreaAndCentroid part = areaAndCentroid(q);
+      if (!(part.area > 0))
         continue;
-      patch.overlap += whole.area;
-      overlapMoment = overlapMoment + whole.area * whole.centroid;
-      Real* c = closure[count];
-      bool allClosed = true;
+      patch.overlap += part.area;
+      Real c[ConvexPolygon::capacity];
       for (int v = 0; v < q.size; ++v)
       {
-        Real gap;
-        if (invertible)
-          gap = map[1].interpolate(b.height, map[1].coordinates(q.vertex[v])) -
-                map[0].interpolate(a.height, map[0].coordinates(q.vertex[v])) - offset;
-        else
-        {
-          Real wa[4], wb[4];
-          affineWeights(a, q.vertex[v], wa);
-          affineWeights(b, q.vertex[v], wb);
-          gap = -offset;
-          for (int k = 0; k < b.count; ++k)
-            gap += wb[k] * b.height[k];
-          for (int k = 0; k < a.count; ++k)
-            gap -= wa[k] * a.height[k];
-        }
+        Real wa[4], wb[4];
+        affineWeights(a, q.vertex[v], wa);
+        affineWeights(b, q.vertex[v], wb);
+        Real gap = -offset;
+        for (int k = 0; k < b.count; ++k)
+          gap += wb[k] * b.height[k];
+        for (int k = 0; k < a.count; ++k)
+          gap -= wa[k] * a.height[k];
         c[v] = -gap;
-        allClosed = allClosed && gap <= 0;
         patch.leastGap = gap < patch.leastGap ? gap : patch.leastGap;
       }
-      AreaAndCentroid part = whole;
-      if (options.area == Options::Area::Penetrating && !allClosed)
+      if (use == AreaInUse::Penetrating)
       {
         cutWhereNegative(q, c);
         part = areaAndCentroid(q);
-      }
-      else if (options.weights == Options::Weights::Pressure && !allClosed)
-      {
-        pressed = q;
-        for (int v = 0; v < q.size; ++v)
-          pressedClosure[v] = c[v];
-        cutWhereNegative(pressed, pressedClosure);
-      }
-      if (!(part.area > 0))
-        continue;
-      for (int v = 0; v < q.size; ++v)
-      {
-        c[v] = c[v] > 0 ? c[v] : 0;
-        leastClosure = c[v] < leastClosure ? c[v] : leastClosure;
-        mostClosure = c[v] > mostClosure ? c[v] : mostClosure;
+        if (!(part.area > 0))
+          continue;
       }
       patch.area += part.area;
       moment = moment + part.area * part.centroid;
-      ++count;
     }
-  if (patch.overlap > 0)
-    patch.overlapCentroid = (1 / patch.overlap) * overlapMoment;
-  if (!(patch.leastGap < 0) || !(patch.area > 0))
+  if (!(patch.area > 0) || (use != AreaInUse::Bonded && !(patch.leastGap < 0)))
   {
-    lost = map[0].lost || map[1].lost;
     patch.area = 0;
     return patch;
   }
   patch.centroid = (1 / patch.area) * moment;
-  thickness = std::sqrt(patch.area);
-
   const Shadow* shadows[2] = {&a, &b};
-  if (!invertible)
-  {
-    for (int f = 0; f < 2; ++f)
-    {
-      affineWeights(*shadows[f], patch.centroid, patch.centroidWeights[f]);
-      for (int k = 0; k < 4; ++k)
-        patch.weights[f][k] = patch.centroidWeights[f][k];
-    }
-    return patch;
-  }
   for (int f = 0; f < 2; ++f)
   {
-    const Vec2 c = map[f].coordinates(patch.centroid);
-    map[f].weights(c.x, c.y, c.x * c.y, patch.centroidWeights[f]);
+    affineWeights(*shadows[f], patch.centroid, patch.centroidWeights[f]);
+    for (int k = 0; k < 4; ++k)
+      patch.weights[f][k] = patch.centroidWeights[f][k];
   }
-  lost = map[0].lost || map[1].lost;
-  if (lost)
-    return patch;
-  if (options.weights == Options::Weights::Centroid)
-  {
-    for (int f = 0; f < 2; ++f)
-      for (int k = 0; k < 4; ++k)
-        patch.weights[f][k] = patch.centroidWeights[f][k];
-    return patch;
-  }
-  const bool byPressure = options.weights == Options::Weights::Pressure &&
-                          mostClosure - leastClosure > 1e-14 * thickness;
-  // Triangles of the polygon. Mid-edge rule, exact to degree 2, for the average; four-point rule,
-  // exact to degree 3, for the pressure (shape functions of a parallelogram are of degree 2, the
-  // closure is linear). Where the rule is exact any fan will do. Elsewhere the fan is about the
-  // centroid: about a vertex it would depend on the node that the face happens to start from.
-  const auto flat = [](const Shadow& s, Real size)
-  {
-    return s.count == 3 ||
-           std::abs((s.height[0] - s.height[1]) + (s.height[2] - s.height[3])) <= 1e-14 * size;
-  };
-  const bool exact =
-      map[0].affine && map[1].affine && (!byPressure || (flat(a, thickness) && flat(b, thickness)));
-  // Invertible maps: there is one piece.
-  const bool partly = byPressure && pressed.size > 0;
-  const ConvexPolygon& q = partly ? pressed : polygon[0];
-  const Real* closureAt = partly ? pressedClosure : closure[0];
-  Vec2 apex = q.vertex[0];
-  Real apexClosure = closureAt[0];
-  if (!exact)
-  {
-    apex = areaAndCentroid(q).centroid;
-    const Real gap = map[1].interpolate(b.height, map[1].coordinates(apex)) -
-                     map[0].interpolate(a.height, map[0].coordinates(apex)) - offset;
-    apexClosure = gap < 0 ? -gap : 0;
-  }
-  MapMeans means[2];
-  Real total = 0;
-  for (int v = exact ? 1 : 0; v < (exact ? q.size - 1 : q.size); ++v)
-  {
-    const int next = v + 1 == q.size ? 0 : v + 1;
-    const Vec2 p[3] = {apex, q.vertex[v], q.vertex[next]};
-    const Real c[3] = {apexClosure, closureAt[v], closureAt[next]};
-    const Real triangle = 0.5 * cross(p[1] - p[0], p[2] - p[0]);
-    const int points = byPressure ? 4 : 3;
-    for (int g = 0; g < points; ++g)
-    {
-      Real l[3];
-      Real weight = triangle;
-      if (byPressure)
-      {
-        for (int k = 0; k < 3; ++k)
-          l[k] = g == 3 ? 1.0 / 3 : k == g ? 0.6 : 0.2;
-        weight *= g == 3 ? -27.0 / 48 : 25.0 / 48;
-        weight *= l[0] * c[0] + l[1] * c[1] + l[2] * c[2];
-      }
-      else
-      {
-        for (int k = 0; k < 3; ++k)
-          l[k] = k == g ? 0 : 0.5;
-        weight *= 1.0 / 3;
-      }
-      const Vec2 at = l[0] * p[0] + (l[1] * p[1] + l[2] * p[2]);
-      total += weight;
-      accumulate(means[0], weight, map[0].coordinates(at));
-      accumulate(means[1], weight, map[1].coordinates(at));
-    }
-  }
-  for (int f = 0; f < 2; ++f)
-    map[f].weights(means[f].xi / total, means[f].eta / total, means[f].xiEta / total,
-                   patch.weights[f]);
-  lost = map[0].lost || map[1].lost;
   return patch;
 }
 } // namespace detail
 
-/// Step D: area shared by the shadows; with Area::Penetrating only where the local gap is below the
-/// offset. With it, where force acts (weights of the nodes): sums of the weights are 1 and they
-/// reproduce one and the same in-plane point for both faces.
+/// Step D: area shared by the shadows, or the part of it that is in use. With it, where force acts
+/// (weights of the nodes): sums of the weights are 1 and they reproduce one and the same in-plane
+/// point for both faces.
 template <int Dim>
 KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& b, Real offset,
-                                                 const ContactOptions& options)
+                                                 AreaInUse use, ContactOptions::Weights weights)
 {
   if constexpr (Dim == 2)
-    return detail::patchOfSegments(a, b, offset, options);
+    return detail::patchOfSegments(a, b, offset, use, weights == ContactOptions::Weights::Pressure);
   else
   {
-    bool lost = false;
-    const Patch patch = detail::patchOfPolygons(a, b, offset, options, true, lost);
-    return lost ? detail::patchOfPolygons(a, b, offset, options, false, lost) : patch;
+    const ConvexPolygon outlineA = detail::outline(a, false), outlineB = detail::outline(b, true);
+    if (isConvex(outlineA.vertex, outlineA.size) && isConvex(outlineB.vertex, outlineB.size))
+    {
+      bool lost = false;
+      const Patch patch =
+          detail::patchOfPolygons(a, b, outlineA, outlineB, offset, use, weights, lost);
+      if (!lost)
+        return patch;
+    }
+    return detail::patchOfPieces(a, b, outlineA, outlineB, offset, use);
   }
 }
 

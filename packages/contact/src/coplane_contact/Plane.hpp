@@ -2,7 +2,7 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
-#include <coplane_joint/HyperbolicCoulombJoint.hpp>
+#include <coplane_joint/JointLaw.hpp>
 
 #include <cstdint>
 
@@ -51,48 +51,61 @@ enum class PlaneState : std::uint8_t
 
 /// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
 /// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
-/// to face 1; force and shear traction act on face 1.
+/// to face 1; force and shear traction act on face 1. Millions of these are read and written in
+/// every cycle: nothing is kept that the law or the faces can tell.
 struct Plane
 {
   GlobalId faceId[2] = {0, 0};
   int face[2] = {
       -1, -1}; ///< positions in this rank's table of faces; -1 while the pair is not a candidate
-  bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
-  bool declared = false;    ///< a joint that was closed at the start
-  bool born = false;        ///< steps E and F: a plane exists
-  bool fresh = true;        ///< not evaluated since the slot was made
-  bool foundLate = false;   ///< was penetrated already when the search found it
-  bool inherited = false;   ///< took its history from living neighbours
-  bool released = false;    ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep = false;     ///< deeper than the limit; force frozen
+  std::uint16_t joint = 0; ///< index of the joint card
   PlaneState state = PlaneState::Slot;
   std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate
-  int joint = 0;                   ///< index of the joint card, for donors and output
+  bool countedHere = false;        ///< this rank books the plane's energy: it owns face 0
+  bool declared = false;           ///< a joint that was closed at the start
+  bool born = false;               ///< steps E and F: a plane exists
+  bool fresh = true;               ///< not evaluated since the slot was made
+  bool foundLate = false;          ///< was penetrated already when the search found it
+  bool inherited = false;          ///< took its history from living neighbours
+  bool released = false; ///< came into overlap deep inside: carries nothing until its faces part
+  bool tooDeep = false;  ///< deeper than the limit; force frozen
 
-  HyperbolicCoulombJoint law; ///< stiffnesses resolved for this pair
+  JointFit fit;               ///< stiffnesses of the law for this pair
   Real depthLimit = infinity; ///< [m]
 
-  Vec3 normal{};         ///< at the half step
-  Vec3 pointOfContact{}; ///< [m]
-  Vec3 force{};          ///< on face 1 [N]
-  Real area = 0;         ///< that carries traction [m^2]
-  Real overlap = 0;      ///< whole overlap of the projections [m^2]
+  Vec3 normal{};           ///< at the half step
+  Vec3 pointOfContact{};   ///< [m]
+  Vec3 force{};            ///< on face 1 [N]
+  Vec3 moment{};           ///< of the two forces, which couples on the faces balance [N m]
+  Real weights[2][4] = {}; ///< by which the nodes of the faces share the force
+  Real area = 0;           ///< that carries traction [m^2]
+  Real overlap = 0;        ///< whole overlap of the projections [m^2]
   Real gap = 0;     ///< at the centre of gravity, positive when open, offset not subtracted [m]
   Real offset = 0;  ///< gap at which the joint is just closed [m]
   Real closure = 0; ///< [m]
   Real normalTraction = 0; ///< compression positive [Pa]
-  HyperbolicCoulombJoint::State history;
+  Real stiffness = 0;      ///< bound for the stable step [Pa/m]
+  JointState history;
 
   // Energies since the plane was made [J].
-  Real work = 0;   ///< done on the plane by the nodes
-  Real stored = 0; ///< now, recoverable
+  Real work = 0; ///< done on the plane by the nodes
   Real frictionWork = 0;
   Real hysteresisWork = 0;
+  Real fractureWork = 0;
   Real dampingWork = 0;
 
-  Vec3 cornerForce[2][4] = {};     ///< on the nodes of the faces [N]
-  Real cornerStiffness[2][4] = {}; ///< bound on the stiffness that a node feels [N/m]
+  /// Closure that the law sees: beyond the depth limit the force is frozen [m].
+  KOKKOS_INLINE_FUNCTION Real limitedClosure() const
+  {
+    return closure < depthLimit ? closure : depthLimit;
+  }
+  /// Recoverable energy now [J].
+  KOKKOS_INLINE_FUNCTION Real stored(const JointLaw& law) const
+  {
+    return area > 0 ? area * law.stored(fit, limitedClosure(), history) : 0;
+  }
 };
+static_assert(sizeof(Plane) <= 416, "planes fill the memory bandwidth");
 
 /// Key of a plane: permanent, independent of the partition.
 inline bool keyLess(const Plane& a, const Plane& b)

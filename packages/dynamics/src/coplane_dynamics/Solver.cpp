@@ -170,7 +170,7 @@ void Solver::findForces(Real dt)
   {
     TimedRegion region("coplane::contact::addForces");
     Kokkos::deep_copy(state_.contactForce, 0.0);
-    contact_->addForces(state_.contactForce, contactStiffness_);
+    contact_->addForces(state_.x, state_.contactForce, contactStiffness_);
     const auto force = state_.force;
     const auto contactForce = state_.contactForce;
     parallelFor(

@@ -166,7 +166,10 @@ std::uint64_t Solver::stateHash() const
                              plane.force.z,
                              plane.work,
                              plane.frictionWork,
-                             plane.hysteresisWork};
+                             plane.hysteresisWork,
+                             plane.fractureWork,
+                             plane.history.opening,
+                             plane.history.shearing};
       std::uint64_t component = mix(std::uint64_t(plane.faceId[1]));
       for (const Real value : values)
         hash.add(PlaneField, plane.faceId[0], component++, value);
@@ -209,8 +212,8 @@ std::string Solver::worstEntities() const
       const Plane& plane = contact_->planes()(p);
       if (!plane.countedHere || !plane.born)
         continue;
-      const Real rest =
-          plane.work - plane.stored - plane.frictionWork - plane.hysteresisWork - plane.dampingWork;
+      const Real rest = plane.work - plane.stored(contact_->lawOf(plane)) - plane.frictionWork -
+                        plane.hysteresisWork - plane.fractureWork - plane.dampingWork;
       planes.push_back({std::abs(rest), rest, plane.faceId[0], plane.faceId[1]});
     }
     for (const Entry& e : worst(planes))

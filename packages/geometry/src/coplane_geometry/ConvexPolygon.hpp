@@ -49,30 +49,41 @@ struct ConvexPolygon
 };
 
 /// Part of the polygon where the function with values `d` at its vertices, linear between them, is
-/// not negative. When `carried` is given, another function's vertex values are cut along (both
-/// arrays are overwritten). Sutherland and Hodgman 1974.
+/// not negative; `d` becomes the values at the vertices that are left. Sutherland and Hodgman 1974.
 KOKKOS_INLINE_FUNCTION void cutWhereNegative(ConvexPolygon& polygon, Real* d)
 {
-  ConvexPolygon kept;
+  Real least = infinity;
+  for (int i = 0; i < polygon.size; ++i)
+    least = d[i] < least ? d[i] : least;
+  if (!(least < 0))
+    return;
+  Vec2 kept[ConvexPolygon::capacity];
   Real keptValues[ConvexPolygon::capacity];
+  int size = 0;
+  const auto keep = [&](const Vec2& p, Real value)
+  {
+    if (size == ConvexPolygon::capacity)
+      return;
+    kept[size] = p;
+    keptValues[size++] = value;
+  };
   for (int i = 0; i < polygon.size; ++i)
   {
     const int j = i + 1 == polygon.size ? 0 : i + 1;
     if (d[i] >= 0)
-    {
-      keptValues[kept.size < ConvexPolygon::capacity ? kept.size : 0] = d[i];
-      kept.add(polygon.vertex[i]);
-    }
+      keep(polygon.vertex[i], d[i]);
     if ((d[i] > 0 && d[j] < 0) || (d[i] < 0 && d[j] > 0))
     {
       const Real t = d[i] / (d[i] - d[j]);
-      keptValues[kept.size < ConvexPolygon::capacity ? kept.size : 0] = 0;
-      kept.add(polygon.vertex[i] + t * (polygon.vertex[j] - polygon.vertex[i]));
+      keep(polygon.vertex[i] + t * (polygon.vertex[j] - polygon.vertex[i]), 0);
     }
   }
-  polygon = kept;
-  for (int i = 0; i < kept.size; ++i)
+  polygon.size = size;
+  for (int i = 0; i < size; ++i)
+  {
+    polygon.vertex[i] = kept[i];
     d[i] = keptValues[i];
+  }
 }
 
 /// Part of `subject` inside the convex counter-clockwise polygon `clip`. Polygons that only share

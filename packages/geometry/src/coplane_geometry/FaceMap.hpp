@@ -6,65 +6,87 @@
 
 namespace coplane
 {
-/// Inverse isoparametric map of a triangle or quadrilateral in a plane: p(xi, eta) = origin + xi a
-/// + eta b + xi eta c. Triangle: xi, eta are barycentric, c = 0. Quadrilateral: xi, eta in [-1, 1].
+/// Inverse isoparametric map of a triangle or quadrilateral in a plane. Triangle: xi, eta are
+/// barycentric. Quadrilateral: p(xi, eta) = origin + xi a + eta b + xi eta c, xi, eta in [-1, 1].
+///
+/// With c = alpha a + beta b the straight coordinates (those of the parallelogram spanned by a and
+/// b) of a point are xi + alpha s and eta + beta s, where s = xi eta. They are linear in the point,
+/// and s follows from them by a quadratic equation: nothing is iterated.
 struct FaceMap
 {
   int nodes = 4;
-  bool affine = true;
-  Vec2 origin, a, b, c;
-  /// Set when a point had no coordinates: the quadrilateral is flat, or nearly so at that point.
+  bool affine = true; ///< triangle, or parallelogram to round-off
+  /// Set when the face is flat, or when a point had no coordinates.
   mutable bool lost = false;
+  Vec2 origin, gradXi, gradEta; ///< of the straight coordinates
+  Real alpha = 0, beta = 0;
 
   KOKKOS_INLINE_FUNCTION FaceMap() = default;
 
   KOKKOS_INLINE_FUNCTION FaceMap(const Vec2* p, int count) : nodes(count)
   {
+    Vec2 a, b, c;
     if (count == 3)
     {
       origin = p[0];
       a = p[1] - p[0];
       b = p[2] - p[0];
+    }
+    else
+    {
+      origin = 0.25 * ((p[0] + p[1]) + (p[2] + p[3]));
+      a = 0.25 * ((p[1] - p[0]) + (p[2] - p[3]));
+      b = 0.25 * ((p[3] - p[0]) + (p[2] - p[1]));
+      c = 0.25 * ((p[0] - p[1]) + (p[2] - p[3]));
+    }
+    const Real determinant = cross(a, b);
+    if (!(std::abs(determinant) > 1e-14 * (dot(a, a) + dot(b, b))))
+    {
+      lost = true;
       return;
     }
-    origin = 0.25 * ((p[0] + p[1]) + (p[2] + p[3]));
-    a = 0.25 * ((p[1] - p[0]) + (p[2] - p[3]));
-    b = 0.25 * ((p[3] - p[0]) + (p[2] - p[1]));
-    c = 0.25 * ((p[0] - p[1]) + (p[2] - p[3]));
-    const Real twist = dot(c, c);
-    affine = twist <= 1e-28 * (dot(a, a) + dot(b, b)); // parallelogram to round-off
+    const Real inverse = 1 / determinant;
+    gradXi = {inverse * b.y, -inverse * b.x};
+    gradEta = {-inverse * a.y, inverse * a.x};
+    const Real along = dot(gradXi, c), across = dot(gradEta, c);
+    affine = std::abs(along) + std::abs(across) <= 1e-14;
+    alpha = affine ? 0 : along;
+    beta = affine ? 0 : across;
   }
 
-  /// (xi, eta) of a point: Newton from (0, 0). The first iteration is exact for a parallelogram;
-  /// otherwise four or five do, because the error after a step is the square of the step. Near a
-  /// corner that is almost straight an iteration only halves the error, hence the large bound.
-  KOKKOS_INLINE_FUNCTION Vec2 coordinates(const Vec2& p) const
+  KOKKOS_INLINE_FUNCTION Vec2 straight(const Vec2& p) const
   {
     const Vec2 r = p - origin;
-    Real xi = 0, eta = 0;
-    const int iterations = affine ? 1 : 30;
-    for (int i = 0; i < iterations; ++i)
-    {
-      const Vec2 da = a + eta * c;
-      const Vec2 db = b + xi * c;
-      const Vec2 residual = r - xi * a - eta * b - (xi * eta) * c;
-      const Real determinant = cross(da, db);
-      if (!(std::abs(determinant) > 1e-14 * (dot(a, a) + dot(b, b))))
-      {
-        lost = true;
-        return {0, 0};
-      }
-      const Real dxi = cross(residual, db) / determinant;
-      const Real deta = cross(da, residual) / determinant;
-      xi += dxi;
-      eta += deta;
-      if (std::abs(dxi) + std::abs(deta) < 1e-12)
-        break;
-    }
-    return {xi, eta};
+    return {dot(gradXi, r), dot(gradEta, r)};
   }
 
-  /// Node weights from the means of 1, xi, eta and xi eta; their sum is 1 whatever the means are.
+  /// s = xi eta of a point from its straight coordinates: the root of alpha beta s^2 - b s + q = 0
+  /// that is q / b for small alpha and beta.
+  KOKKOS_INLINE_FUNCTION Real product(const Vec2& straight) const
+  {
+    const Real q = straight.x * straight.y;
+    if (affine)
+      return q;
+    const Real b = 1 + alpha * straight.y + beta * straight.x;
+    const Real discriminant = b * b - 4 * (alpha * beta) * q;
+    const Real denominator = b + std::sqrt(discriminant > 0 ? discriminant : 0);
+    if (!(denominator > 1e-14))
+    {
+      lost = true;
+      return 0;
+    }
+    return 2 * q / denominator;
+  }
+
+  /// (xi, eta) of a point.
+  KOKKOS_INLINE_FUNCTION Vec2 coordinates(const Vec2& p) const
+  {
+    const Vec2 s = straight(p);
+    const Real xiEta = product(s);
+    return {s.x - alpha * xiEta, s.y - beta * xiEta};
+  }
+
+  /// Node weights from the means of xi, eta and xi eta; their sum is 1 whatever the means are.
   KOKKOS_INLINE_FUNCTION void weights(Real xi, Real eta, Real xiEta, Real* w) const
   {
     if (nodes == 3)
@@ -81,6 +103,14 @@ struct FaceMap
     w[3] = 0.25 * (1 - xi + eta - xiEta);
   }
 
+  /// Node weights from the mean of a set of points and their mean s = xi eta: they reproduce the
+  /// mean point to round-off, whatever s is.
+  KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2& mean, Real xiEta, Real* w) const
+  {
+    const Vec2 c = straight(mean);
+    weights(c.x - alpha * xiEta, c.y - beta * xiEta, xiEta, w);
+  }
+
   /// A nodal quantity at (xi, eta).
   KOKKOS_INLINE_FUNCTION Real interpolate(const Real* values, const Vec2& at) const
   {
@@ -93,12 +123,36 @@ struct FaceMap
   }
 };
 
+/// A nodal quantity (height) over a face: mean + xi X + eta Y + warp s in its straight coordinates
+/// X, Y and s = xi eta. A face whose heights are linear in the plane has no warp, whatever its
+/// shape.
+struct FaceHeights
+{
+  Real mean = 0, xi = 0, eta = 0, warp = 0;
+
+  KOKKOS_INLINE_FUNCTION FaceHeights(const FaceMap& map, const Real* h)
+  {
+    if (map.nodes == 3)
+    {
+      mean = h[0];
+      xi = h[1] - h[0];
+      eta = h[2] - h[0];
+      return;
+    }
+    mean = 0.25 * ((h[0] + h[1]) + (h[2] + h[3]));
+    xi = 0.25 * ((h[1] - h[0]) + (h[2] - h[3]));
+    eta = 0.25 * ((h[3] - h[0]) + (h[2] - h[1]));
+    warp = 0.25 * ((h[0] - h[1]) + (h[2] - h[3])) - map.alpha * xi - map.beta * eta;
+  }
+};
+
 /// Whether a quadrilateral or triangle is convex and counter-clockwise.
 KOKKOS_INLINE_FUNCTION bool isConvex(const Vec2* p, int count)
 {
   for (int i = 0; i < count; ++i)
   {
-    const Vec2 before = p[(i + count - 1) % count], here = p[i], after = p[(i + 1) % count];
+    const Vec2 before = p[i == 0 ? count - 1 : i - 1], here = p[i],
+               after = p[i + 1 == count ? 0 : i + 1];
     if (!(cross(here - before, after - here) > 0))
       return false;
   }
