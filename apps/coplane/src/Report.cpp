@@ -54,10 +54,11 @@ void reportEnd(const Solver& solver)
   logInfo("energies [J]: kinetic {:.6e}, internal {:.6e} (plastic {:.3e}), hourglass {:.3e}, "
           "viscous {:.3e}",
           energy.kinetic, energy.internal, energy.plastic, energy.hourglass, energy.viscous);
-  logInfo("  contact: stored {:.3e}, friction {:.3e}, hysteresis {:.3e}, damping {:.3e}, remainder "
+  logInfo("  contact: stored {:.3e}, friction {:.3e}, hysteresis {:.3e}, fracture {:.3e}, damping "
+          "{:.3e}, remainder "
           "{:.3e}",
           energy.contact.stored, energy.contact.friction, energy.contact.hysteresis,
-          energy.contact.damping, energy.contact.remainder());
+          energy.contact.fracture, energy.contact.damping, energy.contact.remainder());
   logInfo("  external work {:.3e}, mass damping {:.3e}; balance off by {:.3e} of {:.3e} in play",
           energy.externalWork, energy.massDamping, energy.error(), energy.scale());
   logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,

@@ -301,7 +301,7 @@ TEST(ClassicFaceOnFace, equalQuadrilateralsAgreeWithTheSimplePlane)
                                          ContactOptions::Weights::Average);
         ASSERT_EQ(plane.face[0], 2);
         ASSERT_EQ(plane.face[1], 0);
-        Plane simple = touchingPlane();
+        PairPlane simple = touchingPlane();
         updatePlane<2>(simple, faceOf(a, 2), faceOf(b, 0), o, 1);
         ASSERT_NEAR(plane.area, 1 - std::abs(shift), 1e-12);
         ASSERT_NEAR(plane.area, simple.area, 1e-12);
@@ -344,7 +344,7 @@ TEST(ClassicFaceOnFace, hexahedraAgreeWithTheSimplePlaneUnderAnyShiftAndTurn)
                                          ContactOptions::Weights::Average);
         ASSERT_EQ(plane.face[0], 4) << n;
         ASSERT_EQ(plane.face[1], 4) << n;
-        Plane simple = touchingPlane();
+        PairPlane simple = touchingPlane();
         updatePlane<3>(simple, faceOf(a, 4), faceOf(b, 4), o, 1);
         ASSERT_GT(simple.area, .1);
         ASSERT_NEAR(plane.area, simple.area, 1e-12);

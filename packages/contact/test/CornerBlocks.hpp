@@ -104,7 +104,7 @@ Push simplePush(const ConvexBlock& a, int faceA, const ConvexBlock& b, int nodeO
     if (!classic::faceMeets(b, f, 1u << nodeOfB) ||
         !(dot(normalA, stepA_halfStepFace<Dim>(nodesB, 0).normal) < -o.cosOpposed))
       continue;
-    Plane plane = touchingPlane();
+    PairPlane plane = touchingPlane();
     updatePlane<Dim>(plane, nodesA, nodesB, o, 1);
     push.force += plane.force;
     push.area += plane.area;

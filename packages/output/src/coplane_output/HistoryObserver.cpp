@@ -46,6 +46,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("contact_stored[J]", energy.contact.stored);
   line.add("contact_friction[J]", energy.contact.friction);
   line.add("contact_hysteresis[J]", energy.contact.hysteresis);
+  line.add("contact_fracture[J]", energy.contact.fracture);
   line.add("contact_damping[J]", energy.contact.damping);
   line.add("contact_remainder[J]", energy.contact.remainder());
   line.add("mass_damping[J]", energy.massDamping);

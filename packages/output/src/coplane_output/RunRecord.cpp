@@ -79,6 +79,7 @@ Json energiesOf(const EnergyBalance& e)
           {"contact_stored", e.contact.stored},
           {"contact_friction", e.contact.friction},
           {"contact_hysteresis", e.contact.hysteresis},
+          {"contact_fracture", e.contact.fracture},
           {"contact_damping", e.contact.damping},
           {"contact_remainder", e.contact.remainder()},
           {"mass_damping", e.massDamping},
