@@ -426,7 +426,7 @@ TEST(ClassicFaceOnFace, strikesSidewaysWhereTheOverlapIsNarrowerThanDeep)
     EXPECT_NEAR(plane.normal.x, 1, 1e-14);
     EXPECT_NEAR(plane.area, .1, 1e-14);
   }
-  Plane simple = touchingPlane();
+  PairPlane simple = touchingPlane();
   updatePlane<2>(simple, faceOf(a, 2), faceOf(b, 0), {}, 1);
   EXPECT_NEAR(simple.normal.y, 1, 1e-14);
   EXPECT_NEAR(simple.area, .08, 1e-14);
