@@ -2,7 +2,7 @@
 
 from . import documents, program, waves
 from .case import Case
-from .documents import turned
+from .documents import turned, turned_deck
 from .results import Results, differences
 
-__all__ = ["Case", "Results", "differences", "documents", "program", "turned", "waves"]
+__all__ = ["Case", "Results", "differences", "documents", "program", "turned", "turned_deck", "waves"]

@@ -52,7 +52,7 @@ class Case:
         self.conservation(name, result, deck, **tolerances)
         return result
 
-    def same_bits(self, name, recipe, deck, run, ranks=2, threads=2, backend="threads", change_mesh=None):
+    def same_bits(self, name, recipe, deck, run, ranks=2, threads=1, backend="threads", change_mesh=None):
         """The run again, on other ranks and threads: every bit of the state must be the same."""
         again = self.attempt(f"{name}_again", recipe, deck, ranks, threads, backend, change_mesh=change_mesh)
         self.check_equal(f"{name}: exit code on {ranks} ranks x {threads} threads", again.code, 0)

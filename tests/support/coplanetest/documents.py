@@ -53,7 +53,7 @@ def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
     Returns recipe, deck and the matrix that takes vectors of the original to the new frame. Parts must
     not be turned or moved already.
     """
-    recipe, deck = copy.deepcopy(recipe), copy.deepcopy(deck)
+    recipe = copy.deepcopy(recipe)
     matrix = rotation(angles)
     dimension = recipe["dimension"]
     for part in recipe["parts"]:
@@ -68,6 +68,13 @@ def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
             normal = matrix @ numpy.array((selection["normal"] + [0])[:3])
             selection["normal"] = [float(value) for value in normal[:dimension]]
 
+    return recipe, turned_deck(deck, matrix, offset, velocity), matrix
+
+
+def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
+    """The deck of a problem whose mesh is turned by the matrix, then moved, with `velocity` added to all."""
+    deck = copy.deepcopy(deck)
+
     def turn(vector):
         return [float(value) for value in matrix @ numpy.array(vector, float)]
 
@@ -79,6 +86,13 @@ def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
         item["velocity"] = [
             v + float(w) for v, w in zip(turn(item.get("velocity", [0, 0, 0])), velocity)
         ]
+        if "angular_velocity" in item:
+            item["angular_velocity"] = turn(item["angular_velocity"])
+            item["center"] = [c + float(o) for c, o in zip(turn(item.get("center", [0, 0, 0])), offset)]
+        if "stress" in item:
+            xx, yy, zz, xy, yz, zx = item["stress"]
+            stress = matrix @ numpy.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]) @ matrix.T
+            item["stress"] = [float(stress[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
     if moving:
         deck["initial"] = list(moving.values())
     if "gravity" in deck:
@@ -86,4 +100,4 @@ def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
     for condition in deck.get("conditions", []):
         if "normal" in condition:
             condition["normal"] = turn(condition["normal"])
-    return recipe, deck, matrix
+    return deck

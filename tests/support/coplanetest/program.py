@@ -10,7 +10,7 @@ import sys
 import netCDF4
 import numpy
 
-from .results import Results
+from .results import Results, planes
 
 # What the test environment of CMake sets too, for runs by hand: containers, root, few cores.
 for _name, _value in {
@@ -104,6 +104,10 @@ class Run:
 
     def planes_files(self):
         return sorted(name for name in os.listdir(self.folder) if re.match(r"run_planes.*\.(vtp|pvd)$", name))
+
+    def planes(self, step=-1):
+        """Contact planes of one output step, by field."""
+        return planes(self.path([name for name in self.planes_files() if name.endswith(".vtp")][step]))
 
     def bytes_of(self, name):
         with open(self.path(name), "rb") as file:

@@ -1,5 +1,8 @@
 """Exodus results through netCDF4."""
 
+import base64
+import xml.etree.ElementTree
+
 import netCDF4
 import numpy
 
@@ -46,6 +49,18 @@ class Results:
     def centres(self, block):
         """Middles of the elements in the reference state."""
         return self.coordinates[self.connectivity(block)].mean(axis=1)
+
+
+def planes(path):
+    """Fields of the contact planes in a .vtp file, by name; `Points` are the points of contact."""
+    fields = {}
+    for array in xml.etree.ElementTree.parse(path).iter("DataArray"):
+        data = base64.b64decode(array.text)[8:]  # behind the number of bytes
+        kind = {"Float64": float, "Int64": numpy.int64, "Int32": numpy.int32, "UInt8": numpy.uint8}[array.get("type")]
+        values = numpy.frombuffer(data, kind)
+        parts = int(array.get("NumberOfComponents", 1))
+        fields[array.get("Name")] = values.reshape(-1, parts) if parts > 1 else values
+    return fields
 
 
 # Records of who ran what, when and how: the only things that may differ between equal runs.
