@@ -176,10 +176,9 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
   for (std::size_t i = 0; i < order.size(); ++i)
     rankOf[order[i]] = std::int32_t(i);
 
-  // Bins in shares; every share collects its own pairs, as one number each: the places of both
-  // faces in the order of ids. Sorting these numbers brings the pairs of all shares into one order.
+  // Bins in shares; every share collects its own pairs, as places in the order of ids. Sorting by
+  // these brings the pairs of all shares into one order.
   constexpr int shares = 64;
-  const int bits = bitsFor(faces.size());
   const std::vector<BinEntry>& entries = sorted.entries;
   const auto borderOfShare = [&](int share)
   {
@@ -189,13 +188,15 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
     return border;
   };
   const BinSearch search{faces, sorted.boxes, planes, x, rules};
-  std::vector<std::vector<std::uint64_t>> found(shares);
+  std::vector<std::vector<CandidatePair>> found(shares);
   const auto pairsOfShare = [&](const int share)
   {
     std::vector<BinSearch::BinFace> inBin;
-    std::vector<std::uint64_t> mine;
-    const BinEntry* const last = entries.data() + borderOfShare(share + 1);
-    for (const BinEntry* begin = entries.data() + borderOfShare(share); begin < last;)
+    const std::size_t first = borderOfShare(share), beyond = borderOfShare(share + 1);
+    std::vector<CandidatePair> mine;
+    mine.reserve(2 * (beyond - first));
+    const BinEntry* const last = entries.data() + beyond;
+    for (const BinEntry* begin = entries.data() + first; begin < last;)
     {
       const BinEntry* end = begin;
       while (end < last && end->key == begin->key)
@@ -203,8 +204,8 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
       search(begin, end, inBin,
              [&](int p, int q)
              {
-               const auto a = std::uint64_t(rankOf[p]), b = std::uint64_t(rankOf[q]);
-               mine.push_back(std::min(a, b) << bits | std::max(a, b));
+               const int a = rankOf[p], b = rankOf[q];
+               mine.push_back({std::min(a, b), std::max(a, b)});
              });
       begin = end;
     }
@@ -212,19 +213,20 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
   };
   parallelFor("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
 
-  std::vector<std::uint64_t> codes;
   std::size_t count = 0;
   for (const auto& some : found)
     count += some.size();
-  codes.reserve(count);
+  std::vector<CandidatePair> pairs;
+  pairs.reserve(count);
   for (const auto& some : found)
-    codes.insert(codes.end(), some.begin(), some.end());
-  radixSort(codes, 2 * bits, [](std::uint64_t code) { return code; });
-  std::vector<CandidatePair> pairs(count);
-  const std::uint64_t mask = (std::uint64_t(1) << bits) - 1;
+    pairs.insert(pairs.end(), some.begin(), some.end());
+  const int bits = bitsFor(faces.size());
+  radixSort(pairs, 2 * bits,
+            [bits](const CandidatePair& pair)
+            { return std::uint64_t(pair.lower) << bits | std::uint64_t(pair.higher); });
   parallelFor("coplane::contact::step5_pairs", int(count),
               [&](const int p) {
-                pairs[p] = {order[codes[p] >> bits], order[codes[p] & mask]};
+                pairs[p] = {order[pairs[p].lower], order[pairs[p].higher]};
               });
   return pairs;
 }
