@@ -23,6 +23,14 @@ void print(const std::string& text)
   std::fputs((text + "\n").c_str(), stdout);
 }
 
+std::string pairsOf(const MeshReport& report, GlobalId sideSet)
+{
+  for (const MeshReport::Joint& joint : report.joints)
+    if (joint.id == sideSet)
+      return fmt::format(", a joint of {} pairs", joint.pairs);
+  return {};
+}
+
 void printReport(const Mesh& mesh, const MeshReport& report)
 {
   const char* measure = report.dimension == 2 ? "area" : "volume";
@@ -30,12 +38,15 @@ void printReport(const Mesh& mesh, const MeshReport& report)
   print(fmt::format("{} dimensions, {} nodes, {} elements, {} bodies", report.dimension,
                     report.nodes, report.elements, report.bodies));
   for (const auto& block : report.blocks)
-    print(fmt::format("  block {} '{}': {} {}, {} bodies, {} {:.6g} {}", block.id, block.name,
-                      block.elements, block.type, block.bodies, measure, block.volume, unit));
+    print(fmt::format(
+        "  block {} '{}': {} {}, {} bodies, {} {:.6g} {}, worst shape {:.3g} (element {})",
+        block.id, block.name, block.elements, block.type, block.bodies, measure, block.volume, unit,
+        block.worstQuality, block.worstElement));
   for (const auto& set : mesh.nodeSets)
     print(fmt::format("  node set {} '{}': {} nodes", set.id, set.name, set.nodes.size()));
   for (const auto& set : mesh.sideSets)
-    print(fmt::format("  side set {} '{}': {} faces", set.id, set.name, set.elements.size()));
+    print(fmt::format("  side set {} '{}': {} faces{}", set.id, set.name, set.elements.size(),
+                      pairsOf(report, set.id)));
   const char axes[] = "xyz";
   for (int axis = 0; axis < report.dimension; ++axis)
     print(fmt::format("  {} from {:.6g} to {:.6g} m", axes[axis], report.lowest[axis],

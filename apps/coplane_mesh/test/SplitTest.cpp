@@ -224,6 +224,13 @@ TEST(Split, threePlanesMakeEightBlocksAndEightNodesInTheMiddle)
     EXPECT_EQ(nodesAt(split.mesh, {2, 2, 1}), 4);
     EXPECT_EQ(nodesAt(split.mesh, {2, 1, 1}), 2);
     EXPECT_NEAR(volumeOf(split.mesh), 64, 1e-12);
+    const MeshReport report = reportMesh(split.mesh);
+    ASSERT_EQ(report.joints.size(), 3u);
+    for (const auto& joint : report.joints)
+    {
+      EXPECT_EQ(joint.pairs, more.empty() ? 16 : 32);
+      EXPECT_TRUE(joint.alone.empty());
+    }
     // 16 squares in each plane, each in two triangles with tetrahedra.
     for (const CutReport& joint : split.cuts)
       EXPECT_EQ(joint.opened, more.empty() ? 16 : 32);

@@ -96,4 +96,71 @@ TEST(MeshReport, coincidentNodesAreReportedWithinABodyButNotBetweenBodies)
   mesh.blocks[1].bodyIds = {1};
   EXPECT_EQ(reportMesh(mesh).coincident.size(), 2u);
 }
+
+TEST(ElementQuality, idealShapesHaveOne)
+{
+  const Real h = std::sqrt(0.75);
+  // Equilateral triangle; the tip of the regular tetrahedron is sqrt(2/3) above its middle.
+  const std::array<Vec3, 8> c{
+      Vec3{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}, {0.5, h / 3, std::sqrt(2.0 / 3)}};
+  EXPECT_NEAR(elementQuality(ElementType::Tri3, c), 1, 8 * epsilon);
+  EXPECT_NEAR(elementQuality(ElementType::Tet4, c), 1, 8 * epsilon);
+  const std::array<Vec3, 8> cube{Vec3{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0},
+                                 {0, 0, 2},     {2, 0, 2}, {2, 2, 2}, {0, 2, 2}};
+  EXPECT_DOUBLE_EQ(elementQuality(ElementType::Quad4, cube), 1);
+  EXPECT_DOUBLE_EQ(elementQuality(ElementType::Hex8, cube), 1);
+}
+
+TEST(ElementQuality, aShearedSquareHasTheSineOfItsAngle)
+{
+  const std::array<Vec3, 8> c{
+      Vec3{0, 0, 0}, {1, 0, 0}, {1.5, std::sqrt(0.75), 0}, {0.5, std::sqrt(0.75), 0}};
+  EXPECT_NEAR(elementQuality(ElementType::Quad4, c), std::sqrt(0.75), 8 * epsilon);
+}
+
+TEST(MeshReport, aFoldedQuadrilateralIsNamed)
+{
+  // Corner 3 drawn in beyond the diagonal: area 1 - 0.4 - 0.4 = 0.2, not convex.
+  Mesh mesh = sampleMesh2d();
+  mesh.coordinates[9] = {3.1, 0.1, 0};
+  const MeshReport report = reportMesh(mesh);
+  ASSERT_EQ(report.folded.size(), 1u);
+  EXPECT_EQ(report.folded[0].element, 8);
+  EXPECT_TRUE(report.usable());
+  EXPECT_EQ(report.blocks[1].worstElement, 8);
+  EXPECT_LT(report.blocks[1].worstQuality, 0);
+  EXPECT_EQ(report.blocks[0].worstQuality, 1);
+  EXPECT_EQ(
+      meshProblems(report)[0],
+      "1 elements are folded at a corner: element 8 of block 'shot'. Their area is positive, but "
+      "they are not convex; mesh there again.");
+}
+
+TEST(MeshReport, aJointHasPairsOfFacesAndTellsThoseAlone)
+{
+  // The shot moved against the wall: its left side lies on the right side of element 9.
+  Mesh mesh = sampleMesh2d();
+  for (int node = 6; node < 10; ++node)
+    mesh.coordinates[node].x -= 1;
+  mesh.sideSets = {{1, "joint", {1, 2}, {1, 3}}, {2, "top", {0, 1, 2}, {2, 2, 2}}};
+  MeshReport report = reportMesh(mesh);
+  ASSERT_EQ(report.joints.size(), 1u);
+  EXPECT_EQ(report.joints[0].name, "joint");
+  EXPECT_EQ(report.joints[0].pairs, 1);
+  EXPECT_TRUE(meshProblems(report).empty());
+  // With the lower side of element 7, which touches nothing.
+  mesh.sideSets[0] = {1, "joint", {1, 0, 2}, {1, 0, 3}};
+  report = reportMesh(mesh);
+  EXPECT_EQ(report.joints[0].pairs, 1);
+  EXPECT_EQ(
+      meshProblems(report),
+      (std::vector<std::string>{
+          "side set 'joint' is a joint of 1 pairs of faces, but 1 of its faces have no partner "
+          "in it: side 1 of element 7. Add the faces that they touch, or take them out."}));
+  // Half a side up, the faces meet but do not match: no joint of pairs.
+  mesh.sideSets[0] = {1, "joint", {1, 2}, {1, 3}};
+  for (int node = 6; node < 10; ++node)
+    mesh.coordinates[node].y += 0.5;
+  EXPECT_TRUE(reportMesh(mesh).joints.empty());
+}
 } // namespace coplane

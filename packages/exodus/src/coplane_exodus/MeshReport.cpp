@@ -117,6 +117,33 @@ Real elementVolume(ElementType type, const std::array<Vec3, 8>& c)
   return volume;
 }
 
+Real elementQuality(ElementType type, const std::array<Vec3, 8>& c)
+{
+  // For every corner the ends of its edges, right-handed.
+  static const int ends[4][8][3] = {
+      {{1, 2, 0}, {2, 0, 0}, {0, 1, 0}},
+      {{1, 3, 0}, {2, 0, 0}, {3, 1, 0}, {0, 2, 0}},
+      {{1, 2, 3}, {2, 0, 3}, {0, 1, 3}, {0, 2, 1}},
+      {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
+  // Equilateral triangle: sin 60 degrees; regular tetrahedron: 1 / sqrt(2).
+  const int row = type == ElementType::Tri3    ? 0
+                  : type == ElementType::Quad4 ? 1
+                  : type == ElementType::Tet4  ? 2
+                                               : 3;
+  const Real ideal[] = {std::sqrt(0.75), 1.0, std::sqrt(0.5), 1.0};
+  const ElementTopology& shape = topology(type);
+  Real least = infinity;
+  for (int k = 0; k < shape.nodes; ++k)
+  {
+    const int* end = ends[row][k];
+    const Vec3 a = c[end[0]] - c[k], b = c[end[1]] - c[k];
+    const Vec3 up = shape.dimension == 2 ? Vec3{0, 0, 1} : c[end[2]] - c[k];
+    const Real product = norm(a) * norm(b) * norm(up);
+    least = std::min(least, product > 0 ? dot(cross(a, b), up) / product : 0.0);
+  }
+  return least / ideal[row];
+}
+
 MeshReport reportMesh(const Mesh& mesh)
 {
   MeshReport report;
@@ -138,7 +165,8 @@ MeshReport reportMesh(const Mesh& mesh)
   for (const Mesh::Block& block : mesh.blocks)
   {
     const ElementTopology& shape = topology(block.type);
-    Real volume = 0;
+    Real volume = 0, worst = 1;
+    GlobalId worstElement = 0;
     for (int e = 0; e < block.elements(); ++e)
     {
       const int* nodes = &block.connectivity[e * shape.nodes];
@@ -149,6 +177,14 @@ MeshReport reportMesh(const Mesh& mesh)
         report.inverted.push_back({block.elementIds[e], block.name, v});
       if (std::set<int>(nodes, nodes + shape.nodes).size() < std::size_t(shape.nodes))
         report.repeatedNodes.push_back({block.elementIds[e], block.name, v});
+      const Real quality = elementQuality(block.type, corners);
+      if (v > 0 && !(quality > 0))
+        report.folded.push_back({block.elementIds[e], block.name, v});
+      if (e == 0 || quality < worst)
+      {
+        worst = quality;
+        worstElement = block.elementIds[e];
+      }
       measureEdges(report, shape, corners);
       for (int k = 0; k < shape.nodes; ++k)
       {
@@ -156,7 +192,8 @@ MeshReport reportMesh(const Mesh& mesh)
         bodyOfNode[nodes[k]] = block.bodyIds.empty() ? 0 : block.bodyIds[e];
       }
     }
-    report.blocks.push_back({block.id, block.name, shape.exodusName, block.elements(), 0, volume});
+    report.blocks.push_back(
+        {block.id, block.name, shape.exodusName, block.elements(), 0, volume, worst, worstElement});
   }
   std::set<int> all;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -176,7 +213,10 @@ MeshReport reportMesh(const Mesh& mesh)
              0) // no body ids in the file: parts that share nodes count as bodies
       bodyOfNode[node] = (std::int64_t(1) << 32) + components.of(node);
   if (report.elements > 0)
+  {
     findCoincident(report, mesh, bodyOfNode);
+    report.joints = findJoints(mesh, 1e-6 * report.shortestEdge);
+  }
   return report;
 }
 
@@ -204,6 +244,24 @@ std::vector<std::string> meshProblems(const MeshReport& report)
         report.repeatedNodes.size(),
         firstOf(report.repeatedNodes, [](const MeshReport::BadElement& e)
                 { return fmt::format("element {} of block '{}'", e.element, e.block); })));
+  if (!report.folded.empty())
+    problems.push_back(fmt::format(
+        "{} elements are folded at a corner: {}. Their {} is positive, but they are not convex; "
+        "mesh "
+        "there again.",
+        report.folded.size(),
+        firstOf(report.folded, [](const MeshReport::BadElement& e)
+                { return fmt::format("element {} of block '{}'", e.element, e.block); }),
+        measure));
+  for (const MeshReport::Joint& joint : report.joints)
+    if (!joint.alone.empty())
+      problems.push_back(fmt::format(
+          "side set '{}' is a joint of {} pairs of faces, but {} of its faces have no partner in "
+          "it: "
+          "{}. Add the faces that they touch, or take them out.",
+          joint.name, joint.pairs, joint.alone.size(),
+          firstOf(joint.alone, [](const std::pair<GlobalId, int>& side)
+                  { return fmt::format("side {} of element {}", side.second, side.first); })));
   if (!report.unusedNodes.empty())
     problems.push_back(fmt::format(
         "{} nodes belong to no element: {}. They have no mass; remove them from the mesh.",

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coplane
@@ -27,8 +28,18 @@ struct MeshReport
     std::string name;
     std::string type;
     int elements = 0;
-    int bodies = 0;  ///< parts that share no node with each other
-    Real volume = 0; ///< [m^3], or [m^2] times one metre
+    int bodies = 0;        ///< parts that share no node with each other
+    Real volume = 0;       ///< [m^3], or [m^2] times one metre
+    Real worstQuality = 1; ///< least elementQuality [-]
+    GlobalId worstElement = 0;
+  };
+  /// A side set in which faces lie on each other pairwise.
+  struct Joint
+  {
+    GlobalId id = 0;
+    std::string name;
+    int pairs = 0;
+    std::vector<std::pair<GlobalId, int>> alone; ///< elements and sides (from 1) without partner
   };
 
   int dimension = 3;
@@ -41,7 +52,9 @@ struct MeshReport
   std::vector<BadElement> inverted;      ///< volume zero or negative
   std::vector<BadElement> repeatedNodes; ///< a node occurs twice in the element
   std::vector<GlobalId> unusedNodes;     ///< of no element
+  std::vector<BadElement> folded;        ///< volume positive, but a corner turned inside out
   std::vector<NodePair> coincident;      ///< two nodes of one body at one place
+  std::vector<Joint> joints;             ///< side sets that hold both sides of a joint
 
   /// No computation can start with inverted elements or repeated nodes; the other findings are for
   /// the eye.
@@ -55,8 +68,17 @@ MeshReport reportMesh(const Mesh& mesh);
 std::vector<std::string> meshProblems(const MeshReport& report);
 std::vector<std::string> meshProblems(const Mesh& mesh);
 
-/// Area of a quadrilateral times one metre, or volume of a trilinear hexahedron (Flanagan &
-/// Belytschko 1981) [m^3]; negative when the element is inside out. `corners` holds
-/// topology(type).nodes positions.
+/// The side sets of a mesh that hold pairs of faces in one place, of different elements, with
+/// opposite normals and equal corners within the tolerance [m].
+std::vector<MeshReport::Joint> findJoints(const Mesh& mesh, Real tolerance);
+
+/// Shape of an element: the least over its corners of the volume of the edges there over the
+/// product of their lengths, divided by that of the ideal shape (equilateral or cube) [-]. 1 is
+/// ideal, 0 flat, negative folded.
+Real elementQuality(ElementType type, const std::array<Vec3, 8>& corners);
+
+/// Area of a triangle or quadrilateral times one metre, or volume of a tetrahedron or a trilinear
+/// hexahedron (Flanagan & Belytschko 1981) [m^3]; negative when the element is inside out.
+/// `corners` holds topology(type).nodes positions.
 Real elementVolume(ElementType type, const std::array<Vec3, 8>& corners);
 } // namespace coplane
