@@ -191,6 +191,7 @@ TEST(Split, theTipsOfAFiniteJointStayOneNode)
   EXPECT_EQ(nodesAt(inside.mesh, {1, 2, 0}), 1);
   EXPECT_EQ(nodesAt(inside.mesh, {2, 2, 0}), 2);
   EXPECT_EQ(nodesAt(inside.mesh, {3, 2, 0}), 1);
+  EXPECT_TRUE(meshProblems(inside.mesh).empty());
   // From the border at x = 0 to x = 2: the mouth opens.
   const SplitMesh edge =
       cut(square(), "{j: {planes: {point: [0, 2], normal: [0, 1], segment: [[0, 2], [2, 2]]}}}");

@@ -40,36 +40,49 @@ class Case:
     # --- runs --------------------------------------------------------------------------------------
 
     def run(
-        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), change_mesh=None, **tolerances
+        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), change_mesh=None, joints=None,
+        **tolerances
     ):
         """Makes the mesh, runs the deck, demands exit code 0 and checks conservation.
 
         Tolerances: see conservation().
         """
-        result = self.attempt(name, recipe, deck, ranks, threads, backend, options, change_mesh=change_mesh)
+        result = self.attempt(
+            name, recipe, deck, ranks, threads, backend, options, change_mesh=change_mesh, joints=joints
+        )
         if result.code:
             sys.exit(f"{self.name}, run '{name}': exit code {result.code}\n{result.output}")
         self.conservation(name, result, deck, **tolerances)
         return result
 
-    def same_bits(self, name, recipe, deck, run, ranks=2, threads=1, backend="threads", change_mesh=None):
+    def same_bits(
+        self, name, recipe, deck, run, ranks=2, threads=1, backend="threads", change_mesh=None, joints=None
+    ):
         """The run again, on other ranks and threads: every bit of the state must be the same."""
-        again = self.attempt(f"{name}_again", recipe, deck, ranks, threads, backend, change_mesh=change_mesh)
+        again = self.attempt(
+            f"{name}_again", recipe, deck, ranks, threads, backend, change_mesh=change_mesh, joints=joints
+        )
         self.check_equal(f"{name}: exit code on {ranks} ranks x {threads} threads", again.code, 0)
         self.check_equal(f"{name}: state hash on {ranks} ranks x {threads} threads", again.state_hash, run.state_hash)
 
     def attempt(
-        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), prefix=(), change_mesh=None
+        self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), prefix=(), change_mesh=None,
+        joints=None,
     ):
         """The same without demands on how the run ends. `recipe` None: no mesh is made. `change_mesh`
-        gets the mesh's coordinates (node, axis) and returns those that are used.
+        gets the mesh's coordinates (node, axis) and returns those that are used. `joints`: a recipe of
+        joints that are opened in the mesh.
         """
         folder = pathlib.Path(name).resolve()
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         if recipe is not None:
             documents.save({"title": self.name, **recipe}, folder / "mesh.yaml")
-            program.make_mesh(str(folder / "mesh.yaml"), str(folder / "mesh.e"))
+            program.make_mesh(str(folder / "mesh.yaml"), str(folder / ("whole.e" if joints else "mesh.e")))
+        if joints is not None:
+            documents.save(joints, folder / "joints.yaml")
+            split = program.split_mesh(str(folder / "whole.e"), str(folder / "joints.yaml"), str(folder / "mesh.e"))
+            (folder / "split.txt").write_text(split)
         if change_mesh is not None:
             program.change_coordinates(str(folder / "mesh.e"), change_mesh)
         documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")

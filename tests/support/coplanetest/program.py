@@ -52,6 +52,17 @@ def make_mesh(recipe, output):
         sys.exit(f"coplane_mesh make {recipe}: exit code {done.returncode}\n{done.stdout}")
 
 
+def split_mesh(mesh, joints, output):
+    """Opens the joints of a recipe; returns what the program printed."""
+    done = subprocess.run(
+        [binary("coplane_mesh"), "split", mesh, joints, "-o", output],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+    )
+    if done.returncode:
+        sys.exit(f"coplane_mesh split {mesh} {joints}: exit code {done.returncode}\n{done.stdout}")
+    return done.stdout
+
+
 def change_coordinates(mesh, change):
     """Moves the nodes of a mesh: `change` takes and returns an array (node, axis)."""
     with netCDF4.Dataset(mesh, "a") as file:

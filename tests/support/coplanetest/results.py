@@ -22,6 +22,7 @@ class Results:
         self._nodal = self._names("name_nod_var")
         self._element = self._names("name_elem_var")
         self.blocks = self._names("eb_names")
+        self.side_sets = self._names("ss_names")
 
     def _names(self, variable):
         if variable not in self.file.variables:

@@ -73,6 +73,32 @@ void findCoincident(MeshReport& report, const Mesh& mesh,
       report.coincident.push_back({mesh.nodeIds[order[i - 1]], mesh.nodeIds[order[i]]});
 }
 
+/// The two sides of a joint that ends inside a body are meant: their nodes are no finding.
+void forgetJoints(MeshReport& report, const Mesh& mesh)
+{
+  std::set<GlobalId> onJoints;
+  std::vector<std::pair<int, int>> places; // block and index of each element
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (int e = 0; e < mesh.blocks[b].elements(); ++e)
+      places.emplace_back(int(b), e);
+  for (const MeshReport::Joint& joint : report.joints)
+    for (const Mesh::SideSet& set : mesh.sideSets)
+      for (std::size_t i = 0; set.id == joint.id && i < set.elements.size(); ++i)
+      {
+        const auto [b, e] = places[set.elements[i]];
+        const ElementTopology& shape = topology(mesh.blocks[b].type);
+        for (int k = 0; k < shape.nodesPerSide; ++k)
+          onJoints.insert(
+              mesh.nodeIds[mesh.blocks[b]
+                               .connectivity[e * shape.nodes + shape.sideNodes[set.sides[i]][k]]]);
+      }
+  auto& pairs = report.coincident;
+  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
+                             [&](const MeshReport::NodePair& pair)
+                             { return onJoints.count(pair.first) && onJoints.count(pair.second); }),
+              pairs.end());
+}
+
 template <class Items, class Text>
 std::string firstOf(const Items& items, const Text& text)
 {
@@ -216,6 +242,7 @@ MeshReport reportMesh(const Mesh& mesh)
   {
     findCoincident(report, mesh, bodyOfNode);
     report.joints = findJoints(mesh, 1e-6 * report.shortestEdge);
+    forgetJoints(report, mesh);
   }
   return report;
 }

@@ -53,7 +53,7 @@ struct MeshReport
   std::vector<BadElement> repeatedNodes; ///< a node occurs twice in the element
   std::vector<GlobalId> unusedNodes;     ///< of no element
   std::vector<BadElement> folded;        ///< volume positive, but a corner turned inside out
-  std::vector<NodePair> coincident;      ///< two nodes of one body at one place
+  std::vector<NodePair> coincident;      ///< two nodes of one body at one place, not of joints
   std::vector<Joint> joints;             ///< side sets that hold both sides of a joint
 
   /// No computation can start with inverted elements or repeated nodes; the other findings are for
