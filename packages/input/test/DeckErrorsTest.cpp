@@ -242,9 +242,9 @@ TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
 
 TEST(DeckErrors, aJointWithoutModelIsAPenalty)
 {
-  EXPECT_EQ(errorOfJoint("normal_stiffness: 1"),
-            "wall.yaml:6:7: joints.j.normal_stiffness belongs to model: linear, but model is "
-            "penalty here; remove it or change model.");
+  EXPECT_EQ(errorOfJoint("normal_stiffness: 1"), "wall.yaml:6:7: joints.j.normal_stiffness belongs "
+                                                 "to model: linear, mortar, bilinear, but model "
+                                                 "is penalty here; remove it or change model.");
 }
 
 TEST(DeckErrors, aStiffnessCapBelowTheInitialStiffness)

@@ -21,8 +21,13 @@ materials:
 blocks:
   a: {material: j2}
 joints:
-  penalty: {model: penalty}
+  penalty: {model: penalty, friction: 0.7, dynamic_friction: 0.5, slip_speed: 0.2, dilation: 0.05}
   linear: {model: linear, normal_stiffness: 1}
+  table: {model: table, closures: [1, 2], tractions: [1, 3]}
+  barton_bandis: {model: barton_bandis, roughness: 8, wall_strength: 100e6, residual_friction: 0.6, peak_slip: 1e-3}
+  mortar: {model: mortar, normal_stiffness: 8e10, tensile_strength: 2e5, cohesion: 4e5, tension_energy: 18,
+    shear_energy: 125, maximum_closure: 1e-4}
+  bilinear: {model: bilinear, normal_stiffness: 8e10, tensile_strength: 2e5, tension_energy: 18, shear_energy: 125}
   closure_curve: {model: closure_curve, initial_stiffness: 1, maximum_closure: 1}
   dry: {}
 contact:
@@ -71,6 +76,11 @@ void show(std::string& out, const std::array<T, n>& values)
   for (const auto& value : values)
     show(out, value);
 }
+void show(std::string& out, const std::vector<Real>& values)
+{
+  for (const Real value : values)
+    show(out, value);
+}
 template <class... T>
 void showAll(std::string& out, const T&... values)
 {
@@ -91,8 +101,10 @@ std::string show(const Deck& d)
     showAll(out, b.name, b.material, b.hourglassStiffness, b.hourglassViscosity);
   for (const auto& j : d.joints)
     showAll(out, j.name, j.model, j.stiffnessFraction, j.normalStiffness, j.initialStiffness,
-            j.maximumClosure, j.stiffnessCap, j.shearStiffness, j.shearRatio, j.friction,
-            j.cohesion);
+            j.maximumClosure, j.closures, j.tractions, j.stiffnessCap, j.shearStiffness,
+            j.shearRatio, j.friction, j.dynamicFriction, j.slipSpeed, j.cohesion, j.dilation,
+            j.dilationSlip, j.tensileStrength, j.tensionEnergy, j.shearEnergy, j.roughness,
+            j.wallStrength, j.rockStrength, j.residualFriction, j.peakSlip);
   const auto& c = d.contact;
   showAll(out, c.enabled, c.preset, c.area, c.weights, c.closure, c.couple, c.areaRule, c.inherit,
           c.cosOpposed, c.depthMax, c.areaMin, c.skin, c.searchEvery, c.dampNormal, c.dampShear,
@@ -130,7 +142,7 @@ std::string cardFor(const Key& group, const Key& key)
   if (group.name == "materials")
     return key.models.empty() ? ".concrete" : "." + key.models[0];
   if (group.name == "joints")
-    return key.models.empty() ? ".dry" : "." + key.models[0];
+    return key.models.empty() ? ".penalty" : "." + key.models[0];
   if (group.name == "conditions")
     return key.appliesTo("pressure")   ? ".2"
            : key.appliesTo("fixed")    ? ".3"
@@ -180,7 +192,11 @@ TEST(DeckKeys, modelsAndTypesActOnTheDeck)
   EXPECT_EQ(deck.materials[1].model, "j2");
   EXPECT_EQ(deck.joints[0].model, "penalty");
   EXPECT_EQ(deck.joints[1].model, "linear");
-  EXPECT_EQ(deck.joints[2].model, "closure_curve");
+  EXPECT_EQ(deck.joints[2].model, "table");
+  EXPECT_EQ(deck.joints[3].model, "barton_bandis");
+  EXPECT_EQ(deck.joints[4].model, "mortar");
+  EXPECT_EQ(deck.joints[5].model, "bilinear");
+  EXPECT_EQ(deck.joints[6].model, "closure_curve");
   EXPECT_EQ(deck.conditions[0].type, "symmetry");
   EXPECT_EQ(deck.conditions[1].type, "velocity");
   EXPECT_EQ(deck.conditions[2].type, "pressure");

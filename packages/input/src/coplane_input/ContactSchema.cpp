@@ -38,72 +38,218 @@ Key contactPairs()
 }
 } // namespace
 
+std::vector<Key> jointCardKeys()
+{
+  const std::vector<std::string> coulomb = {"penalty", "linear", "closure_curve",
+                                            "table",   "mortar", "bilinear"};
+  return {
+      text("model", &JointCard::model)
+          .oneOf({"penalty", "linear", "closure_curve", "table", "barton_bandis", "mortar",
+                  "bilinear"})
+          .like("linear")
+          .means("law of the plane: stiffness from the elements behind the faces; a given "
+                 "stiffness; a hyperbola of the closure; a table of it; a rough rock joint; a bond "
+                 "with exponential or with linear softening"),
+      number("stiffness_fraction", &JointCard::stiffnessFraction)
+          .onlyFor({"penalty"})
+          .in("-")
+          .above(0)
+          .like("0.7")
+          .means("normal stiffness over 1 / (h1/M1 + h2/M2), with thickness h and "
+                 "wave modulus M of the two elements"),
+      number("normal_stiffness", &JointCard::normalStiffness)
+          .onlyFor({"linear", "mortar", "bilinear"})
+          .needed()
+          .in("Pa/m")
+          .above(0)
+          .means("traction per closure, and per opening of a bond")
+          .like("2e10"),
+      number("initial_stiffness", &JointCard::initialStiffness)
+          .onlyFor({"closure_curve"})
+          .needed()
+          .in("Pa/m")
+          .above(0)
+          .like("2e10")
+          .means("slope of the closure curve at zero closure"),
+      number("maximum_closure", &JointCard::maximumClosure)
+          .onlyFor({"closure_curve"})
+          .needed()
+          .in("m")
+          .above(0)
+          .means("asymptote of the hyperbola")
+          .like("5e-4"),
+      number("initial_stiffness", &JointCard::initialStiffness)
+          .onlyFor({"barton_bandis"})
+          .in("Pa/m")
+          .above(0)
+          .like("2e10")
+          .defaultIs("Bandis' estimate from roughness, wall_strength and rock_strength")
+          .means("slope of the closure curve at zero closure"),
+      number("maximum_closure", &JointCard::maximumClosure)
+          .onlyFor({"barton_bandis"})
+          .in("m")
+          .above(0)
+          .like("5e-4")
+          .defaultIs("Bandis' estimate from roughness, wall_strength and rock_strength")
+          .means("asymptote of the hyperbola"),
+      number("maximum_closure", &JointCard::maximumClosure)
+          .onlyFor({"mortar", "bilinear"})
+          .in("m")
+          .above(0)
+          .like("5e-4")
+          .defaultIs("none, a straight line")
+          .means("asymptote of a hyperbola in compression, which starts with normal_stiffness"),
+      numbers("closures", &JointCard::closures)
+          .onlyFor({"table"})
+          .needed()
+          .in("m")
+          .above(0)
+          .like("[1e-4, 2e-4]")
+          .means(
+              "points of the closure curve after (0, 0), rising, at most 16; straight beyond the "
+              "last"),
+      numbers("tractions", &JointCard::tractions)
+          .onlyFor({"table"})
+          .needed()
+          .in("Pa")
+          .above(0)
+          .like("[1e6, 4e6]")
+          .means("tractions at `closures`; no segment may be less steep than the one before"),
+      number("stiffness_cap", &JointCard::stiffnessCap)
+          .onlyFor({"closure_curve", "table", "barton_bandis", "mortar", "bilinear"})
+          .in("Pa/m")
+          .above(0)
+          .defaultIs("0.5 M/h of the softer element")
+          .like("3e11")
+          .means("largest slope of the closure curve; at least its slope at zero closure"),
+      number("shear_stiffness", &JointCard::shearStiffness)
+          .in("Pa/m")
+          .atLeast(0)
+          .defaultIs("shear_ratio times the normal stiffness")
+          .like("5e9")
+          .means("shear traction per slip"),
+      number("shear_ratio", &JointCard::shearRatio)
+          .in("-")
+          .atLeast(0)
+          .like("0.4")
+          .means("shear stiffness over normal stiffness at zero closure"),
+      number("friction", &JointCard::friction)
+          .onlyFor(coulomb)
+          .in("-")
+          .atLeast(0)
+          .like("0.6")
+          .means("tangent of the friction angle, at rest"),
+      number("dynamic_friction", &JointCard::dynamicFriction)
+          .onlyFor(coulomb)
+          .in("-")
+          .atLeast(0)
+          .like("0.4")
+          .defaultIs("friction")
+          .means("friction of fast slip mu_d: mu_d + (friction - mu_d) exp(-speed / slip_speed)"),
+      number("slip_speed", &JointCard::slipSpeed)
+          .onlyFor(coulomb)
+          .in("m/s")
+          .above(0)
+          .like("0.1")
+          .defaultIs("none; dynamic_friction needs it")
+          .means("speed of the faces' sliding over which friction falls"),
+      number("cohesion", &JointCard::cohesion)
+          .onlyFor({"penalty", "linear", "closure_curve", "table"})
+          .in("Pa")
+          .atLeast(0)
+          .like("1e5")
+          .means("shear strength without normal traction, of a joint that is closed or bonded"),
+      number("cohesion", &JointCard::cohesion)
+          .onlyFor({"mortar", "bilinear"})
+          .in("Pa")
+          .atLeast(0)
+          .like("3e5")
+          .means("shear strength of the bond without normal traction; softens"),
+      number("dilation", &JointCard::dilation)
+          .onlyFor(coulomb)
+          .in("-")
+          .atLeast(0)
+          .like("0.1")
+          .means("opening per slip: tangent of the dilation angle; at most the friction"),
+      number("dilation_slip", &JointCard::dilationSlip)
+          .in("m")
+          .atLeast(0)
+          .like("1e-3")
+          .defaultIs("no limit")
+          .means("length of the slip path after which the joint dilates no more"),
+      number("tensile_strength", &JointCard::tensileStrength)
+          .onlyFor({"linear"})
+          .in("Pa")
+          .atLeast(0)
+          .like("2e5")
+          .means(
+              "of a declared joint, until it breaks at once: in tension, or when it slips; 0: no "
+              "bond"),
+      number("tensile_strength", &JointCard::tensileStrength)
+          .onlyFor({"mortar", "bilinear"})
+          .needed()
+          .in("Pa")
+          .above(0)
+          .like("0.3e6")
+          .means("of a declared joint; softens"),
+      number("tension_energy", &JointCard::tensionEnergy)
+          .onlyFor({"mortar", "bilinear"})
+          .needed()
+          .in("J/m^2")
+          .above(0)
+          .like("20")
+          .means("fracture energy G_I: area under the curve of traction over opening"),
+      number("shear_energy", &JointCard::shearEnergy)
+          .onlyFor({"mortar", "bilinear"})
+          .needed()
+          .in("J/m^2")
+          .above(0)
+          .like("130")
+          .means("fracture energy G_II: area under the cohesive part of traction over slip"),
+      number("roughness", &JointCard::roughness)
+          .onlyFor({"barton_bandis"})
+          .needed()
+          .in("-")
+          .above(0)
+          .atMost(20)
+          .like("10")
+          .means("joint roughness coefficient JRC"),
+      number("wall_strength", &JointCard::wallStrength)
+          .onlyFor({"barton_bandis"})
+          .needed()
+          .in("Pa")
+          .above(0)
+          .like("80e6")
+          .means("joint wall compressive strength JCS"),
+      number("rock_strength", &JointCard::rockStrength)
+          .onlyFor({"barton_bandis"})
+          .in("Pa")
+          .above(0)
+          .like("120e6")
+          .defaultIs("wall_strength")
+          .means("uniaxial compressive strength of the rock, for Bandis' estimate of the closure "
+                 "curve"),
+      number("residual_friction", &JointCard::residualFriction)
+          .onlyFor({"barton_bandis"})
+          .needed()
+          .in("-")
+          .above(0)
+          .below(2.7)
+          .like("0.577")
+          .means("tangent of the residual friction angle"),
+      number("peak_slip", &JointCard::peakSlip)
+          .onlyFor({"barton_bandis"})
+          .needed()
+          .in("m")
+          .above(0)
+          .like("5e-3")
+          .means("slip at which the roughness is mobilised; about a hundredth of a block's length"),
+  };
+}
+
 Key jointKeys()
 {
-  return named("joints", &Deck::joints,
-               {
-                   text("model", &JointCard::model)
-                       .oneOf({"penalty", "linear", "closure_curve"})
-                       .like("linear")
-                       .means("law of the plane: stiffness from the elements behind the faces, a "
-                              "given stiffness, or a hyperbola of the closure"),
-                   number("stiffness_fraction", &JointCard::stiffnessFraction)
-                       .onlyFor({"penalty"})
-                       .in("-")
-                       .above(0)
-                       .like("0.7")
-                       .means("normal stiffness over 1 / (h1/M1 + h2/M2), with thickness h and "
-                              "wave modulus M of the two elements"),
-                   number("normal_stiffness", &JointCard::normalStiffness)
-                       .onlyFor({"linear"})
-                       .needed()
-                       .in("Pa/m")
-                       .above(0)
-                       .means("traction per closure")
-                       .like("2e10"),
-                   number("initial_stiffness", &JointCard::initialStiffness)
-                       .onlyFor({"closure_curve"})
-                       .needed()
-                       .in("Pa/m")
-                       .above(0)
-                       .like("2e10")
-                       .means("slope of the closure curve at zero closure"),
-                   number("maximum_closure", &JointCard::maximumClosure)
-                       .onlyFor({"closure_curve"})
-                       .needed()
-                       .in("m")
-                       .above(0)
-                       .means("asymptote of the hyperbola")
-                       .like("5e-4"),
-                   number("stiffness_cap", &JointCard::stiffnessCap)
-                       .onlyFor({"closure_curve"})
-                       .in("Pa/m")
-                       .above(0)
-                       .defaultIs("0.5 M/h of the softer element")
-                       .like("3e11")
-                       .means("largest slope of the closure curve; at least initial_stiffness"),
-                   number("shear_stiffness", &JointCard::shearStiffness)
-                       .in("Pa/m")
-                       .atLeast(0)
-                       .defaultIs("shear_ratio times the normal stiffness")
-                       .like("5e9")
-                       .means("shear traction per slip"),
-                   number("shear_ratio", &JointCard::shearRatio)
-                       .in("-")
-                       .atLeast(0)
-                       .like("0.4")
-                       .means("shear stiffness over normal stiffness"),
-                   number("friction", &JointCard::friction)
-                       .in("-")
-                       .atLeast(0)
-                       .like("0.6")
-                       .means("tangent of the friction angle"),
-                   number("cohesion", &JointCard::cohesion)
-                       .in("Pa")
-                       .atLeast(0)
-                       .like("1e5")
-                       .means("shear strength without normal traction"),
-               })
+  return named("joints", &Deck::joints, jointCardKeys())
       .decidedBy("model")
       .atMostOneOf({"shear_stiffness", "shear_ratio"})
       .means("laws of the contact planes, by a name of your choice");

@@ -1,5 +1,6 @@
 #include "DeckChecks.hpp"
 
+#include "JointCards.hpp"
 #include "Suggestion.hpp"
 
 #include <fmt/format.h>
@@ -102,13 +103,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
       problems.add(nodeAt(root, {"blocks", block.name, "material"}),
                    unknown("blocks." + block.name + ".material", block.material,
                            "a card in materials", materials));
-  for (const auto& joint : deck.joints)
-    if (joint.stiffnessCap && joint.initialStiffness > 0 &&
-        *joint.stiffnessCap < joint.initialStiffness)
-      problems.add(nodeAt(root, {"joints", joint.name, "stiffness_cap"}),
-                   fmt::format("joints.{}.stiffness_cap = {} Pa/m is below initial_stiffness = {} "
-                               "Pa/m; accepted: at least that.",
-                               joint.name, *joint.stiffnessCap, joint.initialStiffness));
+  checkJoints(deck.joints, root, problems);
   if (!deck.contact.defaultJoint.empty() && !contains(joints, deck.contact.defaultJoint))
     problems.add(
         nodeAt(root, {"contact", "default_joint"}),

@@ -3,6 +3,7 @@
 #include "DeckChecks.hpp"
 #include "DeckNode.hpp"
 #include "Schema.hpp"
+#include "SchemaReader.hpp"
 #include "Suggestion.hpp"
 #include "TimeFunctionEvaluator.hpp"
 
@@ -72,7 +73,7 @@ void collectPlaces(const Key& group, const std::string& path, const std::string&
 class SchemaReader
 {
 public:
-  explicit SchemaReader(Problems& problems) : problems_(problems) {}
+  SchemaReader(const Key& schema, Problems& problems) : schema_(schema), problems_(problems) {}
 
   void readGroup(const Key& group, const DeckNode& node, const std::string& path, void* target)
   {
@@ -191,7 +192,7 @@ private:
     if (hint.empty())
     {
       std::vector<std::string> places;
-      collectPlaces(deckSchema(), "", name.text, places);
+      collectPlaces(schema_, "", name.text, places);
       if (!places.empty())
         hint = fmt::format(" Its place is {}.", listOf(places));
     }
@@ -425,6 +426,7 @@ private:
     return key;
   }
 
+  const Key& schema_;
   Problems& problems_;
 };
 } // namespace
@@ -443,21 +445,27 @@ std::string readDeckFile(const std::string& file)
   return text.str();
 }
 
+DeckNode readBySchema(const Key& schema, const std::string& text, const std::string& file,
+                      const std::vector<std::string>& overrides, void* target, Problems& problems)
+{
+  DeckNode root = parseYaml(text, file);
+  for (std::size_t i = 0; i < overrides.size(); ++i)
+    applyOverride(root, overrides[i], static_cast<int>(i), problems);
+  SchemaReader(schema, problems).readGroup(schema, root, "", target);
+  return root;
+}
+
 Deck parseDeck(const std::string& text, const std::string& file,
                const std::vector<std::string>& overrides)
 {
   Problems problems;
-  DeckNode root = parseYaml(text, file);
-  for (std::size_t i = 0; i < overrides.size(); ++i)
-    applyOverride(root, overrides[i], static_cast<int>(i), problems);
-
   const std::filesystem::path path(file);
   Deck deck;
   deck.file = file;
-  deck.text = overrides.empty() ? text : toYaml(root);
   deck.output.results = path.stem().string() + ".e";
   deck.history.file = path.stem().string() + ".csv";
-  SchemaReader(problems).readGroup(deckSchema(), root, "", &deck);
+  const DeckNode root = readBySchema(deckSchema(), text, file, overrides, &deck, problems);
+  deck.text = overrides.empty() ? text : toYaml(root);
   if (const DeckNode* mesh = root.find("mesh"))
     deck.meshWhere = mesh->where;
   if (const DeckNode* blocks = root.find("blocks"))

@@ -238,8 +238,7 @@ std::string deckReferenceText()
       "Keys of a Coplane deck (YAML). Numbers are SI. <name> is a name of yours or of "
       "the mesh,\n<index> an item of a list, the first is 0; --set path=value uses "
       "the same paths.\n\n";
-  writeText(deckSchema(), "", out);
-  return out;
+  return out + referenceText(deckSchema());
 }
 
 std::string deckReferenceMarkdown()
@@ -248,7 +247,20 @@ std::string deckReferenceMarkdown()
                     "that checks decks. Numbers are SI. `<name>` is a name of yours or of the "
                     "mesh, `<index>` an item of a list, the first is 0; `--set path=value` uses "
                     "the same paths.\n\n";
-  writeMarkdown(deckSchema(), "", out);
+  return out + referenceMarkdown(deckSchema());
+}
+
+std::string referenceText(const Key& schema)
+{
+  std::string out;
+  writeText(schema, "", out);
+  return out;
+}
+
+std::string referenceMarkdown(const Key& schema)
+{
+  std::string out;
+  writeMarkdown(schema, "", out);
   out.pop_back(); // one newline at the end
   return out;
 }

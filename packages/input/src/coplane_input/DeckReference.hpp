@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_input/Schema.hpp>
+
 #include <string>
 
 namespace coplane
@@ -10,8 +12,12 @@ std::string deckReferenceText();
 /// The same as tables of Markdown, for the user's manual.
 std::string deckReferenceMarkdown();
 
-/// The same as a JSON Schema (draft 7), with which editors complete and check decks while they are
-/// written. What one key demands of another (names that must exist, limits between values) is
-/// checked by the program only.
+/// The same for a deck of another program, without an introduction.
+std::string referenceText(const Key& schema);
+std::string referenceMarkdown(const Key& schema);
+
+/// Reference of decks as a JSON Schema (draft 7), with which editors complete and check decks while
+/// they are written. What one key demands of another (names that must exist, limits between values)
+/// is checked by the program only.
 std::string deckJsonSchema();
 } // namespace coplane
