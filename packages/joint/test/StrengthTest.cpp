@@ -120,6 +120,21 @@ TEST(BartonBandis_Strength, directShearUnderAConstantTractionReachesThePeakStren
   EXPECT_GE(run.leastDissipation, 0.0);
 }
 
+TEST(BartonBandis_Strength, liftsByItsTangentTimesTheSlipWhateverTheStep)
+{
+  for (const Real step : {1e-6, 1e-5, 5e-5})
+  {
+    JointRun run(roughJoint());
+    run.go(-run.joint.closureUnder(1e6), {}, 20);
+    run.go(run.gap, {2e-3, 0, 0}, 2000);
+    const Real slip = run.state.slip, sigma = run.sigma();
+    run.step(run.gap, {step, 0, 0});
+    const Real tangent = run.joint.law.rough.dilation(sigma, slip);
+    ASSERT_GT(tangent, .05);
+    EXPECT_NEAR(run.last.dilation, tangent * (run.state.slip - slip), 2e-4 * run.last.dilation);
+  }
+}
+
 TEST(BartonBandis_Estimate, followsBandisLumsdenAndBarton)
 {
   // JRC 10, JCS 100 MPa, sigma_c 150 MPa: a = 2 (.3 - .1) = .4 mm, JCS/a = 250 MPa/mm;

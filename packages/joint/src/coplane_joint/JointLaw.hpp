@@ -159,6 +159,15 @@ private:
     return -sigma / top.stiffness;
   }
 
+  /// Compression that a closure would give.
+  KOKKOS_INLINE_FUNCTION Real pressedAt(const JointFit& fit, Real c, const JointState& state) const
+  {
+    const Real most = c > state.maximumClosure ? c : state.maximumClosure;
+    const ClosureCurve::Point top = curve.at(fit, most);
+    const Real sigma = top.traction - top.stiffness * (most - c);
+    return sigma > 0 ? sigma : 0;
+  }
+
   /// Elastic shear up to the strength, slip beyond. Work of the mean traction of the step is stored
   /// or dissipated to round-off, whatever the strength does.
   KOKKOS_INLINE_FUNCTION void shear(const JointFit& fit, const Vec3& increment, Real most,
@@ -317,7 +326,23 @@ private:
     Real sigma = pressed;
     if (tangent > 0)
     {
-      lift = tangent * (x < dilationSlip - slipBefore ? x : dilationSlip - slipBefore);
+      const Real room = dilationSlip - slipBefore;
+      if (strength == Strength::BartonBandis || !curve.straight())
+      {
+        // The strength is no straight function of the slip: false position between 0 and x.
+        const Real start = size - held - mu * pressed;
+        for (int i = 0; i < 4; ++i)
+        {
+          const Real at = pressedAt(fit, closure + shift + tangent * (x < room ? x : room), state);
+          const Real left =
+              softening ? bond.cohesion * bond.share(q + x / bond.shearingLength) : held;
+          const Real residual =
+              size - fit.shearStiffness * x - left - at * frictionAt(at, slipBefore, speed);
+          if (residual < start)
+            x *= start / (start - residual);
+        }
+      }
+      lift = tangent * (x < room ? x : room);
       close(fit, closure + shift + lift, state, response);
       sigma = response.normalTraction;
       mu = frictionAt(sigma, slipBefore, speed);

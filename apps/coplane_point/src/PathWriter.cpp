@@ -1,0 +1,74 @@
+#include "PathWriter.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <system_error>
+
+namespace coplane
+{
+PathWriter::PathWriter(const std::string& file) : file_(file), stream_(file)
+{
+  if (!stream_)
+    fail(ExitCode::Output, "{}: cannot be written ({}). Check the folder and its permissions.",
+         file_, std::generic_category().message(errno));
+  stream_
+      << "time[s],gap[m],closure[m],slip_x[m],slip_y[m],normal_traction[Pa],shear_traction_x[Pa],"
+         "shear_traction_y[Pa],shear_traction[Pa],slipping,slip_path[m],maximum_closure[m],"
+         "offset[m],inelastic_opening[m],inelastic_slip[m],bonded,damage,work[J/m^2],"
+         "stored[J/m^2],friction[J/m^2],fracture[J/m^2],hysteresis[J/m^2],balance[J/m^2]\n";
+}
+
+void PathWriter::write(const JointPoint& point)
+{
+  const JointState& state = point.state();
+  const Real sigma = point.response().normalTraction, shear = norm(state.shearTraction);
+  work_ = point.work();
+  stored_ = point.stored();
+  friction_ = point.friction();
+  fracture_ = point.fracture();
+  hysteresis_ = point.hysteresis();
+  const Real balance = work_ - stored_ - friction_ - fracture_ - hysteresis_;
+  const auto put = [&](Real value) { stream_ << fmt::format(",{:.17g}", value); };
+  stream_ << fmt::format("{:.17g}", point.time());
+  for (const Real value : {point.gap(), point.closure(), point.slip().x, point.slip().y, sigma,
+                           state.shearTraction.x, state.shearTraction.y, shear})
+    put(value);
+  put(point.response().slipping);
+  for (const Real value : {state.slip, state.maximumClosure, point.offset(), state.opening,
+                           state.shearing, Real(state.bonded), point.law().damage(state), work_,
+                           stored_, friction_, fracture_, hysteresis_, balance})
+    put(value);
+  stream_ << '\n';
+  if (lines_++ == 0)
+    startedBonded_ = state.bonded;
+  bonded_ = state.bonded;
+  mostCompression_ = std::max(mostCompression_, sigma);
+  mostTension_ = std::max(mostTension_, -sigma);
+  mostShear_ = std::max(mostShear_, shear);
+  worstBalance_ = std::max(worstBalance_, std::abs(balance));
+}
+
+void PathWriter::close()
+{
+  stream_.close();
+  if (!stream_)
+    fail(ExitCode::Output, "{}: writing failed. Is the disk full?", file_);
+}
+
+std::string PathWriter::summary() const
+{
+  return fmt::format(
+      "  peaks [Pa]: compression {:.6g}, tension {:.6g}, shear {:.6g}{}\n"
+      "  energies [J/m^2]: work {:.6g} = stored {:.6g} + friction {:.6g} + fracture {:.6g} + "
+      "hysteresis {:.6g}, off by at most {:.2g}\n"
+      "  {} points in {}",
+      mostCompression_, mostTension_, mostShear_,
+      !startedBonded_ ? ""
+      : bonded_       ? "; still bonded"
+                      : "; the bond is broken",
+      work_, stored_, friction_, fracture_, hysteresis_, worstBalance_, lines_, file_);
+}
+} // namespace coplane

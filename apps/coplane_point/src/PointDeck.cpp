@@ -1,0 +1,280 @@
+#include "PointDeck.hpp"
+
+#include "PathFile.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_input/ContactSchema.hpp>
+#include <coplane_input/DeckReader.hpp>
+#include <coplane_input/JointCards.hpp>
+#include <coplane_input/SchemaBuilder.hpp>
+#include <coplane_input/SchemaReader.hpp>
+#include <coplane_input/Suggestion.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace coplane
+{
+using namespace schema;
+
+namespace
+{
+Key jointPaths()
+{
+  const auto takeSteps = [](int& field, int value) { field = value; };
+  return named(
+             "joint_paths", &PointDeck::jointPaths,
+             {
+                 text("type", &JointPathCard::type)
+                     .needed()
+                     .oneOf({"closing", "shear", "circle", "points"})
+                     .like("shear")
+                     .means(
+                         "closing: closures in turn; shear: slips in turn, under normal "
+                         "traction; circle: slip around a circle, under normal traction; points: "
+                         "gaps and slips from lists or a file"),
+                 text("joint", &JointPathCard::joint)
+                     .needed()
+                     .like("dry")
+                     .means("name of a card in joints"),
+                 flag("declared", &JointPathCard::declared)
+                     .like("false")
+                     .means(
+                         "a joint of the model, bonded at the start if its law has a bond; false: "
+                         "a contact that was made later"),
+                 bound<int>("steps", KeyKind::Integer, &JointPathCard::steps, takeSteps)
+                     .atLeast(1)
+                     .in("steps")
+                     .like("1000")
+                     .defaultIs(fmt::format("{}", JointPathCard{}.steps))
+                     .means("from one point of the path to the next; of a circle: for each turn"),
+                 number("speed", &JointPathCard::speed)
+                     .onlyFor({"closing", "shear", "circle"})
+                     .in("m/s")
+                     .above(0)
+                     .like("0.5")
+                     .means("with which the path is followed, for friction that depends on speed"),
+                 text("output", &JointPathCard::output)
+                     .like("dry.csv")
+                     .defaultIs("<name of the deck>_<name of the path>.csv")
+                     .means("CSV file, relative to the working folder"),
+                 numbers("closures", &JointPathCard::closures)
+                     .onlyFor({"closing"})
+                     .needed()
+                     .in("m")
+                     .like("[1e-4, 5e-5, 1.6e-4, 0]")
+                     .means("visited in turn from 0; negative: the joint opens"),
+                 numbers("slips", &JointPathCard::slips)
+                     .onlyFor({"shear"})
+                     .needed()
+                     .in("m")
+                     .like("[1e-3, -1e-3]")
+                     .means("visited in turn from 0, along x"),
+                 number("normal_traction", &JointPathCard::normalTraction)
+                     .onlyFor({"shear", "circle"})
+                     .in("Pa")
+                     .atLeast(0)
+                     .like("2e6")
+                     .means("compression before the shear starts"),
+                 number("surrounding_stiffness", &JointPathCard::surroundingStiffness)
+                     .onlyFor({"shear", "circle"})
+                     .in("Pa/m")
+                     .atLeast(0)
+                     .like("5e9")
+                     .means("by which the compression rises when the joint dilates; 0: it stays"),
+                 number("radius", &JointPathCard::radius)
+                     .onlyFor({"circle"})
+                     .needed()
+                     .in("m")
+                     .above(0)
+                     .like("1e-3")
+                     .means("of the circle, which starts at 0 along y"),
+                 number("turns", &JointPathCard::turns)
+                     .onlyFor({"circle"})
+                     .in("-")
+                     .above(0)
+                     .like("2")
+                     .means("how often the circle is followed"),
+                 text("file", &JointPathCard::file)
+                     .onlyFor({"points"})
+                     .like("path.csv")
+                     .means(
+                         "CSV file, relative to the folder of the deck: a line of headings, then "
+                         "time [s], gap [m], slip in x [m], slip in y [m]"),
+                 numbers("times", &JointPathCard::times)
+                     .onlyFor({"points"})
+                     .in("s")
+                     .above(0)
+                     .like("[0.5, 1]")
+                     .means("rising; the path starts at 0 with gap and slips 0"),
+                 numbers("gaps", &JointPathCard::gaps)
+                     .onlyFor({"points"})
+                     .in("m")
+                     .like("[-2e-5, -2e-5]")
+                     .defaultIs("all 0")
+                     .means("normal opening at `times`; negative: the joint closes"),
+                 numbers("slips_x", &JointPathCard::slipsX)
+                     .onlyFor({"points"})
+                     .in("m")
+                     .like("[0, 1e-4]")
+                     .defaultIs("all 0")
+                     .means("slip along x at `times`"),
+                 numbers("slips_y", &JointPathCard::slipsY)
+                     .onlyFor({"points"})
+                     .in("m")
+                     .like("[0, 5e-5]")
+                     .defaultIs("all 0")
+                     .means("slip along y at `times`"),
+             })
+      .needed()
+      .decidedBy("type")
+      .means("paths on which joints are led, by a name of your choice; each gives one CSV file");
+}
+
+/// What one key of a path demands of another.
+class PathCheck
+{
+public:
+  PathCheck(PointDeck& deck, JointPathCard& card, const DeckNode& root, Problems& problems)
+      : deck_(deck), card_(card), root_(root), problems_(problems)
+  {
+  }
+
+  void all()
+  {
+    std::vector<std::string> names;
+    for (const auto& joint : deck_.joints)
+      names.push_back(joint.name);
+    const auto found = std::find(names.begin(), names.end(), card_.joint);
+    if (!card_.joint.empty() && found == names.end())
+      problem("joint", fmt::format(" = '{}' is not a card in joints.{} There {}.", card_.joint,
+                                   didYouMean(card_.joint, names),
+                                   names.empty() ? "are none" : "is: " + listOf(names)));
+    else if (found != names.end() &&
+             deck_.joints[std::size_t(found - names.begin())].model == "penalty" &&
+             (deck_.elements.thickness <= 0 || deck_.elements.modulus <= 0))
+      problem("joint", fmt::format(" = '{}' is a penalty, whose stiffness comes from the elements; "
+                                   "give elements.thickness [m] and elements.modulus [Pa].",
+                                   card_.joint));
+    if (card_.type == "closing" && given("closures") && card_.closures.empty())
+      problem("closures", " is empty; accepted: at least one number.");
+    if (card_.type == "shear" && given("slips") && card_.slips.empty())
+      problem("slips", " is empty; accepted: at least one number.");
+    if (card_.type == "points")
+      points();
+  }
+
+private:
+  bool given(const char* key) const
+  {
+    const DeckNode* paths = root_.find("joint_paths");
+    const DeckNode* path = paths ? paths->find(card_.name) : nullptr;
+    return path && path->find(key);
+  }
+
+  void problem(const std::string& key, const std::string& text)
+  {
+    problems_.add(nodeAt(root_, {"joint_paths", card_.name, key}),
+                  fmt::format("joint_paths.{}.{}{}", card_.name, key, text));
+  }
+
+  void points()
+  {
+    if (!card_.file.empty())
+    {
+      for (const char* key : {"times", "gaps", "slips_x", "slips_y"})
+        if (given(key))
+          problem(key, " and file exclude each other; keep one of them.");
+      const auto folder = std::filesystem::path(deck_.file).parent_path();
+      card_.file = (folder / card_.file).lexically_normal().string();
+      return;
+    }
+    if (!given("times"))
+      return problem("times", " is missing; accepted: a list of numbers [s], or a file.");
+    if (card_.times.empty())
+      return problem("times", " is empty; accepted: at least one number.");
+    for (std::size_t i = 1; i < card_.times.size(); ++i)
+      if (!(card_.times[i] > card_.times[i - 1]))
+        return problem("times", fmt::format(" does not rise at item {}: {} s after {} s.", i,
+                                            card_.times[i], card_.times[i - 1]));
+    list("gaps", card_.gaps);
+    list("slips_x", card_.slipsX);
+    list("slips_y", card_.slipsY);
+  }
+
+  void list(const char* key, std::vector<Real>& values)
+  {
+    if (!given(key))
+      values.assign(card_.times.size(), 0);
+    else if (values.size() != card_.times.size())
+      problem(key, fmt::format(" has {} numbers, but times has {}; accepted: as many.",
+                               values.size(), card_.times.size()));
+  }
+
+  PointDeck& deck_;
+  JointPathCard& card_;
+  const DeckNode& root_;
+  Problems& problems_;
+};
+} // namespace
+
+const Key& pointSchema()
+{
+  static const Key schema = section(
+      "", {
+              text("title", &PointDeck::title).means("for the records").like("Direct shear"),
+              Key(named("joints", &PointDeck::joints, jointCardKeys())
+                      .needed()
+                      .decidedBy("model")
+                      .atMostOneOf({"shear_stiffness", "shear_ratio"})
+                      .means("laws of contact planes, as in decks of coplane")),
+              Key(group("elements", &PointDeck::elements,
+                        {
+                            number("thickness", &ElementCard::thickness)
+                                .in("m")
+                                .above(0)
+                                .like("0.1")
+                                .defaultIs("none, rigid")
+                                .means("of the elements behind both faces"),
+                            number("modulus", &ElementCard::modulus)
+                                .in("Pa")
+                                .above(0)
+                                .like("40e9")
+                                .defaultIs("none, rigid")
+                                .means("P-wave modulus K + 4G/3 of the elements behind both faces"),
+                        })
+                      .means("what a joint takes from the elements behind its faces: the stiffness "
+                             "of penalty joints, the default of stiffness_cap")),
+              jointPaths(),
+          });
+  return schema;
+}
+
+PointDeck parsePointDeck(const std::string& text, const std::string& file,
+                         const std::vector<std::string>& overrides)
+{
+  Problems problems;
+  PointDeck deck;
+  deck.file = file;
+  const DeckNode root = readBySchema(pointSchema(), text, file, overrides, &deck, problems);
+  checkJoints(deck.joints, root, problems);
+  for (JointPathCard& card : deck.jointPaths)
+  {
+    PathCheck(deck, card, root, problems).all();
+    if (card.output.empty())
+      card.output =
+          fmt::format("{}_{}.csv", std::filesystem::path(file).stem().string(), card.name);
+  }
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
+  for (JointPathCard& card : deck.jointPaths)
+    if (!card.file.empty())
+      readPathFile(card.file, card);
+  return deck;
+}
+
+PointDeck readPointDeck(const std::string& file, const std::vector<std::string>& overrides)
+{
+  return parsePointDeck(readDeckFile(file), file, overrides);
+}
+} // namespace coplane

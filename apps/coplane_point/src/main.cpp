@@ -1,0 +1,101 @@
+#include "JointPaths.hpp"
+#include "PathWriter.hpp"
+#include "PointDeck.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Version.hpp>
+#include <coplane_input/DeckReference.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace coplane
+{
+namespace
+{
+void print(const std::string& text)
+{
+  std::fputs((text + "\n").c_str(), stdout);
+}
+
+void runPath(const PointDeck& deck, const JointPathCard& card)
+{
+  PathWriter writer(card.output);
+  followPath(card, pointOf(deck, card), [&](const JointPoint& point) { writer.write(point); });
+  writer.close();
+  print(fmt::format("{}: {} of joint '{}'", card.name, card.type, card.joint));
+  print(writer.summary());
+}
+
+std::string reference(bool markdown)
+{
+  return markdown
+             ? "# Decks of coplane_point\n\nMade from the schema that checks decks. Numbers are "
+               "SI. `<name>` is a name of yours; `--set path=value` uses the same paths.\n\n" +
+                   referenceMarkdown(pointSchema())
+             : "Keys of a deck of coplane_point (YAML). Numbers are SI. <name> is a name of "
+               "yours; --set path=value\nuses the same paths.\n\n" +
+                   referenceText(pointSchema());
+}
+
+int run(int argc, char** argv)
+{
+  CLI::App app{"Leads laws along prescribed paths at one point and writes CSV files.\n"
+               "Example: coplane_point exodus_inputs/joint_paths/mortar.yaml\n"};
+  app.set_version_flag("--version",
+                       fmt::format("coplane_point {} ({})", version().number, version().revision));
+  std::string file;
+  std::vector<std::string> overrides;
+  bool check = false, help = false, markdown = false;
+  app.add_option("deck", file, "The deck (YAML); --help-deck lists its keys");
+  app.add_option("--set", overrides,
+                 "Overrides a deck value: --set joint_paths.test.steps=1000 (may be repeated)")
+      ->take_all()
+      ->expected(1);
+  app.add_flag("--check", check, "Check the deck and stop");
+  app.add_flag("--help-deck", help, "Print every key of a deck and stop");
+  app.add_flag("--help-deck-markdown", markdown, "The same as Markdown");
+  try
+  {
+    app.parse(argc, argv);
+    if (!help && !markdown && file.empty())
+      throw CLI::RequiredError("deck");
+  }
+  catch (const CLI::ParseError& error)
+  {
+    return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
+  }
+  if (help || markdown)
+  {
+    std::fputs(reference(markdown).c_str(), stdout);
+    return int(ExitCode::Success);
+  }
+  const PointDeck deck = readPointDeck(file, overrides);
+  if (check)
+    print("check: the deck is fine; nothing was run");
+  else
+    for (const JointPathCard& card : deck.jointPaths)
+      runPath(deck, card);
+  return int(ExitCode::Success);
+}
+} // namespace
+} // namespace coplane
+
+int main(int argc, char** argv)
+{
+  try
+  {
+    return coplane::run(argc, argv);
+  }
+  catch (const coplane::Error& error)
+  {
+    std::fprintf(stderr, "error: %s\n", error.what());
+    return int(error.code());
+  }
+  catch (const std::exception& error)
+  {
+    std::fprintf(stderr, "error: %s (a defect of the program: please report it)\n", error.what());
+    return int(coplane::ExitCode::Internal);
+  }
+}

@@ -1,0 +1,248 @@
+"""V48 (and V12, V13 for one point): every joint law on the paths of exodus_inputs/joint_paths."""
+
+import csv
+import math
+import os
+import pathlib
+import subprocess
+
+import numpy
+from coplanetest import Case, program
+
+case = Case("V48", __file__)
+examples = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/joint_paths"
+
+
+def point(*arguments):
+    done = subprocess.run(
+        [program.binary("coplane_point"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    return done.returncode, done.stdout
+
+
+class Path:
+    """Columns of a path by their names without units."""
+
+    def __init__(self, deck, name):
+        self.name = f"{deck}, {name}"
+        with open(f"{deck}_{name}.csv") as file:
+            rows = list(csv.reader(file))
+        values = numpy.array(rows[1:], dtype=float)
+        self.columns = {heading.split("[")[0]: values[:, i] for i, heading in enumerate(rows[0])}
+
+    def __getattr__(self, name):
+        return self.columns[name]
+
+    def check(self, what, value, reference, tolerance, relative=True):
+        case.check(f"{self.name}: {what}", value, reference, tolerance, relative=relative)
+
+    def energies(self, tolerance):
+        """Work is stored or dissipated, and nothing dissipated ever comes back."""
+        most = max(numpy.max(numpy.abs(self.work)), 1e-12)
+        self.check("balance over work", numpy.max(numpy.abs(self.balance)) / most, 0, tolerance, relative=False)
+        least = min(numpy.min(numpy.diff(getattr(self, part))) for part in ("friction", "fracture", "hysteresis"))
+        self.check("dissipation that came back [J/m^2]", min(least, 0), 0, 0, relative=False)
+
+
+def area(x, y):
+    return float(numpy.sum(0.5 * (y[1:] + y[:-1]) * numpy.diff(x)))
+
+
+# --- all decks run, and the list of them is complete -------------------------------------------------
+
+decks = sorted(path.stem for path in examples.glob("*.yaml"))
+known = ["barton_bandis", "bilinear", "closure_curve", "friction", "linear", "mortar", "penalty", "points", "table"]
+case.check_equal("decks", decks, known)
+for deck in decks:
+    code, output = point(examples / f"{deck}.yaml")
+    case.check_equal(f"{deck}: exit code", code, 0)
+    if code:
+        print(output)
+
+# --- closure curve (V12): k 1e11, c_m 2e-4 ------------------------------------------------------------
+
+cycle = Path("closure_curve", "cycle")
+loss = 1e11 * 2e-4**2 * (-0.8 - math.log1p(-0.8) - 0.32)
+cycle.check("traction at half of c_m [Pa]", cycle.normal_traction[200], 20e6, 1e-12)
+cycle.check("traction at .75 / 2 c_m, on the tangent [Pa]", cycle.normal_traction[300], 10e6, 1e-10)
+cycle.check("traction at the residual closure [Pa]", cycle.normal_traction[400], 0, 1e-6, relative=False)
+cycle.check("traction at .8 c_m [Pa]", cycle.normal_traction[600], 80e6, 1e-12)
+cycle.check("hysteresis [J/m^2]", cycle.hysteresis[-1], loss, 1e-10)
+cycle.check("stored at .8 c_m [J/m^2]", cycle.stored[600], 1280, 1e-10)
+cycle.check("work [J/m^2]", cycle.work[-1], loss, 1e-3)
+cycle.energies(1e-3)
+
+# --- straight joints (V13) -----------------------------------------------------------------------------
+
+shear = Path("linear", "shear")
+drag = -shear.shear_traction_x
+start = int(numpy.argmax(shear.normal_traction > 2e6 * (1 - 1e-9)))
+stuck = (shear.slip_x < 2.35e-5) & (numpy.arange(len(drag)) <= start + 200) & (numpy.arange(len(drag)) >= start)
+shear.check("stiffness before slip [Pa/m]", numpy.max(drag[stuck]) / numpy.max(shear.slip_x[stuck]), 5e10, 1e-10)
+shear.check("strength [Pa]", numpy.max(drag), 1.2e6, 1e-10)
+shear.check("strength after reversal [Pa]", -numpy.min(drag), 1.2e6, 1e-10)
+# 1e-4 - 2.4e-5, then twice (way less 4.8e-5 of the spring): 7.6e-5 + 1.02e-4 + 5.2e-5.
+shear.check("slip path [m]", shear.slip_path[-1], 2.3e-4, 1e-10)
+shear.check("friction [J/m^2]", shear.friction[-1], 1.2e6 * 2.3e-4, 1e-10)
+shear.energies(1e-10)
+
+circle = Path("linear", "circle")
+# The spring is a rope of length a whose end P goes around the circle in steps t and drags its other end Q along a
+# circle of radius r: R^2 = r^2 + 2 a r sin(t/2) + a^2; its angle to the tangent has the cosine r cos(t/2) / R.
+R, a, t = 1e-3, 2.4e-5, 2 * math.pi / 10000
+h = a * math.sin(t / 2)
+r = -h + math.sqrt(h * h + R * R - a * a)
+angle = 2 * math.pi
+tangent = numpy.array([-math.sin(angle), math.cos(angle)])
+pull = -numpy.array([circle.shear_traction_x[-1], circle.shear_traction_y[-1]]) / 1.2e6
+circle.check("strength around the circle [Pa]", numpy.min(circle.shear_traction[-9000:]), 1.2e6, 1e-10)
+circle.check("cosine of the lag", float(pull @ tangent), r * math.cos(t / 2) / R, 1e-9)
+circle.energies(1e-10)
+
+tension = Path("linear", "tension")
+tension.check("largest tension [Pa]", -numpy.min(tension.normal_traction), 1e6, 2e-3)
+tension.check("fracture [J/m^2]", tension.fracture[-1], 5, 1e-10)
+tension.check("traction when pressed again [Pa]", tension.normal_traction[-1], 1e6, 1e-10)
+case.check_equal("linear, tension: broken", [tension.bonded[0], tension.bonded[-1]], [1, 0])
+tension.energies(0.01)
+
+press, slip = Path("penalty", "press_and_open"), Path("penalty", "shear")
+press.check("stiffness [Pa/m]", press.normal_traction[-1] / press.closure[-1], 1e12, 1e-12)
+press.check("stored [J/m^2]", press.stored[-1], 200, 1e-10)
+press.energies(1e-3)
+slip.check("strength [Pa]", numpy.max(slip.shear_traction), 3e6, 1e-10)
+# 2e-5 less 6e-6 of the spring, then 4e-5 less 1.2e-5.
+slip.check("friction [J/m^2]", slip.friction[-1], 3e6 * (1.4e-5 + 2.8e-5), 1e-10)
+slip.energies(1e-10)
+
+corner = Path("points", "corner")
+corner.check("strength at the corner [Pa]", -corner.shear_traction_x[2000], 1.2e6, 1e-10)
+# The spring turns like a dragged rope: after 1e-4 m across, its angle w has ln tan(w/2) fallen by 1e-4 / a.
+lag = 2 * math.atan(math.exp(-1e-4 / 2.4e-5))
+found = math.atan2(-corner.shear_traction_x[3000], -corner.shear_traction_y[3000])
+corner.check("angle after the corner [rad]", found, lag, 0.01)
+corner.check("traction when opened [Pa]", corner.shear_traction[-1], 0, 0, relative=False)
+corner.energies(1e-3)
+
+# --- table ------------------------------------------------------------------------------------------------
+
+table = Path("table", "cycles")
+table.check("traction at 1.5e-4 [Pa]", table.normal_traction[200], 2.5e6, 1e-12)
+table.check("traction at 2.3e-4 [Pa]", table.normal_traction[600], 7e6, 1e-12)
+table.check("traction beyond the last point [Pa]", table.normal_traction[1000], 14e6, 1e-12)
+# Work to 3e-4: 50 + 250 + 325 + 575; given back 14e6^2 / 2e11.
+table.check("hysteresis [J/m^2]", table.hysteresis[-1], 1200 - 980, 1e-10)
+table.energies(1e-3)
+
+# --- friction of speed, dilation --------------------------------------------------------------------------
+
+for name, speed in (("slow", 1e-6), ("medium", 0.2), ("fast", 20)):
+    path = Path("friction", name)
+    mu = 0.4 + 0.3 * math.exp(-speed / 0.2)
+    path.check("strength [Pa]", path.shear_traction[-1], mu * 2e6, 1e-9)
+    path.energies(1e-9)
+free, confined = Path("friction", "free"), Path("friction", "confined")
+free.check("dilation [m]", free.offset[-1], 0.1 * 1e-3, 1e-3)
+free.check("strength [Pa]", free.shear_traction[-1], 1.2e6, 1e-9)
+free.check("rise of the gap [m]", free.gap[-1] + 2e-5, 1e-4, 1e-3)
+free.energies(1e-3)
+# The blocks give way: of 1e-4 m of dilation the joint (1e11 Pa/m) and they (1e10) take 1 : 10.
+pressed = 2e6 + 1e-4 / (1 / 1e11 + 1 / 1e10)
+confined.check("compression after dilation [Pa]", confined.normal_traction[-1], pressed, 1e-3)
+confined.check("strength [Pa]", confined.shear_traction[-1], 0.6 * pressed, 1e-3)
+confined.energies(1e-3)
+
+# --- Barton-Bandis -----------------------------------------------------------------------------------------
+
+mobilised = ([0.3, 0.6, 1, 2, 4, 10, 100], [0, 0.75, 1, 0.85, 0.7, 0.5, 0])
+for name, sigma in (("low", 1e6), ("high", 10e6)):
+    path = Path("barton_bandis", name)
+    i = 8 * math.log10(100e6 / sigma)
+
+    def strength(ratio):
+        return sigma * math.tan(math.radians(30 + i * numpy.interp(ratio, *mobilised)))
+
+    path.check("peak [Pa]", numpy.max(path.shear_traction), strength(1), 5e-3)
+    path.check("slip at the peak [m]", path.slip_path[numpy.argmax(path.shear_traction)], 2e-3, 5e-3)
+    path.check("last strength [Pa]", path.shear_traction[-1], strength(path.slip_path[-1] / 2e-3), 5e-3)
+    s = numpy.linspace(0, path.slip_path[-1], 100001)
+    slope = numpy.tan(numpy.radians(0.5 * i * numpy.interp(s / 2e-3, *mobilised)))
+    path.check("dilation [m]", path.offset[-1], area(s, slope), 5e-3)
+    path.energies(1e-3)
+path = Path("barton_bandis", "confined")
+rise = path.normal_traction[-1] - 1e6
+path.check("rise of the compression over opening [Pa/m]", rise / (path.gap[-1] + 1e6 / (2e10 + 1e6 / 2e-4)), 1e9, 1e-6)
+path.energies(1e-3)
+path = Path("barton_bandis", "cycles")
+# Bandis' estimate: k 15.35e9, c_m .2273574e-3.
+x = 1.8e-4 / 2.273574e-4
+path.check("largest compression [Pa]", numpy.max(path.normal_traction), 15.35e9 * 1.8e-4 / (1 - x), 1e-5)
+path.energies(1e-3)
+
+# --- cohesive joints (V48) -----------------------------------------------------------------------------------
+
+ft, c, G1, G2, mu, kn, ks = 0.25e6, 0.35e6, 18, 125, 0.75, 8.2e10, 3.6e10
+for deck in ("mortar", "bilinear"):
+    pulled = Path(deck, "tension")
+    pulled.check("peak of the tension [Pa]", -numpy.min(pulled.normal_traction), ft, 0.01)
+    pulled.check("area under the tension [J/m^2]", area(pulled.gap, -pulled.normal_traction), G1, 0.01)
+    pulled.check("fracture [J/m^2]", pulled.fracture[-1], G1, 0.01)
+    pulled.energies(1e-3)
+    at = int(numpy.searchsorted(pulled.gap, 1e-4))
+    d = pulled.gap[at]
+    if deck == "bilinear":
+        df, d0 = 2 * G1 / ft, ft / kn
+        curve = (1 - df * (d - d0) / (d * (df - d0))) * kn * d
+    else:
+        k = 1e-4
+        for _ in range(50):  # d = f_t exp(-f_t k / G) / k_n + k
+            k = d - ft * math.exp(-ft * k / G1) / kn
+        curve = ft * math.exp(-ft * k / G1)
+    pulled.check("tension at a gap of 0.1 mm [Pa]", -pulled.normal_traction[at], curve, 1e-6)
+    for name, sigma in (("shear_0", 0), ("shear_1", 1e6)):
+        sheared = Path(deck, name)
+        peak = numpy.max(sheared.shear_traction)
+        sheared.check("peak of the shear [Pa]", peak, c + mu * sigma, 0.01)
+        sheared.check("last strength [Pa]", sheared.shear_traction[-1], mu * sigma, 1e-3 * c, relative=False)
+        dragged = area(sheared.slip_x, -sheared.shear_traction_x)
+        spring = (mu * sigma) ** 2 / (2 * ks)
+        cohesive = dragged - mu * sigma * sheared.slip_path[-1] - spring
+        sheared.check("area of the cohesive part [J/m^2]", cohesive, G2, 0.01)
+        sheared.check("fracture [J/m^2]", sheared.fracture[-1], G2, 0.01)
+        sheared.energies(1e-3)
+    again = Path(deck, "cycle")
+    again.check("compression when pressed after breaking [Pa]", again.normal_traction[-1], kn * 4e-6, 1e-9)
+    again.check("fracture with unloading [J/m^2]", again.fracture[-1], G1, 0.01)
+    again.energies(1e-3)
+    mixed = Path(deck, "mixed")
+    # Opening and slip wear one bond: the fractures of both modes, each over its own energy, add up to at most 1.
+    wear = area(mixed.inelastic_opening, -mixed.normal_traction) / G1
+    wear += area(mixed.inelastic_slip, mixed.shear_traction) / G2
+    mixed.check("damage", mixed.damage[-1], 1, 0.01)
+    mixed.check("sum of the modes' shares of their energies", wear, 1, 0.02)
+    mixed.energies(1e-3)
+
+# --- errors -----------------------------------------------------------------------------------------------------
+
+linear = examples / "linear.yaml"
+code, output = point()
+case.check_equal("no deck: exit code", code, 2)
+code, output = point(linear, "--set", "joints.rough.frictoin=0.5")
+case.check_equal("misspelt key: exit code", code, 3)
+case.check_equal("misspelt key: suggestion", "Did you mean 'friction'?" in output, True)
+code, output = point(linear, "--set", "joint_paths.shear.joint=ruogh")
+case.check_equal("unknown joint: exit code and text", [code, "is not a card in joints. Did you mean 'rough'?" in output], [3, True])
+code, output = point(linear, "--set", "joint_paths.shear.output=no/such/folder.csv")
+case.check_equal("no folder: exit code", code, 5)
+pathlib.Path("bad.csv").write_text("time,gap,x,y\n1,0,0,0\n2,0,zero,0\n")
+pathlib.Path("bad.yaml").write_text(
+    "joints: {rough: {friction: 0.5}}\njoint_paths:\n  p: {type: points, joint: rough, file: bad.csv}\n"
+)
+code, output = point("bad.yaml", "--set", "elements={thickness: 1, modulus: 1e9}")
+case.check_equal("bad line: exit code and place", [code, "bad.csv:3: '2,0,zero,0' is no point of a path" in output], [3, True])
+code, output = point("bad.yaml")
+case.check_equal("penalty without elements", [code, "bad.yaml:3:28: joint_paths.p.joint" in output], [3, True])
+if code != 3:
+    print(output)
+
+case.finish()
