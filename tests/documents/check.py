@@ -58,6 +58,9 @@ def check_deck():
     assert printed.returncode == 0, printed.stdout
     kept = (SOURCE / "docs/user/deck.md").read_text()
     assert printed.stdout == kept, "docs/user/deck.md is old: build/bin/coplane --help-deck-markdown > docs/user/deck.md"
+    printed = run([str(BINARIES / "coplane_point"), "--help-deck-markdown"])
+    kept = (SOURCE / "docs/user/point-deck.md").read_text()
+    assert printed.stdout == kept, "docs/user/point-deck.md is old: build/bin/coplane_point --help-deck-markdown > docs/user/point-deck.md"
 
 
 def check_links():

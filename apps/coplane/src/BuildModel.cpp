@@ -1,6 +1,7 @@
 #include "BuildModel.hpp"
 
 #include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/JointCards.hpp>
 #include <coplane_input/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
@@ -16,23 +17,6 @@ Material materialOf(const MaterialCard& card)
     return makeJ2Plasticity(card.youngsModulus, card.poissonRatio, card.density, card.yieldStress,
                             card.hardeningModulus);
   return makeLinearElastic(card.youngsModulus, card.poissonRatio, card.density);
-}
-
-JointRecipe recipeOf(const JointCard& card)
-{
-  JointRecipe recipe;
-  recipe.name = card.name;
-  JointLaw& law = recipe.law;
-  law.penalty = card.model == "penalty";
-  law.stiffnessFraction = card.stiffnessFraction;
-  law.initialStiffness = card.model == "linear" ? card.normalStiffness : card.initialStiffness;
-  law.curve.inverseMaximumClosure = card.model == "closure_curve" ? 1 / card.maximumClosure : 0;
-  law.stiffnessCap = card.stiffnessCap.value_or(0);
-  law.shearStiffness = card.shearStiffness.value_or(-1);
-  law.shearRatio = card.shearRatio;
-  law.friction = card.friction;
-  law.cohesion = card.cohesion;
-  return recipe;
 }
 
 ContactOptions optionsOf(const ContactCard& card)
@@ -69,7 +53,7 @@ ContactRules rulesOf(const Deck& deck, const Mesh& mesh)
     return int(found - rules.joints.begin());
   };
   for (const JointCard& card : deck.joints)
-    rules.joints.push_back(recipeOf(card));
+    rules.joints.push_back({card.name, jointLawOf(card)});
   rules.blocks = int(mesh.blocks.size());
   ContactRule general;
   general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
