@@ -1,5 +1,6 @@
 """Checks of the documents and of the installed package; one per argument. Run by ctest, in a folder of its own."""
 
+import json
 import os
 import pathlib
 import re
@@ -50,6 +51,32 @@ def check_classic():
     assert done.returncode == 0, done.stdout
     kept = (SOURCE / "docs/theory/pictures/classic-corners.svg").read_text()
     assert picture.read_text() == kept, "docs/theory/pictures/classic-corners.svg is old: see docs/theory/pictures/draw-classic.py"
+
+
+def check_verification():
+    """The page of results has a section for every verification case, and none besides; its maker reads what tests write."""
+    sys.path.insert(0, str(SOURCE / "tests/support"))
+    import verification_page as maker
+
+    names = [folder.name for folder in maker.cases()]
+    registered = re.findall(r"^coplane_check\(verification/(\S+)", (SOURCE / "tests/CMakeLists.txt").read_text(), flags=re.M)
+    assert sorted(set(registered)) == sorted(names), "tests/CMakeLists.txt does not register all of tests/verification, or more"
+    kept = re.findall(r"^## (.*)", (SOURCE / "docs/verification.md").read_text(), flags=re.M)
+    missing = sorted(set(name.replace("_", " ") for name in names) ^ set(kept))
+    assert kept == [name.replace("_", " ") for name in names], (
+        f"docs/verification.md is old ({missing}): run the case with ctest, then python3 tests/support/verification_page.py <build folder>"
+    )
+    results = pathlib.Path("results")
+    shutil.rmtree(results, ignore_errors=True)
+    results.mkdir()
+    line = dict(folder=names[0], case="V0", quantity="|T| [m]", value=2.5, reference=2.0, error=0.25, tolerance=0.3, passed=True, relative=True)
+    balance = dict(line, quantity="run: energy", kept="energy", error=0.1, relative=False)
+    worse = dict(balance, quantity="other: energy", error=0.2, value=0.2)
+    (results / "checks.jsonl").write_text("".join(json.dumps(record) + "\n" for record in (line, balance, worse)))
+    text = maker.page(results, f"## {names[1].replace('_', ' ')}\n\nkept\n")
+    assert "| \\|T\\| [m] | 2 | 2.5 | 25 % | 30 % |" in text, text[:2000]
+    assert "| energy, worst of 2 runs | 2 | 0.2 | 0.2 | 0.3 |" in text
+    assert f"## {names[1].replace('_', ' ')}\n\nkept\n" in text and text.count("No results yet.") == len(names) - 2
 
 
 def check_deck():

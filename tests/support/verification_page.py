@@ -1,0 +1,118 @@
+"""Makes docs/verification.md from the results of the verification cases.
+
+Usage: verification_page.py <build folder> [<page>]
+
+Reads every checks.jsonl below the build folder and the READMEs in tests/verification. A case without results there keeps the
+section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
+"""
+
+import json
+import pathlib
+import re
+import sys
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+HEAD = """# Verification
+
+What the program computes against exact answers, case by case: made by `tests/support/verification_page.py` from the lines that the tests
+of `ctest -L verification` write (`checks.jsonl` in the folder of each test). How each reference is derived, and why its tolerance
+is what it is, stands in the README of the case. Errors are absolute where no per cent sign stands, in the unit of the quantity; `[low, high]` are limits.
+The last rows of a table are the balances that every run has to keep, with the worst of its runs.
+"""
+
+
+def cases():
+    """Folders of the cases, in the order of their numbers; those without a number last."""
+
+    def order(path):
+        found = re.match(r"V(\d+)", path.name)
+        return (0, int(found.group(1)), path.name) if found else (1, 0, path.name)
+
+    return sorted((path.parent for path in (SOURCE / "tests/verification").glob("*/check.py")), key=order)
+
+
+def records(build):
+    """Last line for each quantity of each case folder: {folder: {(case, quantity): record}}."""
+    found = {}
+    for path in sorted(pathlib.Path(build).rglob("*.jsonl")):
+        for text in path.read_text().splitlines():
+            record = json.loads(text)
+            found.setdefault(record["folder"], {})[record["case"], record["quantity"]] = record
+    return found
+
+
+def number(value):
+    if isinstance(value, bool) or value is None or isinstance(value, str):
+        return str(value)
+    if isinstance(value, list):
+        return "[" + ", ".join(number(item) for item in value) + "]" if value else "none"
+    return f"{value:.5g}"
+
+
+def row(record):
+    quantity = record["quantity"].replace("|", "\\|")
+    if record.get("reported"):
+        quantity += " (for the record)"
+    elif not record["passed"]:
+        quantity += " **failed**"
+    if record.get("relative"):
+        error, tolerance = f"{100 * record['error']:.2g} %", f"{100 * record['tolerance']:.2g} %"
+    else:
+        error, tolerance = f"{record['error']:.2g}", f"{record['tolerance']:.2g}"
+    return [quantity, number(record["reference"]), number(record["value"]), error, tolerance]
+
+
+def kept(lines):
+    """One row for each balance: the run that comes nearest to its tolerance."""
+    rows, groups = [], {}
+    for record in lines:
+        groups.setdefault(record["kept"], []).append(record)
+    for what, group in groups.items():
+        worst = max(group, key=lambda r: (not r["passed"], r["error"] / r["tolerance"] if r["tolerance"] else r["error"]))
+        cells = row({**worst, "quantity": f"{what}, worst of {len(group)} runs"})
+        if isinstance(worst["reference"], str):
+            cells[1], cells[2] = "equal", "equal" if worst["passed"] else "different"
+        rows.append(cells)
+    return rows
+
+
+def heading(folder):
+    return f"## {folder.name.replace('_', ' ')}"
+
+
+def section(folder, lines):
+    readme = (folder / "README.md").read_text()
+    title = re.search(r"^# (.*)", readme, flags=re.M).group(1)
+    claim = re.search(r"\*\*Claim\.\*\* (.*?)\n\n", readme, flags=re.S).group(1).replace("\n", " ")
+    text = [heading(folder), "", f"{title}. {claim}", "", f"[README](../tests/verification/{folder.name}/README.md)", ""]
+    if not lines:
+        return "\n".join(text + ["No results yet.", ""])
+    text += ["| quantity | reference | computed | error | tolerance |", "|---|---|---|---|---|"]
+    rows = [row(record) for record in lines if "kept" not in record] + kept([record for record in lines if "kept" in record])
+    several = len({record["case"] for record in lines}) > 1
+    if several:  # cases that share a folder
+        rows = [
+            [f"{record['case']}: {row(record)[0]}", *row(record)[1:]] for record in lines if "kept" not in record
+        ] + kept([record for record in lines if "kept" in record])
+    return "\n".join(text + ["| " + " | ".join(cells) + " |" for cells in rows] + [""])
+
+
+def page(build, old=""):
+    """The page's text; sections of `old` stay where the build has no results."""
+    before = {match.split("\n", 1)[0]: match for match in re.findall(r"^## .*?(?=^## |\Z)", old, flags=re.S | re.M)}
+    found = records(build)
+    sections = []
+    for folder in cases():
+        lines = list(found.get(folder.name, {}).values())
+        if lines or heading(folder) not in before:
+            sections.append(section(folder, lines))
+        else:
+            sections.append(before[heading(folder)].rstrip("\n") + "\n")
+    return HEAD + "\n" + "\n".join(sections)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    output = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else SOURCE / "docs/verification.md"
+    output.write_text(page(sys.argv[1], output.read_text() if output.exists() else ""))
