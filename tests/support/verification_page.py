@@ -68,7 +68,10 @@ def kept(lines):
     for record in lines:
         groups.setdefault(record["kept"], []).append(record)
     for what, group in groups.items():
-        worst = max(group, key=lambda r: (not r["passed"], r["error"] / r["tolerance"] if r["tolerance"] else r["error"]))
+        worst = max(
+            group,
+            key=lambda r: (not r["passed"], r["error"] / r["tolerance"] if r["tolerance"] else r["error"], isinstance(r["reference"], str)),
+        )
         cells = row({**worst, "quantity": f"{what}, worst of {len(group)} runs"})
         if isinstance(worst["reference"], str):
             cells[1], cells[2] = "equal", "equal" if worst["passed"] else "different"
@@ -88,12 +91,10 @@ def section(folder, lines):
     if not lines:
         return "\n".join(text + ["No results yet.", ""])
     text += ["| quantity | reference | computed | error | tolerance |", "|---|---|---|---|---|"]
-    rows = [row(record) for record in lines if "kept" not in record] + kept([record for record in lines if "kept" in record])
-    several = len({record["case"] for record in lines}) > 1
-    if several:  # cases that share a folder
-        rows = [
-            [f"{record['case']}: {row(record)[0]}", *row(record)[1:]] for record in lines if "kept" not in record
-        ] + kept([record for record in lines if "kept" in record])
+    rows = [row(record) for record in lines if "kept" not in record]
+    if len({record["case"] for record in lines}) > 1:  # cases that share a folder
+        rows = [[f"{record['case']}: {row(record)[0]}", *row(record)[1:]] for record in lines if "kept" not in record]
+    rows += kept([record for record in lines if "kept" in record])
     return "\n".join(text + ["| " + " | ".join(cells) + " |" for cells in rows] + [""])
 
 
