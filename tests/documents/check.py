@@ -64,7 +64,7 @@ def check_verification():
     kept = re.findall(r"^## (.*)", (SOURCE / "docs/verification.md").read_text(), flags=re.M)
     missing = sorted(set(name.replace("_", " ") for name in names) ^ set(kept))
     assert kept == [name.replace("_", " ") for name in names], (
-        f"docs/verification.md is old ({missing}): run the case with ctest, then python3 tests/support/verification_page.py <build folder>"
+        f"docs/verification.md is old ({missing}): python3 tests/support/verification_page.py <build folder>, best after the case has run there"
     )
     results = pathlib.Path("results")
     shutil.rmtree(results, ignore_errors=True)
