@@ -85,8 +85,8 @@ def heading(folder):
 
 def section(folder, lines):
     readme = (folder / "README.md").read_text()
-    title = re.search(r"^# (.*)", readme, flags=re.M).group(1)
-    claim = re.search(r"\*\*Claim\.\*\* (.*?)\n\n", readme, flags=re.S).group(1).replace("\n", " ")
+    title, paragraph = re.match(r"# ([^\n]*)\n+(.*?)(?=\n\n|\Z)", readme, flags=re.S).groups()
+    claim = paragraph.replace("**Claim.** ", "").replace("\n", " ").strip()
     text = [heading(folder), "", f"{title}. {claim}", "", f"[README](../tests/verification/{folder.name}/README.md)", ""]
     if not lines:
         return "\n".join(text + ["No results yet.", ""])
