@@ -1,5 +1,7 @@
 #include "Report.hpp"
 
+#include "CensusReport.hpp"
+
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 
@@ -30,21 +32,7 @@ void reportModel(const Solver& solver, const Mesh& mesh)
     logInfo("contact: off");
     return;
   }
-  const ContactCensus census = solver.contact().census();
-  logInfo("contact: skin {:.4e} m; {} candidate pairs", solver.contact().skin(), census.pairs);
-  if (census.pairs == 0)
-    return;
-  logInfo("  normal stiffness of pairs: {:.4e} to {:.4e} Pa/m", census.leastStiffness,
-          census.largestStiffness);
-  logInfo("  declared joints: {} closed; {} more pairs of their faces only neighbour each other",
-          census.declaredClosed, census.declaredWithoutOverlap);
-  if (census.declaredClosed > 0)
-    logInfo("    gaps of the mesh that were absorbed: {:.3e} to {:.3e} m", census.leastGap,
-            census.largestGap);
-  logInfo("  other pairs: {} apart, {} overlapping", census.apart, census.overlapping);
-  if (census.overlapping > 0)
-    logInfo("    deepest overlap {:.3e} m: overlaps at the start carry no force",
-            census.deepestOverlap);
+  reportCensus(solver.contact());
 }
 
 void reportEnd(const Solver& solver)

@@ -208,13 +208,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
     if (plane.declared || plane.missedSearches == 0)
       dormant.push_back(std::int64_t(p));
     else if (plane.countedHere)
-    {
-      endedWork_.add(plane.work);
-      endedFriction_.add(plane.frictionWork);
-      endedHysteresis_.add(plane.hysteresisWork);
-      endedFracture_.add(plane.fractureWork);
-      endedDamping_.add(plane.dampingWork);
-    }
+      ended_.add(plane);
   };
   const auto keyOfPair = [&](const CandidatePair& pair)
   { return std::make_pair(faces_[pair.lower].id, faces_[pair.higher].id); };
@@ -292,6 +286,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
       plane.faceId[0] = a.id;
       plane.faceId[1] = b.id;
       plane.joint = std::uint16_t(rule.joint);
+      plane.block[0] = std::uint16_t(a.block);
+      plane.block[1] = std::uint16_t(b.block);
       plane.countedHere = a.ownedHere;
       plane.fit =
           rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
@@ -552,33 +548,14 @@ void Contact::addForces(const ConstNodeVectors& x, const NodeVectors& f,
 
 ContactEnergy Contact::energy() const
 {
-  std::vector<ExactSum> sums(6);
-  sums[0] = endedWork_;
-  sums[2] = endedFriction_;
-  sums[3] = endedHysteresis_;
-  sums[4] = endedDamping_;
-  sums[5] = endedFracture_;
+  PlaneEnergySums mine;
+  for (const auto& [kind, sums] : ended_.byKind())
+    mine.add(sums);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    const Plane& plane = planes_(p);
-    if (!plane.countedHere || !plane.born)
-      continue;
-    sums[0].add(plane.work);
-    sums[1].add(plane.stored(lawOf(plane)));
-    sums[2].add(plane.frictionWork);
-    sums[3].add(plane.hysteresisWork);
-    sums[4].add(plane.dampingWork);
-    sums[5].add(plane.fractureWork);
-  }
-  const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
-  ContactEnergy energy;
-  energy.work = totals[0];
-  energy.stored = totals[1];
-  energy.friction = totals[2];
-  energy.hysteresis = totals[3];
-  energy.damping = totals[4];
-  energy.fracture = totals[5];
-  return energy;
+    if (planes_(p).countedHere && planes_(p).born)
+      mine.add(planes_(p), planes_(p).stored(lawOf(planes_(p))));
+  std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
+  return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
 }
 
 ContactCounts Contact::counts() const
@@ -600,53 +577,5 @@ ContactCounts Contact::counts() const
   n[7] = missed_;
   comm_->sum(n);
   return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
-}
-
-ContactCensus Contact::census() const
-{
-  ContactCensus census;
-  std::vector<std::int64_t> n(5, 0);
-  std::vector<Real> extremes(
-      5,
-      -infinity); // -least gap, largest gap, deepest overlap, -least stiffness, largest stiffness
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    const Plane& plane = planes_(p);
-    if (!plane.countedHere || plane.face[0] < 0)
-      continue;
-    ++n[0];
-    extremes[3] = std::max(extremes[3], -plane.fit.normalStiffness);
-    extremes[4] = std::max(extremes[4], plane.fit.normalStiffness);
-    const bool joint =
-        rules_.between(faces_[plane.face[0]].group, faces_[plane.face[1]].group).declared;
-    if (plane.declared)
-    {
-      ++n[1];
-      extremes[0] = std::max(extremes[0], -plane.gap);
-      extremes[1] = std::max(extremes[1], plane.gap);
-    }
-    else if (joint)
-      ++n[2];
-    else if (plane.foundLate)
-    {
-      ++n[3];
-      extremes[2] = std::max(extremes[2], -plane.gap);
-    }
-    else
-      ++n[4];
-  }
-  comm_->sum(n);
-  comm_->max(extremes);
-  census.pairs = n[0];
-  census.declaredClosed = n[1];
-  census.declaredWithoutOverlap = n[2];
-  census.overlapping = n[3];
-  census.apart = n[4];
-  census.leastGap = -extremes[0];
-  census.largestGap = extremes[1];
-  census.deepestOverlap = std::max(0.0, extremes[2]);
-  census.leastStiffness = -extremes[3];
-  census.largestStiffness = std::max(0.0, extremes[4]);
-  return census;
 }
 } // namespace coplane

@@ -1,13 +1,13 @@
 #pragma once
 
 #include <coplane_contact/ContactRules.hpp>
+#include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Comm.hpp>
-#include <coplane_core/ExactSum.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
@@ -16,31 +16,11 @@
 
 namespace coplane
 {
-/// Energies of contact since the start, summed over planes that live and planes that have ended
-/// [J].
-struct ContactEnergy
-{
-  Real stored = 0, friction = 0, hysteresis = 0, fracture = 0, damping = 0;
-  Real work = 0; ///< done on the planes by the nodes
-  /// What the work is not accounted for by the other terms: areas that change at fixed traction.
-  Real remainder() const { return work - stored - friction - hysteresis - fracture - damping; }
-};
-
 /// Numbers of planes over all ranks.
 struct ContactCounts
 {
   std::int64_t slots = 0, planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, released = 0,
                missed = 0;
-};
-
-/// What is known before the first step, over all ranks.
-struct ContactCensus
-{
-  std::int64_t pairs = 0, declaredClosed = 0, declaredWithoutOverlap = 0, overlapping = 0,
-               apart = 0;
-  Real leastGap = infinity, largestGap = -infinity;     ///< of declared joints [m]
-  Real deepestOverlap = 0;                              ///< of pairs that are not declared [m]
-  Real leastStiffness = infinity, largestStiffness = 0; ///< initial normal stiffness [Pa/m]
 };
 
 /// Simple Common Plane contact between all exterior faces of this rank and their neighbours
@@ -80,12 +60,15 @@ public:
   const ContactRules& rules() const { return rules_; }
   Real skin() const { return skin_; }
   int dimension() const { return dimension_; }
+  const Comm& comm() const { return *comm_; }
   std::int64_t searches() const { return searches_; }
 
   // Over all ranks, the same bits on all; collective.
   ContactEnergy energy() const;
   ContactCounts counts() const;
-  ContactCensus census() const;
+
+  /// Energies of the planes that have ended and were counted on this rank.
+  const EndedPlanes& ended() const { return ended_; }
 
   /// Law of a plane.
   const JointLaw& lawOf(const Plane& plane) const { return rules_.joints[plane.joint].law; }
@@ -133,7 +116,6 @@ private:
   // Local faces of owned node n, in the order of ids; an entry is 4 * face + corner.
   Array<std::int32_t> facesStart_, facesEntry_;
 
-  // Energies of planes that have ended.
-  ExactSum endedWork_, endedFriction_, endedHysteresis_, endedFracture_, endedDamping_;
+  EndedPlanes ended_;
 };
 } // namespace coplane

@@ -58,7 +58,8 @@ struct Plane
   GlobalId faceId[2] = {0, 0};
   int face[2] = {
       -1, -1}; ///< positions in this rank's table of faces; -1 while the pair is not a candidate
-  std::uint16_t joint = 0; ///< index of the joint card
+  std::uint16_t joint = 0;         ///< index of the joint card
+  std::uint16_t block[2] = {0, 0}; ///< element blocks behind the faces, in the order of the mesh
   PlaneState state = PlaneState::Slot;
   std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate
   bool countedHere = false;        ///< this rank books the plane's energy: it owns face 0

@@ -1,3 +1,4 @@
+#include <coplane_contact/Census.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
@@ -67,6 +68,51 @@ Json sizesOf(const Solver& solver)
           {"planes", counts.planes},
           {"searches", solver.searches()},
           {"cycles", solver.clock().cycle}};
+}
+
+Json facesOf(const GlobalId* ids, std::size_t count)
+{
+  Json list = Json::array();
+  for (std::size_t i = 0; i < count; ++i)
+    list.push_back({{"element", elementOfFace(ids[i])}, {"side", sideOfFace(ids[i]) + 1}});
+  return list;
+}
+
+Json lengthsOf(const CensusLengths& lengths)
+{
+  Json json{{"count", lengths.count}};
+  if (lengths.count == 0)
+    return json;
+  json["fractions"] = CensusLengths::fractions;
+  json["quantiles_m"] = lengths.quantiles;
+  json["extreme"] = Json::array();
+  for (const CensusLengths::Pair& pair : lengths.extreme)
+    json["extreme"].push_back({{"length_m", pair.length}, {"faces", facesOf(pair.faceId, 2)}});
+  return json;
+}
+
+Json censusOf(const Contact& contact)
+{
+  const ContactCensus c = census(contact);
+  Json json{{"skin_m", contact.skin()},
+            {"pairs", c.pairs},
+            {"open", c.open},
+            {"stick", c.stick},
+            {"slip", c.slip},
+            {"declared_closed", c.declaredClosed},
+            {"bonded", c.bonded},
+            {"declared_without_overlap", c.declaredWithoutOverlap},
+            {"overlapping", c.overlapping},
+            {"apart", c.apart}};
+  json["joint_gaps"] = lengthsOf(c.joints);
+  json["overlaps"] = lengthsOf(c.overlaps);
+  json["gaps"] = lengthsOf(c.gaps);
+  json["faces_without_partner"] = {
+      {"count", c.lonelyFaces},
+      {"first", facesOf(c.firstLonelyFaces.data(), c.firstLonelyFaces.size())}};
+  if (c.pairs > 0)
+    json["normal_stiffness_Pa_per_m"] = {c.leastStiffness, c.largestStiffness};
+  return json;
 }
 
 Json energiesOf(const EnergyBalance& e)
@@ -142,6 +188,8 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
 
 void RunRecord::start(const Solver& solver)
 {
+  if (solver.hasContact())
+    census_ = censusOf(solver.contact()).dump();
   write(solver, "running");
 }
 
@@ -165,6 +213,8 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
   json["deck"] = {{"file", options_.deckFile}, {"sha256", deckHash_}, {"text", options_.deckText}};
   json["mesh"] = {{"file", options_.meshFile}, {"sha256", meshHash_}};
   json["sizes"] = sizesOf(solver);
+  if (!census_.empty())
+    json["census"] = Json::parse(census_);
   json["started"] = startDate_;
   if (ending != "running")
   {

@@ -20,9 +20,9 @@ struct RunRecordOptions
 };
 
 /// Writes down in JSON what is needed to repeat or judge a run: versions, build, ranks x threads,
-/// where they may run, deck and mesh with their SHA-256, sizes; and at the end how it ended,
-/// energies, wall-clock times, the hash of the state. Written at the start (ending "running") and
-/// replaced at the end. Warns in the log when threads share cores.
+/// where they may run, deck and mesh with their SHA-256, sizes, the census of contact; and at the
+/// end how it ended, energies, wall-clock times, the hash of the state. Written at the start
+/// (ending "running") and replaced at the end. Warns in the log when threads share cores.
 class RunRecord : public Observer
 {
 public:
@@ -38,6 +38,7 @@ private:
   RunRecordOptions options_;
   std::string deckHash_, meshHash_; ///< on rank 0
   std::string placement_;           ///< JSON array: host, cores and threads of every rank
+  std::string census_; ///< JSON object: contact before the first step; empty without contact
   std::string startDate_;
   std::chrono::steady_clock::time_point begin_;
 };

@@ -1,0 +1,152 @@
+#include <coplane_contact/Census.hpp>
+#include <coplane_core/OrderStatistics.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+constexpr std::size_t extremePairs = 5, lonelyNamed = 10;
+
+struct Entry
+{
+  CensusLengths::Pair pair;
+  Real rank; ///< the larger, the more conspicuous
+};
+
+void keepFirst(std::vector<Entry>& entries)
+{
+  const auto before = [](const Entry& a, const Entry& b)
+  {
+    return std::tie(b.rank, a.pair.faceId[0], a.pair.faceId[1]) <
+           std::tie(a.rank, b.pair.faceId[0], b.pair.faceId[1]);
+  };
+  const std::size_t kept = std::min(entries.size(), extremePairs);
+  std::partial_sort(entries.begin(), entries.begin() + std::ptrdiff_t(kept), entries.end(), before);
+  entries.resize(kept);
+}
+
+CensusLengths lengthsOf(std::vector<Entry> mine, const Comm& comm)
+{
+  CensusLengths lengths;
+  lengths.count = comm.sum(std::int64_t(mine.size()));
+  if (lengths.count == 0)
+    return lengths;
+  std::vector<Real> values;
+  for (const Entry& entry : mine)
+    values.push_back(entry.pair.length);
+  const auto& fractions = CensusLengths::fractions;
+  const std::vector<Real> quantiles =
+      orderStatistics(values, {fractions.begin(), fractions.end()}, comm);
+  std::copy(quantiles.begin(), quantiles.end(), lengths.quantiles.begin());
+  keepFirst(mine);
+  std::vector<Entry> all = comm.allGather(mine);
+  keepFirst(all);
+  for (const Entry& entry : all)
+    lengths.extreme.push_back(entry.pair);
+  return lengths;
+}
+
+void countLonelyFaces(const Contact& contact, const std::vector<char>& declared,
+                      const std::vector<char>& closed, ContactCensus& census)
+{
+  std::vector<GlobalId> lonely;
+  for (std::size_t f = 0; f < contact.faces().size(); ++f)
+    if (contact.faces()[f].ownedHere && declared[f] && !closed[f])
+      lonely.push_back(contact.faces()[f].id);
+  census.lonelyFaces = contact.comm().sum(std::int64_t(lonely.size()));
+  const auto keepLowest = [&]
+  {
+    std::sort(lonely.begin(), lonely.end());
+    lonely.resize(std::min(lonely.size(), lonelyNamed));
+  };
+  keepLowest();
+  lonely = contact.comm().allGather(lonely);
+  keepLowest();
+  census.firstLonelyFaces = lonely;
+}
+} // namespace
+
+ContactCensus census(const Contact& contact)
+{
+  enum Count
+  {
+    Pairs,
+    Closed,
+    Bonded,
+    Neighbours,
+    Overlapping,
+    Apart,
+    Open,
+    Stick,
+    Slip,
+    Counts
+  };
+  std::vector<std::int64_t> n(Counts, 0);
+  std::vector<Real> stiffness{-infinity, 0}; // -least, largest
+  std::vector<Entry> joints, overlaps, gaps;
+  std::vector<char> declared(contact.faces().size(), 0), closed(contact.faces().size(), 0);
+  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  {
+    const Plane& plane = contact.planes()(p);
+    if (plane.face[0] < 0)
+      continue;
+    const int a = plane.face[0], b = plane.face[1];
+    const bool joint =
+        contact.rules().between(contact.faces()[a].group, contact.faces()[b].group).declared;
+    if (joint)
+      declared[a] = declared[b] = 1;
+    if (plane.declared)
+      closed[a] = closed[b] = 1;
+    if (!plane.countedHere)
+      continue;
+    ++n[Pairs];
+    n[Open] += plane.state == PlaneState::Open;
+    n[Stick] += plane.state == PlaneState::Stick;
+    n[Slip] += plane.state == PlaneState::Slip;
+    stiffness[0] = std::max(stiffness[0], -plane.fit.normalStiffness);
+    stiffness[1] = std::max(stiffness[1], plane.fit.normalStiffness);
+    const CensusLengths::Pair pair{{plane.faceId[0], plane.faceId[1]}, plane.gap};
+    if (plane.declared)
+    {
+      ++n[Closed];
+      n[Bonded] += plane.history.bonded;
+      joints.push_back({pair, std::abs(plane.gap)});
+    }
+    else if (joint)
+      ++n[Neighbours];
+    else if (plane.foundLate)
+    {
+      ++n[Overlapping];
+      overlaps.push_back({{{pair.faceId[0], pair.faceId[1]}, -plane.gap}, -plane.gap});
+    }
+    else
+    {
+      ++n[Apart];
+      if (plane.overlap > 0)
+        gaps.push_back({pair, -plane.gap});
+    }
+  }
+  contact.comm().sum(n);
+  contact.comm().max(stiffness);
+  ContactCensus census;
+  census.pairs = n[Pairs];
+  census.declaredClosed = n[Closed];
+  census.bonded = n[Bonded];
+  census.declaredWithoutOverlap = n[Neighbours];
+  census.overlapping = n[Overlapping];
+  census.apart = n[Apart];
+  census.open = n[Open];
+  census.stick = n[Stick];
+  census.slip = n[Slip];
+  census.leastStiffness = -stiffness[0];
+  census.largestStiffness = stiffness[1];
+  census.joints = lengthsOf(std::move(joints), contact.comm());
+  census.overlaps = lengthsOf(std::move(overlaps), contact.comm());
+  census.gaps = lengthsOf(std::move(gaps), contact.comm());
+  countLonelyFaces(contact, declared, closed, census);
+  return census;
+}
+} // namespace coplane

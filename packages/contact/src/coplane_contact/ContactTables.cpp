@@ -1,0 +1,114 @@
+#include <coplane_contact/ContactTables.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+std::vector<JointSummary> jointSummaries(const Contact& contact)
+{
+  enum Sum
+  {
+    Open,
+    Stick,
+    Slip,
+    Closure,
+    Force,
+    Energies,
+    PerJoint = Energies + PlaneEnergySums::Terms
+  };
+  const std::size_t joints = contact.rules().joints.size();
+  std::vector<ExactSum> sums(PerJoint * joints);
+  std::vector<Real> largestSlip(joints, 0);
+  std::vector<PlaneEnergySums> energies(joints);
+  for (const auto& [kind, ended] : contact.ended().byKind())
+    energies[kind.joint].add(ended);
+  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  {
+    const Plane& plane = contact.planes()(p);
+    if (!plane.countedHere || !plane.born)
+      continue;
+    ExactSum* mine = &sums[PerJoint * plane.joint];
+    mine[Open].add(plane.overlap);
+    if (plane.state != PlaneState::Open)
+    {
+      mine[Open].add(-plane.area);
+      mine[plane.state == PlaneState::Slip ? Slip : Stick].add(plane.area);
+      mine[Closure].add(plane.area * plane.closure);
+    }
+    mine[Force].add(plane.area * plane.normalTraction);
+    largestSlip[plane.joint] = std::max(largestSlip[plane.joint], plane.history.slip);
+    energies[plane.joint].add(plane, plane.stored(contact.lawOf(plane)));
+  }
+  for (std::size_t j = 0; j < joints; ++j)
+    std::copy(energies[j].sums.begin(), energies[j].sums.end(), &sums[PerJoint * j + Energies]);
+  const std::vector<Real> totals = ExactSum::overRanks(sums, contact.comm());
+  contact.comm().max(largestSlip);
+
+  std::vector<JointSummary> summaries(joints);
+  for (std::size_t j = 0; j < joints; ++j)
+  {
+    const Real* total = &totals[PerJoint * j];
+    JointSummary& summary = summaries[j];
+    summary.openArea = total[Open];
+    summary.stickArea = total[Stick];
+    summary.slipArea = total[Slip];
+    const Real closed = summary.stickArea + summary.slipArea;
+    summary.meanClosure = closed > 0 ? total[Closure] / closed : 0;
+    summary.largestSlip = largestSlip[j];
+    summary.normalForce = total[Force];
+    summary.energy = PlaneEnergySums::energyOf(total + Energies);
+  }
+  return summaries;
+}
+
+std::vector<ContactTableRow> contactTable(const Contact& contact)
+{
+  struct Row
+  {
+    PlaneEnergySums energies;
+    ExactSum area;
+    std::int64_t planes = 0;
+  };
+  std::map<PlaneKind, Row> mine;
+  for (const auto& [kind, ended] : contact.ended().byKind())
+    mine[kind].energies.add(ended);
+  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  {
+    const Plane& plane = contact.planes()(p);
+    if (!plane.countedHere || !plane.born)
+      continue;
+    Row& row = mine[PlaneKind(plane)];
+    row.energies.add(plane, plane.stored(contact.lawOf(plane)));
+    row.area.add(plane.area);
+    ++row.planes;
+  }
+  // The kinds of all ranks.
+  std::vector<PlaneKind> kinds;
+  for (const auto& [kind, row] : mine)
+    kinds.push_back(kind);
+  kinds = contact.comm().allGather(kinds);
+  std::sort(kinds.begin(), kinds.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+
+  constexpr std::size_t perKind = PlaneEnergySums::Terms + 1;
+  std::vector<ExactSum> sums;
+  std::vector<std::int64_t> planes;
+  for (const PlaneKind& kind : kinds)
+  {
+    const auto found = mine.find(kind);
+    const Row row = found == mine.end() ? Row{} : found->second;
+    sums.insert(sums.end(), row.energies.sums.begin(), row.energies.sums.end());
+    sums.push_back(row.area);
+    planes.push_back(row.planes);
+  }
+  std::vector<ContactTableRow> rows;
+  if (kinds.empty())
+    return rows;
+  const std::vector<Real> totals = ExactSum::overRanks(sums, contact.comm());
+  contact.comm().sum(planes);
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    rows.push_back({kinds[k], planes[k], totals[perKind * k + PlaneEnergySums::Terms],
+                    PlaneEnergySums::energyOf(&totals[perKind * k])});
+  return rows;
+}
+} // namespace coplane
