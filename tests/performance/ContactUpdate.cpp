@@ -90,7 +90,7 @@ void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
   joint.law.curve.inverseMaximumClosure = 1 / (0.05 * side);
   joint.law.friction = 0.6;
   rules.joints = {joint};
-  rules.blocks = 1;
+  rules.groups = 1;
   rules.table.resize(1);
   ContactOptions options;
   options.inherit = false;

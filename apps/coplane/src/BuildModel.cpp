@@ -5,7 +5,9 @@
 #include <coplane_input/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
+#include <map>
 #include <memory>
+#include <set>
 
 namespace coplane
 {
@@ -32,6 +34,7 @@ ContactOptions optionsOf(const ContactCard& card)
   options.couple = card.couple;
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
+  options.sharedNodes = card.shareNode == "allow";
   options.cosOpposed = card.cosOpposed;
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
@@ -40,9 +43,11 @@ ContactOptions optionsOf(const ContactCard& card)
   return options;
 }
 
-ContactRules rulesOf(const Deck& deck, const Mesh& mesh)
+/// Fills the table of rules and the groups of faces. Side sets that contact.pairs names split the
+/// faces of a block into groups; all ranks find the same ones, because they look at the whole mesh.
+void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
 {
-  ContactRules rules;
+  ContactRules& rules = model.contactRules;
   JointRecipe builtIn;
   builtIn.name = "penalty (built in)";
   rules.joints.push_back(builtIn);
@@ -54,22 +59,59 @@ ContactRules rulesOf(const Deck& deck, const Mesh& mesh)
   };
   for (const JointCard& card : deck.joints)
     rules.joints.push_back({card.name, jointLawOf(card)});
-  rules.blocks = int(mesh.blocks.size());
+
+  std::vector<ContactTraits> groups;
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& b) { return b.name == block.name; });
+    groups.push_back({block.name, card->material, {}});
+  }
+  std::set<std::string> named;
+  for (const ContactPairCard& pair : deck.contact.pairs)
+    named.insert({pair.sideSets[0], pair.sideSets[1], pair.jointSet});
+  std::map<GlobalId, std::pair<int, std::vector<std::string>>> setsOfFace; // block, side sets
+  for (const Mesh::SideSet& set : mesh.sideSets)
+  {
+    if (named.count(set.name) == 0)
+      continue;
+    for (std::size_t i = 0; i < set.elements.size(); ++i)
+    {
+      int block = 0, element = set.elements[i];
+      for (; element >= mesh.blocks[block].elements(); ++block)
+        element -= mesh.blocks[block].elements();
+      auto& face = setsOfFace[faceId(mesh.blocks[block].elementIds[element], set.sides[i])];
+      face.first = block;
+      face.second.push_back(set.name);
+    }
+  }
+  std::map<std::pair<int, std::vector<std::string>>, int> groupOf;
+  for (const auto& [id, sets] : setsOfFace)
+  {
+    const auto [place, isNew] = groupOf.emplace(sets, int(groups.size()));
+    if (isNew)
+    {
+      ContactTraits traits = groups[sets.first];
+      traits.sideSets = sets.second;
+      groups.push_back(traits);
+    }
+    model.faceGroups.emplace_back(id, place->second);
+  }
+
+  rules.groups = int(groups.size());
   ContactRule general;
   general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
-  rules.table.assign(rules.blocks * rules.blocks, general);
-  for (int a = 0; a < rules.blocks; ++a)
-    for (int b = 0; b < rules.blocks; ++b)
-      if (const ContactPairCard* card =
-              contactPairFor(deck.contact, mesh.blocks[a].name, mesh.blocks[b].name))
+  rules.table.assign(std::size_t(rules.groups) * rules.groups, general);
+  for (int a = 0; a < rules.groups; ++a)
+    for (int b = 0; b < rules.groups; ++b)
+      if (const ContactPairCard* card = contactPairFor(deck.contact, groups[a], groups[b]))
       {
-        ContactRule& rule = rules.table[a * rules.blocks + b];
+        ContactRule& rule = rules.table[a * rules.groups + b];
         if (!card->joint.empty())
           rule.joint = jointIndex(card->joint);
         rule.declared = card->declared;
         rule.excluded = card->excluded;
       }
-  return rules;
 }
 
 OfTime functionOf(const TimeFunction& card)
@@ -167,7 +209,7 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
   model.contact = optionsOf(deck.contact);
-  model.contactRules = rulesOf(deck, mesh);
+  addContactRules(deck, mesh, model);
   model.skin = deck.contact.skin;
   model.searchEvery = deck.contact.searchEvery;
   model.time.end = deck.time.end;

@@ -195,9 +195,34 @@ TEST(DeckPairs, theFirstItemThatFitsCountsInEitherOrder)
                                           "    - {blocks: [bar, wall], excluded: true}\n"
                                           "    - {blocks: [bar, \"*\"], declared: true}\n",
                               "wall.yaml");
-  EXPECT_EQ(contactPairFor(deck.contact, "wall", "bar"), &deck.contact.pairs[0]);
-  EXPECT_EQ(contactPairFor(deck.contact, "floor", "bar"), &deck.contact.pairs[1]);
-  EXPECT_EQ(contactPairFor(deck.contact, "wall", "wall"), nullptr);
+  EXPECT_EQ(contactPairFor(deck.contact, {"wall", "", {}}, {"bar", "", {}}),
+            &deck.contact.pairs[0]);
+  EXPECT_EQ(contactPairFor(deck.contact, {"floor", "", {}}, {"bar", "", {}}),
+            &deck.contact.pairs[1]);
+  EXPECT_EQ(contactPairFor(deck.contact, {"wall", "", {}}, {"wall", "", {}}), nullptr);
 }
 } // namespace
+
+TEST(DeckPairs, canNameMaterialsSideSetsAndJointSets)
+{
+  const Deck deck = parseDeck(leastDeck + "contact:\n"
+                                          "  pairs:\n"
+                                          "    - {joint_set: bedding, declared: true}\n"
+                                          "    - {side_sets: [nose, \"*\"], excluded: true}\n"
+                                          "    - {materials: [rock, \"*\"], declared: true}\n",
+                              "wall.yaml");
+  const ContactTraits bedded{"a", "rock", {"bedding"}}, free{"a", "rock", {}},
+      nose{"b", "steel", {"tip", "nose"}}, other{"b", "steel", {}};
+  const auto item = [&](const ContactTraits& p, const ContactTraits& q)
+  {
+    const ContactPairCard* card = contactPairFor(deck.contact, p, q);
+    EXPECT_EQ(card, contactPairFor(deck.contact, q, p));
+    return card ? card - deck.contact.pairs.data() : -1;
+  };
+  EXPECT_EQ(item(bedded, bedded), 0);
+  EXPECT_EQ(item(bedded, free), 2) << "one of the faces is not in the joint set";
+  EXPECT_EQ(item(nose, free), 1);
+  EXPECT_EQ(item(free, other), 2);
+  EXPECT_EQ(item(other, other), -1);
+}
 } // namespace coplane

@@ -21,6 +21,32 @@ FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
   return {now.center, now.normal};
 }
 
+namespace
+{
+bool shareNode(const Face& a, const Face& b)
+{
+  bool any = false;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      any |= (a.nodes[i] == b.nodes[j]) & (a.nodes[i] >= 0);
+  return any;
+}
+
+/// Faces of one body that share a node are neighbours on its surface, and no pair. But at the tip
+/// of a joint that ends inside a body both faces have the tip's node: they lie on each other.
+bool mayShareNode(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
+                  const CandidateRules& rules)
+{
+  if (rules.sharedNodes)
+    return true;
+  if (!rules.declared || !rules.declared(a.group, b.group))
+    return false;
+  const Vec3 apart = planeB.center - planeA.center;
+  const Real near = rules.depthMax * std::min(a.thickness, b.thickness);
+  return dot(planeA.normal, planeB.normal) < -0.9 && dot(apart, apart) < near * near;
+}
+} // namespace
+
 Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
                   const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
                   const CandidateRules& rules)
@@ -34,11 +60,8 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
     return Verdict::TooFarApart;
   if (elementOfFace(a.id) == elementOfFace(b.id))
     return Verdict::SameElement;
-  // Faces of one body that share a node are neighbours on its surface.
-  for (int i = 0; i < a.count; ++i)
-    for (int j = 0; j < b.count; ++j)
-      if (a.nodes[i] == b.nodes[j])
-        return Verdict::SharedNode;
+  if (shareNode(a, b) && !mayShareNode(a, b, planeA, planeB, rules))
+    return Verdict::SharedNode;
   if (rules.excluded && rules.excluded(a.group, b.group))
     return Verdict::Excluded;
   Verdict verdict = Verdict::Candidate;
@@ -68,15 +91,6 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
 
 namespace
 {
-bool shareNode(const Face& a, const Face& b)
-{
-  bool any = false;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      any |= (a.nodes[i] == b.nodes[j]) & (a.nodes[i] >= 0);
-  return any;
-}
-
 /// Finds candidates in single bins.
 struct BinSearch
 {
@@ -101,7 +115,9 @@ struct BinSearch
   {
     const Face& a = faces[p];
     const Face& b = faces[q];
-    if ((!a.local && !b.local) || elementOfFace(a.id) == elementOfFace(b.id) || shareNode(a, b))
+    if ((!a.local && !b.local) || elementOfFace(a.id) == elementOfFace(b.id))
+      return false;
+    if (shareNode(a, b) && !mayShareNode(a, b, planes(p), planes(q), rules))
       return false;
     if (dot(planes(p).normal, planes(q).normal) < -rules.cosOpposed)
     {

@@ -184,6 +184,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
   candidates.reach = reach_;
   candidates.cosOpposed = options_.cosOpposed;
   candidates.depthMax = options_.depthMax;
+  candidates.sharedNodes = options_.sharedNodes;
+  candidates.declared = [&](int a, int b) { return rules_.between(a, b).declared; };
   candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
   if (searches_ > 0)
     candidates.inContact = [&](GlobalId a, GlobalId b)

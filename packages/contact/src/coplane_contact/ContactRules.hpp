@@ -14,7 +14,7 @@ struct JointRecipe
   JointLaw law;
 };
 
-/// Which law acts between two blocks of the mesh.
+/// What acts between two faces.
 struct ContactRule
 {
   int joint = 0;         ///< index into ContactRules::joints
@@ -22,12 +22,14 @@ struct ContactRule
   bool excluded = false;
 };
 
+/// Rules for faces by their group: faces of one block and, where the deck tells side sets apart, of
+/// the same side sets. The first groups are the blocks.
 struct ContactRules
 {
   std::vector<JointRecipe> joints;
-  int blocks = 0;
-  std::vector<ContactRule> table; ///< [block a * blocks + block b], symmetric
+  int groups = 0;
+  std::vector<ContactRule> table; ///< [group a * groups + group b], symmetric
 
-  const ContactRule& between(int a, int b) const { return table[a * blocks + b]; }
+  const ContactRule& between(int a, int b) const { return table[a * groups + b]; }
 };
 } // namespace coplane

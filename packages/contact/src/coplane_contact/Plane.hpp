@@ -30,10 +30,11 @@ struct ContactOptions
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
   Closure closure = Closure::Total;
-  bool couple = true;    ///< couple that makes the angular momentum exact
-  bool areaRule = true;  ///< new area carries no shear traction
-  bool inherit = true;   ///< history passes to the next face pair while sliding
-  Real cosOpposed = 0.1; ///< candidates have n1.n2 below minus this
+  bool couple = true;       ///< couple that makes the angular momentum exact
+  bool areaRule = true;     ///< new area carries no shear traction
+  bool sharedNodes = false; ///< faces that share a node may touch as well
+  bool inherit = true;      ///< history passes to the next face pair while sliding
+  Real cosOpposed = 0.1;    ///< candidates have n1.n2 below minus this
   Real depthMax =
       0.6; ///< deepest penetration, as a fraction of the thinner element behind the faces
   Real areaMin = 1e-8; ///< smallest area of a new plane, as a fraction of the smaller face

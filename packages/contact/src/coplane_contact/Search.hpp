@@ -71,7 +71,9 @@ struct CandidateRules
   Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
+  bool sharedNodes = false;               ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
+  std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
   std::function<bool(GlobalId, GlobalId)>
       inContact; ///< pair keys that carry traction now: they stay candidates
 };

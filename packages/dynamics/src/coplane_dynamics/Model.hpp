@@ -40,6 +40,8 @@ struct Model
   bool contactEnabled = true;
   ContactOptions contact;
   ContactRules contactRules;
+  /// Contact groups of faces that are not in the group of their block, by face id, sorted.
+  std::vector<std::pair<GlobalId, int>> faceGroups;
   std::optional<Real> skin; ///< [m]
   int searchEvery = 4;      ///< cycles; 0: once
   Conditions conditions;

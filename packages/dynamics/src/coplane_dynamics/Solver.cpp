@@ -12,6 +12,7 @@ namespace
 constexpr std::int64_t energyCheckEvery = 100; // cycles
 
 std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
+                               const std::vector<std::pair<GlobalId, int>>& faceGroups,
                                const ConstNodeVectors& x)
 {
   std::vector<Face> faces;
@@ -21,7 +22,10 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     face.id = exterior.id;
     face.count = exterior.nodeCount;
     face.block = exterior.block;
-    face.group = exterior.block;
+    const auto special =
+        std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(exterior.id, 0));
+    face.group = special != faceGroups.end() && special->first == exterior.id ? special->second
+                                                                              : exterior.block;
     face.local = true;
     face.ownedHere = exterior.ownedHere;
     Vec3 corners[4];
@@ -95,7 +99,7 @@ Solver::Solver(Model model, const Comm& comm)
 
   if (model_.contactEnabled)
   {
-    std::vector<Face> faces = contactFaces(mesh, blocks_, state_.x);
+    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,

@@ -10,18 +10,30 @@ namespace
 {
 Key contactPairs()
 {
-  const auto takeBlocks = [](std::array<std::string, 2>& field, const std::vector<std::string>& v) {
+  const auto takeTwo = [](std::array<std::string, 2>& field, const std::vector<std::string>& v) {
     field = {v[0], v[1]};
   };
-  Key pairOfBlocks = bound<std::vector<std::string>>("blocks", KeyKind::Texts,
-                                                     &ContactPairCard::blocks, takeBlocks)
-                         .needed()
-                         .like("[bricks, \"*\"]")
-                         .means("two blocks, or one twice; \"*\" is any block");
-  pairOfBlocks.length = 2;
+  const auto two = [&](const char* name, std::array<std::string, 2> ContactPairCard::*member,
+                       const char* example, const char* meaning)
+  {
+    Key key = bound<std::vector<std::string>>(name, KeyKind::Texts, member, takeTwo)
+                  .like(example)
+                  .means(meaning);
+    key.length = 2;
+    return key;
+  };
   return list("pairs", &ContactCard::pairs,
               {
-                  pairOfBlocks,
+                  two("blocks", &ContactPairCard::blocks, "[bricks, \"*\"]",
+                      "between faces of two blocks, or of one; \"*\" is any block"),
+                  two("materials", &ContactPairCard::materials, "[steel, concrete]",
+                      "between faces of two materials, or of one; \"*\" is any material"),
+                  two("side_sets", &ContactPairCard::sideSets, "[nose, front]",
+                      "between faces of two side sets of the mesh; \"*\" is any face"),
+                  text("joint_set", &ContactPairCard::jointSet)
+                      .like("bedding")
+                      .means("between faces of one side set that holds both faces of every joint, "
+                             "as coplane_mesh split writes it"),
                   text("joint", &ContactPairCard::joint)
                       .like("dry")
                       .defaultIs("contact.default_joint")
@@ -32,9 +44,11 @@ Key contactPairs()
                              "overlaps are absorbed"),
                   flag("excluded", &ContactPairCard::excluded)
                       .like("true")
-                      .means("no contact between these blocks"),
+                      .means("no contact between these faces"),
               })
-      .means("what acts between two blocks; the first item that fits a pair of blocks counts");
+      .atMostOneOf({"blocks", "materials", "side_sets", "joint_set"})
+      .means("what acts between two faces; the first item that fits them counts; each item names "
+             "blocks, materials, side_sets or a joint_set");
 }
 } // namespace
 
@@ -320,6 +334,11 @@ Key contactKeys()
                  flag("inherit", &ContactCard::inherit)
                      .like("false")
                      .means("a new plane takes over the history of its neighbours"),
+                 text("share_node", &ContactCard::shareNode)
+                     .oneOf({"skip", "allow"})
+                     .like("allow")
+                     .means("whether faces that share a node may touch; both faces at the tip of a "
+                            "declared joint do in any case"),
                  number("cos_opposed", &ContactCard::cosOpposed)
                      .in("-")
                      .atLeast(0)

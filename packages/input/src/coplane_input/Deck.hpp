@@ -75,11 +75,14 @@ struct JointCard
   Real peakSlip = 0;                   ///< barton_bandis [m]
 };
 
-/// Which joint law acts between two blocks (by name; "*" means any).
+/// Which joint law acts between faces of two blocks, of two materials or of two side sets, or
+/// within a side set that holds both faces of every joint (by name; "*" means any). One of the four
+/// is given.
 struct ContactPairCard
 {
   std::string where;
-  std::array<std::string, 2> blocks{"*", "*"};
+  std::array<std::string, 2> blocks, materials, sideSets;
+  std::string jointSet;
   std::string joint;
   bool declared =
       false; ///< closed at t = 0: initial gaps and overlaps are absorbed, stress-free as built
@@ -96,6 +99,7 @@ struct ContactCard
   bool couple = true;
   bool areaRule = true;
   bool inherit = true;
+  std::string shareNode = "skip"; ///< skip | allow
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
   Real areaMin = 1e-8;

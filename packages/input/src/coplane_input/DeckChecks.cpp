@@ -40,10 +40,26 @@ bool fits(const std::string& pattern, const std::string& name)
   return pattern == "*" || pattern == name;
 }
 
-bool covers(const ContactPairCard& pair, const std::string& a, const std::string& b)
+bool covers(const std::array<std::string, 2>& patterns, const std::string& a, const std::string& b)
 {
-  return (fits(pair.blocks[0], a) && fits(pair.blocks[1], b)) ||
-         (fits(pair.blocks[0], b) && fits(pair.blocks[1], a));
+  return !patterns[0].empty() && ((fits(patterns[0], a) && fits(patterns[1], b)) ||
+                                  (fits(patterns[0], b) && fits(patterns[1], a)));
+}
+
+bool belongs(const ContactTraits& traits, const std::string& sideSet)
+{
+  return sideSet == "*" || contains(traits.sideSets, sideSet);
+}
+
+bool covers(const ContactPairCard& pair, const ContactTraits& a, const ContactTraits& b)
+{
+  if (covers(pair.blocks, a.block, b.block) || covers(pair.materials, a.material, b.material))
+    return true;
+  if (!pair.jointSet.empty())
+    return contains(a.sideSets, pair.jointSet) && contains(b.sideSets, pair.jointSet);
+  const auto& sets = pair.sideSets;
+  return !sets[0].empty() && ((belongs(a, sets[0]) && belongs(b, sets[1])) ||
+                              (belongs(a, sets[1]) && belongs(b, sets[0])));
 }
 
 void checkPairs(const Deck& deck, const DeckNode& root, const Names& joints, Problems& problems)
@@ -62,8 +78,21 @@ void checkPairs(const Deck& deck, const DeckNode& root, const Names& joints, Pro
       problems.add(at("excluded"), fmt::format("{0}.excluded: true leaves {0}.{1} without effect; "
                                                "remove one of them.",
                                                path, pair.declared ? "declared" : "joint"));
-    for (std::size_t k = 0; k < i; ++k)
-      if (covers(pairs[k], pair.blocks[0], pair.blocks[1]))
+    if (pair.blocks[0].empty() && pair.materials[0].empty() && pair.sideSets[0].empty() &&
+        pair.jointSet.empty())
+      problems.add(
+          nodeAt(root, {"contact", "pairs", std::to_string(i)}),
+          fmt::format("{} does not say between which faces it acts; accepted: one of "
+                      "blocks: [a, b], materials: [a, b], side_sets: [a, b], joint_set: a.",
+                      path));
+    const Names materials = namesOf(deck.materials);
+    for (std::size_t k = 0; k < 2; ++k)
+      if (const auto& name = pair.materials[k];
+          !name.empty() && name != "*" && !contains(materials, name))
+        problems.add(at("materials"), unknown(fmt::format("{}.materials.{}", path, k), name,
+                                              "a card in materials", materials));
+    for (std::size_t k = 0; k < i && !pair.blocks[0].empty(); ++k)
+      if (covers(pairs[k].blocks, pair.blocks[0], pair.blocks[1]))
       {
         problems.add(at("blocks"), fmt::format("{}.blocks is covered already by contact.pairs.{}; "
                                                "the first item that fits counts. Remove this one "
@@ -158,10 +187,19 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
   for (const auto& card : deck.blocks)
     check(card.where, "blocks", card.name, block, blockNames);
   for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
+  {
+    const auto& pair = deck.contact.pairs[i];
+    const std::string path = fmt::format("contact.pairs.{}", i);
     for (std::size_t k = 0; k < 2; ++k)
-      if (const auto& name = deck.contact.pairs[i].blocks[k]; name != "*")
-        check(deck.contact.pairs[i].where, fmt::format("contact.pairs.{}.blocks.{}", i, k), name,
-              block, blockNames);
+    {
+      if (pair.blocks[k] != "*")
+        check(pair.where, fmt::format("{}.blocks.{}", path, k), pair.blocks[k], block, blockNames);
+      if (pair.sideSets[k] != "*")
+        check(pair.where, fmt::format("{}.side_sets.{}", path, k), pair.sideSets[k], sideSet,
+              sideSetNames);
+    }
+    check(pair.where, path + ".joint_set", pair.jointSet, sideSet, sideSetNames);
+  }
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
   {
     const auto& card = deck.conditions[i];
@@ -182,11 +220,11 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
   return messages;
 }
 
-const ContactPairCard* contactPairFor(const ContactCard& contact, const std::string& blockA,
-                                      const std::string& blockB)
+const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactTraits& a,
+                                      const ContactTraits& b)
 {
   for (const auto& pair : contact.pairs)
-    if (covers(pair, blockA, blockB))
+    if (covers(pair, a, b))
       return &pair;
   return nullptr;
 }

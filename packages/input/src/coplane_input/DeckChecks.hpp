@@ -19,8 +19,15 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck,
                                                const std::vector<std::string>& nodeSetNames,
                                                const std::vector<std::string>& sideSetNames);
 
-/// The item of contact.pairs that acts between two blocks: the first that fits in either order;
+/// What contact.pairs can tell of a face.
+struct ContactTraits
+{
+  std::string block, material;
+  std::vector<std::string> sideSets; ///< that hold the face
+};
+
+/// The item of contact.pairs that acts between two faces: the first that fits in either order;
 /// nullptr: contact.default_joint.
-const ContactPairCard* contactPairFor(const ContactCard& contact, const std::string& blockA,
-                                      const std::string& blockB);
+const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactTraits& a,
+                                      const ContactTraits& b);
 } // namespace coplane
