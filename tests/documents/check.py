@@ -141,9 +141,10 @@ def check_install():
         "add_executable(user main.cpp)\ntarget_link_libraries(user coplane::contact)\n"
     )
     (user / "main.cpp").write_text(
-        "#include <coplane_core/Version.hpp>\n#include <coplane_joint/HyperbolicCoulombJoint.hpp>\n#include <cstdio>\n"
-        'int main() { coplane::HyperbolicCoulombJoint joint; joint.initialStiffness = 2; '
-        'std::printf("%s %g\\n", coplane::version().number.c_str(), joint.loadingTraction(3)); }\n'
+        "#include <coplane_core/Version.hpp>\n#include <coplane_joint/JointLaw.hpp>\n#include <cstdio>\n"
+        'int main() { coplane::JointLaw law; law.penalty = false; law.initialStiffness = 2; '
+        'std::printf("%s %g\\n", coplane::version().number.c_str(), '
+        'law.curve.at(law.fittedTo(1, 1, 1, 1), 3).traction); }\n'
     )
     done = run(["cmake", "-S", str(user), "-B", "user-build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"])
     assert done.returncode == 0, done.stdout[-3000:]

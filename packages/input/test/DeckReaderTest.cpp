@@ -209,10 +209,10 @@ TEST(DeckPairs, canNameMaterialsSideSetsAndJointSets)
                                           "  pairs:\n"
                                           "    - {joint_set: bedding, declared: true}\n"
                                           "    - {side_sets: [nose, \"*\"], excluded: true}\n"
-                                          "    - {materials: [rock, \"*\"], declared: true}\n",
+                                          "    - {materials: [steel, \"*\"], declared: true}\n",
                               "wall.yaml");
-  const ContactTraits bedded{"a", "rock", {"bedding"}}, free{"a", "rock", {}},
-      nose{"b", "steel", {"tip", "nose"}}, other{"b", "steel", {}};
+  const ContactTraits bedded{"a", "steel", {"bedding"}}, free{"a", "steel", {}},
+      nose{"b", "rock", {"tip", "nose"}}, other{"b", "rock", {}};
   const auto item = [&](const ContactTraits& p, const ContactTraits& q)
   {
     const ContactPairCard* card = contactPairFor(deck.contact, p, q);

@@ -67,6 +67,25 @@ del careless["contact"]["pairs"][0]["declared"]
 loose = case.run("undeclared", recipe, careless, joints=joints, energy=1e-2)
 case.check_within("undeclared: largest displacement over the closure", moved(loose) / closure, 0.1, 100)
 
+# Joints by the names of their sets, each with a law of its own; everything else is not declared.
+named = copy.deepcopy(deck)
+named["joints"]["stiff"] = {"model": "closure_curve", "initial_stiffness": 5e10, "maximum_closure": 1e-3, "friction": 0.7}
+named["contact"]["pairs"] = [
+    {"joint_set": "steep", "joint": "rough", "declared": True},
+    {"joint_set": "bedding", "joint": "stiff", "declared": True},
+]
+by_set = still("by joint set", recipe, joints, named, 24, 5 * 16 + 3 * 24)
+case.check_equal("by joint set: planes that exist", int(by_set.history["planes"][0]), 5 * 16 + 3 * 24)
+
+# A joint of 4 m that ends inside the rock: the faces at its tips share the tips' nodes.
+straight = copy.deepcopy(recipe)
+for key in ("rotate", "about"):
+    del straight["parts"][0][key]
+crack = {"joints": {"crack": {"planes": {"point": [6, 0], "normal": [1, 0], "segment": [[6, 2], [6, 6]]}}}}
+tip = copy.deepcopy(deck)
+tip["contact"]["pairs"] = [{"joint_set": "crack", "joint": "rough", "declared": True}]
+still("finite joint", straight, crack, tip, 1, 8)
+
 # Three joint sets in a turned cube of 4 m: 2 x 2 x 2 blocks.
 cube = {
     "dimension": 3,

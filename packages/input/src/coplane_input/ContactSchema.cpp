@@ -26,7 +26,7 @@ Key contactPairs()
               {
                   two("blocks", &ContactPairCard::blocks, "[bricks, \"*\"]",
                       "between faces of two blocks, or of one; \"*\" is any block"),
-                  two("materials", &ContactPairCard::materials, "[steel, concrete]",
+                  two("materials", &ContactPairCard::materials, "[concrete, \"*\"]",
                       "between faces of two materials, or of one; \"*\" is any material"),
                   two("side_sets", &ContactPairCard::sideSets, "[nose, front]",
                       "between faces of two side sets of the mesh; \"*\" is any face"),
