@@ -256,9 +256,9 @@ TEST(ConvexPolygon_Intersection, polygonsFarFromTheOriginKeepTenDigits)
   EXPECT_NEAR(got.centroid.y - far.y, .70, 1e-10);
 }
 
-TEST(ConvexPolygon_Intersection, tenThousandRandomPairsAgreeWithExactArithmetic)
+TEST(ConvexPolygon_Intersection, hundredThousandRandomPairsAgreeWithExactArithmetic)
 {
-  compareWithExact(1000, 10000, 1);
+  compareWithExact(1000, 100000, 1);
 }
 
 TEST(ConvexPolygon_Intersection, pairsWithManyCommonVerticesAndEdgesAgreeWithExactArithmetic)
