@@ -26,6 +26,9 @@ for name in ("2d", "3d") if "all" in sys.argv[1:] else ("2d",):
         matrix = documents.rotation([30, 20, 50])
         deck = turned_deck(deck, matrix)
         change = lambda coordinates: slanted(coordinates, matrix)
+    beginning = {**deck, "time": {**deck["time"], "end": 0.01}}
+    first = case.run(f"{name}_beginning", recipe, beginning, change_mesh=change)
+    case.same_bits(f"{name}_beginning", recipe, beginning, first, change_mesh=change)
     run = case.run(name, recipe, deck, change_mesh=change)
     h = run.history
     case.check(f"{name}: planes that slip or open", int(numpy.max(h["slip"] + h["open"])), 0, 0)
