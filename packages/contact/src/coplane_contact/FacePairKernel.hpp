@@ -111,7 +111,7 @@ struct FaceLoad
     {
       force[i] += (sign * plane.weights[side][i]) * plane.force;
       const Real part = plane.area * std::abs(plane.weights[side][i]);
-      stiffness[i] += 2 * plane.stiffness * (whole > part ? whole : part);
+      stiffness[i] += 2 * Real(plane.stiffness) * (whole > part ? whole : part);
     }
     moment += plane.moment;
   }
@@ -275,18 +275,15 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
                                         const JointLaw& law, const ContactOptions& options, Real dt)
 {
   const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
-  Patch patch;
-  Shadow shadowA, shadowB;
-  if (trial.opposed)
-  {
-    shadowA = stepC_projectOntoPlane<Dim>(trial, a);
-    shadowB = stepC_projectOntoPlane<Dim>(trial, b);
-    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
-                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
-                                                                       : AreaInUse::Penetrating;
-    if (!shadowsApart(shadowA, shadowB))
-      patch = stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights);
-  }
+  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a);
+  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b);
+  const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
+                        : options.area == ContactOptions::Area::Full ? AreaInUse::Full
+                                                                     : AreaInUse::Penetrating;
+  const Patch patch =
+      trial.opposed && !shadowsApart(shadowA, shadowB)
+          ? stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights)
+          : Patch{};
   plane.overlap = patch.overlap;
   const Real smallest = options.areaMin * (a.area < b.area ? a.area : b.area);
   plane.foundLate = plane.fresh && !plane.declared && !plane.born && patch.area > smallest;
@@ -335,6 +332,6 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
   // The overlap counts for the stable step as soon as the faces could touch within the next two
   // steps, so that the step does not drop suddenly.
   const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
-  plane.stiffness = near ? law.stiffnessBound(plane.fit, plane.history) : 0;
+  plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
 }
 } // namespace coplane

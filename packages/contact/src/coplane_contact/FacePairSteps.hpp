@@ -458,24 +458,21 @@ KOKKOS_INLINE_FUNCTION void weightsOver(const FaceMap (&map)[2], const ConvexPol
   }
 }
 
-/// For convex shadows whose maps can be inverted, which is nearly all; `lost` is set where they
-/// cannot.
-KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b,
-                                             const ConvexPolygon& outlineA,
-                                             const ConvexPolygon& outlineB, Real offset,
-                                             AreaInUse use, ContactOptions::Weights weights,
-                                             bool& lost)
+/// For convex shadows whose maps can be inverted, which is nearly all; false where they cannot.
+KOKKOS_INLINE_FUNCTION bool patchOfPolygons(const Shadow& a, const Shadow& b,
+                                            const ConvexPolygon& outlineA,
+                                            const ConvexPolygon& outlineB, Real offset,
+                                            AreaInUse use, ContactOptions::Weights weights,
+                                            Patch& patch)
 {
-  Patch patch;
   ConvexPolygon q = intersection(outlineA, outlineB);
   AreaAndCentroid part = areaAndCentroid(q);
   if (!(part.area > 0))
-    return patch;
+    return true;
   patch.overlap = part.area;
   const FaceMap map[2] = {FaceMap(a.p, a.count), FaceMap(b.p, b.count)};
-  lost = map[0].lost || map[1].lost;
-  if (lost)
-    return patch;
+  if (map[0].lost || map[1].lost)
+    return false;
   const ClosureField field(map, a, b, offset, std::sqrt(part.area));
   Real c[ConvexPolygon::capacity];
   Real least = infinity, most = -infinity;
@@ -487,10 +484,10 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b,
   }
   patch.leastGap = -most;
   if (use != AreaInUse::Bonded && !(most > 0))
-    return patch;
+    return true;
   const bool byPressure = weights == ContactOptions::Weights::Pressure && use != AreaInUse::Bonded;
-  ConvexPolygon pressed; // the closed part of a full area
   const bool partly = use == AreaInUse::Full && byPressure && least < 0;
+  ConvexPolygon pressed; // the closed part of a full area
   if (partly)
     pressed = q;
   if (least < 0 && (use == AreaInUse::Penetrating || partly))
@@ -499,7 +496,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b,
     if (!partly)
       part = areaAndCentroid(q);
     if (!(part.area > 0))
-      return patch;
+      return true;
     least = 0;
   }
   patch.area = part.area;
@@ -529,8 +526,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPolygons(const Shadow& a, const Shadow& b,
         c[v] = 1;
     weightsOver(map, used, c, center, centerClosure, !uneven || field.linear(), patch.weights);
   }
-  lost = map[0].lost || map[1].lost;
-  return patch;
+  return !map[0].lost && !map[1].lost;
 }
 
 /// For faces whose shadow is not convex or has no bilinear map: up to four pieces, weights and gaps
@@ -605,15 +601,11 @@ KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& 
   else
   {
     const ConvexPolygon outlineA = detail::outline(a, false), outlineB = detail::outline(b, true);
-    if (isConvex(outlineA.vertex, outlineA.size) && isConvex(outlineB.vertex, outlineB.size))
-    {
-      bool lost = false;
-      const Patch patch =
-          detail::patchOfPolygons(a, b, outlineA, outlineB, offset, use, weights, lost);
-      if (!lost)
-        return patch;
-    }
-    return detail::patchOfPieces(a, b, outlineA, outlineB, offset, use);
+    Patch patch;
+    if (!isConvex(outlineA.vertex, outlineA.size) || !isConvex(outlineB.vertex, outlineB.size) ||
+        !detail::patchOfPolygons(a, b, outlineA, outlineB, offset, use, weights, patch))
+      patch = detail::patchOfPieces(a, b, outlineA, outlineB, offset, use);
+    return patch;
   }
 }
 

@@ -54,40 +54,41 @@ enum class PlaneState : std::uint8_t
 /// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
 /// to face 1; force and shear traction act on face 1. Millions of these are read and written in
 /// every cycle: nothing is kept that the law or the faces can tell.
-struct Plane
+struct alignas(64) Plane
 {
   GlobalId faceId[2] = {0, 0};
   int face[2] = {
       -1, -1}; ///< positions in this rank's table of faces; -1 while the pair is not a candidate
+  float stiffness = 0;             ///< bound for the stable step, rounded up [Pa/m]
   std::uint16_t joint = 0;         ///< index of the joint card
   std::uint16_t block[2] = {0, 0}; ///< element blocks behind the faces, in the order of the mesh
   PlaneState state = PlaneState::Slot;
   std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate
-  bool countedHere = false;        ///< this rank books the plane's energy: it owns face 0
-  bool declared = false;           ///< a joint that was closed at the start
-  bool born = false;               ///< steps E and F: a plane exists
-  bool fresh = true;               ///< not evaluated since the slot was made
-  bool foundLate = false;          ///< was penetrated already when the search found it
-  bool inherited = false;          ///< took its history from living neighbours
-  bool released = false; ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep = false;  ///< deeper than the limit; force frozen
+  bool countedHere : 1;            ///< this rank books the plane's energy: it owns face 0
+  bool declared : 1;               ///< a joint that was closed at the start
+  bool born : 1;                   ///< steps E and F: a plane exists
+  bool fresh : 1;                  ///< not evaluated since the slot was made
+  bool foundLate : 1;              ///< was penetrated already when the search found it
+  bool inherited : 1;              ///< took its history from living neighbours
+  bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
+  bool tooDeep : 1;  ///< deeper than the limit; force frozen
+  JointFit fit;          ///< stiffnesses of the law for this pair
 
-  JointFit fit;               ///< stiffnesses of the law for this pair
-  Real depthLimit = infinity; ///< [m]
-
-  Vec3 normal{};           ///< at the half step
-  Vec3 pointOfContact{};   ///< [m]
+  // What the nodes of the faces get, together in the cache.
   Vec3 force{};            ///< on face 1 [N]
   Vec3 moment{};           ///< of the two forces, which couples on the faces balance [N m]
-  Real weights[2][4] = {}; ///< by which the nodes of the faces share the force
   Real area = 0;           ///< that carries traction [m^2]
   Real overlap = 0;        ///< whole overlap of the projections [m^2]
-  Real gap = 0;     ///< at the centre of gravity, positive when open, offset not subtracted [m]
-  Real offset = 0;  ///< gap at which the joint is just closed [m]
-  Real closure = 0; ///< [m]
-  Real normalTraction = 0; ///< compression positive [Pa]
-  Real stiffness = 0;      ///< bound for the stable step [Pa/m]
+  Real weights[2][4] = {}; ///< by which the nodes of the faces share the force
+
+  Vec3 normal{};         ///< at the half step
+  Vec3 pointOfContact{}; ///< [m]
+  Real gap = 0;    ///< at the centre of gravity, positive when open, offset not subtracted [m]
+  Real offset = 0; ///< gap at which the joint is just closed [m]
   JointState history;
+  Real closure = 0;           ///< [m]
+  Real normalTraction = 0;    ///< compression positive [Pa]
+  Real depthLimit = infinity; ///< [m]
 
   // Energies since the plane was made [J].
   Real work = 0; ///< done on the plane by the nodes
@@ -95,6 +96,12 @@ struct Plane
   Real hysteresisWork = 0;
   Real fractureWork = 0;
   Real dampingWork = 0;
+
+  KOKKOS_INLINE_FUNCTION Plane()
+      : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
+        inherited(false), released(false), tooDeep(false)
+  {
+  }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].
   KOKKOS_INLINE_FUNCTION Real limitedClosure() const
@@ -107,7 +114,7 @@ struct Plane
     return area > 0 ? area * law.stored(fit, limitedClosure(), history) : 0;
   }
 };
-static_assert(sizeof(Plane) <= 416, "planes fill the memory bandwidth");
+static_assert(sizeof(Plane) == 6 * 64, "planes fill the memory bandwidth: whole cache lines");
 
 /// Key of a plane: permanent, independent of the partition.
 inline bool keyLess(const Plane& a, const Plane& b)

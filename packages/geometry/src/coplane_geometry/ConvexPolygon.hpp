@@ -38,8 +38,13 @@ KOKKOS_INLINE_FUNCTION constexpr Real cross(const Vec2& a, const Vec2& b)
 struct ConvexPolygon
 {
   static constexpr int capacity = 12;
-  int size = 0;
-  Vec2 vertex[capacity];
+  int size;
+  union // vertices beyond the size are not set: the kernel makes millions of polygons
+  {
+    Vec2 vertex[capacity];
+  };
+
+  KOKKOS_INLINE_FUNCTION ConvexPolygon() : size(0) {}
 
   KOKKOS_INLINE_FUNCTION void add(const Vec2& p)
   {
@@ -57,15 +62,14 @@ KOKKOS_INLINE_FUNCTION void cutWhereNegative(ConvexPolygon& polygon, Real* d)
     least = d[i] < least ? d[i] : least;
   if (!(least < 0))
     return;
-  Vec2 kept[ConvexPolygon::capacity];
+  ConvexPolygon kept;
   Real keptValues[ConvexPolygon::capacity];
-  int size = 0;
   const auto keep = [&](const Vec2& p, Real value)
   {
-    if (size == ConvexPolygon::capacity)
+    if (kept.size == ConvexPolygon::capacity)
       return;
-    kept[size] = p;
-    keptValues[size++] = value;
+    keptValues[kept.size] = value;
+    kept.vertex[kept.size++] = p;
   };
   for (int i = 0; i < polygon.size; ++i)
   {
@@ -78,10 +82,10 @@ KOKKOS_INLINE_FUNCTION void cutWhereNegative(ConvexPolygon& polygon, Real* d)
       keep(polygon.vertex[i] + t * (polygon.vertex[j] - polygon.vertex[i]), 0);
     }
   }
-  polygon.size = size;
-  for (int i = 0; i < size; ++i)
+  polygon.size = kept.size;
+  for (int i = 0; i < kept.size; ++i)
   {
-    polygon.vertex[i] = kept[i];
+    polygon.vertex[i] = kept.vertex[i];
     d[i] = keptValues[i];
   }
 }
@@ -92,7 +96,10 @@ KOKKOS_INLINE_FUNCTION void cutWhereNegative(ConvexPolygon& polygon, Real* d)
 KOKKOS_INLINE_FUNCTION ConvexPolygon intersection(const ConvexPolygon& subject,
                                                   const ConvexPolygon& clip)
 {
-  ConvexPolygon result = subject;
+  ConvexPolygon result;
+  result.size = subject.size;
+  for (int i = 0; i < subject.size; ++i)
+    result.vertex[i] = subject.vertex[i];
   for (int e = 0; e < clip.size && result.size > 0; ++e)
   {
     const Vec2 a = clip.vertex[e];
