@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_contact/Plane.hpp>
+#include <coplane_core/Lanes.hpp>
 #include <coplane_core/Vec3.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 #include <coplane_geometry/FaceMap.hpp>
@@ -426,19 +427,37 @@ KOKKOS_INLINE_FUNCTION void weightsOver(const FaceMap (&map)[2], const ConvexPol
     moments.add(a, b, atApex, c[v], c[next]);
     if (aboutVertex)
       continue;
-    const Real triangle = 0.5 * cross(a, b);
-    const Vec2 points[4] = {0.2 * (a + b), 0.6 * a + 0.2 * b, 0.2 * a + 0.6 * b,
-                            (1.0 / 3) * (a + b)};
+    // The four points of the rule side by side.
     const Real sum = atApex + c[v] + c[next];
-    const Real w[4] = {25.0 / 48 * (0.2 * sum + 0.4 * atApex), 25.0 / 48 * (0.2 * sum + 0.4 * c[v]),
-                       25.0 / 48 * (0.2 * sum + 0.4 * c[next]), -27.0 / 48 * (sum / 3)};
+    const Real third = 1.0 / 3;
+    const Real shareA[4] = {0.2, 0.6, 0.2, third}, shareB[4] = {0.2, 0.2, 0.6, third};
+    const Real w[4] = {0.2 * sum + 0.4 * atApex, 0.2 * sum + 0.4 * c[v], 0.2 * sum + 0.4 * c[next],
+                       third * sum};
+    const Real factor = 0.5 * cross(a, b) / 48;
+    const Lanes toA(shareA, stdx::element_aligned), toB(shareB, stdx::element_aligned);
+    const Lanes x = toA * Lanes(a.x) + toB * Lanes(b.x), y = toA * Lanes(a.y) + toB * Lanes(b.y);
     for (int f = 0; f < 2; ++f)
-      if (!map[f].affine)
-        for (int g = 0; g < 4; ++g)
-        {
-          const Vec2 s = map[f].straight(apex + points[g]);
-          correction[f] += triangle * w[g] * (map[f].product(s) - s.x * s.y);
-        }
+    {
+      const FaceMap& m = map[f];
+      if (m.affine)
+        continue;
+      const Vec2 start = m.straight(apex);
+      const Lanes sx = start.x + (m.gradXi.x * x + m.gradXi.y * y);
+      const Lanes sy = start.y + (m.gradEta.x * x + m.gradEta.y * y);
+      const Lanes q = sx * sy;
+      const Lanes half = 1 + m.alpha * sy + m.beta * sx;
+      const Lanes discriminant = half * half - (4 * (m.alpha * m.beta)) * q;
+      const Lanes denominator = half + stdx::sqrt(lanesMax(discriminant, Lanes(0.0)));
+      if (!stdx::all_of(denominator > 1e-14))
+      {
+        m.lost = true;
+        return;
+      }
+      const Lanes difference = 2 * q / denominator - q;
+      correction[f] +=
+          factor * (25 * (w[0] * difference[0] + w[1] * difference[1] + w[2] * difference[2]) -
+                    27 * (w[3] * difference[3]));
+    }
   }
   const Real inverse = 1 / moments.total;
   const Vec2 mean = inverse * moments.first;

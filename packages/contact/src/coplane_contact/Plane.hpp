@@ -72,7 +72,7 @@ struct alignas(64) Plane
   bool inherited : 1;              ///< took its history from living neighbours
   bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep : 1;  ///< deeper than the limit; force frozen
-  JointFit fit;          ///< stiffnesses of the law for this pair
+  JointFit fit;      ///< stiffnesses of the law for this pair
 
   // What the nodes of the faces get, together in the cache.
   Vec3 force{};            ///< on face 1 [N]
