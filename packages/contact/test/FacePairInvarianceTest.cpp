@@ -113,13 +113,13 @@ FaceNodes extruded(const FaceNodes& s)
 TEST(FacePair_Invariance, labelsOfWarpedFacesCanBeSwappedWithCentroidWeights)
 {
   for (const auto area : allAreas)
-    EXPECT_LT(worstSwap(.1, options(area, ContactOptions::Weights::Centroid)), 1e-11);
+    EXPECT_LT(worstSwap(.1, options(area, ContactOptions::Weights::Centroid)), 1e-12);
 }
 
 TEST(FacePair_Invariance, warpedFacesCanBeNumberedFromAnyNodeWithCentroidWeights)
 {
   for (const auto area : allAreas)
-    EXPECT_LT(worstStart(.1, options(area, ContactOptions::Weights::Centroid)), 1e-11);
+    EXPECT_LT(worstStart(.1, options(area, ContactOptions::Weights::Centroid)), 1e-12);
 }
 
 TEST(FacePair_Invariance, labelsCanBeSwappedWithAllWeights)
@@ -127,7 +127,7 @@ TEST(FacePair_Invariance, labelsCanBeSwappedWithAllWeights)
   for (const Real warp : {0.0, .1})
     for (const auto area : allAreas)
       for (const auto weights : allWeights)
-        EXPECT_LT(worstSwap(warp, options(area, weights)), 1e-11)
+        EXPECT_LT(worstSwap(warp, options(area, weights)), 1e-12)
             << warp << ' ' << int(area) << ' ' << int(weights);
 }
 
@@ -136,7 +136,7 @@ TEST(FacePair_Invariance, facesCanBeNumberedFromAnyNodeWithAllWeights)
   for (const Real warp : {0.0, .1})
     for (const auto area : allAreas)
       for (const auto weights : allWeights)
-        EXPECT_LT(worstStart(warp, options(area, weights)), 1e-11)
+        EXPECT_LT(worstStart(warp, options(area, weights)), 1e-12)
             << warp << ' ' << int(area) << ' ' << int(weights);
 }
 
