@@ -5,6 +5,7 @@
 #include <coplane_input/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -131,35 +132,80 @@ int indexOf(const Sets& sets, const std::string& name)
   return -1;
 }
 
-Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part)
+VectorOfTime vectorOf(const std::array<TimeFunction, 3>& card)
+{
+  return VectorOfTime({functionOf(card[0]), functionOf(card[1]), functionOf(card[2])});
+}
+
+LoadedSide loadedSide(const RankMesh& part, const RankMesh::Side& side)
+{
+  const RankMesh::Block& block = part.blocks[side.block];
+  const ElementTopology& shape = topology(block.type);
+  LoadedSide face{
+      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}};
+  for (int k = 0; k < face.count; ++k)
+    face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+  return face;
+}
+
+std::vector<LoadedSide> sidesOf(const RankMesh& part, const std::vector<RankMesh::Side>& set)
+{
+  std::vector<LoadedSide> sides;
+  for (const RankMesh::Side& side : set)
+    sides.push_back(loadedSide(part, side));
+  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return sides;
+}
+
+std::vector<AbsorbingSide> absorbingSidesOf(const RankMesh& part,
+                                            const std::vector<RankMesh::Side>& set,
+                                            const std::vector<BlockSetup>& blocks)
+{
+  std::vector<AbsorbingSide> sides;
+  for (const RankMesh::Side& side : set)
+  {
+    const BlockSetup& setup = blocks[side.block];
+    const LinearElastic& elastic = elasticity(setup.material);
+    sides.push_back({loadedSide(part, side), std::sqrt(elastic.density * pWaveModulus(elastic)),
+                     std::sqrt(elastic.density * elastic.shearModulus),
+                     setup.stressOfSide(part, side)});
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const auto& a, const auto& b) { return a.side.id < b.side.id; });
+  return sides;
+}
+
+Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                        const std::vector<BlockSetup>& blocks)
 {
   Conditions conditions;
-  conditions.gravity = deck.gravity;
-  conditions.massDamping = deck.massDamping;
-  if (deck.massDampingUntil)
-    conditions.massDampingUntil = *deck.massDampingUntil;
+  conditions.gravity = vectorOf(deck.gravity);
+  if (!deck.massDamping.expression.empty() || deck.massDamping.constant != 0)
+    conditions.massDamping = [alpha = functionOf(deck.massDamping), card = deck.massDamping](Real t)
+    {
+      const Real value = alpha(t);
+      if (value < 0)
+        fail(ExitCode::Computation,
+             "{}: damping.mass = '{}' is {} 1/s at t = {} s; accepted: not negative. Use max(0, "
+             "...).",
+             card.where, card.expression, value, t);
+      return value;
+    };
+  conditions.localDamping = deck.localDamping;
+  if (deck.dampingUntil)
+    conditions.dampingUntil = *deck.dampingUntil;
   for (const ConditionCard& card : deck.conditions)
   {
-    if (card.type == "pressure")
+    if (card.onSides())
     {
-      FacePressure load;
-      load.pressure = functionOf(card.pressure);
-      for (const RankMesh::Side& side : part.sideSets[indexOf(mesh.sideSets, card.set)])
-      {
-        const RankMesh::Block& block = part.blocks[side.block];
-        const ElementTopology& shape = topology(block.type);
-        FacePressure::Side face;
-        face.id = faceId(block.elementIds[side.element], side.side);
-        face.count = shape.nodesPerSide;
-        face.nodes = {-1, -1, -1, -1};
-        for (int k = 0; k < face.count; ++k)
-          face.nodes[k] =
-              block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
-        load.sides.push_back(face);
-      }
-      std::sort(load.sides.begin(), load.sides.end(),
-                [](const auto& a, const auto& b) { return a.id < b.id; });
-      conditions.pressures.push_back(std::move(load));
+      const auto& set = part.sideSets[indexOf(mesh.sideSets, card.set)];
+      if (card.type == "pressure")
+        conditions.pressures.push_back({sidesOf(part, set), functionOf(card.pressure)});
+      else if (card.type == "traction")
+        conditions.tractions.push_back({sidesOf(part, set), vectorOf(card.traction)});
+      else
+        conditions.absorbing.push_back(
+            {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
       continue;
     }
     const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
@@ -178,12 +224,36 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
   }
   return conditions;
 }
+
+SymTensor tensorOf(const std::array<Real, 6>& s)
+{
+  return {s[0], s[1], s[2], s[3], s[4], s[5]};
+}
+
+void setStart(const InitialCard& card, BlockSetup& setup)
+{
+  setup.velocity = card.velocity;
+  setup.angularVelocity = card.angularVelocity;
+  setup.center = card.center;
+  if (card.velocityField)
+  {
+    const auto field = std::make_shared<std::array<PlaceFunctionEvaluator, 3>>(
+        std::array{PlaceFunctionEvaluator((*card.velocityField)[0]),
+                   PlaceFunctionEvaluator((*card.velocityField)[1]),
+                   PlaceFunctionEvaluator((*card.velocityField)[2])});
+    setup.velocityField = [field](const Vec3& x) {
+      return Vec3{(*field)[0](x), (*field)[1](x), (*field)[2](x)};
+    };
+  }
+  setup.stress = tensorOf(card.stress);
+  setup.stressGradient = {tensorOf(card.stressGradient), card.stressPoint,
+                          normalised(card.stressAxis)};
+}
 } // namespace
 
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
 {
   Model model;
-  model.conditions = conditionsOf(deck, mesh, part);
   for (const Mesh::Block& block : mesh.blocks)
   {
     const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
@@ -197,15 +267,10 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
     for (const InitialCard& initial : deck.initial)
       if (initial.block == block.name)
-      {
-        setup.velocity = initial.velocity;
-        setup.angularVelocity = initial.angularVelocity;
-        setup.center = initial.center;
-        const auto& s = initial.stress;
-        setup.stress = {s[0], s[1], s[2], s[3], s[4], s[5]};
-      }
+        setStart(initial, setup);
     model.blocks.push_back(std::move(setup));
   }
+  model.conditions = conditionsOf(deck, mesh, part, model.blocks);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
   model.contact = optionsOf(deck.contact);

@@ -47,8 +47,10 @@ void reportEnd(const Solver& solver)
           "{:.3e}",
           energy.contact.stored, energy.contact.friction, energy.contact.hysteresis,
           energy.contact.fracture, energy.contact.damping, energy.contact.remainder());
-  logInfo("  external work {:.3e}, mass damping {:.3e}; balance off by {:.3e} of {:.3e} in play",
-          energy.externalWork, energy.massDamping, energy.error(), energy.scale());
+  logInfo("  external work {:.3e}, mass damping {:.3e}, local damping {:.3e}; balance off by "
+          "{:.3e} of {:.3e} in play",
+          energy.externalWork, energy.massDamping, energy.localDamping, energy.error(),
+          energy.scale());
   logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,
           momenta.linear.y, momenta.linear.z, norm(momenta.linearError()), momenta.magnitude);
   if (solver.hasContact())

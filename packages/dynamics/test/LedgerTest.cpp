@@ -11,13 +11,21 @@ Model loadedCubes(const Comm& comm)
 {
   Model model = slidingCubes(comm);
   model.conditions.gravity = {1, 2, -10};
-  model.conditions.massDamping = 5;
+  model.conditions.massDamping = [](Real) { return 5.0; };
   model.conditions.pressures = {
       pressureWhere(model.mesh, 1e4, [](const Vec3& x) { return x.z == 2; })};
   PrescribedVelocity foot;
   foot.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z == 0; });
   foot.components = {true, false, true};
   model.conditions.velocities = {foot};
+  model.conditions.localDamping = 0.1;
+  model.conditions.tractions = {
+      {sidesWhere(model.mesh, [](const Vec3& x) { return x.x == 0; }), VectorOfTime(1e4, 0, 2e4)}};
+  // Its nodes below are held in x and z.
+  AbsorbingBoundary side;
+  for (const LoadedSide& face : sidesWhere(model.mesh, [](const Vec3& x) { return x.y == 0; }))
+    side.sides.push_back({face, 1.1e6, 6e5, {}});
+  model.conditions.absorbing = {side};
   return model;
 }
 } // namespace

@@ -59,14 +59,14 @@ TEST(DeckErrors, anUnknownKeyBringsASuggestion)
 {
   EXPECT_EQ(errorWith("damping: {mas: 1}\n"),
             "wall.yaml:5:11: damping.mas is not known. Did you mean 'mass'? Accepted here: mass, "
-            "until.");
+            "local, until.");
 }
 
 TEST(DeckErrors, aKeyInTheWrongPlaceIsToldItsPlace)
 {
   EXPECT_EQ(errorWith("damping: {fixed_step: 1}\n"),
             "wall.yaml:5:11: damping.fixed_step is not known. Its place is time.fixed_step. "
-            "Accepted here: mass, until.");
+            "Accepted here: mass, local, until.");
 }
 
 TEST(DeckErrors, aKeyGivenTwice)
@@ -79,9 +79,9 @@ TEST(DeckErrors, aKeyGivenTwice)
 TEST(DeckErrors, anUnknownKeyGivenTwiceIsStillUnknown)
 {
   EXPECT_EQ(errorWith("damping: {a: 1, a: 2}\n"),
-            "wall.yaml:5:11: damping.a is not known. Accepted here: mass, until.\n"
+            "wall.yaml:5:11: damping.a is not known. Accepted here: mass, local, until.\n"
             "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
-            "wall.yaml:5:17: damping.a is not known. Accepted here: mass, until.");
+            "wall.yaml:5:17: damping.a is not known. Accepted here: mass, local, until.");
 }
 
 TEST(DeckErrors, aNameGivenTwice)
@@ -105,37 +105,37 @@ TEST(DeckErrors, aKeyThatIsNoWord)
 
 TEST(DeckErrors, textForANumber)
 {
-  EXPECT_EQ(errorWith("damping: {mass: 10 1/s}\n"),
-            "wall.yaml:5:17: damping.mass = '10 1/s' is not a number; accepted: a number >= 0 "
-            "[1/s].");
+  EXPECT_EQ(errorWith("viscosity: {linear: 0.1 m}\n"),
+            "wall.yaml:5:21: viscosity.linear = '0.1 m' is not a number; accepted: a number >= 0 "
+            "[-].");
 }
 
 TEST(DeckErrors, aNumberInQuotes)
 {
-  EXPECT_EQ(errorWith("damping: {mass: \"10\"}\n"),
-            "wall.yaml:5:17: damping.mass = \"10\" is text in quotes, not a number; remove the "
-            "quotes; accepted: a number >= 0 [1/s].");
+  EXPECT_EQ(errorWith("viscosity: {linear: \"10\"}\n"),
+            "wall.yaml:5:21: viscosity.linear = \"10\" is text in quotes, not a number; remove the "
+            "quotes; accepted: a number >= 0 [-].");
 }
 
 TEST(DeckErrors, areOneLineEachEvenWhenTheTextIsNot)
 {
-  EXPECT_EQ(errorWith("damping: {mass: \"a\\nb\"}\n"),
-            "wall.yaml:5:17: damping.mass = \"a\\nb\" is not a number; accepted: a number >= 0 "
-            "[1/s].");
+  EXPECT_EQ(errorWith("viscosity: {linear: \"a\\nb\"}\n"),
+            "wall.yaml:5:21: viscosity.linear = \"a\\nb\" is not a number; accepted: a number >= 0 "
+            "[-].");
 }
 
 TEST(DeckErrors, aNumberThatIsNotFinite)
 {
   for (const std::string text : {"nan", "inf", "-inf", ".inf", ".nan", "1e999"})
-    EXPECT_EQ(errorWith("damping: {mass: " + text + "}\n"),
-              "wall.yaml:5:17: damping.mass = '" + text +
-                  "' is not a finite number; accepted: a number >= 0 [1/s].");
+    EXPECT_EQ(errorWith("viscosity: {linear: " + text + "}\n"),
+              "wall.yaml:5:21: viscosity.linear = '" + text +
+                  "' is not a finite number; accepted: a number >= 0 [-].");
 }
 
 TEST(DeckErrors, aKeyWithoutValue)
 {
-  EXPECT_EQ(errorWith("damping: {mass: }\n"),
-            "wall.yaml:5:17: damping.mass = nothing; accepted: a number >= 0 [1/s].");
+  EXPECT_EQ(errorWith("viscosity: {linear: }\n"),
+            "wall.yaml:5:21: viscosity.linear = nothing; accepted: a number >= 0 [-].");
 }
 
 TEST(DeckErrors, aGroupWhereAValueBelongs)
@@ -171,14 +171,39 @@ TEST(DeckErrors, aFlagThatIsNeitherTrueNorFalse)
 
 TEST(DeckErrors, aVectorOfTwoNumbers)
 {
-  EXPECT_EQ(errorWith("gravity: [0, 1]\n"),
-            "wall.yaml:5:10: gravity = a list of 2; accepted: a list of 3 numbers [m/s^2].");
+  EXPECT_EQ(
+      errorWith("gravity: [0, 1]\n"),
+      "wall.yaml:5:10: gravity = a list of 2; accepted: a list of 3 numbers or expressions of t "
+      "[m/s^2].");
 }
 
 TEST(DeckErrors, anItemOfAVectorThatIsNoNumber)
 {
   EXPECT_EQ(errorWith("gravity: [0, g, 0]\n"),
-            "wall.yaml:5:14: gravity.1 = 'g' is not a number; accepted: a number [m/s^2].");
+            "wall.yaml:5:14: gravity.1 = 'g' is not an expression of t (Unexpected token \"g\" "
+            "found at character 1); accepted: a number or an expression of t [m/s^2].");
+}
+
+TEST(DeckErrors, aNegativeNumberWhereAnExpressionMayStand)
+{
+  EXPECT_EQ(errorWith("damping: {mass: -1}\n"),
+            "wall.yaml:5:17: damping.mass = '-1' is out of range; accepted: a number >= 0 or an "
+            "expression of t [1/s].");
+}
+
+TEST(DeckErrors, anExpressionOfTimeWhereOneOfPlaceIsMeant)
+{
+  EXPECT_EQ(errorWith("initial: [{block: bar, velocity_field: [\"t\", 0, 0]}]\n"),
+            "wall.yaml:5:41: initial.0.velocity_field.0 = \"t\" is not an expression of x, y, z "
+            "(Unexpected token \"t\" found at character 1); accepted: a list of 3 numbers or "
+            "expressions of x, y, z [m/s].");
+}
+
+TEST(DeckErrors, aPointOfAStressThatDoesNotVary)
+{
+  EXPECT_EQ(errorWith("initial: [{block: bar, stress_point: [0, 1, 0]}]\n"),
+            "wall.yaml:5:38: initial.0.stress_point has no effect without "
+            "initial.0.stress_gradient; remove it or give that.");
 }
 
 TEST(DeckErrors, aSearchIntervalOfZero)

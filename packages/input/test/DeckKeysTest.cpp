@@ -41,7 +41,9 @@ conditions:
   - {type: velocity, node_set: a, value: [0, 0, 0]}
   - {type: pressure, side_set: a, value: 0}
   - {type: fixed, node_set: a}
-initial: [{block: a}]
+  - {type: traction, side_set: a, value: [0, 0, 0]}
+  - {type: absorbing, side_set: a}
+initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 time: {end: 1}
 history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
 )";
@@ -74,6 +76,13 @@ void show(std::string& out, const TimeFunction& f)
 {
   out += fmt::format("'{}'|{} ", f.expression, f.constant);
 }
+void show(std::string& out, const std::optional<std::array<PlaceFunction, 3>>& v)
+{
+  out += "field ";
+  if (v)
+    for (const auto& function : *v)
+      show(out, function);
+}
 template <class T, std::size_t n>
 void show(std::string& out, const std::array<T, n>& values)
 {
@@ -97,7 +106,7 @@ std::string show(const Deck& d)
 {
   std::string out;
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
-          d.massDampingUntil, d.partitionMethod);
+          d.localDamping, d.dampingUntil, d.partitionMethod);
   for (const auto& m : d.materials)
     showAll(out, m.name, m.model, m.density, m.youngsModulus, m.poissonRatio, m.yieldStress,
             m.hardeningModulus);
@@ -116,9 +125,11 @@ std::string show(const Deck& d)
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
-    showAll(out, k.type, k.set, k.components, k.velocity, k.normal, k.pressure);
+    showAll(out, k.type, k.set, k.components, k.velocity, k.normal, k.pressure, k.traction,
+            k.incident);
   for (const auto& i : d.initial)
-    showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.stress);
+    showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
+            i.stressGradient, i.stressAxis, i.stressPoint);
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.filePerRank);
@@ -148,10 +159,12 @@ std::string cardFor(const Key& group, const Key& key)
   if (group.name == "joints")
     return key.models.empty() ? ".penalty" : "." + key.models[0];
   if (group.name == "conditions")
-    return key.appliesTo("pressure")   ? ".2"
-           : key.appliesTo("fixed")    ? ".3"
-           : key.appliesTo("velocity") ? ".1"
-                                       : ".0";
+    return key.appliesTo("pressure")    ? ".2"
+           : key.appliesTo("traction")  ? ".4"
+           : key.appliesTo("absorbing") ? ".5"
+           : key.appliesTo("fixed")     ? ".3"
+           : key.appliesTo("velocity")  ? ".1"
+                                        : ".0";
   return key.name == "block" && group.name == "probes" ? ".1" : ".0";
 }
 
@@ -214,6 +227,8 @@ TEST(DeckKeys, modelsAndTypesActOnTheDeck)
   EXPECT_EQ(deck.conditions[1].type, "velocity");
   EXPECT_EQ(deck.conditions[2].type, "pressure");
   EXPECT_EQ(deck.conditions[3].type, "fixed");
+  EXPECT_EQ(deck.conditions[4].type, "traction");
+  EXPECT_EQ(deck.conditions[5].type, "absorbing");
 }
 
 void eachKey(const Key& group, const std::function<void(const Key& group, const Key& key)>& action)
@@ -234,7 +249,8 @@ TEST(DeckKeys, eachKeyIsDocumented)
             EXPECT_TRUE(key.isGroup() || !key.example.empty()) << key.name;
             const bool number = key.kind == KeyKind::Number || key.kind == KeyKind::Integer ||
                                 key.kind == KeyKind::Numbers || key.kind == KeyKind::TimeFunction ||
-                                key.kind == KeyKind::TimeFunctions;
+                                key.kind == KeyKind::TimeFunctions ||
+                                key.kind == KeyKind::PlaceFunctions;
             EXPECT_EQ(number, !key.unit.empty()) << key.name << " [" << key.unit << "]";
           });
 }

@@ -150,7 +150,7 @@ TEST(DeckSet, replacesAnItemOfAList)
 {
   const Deck deck = parseDeck(wall, "wall.yaml", {"conditions.1.value=[3, 0, 0]", "gravity.1=-1"});
   EXPECT_EQ(deck.conditions[1].velocity[0].constant, 3);
-  EXPECT_EQ(deck.gravity.y, -1);
+  EXPECT_EQ(deck.gravity[1].constant, -1);
 }
 
 TEST(DeckSet, makesGroupsThatTheDeckDoesNotHave)

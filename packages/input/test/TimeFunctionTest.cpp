@@ -39,6 +39,15 @@ TEST(TimeFunctionEvaluator, knowsPi)
   EXPECT_NEAR(evaluate(0.00125), 1, 4 * epsilon); // a quarter of the period 1/200 s
 }
 
+TEST(PlaceFunctionEvaluator, followsThePlace)
+{
+  PlaceFunctionEvaluator evaluate(expression("x + 10*y + 100*z"));
+  EXPECT_EQ(evaluate({1, 2, 3}), 321);
+  TimeFunction three;
+  three.constant = 3;
+  EXPECT_EQ(PlaceFunctionEvaluator(three)({1, 2, 3}), 3);
+}
+
 TEST(TimeFunctionEvaluator, stillWorksAfterItWasMoved)
 {
   TimeFunctionEvaluator first(expression("2*t"));

@@ -105,7 +105,9 @@ class Case:
         in_play = max(
             numpy.max(h["kinetic"]), numpy.max(h["internal"]), numpy.max(numpy.abs(h["external_work"]))
         )
-        weight = run.mass * numpy.linalg.norm(deck.get("gravity", 0))
+        # Components that are expressions of t do not count.
+        gravity = [g for g in deck.get("gravity", []) if not isinstance(g, str)]
+        weight = run.mass * numpy.linalg.norm(gravity)
         scale = numpy.sqrt(2 * run.mass * numpy.max(h["kinetic"])) + weight * h["time"][-1]
         results = run.results
         reach = numpy.max(numpy.abs(results.coordinates)) + numpy.max(numpy.abs(results.nodal("displacement")))

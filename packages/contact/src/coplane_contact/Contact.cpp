@@ -382,8 +382,7 @@ void Contact::buildLists(int ownedNodes)
   forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
 }
 
-void Contact::closeDeclaredJoints(const ConstNodeVectors& x,
-                                  const std::vector<SymTensor>& stressOfBlock)
+void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
   const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
   {
@@ -426,8 +425,8 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                                       weighted(patch.centroidWeights[0], a.x, a.count));
     // The joint is in equilibrium with the initial stress: closure and shear traction that carry
     // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
-    SymTensor stress = stressOfBlock[faceA.block];
-    const SymTensor& other = stressOfBlock[faceB.block];
+    SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
+    const SymTensor other = stressOfBlock(faceB.block, plane.pointOfContact);
     stress = {0.5 * (stress.xx + other.xx), 0.5 * (stress.yy + other.yy),
               0.5 * (stress.zz + other.zz), 0.5 * (stress.xy + other.xy),
               0.5 * (stress.yz + other.yz), 0.5 * (stress.zx + other.zx)};

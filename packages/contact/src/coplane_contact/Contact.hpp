@@ -42,8 +42,9 @@ public:
   /// their positions.
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
-  /// [Pa, tension positive].
-  void closeDeclaredJoints(const ConstNodeVectors& x, const std::vector<SymTensor>& stressOfBlock);
+  /// at the point of contact [Pa, tension positive].
+  using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
+  void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
   /// Step 6: steps A to H for every slot.
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,

@@ -6,35 +6,106 @@
 
 namespace coplane
 {
+std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* x, int count)
+{
+  if (dimension == 2)
+  {
+    const Vec3 half = 0.5 * vectorArea<2>(x, count);
+    return {half, half};
+  }
+  if (count == 3)
+  {
+    const Vec3 third = (1.0 / 3) * vectorArea<3>(x, count);
+    return {third, third, third};
+  }
+  // x = mean + a xi + b eta + c xi eta; dx/dxi x dx/deta = a x b + a x c xi + c x b eta
+  const Vec3 a = 0.25 * ((x[1] - x[0]) + (x[2] - x[3]));
+  const Vec3 b = 0.25 * ((x[3] - x[0]) + (x[2] - x[1]));
+  const Vec3 c = 0.25 * ((x[0] - x[1]) + (x[2] - x[3]));
+  const Vec3 quarter = cross(a, b), alongXi = (1.0 / 3) * cross(a, c),
+             alongEta = (1.0 / 3) * cross(c, b);
+  return {quarter - alongXi - alongEta, quarter + alongXi - alongEta, quarter + alongXi + alongEta,
+          quarter - alongXi + alongEta};
+}
+
+namespace
+{
+std::array<Vec3, 4> presentAreas(int dimension, const LoadedSide& side, const ConstNodeVectors& x)
+{
+  Vec3 corners[4];
+  for (int k = 0; k < side.count; ++k)
+    corners[k] = at(x, side.nodes[k]);
+  return cornerAreas(dimension, corners, side.count);
+}
+
+template <class Force>
+void addToCorners(const LoadedSide& side, int ownedNodes, const NodeVectors& external,
+                  const Force& force)
+{
+  for (int k = 0; k < side.count; ++k)
+    if (side.nodes[k] < ownedNodes)
+      set(external, side.nodes[k], at(external, side.nodes[k]) + force(k));
+}
+} // namespace
+
 void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const
 {
   const auto external = state.external;
-  const auto damping = state.damping;
   const ConstArray<Real> mass = state.mass;
-  const ConstNodeVectors v = state.v;
-  const Vec3 g = gravity;
-  const Real alpha = t < massDampingUntil ? massDamping : 0;
+  const Vec3 g = gravity(t);
   parallelFor(
-      "coplane::dynamics::applyLoads", ownedNodes, KOKKOS_LAMBDA(const int n) {
-        set(external, n, mass(n) * g);
-        set(damping, n, (-alpha * mass(n)) * at(v, n));
-      });
+      "coplane::dynamics::applyLoads", ownedNodes,
+      KOKKOS_LAMBDA(const int n) { set(external, n, mass(n) * g); });
   for (const FacePressure& load : pressures)
   {
     const Real pressure = load.pressure(t);
-    for (const FacePressure::Side& side : load.sides)
+    for (const LoadedSide& side : load.sides)
     {
-      Vec3 corners[4];
-      for (int k = 0; k < side.count; ++k)
-        corners[k] = at(state.x, side.nodes[k]);
-      const Vec3 area =
-          dimension == 2 ? vectorArea<2>(corners, side.count) : vectorArea<3>(corners, side.count);
-      const Vec3 share = (-pressure / side.count) * area;
-      for (int k = 0; k < side.count; ++k)
-        if (side.nodes[k] < ownedNodes)
-          set(external, side.nodes[k], at(external, side.nodes[k]) + share);
+      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x);
+      addToCorners(side, ownedNodes, external, [&](int k) { return -pressure * areas[k]; });
     }
   }
+  for (const FaceTraction& load : tractions)
+  {
+    const Vec3 traction = load.traction(t);
+    for (const LoadedSide& side : load.sides)
+    {
+      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x);
+      const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      addToCorners(side, ownedNodes, external,
+                   [&](int k) { return dot(areas[k], normal) * traction; });
+    }
+  }
+  for (const AbsorbingBoundary& boundary : absorbing)
+  {
+    const Vec3 incident = boundary.incident(t);
+    for (const AbsorbingSide& face : boundary.sides)
+    {
+      const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x);
+      const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      const Vec3 along = dot(incident, normal) * normal;
+      const Vec3 wave =
+          2.0 * (face.normalImpedance * along + face.shearImpedance * (incident - along));
+      addToCorners(face.side, ownedNodes, external,
+                   [&](int k)
+                   { return dot(face.stress[k], areas[k]) + dot(areas[k], normal) * wave; });
+    }
+  }
+}
+
+void Conditions::clearConstrained(const std::vector<Projection>& fromSymmetry,
+                                  const NodeVectors& forces) const
+{
+  for (const Projection& projection : fromSymmetry)
+  {
+    const Vec3 force = at(forces, projection.node);
+    set(forces, projection.node, force - dot(force, projection.normal) * projection.normal);
+  }
+  for (const PrescribedVelocity& condition : velocities)
+    for (int c = 0; c < 3; ++c)
+      if (condition.components[c])
+        for (const int n : condition.nodes)
+          forces(n, c) = 0;
 }
 
 std::vector<Conditions::Projection> Conditions::projections() const

@@ -13,6 +13,29 @@ namespace coplane
 /// A number that varies in time [s].
 using OfTime = std::function<Real(Real)>;
 
+/// A vector that varies in time; constant zero when nothing is given.
+class VectorOfTime
+{
+public:
+  VectorOfTime() = default;
+  VectorOfTime(Real x, Real y, Real z) : constant_{x, y, z} {}
+  /// Components without a function are zero.
+  explicit VectorOfTime(std::array<OfTime, 3> functions) : functions_(std::move(functions)) {}
+
+  Vec3 operator()(Real t) const
+  {
+    Vec3 value = constant_;
+    for (int c = 0; c < 3; ++c)
+      if (functions_[c])
+        value[c] += functions_[c](t);
+    return value;
+  }
+
+private:
+  Vec3 constant_{};
+  std::array<OfTime, 3> functions_;
+};
+
 /// Given velocity of some components; zero fixes them.
 struct PrescribedVelocity
 {
@@ -28,18 +51,62 @@ struct SymmetryPlane
   Vec3 normal{}; ///< unit
 };
 
+/// A face of a held element that is loaded; outward normal by the right-hand rule. Each rank adds
+/// to the nodes it owns; lists of sides are sorted by id, so that sums have the same order on every
+/// rank.
+struct LoadedSide
+{
+  GlobalId id;
+  int count;
+  std::array<int, 4> nodes;
+};
+
 /// Pressure on faces that follows their motion; positive pushes into the body.
 struct FacePressure
 {
-  struct Side
-  {
-    GlobalId id;
-    int count;
-    std::array<int, 4> nodes;
-  };
-  std::vector<Side> sides; ///< of held elements, sorted by id; each rank adds to the nodes it owns
-  OfTime pressure;         ///< [Pa]
+  using Side = LoadedSide;
+  std::vector<LoadedSide> sides;
+  OfTime pressure; ///< [Pa]
 };
+
+/// Force per present area on faces, in fixed axes: its direction does not follow the faces.
+struct FaceTraction
+{
+  std::vector<LoadedSide> sides;
+  VectorOfTime traction; ///< [Pa]
+};
+
+/// A face behind which the body is thought to go on without end (Lysmer and Kuhlemeyer 1969):
+///
+///     t = sigma0 n - z_n (v - 2 v_in)_normal - z_s (v - 2 v_in)_tangential
+///
+/// Plane waves that arrive along the normal leave without reflection.
+struct AbsorbingSide
+{
+  LoadedSide side;
+  Real normalImpedance = 0; ///< rho c_d of the element behind [Pa s/m]
+  Real shearImpedance = 0;  ///< rho c_s [Pa s/m]
+  /// sigma0, the initial stress of the element behind, for each corner [Pa]
+  std::array<SymTensor, 4> stress{};
+};
+
+struct AbsorbingBoundary
+{
+  std::vector<AbsorbingSide> sides;
+  VectorOfTime incident; ///< v_in, particle velocity of the wave that enters here [m/s]
+};
+
+/// s n: with a stress and a unit normal, the traction on the side that the normal leaves.
+inline Vec3 dot(const SymTensor& s, const Vec3& n)
+{
+  return {s.xx * n.x + s.xy * n.y + s.zx * n.z, s.xy * n.x + s.yy * n.y + s.yz * n.z,
+          s.zx * n.x + s.yz * n.y + s.zz * n.z};
+}
+
+/// Vector areas of a face's corners: integrals of their shape functions times the normal, so that a
+/// uniform stress is in balance with its traction whatever the shape of the face. Their sum is the
+/// face's vector area. [m^2]
+std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* corners, int count);
 
 struct Conditions
 {
@@ -54,13 +121,23 @@ struct Conditions
   std::vector<PrescribedVelocity> velocities;
   std::vector<SymmetryPlane> symmetries;
   std::vector<FacePressure> pressures;
-  Vec3 gravity{};                   ///< [m/s^2]
-  Real massDamping = 0;             ///< force -alpha m v [1/s]
-  Real massDampingUntil = infinity; ///< [s]
+  std::vector<FaceTraction> tractions;
+  std::vector<AbsorbingBoundary> absorbing;
+  VectorOfTime gravity;         ///< [m/s^2]
+  OfTime massDamping;           ///< alpha of the force -alpha m v [1/s]; empty: none
+  Real localDamping = 0;        ///< force -alpha |f_c| sign(v_c) on each component c [-]
+  Real dampingUntil = infinity; ///< end of both dampings [s]
 
-  /// Loads at time t: gravity and pressures into state.external, damping into state.damping (owned
-  /// nodes, overwritten).
+  /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
+  /// and of absorbing sides what does not depend on the velocity.
   void applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const;
+
+  Real massDampingAt(Real t) const { return massDamping && t < dampingUntil ? massDamping(t) : 0; }
+  Real localDampingAt(Real t) const { return t < dampingUntil ? localDamping : 0; }
+
+  /// Takes out of forces what the conditions on velocities will take up in any case.
+  void clearConstrained(const std::vector<Projection>& fromSymmetry,
+                        const NodeVectors& forces) const;
 
   /// Overwrites prescribed velocities; where symmetry planes and prescribed components meet, the
   /// latter win.

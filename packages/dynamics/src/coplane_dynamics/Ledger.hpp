@@ -15,6 +15,7 @@ struct EnergyBalance
   Real viscous = 0;      ///< bulk viscosity
   ContactEnergy contact; ///< stored, friction, hysteresis, damping, remainder
   Real massDamping = 0;  ///< taken out by mass-proportional damping
+  Real localDamping = 0; ///< taken out by local damping
   Real externalWork = 0; ///< of loads and reactions
   Real initial = 0;      ///< total at the start
   Real nodalWork = 0;    ///< of all forces on nodes; kinetic energy minus its initial value, to
@@ -22,7 +23,7 @@ struct EnergyBalance
 
   Real total() const
   {
-    return kinetic + internal + hourglass + viscous + contact.work + massDamping;
+    return kinetic + internal + hourglass + viscous + contact.work + massDamping + localDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
   Real error() const { return total() - externalWork - initial; }

@@ -7,20 +7,43 @@
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
+#include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace coplane
 {
+/// How the initial stress of a block varies along one direction, as under gravity.
+struct StressGradient
+{
+  SymTensor perMetre{}; ///< change along the axis [Pa/m]
+  Vec3 point{};         ///< where there is none yet [m]
+  Vec3 axis{};          ///< unit vector
+};
+
 /// What an element block is made of and how it starts.
 struct BlockSetup
 {
   std::string name; ///< for messages
   Material material;
   HourglassOptions hourglass;
-  Vec3 velocity{}, angularVelocity{}, center{}; ///< rigid motion at the start
-  SymTensor stress{};                           ///< at the start, tension positive [Pa]
+  Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start
+  std::function<Vec3(const Vec3&)> velocityField; ///< added to it [m/s]; empty: none
+  SymTensor stress{};                             ///< at the start, tension positive [Pa]
+  StressGradient stressGradient;
+
+  /// Velocity of a node at the start [m/s].
+  Vec3 velocityAt(const Vec3& x) const;
+  /// stress + axis . (x - point) gradient [Pa].
+  SymTensor stressAt(const Vec3& x) const;
+  /// Stress of an element: that of the mean of its corners.
+  SymTensor stressOfElement(const RankMesh& mesh, int block, int element) const;
+  /// Stress with which each corner of a side is in balance with the stresses of the elements and
+  /// with what makes the stress vary, gravity for instance: that of the middle of the side; beside
+  /// triangles and tetrahedra, that of the middle weighted with the corner's shape function.
+  std::array<SymTensor, 4> stressOfSide(const RankMesh& mesh, const RankMesh::Side& side) const;
 };
 
 struct TimeOptions

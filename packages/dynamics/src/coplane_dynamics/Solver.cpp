@@ -45,7 +45,8 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
-    : model_(std::move(model)), comm_(&comm), layout_(comm, model_.mesh), state_(model_.mesh)
+    : model_(std::move(model)), comm_(&comm), layout_(comm, model_.mesh), state_(model_.mesh),
+      dashpots_(model_.conditions, model_.mesh.ownedNodes)
 {
   const RankMesh& mesh = model_.mesh;
   const int owned = mesh.ownedNodes;
@@ -60,7 +61,7 @@ Solver::Solver(Model model, const Comm& comm)
                          part.connectivity);
     ElementBlock& block = blocks_.back();
     block.initialise(state_.x);
-    block.setInitialStress(setup.stress);
+    setInitialStress(b);
 
     const int corners = topology(part.type).nodes;
     // Node to corners, in the order of element ids, so that sums have the same order on every rank.
@@ -88,7 +89,7 @@ Solver::Solver(Model model, const Comm& comm)
           state_.mass(node) += block.cornerMass(e);
         }
         const Vec3 x = at(state_.x, node);
-        set(state_.v, node, setup.velocity + cross(setup.angularVelocity, x - setup.center));
+        set(state_.v, node, setup.velocityAt(x));
       }
     gathers_.push_back(gather);
   }
@@ -105,6 +106,13 @@ Solver::Solver(Model model, const Comm& comm)
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
                                          model_.contactRules, skin, smallest);
   }
+}
+
+void Solver::setInitialStress(int b)
+{
+  const RankMesh::Block& part = model_.mesh.blocks[b];
+  for (int e = 0; e < part.elements(); ++e)
+    blocks_[b].setInitialStress(e, model_.blocks[b].stressOfElement(model_.mesh, b, e));
 }
 
 void Solver::search()
@@ -201,18 +209,53 @@ Real Solver::stableStep()
 
 void Solver::drift(Real dt)
 {
+  bookHalfStep(dt, state_.v);
   const auto x = state_.x;
-  const ConstNodeVectors v = state_.v, force = state_.force, external = state_.external,
-                         damping = state_.damping;
-  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
-             totalWork = state_.totalWork;
+  const ConstNodeVectors v = state_.v;
   parallelFor(
-      "coplane::dynamics::drift", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+      "coplane::dynamics::drift", layout_.owned(),
+      KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
+}
+
+/// Works of the forces at n over the half step before or after it.
+void Solver::bookHalfStep(Real dt, const ConstNodeVectors& v)
+{
+  const ConstNodeVectors force = state_.force, external = state_.external, damping = state_.damping,
+                         localDamping = state_.localDamping;
+  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
+             localDampingWork = state_.localDampingWork, totalWork = state_.totalWork;
+  parallelFor(
+      "coplane::dynamics::bookWork", layout_.owned(), KOKKOS_LAMBDA(const int n) {
         const Vec3 half = (0.5 * dt) * at(v, n);
         externalWork(n) += dot(at(external, n), half);
         dampingWork(n) -= dot(at(damping, n), half);
-        totalWork(n) += dot(at(force, n) + at(external, n) + at(damping, n), half);
-        set(x, n, at(x, n) + dt * at(v, n));
+        localDampingWork(n) -= dot(at(localDamping, n), half);
+        totalWork(n) +=
+            dot(at(force, n) + at(external, n) + at(damping, n) + at(localDamping, n), half);
+      });
+}
+
+void Solver::applyLocalDamping()
+{
+  const Real fraction = model_.conditions.localDampingAt(clock_.time);
+  const NodeVectors damping = state_.localDamping;
+  if (fraction == 0)
+  {
+    Kokkos::deep_copy(damping, 0.0);
+    return;
+  }
+  const ConstNodeVectors force = state_.force, external = state_.external, v = state_.v;
+  parallelFor(
+      "coplane::dynamics::unbalancedForces", layout_.owned(),
+      KOKKOS_LAMBDA(const int n) { set(damping, n, at(force, n) + at(external, n)); });
+  model_.conditions.clearConstrained(projections_, damping);
+  parallelFor(
+      "coplane::dynamics::localDamping", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        for (int c = 0; c < 3; ++c)
+        {
+          const Real size = fraction * std::abs(damping(n, c));
+          damping(n, c) = v(n, c) > 0 ? -size : v(n, c) < 0 ? size : 0;
+        }
       });
 }
 
@@ -221,42 +264,55 @@ void Solver::kick(Real step)
   TimedRegion region("coplane::dynamics::kick");
   const int owned = layout_.owned();
   const Real dtKick = 0.5 * (clock_.step + step);
-  const Real dtOld = clock_.step;
-  model_.conditions.applyLoads(model_.mesh.dimension, owned, clock_.time, state_);
+  const Conditions& conditions = model_.conditions;
+  conditions.applyLoads(model_.mesh.dimension, owned, clock_.time, state_);
+  applyLocalDamping();
 
-  const NodeVectors v = state_.v, vPrevious = state_.vPrevious, external = state_.external;
-  const ConstNodeVectors force = state_.force, damping = state_.damping, x = state_.x;
+  // Mass damping takes v at n as the mean of both half steps, like dashpots do: second order, and
+  // the stable step stays that of the undamped body.
+  const Real alpha = conditions.massDampingAt(clock_.time);
+  const Real half = 0.5 * dtKick * alpha;
+  const NodeVectors v = state_.v, vPrevious = state_.vPrevious, external = state_.external,
+                    damping = state_.damping, given = state_.given;
+  const ConstNodeVectors force = state_.force, localDamping = state_.localDamping, x = state_.x;
   const ConstArray<Real> mass = state_.mass;
   parallelFor(
       "coplane::dynamics::kickVelocities", owned, KOKKOS_LAMBDA(const int n) {
-        const Vec3 total = at(force, n) + at(external, n) + at(damping, n);
-        set(vPrevious, n, at(v, n));
+        const Vec3 total = at(force, n) + at(external, n) + at(localDamping, n);
+        const Vec3 old = at(v, n);
+        set(vPrevious, n, old);
+        set(given, n, total);
         if (mass(n) > 0)
-          set(v, n, at(v, n) + (dtKick / mass(n)) * total);
+          set(v, n, (1 / (1 + half)) * ((1 - half) * old + (dtKick / mass(n)) * total));
       });
+  if (!dashpots_.empty())
+  {
+    dashpots_.find(model_.mesh.dimension, conditions, x);
+    dashpots_.kick(dtKick, alpha, mass, given, vPrevious, v);
+  }
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     set(beforeConstraint_, int(i), at(v, constrained_[i]));
-  model_.conditions.prescribeVelocities(clock_.time + 0.5 * step, v, projections_);
+  conditions.prescribeVelocities(clock_.time + 0.5 * step, v, projections_);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
   {
+    // The force that this took, and what the dampings no longer give.
     const int n = constrained_[i];
-    const Vec3 reaction = (mass(n) / dtKick) * (at(v, n) - at(beforeConstraint_, int(i)));
-    set(external, n, at(external, n) + reaction);
+    const Vec3 change = at(v, n) - at(beforeConstraint_, int(i));
+    set(external, n,
+        at(external, n) + (mass(n) / dtKick * (1 + half)) * change +
+            0.5 * dashpots_.drag(n, change));
   }
+  dashpots_.book(vPrevious, v, external);
 
-  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
-             totalWork = state_.totalWork;
   const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
   parallelFor(
-      "coplane::dynamics::bookWork", owned, KOKKOS_LAMBDA(const int n) {
-        const Vec3 half = (0.5 * dtOld) * at(vPrevious, n);
-        const Vec3 given = at(external, n) + at(damping, n);
-        externalWork(n) += dot(at(external, n), half);
-        dampingWork(n) -= dot(at(damping, n), half);
-        totalWork(n) += dot(at(force, n) + given, half);
-        set(impulse, n, at(impulse, n) + dtKick * given);
-        set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), given));
+      "coplane::dynamics::bookImpulse", owned, KOKKOS_LAMBDA(const int n) {
+        set(damping, n, (-0.5 * alpha * mass(n)) * (at(vPrevious, n) + at(v, n)));
+        const Vec3 outer = at(external, n) + at(damping, n) + at(localDamping, n);
+        set(impulse, n, at(impulse, n) + dtKick * outer);
+        set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), outer));
       });
+  bookHalfStep(clock_.step, vPrevious);
 }
 
 void Solver::planNextCycle(bool first)
@@ -330,10 +386,8 @@ void Solver::prepare()
   if (contact_)
   {
     search();
-    std::vector<SymTensor> stress;
-    for (const BlockSetup& setup : model_.blocks)
-      stress.push_back(setup.stress);
-    contact_->closeDeclaredJoints(state_.x, stress);
+    contact_->closeDeclaredJoints(state_.x, [this](int block, const Vec3& x)
+                                  { return model_.blocks[block].stressAt(x); });
   }
   findForces(0);
   planNextCycle(true);

@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Comm.hpp>
+#include <coplane_dynamics/Dashpots.hpp>
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalState.hpp>
@@ -87,8 +88,11 @@ private:
   void findForces(Real dt);
   void gatherElementForces();
   Real stableStep();
+  void setInitialStress(int block);
+  void applyLocalDamping();
   void kick(Real step);
   void drift(Real dt);
+  void bookHalfStep(Real dt, const ConstNodeVectors& v);
   void planNextCycle(bool first);
   void finishAfter(const Error& error, Observer& observer) const;
   [[noreturn]] void failTogether(const std::string& what);
@@ -97,6 +101,7 @@ private:
   const Comm* comm_;
   NodeLayout layout_;
   NodalState state_;
+  Dashpots dashpots_;
   std::vector<ElementBlock> blocks_;
   std::vector<Gather> gathers_;
   std::unique_ptr<Contact> contact_;

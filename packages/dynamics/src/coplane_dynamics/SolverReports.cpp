@@ -19,6 +19,7 @@ EnergyBalance Solver::energy() const
     Hourglass,
     Viscous,
     Damping,
+    LocalDamping,
     External,
     Nodal,
     Terms
@@ -28,6 +29,7 @@ EnergyBalance Solver::energy() const
   {
     sums[Kinetic].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
     sums[Damping].add(state_.dampingWork(n));
+    sums[LocalDamping].add(state_.localDampingWork(n));
     sums[External].add(state_.externalWork(n));
     sums[Nodal].add(state_.totalWork(n));
   }
@@ -48,6 +50,7 @@ EnergyBalance Solver::energy() const
   balance.hourglass = totals[Hourglass];
   balance.viscous = totals[Viscous];
   balance.massDamping = totals[Damping];
+  balance.localDamping = totals[LocalDamping];
   balance.externalWork = totals[External];
   balance.nodalWork = totals[Nodal];
   if (contact_)

@@ -15,13 +15,16 @@ namespace coplane
 // defaults of the schema. Units: SI. `where` is the place of a card for later messages:
 // "wall.yaml:12:5", or "--set a.b=value" when it came from there.
 
-/// A number, or a muParser expression of t [s] (conditions that vary in time).
+/// A number, or a muParser expression of t [s] (conditions that vary in time); of x, y, z [m] where
+/// a PlaceFunction is meant (states that vary in space).
 struct TimeFunction
 {
   std::string expression; ///< empty: constant
   Real constant = 0;
   std::string where;
 };
+
+using PlaceFunction = TimeFunction;
 
 struct MaterialCard
 {
@@ -114,22 +117,31 @@ struct ContactCard
 struct ConditionCard
 {
   std::string where;
-  std::string type; ///< fixed | velocity | symmetry | pressure
-  std::string set;  ///< node set (fixed, velocity, symmetry) or side set (pressure)
+  std::string type; ///< fixed | velocity | symmetry | pressure | traction | absorbing
+  std::string set;  ///< node set (fixed, velocity, symmetry) or side set (the others)
   std::array<bool, 3> components{true, true, true}; ///< fixed, velocity
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
   Vec3 normal{0, 0, 0};                             ///< symmetry
-  TimeFunction pressure; ///< pressure, follower, positive pushes into the body [Pa]
+  TimeFunction pressure;                ///< pressure, follower, positive pushes into the body [Pa]
+  std::array<TimeFunction, 3> traction; ///< traction, in fixed axes [Pa]
+  std::array<TimeFunction, 3> incident; ///< absorbing, velocity of the wave that enters [m/s]
+
+  bool onSides() const { return type == "pressure" || type == "traction" || type == "absorbing"; }
 };
 
 struct InitialCard
 {
   std::string where;
   std::string block;
-  Vec3 velocity{0, 0, 0};                       ///< of the block as a rigid body [m/s]
-  Vec3 angularVelocity{0, 0, 0};                ///< [rad/s]
-  Vec3 center{0, 0, 0};                         ///< a point that moves with `velocity` [m]
+  Vec3 velocity{0, 0, 0};        ///< of the block as a rigid body [m/s]
+  Vec3 angularVelocity{0, 0, 0}; ///< [rad/s]
+  Vec3 center{0, 0, 0};          ///< a point that moves with `velocity` [m]
+  std::optional<std::array<PlaceFunction, 3>> velocityField; ///< added [m/s]
   std::array<Real, 6> stress{0, 0, 0, 0, 0, 0}; ///< xx yy zz xy yz zx, tension positive [Pa]
+  std::array<Real, 6> stressGradient{0, 0, 0,
+                                     0, 0, 0}; ///< change per metre along stressAxis [Pa/m]
+  Vec3 stressAxis{0, 1, 0};
+  Vec3 stressPoint{0, 0, 0}; ///< where `stress` is [m]
 };
 
 struct TimeCard
@@ -180,11 +192,12 @@ struct Deck
   ContactCard contact;
   std::vector<ConditionCard> conditions;
   std::vector<InitialCard> initial;
-  Vec3 gravity{0, 0, 0};                ///< [m/s^2]
-  Real viscosityLinear = 0.06;          ///< bulk viscosity b1 [-]
-  Real viscosityQuadratic = 1.5;        ///< b2 [-]
-  Real massDamping = 0;                 ///< force -alpha m v [1/s]
-  std::optional<Real> massDampingUntil; ///< [s]
+  std::array<TimeFunction, 3> gravity; ///< [m/s^2]
+  Real viscosityLinear = 0.06;         ///< bulk viscosity b1 [-]
+  Real viscosityQuadratic = 1.5;       ///< b2 [-]
+  TimeFunction massDamping;            ///< force -alpha m v [1/s]
+  Real localDamping = 0;               ///< force -alpha |f| sign(v), component by component [-]
+  std::optional<Real> dampingUntil;    ///< [s]
   TimeCard time;
   OutputCard output;
   HistoryCard history;

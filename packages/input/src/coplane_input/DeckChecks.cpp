@@ -143,6 +143,14 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   Names seen;
   for (std::size_t i = 0; i < deck.initial.size(); ++i)
   {
+    const auto& gradient = deck.initial[i].stressGradient;
+    const DeckNode& card = nodeAt(root, {"initial", std::to_string(i)});
+    if (std::all_of(gradient.begin(), gradient.end(), [](Real value) { return value == 0; }))
+      for (const char* key : {"stress_axis", "stress_point"})
+        if (const DeckNode* given = card.find(key))
+          problems.add(*given, fmt::format("initial.{0}.{1} has no effect without "
+                                           "initial.{0}.stress_gradient; remove it or give that.",
+                                           i, key));
     const auto& block = deck.initial[i].block;
     if (!block.empty() && contains(seen, block))
       problems.add(nodeAt(root, {"initial", std::to_string(i), "block"}),
@@ -203,7 +211,7 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
   {
     const auto& card = deck.conditions[i];
-    const bool faces = card.type == "pressure";
+    const bool faces = card.onSides();
     check(card.where, fmt::format("conditions.{}.{}", i, faces ? "side_set" : "node_set"), card.set,
           faces ? sideSet : nodeSet, faces ? sideSetNames : nodeSetNames);
   }

@@ -257,7 +257,7 @@ private:
   std::optional<KeyValue> readValue(const Key& key, const DeckNode& node, const std::string& path)
   {
     const bool isList = key.kind == KeyKind::Numbers || key.kind == KeyKind::Texts ||
-                        key.kind == KeyKind::TimeFunctions;
+                        key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions;
     if (isList)
       return readList(key, node, path);
     if (node.kind != Kind::Scalar || node.text.empty())
@@ -278,7 +278,7 @@ private:
       return std::nullopt;
     case KeyKind::TimeFunction:
     {
-      const auto function = readTimeFunction(key, node, path);
+      const auto function = readFunction(key, node, path);
       return function ? optionalValue(std::optional(std::vector{*function})) : std::nullopt;
     }
     default:
@@ -340,9 +340,10 @@ private:
     return std::nullopt;
   }
 
-  std::optional<TimeFunction> readTimeFunction(const Key& key, const DeckNode& node,
-                                               const std::string& path)
+  std::optional<TimeFunction> readFunction(const Key& key, const DeckNode& node,
+                                           const std::string& path)
   {
+    const bool ofPlace = key.kind == KeyKind::PlaceFunctions;
     TimeFunction function;
     function.where = node.where;
     if (node.kind != Kind::Scalar || node.text.empty())
@@ -357,12 +358,21 @@ private:
         wrong(node, path, " is not a finite number", acceptedText(key));
         return std::nullopt;
       }
+      if ((key.lower && *number < *key.lower) || (key.upper && *number > *key.upper))
+      {
+        wrong(node, path, " is out of range", acceptedText(key));
+        return std::nullopt;
+      }
       function.constant = *number;
       return function;
     }
-    if (const auto problem = expressionProblem(node.text); !problem.empty())
+    const std::string problem =
+        expressionProblem(node.text, ofPlace ? variablesOfPlace : variablesOfTime);
+    if (!problem.empty())
     {
-      wrong(node, path, fmt::format(" is not an expression of t ({})", problem), acceptedText(key));
+      wrong(node, path,
+            fmt::format(" is not an expression of {} ({})", ofPlace ? "x, y, z" : "t", problem),
+            acceptedText(key));
       return std::nullopt;
     }
     function.expression = node.text;
@@ -388,9 +398,10 @@ private:
         if (const auto number = readNumber(oneOf(key, KeyKind::Number), item, here))
           numbers.push_back(*number);
       }
-      else if (key.kind == KeyKind::TimeFunctions)
+      else if (key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions)
       {
-        if (const auto one = readTimeFunction(oneOf(key, KeyKind::TimeFunction), item, here))
+        const KeyKind kind = key.kind == KeyKind::TimeFunctions ? KeyKind::TimeFunction : key.kind;
+        if (const auto one = readFunction(oneOf(key, kind), item, here))
           functions.push_back(*one);
       }
       else if (const auto word = readWord(oneOf(key, KeyKind::Text), item, here))
@@ -406,7 +417,7 @@ private:
     }
     if (key.kind == KeyKind::Numbers)
       return numbers;
-    if (key.kind == KeyKind::TimeFunctions)
+    if (key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions)
       return functions;
     if (!key.choices.empty() &&
         (words.empty() || std::set<std::string>(words.begin(), words.end()).size() < words.size()))

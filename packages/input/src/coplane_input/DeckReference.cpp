@@ -154,6 +154,7 @@ Json valueSchema(const Key& key)
   case KeyKind::TimeFunction:
     return function;
   case KeyKind::TimeFunctions:
+  case KeyKind::PlaceFunctions:
     return listSchema(key, function);
   case KeyKind::Group:
     return groupSchema(key);

@@ -98,29 +98,29 @@ Key conditions()
   {
     field = {v[0], v[1], v[2]};
   };
-  Key velocity = bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunctions,
-                                                  &ConditionCard::velocity, takeThree)
-                     .onlyFor({"velocity"})
-                     .needed()
-                     .in("m/s")
-                     .like("[\"0.1*t\", 0, 0]")
-                     .means("velocity in x, y, z; 0 for components that are left free");
-  velocity.length = 3;
+  const auto vectorOfTime =
+      [&](const std::string& name, std::array<TimeFunction, 3> ConditionCard::*member)
+  {
+    Key key = bound<std::vector<TimeFunction>>(name, KeyKind::TimeFunctions, member, takeThree);
+    key.length = 3;
+    return KeyBuilder(key);
+  };
   return list("conditions", &Deck::conditions,
               {
                   text("type", &ConditionCard::type)
                       .needed()
-                      .oneOf({"fixed", "velocity", "symmetry", "pressure"})
+                      .oneOf({"fixed", "velocity", "symmetry", "pressure", "traction", "absorbing"})
                       .like("fixed")
                       .means("fixed: no motion; velocity: prescribed motion; symmetry: no motion "
-                             "along the normal; pressure: follows the moving faces"),
+                             "along the normal; pressure: follows the moving faces; traction: in "
+                             "fixed axes; absorbing: waves leave through the faces"),
                   text("node_set", &ConditionCard::set)
                       .onlyFor({"fixed", "velocity", "symmetry"})
                       .needed()
                       .means("node set of the mesh")
                       .like("base"),
                   text("side_set", &ConditionCard::set)
-                      .onlyFor({"pressure"})
+                      .onlyFor({"pressure", "traction", "absorbing"})
                       .needed()
                       .means("side set of the mesh")
                       .like("top"),
@@ -131,7 +131,24 @@ Key conditions()
                       .like("[x]")
                       .defaultIs("[x, y, z]")
                       .means("axes along which the condition acts"),
-                  velocity,
+                  vectorOfTime("value", &ConditionCard::velocity)
+                      .onlyFor({"velocity"})
+                      .needed()
+                      .in("m/s")
+                      .like("[\"0.1*t\", 0, 0]")
+                      .means("velocity in x, y, z; 0 for components that are left free"),
+                  vectorOfTime("value", &ConditionCard::traction)
+                      .onlyFor({"traction"})
+                      .needed()
+                      .in("Pa")
+                      .like("[0, \"-1e5*min(t/0.01, 1)\", 0]")
+                      .means("force per present area, in fixed axes"),
+                  vectorOfTime("incident", &ConditionCard::incident)
+                      .onlyFor({"absorbing"})
+                      .in("m/s")
+                      .defaultIs("[0, 0, 0]")
+                      .like("[\"0.1*sin(2*_pi*200*t)\", 0, 0]")
+                      .means("particle velocity of the wave that enters through the faces"),
                   bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunction,
                                                    &ConditionCard::pressure, takeOne)
                       .onlyFor({"pressure"})
@@ -153,6 +170,18 @@ Key conditions()
 
 Key initial()
 {
+  Key velocityField =
+      bound<std::vector<TimeFunction>>(
+          "velocity_field", KeyKind::PlaceFunctions, &InitialCard::velocityField,
+          [](std::optional<std::array<PlaceFunction, 3>>& field, const std::vector<TimeFunction>& v)
+          {
+            field = {v[0], v[1], v[2]};
+          })
+          .in("m/s")
+          .defaultIs("[0, 0, 0]")
+          .like("[\"0.1*exp(-(x/0.2)^2)\", 0, 0]")
+          .means("velocity that is added, as it varies with the place x, y, z [m] at t = 0");
+  velocityField.length = 3;
   return list("initial", &Deck::initial,
               {
                   text("block", &InitialCard::block)
@@ -171,10 +200,25 @@ Key initial()
                       .in("m")
                       .like("[1, 0, 0]")
                       .means("point about which angular_velocity turns"),
+                  velocityField,
                   numbers("stress", &InitialCard::stress, 6)
                       .in("Pa")
                       .like("[-1e6, 0, 0, 0, 0, 0]")
                       .means("xx, yy, zz, xy, yz, zx; tension is positive"),
+                  numbers("stress_gradient", &InitialCard::stressGradient, 6)
+                      .in("Pa/m")
+                      .like("[5e3, 2e4, 5e3, 0, 0, 0]")
+                      .means("change of the stress per metre along stress_axis; under gravity "
+                             "along -y, yy has density times 9.81 along y"),
+                  vector("stress_axis", &InitialCard::stressAxis)
+                      .in("-")
+                      .notAllZero()
+                      .like("[0, 0, 1]")
+                      .means("direction along which the stress varies, of any length"),
+                  vector("stress_point", &InitialCard::stressPoint)
+                      .in("m")
+                      .like("[0, 10, 0]")
+                      .means("point at which the stress is `stress`"),
               })
       .means("state of blocks at t = 0; at rest and free of stress where nothing is said");
 }
@@ -285,6 +329,51 @@ Key history()
       .means("energies, momenta and probes over time");
 }
 
+Key gravity()
+{
+  Key key = bound<std::vector<TimeFunction>>(
+                "gravity", KeyKind::TimeFunctions, &Deck::gravity,
+                [](std::array<TimeFunction, 3>& field, const std::vector<TimeFunction>& v) {
+                  field = {v[0], v[1], v[2]};
+                })
+                .in("m/s^2")
+                .defaultIs("[0, 0, 0]")
+                .like("[0, \"-9.81*min(t/0.5, 1)\", 0]")
+                .means("acceleration of everything");
+  key.length = 3;
+  return key;
+}
+
+Key damping()
+{
+  const auto takeOne = [](TimeFunction& field, const std::vector<TimeFunction>& v)
+  { field = v[0]; };
+  return section("damping",
+                 {
+                     bound<std::vector<TimeFunction>>("mass", KeyKind::TimeFunction,
+                                                      &Deck::massDamping, takeOne)
+                         .in("1/s")
+                         .atLeast(0)
+                         .defaultIs("0")
+                         .like("\"t > 0.5 ? 10 : 0\"")
+                         .means("alpha of the force -alpha m v on every node"),
+                     number("local", &Deck::localDamping)
+                         .in("-")
+                         .atLeast(0)
+                         .below(1)
+                         .like("0.7")
+                         .means("alpha of the force -alpha |f| sign(v) on each component, f the "
+                                "force that is out of balance"),
+                     number("until", &Deck::dampingUntil)
+                         .in("s")
+                         .above(0)
+                         .defaultIs("the end")
+                         .like("1.5")
+                         .means("time after which both dampings are off"),
+                 })
+      .means("damping of all motion, to find states of rest");
+}
+
 Key makeSchema()
 {
   return section(
@@ -300,25 +389,8 @@ Key makeSchema()
               contactKeys(),
               conditions(),
               initial(),
-              vector("gravity", &Deck::gravity)
-                  .in("m/s^2")
-                  .like("[0, -9.81, 0]")
-                  .means("acceleration of everything"),
-              section("damping",
-                      {
-                          number("mass", &Deck::massDamping)
-                              .in("1/s")
-                              .atLeast(0)
-                              .like("10")
-                              .means("alpha of the force -alpha m v on every node"),
-                          number("until", &Deck::massDampingUntil)
-                              .in("s")
-                              .above(0)
-                              .defaultIs("the end")
-                              .like("1.5")
-                              .means("time after which the damping is off"),
-                      })
-                  .means("damping of all motion, to find states of rest"),
+              gravity(),
+              damping(),
               section("viscosity",
                       {
                           number("linear", &Deck::viscosityLinear)

@@ -38,9 +38,11 @@ std::string acceptedText(const Key& key)
   case KeyKind::Texts:
     return fmt::format("a list of {}names{}", count, words.empty() ? "" : " out of " + words);
   case KeyKind::TimeFunction:
-    return "a number or an expression of t" + unit;
+    return "a number" + range + " or an expression of t" + unit;
   case KeyKind::TimeFunctions:
     return fmt::format("a list of {}numbers or expressions of t{}", count, unit);
+  case KeyKind::PlaceFunctions:
+    return fmt::format("a list of {}numbers or expressions of x, y, z{}", count, unit);
   case KeyKind::Group:
     return "keys with values";
   case KeyKind::NamedGroups:

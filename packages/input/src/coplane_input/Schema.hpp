@@ -18,13 +18,14 @@ enum class KeyKind
   Number,
   Integer,
   Flag,
-  Numbers,       ///< list of numbers
-  Texts,         ///< list of words
-  TimeFunction,  ///< a number or an expression of t
-  TimeFunctions, ///< a list of them
-  Group,         ///< keys
-  NamedGroups,   ///< names, each with the same keys
-  GroupList      ///< list of groups
+  Numbers,        ///< list of numbers
+  Texts,          ///< list of words
+  TimeFunction,   ///< a number or an expression of t
+  TimeFunctions,  ///< a list of them
+  PlaceFunctions, ///< a list of numbers or expressions of x, y and z
+  Group,          ///< keys
+  NamedGroups,    ///< names, each with the same keys
+  GroupList       ///< list of groups
 };
 
 using KeyValue = std::variant<bool, int, Real, std::string, std::vector<Real>,

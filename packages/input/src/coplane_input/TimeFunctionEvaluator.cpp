@@ -9,14 +9,15 @@
 
 namespace coplane
 {
-struct TimeFunctionEvaluator::Expression
+struct ParsedExpression
 {
-  Real t = 0;
+  Real values[3] = {};
   mu::Parser parser;
 
-  explicit Expression(const std::string& text)
+  ParsedExpression(const std::string& text, const std::vector<std::string>& variables)
   {
-    parser.DefineVar("t", &t);
+    for (std::size_t i = 0; i < variables.size(); ++i)
+      parser.DefineVar(variables[i], &values[i]);
     parser.SetExpr(text);
   }
 };
@@ -37,17 +38,23 @@ std::size_t findAssignment(const std::string& text)
   }
   return std::string::npos;
 }
-} // namespace
 
-TimeFunctionEvaluator::TimeFunctionEvaluator(const TimeFunction& function) : function_(function)
+std::unique_ptr<ParsedExpression> parsed(const TimeFunction& function,
+                                         const std::vector<std::string>& variables, const char* of)
 {
   if (function.expression.empty())
-    return;
-  const std::string problem = expressionProblem(function.expression);
+    return nullptr;
+  const std::string problem = expressionProblem(function.expression, variables);
   if (!problem.empty())
-    fail(ExitCode::Deck, "{}: '{}' is not an expression of t: {}.", function.where,
-         function.expression, problem);
-  expression_ = std::make_unique<Expression>(function.expression);
+    fail(ExitCode::Deck, "{}: '{}' is not an expression of {}: {}.", function.where,
+         function.expression, of, problem);
+  return std::make_unique<ParsedExpression>(function.expression, variables);
+}
+} // namespace
+
+TimeFunctionEvaluator::TimeFunctionEvaluator(const TimeFunction& function)
+    : expression_(parsed(function, variablesOfTime, "t")), function_(function)
+{
 }
 
 TimeFunctionEvaluator::~TimeFunctionEvaluator() = default;
@@ -58,7 +65,7 @@ Real TimeFunctionEvaluator::operator()(Real t)
 {
   if (!expression_)
     return function_.constant;
-  expression_->t = t;
+  expression_->values[0] = t;
   const Real value = expression_->parser.Eval();
   if (!std::isfinite(value))
     fail(ExitCode::Computation,
@@ -68,18 +75,40 @@ Real TimeFunctionEvaluator::operator()(Real t)
   return value;
 }
 
-std::string expressionProblem(const std::string& expression)
+PlaceFunctionEvaluator::PlaceFunctionEvaluator(const PlaceFunction& function)
+    : expression_(parsed(function, variablesOfPlace, "x, y, z")), function_(function)
+{
+}
+
+PlaceFunctionEvaluator::~PlaceFunctionEvaluator() = default;
+PlaceFunctionEvaluator::PlaceFunctionEvaluator(PlaceFunctionEvaluator&&) noexcept = default;
+PlaceFunctionEvaluator&
+PlaceFunctionEvaluator::operator=(PlaceFunctionEvaluator&&) noexcept = default;
+
+Real PlaceFunctionEvaluator::operator()(const Vec3& point)
+{
+  if (!expression_)
+    return function_.constant;
+  for (int c = 0; c < 3; ++c)
+    expression_->values[c] = point[c];
+  const Real value = expression_->parser.Eval();
+  if (!std::isfinite(value))
+    fail(ExitCode::Computation,
+         "{}: '{}' is {} at ({}, {}, {}) m, which is not a finite number. Change the expression.",
+         function_.where, function_.expression, value, point.x, point.y, point.z);
+  return value;
+}
+
+std::string expressionProblem(const std::string& expression,
+                              const std::vector<std::string>& variables)
 {
   if (const auto at = findAssignment(expression); at != std::string::npos)
     return fmt::format("'=' at character {} would set a variable; compare with ==", at + 1);
   try
   {
-    Real t = 0;
-    mu::Parser parser;
-    parser.DefineVar("t", &t);
-    parser.SetExpr(expression);
+    ParsedExpression trial(expression, variables);
     int results = 0;
-    parser.Eval(results);
+    trial.parser.Eval(results);
     if (results != 1)
       return fmt::format("it gives {} values where one is needed", results);
   }

@@ -1,16 +1,25 @@
 #pragma once
 
 #include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
 #include <coplane_input/Deck.hpp>
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace coplane
 {
-/// Evaluates a number or an expression of t [s], such as 0.05*sin(2*_pi*200*t). The language is
-/// that of muParser: + - * / ^, comparisons, a ? b : c, && ||, min max abs sqrt exp ln log10 sin
-/// cos tan and their like, the constants _pi and _e. One evaluator serves one thread.
+// Numbers and expressions such as 0.05*sin(2*_pi*200*t). The language is that of muParser: + - * /
+// ^, comparisons, a ? b : c, && ||, min max abs sqrt exp ln log10 sin cos tan and their like, the
+// constants _pi and _e. One evaluator serves one thread.
+
+const std::vector<std::string> variablesOfTime{"t"};
+const std::vector<std::string> variablesOfPlace{"x", "y", "z"};
+
+struct ParsedExpression;
+
+/// Evaluates a number or an expression of t [s].
 class TimeFunctionEvaluator
 {
 public:
@@ -25,11 +34,29 @@ public:
   Real operator()(Real t);
 
 private:
-  struct Expression;
-  std::unique_ptr<Expression> expression_; // empty: constant
+  std::unique_ptr<ParsedExpression> expression_; // empty: constant
   TimeFunction function_;
 };
 
-/// What is wrong with an expression of t, with the place in it; empty when it can be evaluated.
-std::string expressionProblem(const std::string& expression);
+/// Evaluates a number or an expression of x, y, z [m].
+class PlaceFunctionEvaluator
+{
+public:
+  explicit PlaceFunctionEvaluator(const PlaceFunction& function);
+  ~PlaceFunctionEvaluator();
+  PlaceFunctionEvaluator(PlaceFunctionEvaluator&&) noexcept;
+  PlaceFunctionEvaluator& operator=(PlaceFunctionEvaluator&&) noexcept;
+
+  /// Value at a point [m]. Throws Error(Computation) when it is not finite.
+  Real operator()(const Vec3& point);
+
+private:
+  std::unique_ptr<ParsedExpression> expression_;
+  PlaceFunction function_;
+};
+
+/// What is wrong with an expression of these variables, with the place in it; empty when it can be
+/// evaluated.
+std::string expressionProblem(const std::string& expression,
+                              const std::vector<std::string>& variables = variablesOfTime);
 } // namespace coplane

@@ -50,6 +50,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("contact_damping[J]", energy.contact.damping);
   line.add("contact_remainder[J]", energy.contact.remainder());
   line.add("mass_damping[J]", energy.massDamping);
+  line.add("local_damping[J]", energy.localDamping);
   line.add("external_work[J]", energy.externalWork);
   line.add("initial[J]", energy.initial);
   line.add("error[J]", energy.error());

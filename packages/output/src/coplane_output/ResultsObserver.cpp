@@ -32,10 +32,11 @@ ResultsVariables variablesOf(int dimension)
                    "stress_xy", "stress_yz", "stress_zx",
                    "von_mises", "pressure",  "equivalent_plastic_strain",
                    "density",   "alive"};
-  names.global = {"time_step",          "kinetic_energy",   "internal_energy", "plastic_work",
-                  "hourglass_energy",   "viscous_work",     "contact_stored",  "contact_friction",
-                  "contact_hysteresis", "contact_fracture", "contact_damping", "contact_remainder",
-                  "mass_damping_work",  "external_work",    "energy_error"};
+  names.global = {
+      "time_step",          "kinetic_energy",     "internal_energy", "plastic_work",
+      "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
+      "contact_hysteresis", "contact_fracture",   "contact_damping", "contact_remainder",
+      "mass_damping_work",  "local_damping_work", "external_work",   "energy_error"};
   return names;
 }
 
@@ -111,7 +112,7 @@ void ResultsObserver::write(const Solver& solver)
                     energy.hourglass, energy.viscous, energy.contact.stored,
                     energy.contact.friction, energy.contact.hysteresis, energy.contact.fracture,
                     energy.contact.damping, energy.contact.remainder(), energy.massDamping,
-                    energy.externalWork, energy.error()});
+                    energy.localDamping, energy.externalWork, energy.error()});
   file_.endStep();
   lastCycle_ = solver.clock().cycle;
 }

@@ -129,6 +129,7 @@ Json energiesOf(const EnergyBalance& e)
           {"contact_damping", e.contact.damping},
           {"contact_remainder", e.contact.remainder()},
           {"mass_damping", e.massDamping},
+          {"local_damping", e.localDamping},
           {"external_work", e.externalWork},
           {"initial", e.initial},
           {"error", e.error()},
