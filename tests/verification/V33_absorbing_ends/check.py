@@ -50,12 +50,7 @@ for dimension in ("2d", "3d"):
             inside = h["kinetic"][-1] + h["internal"][-1] + h["hourglass"][-1]
             case.check(f"{name}: energy that stays, over what entered", inside / entered, 0, 1e-4)
 
-# Nothing moves: the balance is judged by the energy that the initial stress has put into the joint.
-rest = case.run("rest", case.load("mesh_rest.yaml"), case.load("deck_rest.yaml"), energy=numpy.inf)
-h = rest.history
-case.check(
-    "rest: energy balance over the joint's energy", numpy.max(numpy.abs(h["error"])) / h["contact_stored"][0], 0, 1e-12
-)
+rest = case.run("rest", case.load("mesh_rest.yaml"), case.load("deck_rest.yaml"))
 case.check("rest: largest speed [m/s]", numpy.max(numpy.abs(rest.results.nodal("velocity"))), 0, 1e-9)
 case.check("rest: most kinetic energy [J]", numpy.max(rest.history["kinetic"]), 0, 0.5 * rest.mass * 1e-18)
 case.check_equal("rest: planes that opened", int(numpy.max(rest.history["open"])), 0)
