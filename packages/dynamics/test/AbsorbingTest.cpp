@@ -213,8 +213,6 @@ TEST(InitialStress, thatGrowsWithDepthCarriesAColumnUnderGravity)
   addBox(mesh, "lower", {1, 1, 2}, {0, 0, 0}, {1, 1, 1});
   addBox(mesh, "upper", {1, 1, 2}, {0, 0, 1}, {1, 1, 1});
   Model model = rockModel(mesh, comm, 0.5);
-  model.contactRules.joints[0].penalty = false;
-  model.contactRules.joints[0].initialStiffness = 1e10;
   for (ContactRule& rule : model.contactRules.table)
     rule.declared = true;
   model.conditions.gravity = {0, 0, -10};
