@@ -6,20 +6,29 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace coplane
 {
 namespace
 {
-void printLengths(const CensusLengths& lengths, const char* what, const char* extreme)
+/// Lengths below this fraction of the skin are rounding of the mesh's coordinates.
+constexpr Real nothing = 1e-8;
+
+void printLengths(const CensusLengths& lengths, const char* what, const char* extreme, Real skin)
 {
   if (lengths.count == 0)
     return;
   const auto& q = lengths.quantiles;
+  if (std::max(std::abs(q[0]), std::abs(q[6])) <= nothing * skin)
+  {
+    logInfo("    {}: all zero", what);
+    return;
+  }
   logInfo("    {} [m]: least {:.3e}, 5 % {:.3e}, 25 % {:.3e}, median {:.3e}, 75 % {:.3e}, "
           "95 % {:.3e}, largest {:.3e}",
           what, q[0], q[1], q[2], q[3], q[4], q[5], q[6]);
-  if (q[0] == q[6])
-    return; // nothing stands out
   for (const CensusLengths::Pair& pair : lengths.extreme)
     logInfo("      {} {:.3e} m: {} and {}", extreme, pair.length, faceName(pair.faceId[0]),
             faceName(pair.faceId[1]));
@@ -38,19 +47,18 @@ void reportCensus(const Contact& contact)
   logInfo("  declared joints: {} planes closed, {} of them bonded; {} more pairs of their faces "
           "only neighbour each other",
           c.declaredClosed, c.bonded, c.declaredWithoutOverlap);
-  printLengths(c.joints, "gaps of the mesh that are absorbed", "gap");
+  printLengths(c.joints, "gaps of the mesh that are absorbed", "gap", contact.skin());
   if (c.lonelyFaces > 0)
   {
     std::vector<std::string> names;
     for (const GlobalId id : c.firstLonelyFaces)
       names.push_back(faceName(id));
-    logInfo(
-        "    {} faces have candidates across a declared joint, but share no area with any: {}{}",
-        c.lonelyFaces, fmt::join(names, ", "),
-        c.lonelyFaces > std::int64_t(names.size()) ? ", ..." : "");
+    logInfo("    {} faces of declared joints share no area with any other: {}{}", c.lonelyFaces,
+            fmt::join(names, ", "), c.lonelyFaces > std::int64_t(names.size()) ? ", ..." : "");
   }
   logInfo("  other pairs: {} apart, {} overlapping", c.apart, c.overlapping);
-  printLengths(c.overlaps, "depths of overlaps, which carry no force at the start", "overlap");
-  printLengths(c.gaps, "gaps of pairs that face each other", "gap");
+  printLengths(c.overlaps, "depths of overlaps, which carry no force at the start", "overlap",
+               contact.skin());
+  printLengths(c.gaps, "gaps of pairs that face each other", "gap", contact.skin());
 }
 } // namespace coplane

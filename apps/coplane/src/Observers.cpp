@@ -5,7 +5,9 @@
 #include <coplane_output/ProgressObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/RunRecord.hpp>
+#include <coplane_output/TablesObserver.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 
@@ -63,7 +65,21 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
     probe.block = positionOf(mesh.blocks, card.block);
     history.probes.push_back(probe);
   }
+  for (const JointCard& card : deck.joints)
+    if (std::any_of(deck.history.joints.begin(), deck.history.joints.end(),
+                    [&](const std::string& name) { return name == "*" || name == card.name; }))
+      history.joints.push_back(card.name);
   observers.add(std::make_unique<HistoryObserver>(comm, history));
+
+  const auto wants = [&](const char* table)
+  {
+    const auto& tables = deck.history.tables;
+    return std::find(tables.begin(), tables.end(), table) != tables.end();
+  };
+  if (!deck.history.tables.empty())
+    observers.add(std::make_unique<TablesObserver>(
+        comm, TablesOptions{withoutExtension(deck.history.file), deck.history.every,
+                            wants("blocks"), wants("pairs")}));
 
   if (!deck.output.results.empty())
   {

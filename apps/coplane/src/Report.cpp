@@ -23,9 +23,9 @@ void reportModel(const Solver& solver, const Mesh& mesh)
             mesh.blocks[b].id, mesh.blocks[b].elements(), totals[b]);
 
   const StepControl control = solver.stepControl();
-  logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {} at node {}",
+  logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",
           control.stableStep, solver.model().time.stepFactor, solver.clock().nextStep,
-          control.contact ? "contact" : "elements", control.node);
+          control.text());
 
   if (!solver.hasContact())
   {

@@ -15,7 +15,7 @@ namespace coplane
 namespace
 {
 const ResultsVariables sampleVariables{
-    {"displacement_x", "displacement_y"}, {"von_mises"}, {"energy_kinetic"}};
+    {"displacement_x", "displacement_y"}, {"von_mises"}, {"energy_kinetic"}, {"slip"}};
 
 // Values that tell step, variable and position apart, exactly representable.
 Real nodalValue(int step, int variable, int node)
@@ -25,6 +25,11 @@ Real nodalValue(int step, int variable, int node)
 Real elementValue(int step, int block, int element)
 {
   return -1000 * step - 100 * block - element - 0.5;
+}
+
+Real sideValue(int step, int set, int position)
+{
+  return 0.125 + 1000 * step + 100 * set + position;
 }
 
 void writeStep(ResultsFile& results, int step, int blocks)
@@ -43,6 +48,13 @@ void writeStep(ResultsFile& results, int step, int blocks)
     for (int i = 0; i < results.myElements(block).count; ++i)
       mine.push_back(elementValue(step, block, results.myElements(block).first + i));
     results.putElement(0, block, mine);
+  }
+  for (int set = 0; set < results.sideSets(); ++set)
+  {
+    std::vector<Real> mine;
+    for (const int position : results.mySides(set))
+      mine.push_back(sideValue(step, set, position));
+    results.putSide(0, set, mine);
   }
   results.putGlobals({7.0 * step});
   results.endStep();
@@ -109,6 +121,13 @@ void expectSampleSteps(const std::string& file, int steps)
       const auto values = results.values(step, EX_ELEM_BLOCK, 0, int(mesh.blocks[block].id), n);
       for (int e = 0; e < n; ++e)
         EXPECT_EQ(values[e], elementValue(step, block, e));
+    }
+    for (int set = 0; set < int(mesh.sideSets.size()); ++set)
+    {
+      const int n = int(mesh.sideSets[set].sides.size());
+      const auto values = results.values(step, EX_SIDE_SET, 0, int(mesh.sideSets[set].id), n);
+      for (int i = 0; i < n; ++i)
+        EXPECT_EQ(values[i], sideValue(step, set, i));
     }
     EXPECT_EQ(results.values(step, EX_GLOBAL, 0, 1, 1)[0], 7.0 * step);
   }

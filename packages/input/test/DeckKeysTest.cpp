@@ -136,6 +136,10 @@ std::string show(const Deck& d)
   for (const Real t : d.output.times)
     showAll(out, t);
   showAll(out, d.history.file, d.history.every);
+  for (const auto& name : d.history.joints)
+    showAll(out, name);
+  for (const auto& name : d.history.tables)
+    showAll(out, name);
   for (const auto& p : d.history.probes)
     showAll(out, p.name, p.nodeSet, p.block);
   return out;

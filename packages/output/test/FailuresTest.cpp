@@ -4,6 +4,7 @@
 #include <coplane_output/MultiObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/TablesObserver.hpp>
 #include <coplane_output/TextFile.hpp>
 
 #include <gtest/gtest.h>
@@ -64,8 +65,15 @@ TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)
 TEST(MissingFolder, ofTheHistoryIsAnErrorOnAllRanks)
 {
   const Comm comm;
-  const HistoryOptions options{nowhere + "a.csv", 0, {}, false};
+  const HistoryOptions options{nowhere + "a.csv", 0, {}, {}, false};
   expectOutputError([&] { HistoryObserver(comm, options); }, nowhere + "a.csv");
+}
+
+TEST(MissingFolder, ofTheTablesIsAnErrorOnAllRanks)
+{
+  const Comm comm;
+  const TablesOptions options{nowhere + "a", 0, true, false};
+  expectOutputError([&] { TablesObserver(comm, options); }, nowhere + "a_blocks.csv");
 }
 
 TEST(ReplaceFile, leavesNoDraftBehind)

@@ -6,6 +6,7 @@
 #include <coplane_output/ProgressObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/RunRecord.hpp>
+#include <coplane_output/TablesObserver.hpp>
 
 #include <exodusII.h>
 #include <gtest/gtest.h>
@@ -29,8 +30,9 @@ void run(const Comm& comm, const std::string& base)
   observers.add(std::make_unique<ResultsObserver>(
       comm, mesh, ResultsOptions{base + ".e", when, false, {"command: test"}}));
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
-  HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, true};
+  HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));
+  observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true}));
   observers.add(std::make_unique<ProgressObserver>(ProgressOptions{0}));
   observers.add(std::make_unique<RunRecord>(
       comm, RunRecordOptions{base + ".run.json", "two cubes", "test", "a.yaml", "abc", "a.g"}));
@@ -160,6 +162,7 @@ TEST_F(Files, resultsHaveTheSameBitsOnAnyNumberOfRanks)
   ASSERT_EQ(all.steps(), one.steps());
   ASSERT_GT(all.variables(EX_NODAL), 10);
   ASSERT_GT(all.variables(EX_ELEM_BLOCK), 10);
+  ASSERT_EQ(all.variables(EX_SIDE_SET), 7);
   const auto compare = [&](int step, ex_entity_type type, int entity, int count)
   {
     for (int v = 0; v < all.variables(type); ++v)
@@ -176,6 +179,8 @@ TEST_F(Files, resultsHaveTheSameBitsOnAnyNumberOfRanks)
     compare(step, EX_NODAL, 1, mesh.nodes());
     for (const Mesh::Block& block : mesh.blocks)
       compare(step, EX_ELEM_BLOCK, int(block.id), block.elements());
+    for (const Mesh::SideSet& set : mesh.sideSets)
+      compare(step, EX_SIDE_SET, int(set.id), int(set.sides.size()));
     const int globals = all.variables(EX_GLOBAL);
     EXPECT_TRUE(sameBits(all.values(step, EX_GLOBAL, "time_step", 1, globals),
                          one.values(step, EX_GLOBAL, "time_step", 1, globals)));
@@ -205,6 +210,101 @@ TEST_F(Files, historyIsTheSameTextOnAnyNumberOfRanks)
   const std::string all = contentOf(file("all.csv"));
   EXPECT_FALSE(all.empty());
   EXPECT_EQ(all, contentOf(file("one.csv")));
+}
+
+TEST_F(Files, tablesAreTheSameTextOnAnyNumberOfRanks)
+{
+  for (const char* table : {"_blocks.csv", "_pairs.csv"})
+  {
+    const std::string all = contentOf(file(std::string("all") + table));
+    EXPECT_FALSE(all.empty());
+    EXPECT_EQ(all, contentOf(file(std::string("one") + table))) << table;
+  }
+}
+
+TEST_F(Files, tablesAddUpToTheHistory)
+{
+  const CsvFile history(file("all.csv"));
+  const CsvFile blocks(file("all_blocks.csv")), pairs(file("all_pairs.csv"));
+  ASSERT_EQ(blocks.lines.size(), 2 * history.lines.size());
+  std::map<int, Real> kinetic, internal, friction, stored;
+  for (int line = 0; line < int(blocks.lines.size()); ++line)
+  {
+    kinetic[int(blocks.number(line, "cycle"))] += blocks.number(line, "kinetic[J]");
+    internal[int(blocks.number(line, "cycle"))] += blocks.number(line, "internal[J]");
+  }
+  for (int line = 0; line < int(pairs.lines.size()); ++line)
+  {
+    friction[int(pairs.number(line, "cycle"))] += pairs.number(line, "friction[J]");
+    stored[int(pairs.number(line, "cycle"))] += pairs.number(line, "stored[J]");
+  }
+  for (int cycle = 0; cycle <= cycles; ++cycle)
+  {
+    // The blocks share no node and the tables' sums are exact: a few roundings of 625 J.
+    const Real roundings = 4 * epsilon * 625;
+    EXPECT_NEAR(kinetic[cycle], history.number(cycle, "kinetic[J]"), roundings);
+    EXPECT_NEAR(internal[cycle], history.number(cycle, "internal[J]"), roundings);
+    EXPECT_NEAR(friction[cycle], history.number(cycle, "contact_friction[J]"), roundings);
+    EXPECT_NEAR(stored[cycle], history.number(cycle, "contact_stored[J]"), roundings);
+  }
+  EXPECT_GT(history.number(cycles, "contact_friction[J]"), 0);
+}
+
+TEST_F(Files, jointColumnsHoldTheWholeContactWhenThereIsOneJoint)
+{
+  const CsvFile table(file("all.csv"));
+  Real mostForce = 0;
+  for (int line = 0; line <= cycles; ++line)
+  {
+    const auto value = [&](const char* name) { return table.number(line, name); };
+    EXPECT_EQ(value("rough_friction[J]"), value("contact_friction[J]"));
+    EXPECT_EQ(value("rough_stored[J]"), value("contact_stored[J]"));
+    const Real area = value("rough_open_area[m^2]") + value("rough_stick_area[m^2]") +
+                      value("rough_slip_area[m^2]");
+    // Planes exist from the first touch on. The cubes share (1 - 0.125) (1 - 0.0625) m^2, and the
+    // upper one has moved by less than 5 mm.
+    if (value("planes") > 0)
+    {
+      EXPECT_NEAR(area, 0.875 * 0.9375, 0.01);
+    }
+    if (value("rough_slip_area[m^2]") + value("rough_stick_area[m^2]") > 0)
+    {
+      EXPECT_GT(value("rough_mean_closure[m]"), 0);
+      EXPECT_GT(value("rough_normal_force[N]"), 0);
+    }
+    mostForce = std::max(mostForce, value("rough_normal_force[N]"));
+  }
+  EXPECT_GT(mostForce, 0);
+}
+
+TEST_F(Files, sidesTellTheForceOfTheContact)
+{
+  const Mesh mesh = twoCubes();
+  const Exodus results(file("all.e"));
+  const int during = 1;
+  const int sides = 8;
+  const auto of = [&](const char* name)
+  { return results.values(during, EX_SIDE_SET, name, 7, sides); };
+  const auto state = of("side_state"), fraction = of("side_area_fraction");
+  const auto normal = of("side_normal_traction"), shear = of("side_shear_traction");
+  const auto force = results.values(during, EX_NODAL, "contact_force_z", 1, mesh.nodes());
+  Real upward = 0;
+  for (int n = 27; n < 54; ++n) // the upper cube
+    upward += force[n];
+  Real onUpper = 0, onLower = 0;
+  for (int i = 0; i < sides; ++i)
+  {
+    EXPECT_GE(state[i], 2);
+    EXPECT_GT(fraction[i], 0);
+    EXPECT_LT(fraction[i], 1.001); // the area of contact is that of the projection
+    EXPECT_LE(shear[i], 0.25 * normal[i] * (1 + 1e-12));                // friction
+    (i % 2 == 0 ? onUpper : onLower) += normal[i] * fraction[i] * 0.25; // faces of 0.5 x 0.5 m
+  }
+  // Faces are stretched and tilted by less than a per cent: strains of v / c = 1e-3.
+  EXPECT_GT(upward, 0);
+  EXPECT_NEAR(onUpper, upward, 0.01 * upward);
+  EXPECT_NEAR(onLower, upward, 0.01 * upward);
+  EXPECT_EQ(results.values(during, EX_SIDE_SET, "side_state", 8, 1)[0], 0); // not a face
 }
 
 TEST_F(Files, historyHasOneLinePerCycleAndOneForTheStart)
@@ -324,5 +424,10 @@ TEST_F(Files, runRecordTellsHowTheRunEnded)
   const auto one = nlohmann::json::parse(contentOf(file("one.run.json")));
   EXPECT_EQ(json["state_hash"], one["state_hash"]);
   EXPECT_EQ(json["energies_J"], one["energies_J"]);
+  EXPECT_EQ(json["census"], one["census"]);
+  // 4 faces below; the cubes are shifted, so that every one of 4 above meets 1, 2 or 4 of them: 3 x
+  // 3 pairs share area, and they touch without a gap.
+  EXPECT_EQ(json["census"]["gaps"]["count"], 9);
+  EXPECT_EQ(json["census"]["gaps"]["quantiles_m"][6], 0.0);
 }
 } // namespace coplane

@@ -57,6 +57,17 @@ TEST(VtpPoints, nameTheirNumberInThePieceAndInEveryArray)
       << text;
 }
 
+TEST(VtpPoints, keepNamesAsNumbersOfTheirCharacters)
+{
+  // ASCII: r 114, o 111, c 99, k 107; every name ends with a zero.
+  VtpPoints points({0, 0, 0});
+  points.addNames("joint_names", {"rock", "o"});
+  EXPECT_NE(points.text().find("<Array type=\"String\" Name=\"joint_names\" NumberOfTuples=\"2\" "
+                               "format=\"ascii\">114 111 99 107 0 111 0 </Array>"),
+            std::string::npos)
+      << points.text();
+}
+
 TEST(CoreList, writesRanges)
 {
   EXPECT_EQ(coreList(placementOn("a", {0, 1, 2, 3, 8}, 1).cores), "0-3,8");

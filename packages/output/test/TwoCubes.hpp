@@ -62,6 +62,11 @@ inline Mesh twoCubes()
     if (mesh.coordinates[n].z == 2)
       top.nodes.push_back(n);
   mesh.nodeSets.push_back(top);
+  // The faces that meet, in an order that is neither that of the elements nor of the blocks; and a
+  // side between two elements, which is no face.
+  Mesh::SideSet seam{7, "seam", {11, 4, 10, 5, 9, 6, 8, 7}, {4, 5, 4, 5, 4, 5, 4, 5}};
+  mesh.sideSets.push_back(seam);
+  mesh.sideSets.push_back({8, "inside", {0}, {5}});
   return mesh;
 }
 

@@ -23,6 +23,7 @@ class Results:
         self._element = self._names("name_elem_var")
         self.blocks = self._names("eb_names")
         self.side_sets = self._names("ss_names")
+        self._side = self._names("name_sset_var")
 
     def _names(self, variable):
         if variable not in self.file.variables:
@@ -39,6 +40,11 @@ class Results:
         """One value per element of a block."""
         number = self._element.index(name) + 1
         return self.file[f"vals_elem_var{number}eb{self.blocks.index(block) + 1}"][step]
+
+    def side(self, side_set, name, step=-1):
+        """One value per side of a side set."""
+        number = self._side.index(name) + 1
+        return self.file[f"vals_sset_var{number}ss{self.side_sets.index(side_set) + 1}"][step]
 
     def connectivity(self, block):
         """Positions of nodes, from 0."""

@@ -49,12 +49,31 @@ CensusLengths lengthsOf(std::vector<Entry> mine, const Comm& comm)
   return lengths;
 }
 
+/// For every group of faces whether it belongs to side sets between which a joint is declared.
+std::vector<char> groupsOfDeclaredSets(const Contact& contact)
+{
+  const ContactRules& rules = contact.rules();
+  std::vector<Real> ofSideSets(rules.groups, 0);
+  for (const Face& face : contact.faces())
+    if (face.group != face.block) // the first groups are the blocks
+      ofSideSets[face.group] = 1;
+  contact.comm().max(ofSideSets);
+  std::vector<char> declared(rules.groups, 0);
+  for (int a = 0; a < rules.groups; ++a)
+    for (int b = 0; b < rules.groups; ++b)
+      if (ofSideSets[a] > 0 && ofSideSets[b] > 0 && rules.between(a, b).declared)
+        declared[a] = 1;
+  return declared;
+}
+
 void countLonelyFaces(const Contact& contact, const std::vector<char>& declared,
                       const std::vector<char>& closed, ContactCensus& census)
 {
+  const std::vector<char> group = groupsOfDeclaredSets(contact);
   std::vector<GlobalId> lonely;
   for (std::size_t f = 0; f < contact.faces().size(); ++f)
-    if (contact.faces()[f].ownedHere && declared[f] && !closed[f])
+    if (contact.faces()[f].ownedHere && !closed[f] &&
+        (declared[f] || group[contact.faces()[f].group]))
       lonely.push_back(contact.faces()[f].id);
   census.lonelyFaces = contact.comm().sum(std::int64_t(lonely.size()));
   const auto keepLowest = [&]

@@ -3,8 +3,10 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_core/ExactSum.hpp>
 
+#include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 
 namespace coplane
 {

@@ -113,6 +113,11 @@ struct alignas(64) Plane
   {
     return area > 0 ? area * law.stored(fit, limitedClosure(), history) : 0;
   }
+  /// What the work is not accounted for by the other terms, given stored() [J].
+  KOKKOS_INLINE_FUNCTION Real remainder(Real storedNow) const
+  {
+    return work - storedNow - frictionWork - hysteresisWork - fractureWork - dampingWork;
+  }
 };
 static_assert(sizeof(Plane) == 6 * 64, "planes fill the memory bandwidth: whole cache lines");
 

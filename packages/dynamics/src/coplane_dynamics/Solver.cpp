@@ -455,6 +455,7 @@ ExitCode Solver::run(Observer& observer)
             clock_.cycle, clock_.time, balance.error(), balance.scale(),
             model_.time.energyTolerance, worstEntities());
       }
+      warnOfTrouble(balance);
     }
     if (stopRequested_)
     {

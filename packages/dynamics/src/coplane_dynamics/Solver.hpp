@@ -28,9 +28,13 @@ struct Clock
 /// What limits the time step.
 struct StepControl
 {
-  Real stableStep = infinity; ///< without the safety factor [s]
-  GlobalId node = 0;          ///< the node with it (the lowest id when several have)
-  bool contact = false;       ///< whether contact adds more than elements to its frequency
+  Real stableStep = infinity;  ///< without the safety factor [s]
+  GlobalId node = 0;           ///< the node with it (the lowest id when several have)
+  bool contact = false;        ///< whether contact adds more than elements to its frequency
+  GlobalId element = 0;        ///< of those around the node the one with the smallest step
+  GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
+  /// "element 12 at node 7", or "contact at node 7, most by side 1 of element 3 against side ..."
+  std::string text() const;
 };
 
 /// The equations of motion in time: central differences (kick and drift) with lumped mass.
@@ -73,8 +77,8 @@ public:
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;
-  /// Text that names the planes with the largest unexplained work and the elements with the
-  /// smallest volume ratio.
+  /// Text that names the planes with the largest unexplained work, the deepest planes, and the
+  /// elements whose volume has changed most.
   std::string worstEntities() const;
 
 private:
@@ -94,6 +98,10 @@ private:
   void drift(Real dt);
   void bookHalfStep(Real dt, const ConstNodeVectors& v);
   void planNextCycle(bool first);
+  void nameWhatLimits(int node, StepControl& control) const;
+  std::string worstByRemainder() const;
+  std::string deepestPlanes() const;
+  void warnOfTrouble(const EnergyBalance& balance);
   void finishAfter(const Error& error, Observer& observer) const;
   [[noreturn]] void failTogether(const std::string& what);
 
@@ -112,6 +120,15 @@ private:
   Clock clock_;
   EnergyBalance initialEnergy_;
   Momenta initialMomenta_;
+  // When warnOfTrouble() speaks: at this fraction of the error at which the run stops; at these
+  // fractions of the energy in play that contact has lost or gained by the remainder.
+  static constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
+  /// What was warned of last.
+  struct Warned
+  {
+    Real error = 0, remainder = 0, tooDeep = 0;
+  };
+  Warned warned_;
   bool searchIsDue_ = false;
   bool failed_ = false;
   bool stopRequested_ = false;

@@ -3,10 +3,6 @@
 #include <coplane_core/StateHash.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace coplane
 {
 EnergyBalance Solver::energy() const
@@ -87,38 +83,6 @@ Momenta Solver::momenta() const
   return momenta;
 }
 
-StepControl Solver::stepControl() const
-{
-  StepControl control;
-  int node = -1;
-  for (int n = 0; n < layout_.owned(); ++n)
-  {
-    if (!(state_.mass(n) > 0))
-      continue;
-    const Real omega = 2 / elementStep_(n);
-    const Real step = 2 / std::sqrt(omega * omega + contactStiffness_(n) / state_.mass(n));
-    if (step < control.stableStep ||
-        (step == control.stableStep && layout_.ids()[n] < layout_.ids()[node]))
-    {
-      control.stableStep = step;
-      node = n;
-    }
-  }
-  const Real least = comm_->min(control.stableStep);
-  constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
-  const bool mine = node >= 0 && control.stableStep == least;
-  control.node = comm_->min(mine ? layout_.ids()[node] : none);
-  bool contact = false;
-  if (mine && layout_.ids()[node] == control.node)
-  {
-    const Real omega = 2 / elementStep_(node);
-    contact = contactStiffness_(node) / state_.mass(node) > omega * omega;
-  }
-  control.contact = comm_->max(std::int64_t(contact)) > 0;
-  control.stableStep = least;
-  return control;
-}
-
 std::uint64_t Solver::stateHash() const
 {
   StateHash hash;
@@ -185,57 +149,5 @@ std::uint64_t Solver::stateHash() const
   std::vector<std::uint64_t> total{hash.part()};
   comm_->sum(total);
   return total[0];
-}
-
-std::string Solver::worstEntities() const
-{
-  // Candidates of every rank, sorted by badness; the three worst are named.
-  struct Entry
-  {
-    Real badness, value;
-    GlobalId a, b;
-  };
-  const auto worst = [&](std::vector<Entry> mine)
-  {
-    const auto worse = [](const Entry& p, const Entry& q)
-    { return std::tie(q.badness, p.a, p.b) < std::tie(p.badness, q.a, q.b); };
-    std::sort(mine.begin(), mine.end(), worse);
-    mine.resize(std::min<std::size_t>(mine.size(), 3));
-    std::vector<Entry> all = comm_->allGather(mine);
-    std::sort(all.begin(), all.end(), worse);
-    all.resize(std::min<std::size_t>(all.size(), 3));
-    return all;
-  };
-  std::string text;
-  if (contact_)
-  {
-    std::vector<Entry> planes;
-    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
-    {
-      const Plane& plane = contact_->planes()(p);
-      if (!plane.countedHere || !plane.born)
-        continue;
-      const Real rest = plane.work - plane.stored(contact_->lawOf(plane)) - plane.frictionWork -
-                        plane.hysteresisWork - plane.fractureWork - plane.dampingWork;
-      planes.push_back({std::abs(rest), rest, plane.faceId[0], plane.faceId[1]});
-    }
-    for (const Entry& e : worst(planes))
-      text += fmt::format(
-          "\n  plane between side {} of element {} and side {} of element {}: {:.3e} J unexplained",
-          sideOfFace(e.a) + 1, elementOfFace(e.a), sideOfFace(e.b) + 1, elementOfFace(e.b),
-          e.value);
-  }
-  std::vector<Entry> elements;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    for (int e = 0; e < blocks_[b].count(); ++e)
-      if (model_.mesh.blocks[b].owned[e])
-      {
-        const Real ratio = blocks_[b].volume()(e) / blocks_[b].referenceVolume()(e);
-        elements.push_back({std::isnan(ratio) ? infinity : std::abs(ratio - 1), ratio,
-                            model_.mesh.blocks[b].elementIds[e], 0});
-      }
-  for (const Entry& e : worst(elements))
-    text += fmt::format("\n  element {}: volume is {:.4g} times its initial one", e.a, e.value);
-  return "Worst:" + text;
 }
 } // namespace coplane

@@ -59,7 +59,8 @@ void allowLongNames(int exoid, const Mesh& mesh, const FileExtras& extras)
     consider(set.name);
   for (const auto& set : mesh.sideSets)
     consider(set.name);
-  for (const auto* names : {&extras.nodalNames, &extras.elementNames, &extras.globalNames})
+  for (const auto* names :
+       {&extras.nodalNames, &extras.elementNames, &extras.globalNames, &extras.sideNames})
     for (const std::string& name : *names)
       consider(name);
   checkExodus(ex_set_max_name_length(exoid, int(std::min<std::size_t>(longest, 255))), "names");
@@ -133,12 +134,16 @@ void putRecords(int exoid, const Mesh& mesh, const FileExtras& extras)
 
 void defineVariables(int exoid, const Mesh& mesh, const FileExtras& extras)
 {
-  std::vector<int> truth;
+  std::vector<int> truth, sideTruth;
   for (const Mesh::Block& block : mesh.blocks)
     truth.insert(truth.end(), extras.elementNames.size(), block.elements() > 0 ? 1 : 0);
+  for (const Mesh::SideSet& set : mesh.sideSets)
+    sideTruth.insert(sideTruth.end(), extras.sideNames.size(), set.sides.empty() ? 0 : 1);
+  const int sideNames = sideTruth.empty() ? 0 : int(extras.sideNames.size());
   checkExodus(ex_put_all_var_param(exoid, int(extras.globalNames.size()),
                                    int(extras.nodalNames.size()), int(extras.elementNames.size()),
-                                   truth.data(), 0, nullptr, 0, nullptr),
+                                   truth.data(), 0, nullptr, sideNames,
+                                   sideNames > 0 ? sideTruth.data() : nullptr),
               "variables");
   const auto put = [&](ex_entity_type type, const std::vector<std::string>& list)
   {
@@ -149,6 +154,8 @@ void defineVariables(int exoid, const Mesh& mesh, const FileExtras& extras)
   put(EX_GLOBAL, extras.globalNames);
   put(EX_NODAL, extras.nodalNames);
   put(EX_ELEM_BLOCK, extras.elementNames);
+  if (sideNames > 0)
+    put(EX_SIDE_SET, extras.sideNames);
 }
 } // namespace
 

@@ -13,6 +13,7 @@ struct FileExtras
   std::vector<std::string> nodalNames;   ///< variables; empty for a mesh file
   std::vector<std::string> elementNames; ///< on every block that has elements
   std::vector<std::string> globalNames;
+  std::vector<std::string> sideNames; ///< on every side set that has sides
   std::vector<std::string> infoLines; ///< at most 80 characters each: see splitInfoLines
 };
 

@@ -14,6 +14,7 @@
 #include <ctime>
 #include <fcntl.h>
 #include <filesystem>
+#include <numeric>
 #include <unistd.h>
 
 namespace coplane
@@ -92,6 +93,15 @@ ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& 
   stepBytes_ = sizeof(Real) *
                (1 + variables.global.size() + variables.nodal.size() * std::uint64_t(mesh.nodes()) +
                 variables.element.size() * std::uint64_t(mesh.elements()));
+  for (const Mesh::SideSet& set : mesh.sideSets)
+  {
+    stepBytes_ += sizeof(Real) * variables.side.size() * set.sides.size();
+    sideSetIds_.push_back(set.id);
+    const IndexRange mine = contiguousRange(int(set.sides.size()), comm_.rank(), comm_.size());
+    std::vector<int> positions(mine.count);
+    std::iota(positions.begin(), positions.end(), mine.first);
+    mySides_.push_back(std::move(positions));
+  }
   if (filePerRank_)
   {
     const std::string ranks = std::to_string(comm_.size());
@@ -111,7 +121,7 @@ ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& 
 void ResultsFile::create(const Mesh& mesh, const ResultsVariables& variables,
                          const std::vector<std::string>& infoLines)
 {
-  const FileExtras extras{variables.nodal, variables.element, variables.global,
+  const FileExtras extras{variables.nodal, variables.element, variables.global, variables.side,
                           splitInfoLines(infoLines)};
   int memoryWord = 8, fileWord = 8;
   if (filePerRank_ || comm_.isRoot())
@@ -253,6 +263,21 @@ void ResultsFile::putElement(int variable, int block, const std::vector<Real>& m
         });
 }
 
+void ResultsFile::putSide(int variable, int set, const std::vector<Real>& values)
+{
+  const std::vector<int>& mine = mySides_[set];
+  const int first = filePerRank_ || mine.empty() ? 0 : mine.front();
+  if (!mine.empty())
+    attempt(
+        [&]
+        {
+          checkExodus(ex_put_partial_var(exoid_, steps_ + 1, EX_SIDE_SET, variable + 1,
+                                         sideSetIds_[set], first + 1, int64_t(values.size()),
+                                         values.data()),
+                      "side set variable");
+        });
+}
+
 void ResultsFile::putGlobals(const std::vector<Real>& values)
 {
   if (!values.empty() && (filePerRank_ || comm_.isRoot()))
@@ -343,14 +368,17 @@ Mesh ResultsFile::partOfThisRank(const Mesh& mesh)
         set.nodes.push_back(partNode[node]);
     part.nodeSets.push_back(std::move(set));
   }
+  mySides_.clear();
   for (const Mesh::SideSet& whole : mesh.sideSets)
   {
     Mesh::SideSet set{whole.id, whole.name, {}, {}};
+    mySides_.emplace_back();
     for (std::size_t i = 0; i < whole.elements.size(); ++i)
       if (partElement[whole.elements[i]] >= 0)
       {
         set.elements.push_back(partElement[whole.elements[i]]);
         set.sides.push_back(whole.sides[i]);
+        mySides_.back().push_back(int(i));
       }
     part.sideSets.push_back(std::move(set));
   }

@@ -15,6 +15,7 @@ struct ResultsVariables
   std::vector<std::string> nodal;
   std::vector<std::string> element; ///< on every block
   std::vector<std::string> global;
+  std::vector<std::string> side; ///< on every side set
 };
 
 /// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
@@ -22,10 +23,10 @@ struct ResultsVariables
 ///
 /// One file shared by all ranks: CDF-5, defined by rank 0, then written through PnetCDF and MPI-IO.
 /// Each rank writes contiguous ranges of the file order: items contiguousRange(n, rank, size) of
-/// nodes and of each block's elements. Data go to the file at once, and the number of steps in the
-/// header is raised last, in endStep: a program killed at any moment leaves a file with all
-/// finished steps. Or one file per rank (`base.e.N.r`), which `epu -auto` joins; the calls and the
-/// ranges are the same.
+/// nodes, of each block's elements and of each side set's sides. Data go to the file at once, and
+/// the number of steps in the header is raised last, in endStep: a program killed at any moment
+/// leaves a file with all finished steps. Or one file per rank (`base.e.N.r`), which `epu -auto`
+/// joins; the calls and the ranges are the same.
 ///
 /// Every rank makes every call. A failed write (full disk, quota) is remembered, decided together
 /// in endStep, and thrown there on all ranks as Error(ExitCode::Output) with file, time and reason;
@@ -49,11 +50,18 @@ public:
     return contiguousRange(blockSizes_[block], comm_.rank(), comm_.size());
   }
 
+  /// Positions in the side set of the sides that this rank writes, ascending: a contiguous range,
+  /// or in a file per rank those of this rank's elements.
+  const std::vector<int>& mySides(int set) const { return mySides_[set]; }
+  int sideSets() const { return int(mySides_.size()); }
+
   void beginStep(Real time);
   /// Values of this rank's range; variables and blocks are counted from 0 in the order given at
   /// construction.
   void putNodal(int variable, const std::vector<Real>& myRange);
   void putElement(int variable, int block, const std::vector<Real>& myRangeOfThatBlock);
+  /// Values of mySides(set), in that order.
+  void putSide(int variable, int set, const std::vector<Real>& values);
   /// All global variables, the same on every rank.
   void putGlobals(const std::vector<Real>& values);
   /// Makes the step part of the file.
@@ -81,10 +89,12 @@ private:
   int nodeCount_ = 0;
   std::vector<int> blockSizes_;
   std::vector<GlobalId> blockIds_;
-  int steps_ = 0;               ///< finished ones
-  Real time_ = 0;               ///< of the step being written [s]
-  std::string failure_;         ///< first reason on this rank
-  std::uint64_t meshBytes_ = 0; ///< shared file: size before the first step
+  std::vector<GlobalId> sideSetIds_;
+  std::vector<std::vector<int>> mySides_; ///< by side set: positions in it
+  int steps_ = 0;                         ///< finished ones
+  Real time_ = 0;                         ///< of the step being written [s]
+  std::string failure_;                   ///< first reason on this rank
+  std::uint64_t meshBytes_ = 0;           ///< shared file: size before the first step
   std::uint64_t stepBytes_ =
       0; ///< of one time step: all variables are 8-byte reals, one after another
 

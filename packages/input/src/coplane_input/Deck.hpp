@@ -176,6 +176,8 @@ struct HistoryCard
   std::string file; ///< CSV; default <deck>.csv
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<ProbeCard> probes;
+  std::vector<std::string> joints; ///< names of joint cards; "*": all
+  std::vector<std::string> tables; ///< blocks | pairs
 };
 
 struct Deck

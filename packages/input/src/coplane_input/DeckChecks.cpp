@@ -169,6 +169,11 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
                                i, name));
     seen.push_back(name);
   }
+  for (std::size_t i = 0; i < deck.history.joints.size(); ++i)
+    if (const auto& name = deck.history.joints[i]; name != "*" && !contains(joints, name))
+      problems.add(
+          nodeAt(root, {"history", "joints", std::to_string(i)}),
+          unknown(fmt::format("history.joints.{}", i), name, "a card in joints, or \"*\"", joints));
 }
 
 std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,

@@ -325,6 +325,19 @@ Key history()
                         })
                        .exactlyOneOf({"node_set", "block"})
                        .means("motions to be recorded"),
+                   bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
+                                                   copyTo)
+                       .defaultIs("[]")
+                       .like("[\"*\"]")
+                       .means("joint cards whose planes are summed up in columns: areas that are "
+                              "open, stick and slip, closure, slip, force, energies; \"*\": all"),
+                   bound<std::vector<std::string>>("tables", KeyKind::Texts, &HistoryCard::tables,
+                                                   copyTo)
+                       .oneOf({"blocks", "pairs"})
+                       .defaultIs("[]")
+                       .like("[blocks, pairs]")
+                       .means("energies by element block, and contact energies by pair of blocks, "
+                              "as CSV files <history>_blocks.csv and <history>_pairs.csv"),
                })
       .means("energies, momenta and probes over time");
 }

@@ -26,11 +26,13 @@ struct RankMesh
     std::vector<int> bodyIds;
     std::vector<char>
         owned; ///< 1 where this rank owns the element's lowest-id node: counted and written here
+    GlobalId id = 0; ///< of the block in the mesh file
     int elements() const { return int(elementIds.size()); }
   };
   struct Side
   {
     int block, element, side; ///< block and element of this rank, side counted from 0
+    int position = 0;         ///< in the side set of the file
   };
 
   int dimension = 3;

@@ -1,3 +1,4 @@
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
@@ -79,6 +80,20 @@ void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
   line.add("released", counts.released);
   line.add("missed", counts.missed);
   line.add("searches", searches);
+}
+
+void addJoint(Line& line, const std::string& name, const JointSummary& joint)
+{
+  line.add(name + "_open_area[m^2]", joint.openArea);
+  line.add(name + "_stick_area[m^2]", joint.stickArea);
+  line.add(name + "_slip_area[m^2]", joint.slipArea);
+  line.add(name + "_mean_closure[m]", joint.meanClosure);
+  line.add(name + "_largest_slip[m]", joint.largestSlip);
+  line.add(name + "_normal_force[N]", joint.normalForce);
+  line.add(name + "_stored[J]", joint.energy.stored);
+  line.add(name + "_friction[J]", joint.energy.friction);
+  line.add(name + "_hysteresis[J]", joint.energy.hysteresis);
+  line.add(name + "_fracture[J]", joint.energy.fracture);
 }
 } // namespace
 
@@ -189,6 +204,14 @@ void HistoryObserver::write(const Solver& solver)
     const std::string& name = options_.probes[p].name;
     line.add(name + "_displacement", "[m]", {value[0], value[1], value[2]});
     line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
+  }
+  if (!options_.joints.empty() && solver.hasContact())
+  {
+    const std::vector<JointSummary> joints = jointSummaries(solver.contact());
+    for (const std::string& name : options_.joints)
+      for (std::size_t j = 0; j < joints.size(); ++j)
+        if (solver.contact().rules().joints[j].name == name)
+          addJoint(line, name, joints[j]);
   }
   if (options_.stateHash)
     line.add("state_hash", fmt::format("{:016x}", solver.stateHash()));

@@ -24,6 +24,7 @@ struct HistoryOptions
   std::string file; ///< CSV
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<Probe> probes;
+  std::vector<std::string> joints; ///< joint cards whose planes are summed up in columns
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
 };
 

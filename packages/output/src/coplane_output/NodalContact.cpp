@@ -10,22 +10,25 @@ NodalContact nodalContact(const Solver& solver)
   const int owned = solver.layout().owned();
   NodalContact nodal;
   nodal.pressure.assign(owned, 0);
+  nodal.traction.assign(owned, {});
+  nodal.closure.assign(owned, 0);
   nodal.gap.assign(owned, 0);
   nodal.slip.assign(owned, 0);
   nodal.state.assign(owned, 0);
   if (!solver.hasContact())
     return nodal;
   const Contact& contact = solver.contact();
-  std::vector<Real> area(owned, 0); // of the planes around a node [m^2]
+  std::vector<Real> area(owned, 0);   // of the planes around a node [m^2]
+  std::vector<Real> closed(owned, 0); // part of it that carries traction
   for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
   {
     const Plane& plane = contact.planes()(p);
     // Without overlap the gap belongs to a moment long ago.
     if (!plane.born || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
       continue;
-    for (const int f : plane.face)
+    for (int side = 0; side < 2; ++side)
     {
-      const Face& face = contact.faces()[f];
+      const Face& face = contact.faces()[plane.face[side]];
       for (int k = 0; k < face.count; ++k)
       {
         const int node = face.nodes[k];
@@ -37,12 +40,25 @@ NodalContact nodalContact(const Solver& solver)
         nodal.state[node] = std::max(nodal.state[node], Real(int(plane.state)));
         nodal.pressure[node] += plane.area * plane.normalTraction;
         area[node] += plane.area;
+        nodal.traction[node] += (side == 0 ? -1.0 : 1.0) * plane.force;
+        if (plane.state != PlaneState::Open)
+        {
+          closed[node] += plane.area;
+          nodal.closure[node] += plane.area * plane.closure;
+        }
       }
     }
   }
   for (int n = 0; n < owned; ++n)
+  {
     if (area[n] > 0)
+    {
       nodal.pressure[n] /= area[n];
+      nodal.traction[n] = (1 / area[n]) * nodal.traction[n];
+    }
+    if (closed[n] > 0)
+      nodal.closure[n] /= closed[n];
+  }
   return nodal;
 }
 } // namespace coplane

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/Real.hpp>
+#include <coplane_core/Vec3.hpp>
 
 #include <vector>
 
@@ -15,6 +16,10 @@ struct NodalContact
 {
   /// Mean of the normal tractions of the planes, weighted with their areas [Pa].
   std::vector<Real> pressure;
+  /// Force of the planes on the node's side over their area: pressure and shear [Pa].
+  std::vector<Vec3> traction;
+  /// Mean closure of the planes that are not open, weighted with their areas [m].
+  std::vector<Real> closure;
   /// The smallest gap, the offset of declared joints taken off: negative where faces overlap [m].
   std::vector<Real> gap;
   /// The longest slip path [m].

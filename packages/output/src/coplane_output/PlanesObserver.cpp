@@ -15,10 +15,9 @@ namespace
 /// What of a plane goes to the file.
 struct Record
 {
-  GlobalId faceId[2];
-  std::int64_t state, joint;
-  Vec3 point, normal, force, shearTraction;
-  Real area, overlap, gap, closure, normalTraction, slip;
+  Plane plane;
+  GlobalId block[2];
+  Real stored, damage;
 };
 
 /// This rank's planes, sent to rank 0 and sorted by key there.
@@ -28,81 +27,130 @@ std::vector<Record> gatherRecords(const Solver& solver)
   if (solver.hasContact())
   {
     const Contact& contact = solver.contact();
+    const auto& blocks = solver.mesh().blocks;
     for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
     {
       const Plane& plane = contact.planes()(p);
       if (!contact.isWrittenHere(plane) || !(plane.overlap > 0))
         continue;
-      toRank[0].push_back({{plane.faceId[0], plane.faceId[1]},
-                           int(plane.state),
-                           plane.joint,
-                           plane.pointOfContact,
-                           plane.normal,
-                           plane.force,
-                           plane.history.shearTraction,
-                           plane.area,
-                           plane.overlap,
-                           plane.gap - plane.offset,
-                           plane.closure,
-                           plane.normalTraction,
-                           plane.history.slip});
+      const JointLaw& law = contact.lawOf(plane);
+      toRank[0].push_back({plane,
+                           {blocks[plane.block[0]].id, blocks[plane.block[1]].id},
+                           plane.stored(law),
+                           law.damage(plane.history)});
     }
   }
   std::vector<Record> records = solver.comm().exchange(toRank);
   std::sort(records.begin(), records.end(),
-            [](const Record& a, const Record& b)
-            { return std::tie(a.faceId[0], a.faceId[1]) < std::tie(b.faceId[0], b.faceId[1]); });
+            [](const Record& a, const Record& b) { return keyLess(a.plane, b.plane); });
   return records;
 }
 
-std::vector<Real> column(const std::vector<Record>& records, Real Record::*member)
+/// The columns of a file, each from what `of` takes from a record.
+class Columns
 {
-  std::vector<Real> values;
-  for (const Record& record : records)
-    values.push_back(record.*member);
-  return values;
+public:
+  Columns(VtpPoints& points, const std::vector<Record>& records)
+      : points_(points), records_(records)
+  {
+  }
+  template <class F>
+  void vector(const std::string& name, const F& of)
+  {
+    std::vector<Real> values;
+    for (const Record& record : records_)
+      for (int c = 0; c < 3; ++c)
+        values.push_back(of(record)[c]);
+    points_.addVector(name, values);
+  }
+  template <class F>
+  void scalar(const std::string& name, const F& of)
+  {
+    std::vector<Real> values;
+    for (const Record& record : records_)
+      values.push_back(of(record));
+    points_.addScalar(name, values);
+  }
+  template <class F>
+  void integer(const std::string& name, const F& of)
+  {
+    std::vector<std::int64_t> values;
+    for (const Record& record : records_)
+      values.push_back(std::int64_t(of(record)));
+    points_.addIntegers(name, values);
+  }
+
+private:
+  VtpPoints& points_;
+  const std::vector<Record>& records_;
+};
+
+void addTractions(Columns& columns)
+{
+  columns.vector("normal", [](const Record& r) { return r.plane.normal; });
+  columns.vector("force", [](const Record& r) { return r.plane.force; });
+  columns.scalar("normal_traction", [](const Record& r) { return r.plane.normalTraction; });
+  columns.vector("shear_traction", [](const Record& r) { return r.plane.history.shearTraction; });
+  columns.scalar("area", [](const Record& r) { return r.plane.area; });
+  columns.scalar("overlap", [](const Record& r) { return r.plane.overlap; });
 }
 
-std::vector<Real> column(const std::vector<Record>& records, Vec3 Record::*member)
+void addHistory(Columns& columns)
 {
-  std::vector<Real> values;
-  for (const Record& record : records)
-    for (int c = 0; c < 3; ++c)
-      values.push_back((record.*member)[c]);
-  return values;
+  columns.scalar("closure", [](const Record& r) { return r.plane.closure; });
+  columns.scalar("maximum_closure", [](const Record& r) { return r.plane.history.maximumClosure; });
+  columns.scalar("gap", [](const Record& r) { return r.plane.gap - r.plane.offset; });
+  columns.scalar("offset", [](const Record& r) { return r.plane.offset; });
+  columns.scalar("slip", [](const Record& r) { return r.plane.history.slip; });
+  columns.scalar("opening", [](const Record& r) { return r.plane.history.opening; });
+  columns.scalar("shearing", [](const Record& r) { return r.plane.history.shearing; });
+  columns.scalar("damage", [](const Record& r) { return r.damage; });
 }
 
-template <class F>
-std::vector<std::int64_t> integers(const std::vector<Record>& records, const F& of)
+void addEnergies(Columns& columns)
 {
-  std::vector<std::int64_t> values;
-  for (const Record& record : records)
-    values.push_back(of(record));
-  return values;
+  columns.scalar("work", [](const Record& r) { return r.plane.work; });
+  columns.scalar("stored", [](const Record& r) { return r.stored; });
+  columns.scalar("friction", [](const Record& r) { return r.plane.frictionWork; });
+  columns.scalar("hysteresis", [](const Record& r) { return r.plane.hysteresisWork; });
+  columns.scalar("fracture", [](const Record& r) { return r.plane.fractureWork; });
+  columns.scalar("damping", [](const Record& r) { return r.plane.dampingWork; });
+  columns.scalar("remainder", [](const Record& r) { return r.plane.remainder(r.stored); });
 }
 
-std::string pointsOf(const std::vector<Record>& records)
+void addStates(Columns& columns)
 {
-  VtpPoints points(column(records, &Record::point));
-  points.addVector("normal", column(records, &Record::normal));
-  points.addVector("force", column(records, &Record::force));
-  points.addScalar("normal_traction", column(records, &Record::normalTraction));
-  points.addVector("shear_traction", column(records, &Record::shearTraction));
-  points.addScalar("area", column(records, &Record::area));
-  points.addScalar("overlap", column(records, &Record::overlap));
-  points.addScalar("closure", column(records, &Record::closure));
-  points.addScalar("gap", column(records, &Record::gap));
-  points.addScalar("slip", column(records, &Record::slip));
-  points.addIntegers("state", integers(records, [](const Record& r) { return r.state; }));
-  points.addIntegers("joint", integers(records, [](const Record& r) { return r.joint; }));
+  columns.integer("state", [](const Record& r) { return int(r.plane.state); });
+  columns.integer("bonded", [](const Record& r) { return r.plane.history.bonded; });
+  columns.integer("declared", [](const Record& r) { return r.plane.declared; });
+  columns.integer("inherited", [](const Record& r) { return r.plane.inherited; });
+  columns.integer("released", [](const Record& r) { return r.plane.released; });
+  columns.integer("too_deep", [](const Record& r) { return r.plane.tooDeep; });
+  columns.integer("joint", [](const Record& r) { return r.plane.joint; });
   for (int f = 0; f < 2; ++f)
   {
     const std::string which = f == 0 ? "lower" : "higher";
-    points.addIntegers(which + "_element", integers(records, [f](const Record& r)
-                                                    { return elementOfFace(r.faceId[f]); }));
-    points.addIntegers(which + "_side", integers(records, [f](const Record& r)
-                                                 { return sideOfFace(r.faceId[f]) + 1; }));
+    columns.integer(which + "_block", [f](const Record& r) { return r.block[f]; });
+    columns.integer(which + "_element",
+                    [f](const Record& r) { return elementOfFace(r.plane.faceId[f]); });
+    columns.integer(which + "_side",
+                    [f](const Record& r) { return sideOfFace(r.plane.faceId[f]) + 1; });
   }
+}
+
+std::string pointsOf(const std::vector<Record>& records, const std::vector<std::string>& joints)
+{
+  std::vector<Real> coordinates;
+  for (const Record& record : records)
+    for (int c = 0; c < 3; ++c)
+      coordinates.push_back(record.plane.pointOfContact[c]);
+  VtpPoints points(coordinates);
+  points.addNames("joint_names", joints);
+  Columns columns(points, records);
+  addTractions(columns);
+  addHistory(columns);
+  addEnergies(columns);
+  addStates(columns);
   return points.text();
 }
 } // namespace
@@ -143,12 +191,16 @@ void PlanesObserver::write(const Solver& solver)
   const std::vector<Record> records = gatherRecords(solver);
   const std::string file = fmt::format("{}_planes_{:04}.vtp", base_, steps_.size());
   steps_.emplace_back(solver.clock().time, std::filesystem::path(file).filename().string());
+  std::vector<std::string> joints;
+  if (solver.hasContact())
+    for (const JointRecipe& joint : solver.contact().rules().joints)
+      joints.push_back(joint.name);
   solver.comm().together(
       [&]
       {
         if (!solver.comm().isRoot())
           return;
-        replaceFile(file, pointsOf(records));
+        replaceFile(file, pointsOf(records, joints));
         writeSeries();
       });
   lastCycle_ = solver.clock().cycle;

@@ -17,9 +17,9 @@ struct PlanesOptions
 };
 
 /// Writes the common planes as points for ParaView: the point of contact of every plane that exists
-/// and whose faces overlap, with its variables, sorted by key, so that the files do not depend on
-/// the number of ranks. The .pvd names all steps with their times; it is replaced as a whole after
-/// each step, so that a killed run leaves a readable series.
+/// and whose faces overlap, with all its variables and history, sorted by key, so that the files do
+/// not depend on the number of ranks. The .pvd names all steps with their times; it is replaced as
+/// a whole after each step, so that a killed run leaves a readable series.
 class PlanesObserver : public Observer
 {
 public:

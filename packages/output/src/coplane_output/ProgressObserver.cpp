@@ -79,11 +79,10 @@ void ProgressObserver::print(const Solver& solver, double secondsSinceLine) cons
   const double rate = double(clock.cycle - lineCycle_) / secondsSinceLine;
   const double end = solver.model().time.end;
   const double left = secondsSinceLine * (end - clock.time) / (clock.time - lineTime_);
-  logInfo("cycle {}, t = {:.5e} s ({:.1f} %), dt = {:.3e} s ({} at node {}), kinetic energy {:.4e} "
+  logInfo("cycle {}, t = {:.5e} s ({:.1f} %), dt = {:.3e} s ({}), kinetic energy {:.4e} "
           "J, balance error {:.1e}, {} planes, {:.3g} cycles/s, {:.3g} element-cycles/s, {} left",
-          clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep,
-          control.contact ? "contact" : "element", control.node, energy.kinetic,
-          energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
+          clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep, control.text(),
+          energy.kinetic, energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
           rate * double(elements_), duration(left));
 }
 

@@ -20,10 +20,11 @@ std::vector<std::string> vectorNames(const std::string& stem, int dimension)
 ResultsVariables variablesOf(int dimension)
 {
   ResultsVariables names;
-  for (const char* stem : {"displacement", "velocity", "contact_force"})
+  for (const char* stem : {"displacement", "velocity", "contact_force", "contact_traction"})
     for (const std::string& name : vectorNames(stem, dimension))
       names.nodal.push_back(name);
-  for (const char* name : {"contact_pressure", "contact_gap", "contact_slip", "contact_state"})
+  for (const char* name :
+       {"contact_pressure", "contact_closure", "contact_gap", "contact_slip", "contact_state"})
     names.nodal.push_back(name);
   // The six stresses stand together in this order, which the reader takes for a symmetric tensor.
   // Body ids are an attribute of the blocks; the reader shows it, and refuses a variable of the
@@ -37,6 +38,7 @@ ResultsVariables variablesOf(int dimension)
       "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
       "contact_hysteresis", "contact_fracture",   "contact_damping", "contact_remainder",
       "mass_damping_work",  "local_damping_work", "external_work",   "energy_error"};
+  names.side = sideVariableNames();
   return names;
 }
 
@@ -82,6 +84,8 @@ void ResultsObserver::start(const Solver& solver)
       target.push_back(firstOfBlock_[b] + elements.first + i);
   }
   elementsToFile_.emplace(solver.comm(), source, target);
+  if (file_.sideSets() > 0)
+    sides_.emplace(solver, file_);
 
   schedule_.startAt(solver.clock().time);
   write(solver);
@@ -108,6 +112,8 @@ void ResultsObserver::write(const Solver& solver)
   file_.beginStep(solver.clock().time);
   writeNodes(solver);
   writeElements(solver);
+  if (sides_)
+    sides_->write(solver, file_);
   file_.putGlobals({solver.clock().step, energy.kinetic, energy.internal, energy.plastic,
                     energy.hourglass, energy.viscous, energy.contact.stored,
                     energy.contact.friction, energy.contact.hysteresis, energy.contact.fracture,
@@ -122,7 +128,7 @@ void ResultsObserver::writeNodes(const Solver& solver)
   const NodalState& state = solver.state();
   const NodalContact contact = nodalContact(solver);
   const int owned = solver.layout().owned();
-  const int columns = 3 * dimension_ + 4;
+  const int columns = 4 * dimension_ + 5;
   Table<Real> mine("coplane::output::nodes", owned, columns);
   for (int n = 0; n < owned; ++n)
   {
@@ -133,7 +139,10 @@ void ResultsObserver::writeNodes(const Solver& solver)
       mine(n, column++) = 0.5 * (state.vPrevious(n, c) + state.v(n, c));
     for (int c = 0; c < dimension_; ++c)
       mine(n, column++) = state.contactForce(n, c);
+    for (int c = 0; c < dimension_; ++c)
+      mine(n, column++) = contact.traction[n][c];
     mine(n, column++) = contact.pressure[n];
+    mine(n, column++) = contact.closure[n];
     mine(n, column++) = contact.gap[n];
     mine(n, column++) = contact.slip[n];
     mine(n, column++) = contact.state[n];

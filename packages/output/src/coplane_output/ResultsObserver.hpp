@@ -5,6 +5,7 @@
 #include <coplane_mesh/Mesh.hpp>
 #include <coplane_mesh/Redistribution.hpp>
 #include <coplane_output/OutputSchedule.hpp>
+#include <coplane_output/SideSetResults.hpp>
 
 #include <optional>
 #include <string>
@@ -50,5 +51,6 @@ private:
   std::int64_t lastCycle_ = -1; ///< that was written
   /// From owned nodes and elements to the contiguous ranges of the file.
   std::optional<Redistribution> nodesToFile_, elementsToFile_;
+  std::optional<SideSetResults> sides_; ///< when the mesh has side sets
 };
 } // namespace coplane

@@ -62,6 +62,21 @@ void VtpPoints::addIntegers(const std::string& name, const std::vector<std::int6
   data_ += dataArray("Int64", name, 1, values);
 }
 
+void VtpPoints::addNames(const std::string& name, const std::vector<std::string>& texts)
+{
+  // Characters as numbers, each text ended by a zero.
+  std::string numbers;
+  for (const std::string& text : texts)
+  {
+    for (const char c : text)
+      numbers += fmt::format("{} ", int(static_cast<unsigned char>(c)));
+    numbers += "0 ";
+  }
+  fields_ += fmt::format("      <Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" "
+                         "format=\"ascii\">{}</Array>\n",
+                         name, texts.size(), numbers);
+}
+
 std::string VtpPoints::text() const
 {
   std::vector<std::int64_t> connectivity(count_), offsets(count_);
@@ -73,12 +88,12 @@ std::string VtpPoints::text() const
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n  <PolyData>\n"
+      "header_type=\"UInt64\">\n  <PolyData>\n    <FieldData>\n{5}    </FieldData>\n"
       "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
       "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
       "      <Points>\n{1}      </Points>\n      <Verts>\n{2}{3}      </Verts>\n"
       "      <PointData>\n{4}      </PointData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n",
       count_, points_, dataArray("Int64", "connectivity", 1, connectivity),
-      dataArray("Int64", "offsets", 1, offsets), data_);
+      dataArray("Int64", "offsets", 1, offsets), data_, fields_);
 }
 } // namespace coplane

@@ -19,11 +19,14 @@ public:
   void addVector(const std::string& name, const std::vector<Real>& values); ///< x y z x y z ...
   void addIntegers(const std::string& name, const std::vector<std::int64_t>& values);
 
+  /// Names that belong to the whole file (field data), such as those of numbers in an array.
+  void addNames(const std::string& name, const std::vector<std::string>& texts);
+
   std::string text() const;
 
 private:
   std::int64_t count_;
-  std::string points_, data_;
+  std::string points_, data_, fields_;
 };
 
 /// Bytes as base64 (RFC 4648).

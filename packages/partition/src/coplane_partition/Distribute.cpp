@@ -32,6 +32,7 @@ RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank)
     const Mesh::Block& block = mesh.blocks[b];
     RankMesh::Block mine;
     mine.meshBlock = b;
+    mine.id = block.id;
     mine.type = block.type;
     const int nodes = topology(block.type).nodes;
     for (int e = 0; e < block.elements(); ++e, ++index)
@@ -72,7 +73,7 @@ RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank)
     {
       const auto [block, element] = localElement[set.elements[i]];
       if (block >= 0)
-        sides.push_back({block, element, set.sides[i]});
+        sides.push_back({block, element, set.sides[i], int(i)});
     }
     part.sideSets.push_back(std::move(sides));
   }

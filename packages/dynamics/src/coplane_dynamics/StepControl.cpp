@@ -1,0 +1,96 @@
+// What limits the time step, by name.
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/FaceName.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace coplane
+{
+std::string StepControl::text() const
+{
+  if (!contact)
+    return fmt::format("element {} at node {}", element, node);
+  return fmt::format("contact at node {}, most by {} against {}", node, faceName(faceId[0]),
+                     faceName(faceId[1]));
+}
+
+StepControl Solver::stepControl() const
+{
+  StepControl control;
+  int node = -1;
+  for (int n = 0; n < layout_.owned(); ++n)
+  {
+    if (!(state_.mass(n) > 0))
+      continue;
+    const Real omega = 2 / elementStep_(n);
+    const Real step = 2 / std::sqrt(omega * omega + contactStiffness_(n) / state_.mass(n));
+    if (step < control.stableStep ||
+        (step == control.stableStep && layout_.ids()[n] < layout_.ids()[node]))
+    {
+      control.stableStep = step;
+      node = n;
+    }
+  }
+  const Real least = comm_->min(control.stableStep);
+  constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
+  const bool mine = node >= 0 && control.stableStep == least;
+  control.node = comm_->min(mine ? layout_.ids()[node] : none);
+  bool contact = false;
+  if (mine && layout_.ids()[node] == control.node)
+  {
+    const Real omega = 2 / elementStep_(node);
+    contact = contactStiffness_(node) / state_.mass(node) > omega * omega;
+  }
+  control.contact = comm_->max(std::int64_t(contact)) > 0;
+  control.stableStep = least;
+  if (mine && layout_.ids()[node] == control.node)
+    nameWhatLimits(node, control);
+  for (GlobalId* id : {&control.element, &control.faceId[0], &control.faceId[1]})
+    *id = comm_->max(*id);
+  return control;
+}
+
+void Solver::nameWhatLimits(int node, StepControl& control) const
+{
+  Real least = infinity;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const int corners = topology(blocks_[b].type()).nodes;
+    for (int i = gathers_[b].start(node); i < gathers_[b].start(node + 1); ++i)
+    {
+      const int element = gathers_[b].entry(i) / corners;
+      const Real step = blocks_[b].stableStep()(element);
+      const GlobalId id = model_.mesh.blocks[b].elementIds[element];
+      if (step < least || (step == least && id < control.element))
+      {
+        least = step;
+        control.element = id;
+      }
+    }
+  }
+  if (!contact_)
+    return;
+  // Planes stand in the order of their keys: the first of several equal ones is named.
+  Real most = 0;
+  for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
+  {
+    const Plane& plane = contact_->planes()(p);
+    if (plane.face[0] < 0 || !(plane.stiffness > 0))
+      continue;
+    for (int side = 0; side < 2; ++side)
+    {
+      const Face& face = contact_->faces()[plane.face[side]];
+      FaceLoad load;
+      load.add(plane, side, face.count);
+      for (int k = 0; k < face.count; ++k)
+        if (face.nodes[k] == node && load.stiffness[k] > most)
+        {
+          most = load.stiffness[k];
+          control.faceId[0] = plane.faceId[0];
+          control.faceId[1] = plane.faceId[1];
+        }
+    }
+  }
+}
+} // namespace coplane

@@ -1,0 +1,153 @@
+#include <coplane_contact/ContactTables.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_output/TablesObserver.hpp>
+#include <coplane_output/TextFile.hpp>
+
+#include <cerrno>
+
+namespace coplane
+{
+TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
+    : options_(std::move(options)), schedule_(OutputTimes{options_.every, {}})
+{
+  const auto open = [](std::ofstream& stream, const std::string& file, const char* header)
+  {
+    errno = 0;
+    stream.open(file, std::ios::trunc);
+    stream << header << '\n' << std::flush;
+    if (!stream)
+      failToWrite(file);
+  };
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        if (options_.blocks)
+          open(blocks_, options_.base + "_blocks.csv",
+               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J]");
+        if (options_.pairs)
+          open(pairs_, options_.base + "_pairs.csv",
+               "time[s],cycle,block_a,block_b,joint,planes,area[m^2],work[J],stored[J],"
+               "friction[J],hysteresis[J],fracture[J],damping[J],remainder[J]");
+      });
+}
+
+void TablesObserver::start(const Solver& solver)
+{
+  if (options_.blocks)
+    findShares(solver);
+  schedule_.startAt(solver.clock().time);
+  write(solver);
+}
+
+void TablesObserver::endOfCycle(const Solver& solver)
+{
+  if (options_.every <= 0 || schedule_.isDue(solver.clock().time))
+    write(solver);
+}
+
+void TablesObserver::finish(const Solver& solver, const std::string&)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
+void TablesObserver::findShares(const Solver& solver)
+{
+  // Elements stand in the order of the file on every rank, so the sums have the same bits.
+  const RankMesh& mesh = solver.mesh();
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  {
+    const RankMesh::Block& block = mesh.blocks[b];
+    const int corners = topology(block.type).nodes;
+    std::vector<Real> mass(mesh.ownedNodes, 0);
+    for (int i = 0; i < int(block.connectivity.size()); ++i)
+      if (block.connectivity[i] < mesh.ownedNodes)
+        mass[block.connectivity[i]] += solver.blocks()[b].cornerMass(i / corners);
+    shares_.emplace_back();
+    for (int n = 0; n < mesh.ownedNodes; ++n)
+      if (mass[n] > 0)
+        shares_.back().push_back({n, mass[n]});
+  }
+}
+
+std::string TablesObserver::blockLines(const Solver& solver) const
+{
+  constexpr int terms = 5;
+  constexpr ElementEnergy kinds[] = {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
+                                     ElementEnergy::Hourglass, ElementEnergy::Viscous};
+  const NodalState& state = solver.state();
+  std::vector<ExactSum> sums(terms * shares_.size());
+  for (std::size_t b = 0; b < shares_.size(); ++b)
+  {
+    for (const Share& share : shares_[b])
+      sums[terms * b].add(0.5 * share.mass *
+                          dot(at(state.vPrevious, share.node), at(state.v, share.node)));
+    const RankMesh::Block& part = solver.mesh().blocks[b];
+    for (int e = 0; e < part.elements(); ++e)
+      if (part.owned[e])
+        for (int k = 0; k < terms - 1; ++k)
+          sums[terms * b + 1 + k].add(solver.blocks()[b].energy(e, kinds[k]));
+  }
+  if (sums.empty())
+    return "";
+  const std::vector<Real> totals = ExactSum::overRanks(sums, solver.comm());
+  std::string text;
+  for (std::size_t b = 0; b < shares_.size(); ++b)
+  {
+    text += fmt::format("{:.17g},{},{}", solver.clock().time, solver.clock().cycle,
+                        solver.model().blocks[b].name);
+    for (int k = 0; k < terms; ++k)
+      text += fmt::format(",{:.17g}", totals[terms * b + k]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string TablesObserver::pairLines(const Solver& solver) const
+{
+  std::string text;
+  if (!solver.hasContact())
+    return text;
+  for (const ContactTableRow& row : contactTable(solver.contact()))
+  {
+    const ContactEnergy& e = row.energy;
+    text += fmt::format("{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle,
+                        solver.model().blocks[row.kind.blocks[0]].name,
+                        solver.model().blocks[row.kind.blocks[1]].name,
+                        solver.contact().rules().joints[row.kind.joint].name, row.planes);
+    for (const Real value : {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture,
+                             e.damping, e.remainder()})
+      text += fmt::format(",{:.17g}", value);
+    text += "\n";
+  }
+  return text;
+}
+
+void TablesObserver::append(const Comm& comm, std::ofstream& stream, const std::string& file,
+                            const std::string& text) const
+{
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        errno = 0;
+        stream << text << std::flush;
+        if (!stream)
+          failToWrite(file);
+      });
+}
+
+void TablesObserver::write(const Solver& solver)
+{
+  TimedRegion region("coplane::output::tables");
+  if (options_.blocks)
+    append(solver.comm(), blocks_, options_.base + "_blocks.csv", blockLines(solver));
+  if (options_.pairs)
+    append(solver.comm(), pairs_, options_.base + "_pairs.csv", pairLines(solver));
+  lastCycle_ = solver.clock().cycle;
+}
+} // namespace coplane

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_dynamics/Observer.hpp>
+#include <coplane_output/OutputSchedule.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+struct TablesOptions
+{
+  std::string base;    ///< base_blocks.csv and base_pairs.csv are written
+  Real every = 0;      ///< [s]; 0: every cycle
+  bool blocks = false; ///< energies of every element block
+  bool pairs = false;  ///< energies of contact between every two blocks
+};
+
+/// Writes energies by block and by pair of blocks as CSV, a line for each of them at each output
+/// time, so that tables can grow when blocks meet. The sums over a table are those of the history.
+class TablesObserver : public Observer
+{
+public:
+  /// Creates the files. Collective.
+  TablesObserver(const Comm& comm, TablesOptions options);
+
+  void start(const Solver& solver) override;
+  void endOfCycle(const Solver& solver) override;
+  void finish(const Solver& solver, const std::string& ending) override;
+
+private:
+  /// A node of a block and the mass that the block's elements bring to it [kg].
+  struct Share
+  {
+    int node;
+    Real mass;
+  };
+
+  void findShares(const Solver& solver);
+  void write(const Solver& solver);
+  std::string blockLines(const Solver& solver) const;
+  std::string pairLines(const Solver& solver) const;
+  void append(const Comm& comm, std::ofstream& stream, const std::string& file,
+              const std::string& text) const;
+
+  TablesOptions options_;
+  OutputSchedule schedule_;
+  std::ofstream blocks_, pairs_;           ///< open on rank 0
+  std::int64_t lastCycle_ = -1;            ///< that was written
+  std::vector<std::vector<Share>> shares_; ///< per block, owned nodes
+};
+} // namespace coplane
