@@ -25,6 +25,10 @@ Material materialOf(const MaterialCard& card)
 ContactOptions optionsOf(const ContactCard& card)
 {
   ContactOptions options;
+  options.method = card.method == "common_plane" ? ContactOptions::Method::CommonPlane
+                                                 : ContactOptions::Method::SimpleCommonPlane;
+  options.planeSearch = card.planeSearch == "rotations" ? ContactOptions::PlaneSearch::Rotations
+                                                        : ContactOptions::PlaneSearch::Candidates;
   options.area =
       card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid

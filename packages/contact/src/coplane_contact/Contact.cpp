@@ -33,8 +33,9 @@ Donor donorOf(const Plane& plane)
   return donor;
 }
 
-/// Means of the donors, weighted by their areas and summed in the order of their keys.
-void inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
+/// Means of the donors, weighted by their areas and summed in the order of their keys. Returns
+/// whether there were any that fit.
+bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
 {
   const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
   std::sort(donors.begin(), donors.end(),
@@ -56,7 +57,7 @@ void inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
         donor.area * turnIntoPlane(donor.shearTraction, donor.normal, normal, Vec3{}, 0);
   }
   if (!(area > 0))
-    return;
+    return false;
   plane.inherited = true;
   plane.offset = mean.offset / area;
   plane.history.maximumClosure = mean.maximumClosure / area;
@@ -64,6 +65,7 @@ void inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
   plane.history.slip = mean.slip / area;
   plane.history.shearTraction = (1 / area) * mean.shearTraction;
   plane.normal = normal;
+  return true;
 }
 
 /// Brings what FaceLoad::add() reads of a plane into the cache.
@@ -82,6 +84,7 @@ void makeDormant(Plane& plane)
   plane.force = plane.moment = {};
   plane.history.shearTraction = {};
   plane.state = PlaneState::Open;
+  plane.leads = false;
 }
 
 Vec3 traction(const SymTensor& s, const Vec3& n)
@@ -92,9 +95,11 @@ Vec3 traction(const SymTensor& s, const Vec3& n)
 } // namespace
 
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
-                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
+                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace,
+                 std::vector<FaceElement> localElements)
     : comm_(&comm), dimension_(dimension), localFaces_(std::move(localFaces)), faces_(localFaces_),
-      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
+      localElements_(std::move(localElements)), elements_(localElements_), options_(options),
+      rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
       laws_("coplane::contact::laws", rules_.joints.size())
 {
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
@@ -163,19 +168,43 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   }
   {
     TimedRegion region("coplane::contact::step4_copyGhostFaces");
-    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_);
+    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_,
+                                   localElements_);
   }
   for (const GhostFace& face : ghosts_.faces)
+  {
     nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
+    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
+  }
   return nodes;
+}
+
+std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pairs,
+                                          const ConstNodeVectors& x) const
+{
+  std::vector<Leader> leaders(pairs.size());
+  parallelFor("coplane::contact::leaders", int(pairs.size()),
+              [&](const int i)
+              {
+                const int a = pairs[i].lower, b = pairs[i].higher;
+                leaders[i] = leaderOf(faces_[a], faces_[b], elements_[a], elements_[b], x,
+                                      dimension_, options_);
+              });
+  return leaders;
 }
 
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   faces_ = localFaces_;
+  elements_ = localElements_;
+  const auto localNode = [&](GlobalId id) { return layout.localNode(id); };
   for (const GhostFace& ghost : ghosts_.faces)
-    faces_.push_back(toFace(ghost, [&](GlobalId id) { return layout.localNode(id); }));
+  {
+    faces_.push_back(toFace(ghost, localNode));
+    if (classic())
+      elements_.push_back(toFaceElement(ghost, localNode));
+  }
 
   const auto findPlane = [&](GlobalId lower, GlobalId higher)
   {
@@ -271,6 +300,32 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
       donors.push_back(ghosts_.donors[d->second]);
   };
 
+  // Method CommonPlane: which pairs lead, and what those that did not lead before take over from
+  // the pair of faces that carried the plane of their elements until now.
+  const auto leadsAlready = [&](std::size_t i)
+  { return existing[i] >= 0 && planes_(existing[i]).leads; };
+  std::vector<Leader> leaders;
+  std::vector<Donor> planesOfOthers;
+  if (classic())
+  {
+    leaders = leadersAmong(pairs, x);
+    std::vector<ElementPair> wanted;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (leaders[i].leads && !leadsAlready(i))
+      {
+        const auto [lower, higher] = keyOfPair(pairs[i]);
+        wanted.push_back({elementOfFace(lower), elementOfFace(higher)});
+      }
+    if (searches_ > 0 && options_.inherit)
+    {
+      std::vector<Donor> counted;
+      for (std::size_t q = 0; q < old; ++q)
+        if (planes_(q).countedHere && isDonor(planes_(q)))
+          counted.push_back(donorOf(planes_(q)));
+      planesOfOthers = planesOfElements(wanted, counted, *comm_);
+    }
+  }
+
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -306,20 +361,41 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
     plane.missedSearches = 0;
-    if (plane.born || !options_.inherit)
+    const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
+    if (classic())
+    {
+      plane.leads = leaders[source[slot]].leads;
+      if (newLeader)
+        plane.normal = leaders[source[slot]].normal;
+      else if (!plane.leads)
+        return;
+    }
+    if (!options_.inherit)
+      return;
+    std::vector<Donor> donors;
+    if (newLeader)
+    {
+      const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
+      donors.assign(mine.first, mine.second);
+      if (inherit(plane, plane.normal, donors))
+        return;
+      donors.clear();
+    }
+    if (plane.born)
       return;
     // Slots that have not touched yet look for donors again at every search.
     plane.offset = 0;
     plane.closure = 0;
     plane.inherited = false;
     plane.history = {};
-    std::vector<Donor> donors;
     addDonors(pair.lower, donors);
     addDonors(pair.higher, donors);
     if (!donors.empty())
     {
       const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
-      inherit(plane, normalised(planeA.normal - planeB.normal), donors);
+      inherit(plane,
+              classic() ? leaders[source[slot]].normal : normalised(planeA.normal - planeB.normal),
+              donors);
     }
   };
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
@@ -328,6 +404,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
   faceTable_ = Array<Face>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::faces"),
                            faces_.size());
   std::copy(faces_.begin(), faces_.end(), faceTable_.data());
+  elementTable_ = Array<FaceElement>(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::elements"), elements_.size());
+  std::copy(elements_.begin(), elements_.end(), elementTable_.data());
   buildLists(layout.owned());
   ++searches_;
   searchedSinceUpdate_ = true;
@@ -401,17 +480,24 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     const Face& faceA = faces_[plane.face[0]];
     const Face& faceB = faces_[plane.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared)
+    if (!rules_.between(faceA.group, faceB.group).declared || (classic() && !plane.leads))
       continue;
     const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
     const HalfStepFace a =
         dimension_ == 2 ? stepA_halfStepFace<2>(nodesA, 0) : stepA_halfStepFace<3>(nodesA, 0);
     const HalfStepFace b =
         dimension_ == 2 ? stepA_halfStepFace<2>(nodesB, 0) : stepA_halfStepFace<3>(nodesB, 0);
-    const TrialPlane trial =
+    TrialPlane trial =
         dimension_ == 2 ? stepB_trialPointOfContact<2>(a, b) : stepB_trialPointOfContact<3>(a, b);
     if (!trial.opposed)
       continue;
+    ClassicPlane between;
+    if (classic())
+    {
+      between =
+          planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
+      trial = trialPlaneOf(between);
+    }
     const Patch patch = patchOf(trial, a, b);
     if (!(patch.area > options_.areaMin * std::min(a.area, b.area)))
       continue;
@@ -421,8 +507,9 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     plane.normal = trial.normal;
     plane.overlap = patch.overlap;
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    plane.gap = dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
-                                      weighted(patch.centroidWeights[0], a.x, a.count));
+    plane.gap = classic() ? between.gap
+                          : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
+                                                  weighted(patch.centroidWeights[0], a.x, a.count));
     // The joint is in equilibrium with the initial stress: closure and shear traction that carry
     // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
     SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
@@ -460,6 +547,8 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const auto halfStep = halfStepFaces_;
   const auto paired = paired_;
   const auto laws = laws_;
+  const auto elements = elementTable_;
+  const bool classic = this->classic();
   const ContactOptions options = options_;
   const int dimension = dimension_;
   parallelFor(
@@ -487,7 +576,16 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
           return;
         const HalfStepFace& a = halfStep(plane.face[0]);
         const HalfStepFace& b = halfStep(plane.face[1]);
-        if (dimension == 2)
+        if (classic)
+        {
+          const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
+          const ElementNodes nodesB = elementNodes(elements(plane.face[1]), x, v);
+          if (dimension == 2)
+            updateClassicPlane<2>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
+          else
+            updateClassicPlane<3>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
+        }
+        else if (dimension == 2)
           updatePlane<2>(plane, a, b, laws(plane.joint), options, dt);
         else
           updatePlane<3>(plane, a, b, laws(plane.joint), options, dt);

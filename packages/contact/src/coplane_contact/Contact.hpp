@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/ClassicLeaders.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
@@ -32,14 +33,16 @@ class Contact
 {
 public:
   /// skin: how far apart faces may be to become candidates [m]; smallestFace: smallestFaceSize()
-  /// [m]
+  /// [m]; localElements: those behind the faces, for method CommonPlane only
   Contact(const Comm& comm, int dimension, std::vector<Face> localFaces, ContactOptions options,
-          ContactRules rules, Real skin, Real smallestFace);
+          ContactRules rules, Real skin, Real smallestFace,
+          std::vector<FaceElement> localElements = {});
 
-  /// Steps 1 to 4. Returns the ids of the nodes of ghost faces. Collective.
+  /// Steps 1 to 4. Returns the ids of the nodes of ghost faces and of the elements that came with
+  /// them. Collective.
   std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds);
   /// Step 5, and slots for all pairs. Call when the layout knows the ghosts' nodes and x holds
-  /// their positions.
+  /// their positions. Collective.
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive].
@@ -86,15 +89,19 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  bool classic() const { return options_.method == ContactOptions::Method::CommonPlane; }
   std::vector<Donor> livingPlanes() const;
+  std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,
+                                   const ConstNodeVectors& x) const;
   void buildLists(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
   const Comm* comm_;
   int dimension_;
-  std::vector<Face> localFaces_; ///< sorted by id
-  std::vector<Face> faces_;      ///< local, then ghost
+  std::vector<Face> localFaces_;                      ///< sorted by id
+  std::vector<Face> faces_;                           ///< local, then ghost
+  std::vector<FaceElement> localElements_, elements_; ///< behind them; method CommonPlane only
   ContactOptions options_;
   ContactRules rules_;
   Real skin_, smallestFace_;
@@ -108,6 +115,7 @@ private:
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
   Array<JointLaw> laws_;                           ///< by joint card
   Array<Face> faceTable_;
+  Array<FaceElement> elementTable_;
   Array<bool> paired_;                                           ///< faces that have a slot
   Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
   // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an

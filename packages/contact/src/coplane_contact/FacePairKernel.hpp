@@ -148,9 +148,22 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const Ha
   }
 }
 
+/// Gap at the end of the step, along the normal of its middle, at the centre of gravity [m].
+KOKKOS_INLINE_FUNCTION Real gapAtEnd(const Patch& patch, const Vec3& n, const HalfStepFace& a,
+                                     const HalfStepFace& b, const Shadow& shadowA,
+                                     const Shadow& shadowB, Real dt)
+{
+  Real gap = 0;
+  for (int i = 0; i < b.count; ++i)
+    gap += patch.centroidWeights[1][i] * (shadowB.height[i] + (0.5 * dt) * dot(n, b.v[i]));
+  for (int i = 0; i < a.count; ++i)
+    gap -= patch.centroidWeights[0][i] * (shadowA.height[i] + (0.5 * dt) * dot(n, a.v[i]));
+  return gap;
+}
+
 /// Step H: plane variables. Cundall's update in tractions: closure, shear increment, joint law,
-/// force, energies.
-KOKKOS_INLINE_FUNCTION void stepH_updatePlaneVariables(Plane& plane, const Patch& patch,
+/// force, energies. `gap`: at the end of the step [m].
+KOKKOS_INLINE_FUNCTION void stepH_updatePlaneVariables(Plane& plane, const Patch& patch, Real gap,
                                                        const TrialPlane& trial,
                                                        const HalfStepFace& a, const HalfStepFace& b,
                                                        const Shadow& shadowA, const Shadow& shadowB,
@@ -166,12 +179,6 @@ KOKKOS_INLINE_FUNCTION void stepH_updatePlaneVariables(Plane& plane, const Patch
   if (plane.area > 0)
     bookOldForce(plane, a, b, dt);
 
-  // The gap at the end of the step along the normal of its middle.
-  Real gap = 0;
-  for (int i = 0; i < b.count; ++i)
-    gap += patch.centroidWeights[1][i] * (shadowB.height[i] + (0.5 * dt) * dot(n, b.v[i]));
-  for (int i = 0; i < a.count; ++i)
-    gap -= patch.centroidWeights[0][i] * (shadowA.height[i] + (0.5 * dt) * dot(n, a.v[i]));
   plane.gap = gap;
   if (options.closure == ContactOptions::Closure::Total)
     plane.closure = plane.offset - plane.gap;
@@ -320,7 +327,8 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
   if (inContact)
   {
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    stepH_updatePlaneVariables(plane, patch, trial, a, b, shadowA, shadowB, law, options, dt);
+    const Real gap = gapAtEnd(patch, trial.normal, a, b, shadowA, shadowB, dt);
+    stepH_updatePlaneVariables(plane, patch, gap, trial, a, b, shadowA, shadowB, law, options, dt);
   }
   else
   {

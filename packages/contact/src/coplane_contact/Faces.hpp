@@ -22,6 +22,13 @@ struct Face
       false; ///< this rank owns the node with the lowest id: it sends the face to others
 };
 
+/// The element behind a face; known with ContactOptions::Method::CommonPlane only.
+struct FaceElement
+{
+  int count = 0;
+  int nodes[8] = {-1, -1, -1, -1, -1, -1, -1, -1}; ///< local nodes in the order of Exodus
+};
+
 /// A face on its way to another rank.
 struct GhostFace
 {
@@ -32,10 +39,14 @@ struct GhostFace
   int group = 0;
   Real thickness = 0;
   Real modulus = 0;
+  int elementCount = 0;                           ///< nodes of the element behind it; 0: not sent
+  GlobalId element[8] = {0, 0, 0, 0, 0, 0, 0, 0}; ///< their ids
 };
 
-/// A face as it is sent; `nodeIds` turns local nodes into ids.
-inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds)
+/// A face as it is sent, with the element behind it or without; `nodeIds` turns local nodes into
+/// ids.
+inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds,
+                             const FaceElement& element = {})
 {
   GhostFace ghost;
   ghost.id = face.id;
@@ -46,6 +57,9 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.modulus = face.modulus;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
+  ghost.elementCount = element.count;
+  for (int k = 0; k < element.count; ++k)
+    ghost.element[k] = nodeIds[element.nodes[k]];
   return ghost;
 }
 
@@ -63,6 +77,17 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);
   return face;
+}
+
+/// The element behind a face that has arrived.
+template <class LocalNode>
+FaceElement toFaceElement(const GhostFace& ghost, const LocalNode& localNode)
+{
+  FaceElement element;
+  element.count = ghost.elementCount;
+  for (int k = 0; k < ghost.elementCount; ++k)
+    element.nodes[k] = localNode(ghost.element[k]);
+  return element;
 }
 
 /// What a new plane can inherit from a living one. Travels with ghost faces, so that every rank

@@ -11,6 +11,16 @@ namespace coplane
 /// How contact is computed; the manual says when to change each (docs/user/contact.md).
 struct ContactOptions
 {
+  enum class Method : std::uint8_t
+  {
+    SimpleCommonPlane, ///< a plane for each pair of faces (Vorobiev 2006)
+    CommonPlane        ///< a plane for each pair of elements (Cundall 1988), for comparison
+  };
+  enum class PlaneSearch : std::uint8_t
+  {
+    Candidates, ///< of CommonPlane: among normals of faces, edges, vertices (Nezami et al. 2004)
+    Rotations   ///< by ever smaller turns (Cundall 1988)
+  };
   enum class Area : std::uint8_t
   {
     Penetrating, ///< only the part of the overlap where the faces penetrate
@@ -27,6 +37,8 @@ struct ContactOptions
     Total,      ///< from the geometry at the end of the step
     Incremental ///< sum of its increments (Cundall 1988)
   };
+  Method method = Method::SimpleCommonPlane;
+  PlaneSearch planeSearch = PlaneSearch::Candidates;
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
   Closure closure = Closure::Total;
@@ -72,6 +84,7 @@ struct alignas(64) Plane
   bool inherited : 1;              ///< took its history from living neighbours
   bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep : 1;  ///< deeper than the limit; force frozen
+  bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
   JointFit fit;      ///< stiffnesses of the law for this pair
 
   // What the nodes of the faces get, together in the cache.
@@ -99,7 +112,7 @@ struct alignas(64) Plane
 
   KOKKOS_INLINE_FUNCTION Plane()
       : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
-        inherited(false), released(false), tooDeep(false)
+        inherited(false), released(false), tooDeep(false), leads(false)
   {
   }
 

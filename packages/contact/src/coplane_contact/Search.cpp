@@ -197,7 +197,8 @@ std::vector<InteractingRank> step3_interactingRanks(const SortedFaces& sorted, c
 Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
                             const std::vector<Face>& localFaces,
                             const std::vector<GlobalId>& nodeIds,
-                            const std::vector<Donor>& livingPlanes, const Comm& comm)
+                            const std::vector<Donor>& livingPlanes, const Comm& comm,
+                            const std::vector<FaceElement>& localElements)
 {
   std::unordered_map<GlobalId, std::vector<int>> planesOfFace;
   if (!ranks.empty())
@@ -228,7 +229,8 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
     for (const int f : selected)
     {
       chosen[f] = 0;
-      facesTo[other.rank].push_back(toGhostFace(localFaces[f], nodeIds));
+      facesTo[other.rank].push_back(toGhostFace(
+          localFaces[f], nodeIds, localElements.empty() ? FaceElement{} : localElements[f]));
       const auto found = planesOfFace.find(localFaces[f].id);
       if (found != planesOfFace.end())
         for (const int p : found->second)

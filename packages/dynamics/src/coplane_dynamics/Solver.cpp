@@ -42,6 +42,22 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
   }
   return faces;
 }
+
+/// The elements behind the faces, in the same order.
+std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh)
+{
+  std::vector<FaceElement> elements;
+  for (const ExteriorFace& exterior : exteriorFaces(mesh))
+  {
+    const RankMesh::Block& block = mesh.blocks[exterior.block];
+    FaceElement element;
+    element.count = topology(block.type).nodes;
+    for (int k = 0; k < element.count; ++k)
+      element.nodes[k] = block.connectivity[exterior.element * element.count + k];
+    elements.push_back(element);
+  }
+  return elements;
+}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -103,8 +119,11 @@ Solver::Solver(Model model, const Comm& comm)
     std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
+    std::vector<FaceElement> elements;
+    if (model_.contact.method == ContactOptions::Method::CommonPlane)
+      elements = elementsOfFaces(mesh);
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
-                                         model_.contactRules, skin, smallest);
+                                         model_.contactRules, skin, smallest, std::move(elements));
   }
 }
 

@@ -301,6 +301,16 @@ Key contactKeys()
                      .means("seed sets area: full, weights: centroid, closure: incremental, as in "
                             "the paper of 2006; these keys overrule it where they are given"),
                  flag("enabled", &ContactCard::enabled).means("contact at all").like("false"),
+                 text("method", &ContactCard::method)
+                     .oneOf({"simple_common_plane", "common_plane"})
+                     .like("common_plane")
+                     .means("a plane for each pair of faces, or Cundall's for each pair of "
+                            "elements, for comparison"),
+                 text("plane_search", &ContactCard::planeSearch)
+                     .oneOf({"candidates", "rotations"})
+                     .like("rotations")
+                     .means("how method common_plane finds the normal: among those of faces, edges "
+                            "and vertices (Nezami), or by turns (Cundall)"),
                  text("default_joint", &ContactCard::defaultJoint)
                      .like("dry")
                      .defaultIs("penalty without friction")
@@ -372,6 +382,6 @@ Key contactKeys()
                          })
                      .means("viscous damping on the planes"),
              })
-      .means("Simple Common Plane contact between all exterior faces");
+      .means("contact between all exterior faces, by Simple Common Planes");
 }
 } // namespace coplane
