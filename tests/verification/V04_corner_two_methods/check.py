@@ -51,6 +51,45 @@ for angle in (120, 90, 60):
     expected = 2 * stiffness * side * depth * math.sin(theta)
     case.check(f"{angle}: common plane, whole shadow [N]", shadow, expected, 1e-10, relative=True)
 
+# A corner that overlaps the slab at the start, so that its plane has an offset, is pushed and then rocks from one of its
+# sides to the other: another pair of faces carries the plane then, and must know the offset.
+sunk, pushed, tilt, square = 0.005, 0.005, math.radians(3), math.pi / 4
+
+
+def rhombus(turn):
+    """Corners of a square on its corner, turned, relative to that corner."""
+    c, s, half = math.cos(turn), math.sin(turn), math.sqrt(0.5)
+    plain = [(0, 0), (half, half), (0, 2 * half), (-half, half)]
+    return numpy.array([[c * x - s * y, s * x + c * y] for x, y in plain])
+
+
+start, end = rhombus(tilt), rhombus(-tilt)
+rocking = recipe(square)
+rocking["parts"][1]["corners"] = (start - [0, sunk]).tolist()
+conditions = [{"type": "fixed", "node_set": "slab"}]
+for n, (at, way) in enumerate(zip((start - [0, sunk]).tolist(), (end - start).tolist())):
+    rocking["node_sets"][f"n{n}"] = {
+        "block": "corner", "where": {"x": [at[0] - 0.1, at[0] + 0.1], "y": [at[1] - 0.1, at[1] + 0.1]}
+    }
+    # 10 ms down, 10 ms at rest, 10 ms turning, at rest again; pulses with the area 1.
+    down, turn = "(200*max(0, 1 - abs(t - 0.005)/0.005))", "(200*max(0, 1 - abs(t - 0.025)/0.005))"
+    value = [f"{way[0]}*{turn}", f"{way[1]}*{turn} - {pushed}*{down}", 0]
+    conditions.append({"type": "velocity", "node_set": f"n{n}", "value": value})
+rocks = {k: v for k, v in deck.items() if k != "initial"}
+rocks |= {"conditions": conditions, "time": {"end": 0.031, "fixed_step": 2e-5}, "output": {"every": 1e-3}}
+rocks["contact"] = {**deck["contact"], "method": "common_plane"}
+run = case.run("rocking", rocking, rocks)
+nodes = run.results.nodes_of("corner")
+forces = [run.results.nodal("contact_force", step)[nodes, 1].sum() for step in range(len(run.results.times))]
+before = forces[numpy.argmin(abs(run.results.times - 0.015))]
+# The section of the right angle, half way down, when it is tilted.
+section = (sunk + pushed) / 2 * (math.tan(square + tilt) + math.tan(square - tilt))
+case.check("rocking: force before [N]", before, stiffness * pushed * section, 1e-9, relative=True)
+case.check("rocking: force after, of the other side [N]", forces[-1], before, 1e-9, relative=True)
+case.check_equal("rocking: planes", int(run.history["planes"][-1]), 2)
+for ranks, threads in ((2, 1), (3, 2)):
+    case.same_bits("rocking", rocking, rocks, run, ranks, threads)
+
 # Bars whose faces match: both methods have the same planes.
 bars = case.load("tests/verification/V21_equal_bars/deck.yaml")
 for dimension, across in ((2, [5]), (3, [2, 2])):
