@@ -79,6 +79,35 @@ TEST(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
 }
 
+TEST(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
+{
+  // Two cubes of 1 t part at 1 m/s; the bond softens by exp(-opening / 0.1 m), the skin is 5 cm.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "lower", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {1, 1, 1}, {0, 0, 1}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  for (ContactRule& rule : model.contactRules.table)
+    rule.declared = true;
+  model.contactRules.joints[0].law.bond =
+      Bond::softening(Bond::Kind::Exponential, 1e3, 1e3, 100, 100);
+  model.blocks[1].velocity = {0, 0, 1};
+  model.skin = 0.05;
+  model.time.fixedStep = 1e-4;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 1500);
+  EXPECT_EQ(solver.contact().counts().stick, 1);
+  const EnergyBalance balance = solver.energy();
+  Real opening = -infinity;
+  for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
+    opening = solver.contact().planes()(p).gap;
+  opening = comm.max(opening);
+  EXPECT_GT(opening, 0.1);
+  EXPECT_NEAR(balance.contact.fracture, 100 * (1 - std::exp(-opening / 0.1)), 0.2);
+  EXPECT_LT(std::abs(balance.error()), 1e-9 * balance.scale());
+}
+
 TEST(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
 {
   const Comm comm;

@@ -83,6 +83,8 @@ void makeDormant(Plane& plane)
   plane.area = plane.overlap = plane.normalTraction = plane.stiffness = 0;
   plane.force = plane.moment = {};
   plane.history.shearTraction = {};
+  plane.closure = 0;
+  plane.tooDeep = false;
   plane.state = PlaneState::Open;
   plane.leads = false;
 }
@@ -145,11 +147,12 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
 {
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
-    Real depth = 0;
+    // Faces of planes that carry traction are apart by their depth, or by the opening of a bond.
+    Real apart = 0;
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).area > 0)
-        depth = std::max(depth, -planes_(p).gap);
-    reach_ = skin_ + comm_->max(depth);
+        apart = std::max(apart, std::abs(planes_(p).gap));
+    reach_ = skin_ + comm_->max(apart);
     bins_ = step1_globalSpaceLimits(localFaces_, x, reach_, *comm_);
   }
   ghosts_ = {};
@@ -230,51 +233,62 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
       const Plane* plane = findPlane(std::min(a, b), std::max(a, b));
       return plane && plane->area > 0;
     };
-  const std::vector<CandidatePair> pairs =
-      step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
+  std::vector<CandidatePair> pairs = step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
 
   // Both lists are sorted by key: which pairs have their plane already.
   const std::size_t old = planes_.extent(0);
-  std::vector<std::int64_t> existing(pairs.size(), -1);
-  std::vector<std::int64_t> dormant;
+  const std::size_t candidateCount = pairs.size();
+  std::vector<std::int64_t> existing(candidateCount, -1);
+  std::vector<std::int64_t> source; // of each new slot: a pair, or ~p of a dormant plane
+  source.reserve(candidateCount);
+  const auto faceHere = [&](GlobalId id)
+  {
+    const auto less = [](const Face& face, GlobalId wanted) { return face.id < wanted; };
+    const auto ghosts = faces_.begin() + std::ptrdiff_t(localFaces_.size());
+    auto found = std::lower_bound(faces_.begin(), ghosts, id, less);
+    if (found == ghosts || found->id != id)
+      found = std::lower_bound(ghosts, faces_.end(), id, less);
+    return found != faces_.end() && found->id == id ? int(found - faces_.begin()) : -1;
+  };
   const auto keep = [&](std::size_t p)
   {
-    // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
-    // booked at their end.
     const Plane& plane = planes_(p);
     if (!plane.born)
       return;
+    if (plane.area > 0)
+    {
+      // It carries traction although its faces do not oppose each other any more: the next update
+      // ends that, with the work of the last force.
+      const CandidatePair pair{faceHere(plane.faceId[0]), faceHere(plane.faceId[1])};
+      if (pair.lower >= 0 && pair.higher >= 0)
+      {
+        source.push_back(std::int64_t(pairs.size()));
+        pairs.push_back(pair);
+        existing.push_back(std::int64_t(p));
+        return;
+      }
+    }
+    // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
+    // booked at their end.
     if (plane.declared || plane.missedSearches == 0)
-      dormant.push_back(std::int64_t(p));
+      source.push_back(~std::int64_t(p));
     else if (plane.countedHere)
       ended_.add(plane);
   };
   const auto keyOfPair = [&](const CandidatePair& pair)
   { return std::make_pair(faces_[pair.lower].id, faces_[pair.higher].id); };
   std::size_t p = 0;
-  std::vector<std::int64_t> source; // of each new slot: a pair, or ~p of a dormant plane
-  source.reserve(pairs.size());
-  for (std::size_t i = 0; i < pairs.size(); ++i)
+  for (std::size_t i = 0; i < candidateCount; ++i)
   {
     const auto key = keyOfPair(pairs[i]);
     for (; p < old && keyOf(planes_(p)) < key; ++p)
-    {
-      const std::size_t before = dormant.size();
       keep(p);
-      if (dormant.size() > before)
-        source.push_back(~dormant.back());
-    }
     if (p < old && keyOf(planes_(p)) == key)
       existing[i] = std::int64_t(p++);
     source.push_back(std::int64_t(i));
   }
   for (; p < old; ++p)
-  {
-    const std::size_t before = dormant.size();
     keep(p);
-    if (dormant.size() > before)
-      source.push_back(~dormant.back());
-  }
 
   // Donors of a face, from before this search: a local face has all its planes here, those of a
   // ghost have come with it.

@@ -35,8 +35,8 @@ struct CandidatePair
   int lower = 0, higher = 0; ///< positions in the table of faces; lower has the smaller id
 };
 
-/// Faces whose boxes are within `reach` of each other share a bin: the skin, and the depth to which
-/// bodies lie in each other now, because the faces of a contact are apart by that depth.
+/// Faces whose boxes are within `reach` of each other share a bin: the skin, and the present depth
+/// of contacts or opening of bonds, because the faces of a contact are apart by that much.
 
 /// Step 1: extent of all faces over all ranks and sizes of bins, from exact reductions only.
 Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
