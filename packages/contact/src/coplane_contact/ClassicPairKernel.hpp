@@ -132,6 +132,6 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
   plane.fresh = false;
   const Real approach = 2 * dt * approachSpeed(classic.normal, elementA, elementB);
   const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
-  plane.stiffness = near ? law.stiffnessBound(plane.fit, plane.history) : 0;
+  plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
 }
 } // namespace coplane
