@@ -131,6 +131,75 @@ TEST(StepH_UpdatePlaneVariables, closureIsThatOfTheEndOfTheStep)
   EXPECT_NEAR(plane.force.z, 10, 1e-12);
 }
 
+TEST(StepD_AreaOfContact, forcesDoNotDependOnHowTheFacesCame)
+{
+  // A face tilted by 1/50 that penetrates over three quarters of its width. It came along the
+  // normal, fast or not at all: area and centre of pressure must not lag behind the closure, or
+  // else every bounce would gain energy.
+  const Mat3 tilt = rotation({0, 1, 0}, -.02);
+  for (const auto weights : allWeights)
+    for (const auto area : allAreas)
+    {
+      PairPlane rest, fast;
+      for (PairPlane* plane : {&rest, &fast})
+      {
+        *plane = touchingPlane(1e3);
+        FaceNodes b = moved(above(-.01), tilt);
+        const Vec3 normal = rotation({0, 1, 0}, -.01) * Vec3{0, 0, 1};
+        for (int i = 0; i < 4; ++i)
+        {
+          b.x[i] -= .025 * normal;
+          b.v[i] = (plane == &fast ? -3.0 : 0.0) * normal;
+        }
+        updatePlane<3>(*plane, below(), b, options(area, weights), .002);
+      }
+      EXPECT_GT(norm(rest.force), 1);
+      EXPECT_LT(norm(rest.force - fast.force), 1e-12 * norm(rest.force));
+      for (int f = 0; f < 2; ++f)
+        for (int i = 0; i < 4; ++i)
+          EXPECT_LT(norm(rest.cornerForce[f][i] - fast.cornerForce[f][i]),
+                    1e-12 * norm(rest.force));
+    }
+}
+
+TEST(StepD_AreaOfContact, bouncesOfATiltedFaceKeepTheirEnergy)
+{
+  // A rigid tilted face of mass 1 kg falls on a flat one again and again, in some ten steps per
+  // contact: the force grows with the square of the depth, like the area and the closure together.
+  const Real g = 10, dt = 5e-3;
+  const Mat3 tilt = rotation({0, 1, 0}, -.2);
+  const Vec3 normal = rotation({0, 1, 0}, -.1) * Vec3{0, 0, 1};
+  PairPlane plane = touchingPlane(1e4);
+  FaceNodes lower = face({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
+  FaceNodes b = moved(above(0), tilt);
+  Real depth = 0, speed = 0, highest = 0; // the corner x = 1 is the deepest
+  for (int i = 0; i < 4; ++i)
+    depth = std::max(depth, -b.x[i].z);
+  const Real start = -.1;
+  for (int i = 0; i < 4; ++i)
+    b.x[i] += (depth - start) * normal;
+  Real height = -start, bounces = 0;
+  for (int step = 0; step < 20000; ++step)
+  {
+    const Real before = speed;
+    speed += dt * (dot(plane.force, normal) - g);
+    if (before > 0 && speed <= 0)
+    {
+      ++bounces;
+      highest = std::max(highest, height);
+    }
+    height += dt * speed;
+    for (int i = 0; i < 4; ++i)
+    {
+      b.x[i] += (dt * speed) * normal;
+      b.v[i] = speed * normal;
+    }
+    updatePlane<3>(plane, lower, b, {}, dt);
+  }
+  EXPECT_GT(bounces, 100);
+  EXPECT_LT(highest, -start * 1.02);
+}
+
 TEST(StepH_UpdatePlaneVariables, shearTractionOpposesTheSlipOfTheHigherFace)
 {
   // ks = 500 Pa/m, 1e-3 m along x: -.5 Pa on face 1.

@@ -243,8 +243,8 @@ Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& 
   c.trial = stepB_trialPointOfContact<Dim>(c.a, c.b);
   if (!c.trial.opposed)
     return c;
-  c.shadowA = stepC_projectOntoPlane<Dim>(c.trial, c.a);
-  c.shadowB = stepC_projectOntoPlane<Dim>(c.trial, c.b);
+  c.shadowA = stepC_projectOntoPlane<Dim>(c.trial, c.a, 0);
+  c.shadowB = stepC_projectOntoPlane<Dim>(c.trial, c.b, 0);
   const AreaInUse use =
       o.area == ContactOptions::Area::Full ? AreaInUse::Full : AreaInUse::Penetrating;
   c.patch = stepD_areaOfContact<Dim>(c.shadowA, c.shadowB, 0, use, o.weights);

@@ -83,8 +83,8 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
       elementA.blockBefore<Dim>(0.5 * dt), elementB.blockBefore<Dim>(0.5 * dt),
       classicOptions(options), plane.born ? plane.normal : Vec3{});
   const TrialPlane trial = trialPlaneOf(classic);
-  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a);
-  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b);
+  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
+  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
 
   // A plane that has turned since the search, so that one of the faces does not look across it, is
   // none of theirs any more: where elements share a narrow strip, the least way out is sideways.

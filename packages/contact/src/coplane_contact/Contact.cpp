@@ -480,11 +480,11 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
   const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
   {
     constexpr auto weights = ContactOptions::Weights::Centroid;
-    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a),
-                                                    stepC_projectOntoPlane<2>(trial, b), 0,
+    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
+                                                    stepC_projectOntoPlane<2>(trial, b, 0), 0,
                                                     AreaInUse::Bonded, weights)
-                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a),
-                                                    stepC_projectOntoPlane<3>(trial, b), 0,
+                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
+                                                    stepC_projectOntoPlane<3>(trial, b, 0), 0,
                                                     AreaInUse::Bonded, weights);
   };
   for (std::size_t p = 0; p < planes_.extent(0); ++p)

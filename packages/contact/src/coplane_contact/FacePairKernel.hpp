@@ -12,8 +12,8 @@ struct RelativeMotion
   Vec3 spin{};  ///< [1/s]
 };
 
-/// Position of the point of face 1 relative to that of face 0 by the weights, at the half step:
-/// along the normal but for round-off, since both project to one point [m].
+/// Position of the point of face 1 relative to that of face 0 by the weights, at the time of the
+/// shadows' heights: along the normal but for round-off, since both project to one point [m].
 KOKKOS_INLINE_FUNCTION Vec3 armBetween(const TrialPlane& plane, const Shadow& a, const Shadow& b,
                                        const Patch& patch)
 {
@@ -148,16 +148,14 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const Ha
   }
 }
 
-/// Gap at the end of the step, along the normal of its middle, at the centre of gravity [m].
-KOKKOS_INLINE_FUNCTION Real gapAtEnd(const Patch& patch, const Vec3& n, const HalfStepFace& a,
-                                     const HalfStepFace& b, const Shadow& shadowA,
-                                     const Shadow& shadowB, Real dt)
+/// Gap at the time of the heights at the centre of gravity [m].
+KOKKOS_INLINE_FUNCTION Real gapOf(const Patch& patch, const Shadow& a, const Shadow& b)
 {
   Real gap = 0;
   for (int i = 0; i < b.count; ++i)
-    gap += patch.centroidWeights[1][i] * (shadowB.height[i] + (0.5 * dt) * dot(n, b.v[i]));
+    gap += patch.centroidWeights[1][i] * b.height[i];
   for (int i = 0; i < a.count; ++i)
-    gap -= patch.centroidWeights[0][i] * (shadowA.height[i] + (0.5 * dt) * dot(n, a.v[i]));
+    gap -= patch.centroidWeights[0][i] * a.height[i];
   return gap;
 }
 
@@ -171,7 +169,10 @@ KOKKOS_INLINE_FUNCTION void stepH_updatePlaneVariables(Plane& plane, const Patch
                                                        const ContactOptions& options, Real dt)
 {
   const Vec3& n = trial.normal;
-  const Vec3 arm = armBetween(trial, shadowA, shadowB, patch);
+  // Heights are those of the end of the step, the rates belong to the half step.
+  const Real opening =
+      dot(n, weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count));
+  const Vec3 arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * opening) * n;
   const RelativeMotion motion = relativeMotion(a, b, patch, arm);
   const Real speed = dot(n, motion.jump);
   const Vec3 sliding = dt * (motion.jump - speed * n);
@@ -282,8 +283,8 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
                                         const JointLaw& law, const ContactOptions& options, Real dt)
 {
   const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
-  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a);
-  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b);
+  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
+  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
   const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
                         : options.area == ContactOptions::Area::Full ? AreaInUse::Full
                                                                      : AreaInUse::Penetrating;
@@ -300,26 +301,20 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
       trial.opposed && patch.overlap > 0 ? 2 * dt * approachSpeed(trial.normal, a, b) : 0;
   if (inContact && !stepE_planeExists(plane))
   {
-    Real gap = 0, motion = 0; // at the half step, and until its end
-    for (int i = 0; i < b.count; ++i)
-    {
-      gap += patch.centroidWeights[1][i] * shadowB.height[i];
-      motion += patch.centroidWeights[1][i] * dot(trial.normal, b.v[i]);
-    }
-    for (int i = 0; i < a.count; ++i)
-    {
-      gap -= patch.centroidWeights[0][i] * shadowA.height[i];
-      motion -= patch.centroidWeights[0][i] * dot(trial.normal, a.v[i]);
-    }
+    const Real gap = gapOf(patch, shadowA, shadowB);
+    // From the half step to the end of the step.
+    const Real motion =
+        (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
+                                           weighted(patch.centroidWeights[0], a.v, a.count));
     // A new contact begins at the surface. Faces that share area for the first time while one lies
     // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
     // horizontal joint closed by a hair.
     const Real deepest =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
-    if (!plane.fresh && !plane.declared && !plane.inherited && -gap > deepest)
+    if (!plane.fresh && !plane.declared && !plane.inherited && motion - gap > deepest)
       plane.released = true;
     if (!plane.released)
-      stepF_createPlane(plane, trial.normal, gap + (0.5 * dt) * motion);
+      stepF_createPlane(plane, trial.normal, gap);
   }
   if (!(patch.area > 0))
     plane.released = false;
@@ -327,7 +322,7 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
   if (inContact)
   {
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    const Real gap = gapAtEnd(patch, trial.normal, a, b, shadowA, shadowB, dt);
+    const Real gap = gapOf(patch, shadowA, shadowB);
     stepH_updatePlaneVariables(plane, patch, gap, trial, a, b, shadowA, shadowB, law, options, dt);
   }
   else

@@ -192,10 +192,12 @@ struct Shadow
   Real height[4]; ///< along the normal, from the trial point [m]
 };
 
-/// Step C.
+/// Step C. The outline is that of the half step; the heights are those dt / 2 later, at the end of
+/// the step: area in contact and centre of pressure come from heights, and like the closure they
+/// must not lag behind the positions on which the force acts.
 template <int Dim>
 KOKKOS_INLINE_FUNCTION Shadow stepC_projectOntoPlane(const TrialPlane& plane,
-                                                     const HalfStepFace& face)
+                                                     const HalfStepFace& face, Real dt)
 {
   Shadow shadow;
   shadow.count = face.count;
@@ -203,7 +205,7 @@ KOKKOS_INLINE_FUNCTION Shadow stepC_projectOntoPlane(const TrialPlane& plane,
   {
     const Vec3 r = face.x[i] - plane.point;
     shadow.p[i] = {dot(plane.e1, r), Dim == 2 ? 0.0 : dot(plane.e2, r)};
-    shadow.height[i] = dot(plane.normal, r);
+    shadow.height[i] = dot(plane.normal, r) + (0.5 * dt) * dot(plane.normal, face.v[i]);
   }
   return shadow;
 }
