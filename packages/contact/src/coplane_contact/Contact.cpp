@@ -12,9 +12,10 @@ std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
   return {plane.faceId[0], plane.faceId[1]};
 }
 
+/// Planes that carry something, and joints that have just been closed.
 bool isDonor(const Plane& plane)
 {
-  return plane.born && plane.area > 0;
+  return plane.born && (plane.area > 0 || (plane.declared && plane.fresh));
 }
 
 Donor donorOf(const Plane& plane)
@@ -24,7 +25,7 @@ Donor donorOf(const Plane& plane)
   donor.faceId[1] = plane.faceId[1];
   donor.joint = plane.joint;
   donor.normal = plane.normal;
-  donor.area = plane.area;
+  donor.area = plane.area > 0 ? plane.area : plane.overlap;
   donor.offset = plane.offset;
   donor.maximumClosure = plane.history.maximumClosure;
   donor.closure = plane.closure;
@@ -196,7 +197,7 @@ std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pair
   return leaders;
 }
 
-void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
+void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   faces_ = localFaces_;
@@ -422,7 +423,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout)
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::elements"), elements_.size());
   std::copy(elements_.begin(), elements_.end(), elementTable_.data());
   buildLists(layout.owned());
-  ++searches_;
+  if (!again)
+    ++searches_;
   searchedSinceUpdate_ = true;
 }
 

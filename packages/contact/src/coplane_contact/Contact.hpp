@@ -41,9 +41,9 @@ public:
   /// Steps 1 to 4. Returns the ids of the nodes of ghost faces and of the elements that came with
   /// them. Collective.
   std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds);
-  /// Step 5, and slots for all pairs. Call when the layout knows the ghosts' nodes and x holds
-  /// their positions. Collective.
-  void pairUp(const ConstNodeVectors& x, const NodeLayout& layout);
+  /// Step 5, and slots for all pairs. `again`: repeats the last search, and is not counted. Call
+  /// when the layout knows the ghosts' nodes and x holds their positions. Collective.
+  void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive].
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;

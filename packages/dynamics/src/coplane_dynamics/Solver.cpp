@@ -134,7 +134,7 @@ void Solver::setInitialStress(int b)
     blocks_[b].setInitialStress(e, model_.blocks[b].stressOfElement(model_.mesh, b, e));
 }
 
-void Solver::search()
+void Solver::search(bool again)
 {
   TimedRegion region("coplane::dynamics::search");
   const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
@@ -144,7 +144,7 @@ void Solver::search()
     layout_.refresh(state_.x, state_.v);
     layout_.refresh(state_.mass);
   }
-  contact_->pairUp(state_.x, layout_);
+  contact_->pairUp(state_.x, layout_, again);
   const auto x = state_.x;
   const auto atSearch = state_.atSearch;
   parallelFor(
@@ -407,6 +407,10 @@ void Solver::prepare()
     search();
     contact_->closeDeclaredJoints(state_.x, [this](int block, const Vec3& x)
                                   { return model_.blocks[block].stressAt(x); });
+    // Once more, so that their neighbours know the offsets of joints that are closed now.
+    if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
+                    [](const ContactRule& rule) { return rule.declared; }))
+      search(true);
   }
   findForces(0);
   planNextCycle(true);

@@ -88,7 +88,7 @@ private:
         entry; ///< entries of node n: element * corners + corner, in the order of element ids
   };
 
-  void search();
+  void search(bool again = false);
   void findForces(Real dt);
   void gatherElementForces();
   Real stableStep();
