@@ -110,7 +110,7 @@ protected:
     contact_->pairUp(x_, layout_);
     SymTensor stress{};
     stress.yy = -pressure;
-    contact_->closeDeclaredJoints(x_, {stress, stress, stress});
+    contact_->closeDeclaredJoints(x_, [&](int, const Vec3&) { return stress; });
     contact_->step6_updateCommonPlanes(x_, v_, mass_, 0);
   }
 
