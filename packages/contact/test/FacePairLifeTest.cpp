@@ -98,6 +98,23 @@ TEST(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
   EXPECT_NEAR(plane.force.z, 1, 1e-12); // 1e3 * .001
 }
 
+TEST(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPart)
+{
+  PairPlane plane = touchingPlane(1e3);
+  plane.born = false;
+  plane.fresh = true;
+  plane.depthLimit = .1;
+  updatePlane<3>(plane, below(), above(.2), {}, 1);
+  EXPECT_TRUE(plane.released);
+  EXPECT_FALSE(plane.born);
+  updatePlane<3>(plane, below(), above(.05), {}, 1);
+  EXPECT_EQ(norm(plane.force), 0.0) << "not on the way out either";
+  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  EXPECT_FALSE(plane.released);
+  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_NEAR(plane.force.z, 10, 1e-12); // 1e3 * .01 * 1
+}
+
 TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
 {
   ContactOptions o;

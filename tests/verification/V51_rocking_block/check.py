@@ -1,11 +1,11 @@
-"""V51: a slender block rocks on a rigid floor (Housner 1963)."""
+"""V51: a slender block rocks on a rigid floor (Housner 1963); V58: the same in other frames."""
 
 import copy
 import math
 import sys
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, documents, turned_deck
 
 case = Case("V51", __file__)
 width, height, g = 0.3, 1.2, 9.81
@@ -103,4 +103,21 @@ if "all" in sys.argv[1:]:
         run = case.run(f"base_{part}", tilted(0), deck)
         turn = numpy.max(numpy.abs(angles(run, 0))) / alpha
         case.check_within(f"base_{part}: largest tilt over alpha", turn, low, high)
+
+# --- V58: other frames, while the block turns about its corner ---------------------------------------
+case.name = "V58"
+deck = case.load()
+deck["time"]["end"] = 0.3
+plain = case.run("plain", tilted(0.5), deck).results
+for frame, angles_of_frame, offset in (("turned", 30, (0, 0, 0)), ("moved by 1 km", 0, (1000, -1000, 0))):
+    matrix = documents.rotation(angles_of_frame)
+
+    def change(coordinates):
+        return coordinates @ matrix[:2, :2].T + numpy.array(offset[:2])
+
+    run = case.run(frame.split()[0], tilted(0.5), turned_deck(deck, matrix, offset), change_mesh=change)
+    for field in ("displacement", "velocity"):
+        back = run.results.nodal(field) @ matrix[:2, :2]
+        error = numpy.max(numpy.abs(back - plain.nodal(field))) / numpy.max(numpy.abs(plain.nodal(field)))
+        case.check(f"rocking block, {frame}: {field}", error, 0, 1e-8)
 case.finish()

@@ -309,9 +309,11 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
     // A new contact begins at the surface. Faces that share area for the first time while one lies
     // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
     // horizontal joint closed by a hair.
-    const Real deepest =
+    // So are faces that a search finds deeper in each other than a contact can be.
+    const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
-    if (!plane.fresh && !plane.declared && !plane.inherited && motion - gap > deepest)
+    const Real deepest = plane.fresh ? plane.depthLimit : start;
+    if (!plane.declared && !plane.inherited && motion - gap > deepest)
       plane.released = true;
     if (!plane.released)
       stepF_createPlane(plane, trial.normal, gap);
