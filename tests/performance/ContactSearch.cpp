@@ -57,7 +57,9 @@ struct Scene
     face.count = 4;
     for (int k = 0; k < 4; ++k)
       face.nodes[k] = nodes[up ? k : 3 - k];
-    face.thickness = 1;
+    // Of an element as thick as the face is wide.
+    const Vec3 diagonal = x[nodes[2]] - x[nodes[0]];
+    face.thickness = std::sqrt(0.5) * norm(diagonal);
     face.modulus = 1;
     face.local = face.ownedHere = true;
     faces.push_back(face);
@@ -106,7 +108,7 @@ void search(benchmark::State& state, Backend backend, Scene (*make)(int))
   std::size_t pairs = 0;
   for (auto _ : state)
   {
-    const Bins bins = step1_globalSpaceLimits(scene.faces, x, rules.reach, comm);
+    const Bins bins = step1_globalSpaceLimits(scene.faces, x, rules, comm);
     pairs = step5_candidatePairs(bins, scene.faces, x, 3, rules).size();
   }
   const auto rate = [](std::size_t count)

@@ -40,7 +40,7 @@ struct Scene
 
   /// A square with its middle, its normal's direction and its side [m]; half of it when corners is
   /// 3; segments in 2D.
-  Face& add(GlobalId id, const Vec3& middle, const Vec3& normal, Real side, Real thickness = 10,
+  Face& add(GlobalId id, const Vec3& middle, const Vec3& normal, Real side, Real thickness = 0.1,
             int corners = 4)
   {
     Face face;
@@ -108,7 +108,7 @@ struct Cloud
         place.z = 0;
       const Real size = side * std::pow(variation, unit(random) - 0.5);
       scene.add(faceId(elements[i], sides[elements[i]]++), place, {nx, ny, dimension == 2 ? 0 : nz},
-                size, 10, corners(random));
+                size, size, corners(random));
     }
     scene.sortById();
     return scene;
@@ -130,15 +130,6 @@ inline NodeVectors positions(const Scene& scene)
   return x;
 }
 
-inline Box grownBox(const Face& face, const NodeVectors& x, Real reach)
-{
-  Box box;
-  for (int k = 0; k < face.count; ++k)
-    box.include(at(x, face.nodes[k]));
-  box.grow(0.5 * reach);
-  return box;
-}
-
 /// Every pair judged, without bins or ranks.
 inline Pairs bruteForce(const Scene& scene, const CandidateRules& rules)
 {
@@ -149,8 +140,8 @@ inline Pairs bruteForce(const Scene& scene, const CandidateRules& rules)
   for (Face& face : faces)
   {
     face.local = true;
-    boxes.push_back(grownBox(face, x, rules.reach));
     planes.push_back(facePlane(face, x, scene.dimension));
+    boxes.push_back(contactBox(face, planes.back(), x, rules));
   }
   Pairs pairs;
   for (std::size_t p = 0; p < faces.size(); ++p)
@@ -215,10 +206,11 @@ inline Found search(const Scene& scene, RankPart part, const CandidateRules& rul
                     const Comm& comm, Real binScale = 1, const std::vector<Donor>& planes = {})
 {
   Found found;
-  found.bins = step1_globalSpaceLimits(part.faces, part.x, rules.reach, comm);
+  found.bins = step1_globalSpaceLimits(part.faces, part.x, rules, comm);
   for (Bins::Level& level : found.bins.levels)
     level.edge *= binScale;
-  const SortedFaces sorted = step2_sortIntoBins(found.bins, part.faces, part.x, rules.reach);
+  const SortedFaces sorted =
+      step2_sortIntoBins(found.bins, part.faces, part.x, scene.dimension, rules);
   found.ranks = step3_interactingRanks(sorted, comm);
   found.ghosts = step4_copyGhostFaces(found.ranks, sorted, part.faces, part.nodeIds, planes, comm);
   std::vector<Face> faces = part.faces;

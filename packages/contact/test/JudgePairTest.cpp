@@ -19,8 +19,9 @@ Verdict judgeSquares(Real gap, Real thickness, const std::function<void(Face&, F
     change(a, b);
   const NodeVectors x = positions(scene);
   rules.skin = rules.reach = 0.1;
-  return judgePair(a, b, grownBox(a, x, 0.1), grownBox(b, x, 0.1), facePlane(a, x, 3),
-                   facePlane(b, x, 3), x, rules);
+  const FacePlane planeA = facePlane(a, x, 3), planeB = facePlane(b, x, 3);
+  return judgePair(a, b, contactBox(a, planeA, x, rules), contactBox(b, planeB, x, rules), planeA,
+                   planeB, x, rules);
 }
 } // namespace
 

@@ -192,11 +192,12 @@ TEST(SearchCompleteness, noContactIsMissedUntilTheNextSearchIsForced)
 {
   // A search is forced as soon as two nodes may have moved by more than skin/2 relative to each
   // other along an axis. Faces that move by up to skin/4 each, and then touch without any skin,
-  // must have been candidates before. (Faces keep their directions here, and the depth limit is
-  // off.)
+  // must have been candidates before, however deep they lie in each other. (Faces keep their
+  // directions here.)
   Scene scene = Cloud{}.make();
+  for (Face& face : scene.faces)
+    face.thickness = 1;
   CandidateRules rules = rulesWithSkin(0.04);
-  rules.depthMax = 100;
   const Pairs before = bruteForce(scene, rules);
   Random random(5);
   std::uniform_real_distribution<Real> quarter(-0.25, 0.25);
@@ -206,10 +207,47 @@ TEST(SearchCompleteness, noContactIsMissedUntilTheNextSearchIsForced)
     for (int k = 0; k < 4; ++k)
       scene.x[4 * f + k] += rules.skin * Vec3{dx, dy, dz};
   }
+  // No deeper than what was within the limit before.
+  rules.depthMax -= rules.skin;
   rules.skin = rules.reach = 0;
   const Pairs touching = bruteForce(scene, rules);
   ASSERT_GE(touching.size(), 100u);
   EXPECT_TRUE(std::includes(before.begin(), before.end(), touching.begin(), touching.end()));
+}
+
+TEST(SearchCompleteness, facesThatLieInEachOtherWithinTheLimitAreCandidates)
+{
+  // A corner of each on one line along the normal of the common plane, at any depth up to the
+  // limit, whatever the directions of opposed faces: no search before has to have seen them touch.
+  Random random(8);
+  std::normal_distribution<Real> normal;
+  int tried = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    const int dimension = i % 2 ? 2 : 3;
+    const auto direction = [&]
+    {
+      const Real x = normal(random), y = normal(random), z = normal(random);
+      return normalised(Vec3{x, y, dimension == 2 ? 0 : z});
+    };
+    const Vec3 n0 = direction(), n1 = direction();
+    CandidateRules rules = rulesWithSkin(0);
+    if (!(dot(n0, n1) < -rules.cosOpposed))
+      continue;
+    Scene scene;
+    scene.dimension = dimension;
+    for (int f = 0; f < 2; ++f)
+      scene.add(faceId(f, 0), {}, f == 0 ? n0 : n1, 0.2 + unit(random), 0.1 + unit(random));
+    const Real depth = unit(random) * rules.depthMax *
+                       std::min(scene.faces[0].thickness, scene.faces[1].thickness);
+    const Vec3 arm = scene.x[0] - depth * normalised(n0 - n1) - scene.x[4];
+    for (int k = 4; k < 8; ++k)
+      scene.x[k] += arm;
+    rules.reach = 1e-12;
+    EXPECT_EQ(bruteForce(scene, rules).size(), 1u) << "pair " << i;
+    ++tried;
+  }
+  EXPECT_GE(tried, 5000);
 }
 
 TEST(SearchCompleteness, ranksWithoutFaces)

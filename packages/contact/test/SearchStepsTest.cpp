@@ -13,8 +13,8 @@ TEST(Step1GlobalSpaceLimits, areEqualOnAllRanksAndThoseOfOneRank)
     face.ownedHere = comm.isRoot(); // every face once, all on rank 0
   for (int n = 0; n < int(scene.x.size()); ++n)
     set(whole.x, n, scene.x[n]);
-  const Bins split = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
-  const Bins single = step1_globalSpaceLimits(whole.faces, whole.x, 0.02, comm);
+  const Bins split = step1_globalSpaceLimits(part.faces, part.x, rulesWithSkin(0.02), comm);
+  const Bins single = step1_globalSpaceLimits(whole.faces, whole.x, rulesWithSkin(0.02), comm);
   ASSERT_EQ(split.levels.size(), single.levels.size());
   for (std::size_t level = 0; level < split.levels.size(); ++level)
   {
@@ -39,13 +39,15 @@ TEST(Step1GlobalSpaceLimits, facesOfOneSizeShareOneLevelAndEachFaceFitsItsBins)
     const Comm comm;
     RankPart part(scene, comm);
     // Boxes of squares that look in all directions differ by a factor of 1.5 sqrt(2) = 2.1.
-    const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.1 * side, comm);
+    const CandidateRules rules = rulesWithSkin(0.1 * side);
+    const Bins bins = step1_globalSpaceLimits(part.faces, part.x, rules, comm);
     EXPECT_LE(bins.levels.size(), 3u);
-    for (const Face& face : part.faces)
-    {
-      const Box box = grownBox(face, part.x, 0);
-      EXPECT_LE(box.longestSide() + 0.1 * side, bins.levels[bins.levelOf(box)].edge);
-    }
+    const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 3, rules);
+    for (const BinEntry& entry : sorted.entries)
+      if (entry.resident)
+      {
+        EXPECT_LE(sorted.boxes[entry.face].longestSide(), bins.levels[entry.key >> 57].edge);
+      }
   }
 }
 
@@ -56,11 +58,12 @@ TEST(Step2SortIntoBins, aFaceOnABinBorderIsInBoth)
   //                            ^             x = 0.5 stands on a border: without a skin its box has
   //                                          no extent there; with one it reaches both sides.
   Scene scene;
-  scene.add(faceId(0, 0), {0.5, 1, 1}, {1, 0, 0}, 0.5);
+  scene.add(faceId(0, 0), {0.5, 1, 1}, {1, 0, 0}, 0.5, 0);
   Bins bins;
   bins.limits.low = {0, 0, 0};
   bins.limits.high = {3, 2, 2};
-  const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, positions(scene), 0.1);
+  const SortedFaces sorted =
+      step2_sortIntoBins(bins, scene.faces, positions(scene), 3, rulesWithSkin(0.1));
   ASSERT_EQ(sorted.entries.size(), 2u);
   EXPECT_EQ(sorted.entries[0].key, Bins::key(0, {0, 1, 1}));
   EXPECT_EQ(sorted.entries[0].corner, 7); // first bin along all axes
@@ -76,9 +79,8 @@ TEST(Step2SortIntoBins, entriesAreSortedAndLargeFacesEnterFewBins)
   scene.add(faceId(100000, 0), {0.5, 0.5, 0.5}, {1, 2, 3}, 1000);
   const Comm comm;
   RankPart part(scene, comm, [&](int) { return comm.rank(); });
-  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
-  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 0.02);
-  ASSERT_EQ(bins.levelOf(grownBox(scene.faces.back(), part.x, 0)), int(bins.levels.size()) - 1);
+  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, rulesWithSkin(0.02), comm);
+  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 3, rulesWithSkin(0.02));
   std::map<int, std::map<int, int>> binsOfFace; // by face and level
   std::set<std::pair<int, int>> resident;
   for (std::size_t e = 0; e < sorted.entries.size(); ++e)
@@ -101,8 +103,8 @@ TEST(Step3InteractingRanks, areMutualShareTheSameBinsAndNeverThisRank)
   const Comm comm;
   const Scene scene = Cloud{}.make();
   const RankPart part(scene, comm);
-  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, 0.02, comm);
-  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 0.02);
+  const Bins bins = step1_globalSpaceLimits(part.faces, part.x, rulesWithSkin(0.02), comm);
+  const SortedFaces sorted = step2_sortIntoBins(bins, part.faces, part.x, 3, rulesWithSkin(0.02));
   std::vector<std::vector<std::uint64_t>> toRank(comm.size());
   std::vector<std::uint64_t> mine;
   for (const InteractingRank& other : step3_interactingRanks(sorted, comm))
@@ -196,14 +198,16 @@ TEST(Step4CopyGhostFaces, bringsOnlyFacesThatReachIntoTheBoxOfThisRank)
   const CandidateRules rules = rulesWithSkin(0.02);
   const Found found = search(scene, part, rules, comm);
   EXPECT_EQ(found.pairs, concerning(bruteForce(scene, rules), part));
-  Box mine;
-  for (const Face& face : part.faces)
-    mine.include(grownBox(face, part.x, rules.reach));
   const NodeVectors x = positions(scene);
+  Box mine;
+  const auto boxOf = [&](const Face& face)
+  { return contactBox(face, facePlane(face, x, 3), x, rules); };
+  for (const Face& face : part.faces)
+    mine.include(boxOf(face));
   for (const GhostFace& ghost : found.ghosts.faces)
   {
     const Face face = toFace(ghost, [](GlobalId node) { return int(node); });
-    EXPECT_TRUE(mine.overlaps(grownBox(face, x, rules.reach)));
+    EXPECT_TRUE(mine.overlaps(boxOf(face)));
   }
   for (const InteractingRank& other : found.ranks)
     EXPECT_TRUE(mine.overlaps(other.box));

@@ -63,7 +63,7 @@ std::vector<Bins::Level> SizeHistogram::levels(Real reach, Real extent) const
       last = levelOfClass(c, best);
       Bins::Level level;
       level.largestFace = upperBound(4 * last + 3 - best);
-      level.edge = 2 * level.largestFace + reach;
+      level.edge = 1.4 * level.largestFace + reach;
       if (level.largestFace >= smallest && level.edge < infinity)
         levels.push_back(level);
     }

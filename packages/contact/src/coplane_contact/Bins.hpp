@@ -56,10 +56,9 @@ struct Bins
   Box limits;
   std::vector<Level> levels{Level{}}; ///< from small faces to large ones
 
-  /// The level of a face with this (not grown) box.
-  int levelOf(const Box& box) const
+  /// The level of a face of this size [m].
+  int levelOf(Real size) const
   {
-    const Real size = box.longestSide();
     int level = 0;
     while (level + 1 < int(levels.size()) && size > levels[level].largestFace)
       ++level;

@@ -182,11 +182,7 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
                                                 const ConstNodeVectors& x, int dimension,
                                                 const CandidateRules& rules)
 {
-  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, std::max(rules.skin, rules.reach));
-  const Array<FacePlane> planes(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.size());
-  parallelFor("coplane::contact::step5_facePlanes", int(faces.size()),
-              [&](const int f) { planes(f) = facePlane(faces[f], x, dimension); });
+  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, dimension, rules);
   const std::vector<std::int32_t> order = orderById(faces);
   std::vector<std::int32_t> rankOf(faces.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -203,7 +199,7 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
       ++border;
     return border;
   };
-  const BinSearch search{faces, sorted.boxes, planes, x, rules};
+  const BinSearch search{faces, sorted.boxes, sorted.planes, x, rules};
   std::vector<std::vector<CandidatePair>> found(shares);
   const auto pairsOfShare = [&](const int share)
   {

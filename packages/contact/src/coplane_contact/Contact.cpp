@@ -105,6 +105,10 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
       rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
       laws_("coplane::contact::laws", rules_.joints.size())
 {
+  candidates_.skin = candidates_.reach = skin_;
+  candidates_.cosOpposed = options_.cosOpposed;
+  candidates_.depthMax = options_.depthMax;
+  candidates_.sharedNodes = options_.sharedNodes;
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
     laws_(j) = rules_.joints[j].law;
 }
@@ -148,13 +152,13 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
 {
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
-    // Faces of planes that carry traction are apart by their depth, or by the opening of a bond.
+    // Bonds that hold may be open farther than the skin, and contacts deeper than their limit.
     Real apart = 0;
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).area > 0)
-        apart = std::max(apart, std::abs(planes_(p).gap));
-    reach_ = skin_ + comm_->max(apart);
-    bins_ = step1_globalSpaceLimits(localFaces_, x, reach_, *comm_);
+        apart = std::max({apart, planes_(p).gap, -planes_(p).gap - planes_(p).depthLimit});
+    candidates_.reach = skin_ + comm_->max(apart);
+    bins_ = step1_globalSpaceLimits(localFaces_, x, candidates_, *comm_);
   }
   ghosts_ = {};
   std::vector<GlobalId> nodes;
@@ -163,7 +167,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   SortedFaces sorted;
   {
     TimedRegion region("coplane::contact::step2_sortIntoBins");
-    sorted = step2_sortIntoBins(bins_, localFaces_, x, reach_);
+    sorted = step2_sortIntoBins(bins_, localFaces_, x, dimension_, candidates_);
   }
   std::vector<InteractingRank> ranks;
   {
@@ -220,12 +224,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     return found != end && keyOf(*found) == wanted ? found : nullptr;
   };
 
-  CandidateRules candidates;
-  candidates.skin = skin_;
-  candidates.reach = reach_;
-  candidates.cosOpposed = options_.cosOpposed;
-  candidates.depthMax = options_.depthMax;
-  candidates.sharedNodes = options_.sharedNodes;
+  CandidateRules candidates = candidates_;
   candidates.declared = [&](int a, int b) { return rules_.between(a, b).declared; };
   candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
   if (searches_ > 0)
@@ -623,7 +622,7 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   const FacePlane a = facePlane(faceA, x, dimension_);
   const FacePlane b = facePlane(faceB, x, dimension_);
   const Real turn = 2 * skin_ / smallestFace_;
-  const Real gap = dot(plane.normal, b.center - a.center);
+  const Real gap = dot(normalised(a.normal - b.normal), b.center - a.center);
   const Real deepest = options_.depthMax * std::min(faceA.thickness, faceB.thickness);
   return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
 }

@@ -105,7 +105,7 @@ private:
   ContactOptions options_;
   ContactRules rules_;
   Real skin_, smallestFace_;
-  Real reach_ = 0; ///< of the last search: skin and present depth or opening [m]
+  CandidateRules candidates_; ///< of the last search
   Bins bins_;
   Ghosts ghosts_;
   std::int64_t searches_ = 0;

@@ -56,8 +56,19 @@ private:
 };
 } // namespace
 
-Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
-                             const Comm& comm)
+Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
+               const CandidateRules& rules)
+{
+  Box box = boxOf(face, x);
+  const Vec3 inside = -rules.depthInto(face) * plane.normal;
+  for (int c = 0; c < 3; ++c)
+    (inside[c] < 0 ? box.low : box.high)[c] += inside[c];
+  box.grow(0.5 * rules.reach);
+  return box;
+}
+
+Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x,
+                             const CandidateRules& rules, const Comm& comm)
 {
   const int chunks = threadCount();
   std::vector<Box> boxes(chunks);
@@ -72,7 +83,7 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
                    const Box box = boxOf(faces[f], x);
                    all.include(box);
                    if (faces[f].ownedHere)
-                     histogram.add(box.longestSide());
+                     histogram.add(box.longestSide() + rules.depthInto(faces[f]));
                  }
                  boxes[chunk] = all;
                });
@@ -90,16 +101,19 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
   Bins bins;
   bins.limits.low = {-extremes[0], -extremes[1], -extremes[2]};
   bins.limits.high = {extremes[3], extremes[4], extremes[5]};
-  bins.levels = histograms[0].levels(reach, bins.limits.longestSide());
+  bins.levels = histograms[0].levels(rules.reach, bins.limits.longestSide());
   return bins;
 }
 
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
-                               const ConstNodeVectors& x, Real reach)
+                               const ConstNodeVectors& x, int dimension,
+                               const CandidateRules& rules)
 {
   SortedFaces sorted;
   sorted.bins = bins;
   sorted.boxes.resize(faces.size());
+  sorted.planes = decltype(sorted.planes)(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.size());
   std::vector<std::uint8_t> levelOf(faces.size());
   const int levels = int(bins.levels.size());
   const int chunks = faces.size() < 1024 ? 1 : threadCount();
@@ -112,9 +126,11 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                  Box together;
                  for (std::size_t f = begin; f < end; ++f)
                  {
-                   Box box = boxOf(faces[f], x);
-                   levelOf[f] = std::uint8_t(bins.levelOf(box));
-                   box.grow(0.5 * reach);
+                   levelOf[f] = std::uint8_t(
+                       bins.levelOf(boxOf(faces[f], x).longestSide() + rules.depthInto(faces[f])));
+                   const FacePlane plane = facePlane(faces[f], x, dimension);
+                   sorted.planes(f) = plane;
+                   const Box box = contactBox(faces[f], plane, x, rules);
                    sorted.boxes[f] = box;
                    together.include(box);
                    for (int level = levelOf[f]; level < levels; ++level)

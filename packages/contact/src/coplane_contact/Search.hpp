@@ -3,9 +3,11 @@
 #include <coplane_contact/Bins.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_core/Backend.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/NodeViews.hpp>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -14,19 +16,52 @@
 
 namespace coplane
 {
+/// Centre and outward unit normal of a face; the normal of a degenerate face is zero, so it opposes
+/// nothing.
+struct FacePlane
+{
+  Vec3 center{}, normal{};
+};
+FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
+
+struct CandidateRules
+{
+  Real skin = 0;  ///< largest gap of a candidate [m]
+  Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
+  Real cosOpposed = 0.1;
+  Real depthMax = 0.6;      ///< largest depth of a candidate over the thinner element's thickness
+  bool sharedNodes = false; ///< pairs of faces that share a node as well
+  std::function<bool(int, int)> excluded; ///< by group
+  std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
+  std::function<bool(GlobalId, GlobalId)>
+      inContact; ///< pair keys that carry traction now: they stay candidates
+
+  /// How far the box of a face goes on into the body [m]. Points of two faces that lie at depth d
+  /// in each other are apart by d (n0 - n1) / |n0 - n1|, and |n0 - n1| > sqrt(2) for opposed
+  /// normals: moved inwards by d / sqrt(2) the faces meet.
+  Real depthInto(const Face& face) const { return std::sqrt(0.5) * depthMax * face.thickness; }
+};
+
+/// Where the face may be in contact: the face, the same at the largest depth of a contact inside
+/// its body, and half the reach around. Two faces within that depth of each other, or within the
+/// reach, have boxes that overlap.
+Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
+               const CandidateRules& rules);
+
 /// Faces in the bins that their grown boxes touch: those of their own level and of all coarser
 /// levels, so that two faces that are near each other share a bin of the level of the larger one.
 struct SortedFaces
 {
   Bins bins;
-  std::vector<Box> boxes;        ///< per face, grown by half the reach
+  std::vector<Box> boxes;        ///< contactBox() per face
+  Array<FacePlane> planes;       ///< per face
   std::vector<BinEntry> entries; ///< sorted by key, then face
 };
 
 struct InteractingRank
 {
   int rank = 0;
-  Box box;                               ///< of all its faces, grown by half the reach
+  Box box;                               ///< of the boxes of all its faces
   std::vector<std::uint64_t> commonBins; ///< keys, sorted
 };
 
@@ -35,16 +70,14 @@ struct CandidatePair
   int lower = 0, higher = 0; ///< positions in the table of faces; lower has the smaller id
 };
 
-/// Faces whose boxes are within `reach` of each other share a bin: the skin, and the present depth
-/// of contacts or opening of bonds, because the faces of a contact are apart by that much.
-
 /// Step 1: extent of all faces over all ranks and sizes of bins, from exact reductions only.
-Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x, Real reach,
-                             const Comm& comm);
+Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x,
+                             const CandidateRules& rules, const Comm& comm);
 
 /// Step 2: local faces into bins.
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
-                               const ConstNodeVectors& x, Real reach);
+                               const ConstNodeVectors& x, int dimension,
+                               const CandidateRules& rules);
 
 /// Step 3: ranks exchange boxes; those whose boxes overlap exchange the bins of the faces that
 /// reach into both boxes. Never this rank itself.
@@ -66,19 +99,6 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
                             const std::vector<Donor>& livingPlanes, const Comm& comm,
                             const std::vector<FaceElement>& localElements = {});
 
-struct CandidateRules
-{
-  Real skin = 0;  ///< largest gap of a candidate [m]
-  Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
-  Real cosOpposed = 0.1;
-  Real depthMax = 0.6;
-  bool sharedNodes = false;               ///< pairs of faces that share a node as well
-  std::function<bool(int, int)> excluded; ///< by group
-  std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
-  std::function<bool(GlobalId, GlobalId)>
-      inContact; ///< pair keys that carry traction now: they stay candidates
-};
-
 /// Why a pair of faces is, or is not, a candidate.
 enum class Verdict
 {
@@ -90,14 +110,6 @@ enum class Verdict
   NotOpposed,
   TooFarApart
 };
-
-/// Centre and outward unit normal of a face; the normal of a degenerate face is zero, so it opposes
-/// nothing.
-struct FacePlane
-{
-  Vec3 center{}, normal{};
-};
-FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
 
 /// The tests of step 5 for one pair, cheapest first. Labels: a has the smaller id.
 Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
