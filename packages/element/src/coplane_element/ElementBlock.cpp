@@ -68,7 +68,9 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   stableStep_ = Array<Real>("stableStep", padded);
   cornerForce_ = CornerVectors("cornerForce", padded, nodes);
   stress_ = Values("stress", 6, padded);
-  plasticStrain_ = Values("equivalentPlasticStrain", 1, padded);
+  historyNames_ = historyNames(law);
+  history_ = Values("history", historyNames_.size(), padded);
+  tangent_ = Values("tangent", 2, padded);
   compression_ = Values("compression", 2, padded);
   energies_ = Values("energies", elementEnergies, padded);
   const int rows =
@@ -90,6 +92,7 @@ void ElementBlock::initialise(const ConstNodeVectors& x)
     mass_(e) = rho * volume;
   }
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
+  Kokkos::deep_copy(tangent_, 1.0);
   Kokkos::deep_copy(cornerForce_, 0.0);
 }
 
@@ -126,12 +129,14 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
                                pWaveModulus(elastic),
                                soundSpeed(law_),
                                int(mass_.extent(0)) / laneCount,
+                               &law_,
                                connectivity_,
                                mass_,
                                referenceVolume_,
                                referenceLength_,
                                stress_,
-                               plasticStrain_,
+                               history_,
+                               tangent_,
                                hourglassForce_,
                                hourglassViscousForce_,
                                compression_,
@@ -142,13 +147,13 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
   switch (type_)
   {
   case ElementType::Tri3:
-    return updateTri3(data, law_);
+    return updateTri3(data);
   case ElementType::Quad4:
-    return updateQuad4(data, law_);
+    return updateQuad4(data);
   case ElementType::Tet4:
-    return updateTet4(data, law_);
+    return updateTet4(data);
   case ElementType::Hex8:
-    return updateHex8(data, law_);
+    return updateHex8(data);
   }
 }
 
@@ -165,9 +170,10 @@ Real ElementBlock::vonMises(int e) const
   return std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx)));
 }
 
-ConstArray<Real> ElementBlock::equivalentPlasticStrain() const
+int ElementBlock::historyRow(const std::string& name) const
 {
-  return ConstArray<Real>(plasticStrain_.data(), plasticStrain_.extent(1));
+  const auto found = std::find(historyNames_.begin(), historyNames_.end(), name);
+  return found == historyNames_.end() ? -1 : int(found - historyNames_.begin());
 }
 
 ConstArray<Real> ElementBlock::viscousPressure() const

@@ -7,6 +7,7 @@
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
+#include <string>
 #include <vector>
 
 namespace coplane
@@ -97,8 +98,11 @@ public:
   Real pressure(int element) const; ///< -tr(stress)/3 [Pa]
   Real vonMises(int element) const; ///< sqrt(3/2 s:s) [Pa]
   Real density(int element) const { return mass_(element) / volume_(element); } ///< now [kg/m^3]
-  ConstArray<Real> equivalentPlasticStrain() const;
-  ConstArray<Real> viscousPressure() const; ///< q of the last update, not negative [Pa]
+  /// The law's variables, a row each; names in the order of the rows.
+  ConstValues history() const { return history_; }
+  const std::vector<std::string>& historyVariables() const { return historyNames_; }
+  int historyRow(const std::string& name) const; ///< -1 when the law has no such variable
+  ConstArray<Real> viscousPressure() const;      ///< q of the last update, not negative [Pa]
   ConstValues energies() const { return energies_; }
   Real energy(int element, ElementEnergy kind) const { return energies_(int(kind), element); }
 
@@ -115,7 +119,8 @@ public:
   void forEachState(F&& f) const
   {
     f("stress", int(stress_.extent(0)), stress_);
-    f("equivalent_plastic_strain", int(plasticStrain_.extent(0)), plasticStrain_);
+    f("history", int(history_.extent(0)), history_);
+    f("tangent", int(tangent_.extent(0)), tangent_);
     f("hourglass_force", int(hourglassForce_.extent(0)), hourglassForce_);
     f("hourglass_viscous_force", int(hourglassViscousForce_.extent(0)), hourglassViscousForce_);
     f("compression_rate", int(compression_.extent(0)), compression_);
@@ -134,7 +139,9 @@ private:
   Array<Real> mass_, referenceVolume_, referenceLength_;
 
   // history
-  Values stress_, plasticStrain_, hourglassForce_, hourglassViscousForce_, energies_;
+  Values stress_, history_, hourglassForce_, hourglassViscousForce_, energies_;
+  Values tangent_; // rows: stiffening, integrity of the law (MaterialPoint)
+  std::vector<std::string> historyNames_;
   Values compression_; // rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
 
   // of the last update

@@ -19,18 +19,19 @@ struct ElementKernelData
   BulkViscosity viscosity;
   Real lambda, shearModulus, pWaveModulus, soundSpeed; // [Pa], [m/s]
   int batches;
-
+  const Material* material;
   ConstTable<int> connectivity;
   ConstArray<Real> mass, referenceVolume, referenceLength;
-  Table<Real> stress, plasticStrain, hourglassForce, hourglassViscousForce, compression, energies;
+  Table<Real> stress, history, tangent, hourglassForce, hourglassViscousForce, compression,
+      energies;
   ElementBlock::CornerVectors cornerForce;
   Array<Real> stableStep, volume;
 };
 
-void updateTri3(const ElementKernelData& data, const Material& law);
-void updateQuad4(const ElementKernelData& data, const Material& law);
-void updateTet4(const ElementKernelData& data, const Material& law);
-void updateHex8(const ElementKernelData& data, const Material& law);
+void updateTri3(const ElementKernelData& data);
+void updateQuad4(const ElementKernelData& data);
+void updateTet4(const ElementKernelData& data);
+void updateHex8(const ElementKernelData& data);
 
 inline Lanes load(const Real* from)
 {
@@ -42,6 +43,7 @@ inline void store(const Lanes& value, Real* to)
 }
 
 /// One batch of laneCount elements: everything from positions to corner forces in one pass.
+/// Law: one of the laws itself, or LawFunction for any.
 template <ElementType type, class Law>
 struct ElementKernel
 {
@@ -70,14 +72,6 @@ struct ElementKernel
 
     SymTensorOf<Lanes> stress = loadStress(first);
     const Lanes oldViscousPressure = load(&data.compression(1, first));
-    Lanes compression = load(&data.compression(0, first));
-    Lanes dilatation = Lanes(0.0); // tr(D) dt V at n + 1/2
-    if (data.dt > 0)
-    {
-      advance(first, x, v, stress, hourglass, compression, dilatation);
-      store(compression, &data.compression(0, first));
-    }
-
     Lanes b[dim][M::gradients];
     M::volumeGradient(x, b);
     const Lanes volume = M::volume(x, b);
@@ -85,15 +79,27 @@ struct ElementKernel
     const Lanes mass = load(&data.mass(first));
     const Lanes rho = mass * inverseVolume;
     const Lanes length = characteristicLength(volume, first);
-    const Lanes lr = length * compression;
+    Motion motion;
+    MaterialPoint<Lanes> point;
+    if (data.dt > 0)
+    {
+      findMotion(x, v, motion, point);
+      const SymTensorOf<Lanes>& de = point.strainIncrement;
+      store(branchFree::positivePart(-(de.xx + de.yy + de.zz) / Lanes(data.dt)),
+            &data.compression(0, first));
+    }
+    const Lanes lr = length * load(&data.compression(0, first));
     const Lanes b1c = Lanes(data.viscosity.linear * data.soundSpeed);
     const Lanes b2lr = Lanes(data.viscosity.quadratic) * lr;
     const Lanes viscousPressure = rho * lr * (b1c + b2lr);
     store(viscousPressure, &data.compression(1, first));
     store(volume, &data.volume(first));
     if (data.dt > 0)
+    {
       addTo(data.energies, ElementEnergy::Viscous, first,
-            Lanes(-0.5) * (oldViscousPressure + viscousPressure) * dilatation);
+            Lanes(-0.5) * (oldViscousPressure + viscousPressure) * motion.dilatation);
+      advance(first, v, motion, volume, length, point, stress, hourglass);
+    }
 
     if (data.hourglass.viscosity > 0)
       for (int a = 0; a < M::hourglass; ++a)
@@ -105,7 +111,8 @@ struct ElementKernel
 
     // Tangent of the viscous pressure over the rate of compression, per density.
     const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
-    const Lanes step = stableStepOf(x, b, inverseVolume, rho, viscosity);
+    const Lanes step =
+        stableStepOf(x, b, inverseVolume, rho, viscosity, load(&data.tangent(0, first)));
     const LaneMask good = finite && volume > Lanes(0.0) && step > Lanes(0.0);
     store(choose(good, step, Lanes(0.0)), &data.stableStep(first));
   }
@@ -170,23 +177,33 @@ private:
            (Lanes(2.0) * reference + volume);
   }
 
-  /// Stress, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
-  void advance(int first, const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count],
-               SymTensorOf<Lanes>& stress, HourglassVectors& hourglass, Lanes& compression,
-               Lanes& dilatation) const
+  /// The motion from n to n + 1, seen from the positions in its middle.
+  struct Motion
   {
-    const Lanes dt(data.dt), half(0.5);
-    Lanes middle[dim][M::count], b[dim][M::gradients];
+    Lanes middle[dim][M::count]; ///< modes of the positions
+    Lanes volume;
+    Lanes dilatation; ///< tr(D) dt V at n + 1/2
+    Lanes traceG;     ///< sum of b_jI^2 over nodes and axes [1/m^2]
+  };
+
+  void findMotion(const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count], Motion& motion,
+                  MaterialPoint<Lanes>& point) const
+  {
+    const Lanes dt(data.dt), half(0.5), quarter(0.25);
+    Lanes b[dim][M::gradients];
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < M::count; ++k)
-        middle[i][k] = x[i][k] - half * dt * v[i][k];
-    M::volumeGradient(middle, b);
-    const Lanes volume = M::volume(middle, b);
-    const Lanes inverseVolume = Lanes(1.0) / volume;
+        motion.middle[i][k] = x[i][k] - half * dt * v[i][k];
+    M::volumeGradient(motion.middle, b);
+    motion.volume = M::volume(motion.middle, b);
+    const Lanes inverseVolume = Lanes(1.0) / motion.volume;
 
     // L_ij dt = dt sum_I v_iI b_jI
     const Lanes factor = Lanes(nodes) * inverseVolume * dt;
-    Lanes l[dim][dim];
+    Mat3Of<Lanes>& l = point.displacementGradient;
+    if constexpr (dim == 2)
+      for (int i = 0; i < 3; ++i)
+        l(i, 2) = l(2, i) = Lanes(0.0);
     Lanes squares(0.0);
     for (int j = 0; j < dim; ++j)
     {
@@ -196,34 +213,66 @@ private:
 #pragma GCC unroll 8
         for (int k = 1; k < M::gradients; ++k)
           sum += v[i][k] * b[j][k];
-        l[i][j] = sum * factor;
+        l(i, j) = sum * factor;
       }
 #pragma GCC unroll 8
       for (int k = 0; k < M::gradients; ++k)
         squares += b[j][k] * b[j][k];
     }
+    motion.traceG = Lanes(nodes) * squares * inverseVolume * inverseVolume;
 
-    SymTensorOf<Lanes> de;
-    de.xx = l[0][0];
-    de.yy = l[1][1];
-    de.xy = half * (l[0][1] + l[1][0]);
+    SymTensorOf<Lanes>& de = point.strainIncrement;
+    de.xx = l(0, 0);
+    de.yy = l(1, 1);
+    de.xy = half * (l(0, 1) + l(1, 0));
     de.zz = de.yz = de.zx = Lanes(0.0);
-    const Lanes quarter(0.25);
-    const SymTensorOf<Lanes> oldStress = stress;
+    Mat3Of<Lanes>& r = point.rotation;
+    if constexpr (dim == 3)
+    {
+      de.zz = l(2, 2);
+      de.yz = half * (l(1, 2) + l(2, 1));
+      de.zx = half * (l(2, 0) + l(0, 2));
+      r = hughesWinget(Vec3Of<Lanes>{quarter * (l(2, 1) - l(1, 2)), quarter * (l(0, 2) - l(2, 0)),
+                                     quarter * (l(1, 0) - l(0, 1))});
+    }
+    else
+    {
+      const Lanes a = quarter * (l(1, 0) - l(0, 1));
+      const Lanes f = Lanes(2.0) / (Lanes(1.0) + a * a);
+      const Lanes cosine = Lanes(1.0) - f * a * a, sine = f * a, zero(0.0);
+      r = {{{cosine, -sine, zero}, {sine, cosine, zero}, {zero, zero, Lanes(1.0)}}};
+    }
+    motion.dilatation = (de.xx + de.yy + de.zz) * motion.volume;
+  }
+
+  /// Stress, history, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
+  /// @param volume at n + 1; `length` of the element
+  void advance(int first, const Lanes (&v)[dim][M::count], const Motion& motion,
+               const Lanes& volume, const Lanes& length, MaterialPoint<Lanes>& point,
+               SymTensorOf<Lanes>& stress, HourglassVectors& hourglass) const
+  {
+    const SymTensorOf<Lanes>& de = point.strainIncrement;
+    const Mat3Of<Lanes>& r = point.rotation;
     HourglassVectors oldHourglass;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         oldHourglass[a][i] = hourglass[a][i];
 
+    point.dt = data.dt;
+    if (law.usesVolume)
+    {
+      const Lanes inverseReference = Lanes(1.0) / load(&data.referenceVolume(first));
+      point.volumeRatio = volume * inverseReference;
+      point.halfVolumeRatio = motion.volume * inverseReference;
+      point.energy = (load(&data.energies(int(ElementEnergy::Internal), first)) +
+                      load(&data.energies(int(ElementEnergy::Viscous), first))) *
+                     inverseReference;
+      point.size = length;
+    }
+    point.oldStress = stress;
     if constexpr (dim == 3)
     {
-      de.zz = l[2][2];
-      de.yz = half * (l[1][2] + l[2][1]);
-      de.zx = half * (l[2][0] + l[0][2]);
-      const Mat3Of<Lanes> r =
-          hughesWinget(Vec3Of<Lanes>{quarter * (l[2][1] - l[1][2]), quarter * (l[0][2] - l[2][0]),
-                                     quarter * (l[1][0] - l[0][1])});
-      stress = rotated(stress, r);
+      point.stress = rotated(stress, r);
       for (int a = 0; a < M::hourglass; ++a)
         for (int i = 0; i < 3; ++i)
           hourglass[a][i] = r.a[i][0] * oldHourglass[a][0] + r.a[i][1] * oldHourglass[a][1] +
@@ -231,53 +280,64 @@ private:
     }
     else
     {
-      const Lanes a = quarter * (l[1][0] - l[0][1]);
-      const Lanes f = Lanes(2.0) / (Lanes(1.0) + a * a);
-      const Lanes cosine = Lanes(1.0) - f * a * a, sine = f * a;
-      stress = rotatedInPlane(stress, cosine, sine);
+      const Lanes cosine = r(0, 0), sine = r(1, 0);
+      point.stress = rotatedInPlane(stress, cosine, sine);
       for (int h = 0; h < M::hourglass; ++h)
       {
         hourglass[h][0] = cosine * oldHourglass[h][0] - sine * oldHourglass[h][1];
         hourglass[h][1] = sine * oldHourglass[h][0] + cosine * oldHourglass[h][1];
       }
     }
+    for (int k = 0; k < law.historyCount; ++k)
+      point.history[k] = load(&data.history(k, first));
+    law(point);
+    for (int k = 0; k < law.historyCount; ++k)
+      store(point.history[k], &data.history(k, first));
+    storeStress(point.stress, first);
 
-    Lanes plasticStrain = load(&data.plasticStrain(0, first));
-    const Lanes dissipation = law(de, stress, plasticStrain);
-    store(plasticStrain, &data.plasticStrain(0, first));
-    storeStress(stress, first);
-
-    const Lanes strainSum = de.xx + de.yy + de.zz;
-    dilatation = strainSum * volume;
-    compression = branchFree::positivePart(-strainSum / dt);
     // The old stress as it was before the rotation: its mean with the new one belongs to n + 1/2 to
     // second order.
+    const SymTensorOf<Lanes>& oldStress = point.oldStress;
+    stress = point.stress;
     const Lanes work =
         (oldStress.xx + stress.xx) * de.xx + (oldStress.yy + stress.yy) * de.yy +
         (oldStress.zz + stress.zz) * de.zz +
         Lanes(2.0) * ((oldStress.xy + stress.xy) * de.xy + (oldStress.yz + stress.yz) * de.yz +
                       (oldStress.zx + stress.zx) * de.zx);
-    addTo(data.energies, ElementEnergy::Internal, first, half * volume * work);
-    addTo(data.energies, ElementEnergy::PlasticDissipation, first, volume * dissipation);
+    addTo(data.energies, ElementEnergy::Internal, first, Lanes(0.5) * motion.volume * work);
+    addTo(data.energies, ElementEnergy::PlasticDissipation, first,
+          motion.volume * point.dissipation);
 
     if constexpr (hasHourglass)
-      advanceHourglass(first, middle, v, l, volume,
-                       Lanes(nodes) * squares * inverseVolume * inverseVolume, oldHourglass,
-                       hourglass);
+    {
+      // What a damaged element loses of its hourglass stiffness goes with the forces in it.
+      if (law.changesTangent)
+      {
+        const Lanes kept = point.integrity / load(&data.tangent(1, first));
+        for (int a = 0; a < M::hourglass; ++a)
+          for (int i = 0; i < dim; ++i)
+            hourglass[a][i] *= kept;
+      }
+      advanceHourglass(first, motion, point, v, oldHourglass, hourglass);
+    }
+    if (law.changesTangent)
+    {
+      store(point.stiffening, &data.tangent(0, first));
+      store(point.integrity, &data.tangent(1, first));
+    }
   }
 
   /// Hourglass forces, already turned with the element, from n to n + 1, and their work.
-  /// @param l velocity gradient times dt
-  /// @param traceG sum of b_jI^2 over nodes and axes [1/m^2]
-  void advanceHourglass(int first, const Lanes (&middle)[dim][M::count],
-                        const Lanes (&v)[dim][M::count], const Lanes (&l)[dim][dim],
-                        const Lanes& volume, const Lanes& traceG,
-                        const HourglassVectors& oldHourglass, HourglassVectors& hourglass) const
+  void advanceHourglass(int first, const Motion& motion, const MaterialPoint<Lanes>& point,
+                        const Lanes (&v)[dim][M::count], const HourglassVectors& oldHourglass,
+                        HourglassVectors& hourglass) const
   {
     const Lanes dt(data.dt), half(0.5);
+    const Lanes &volume = motion.volume, &traceG = motion.traceG;
     // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
-    const Lanes stiffness =
-        Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume * traceG;
+    const Lanes stiffness = point.integrity *
+                            Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume *
+                            traceG;
     HourglassVectors increment; // q dt [m]
     Lanes hourglassWork(0.0);
     for (int a = 0; a < M::hourglass; ++a)
@@ -285,7 +345,7 @@ private:
       {
         Lanes sum = dt * v[i][dim + a];
         for (int j = 0; j < dim; ++j)
-          sum -= middle[j][dim + a] * l[i][j];
+          sum -= motion.middle[j][dim + a] * point.displacementGradient(i, j);
         increment[a][i] = sum;
         hourglass[a][i] += stiffness * sum;
         store(hourglass[a][i], &data.hourglassForce(a * dim + i, first));
@@ -376,7 +436,8 @@ private:
   }
 
   Lanes stableStepOf(const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][M::gradients],
-                     const Lanes& inverseVolume, const Lanes& rho, const Lanes& viscosity) const
+                     const Lanes& inverseVolume, const Lanes& rho, const Lanes& viscosity,
+                     const Lanes& stiffening) const
   {
     // g_jk = sum_I b_jI b_kI
     const Lanes scale = Lanes(nodes) * inverseVolume * inverseVolume;
@@ -409,7 +470,7 @@ private:
       fastest = fastestStrainMode(trace, g[0][0] * g[1][1] - g[0][1] * g[0][1], c);
     }
     const Lanes perMass = Lanes(nodes) / rho;
-    const Lanes strain = perMass * Lanes(2 * data.shearModulus) * fastest;
+    const Lanes strain = stiffening * perMass * Lanes(2 * data.shearModulus) * fastest;
     Lanes damping = perMass * rho * viscosity * trace;
 
     // Hourglass: squared lengths of gamma_a, and b_j.gamma_a, which vanishes for parallelepipeds.
@@ -434,7 +495,7 @@ private:
     const Lanes perGamma =
         Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * trace * perMass;
     const Lanes coupling =
-        perMass * Lanes(dim * lambda + 2 * data.shearModulus) * perGamma * products;
+        stiffening * perMass * Lanes(dim * lambda + 2 * data.shearModulus) * perGamma * products;
     if (data.hourglass.viscosity > 0)
       damping += Lanes(2.0 * nodes * data.hourglass.viscosity) *
                  stdx::sqrt(perMass * Lanes(data.pWaveModulus) * trace) * lengths;
@@ -442,15 +503,20 @@ private:
   }
 };
 
+/// The commonest laws become part of the kernel; the others are called once per batch.
 template <ElementType type>
-void updateElements(const ElementKernelData& data, const Material& material)
+void updateElements(const ElementKernelData& data)
 {
-  std::visit(
-      [&](const auto& law)
-      {
-        using Law = std::decay_t<decltype(law)>;
-        parallelFor("coplane::element::update", data.batches, ElementKernel<type, Law>{data, law});
-      },
-      material);
+  const auto run = [&](const auto& law)
+  {
+    using Law = std::decay_t<decltype(law)>;
+    parallelFor("coplane::element::update", data.batches, ElementKernel<type, Law>{data, law});
+  };
+  if (const auto* elastic = std::get_if<LinearElastic>(data.material))
+    run(*elastic);
+  else if (const auto* j2 = std::get_if<J2Plasticity>(data.material))
+    run(*j2);
+  else
+    run(lawFunction(*data.material));
 }
 } // namespace coplane

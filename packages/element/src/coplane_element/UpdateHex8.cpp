@@ -2,8 +2,8 @@
 
 namespace coplane
 {
-void updateHex8(const ElementKernelData& data, const Material& law)
+void updateHex8(const ElementKernelData& data)
 {
-  updateElements<ElementType::Hex8>(data, law);
+  updateElements<ElementType::Hex8>(data);
 }
 } // namespace coplane

@@ -2,8 +2,8 @@
 
 namespace coplane
 {
-void updateQuad4(const ElementKernelData& data, const Material& law)
+void updateQuad4(const ElementKernelData& data)
 {
-  updateElements<ElementType::Quad4>(data, law);
+  updateElements<ElementType::Quad4>(data);
 }
 } // namespace coplane

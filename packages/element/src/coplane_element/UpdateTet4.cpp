@@ -2,8 +2,8 @@
 
 namespace coplane
 {
-void updateTet4(const ElementKernelData& data, const Material& law)
+void updateTet4(const ElementKernelData& data)
 {
-  updateElements<ElementType::Tet4>(data, law);
+  updateElements<ElementType::Tet4>(data);
 }
 } // namespace coplane

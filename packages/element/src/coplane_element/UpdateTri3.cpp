@@ -2,8 +2,8 @@
 
 namespace coplane
 {
-void updateTri3(const ElementKernelData& data, const Material& law)
+void updateTri3(const ElementKernelData& data)
 {
-  updateElements<ElementType::Tri3>(data, law);
+  updateElements<ElementType::Tri3>(data);
 }
 } // namespace coplane

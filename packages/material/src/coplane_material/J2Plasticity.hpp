@@ -1,7 +1,5 @@
 #pragma once
 
-#include <coplane_core/Real.hpp>
-#include <coplane_core/Vec3.hpp>
 #include <coplane_material/BranchFree.hpp>
 #include <coplane_material/LinearElastic.hpp>
 
@@ -17,14 +15,17 @@ struct J2Plasticity
   Real hardeningModulus; ///< H, slope of the yield stress over equivalent plastic strain [Pa]; not
                          ///< negative
 
-  /// As LinearElastic; updates the equivalent plastic strain [-] too.
-  /// @return plastic dissipation of the increment per volume, Y at its end times the increment of
-  /// plastic strain [J/m^3]
+  static constexpr int historyCount = 1;
+  static constexpr const char* historyNames[] = {"equivalent_plastic_strain"};
+  static constexpr bool usesVolume = false, changesTangent = false;
+
+  /// Dissipation: Y at the end of the step times the increment of plastic strain.
   template <class T>
-  KOKKOS_INLINE_FUNCTION T operator()(const SymTensorOf<T>& strainIncrement, SymTensorOf<T>& stress,
-                                      T& equivalentPlasticStrain) const
+  KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
   {
-    elastic.addElasticIncrement(strainIncrement, stress);
+    SymTensorOf<T>& stress = point.stress;
+    T& equivalentPlasticStrain = point.history[0];
+    elastic.addElasticIncrement(point.strainIncrement, stress);
 
     const T mean = T(1.0 / 3.0) * (stress.xx + stress.yy + stress.zz);
     const T sxx = stress.xx - mean, syy = stress.yy - mean, szz = stress.zz - mean;
@@ -48,7 +49,7 @@ struct J2Plasticity
     stress.yz -= reduction * stress.yz;
     stress.zx -= reduction * stress.zx;
     equivalentPlasticStrain += plasticStrain;
-    return (yield + T(hardeningModulus) * plasticStrain) * plasticStrain;
+    point.dissipation = (yield + T(hardeningModulus) * plasticStrain) * plasticStrain;
   }
 };
 } // namespace coplane

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <coplane_core/Real.hpp>
-#include <coplane_core/Vec3.hpp>
+#include <coplane_material/MaterialPoint.hpp>
 
 namespace coplane
 {
@@ -12,19 +11,17 @@ struct LinearElastic
   Real bulkModulus;  ///< K [Pa]
   Real shearModulus; ///< G [Pa]
 
-  /// Adds the answer to a strain increment to a stress that the caller has already rotated. T is
-  /// Real or Lanes.
-  /// @param strainIncrement D dt, tensor shear components (half the engineering shear) [-]
-  /// @param stress tension positive [Pa]; in and out
-  /// @return plastic dissipation of the increment per volume [J/m^3]: none
+  static constexpr int historyCount = 0;
+  static constexpr bool usesVolume = false, changesTangent = false;
+
   template <class T>
-  KOKKOS_INLINE_FUNCTION T operator()(const SymTensorOf<T>& strainIncrement, SymTensorOf<T>& stress,
-                                      T& /*equivalentPlasticStrain*/) const
+  KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
   {
-    addElasticIncrement(strainIncrement, stress);
-    return T(0.0);
+    addElasticIncrement(point.strainIncrement, point.stress);
   }
 
+  /// Adds the answer to a strain increment (tensor shear components) to a stress that has been
+  /// rotated already.
   template <class T>
   KOKKOS_INLINE_FUNCTION void addElasticIncrement(const SymTensorOf<T>& de,
                                                   SymTensorOf<T>& stress) const

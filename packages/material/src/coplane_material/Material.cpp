@@ -2,6 +2,8 @@
 #include <coplane_material/Material.hpp>
 
 #include <cmath>
+#include <iterator>
+#include <type_traits>
 
 namespace coplane
 {
@@ -40,11 +42,53 @@ J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real densit
   return {makeLinearElastic(youngsModulus, poissonRatio, density), yieldStress, hardeningModulus};
 }
 
+namespace
+{
+template <class Law>
+void advanceLanes(const void* law, MaterialPoint<Lanes>& point)
+{
+  (*static_cast<const Law*>(law))(point);
+}
+} // namespace
+
+std::vector<std::string> historyNames(const Material& material)
+{
+  return std::visit(
+      [](const auto& law)
+      {
+        using Law = std::decay_t<decltype(law)>;
+        static_assert(Law::historyCount <= maximumHistory);
+        std::vector<std::string> names;
+        if constexpr (Law::historyCount > 0)
+          names.assign(std::begin(Law::historyNames), std::end(Law::historyNames));
+        return names;
+      },
+      material);
+}
+
+LawFunction lawFunction(const Material& material)
+{
+  return std::visit(
+      [](const auto& law)
+      {
+        using Law = std::decay_t<decltype(law)>;
+        return LawFunction{&law, &advanceLanes<Law>, Law::historyCount, Law::usesVolume,
+                           Law::changesTangent};
+      },
+      material);
+}
+
 const LinearElastic& elasticity(const Material& material)
 {
-  if (const auto* law = std::get_if<LinearElastic>(&material))
-    return *law;
-  return std::get<J2Plasticity>(material).elastic;
+  return std::visit(
+      [](const auto& law) -> const LinearElastic&
+      {
+        if constexpr (std::is_same_v<std::decay_t<decltype(law)>, LinearElastic>)
+          return law;
+        else
+          return law.elastic;
+      },
+      material);
 }
 
 Real soundSpeed(const Material& material)

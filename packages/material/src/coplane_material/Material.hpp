@@ -4,11 +4,15 @@
 #include <coplane_material/J2Plasticity.hpp>
 #include <coplane_material/LinearElastic.hpp>
 
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace coplane
 {
-/// Every law of the continuum. Chosen once, on the host; kernels are templates on the law.
+/// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
+/// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
+/// with the same bits in every lane.
 using Material = std::variant<LinearElastic, J2Plasticity>;
 
 /// @param youngsModulus E [Pa], positive
@@ -20,6 +24,23 @@ LinearElastic makeLinearElastic(Real youngsModulus, Real poissonRatio, Real dens
 /// @param hardeningModulus [Pa], not negative
 J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real density, Real yieldStress,
                               Real hardeningModulus);
+
+/// Names of the law's history variables, in their order.
+std::vector<std::string> historyNames(const Material& material);
+
+/// A law as kernels call it: one function per law, whatever the element.
+struct LawFunction
+{
+  const void* law = nullptr;
+  void (*advanceLanes)(const void*, MaterialPoint<Lanes>&) = nullptr;
+  int historyCount = 0;
+  bool usesVolume = false;     ///< reads volume ratios, energy and size of the point
+  bool changesTangent = false; ///< writes stiffening and integrity
+
+  void operator()(MaterialPoint<Lanes>& point) const { advanceLanes(law, point); }
+};
+/// The function refers to the material, which has to stay where it is.
+LawFunction lawFunction(const Material& material);
 
 /// The elastic part, which every law has.
 const LinearElastic& elasticity(const Material& material);

@@ -177,7 +177,7 @@ void ResultsObserver::writeElements(const Solver& solver)
     const RankMesh::Block& part = mesh.blocks[b];
     const ElementBlock& block = solver.blocks()[b];
     const auto stress = block.stress();
-    const auto plasticStrain = block.equivalentPlasticStrain();
+    const int plasticStrain = block.historyRow("equivalent_plastic_strain");
     for (int e = 0; e < part.elements(); ++e)
     {
       if (!part.owned[e])
@@ -186,7 +186,7 @@ void ResultsObserver::writeElements(const Solver& solver)
         mine(row, c) = stress(c, e);
       mine(row, 6) = block.vonMises(e);
       mine(row, 7) = block.pressure(e);
-      mine(row, 8) = plasticStrain(e);
+      mine(row, 8) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
       mine(row, 9) = block.density(e);
       mine(row, 10) = 1; // alive: no element dies yet
       ++row;
