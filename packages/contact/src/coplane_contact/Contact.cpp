@@ -1,4 +1,5 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/Inheritance.hpp>
 #include <coplane_core/Timers.hpp>
 
 #include <algorithm>
@@ -10,63 +11,6 @@ namespace
 std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
 {
   return {plane.faceId[0], plane.faceId[1]};
-}
-
-/// Planes that carry something, and joints that have just been closed.
-bool isDonor(const Plane& plane)
-{
-  return plane.born && (plane.area > 0 || (plane.declared && plane.fresh));
-}
-
-Donor donorOf(const Plane& plane)
-{
-  Donor donor;
-  donor.faceId[0] = plane.faceId[0];
-  donor.faceId[1] = plane.faceId[1];
-  donor.joint = plane.joint;
-  donor.normal = plane.normal;
-  donor.area = plane.area > 0 ? plane.area : plane.overlap;
-  donor.offset = plane.offset;
-  donor.maximumClosure = plane.history.maximumClosure;
-  donor.closure = plane.closure;
-  donor.shearTraction = plane.history.shearTraction;
-  donor.slip = plane.history.slip;
-  return donor;
-}
-
-/// Means of the donors, weighted by their areas and summed in the order of their keys. Returns
-/// whether there were any that fit.
-bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
-{
-  const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
-  std::sort(donors.begin(), donors.end(),
-            [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
-  Real area = 0;
-  Donor mean;
-  for (std::size_t i = 0; i < donors.size(); ++i)
-  {
-    const Donor& donor = donors[i];
-    if (donor.joint != plane.joint || !(dot(donor.normal, normal) > 0.9) ||
-        (i > 0 && key(donors[i - 1]) == key(donor)))
-      continue;
-    area += donor.area;
-    mean.offset += donor.area * donor.offset;
-    mean.maximumClosure += donor.area * donor.maximumClosure;
-    mean.closure += donor.area * donor.closure;
-    mean.slip += donor.area * donor.slip;
-    mean.shearTraction +=
-        donor.area * turnIntoPlane(donor.shearTraction, donor.normal, normal, Vec3{}, 0);
-  }
-  if (!(area > 0))
-    return false;
-  plane.inherited = true;
-  plane.offset = mean.offset / area;
-  plane.history.maximumClosure = mean.maximumClosure / area;
-  plane.closure = mean.closure / area;
-  plane.history.slip = mean.slip / area;
-  plane.history.shearTraction = (1 / area) * mean.shearTraction;
-  plane.normal = normal;
-  return true;
 }
 
 /// Brings what FaceLoad::add() reads of a plane into the cache.
@@ -88,12 +32,6 @@ void makeDormant(Plane& plane)
   plane.tooDeep = false;
   plane.state = PlaneState::Open;
   plane.leads = false;
-}
-
-Vec3 traction(const SymTensor& s, const Vec3& n)
-{
-  return {s.xx * n.x + s.xy * n.y + s.zx * n.z, s.xy * n.x + s.yy * n.y + s.yz * n.z,
-          s.zx * n.x + s.yz * n.y + s.zz * n.z};
 }
 } // namespace
 
@@ -474,83 +412,6 @@ void Contact::buildLists(int ownedNodes)
   facesEntry_ = Array<std::int32_t>("coplane::contact::facesEntry", facesStart_(ownedNodes));
   next.assign(facesStart_.data(), facesStart_.data() + ownedNodes);
   forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
-}
-
-void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
-{
-  const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
-  {
-    constexpr auto weights = ContactOptions::Weights::Centroid;
-    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
-                                                    stepC_projectOntoPlane<2>(trial, b, 0), 0,
-                                                    AreaInUse::Bonded, weights)
-                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
-                                                    stepC_projectOntoPlane<3>(trial, b, 0), 0,
-                                                    AreaInUse::Bonded, weights);
-  };
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    Plane& plane = planes_(p);
-    if (plane.face[0] < 0)
-      continue;
-    const Face& faceA = faces_[plane.face[0]];
-    const Face& faceB = faces_[plane.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared || (classic() && !plane.leads))
-      continue;
-    const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
-    const HalfStepFace a =
-        dimension_ == 2 ? stepA_halfStepFace<2>(nodesA, 0) : stepA_halfStepFace<3>(nodesA, 0);
-    const HalfStepFace b =
-        dimension_ == 2 ? stepA_halfStepFace<2>(nodesB, 0) : stepA_halfStepFace<3>(nodesB, 0);
-    TrialPlane trial =
-        dimension_ == 2 ? stepB_trialPointOfContact<2>(a, b) : stepB_trialPointOfContact<3>(a, b);
-    if (!trial.opposed)
-      continue;
-    ClassicPlane between;
-    if (classic())
-    {
-      between =
-          planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
-      trial = trialPlaneOf(between);
-    }
-    const Patch patch = patchOf(trial, a, b);
-    if (!(patch.area > options_.areaMin * std::min(a.area, b.area)))
-      continue;
-    plane.declared = true;
-    plane.born = true;
-    plane.state = PlaneState::Open;
-    plane.normal = trial.normal;
-    plane.overlap = patch.overlap;
-    plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    plane.gap = classic() ? between.gap
-                          : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
-                                                  weighted(patch.centroidWeights[0], a.x, a.count));
-    // The joint is in equilibrium with the initial stress: closure and shear traction that carry
-    // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
-    SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
-    const SymTensor other = stressOfBlock(faceB.block, plane.pointOfContact);
-    stress = {0.5 * (stress.xx + other.xx), 0.5 * (stress.yy + other.yy),
-              0.5 * (stress.zz + other.zz), 0.5 * (stress.xy + other.xy),
-              0.5 * (stress.yz + other.yz), 0.5 * (stress.zx + other.zx)};
-    const Vec3 t = traction(stress, trial.normal);
-    const Real compression = -dot(t, trial.normal);
-    const JointLaw& law = lawOf(plane);
-    plane.history.bonded = law.cohesive();
-    const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
-                         : plane.history.bonded ? compression / plane.fit.normalStiffness
-                                                : 0;
-    plane.history.maximumClosure = std::max(closure, 0.0);
-    plane.offset = plane.gap + closure;
-    plane.closure = closure;
-    if (compression > 0 || plane.history.bonded)
-    {
-      plane.history.shearTraction = Vec3{} - (t + compression * trial.normal);
-      plane.area = patch.area;
-    }
-    // The energy that the initial stress has put into the joint.
-    plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
-    plane.work = plane.stored(law) + plane.hysteresisWork;
-  }
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,

@@ -1,0 +1,92 @@
+#include <coplane_contact/Contact.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+namespace
+{
+Vec3 traction(const SymTensor& s, const Vec3& n)
+{
+  return {s.xx * n.x + s.xy * n.y + s.zx * n.z, s.xy * n.x + s.yy * n.y + s.yz * n.z,
+          s.zx * n.x + s.yz * n.y + s.zz * n.z};
+}
+} // namespace
+
+void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
+{
+  const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
+  {
+    constexpr auto weights = ContactOptions::Weights::Centroid;
+    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
+                                                    stepC_projectOntoPlane<2>(trial, b, 0), 0,
+                                                    AreaInUse::Bonded, weights)
+                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
+                                                    stepC_projectOntoPlane<3>(trial, b, 0), 0,
+                                                    AreaInUse::Bonded, weights);
+  };
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  {
+    Plane& plane = planes_(p);
+    if (plane.face[0] < 0)
+      continue;
+    const Face& faceA = faces_[plane.face[0]];
+    const Face& faceB = faces_[plane.face[1]];
+    if (!rules_.between(faceA.group, faceB.group).declared || (classic() && !plane.leads))
+      continue;
+    const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
+    const HalfStepFace a =
+        dimension_ == 2 ? stepA_halfStepFace<2>(nodesA, 0) : stepA_halfStepFace<3>(nodesA, 0);
+    const HalfStepFace b =
+        dimension_ == 2 ? stepA_halfStepFace<2>(nodesB, 0) : stepA_halfStepFace<3>(nodesB, 0);
+    TrialPlane trial =
+        dimension_ == 2 ? stepB_trialPointOfContact<2>(a, b) : stepB_trialPointOfContact<3>(a, b);
+    if (!trial.opposed)
+      continue;
+    ClassicPlane between;
+    if (classic())
+    {
+      between =
+          planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
+      trial = trialPlaneOf(between);
+    }
+    const Patch patch = patchOf(trial, a, b);
+    if (!(patch.area > options_.areaMin * std::min(a.area, b.area)))
+      continue;
+    plane.declared = true;
+    plane.born = true;
+    plane.state = PlaneState::Open;
+    plane.normal = trial.normal;
+    plane.overlap = patch.overlap;
+    plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
+    plane.gap = classic() ? between.gap
+                          : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
+                                                  weighted(patch.centroidWeights[0], a.x, a.count));
+    // The joint is in equilibrium with the initial stress: closure and shear traction that carry
+    // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
+    SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
+    const SymTensor other = stressOfBlock(faceB.block, plane.pointOfContact);
+    stress = {0.5 * (stress.xx + other.xx), 0.5 * (stress.yy + other.yy),
+              0.5 * (stress.zz + other.zz), 0.5 * (stress.xy + other.xy),
+              0.5 * (stress.yz + other.yz), 0.5 * (stress.zx + other.zx)};
+    const Vec3 t = traction(stress, trial.normal);
+    const Real compression = -dot(t, trial.normal);
+    const JointLaw& law = lawOf(plane);
+    plane.history.bonded = law.cohesive();
+    const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
+                         : plane.history.bonded ? compression / plane.fit.normalStiffness
+                                                : 0;
+    plane.history.maximumClosure = std::max(closure, 0.0);
+    plane.offset = plane.gap + closure;
+    plane.closure = closure;
+    if (compression > 0 || plane.history.bonded)
+    {
+      plane.history.shearTraction = Vec3{} - (t + compression * trial.normal);
+      plane.area = patch.area;
+    }
+    // The energy that the initial stress has put into the joint.
+    plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
+    plane.work = plane.stored(law) + plane.hysteresisWork;
+  }
+}
+} // namespace coplane

@@ -1,0 +1,61 @@
+#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/Inheritance.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+bool isDonor(const Plane& plane)
+{
+  return plane.born && (plane.area > 0 || (plane.declared && plane.fresh));
+}
+
+Donor donorOf(const Plane& plane)
+{
+  Donor donor;
+  donor.faceId[0] = plane.faceId[0];
+  donor.faceId[1] = plane.faceId[1];
+  donor.joint = plane.joint;
+  donor.normal = plane.normal;
+  donor.area = plane.area > 0 ? plane.area : plane.overlap;
+  donor.offset = plane.offset;
+  donor.maximumClosure = plane.history.maximumClosure;
+  donor.closure = plane.closure;
+  donor.shearTraction = plane.history.shearTraction;
+  donor.slip = plane.history.slip;
+  return donor;
+}
+
+bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
+{
+  const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
+  std::sort(donors.begin(), donors.end(),
+            [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
+  Real area = 0;
+  Donor mean;
+  for (std::size_t i = 0; i < donors.size(); ++i)
+  {
+    const Donor& donor = donors[i];
+    if (donor.joint != plane.joint || !(dot(donor.normal, normal) > 0.9) ||
+        (i > 0 && key(donors[i - 1]) == key(donor)))
+      continue;
+    area += donor.area;
+    mean.offset += donor.area * donor.offset;
+    mean.maximumClosure += donor.area * donor.maximumClosure;
+    mean.closure += donor.area * donor.closure;
+    mean.slip += donor.area * donor.slip;
+    mean.shearTraction +=
+        donor.area * turnIntoPlane(donor.shearTraction, donor.normal, normal, Vec3{}, 0);
+  }
+  if (!(area > 0))
+    return false;
+  plane.inherited = true;
+  plane.offset = mean.offset / area;
+  plane.history.maximumClosure = mean.maximumClosure / area;
+  plane.closure = mean.closure / area;
+  plane.history.slip = mean.slip / area;
+  plane.history.shearTraction = (1 / area) * mean.shearTraction;
+  plane.normal = normal;
+  return true;
+}
+} // namespace coplane
