@@ -50,6 +50,19 @@ ContactOptions optionsOf(const ContactCard& card)
 
 /// Fills the table of rules and the groups of faces. Side sets that contact.pairs names split the
 /// faces of a block into groups; all ranks find the same ones, because they look at the whole mesh.
+/// A declared pair as messages name it.
+std::string nameOf(const ContactPairCard& card, std::size_t item)
+{
+  const std::string sides =
+      !card.jointSet.empty() ? "joint set " + card.jointSet
+      : !card.sideSets[0].empty()
+          ? fmt::format("side sets {} and {}", card.sideSets[0], card.sideSets[1])
+      : !card.materials[0].empty()
+          ? fmt::format("materials {} and {}", card.materials[0], card.materials[1])
+          : fmt::format("blocks {} and {}", card.blocks[0], card.blocks[1]);
+  return fmt::format("contact.pairs.{} ({})", item, sides);
+}
+
 void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
 {
   ContactRules& rules = model.contactRules;
@@ -103,6 +116,10 @@ void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
     model.faceGroups.emplace_back(id, place->second);
   }
 
+  for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
+    if (deck.contact.pairs[i].declared)
+      rules.declaredItems.emplace_back(int(i), nameOf(deck.contact.pairs[i], i));
+
   rules.groups = int(groups.size());
   ContactRule general;
   general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
@@ -116,6 +133,7 @@ void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
           rule.joint = jointIndex(card->joint);
         rule.declared = card->declared;
         rule.excluded = card->excluded;
+        rule.item = int(card - deck.contact.pairs.data());
       }
 }
 
@@ -267,6 +285,7 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
                      [&](const MaterialCard& m) { return m.name == card->material; });
     BlockSetup setup;
     setup.name = block.name;
+    setup.materialName = card->material;
     setup.material = materialOf(*material);
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
     for (const InitialCard& initial : deck.initial)

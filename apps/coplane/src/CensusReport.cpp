@@ -40,6 +40,12 @@ void reportCensus(const Contact& contact)
   const ContactCensus c = census(contact);
   logInfo("contact: skin {:.4e} m; {} candidate pairs; planes: {} open, {} stick, {} slip",
           contact.skin(), c.pairs, c.open, c.stick, c.slip);
+  for (const std::string& item : c.itemsWithoutPartner)
+    logWarning("a declared joint without planes",
+               fmt::format("{} declares a joint that is closed at the start, but no faces of its "
+                           "two sides overlap within the skin of {:.4e} m. Check the names, the "
+                           "gap in the mesh, and contact.skin.",
+                           item, contact.skin()));
   if (c.pairs == 0)
     return;
   logInfo("  normal stiffness of pairs: {:.4e} to {:.4e} Pa/m", c.leastStiffness,

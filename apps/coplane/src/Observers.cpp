@@ -79,7 +79,7 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(
         comm, TablesOptions{withoutExtension(deck.history.file), deck.history.every,
-                            wants("blocks"), wants("pairs")}));
+                            wants("blocks"), wants("pairs"), wants("materials")}));
 
   if (!deck.output.results.empty())
   {

@@ -67,11 +67,14 @@ ContactRules rules()
   rules.groups = 4;
   rules.table.resize(16);
   rules.table[15].declared = true;
+  rules.table[15].item = 0;
+  rules.declaredItems = {{0, "nowhere"}, {1, "first"}, {2, "second"}};
   for (const int other : {1, 2})
     for (const int i : {other, 4 * other})
     {
       rules.table[i].joint = other - 1;
       rules.table[i].declared = true;
+      rules.table[i].item = other;
     }
   return rules;
 }
@@ -254,6 +257,7 @@ TEST_F(Tables, censusKnowsTheGapsThatJointsAbsorb)
   EXPECT_EQ(found.overlapping, 0);
   EXPECT_EQ(found.lonelyFaces, 1);
   EXPECT_EQ(found.firstLonelyFaces, std::vector<GlobalId>{lonely});
+  EXPECT_EQ(found.itemsWithoutPartner, std::vector<std::string>{"nowhere"});
   ASSERT_EQ(found.joints.count, 2);
   EXPECT_NEAR(found.joints.quantiles[0], 0, 4 * epsilon);
   EXPECT_NEAR(found.joints.quantiles[6], lift, 4 * epsilon);

@@ -32,7 +32,7 @@ void run(const Comm& comm, const std::string& base)
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
   HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));
-  observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true}));
+  observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true, true}));
   observers.add(std::make_unique<ProgressObserver>(ProgressOptions{0}));
   observers.add(std::make_unique<RunRecord>(
       comm, RunRecordOptions{base + ".run.json", "two cubes", "test", "a.yaml", "abc", "a.g"}));
@@ -94,14 +94,15 @@ struct CsvFile
         lines.push_back(cells);
     }
   }
-  Real number(int line, const std::string& name) const
+  std::string text(int line, const std::string& name) const
   {
     for (std::size_t c = 0; c < names.size(); ++c)
       if (names[c] == name)
-        return std::stod(lines[line][c]);
+        return lines[line][c];
     ADD_FAILURE() << "no column " << name;
-    return 0;
+    return "0";
   }
+  Real number(int line, const std::string& name) const { return std::stod(text(line, name)); }
 };
 
 /// All values of all variables of an Exodus file, by kind, variable and step.
@@ -214,7 +215,7 @@ TEST_F(Files, historyIsTheSameTextOnAnyNumberOfRanks)
 
 TEST_F(Files, tablesAreTheSameTextOnAnyNumberOfRanks)
 {
-  for (const char* table : {"_blocks.csv", "_pairs.csv"})
+  for (const char* table : {"_blocks.csv", "_pairs.csv", "_materials.csv"})
   {
     const std::string all = contentOf(file(std::string("all") + table));
     EXPECT_FALSE(all.empty());
@@ -225,13 +226,23 @@ TEST_F(Files, tablesAreTheSameTextOnAnyNumberOfRanks)
 TEST_F(Files, tablesAddUpToTheHistory)
 {
   const CsvFile history(file("all.csv"));
-  const CsvFile blocks(file("all_blocks.csv")), pairs(file("all_pairs.csv"));
+  const CsvFile blocks(file("all_blocks.csv")), pairs(file("all_pairs.csv")),
+      materials(file("all_materials.csv"));
   ASSERT_EQ(blocks.lines.size(), 2 * history.lines.size());
   std::map<int, Real> kinetic, internal, friction, stored;
   for (int line = 0; line < int(blocks.lines.size()); ++line)
   {
     kinetic[int(blocks.number(line, "cycle"))] += blocks.number(line, "kinetic[J]");
     internal[int(blocks.number(line, "cycle"))] += blocks.number(line, "internal[J]");
+  }
+  // Both cubes are of one material: one line, with what all pairs of blocks have together.
+  std::map<int, Real> frictionOfMaterial;
+  for (int line = 0; line < int(materials.lines.size()); ++line)
+  {
+    EXPECT_EQ(materials.text(line, "material_a"), "stone");
+    EXPECT_EQ(frictionOfMaterial.count(int(materials.number(line, "cycle"))), 0u);
+    frictionOfMaterial[int(materials.number(line, "cycle"))] =
+        materials.number(line, "friction[J]");
   }
   for (int line = 0; line < int(pairs.lines.size()); ++line)
   {
@@ -245,6 +256,7 @@ TEST_F(Files, tablesAddUpToTheHistory)
     EXPECT_NEAR(kinetic[cycle], history.number(cycle, "kinetic[J]"), roundings);
     EXPECT_NEAR(internal[cycle], history.number(cycle, "internal[J]"), roundings);
     EXPECT_NEAR(friction[cycle], history.number(cycle, "contact_friction[J]"), roundings);
+    EXPECT_NEAR(frictionOfMaterial[cycle], friction[cycle], roundings);
     EXPECT_NEAR(stored[cycle], history.number(cycle, "contact_stored[J]"), roundings);
   }
   EXPECT_GT(history.number(cycles, "contact_friction[J]"), 0);

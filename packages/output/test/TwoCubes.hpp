@@ -79,6 +79,7 @@ inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
   for (int b = 0; b < 2; ++b)
   {
     model.blocks[b].name = mesh.blocks[b].name;
+    model.blocks[b].materialName = "stone";
     model.blocks[b].material = makeLinearElastic(1e9, 0.25, 1000);
   }
   model.blocks[1].velocity = {0.5, 0, -1};

@@ -148,6 +148,18 @@ ContactCensus census(const Contact& contact)
         gaps.push_back({pair, -plane.gap});
     }
   }
+  const auto& items = contact.rules().declaredItems;
+  n.resize(Counts + items.size());
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+    {
+      const Plane& plane = contact.planes()(p);
+      n[Counts + i] += plane.declared && plane.countedHere && plane.face[0] >= 0 &&
+                       contact.rules()
+                               .between(contact.faces()[plane.face[0]].group,
+                                        contact.faces()[plane.face[1]].group)
+                               .item == items[i].first;
+    }
   contact.comm().sum(n);
   contact.comm().max(stiffness);
   ContactCensus census;
@@ -166,6 +178,9 @@ ContactCensus census(const Contact& contact)
   census.overlaps = lengthsOf(std::move(overlaps), contact.comm());
   census.gaps = lengthsOf(std::move(gaps), contact.comm());
   countLonelyFaces(contact, declared, closed, census);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (n[Counts + i] == 0)
+      census.itemsWithoutPartner.push_back(items[i].second);
   return census;
 }
 } // namespace coplane

@@ -3,6 +3,7 @@
 #include <coplane_contact/Contact.hpp>
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace coplane
@@ -43,6 +44,9 @@ struct ContactCensus
   /// declared joint, that no plane closes.
   std::int64_t lonelyFaces = 0;
   std::vector<GlobalId> firstLonelyFaces; ///< the lowest ids, at most ten
+
+  /// Names of the items that declare joints of which not one is closed.
+  std::vector<std::string> itemsWithoutPartner;
 
   Real leastStiffness = infinity, largestStiffness = 0; ///< initial normal stiffness [Pa/m]
 };

@@ -26,7 +26,8 @@ struct StressGradient
 /// What an element block is made of and how it starts.
 struct BlockSetup
 {
-  std::string name; ///< for messages
+  std::string name;         ///< for messages
+  std::string materialName; ///< for tables; materials with one name are one
   Material material;
   HourglassOptions hourglass;
   Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start

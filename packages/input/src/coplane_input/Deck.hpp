@@ -179,7 +179,7 @@ struct HistoryCard
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<ProbeCard> probes;
   std::vector<std::string> joints; ///< names of joint cards; "*": all
-  std::vector<std::string> tables; ///< blocks | pairs
+  std::vector<std::string> tables; ///< blocks | pairs | materials
 };
 
 struct Deck

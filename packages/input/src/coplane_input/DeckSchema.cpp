@@ -299,46 +299,48 @@ Key output()
 
 Key history()
 {
-  return group("history", &Deck::history,
-               {
-                   text("file", &HistoryCard::file)
-                       .defaultIs("<name of the deck>.csv")
-                       .like("wall.csv")
-                       .means("CSV file, relative to the working folder"),
-                   number("every", &HistoryCard::every)
-                       .in("s")
-                       .atLeast(0)
-                       .like("1e-4")
-                       .means("interval between lines; 0: every cycle"),
-                   list("probes", &HistoryCard::probes,
-                        {
-                            text("name", &ProbeCard::name)
-                                .needed()
-                                .like("tip")
-                                .means("start of the column names; each once"),
-                            text("node_set", &ProbeCard::nodeSet)
-                                .like("tip")
-                                .means("mean motion of a node set of the mesh"),
-                            text("block", &ProbeCard::block)
-                                .like("bar")
-                                .means("mass-weighted mean motion of an element block"),
-                        })
-                       .exactlyOneOf({"node_set", "block"})
-                       .means("motions to be recorded"),
-                   bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
-                                                   copyTo)
-                       .defaultIs("[]")
-                       .like("[\"*\"]")
-                       .means("joint cards whose planes are summed up in columns: areas that are "
-                              "open, stick and slip, closure, slip, force, energies; \"*\": all"),
-                   bound<std::vector<std::string>>("tables", KeyKind::Texts, &HistoryCard::tables,
-                                                   copyTo)
-                       .oneOf({"blocks", "pairs"})
-                       .defaultIs("[]")
-                       .like("[blocks, pairs]")
-                       .means("energies by element block, and contact energies by pair of blocks, "
-                              "as CSV files <history>_blocks.csv and <history>_pairs.csv"),
-               })
+  return group(
+             "history", &Deck::history,
+             {
+                 text("file", &HistoryCard::file)
+                     .defaultIs("<name of the deck>.csv")
+                     .like("wall.csv")
+                     .means("CSV file, relative to the working folder"),
+                 number("every", &HistoryCard::every)
+                     .in("s")
+                     .atLeast(0)
+                     .like("1e-4")
+                     .means("interval between lines; 0: every cycle"),
+                 list("probes", &HistoryCard::probes,
+                      {
+                          text("name", &ProbeCard::name)
+                              .needed()
+                              .like("tip")
+                              .means("start of the column names; each once"),
+                          text("node_set", &ProbeCard::nodeSet)
+                              .like("tip")
+                              .means("mean motion of a node set of the mesh"),
+                          text("block", &ProbeCard::block)
+                              .like("bar")
+                              .means("mass-weighted mean motion of an element block"),
+                      })
+                     .exactlyOneOf({"node_set", "block"})
+                     .means("motions to be recorded"),
+                 bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
+                                                 copyTo)
+                     .defaultIs("[]")
+                     .like("[\"*\"]")
+                     .means("joint cards whose planes are summed up in columns: areas that are "
+                            "open, stick and slip, closure, slip, force, energies; \"*\": all"),
+                 bound<std::vector<std::string>>("tables", KeyKind::Texts, &HistoryCard::tables,
+                                                 copyTo)
+                     .oneOf({"blocks", "pairs", "materials"})
+                     .defaultIs("[]")
+                     .like("[blocks, pairs]")
+                     .means("energies by element block, contact energies by pair of blocks and by "
+                            "pair of materials, as CSV files <history>_blocks.csv, "
+                            "<history>_pairs.csv and <history>_materials.csv"),
+             })
       .means("energies, momenta and probes over time");
 }
 

@@ -110,6 +110,7 @@ Json censusOf(const Contact& contact)
   json["faces_without_partner"] = {
       {"count", c.lonelyFaces},
       {"first", facesOf(c.firstLonelyFaces.data(), c.firstLonelyFaces.size())}};
+  json["declared_without_partner"] = c.itemsWithoutPartner;
   if (c.pairs > 0)
     json["normal_stiffness_Pa_per_m"] = {c.leastStiffness, c.largestStiffness};
   return json;

@@ -4,14 +4,17 @@
 #include <coplane_output/TablesObserver.hpp>
 #include <coplane_output/TextFile.hpp>
 
+#include <algorithm>
 #include <cerrno>
+#include <map>
+#include <tuple>
 
 namespace coplane
 {
 TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
     : options_(std::move(options)), schedule_(OutputTimes{options_.every, {}})
 {
-  const auto open = [](std::ofstream& stream, const std::string& file, const char* header)
+  const auto open = [](std::ofstream& stream, const std::string& file, const std::string& header)
   {
     errno = 0;
     stream.open(file, std::ios::trunc);
@@ -27,10 +30,13 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
         if (options_.blocks)
           open(blocks_, options_.base + "_blocks.csv",
                "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J]");
+        const std::string terms = "joint,planes,area[m^2],work[J],stored[J],friction[J],"
+                                  "hysteresis[J],fracture[J],damping[J],remainder[J]";
         if (options_.pairs)
-          open(pairs_, options_.base + "_pairs.csv",
-               "time[s],cycle,block_a,block_b,joint,planes,area[m^2],work[J],stored[J],"
-               "friction[J],hysteresis[J],fracture[J],damping[J],remainder[J]");
+          open(pairs_, options_.base + "_pairs.csv", "time[s],cycle,block_a,block_b," + terms);
+        if (options_.materials)
+          open(materials_, options_.base + "_materials.csv",
+               "time[s],cycle,material_a,material_b," + terms);
       });
 }
 
@@ -106,23 +112,58 @@ std::string TablesObserver::blockLines(const Solver& solver) const
   return text;
 }
 
+namespace
+{
+std::string lineOf(const Solver& solver, const std::string& sideA, const std::string& sideB,
+                   const ContactTableRow& row)
+{
+  const ContactEnergy& e = row.energy;
+  std::string text =
+      fmt::format("{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle, sideA, sideB,
+                  solver.contact().rules().joints[row.kind.joint].name, row.planes);
+  for (const Real value :
+       {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture, e.damping, e.remainder()})
+    text += fmt::format(",{:.17g}", value);
+  return text + "\n";
+}
+} // namespace
+
 std::string TablesObserver::pairLines(const Solver& solver) const
 {
   std::string text;
-  if (!solver.hasContact())
-    return text;
-  for (const ContactTableRow& row : contactTable(solver.contact()))
-  {
-    const ContactEnergy& e = row.energy;
-    text += fmt::format("{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle,
-                        solver.model().blocks[row.kind.blocks[0]].name,
-                        solver.model().blocks[row.kind.blocks[1]].name,
-                        solver.contact().rules().joints[row.kind.joint].name, row.planes);
-    for (const Real value : {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture,
-                             e.damping, e.remainder()})
-      text += fmt::format(",{:.17g}", value);
-    text += "\n";
-  }
+  if (solver.hasContact())
+    for (const ContactTableRow& row : contactTable(solver.contact()))
+      text += lineOf(solver, solver.model().blocks[row.kind.blocks[0]].name,
+                     solver.model().blocks[row.kind.blocks[1]].name, row);
+  return text;
+}
+
+std::string TablesObserver::materialLines(const Solver& solver) const
+{
+  std::map<std::tuple<std::string, std::string, int>, ContactTableRow> rows;
+  if (solver.hasContact())
+    for (const ContactTableRow& row : contactTable(solver.contact()))
+    {
+      const auto& blocks = solver.model().blocks;
+      const auto sides = std::minmax(blocks[row.kind.blocks[0]].materialName,
+                                     blocks[row.kind.blocks[1]].materialName);
+      const auto [place, isNew] =
+          rows.emplace(std::tuple(sides.first, sides.second, row.kind.joint), row);
+      if (isNew)
+        continue;
+      ContactTableRow& sum = place->second;
+      sum.planes += row.planes;
+      sum.area += row.area;
+      sum.energy.work += row.energy.work;
+      sum.energy.stored += row.energy.stored;
+      sum.energy.friction += row.energy.friction;
+      sum.energy.hysteresis += row.energy.hysteresis;
+      sum.energy.fracture += row.energy.fracture;
+      sum.energy.damping += row.energy.damping;
+    }
+  std::string text;
+  for (const auto& [key, row] : rows)
+    text += lineOf(solver, std::get<0>(key), std::get<1>(key), row);
   return text;
 }
 
@@ -148,6 +189,8 @@ void TablesObserver::write(const Solver& solver)
     append(solver.comm(), blocks_, options_.base + "_blocks.csv", blockLines(solver));
   if (options_.pairs)
     append(solver.comm(), pairs_, options_.base + "_pairs.csv", pairLines(solver));
+  if (options_.materials)
+    append(solver.comm(), materials_, options_.base + "_materials.csv", materialLines(solver));
   lastCycle_ = solver.clock().cycle;
 }
 } // namespace coplane

@@ -12,14 +12,16 @@ namespace coplane
 {
 struct TablesOptions
 {
-  std::string base;    ///< base_blocks.csv and base_pairs.csv are written
-  Real every = 0;      ///< [s]; 0: every cycle
-  bool blocks = false; ///< energies of every element block
-  bool pairs = false;  ///< energies of contact between every two blocks
+  std::string base;       ///< base_blocks.csv, base_pairs.csv and base_materials.csv are written
+  Real every = 0;         ///< [s]; 0: every cycle
+  bool blocks = false;    ///< energies of every element block
+  bool pairs = false;     ///< energies of contact between every two blocks
+  bool materials = false; ///< the same between every two materials
 };
 
-/// Writes energies by block and by pair of blocks as CSV, a line for each of them at each output
-/// time, so that tables can grow when blocks meet. The sums over a table are those of the history.
+/// Writes energies by block, by pair of blocks and by pair of materials as CSV, a line for each of
+/// them at each output time, so that tables can grow when blocks meet. The sums over a table are
+/// those of the history.
 class TablesObserver : public Observer
 {
 public:
@@ -42,13 +44,14 @@ private:
   void write(const Solver& solver);
   std::string blockLines(const Solver& solver) const;
   std::string pairLines(const Solver& solver) const;
+  std::string materialLines(const Solver& solver) const;
   void append(const Comm& comm, std::ofstream& stream, const std::string& file,
               const std::string& text) const;
 
   TablesOptions options_;
   OutputSchedule schedule_;
-  std::ofstream blocks_, pairs_;           ///< open on rank 0
-  std::int64_t lastCycle_ = -1;            ///< that was written
-  std::vector<std::vector<Share>> shares_; ///< per block, owned nodes
+  std::ofstream blocks_, pairs_, materials_; ///< open on rank 0
+  std::int64_t lastCycle_ = -1;              ///< that was written
+  std::vector<std::vector<Share>> shares_;   ///< per block, owned nodes
 };
 } // namespace coplane
