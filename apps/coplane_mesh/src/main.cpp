@@ -4,6 +4,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
@@ -187,18 +188,5 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return coplane::run(argc, argv);
-  }
-  catch (const coplane::Error& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return int(error.code());
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: defect of coplane_mesh: %s\n", error.what());
-    return int(coplane::ExitCode::Internal);
-  }
+  return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

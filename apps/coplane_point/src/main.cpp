@@ -3,6 +3,7 @@
 #include "PointDeck.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckReference.hpp>
 
@@ -84,18 +85,5 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    return coplane::run(argc, argv);
-  }
-  catch (const coplane::Error& error)
-  {
-    std::fprintf(stderr, "error: %s\n", error.what());
-    return int(error.code());
-  }
-  catch (const std::exception& error)
-  {
-    std::fprintf(stderr, "error: %s (a defect of the program: please report it)\n", error.what());
-    return int(coplane::ExitCode::Internal);
-  }
+  return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

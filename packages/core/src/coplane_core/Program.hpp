@@ -1,0 +1,30 @@
+#pragma once
+
+#include <coplane_core/Error.hpp>
+
+#include <cstdio>
+#include <exception>
+
+namespace coplane
+{
+/// For main() of programs on one rank: the exit code of body(), or that of the error that it ends
+/// with, whose message goes to standard error.
+template <class Body>
+int exitCodeOf(const Body& body)
+{
+  try
+  {
+    return body();
+  }
+  catch (const Error& error)
+  {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return int(error.code());
+  }
+  catch (const std::exception& error)
+  {
+    fmt::print(stderr, "error: {} (a defect of the program: please report it)\n", error.what());
+    return int(ExitCode::Internal);
+  }
+}
+} // namespace coplane
