@@ -7,6 +7,7 @@
 // Options: those of Google Benchmark, and --threads N. Times are wall times.
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
 #include <Kokkos_Core.hpp>
@@ -138,6 +139,7 @@ void triad(benchmark::State& state, Backend backend)
 int main(int argc, char** argv)
 {
   using namespace coplane;
+  keepFreedMemory(); // as the solver does
   MPI_Init(&argc, &argv);
   Kokkos::InitArguments arguments;
   arguments.num_threads = 1;

@@ -4,6 +4,7 @@
 
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -126,6 +127,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
 
 int main(int argc, char** argv)
 {
+  coplane::keepFreedMemory();
   MPI_Init(&argc, &argv);
   int code = 0;
   {

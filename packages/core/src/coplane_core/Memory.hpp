@@ -1,0 +1,9 @@
+#pragma once
+
+namespace coplane
+{
+/// Lets the process keep the memory that it frees, for the next search or output step, instead of
+/// giving it back to the system and taking it again page by page. Call before threads start; does
+/// nothing where the C library is not that of GNU.
+void keepFreedMemory();
+} // namespace coplane
