@@ -182,6 +182,8 @@ TEST_P(LawProperties, spinWithoutStrainOnlyTurnsTheStress)
   MaterialProbe probe(law(), 0.01);
   for (int i = 0; i < 10; ++i)
     probe.advance(randomGradient(random, 0.1 * strain()), 1e-6);
+  for (int i = 0; i < 300; ++i) // strength that fell with the last step's damage or rate settles
+    probe.advance(Mat3{}, 1e-6);
   const auto before = probe;
   Mat3 spin, whole{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   spin(0, 1) = -0.02;

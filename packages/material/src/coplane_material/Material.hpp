@@ -1,8 +1,15 @@
 #pragma once
 
 #include <coplane_core/Real.hpp>
+#include <coplane_material/DruckerPrager.hpp>
+#include <coplane_material/Fluid.hpp>
+#include <coplane_material/HardeningPlasticity.hpp>
+#include <coplane_material/HolmquistJohnsonCook.hpp>
 #include <coplane_material/J2Plasticity.hpp>
+#include <coplane_material/JohnsonCook.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/MohrCoulomb.hpp>
+#include <coplane_material/NeoHookean.hpp>
 #include <coplane_material/PseudoCap.hpp>
 
 #include <array>
@@ -15,7 +22,7 @@ namespace coplane
 /// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
 /// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
 /// with the same bits in every lane.
-using Material = std::variant<LinearElastic, J2Plasticity, PseudoCap>;
+using Material = std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager, MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded

@@ -1,4 +1,4 @@
-#include <coplane_core/Error.hpp>
+#include <coplane_material/Demand.hpp>
 #include <coplane_material/Material.hpp>
 
 namespace coplane
@@ -12,13 +12,6 @@ PseudoCap makePseudoCap(const PseudoCapParameters& p)
 {
   PseudoCap law{};
   law.elastic = makeLinearElastic(p.youngsModulus, p.poissonRatio, p.density);
-  const auto demand =
-      [](bool good, const char* what, Real value, const char* unit, const std::string& accepted)
-  {
-    if (!good)
-      fail(ExitCode::Deck, "material: {} is {}{}{}, but must be {}.", what, value, *unit ? " " : "",
-           unit, accepted);
-  };
   demand(p.strength > 0, "compressive strength", p.strength, "Pa", "positive, e.g. 40e6");
   demand(
       p.tensileStrength > 0 && p.tensileStrength < p.strength / 3, "tensile strength",
