@@ -99,7 +99,8 @@ inline std::vector<NamedLaw> allLaws()
   const LinearElastic rock = makeLinearElastic(20e9, 0.25, 2500);
   const auto shocked = [&](const EquationOfState& eos)
   {
-    return makeHardeningPlasticity(withBulkModulus(steel, eos.stiffness / eos.distension), eos, {0}, {400e6}, 0);
+    return makeHardeningPlasticity(withBulkModulus(steel, eos.stiffness / eos.distension), eos, {0},
+                                   {400e6}, 0);
   };
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
@@ -111,8 +112,8 @@ inline std::vector<NamedLaw> allLaws()
           {"j2MieGrueneisen", shocked(steelShock()), 0.05},
           {"j2PAlpha", shocked(porousShock()), 0.05},
           {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
-          {"druckerPrager",
-           makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression), 0.005},
+          {"druckerPrager", makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression),
+           0.005},
           {"mohrCoulomb", makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 1e6, 2e6, 500, 100}), 0.005},
           {"mohrCoulombTresca", makeMohrCoulomb(rock, {0, 0, 5e6, 5e6, 20e6}), 0.005},
           {"johnsonCook", steel4340(), 0.05},

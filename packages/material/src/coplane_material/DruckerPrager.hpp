@@ -10,9 +10,9 @@ namespace coplane
 struct DruckerPrager
 {
   LinearElastic elastic;
-  Real strength;       ///< q0, von Mises stress at no pressure [Pa]
-  Real frictionSlope;  ///< tan(beta) [-]
-  Real dilationSlope;  ///< tan(psi) [-], between 0 and tan(beta)
+  Real strength;      ///< q0, von Mises stress at no pressure [Pa]
+  Real frictionSlope; ///< tan(beta) [-]
+  Real dilationSlope; ///< tan(psi) [-], between 0 and tan(beta)
 
   static constexpr int historyCount = 2;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain",
@@ -39,14 +39,11 @@ struct DruckerPrager
     const T expansion = (pressure - p) * T(1 / bulk);
     const T shear = choose(tip, zero, q - T(threeG) * plastic);
     const T scale = choose(yields, shear / q, one);
-    const SymTensorOf<T> returned =
-        stressOf(s, choose(q > zero, scale, one), -pressure);
-    point.stress = {choose(yields, returned.xx, point.stress.xx),
-                    choose(yields, returned.yy, point.stress.yy),
-                    choose(yields, returned.zz, point.stress.zz),
-                    choose(yields, returned.xy, point.stress.xy),
-                    choose(yields, returned.yz, point.stress.yz),
-                    choose(yields, returned.zx, point.stress.zx)};
+    const SymTensorOf<T> returned = stressOf(s, choose(q > zero, scale, one), -pressure);
+    point.stress = {
+        choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
+        choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
+        choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
     point.history[0] += choose(yields, plastic, zero);
     point.history[1] += choose(yields, expansion, zero);
     point.dissipation = choose(yields, shear * plastic - pressure * expansion, zero);

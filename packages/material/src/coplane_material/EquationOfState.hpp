@@ -19,12 +19,12 @@ struct EquationOfState
     IdealGas       ///< p = (gamma - 1) e; e at the start follows from the initial stress
   };
   Kind kind = Kind::None;
-  Real stiffness = 0;      ///< K, or rho0 c0^2 of the solid [Pa]
-  Real slope = 0;          ///< s [-]
-  Real gamma = 0;          ///< Grueneisen's Gamma0, or the ratio of specific heats [-]
-  Real distension = 1;     ///< alpha0: density of the solid over that of the porous material [-]
-  Real crushStart = 0;     ///< p_e, from which pores close [Pa]
-  Real crushEnd = 0;       ///< p_s, at which none is left [Pa]
+  Real stiffness = 0;  ///< K, or rho0 c0^2 of the solid [Pa]
+  Real slope = 0;      ///< s [-]
+  Real gamma = 0;      ///< Grueneisen's Gamma0, or the ratio of specific heats [-]
+  Real distension = 1; ///< alpha0: density of the solid over that of the porous material [-]
+  Real crushStart = 0; ///< p_e, from which pores close [Pa]
+  Real crushEnd = 0;   ///< p_s, at which none is left [Pa]
 
   /// Rows of the history that a law keeps for its equation of state.
   enum
@@ -77,10 +77,9 @@ struct EquationOfState
   template <class T>
   KOKKOS_INLINE_FUNCTION T crushPressure(const T& alpha) const
   {
-    return T(crushEnd) -
-           T(crushEnd - crushStart) *
-               branchFree::squareRoot(branchFree::positivePart(alpha - T(1.0)) *
-                                      T(1 / (distension - 1)));
+    return T(crushEnd) - T(crushEnd - crushStart) *
+                             branchFree::squareRoot(branchFree::positivePart(alpha - T(1.0)) *
+                                                    T(1 / (distension - 1)));
   }
 
   /// The pressure at the end of the step, with the energy that the step adds: half of it is done by
@@ -117,8 +116,7 @@ struct EquationOfState
       const auto crushes = over > T(0.0) && alpha > one;
       if (branchFree::anyOf(crushes))
       {
-        const auto excess = [&](const T& closed)
-        {
+        const auto excess = [&](const T& closed) {
           return solve(lineOf(point.volumeRatio, alpha - closed)) - crushPressure(alpha - closed);
         };
         const T all = alpha - one;

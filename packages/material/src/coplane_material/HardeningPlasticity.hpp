@@ -30,10 +30,15 @@ struct HardeningPlasticity
     State = BackStress + 6
   };
   static constexpr int historyCount = State + EquationOfState::rows;
-  static constexpr const char* historyNames[] = {
-      "equivalent_plastic_strain", "back_stress_xx", "back_stress_yy",  "back_stress_zz",
-      "back_stress_xy",            "back_stress_yz", "back_stress_zx", "pressure_offset",
-      "distension"};
+  static constexpr const char* historyNames[] = {"equivalent_plastic_strain",
+                                                 "back_stress_xx",
+                                                 "back_stress_yy",
+                                                 "back_stress_zz",
+                                                 "back_stress_xy",
+                                                 "back_stress_yz",
+                                                 "back_stress_zx",
+                                                 "pressure_offset",
+                                                 "distension"};
   static constexpr bool usesVolume = true, changesTangent = true;
 
   void startFrom(const SymTensor& stress, Real* history) const
@@ -56,7 +61,8 @@ struct HardeningPlasticity
     const T q = vonMisesOf(shifted), strain = h[PlasticStrain];
 
     // The yield stress before the step, and the root on the last piece that it reaches.
-    const auto onPiece = [&](int i) { return T(yieldStress[i]) + T(slope[i]) * (strain - T(plasticStrain[i])); };
+    const auto onPiece = [&](int i)
+    { return T(yieldStress[i]) + T(slope[i]) * (strain - T(plasticStrain[i])); };
     T yield = onPiece(0), plastic = (q - yield) * T(1 / (threeG + kinematicModulus + slope[0]));
     T hardening(slope[0]), base = yield;
     for (int i = 1; i < points; ++i)
@@ -87,8 +93,8 @@ struct HardeningPlasticity
     const T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);
     point.stress = stressOf(deviator, one, -p);
     const Real shear = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening = branchFree::larger(
-        (bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
+    point.stiffening =
+        branchFree::larger((bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
   }
 };
 

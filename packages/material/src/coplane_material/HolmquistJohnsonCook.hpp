@@ -14,21 +14,21 @@ namespace coplane
 /// the step and the rate of the whole deviatoric strain.
 struct HolmquistJohnsonCook
 {
-  LinearElastic elastic; ///< bulk modulus pcrush / mucrush
-  Real strength;         ///< fc [Pa]
-  Real cohesion;         ///< A [-]
-  Real pressureFactor;   ///< B [-]
-  Real pressureExponent; ///< N [-]
-  Real rateFactor;       ///< C [-]
-  Real mostStrength;     ///< Smax [-]
-  Real tension;          ///< T [Pa]
-  Real leastFracture;    ///< EFmin [-]
-  Real damage1, damage2; ///< D1, D2 [-]
-  Real crushPressure;    ///< pcrush [Pa]
-  Real crushCompression; ///< mucrush [-]
-  Real lockPressure;     ///< plock [Pa]
-  Real lockCompression;  ///< mulock, of the locked material at no pressure [-]
-  Real locked[3];        ///< K1, K2, K3 [Pa]
+  LinearElastic elastic;    ///< bulk modulus pcrush / mucrush
+  Real strength;            ///< fc [Pa]
+  Real cohesion;            ///< A [-]
+  Real pressureFactor;      ///< B [-]
+  Real pressureExponent;    ///< N [-]
+  Real rateFactor;          ///< C [-]
+  Real mostStrength;        ///< Smax [-]
+  Real tension;             ///< T [Pa]
+  Real leastFracture;       ///< EFmin [-]
+  Real damage1, damage2;    ///< D1, D2 [-]
+  Real crushPressure;       ///< pcrush [Pa]
+  Real crushCompression;    ///< mucrush [-]
+  Real lockPressure;        ///< plock [Pa]
+  Real lockCompression;     ///< mulock, of the locked material at no pressure [-]
+  Real locked[3];           ///< K1, K2, K3 [Pa]
   Real fullCompression = 0; ///< mu where the locked curve reaches plock; found by make...
 
   enum
@@ -71,8 +71,7 @@ struct HolmquistJohnsonCook
   template <class T>
   KOKKOS_INLINE_FUNCTION T compactionPressure(const T& mu) const
   {
-    const Real slope =
-        (lockPressure - crushPressure) / (fullCompression - crushCompression);
+    const Real slope = (lockPressure - crushPressure) / (fullCompression - crushCompression);
     return branchFree::choose(mu > T(fullCompression), lockedPressure(mu),
                               T(crushPressure) + T(slope) * (mu - T(crushCompression)));
   }
@@ -111,8 +110,7 @@ struct HolmquistJohnsonCook
     const T pulled = intact + branchFree::smaller(p, zero) * T(1 / tension); // (1-D) (1 + p/...)
     const T pressed =
         T(cohesion) * intact + T(pressureFactor) * branchFree::power(relative, pressureExponent);
-    const T fast =
-        one + T(rateFactor) * branchFree::logarithm(branchFree::larger(rate, one));
+    const T fast = one + T(rateFactor) * branchFree::logarithm(branchFree::larger(rate, one));
     const T normalised =
         choose(p < zero, T(cohesion) * branchFree::positivePart(pulled), pressed) * fast;
     const T yield = T(strength) * branchFree::smaller(normalised, T(mostStrength));
@@ -122,20 +120,20 @@ struct HolmquistJohnsonCook
     point.stress = stressOf(trial, choose(yields, yield / q, one), -p);
     h[PlasticStrain] += plastic;
     const T reach = branchFree::positivePart(p + T(tension)) * T(1 / strength);
-    const T ductility = branchFree::larger(T(damage1) * branchFree::power(reach, damage2),
-                                           T(leastFracture));
+    const T ductility =
+        branchFree::larger(T(damage1) * branchFree::power(reach, damage2), T(leastFracture));
     h[Damage] = branchFree::smaller(h[Damage] + (plastic + compaction) / ductility, one);
     // Volume per present volume: d mu (1 + mu)^-1.
-    point.dissipation = yield * plastic + branchFree::positivePart(p) * compaction *
-                                              point.volumeRatio;
+    point.dissipation =
+        yield * plastic + branchFree::positivePart(p) * compaction * point.volumeRatio;
     point.integrity = branchFree::larger(one - h[Damage], T(0.02));
     const T m = branchFree::positivePart((mu - T(lockCompression)) * T(1 / (1 + lockCompression)));
     const T ofLocked = (T(locked[0]) + m * (T(2 * locked[1]) + m * T(3 * locked[2]))) *
                        T(1 / (1 + lockCompression));
     const T bulk = choose(isLocked, branchFree::larger(ofLocked, back), back) * (one + mu);
     const Real stiff = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening = branchFree::larger(
-        (bulk + T(stiff)) * T(1 / (elastic.bulkModulus + stiff)), T(0.02));
+    point.stiffening =
+        branchFree::larger((bulk + T(stiff)) * T(1 / (elastic.bulkModulus + stiff)), T(0.02));
   }
 };
 

@@ -14,15 +14,15 @@ struct JohnsonCook
 {
   LinearElastic elastic;
   EquationOfState eos;
-  Real strength;              ///< A [Pa]
-  Real hardening;             ///< B [Pa]
-  Real exponent;              ///< n [-]
-  Real rateFactor;            ///< C [-]
-  Real thermalExponent;       ///< m [-]
-  Real meltingTemperature;    ///< Tm [K]; 0: no thermal softening
-  Real roomTemperature = 293; ///< Tr, at the start [K]
-  Real heatCapacity;          ///< cp [J/(kg K)]
-  Real heatFraction = 0.9;    ///< of plastic work that heats [-]
+  Real strength;                    ///< A [Pa]
+  Real hardening;                   ///< B [Pa]
+  Real exponent;                    ///< n [-]
+  Real rateFactor;                  ///< C [-]
+  Real thermalExponent;             ///< m [-]
+  Real meltingTemperature;          ///< Tm [K]; 0: no thermal softening
+  Real roomTemperature = 293;       ///< Tr, at the start [K]
+  Real heatCapacity;                ///< cp [J/(kg K)]
+  Real heatFraction = 0.9;          ///< of plastic work that heats [-]
   Real damage[5] = {0, 0, 0, 0, 0}; ///< D1...D5 [-]; all 0: no fracture
 
   enum
@@ -37,10 +37,7 @@ struct JohnsonCook
                                                  "damage", "pressure_offset", "distension"};
   static constexpr bool usesVolume = true, changesTangent = true;
 
-  KOKKOS_INLINE_FUNCTION bool fractures() const
-  {
-    return damage[0] != 0 || damage[1] != 0;
-  }
+  KOKKOS_INLINE_FUNCTION bool fractures() const { return damage[0] != 0 || damage[1] != 0; }
 
   void startFrom(const SymTensor& stress, Real* history) const
   {
@@ -103,8 +100,8 @@ struct JohnsonCook
     const SymTensorOf<T> deviator = stressOf(trial, scale, zero);
     h[PlasticStrain] = strain + plastic;
     point.dissipation = stress * plastic;
-    h[Temperature] += T(heatFraction / (elastic.density * heatCapacity)) * point.dissipation *
-                      point.volumeRatio;
+    h[Temperature] +=
+        T(heatFraction / (elastic.density * heatCapacity)) * point.dissipation * point.volumeRatio;
 
     T bulk;
     T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);
@@ -115,16 +112,16 @@ struct JohnsonCook
       const T triaxiality = choose(stress > zero, -p / stress, zero);
       // Beyond 1.5 the strain at fracture stays (Johnson and Cook); it is positive in any case.
       const T capped = branchFree::smaller(triaxiality, T(1.5));
-      const T ductility = (T(damage[0]) + T(damage[1]) * branchFree::exponential(T(damage[2]) * capped)) *
-                          (one + T(damage[3]) * logRate(plastic, point.dt)) *
-                          (one + T(damage[4]) * hot);
-      h[Damage] = branchFree::smaller(
-          h[Damage] + plastic / branchFree::larger(ductility, T(1e-3)), one);
+      const T ductility =
+          (T(damage[0]) + T(damage[1]) * branchFree::exponential(T(damage[2]) * capped)) *
+          (one + T(damage[3]) * logRate(plastic, point.dt)) * (one + T(damage[4]) * hot);
+      h[Damage] =
+          branchFree::smaller(h[Damage] + plastic / branchFree::larger(ductility, T(1e-3)), one);
     }
     point.integrity = choose(failed, T(0.02), one);
     const Real shear = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening = branchFree::larger(
-        (bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
+    point.stiffening =
+        branchFree::larger((bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
   }
 };
 

@@ -22,7 +22,9 @@ namespace coplane
 /// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
 /// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
 /// with the same bits in every lane.
-using Material = std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager, MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid>;
+using Material =
+    std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
+                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded

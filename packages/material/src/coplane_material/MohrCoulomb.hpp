@@ -9,19 +9,19 @@ namespace coplane
 /// Mohr and Coulomb's planes with a tension cut-off: N s1 - s3 <= 2 c sqrt(N) and s1 <= ft, for
 /// principal stresses s1 >= s2 >= s3, tension positive, N = (1 + sin phi) / (1 - sin phi). Plastic
 /// flow with N_psi on the same planes, normal to the cut-off. Returns to planes, edges and corners
-/// as of de Souza Neto et al. (2008), section 8.2. Cohesion falls with the slip that is smeared over
-/// the element, tensile strength with the opening: the dissipated energies per area do not depend
-/// on the size of the element. Strengths are those at the start of the step.
+/// as of de Souza Neto et al. (2008), section 8.2. Cohesion falls with the slip that is smeared
+/// over the element, tensile strength with the opening: the dissipated energies per area do not
+/// depend on the size of the element. Strengths are those at the start of the step.
 struct MohrCoulomb
 {
   LinearElastic elastic;
-  Real friction;             ///< N [-]
-  Real dilation;             ///< N_psi [-]; 1 <= N_psi <= N
-  Real cohesion;             ///< c [Pa]
-  Real residualCohesion;     ///< [Pa]
-  Real tensileStrength;      ///< ft [Pa]
-  Real shearEnergy;          ///< G_II, by which c falls [J/m^2]; 0: it does not fall
-  Real fractureEnergy;       ///< G_I, by which ft falls [J/m^2]; 0: it does not fall
+  Real friction;         ///< N [-]
+  Real dilation;         ///< N_psi [-]; 1 <= N_psi <= N
+  Real cohesion;         ///< c [Pa]
+  Real residualCohesion; ///< [Pa]
+  Real tensileStrength;  ///< ft [Pa]
+  Real shearEnergy;      ///< G_II, by which c falls [J/m^2]; 0: it does not fall
+  Real fractureEnergy;   ///< G_I, by which ft falls [J/m^2]; 0: it does not fall
 
   static constexpr int historyCount = 3;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain", "plastic_shear",
@@ -78,11 +78,11 @@ struct MohrCoulomb
     T slips(0.0), openings(0.0), flow[3] = {zero, zero, zero};
     auto open = yields;
     // From the fewest surfaces to the most; the corner of pure tension is the last resort.
-    constexpr int sets[10][3] = {{Plane13, -1, -1},       {Cut1, -1, -1},
-                                {Plane13, Plane23, -1},  {Plane13, Plane12, -1},
-                                {Plane13, Cut1, -1},     {Cut1, Cut2, -1},
-                                {Plane13, Plane12, Cut1}, {Plane13, Plane23, Cut1}, {Plane13, Cut1, Cut2},
-                                {Cut1, Cut2, Cut3}};
+    constexpr int sets[10][3] = {{Plane13, -1, -1},        {Cut1, -1, -1},
+                                 {Plane13, Plane23, -1},   {Plane13, Plane12, -1},
+                                 {Plane13, Cut1, -1},      {Cut1, Cut2, -1},
+                                 {Plane13, Plane12, Cut1}, {Plane13, Plane23, Cut1},
+                                 {Plane13, Cut1, Cut2},    {Cut1, Cut2, Cut3}};
     for (int k = 0; k < 10 && branchFree::anyOf(open); ++k)
     {
       int count = 0;
@@ -124,12 +124,10 @@ struct MohrCoulomb
       open = open && !good;
     }
     const SymTensorOf<T> returned = tensorOf(principal);
-    point.stress = {choose(yields, returned.xx, point.stress.xx),
-                    choose(yields, returned.yy, point.stress.yy),
-                    choose(yields, returned.zz, point.stress.zz),
-                    choose(yields, returned.xy, point.stress.xy),
-                    choose(yields, returned.yz, point.stress.yz),
-                    choose(yields, returned.zx, point.stress.zx)};
+    point.stress = {
+        choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
+        choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
+        choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
     const T mean = T(1.0 / 3.0) * (flow[0] + flow[1] + flow[2]);
     T squares = zero;
     for (int i = 0; i < 3; ++i)
@@ -196,9 +194,9 @@ private:
 
 struct MohrCoulombParameters
 {
-  Real frictionAngle, dilationAngle; // [rad]
-  Real cohesion, residualCohesion;   // [Pa]
-  Real tensileStrength;              // [Pa]; at most c cot(phi)
+  Real frictionAngle, dilationAngle;        // [rad]
+  Real cohesion, residualCohesion;          // [Pa]
+  Real tensileStrength;                     // [Pa]; at most c cot(phi)
   Real shearEnergy = 0, fractureEnergy = 0; // [J/m^2]; 0: no softening
 };
 /// Throws Error(ExitCode::Deck) with what is wrong.

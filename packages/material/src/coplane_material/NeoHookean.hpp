@@ -52,8 +52,7 @@ struct NeoHookean
     const T root = branchFree::cubeRoot(ratio);
     const T shear = T(elastic.shearModulus) / (ratio * root * root); // mu J^(-5/3)
     const SymTensorOf<T> deviator = deviatorOf(b);
-    point.stress =
-        stressOf(deviator, shear, half * T(elastic.bulkModulus) * (ratio - one / ratio));
+    point.stress = stressOf(deviator, shear, half * T(elastic.bulkModulus) * (ratio - one / ratio));
 
     // Wave moduli: along n, K/2 (J + 1/J) + mu J^(-5/3) (5/9 tr b - b_nn / 3), and for shear waves
     // mu J^(-5/3) b_nn; bounds of b_nn are tr b / 3 +- sqrt(2/3) |dev b|.
@@ -63,9 +62,8 @@ struct NeoHookean
     const T along = half * T(elastic.bulkModulus) * (ratio + one / ratio) +
                     shear * (T(5.0 / 9.0) * trace - third * least);
     const T across = shear * (third * trace + spread);
-    point.stiffening =
-        branchFree::larger(along, across) *
-        T(1 / (elastic.bulkModulus + 4.0 / 3.0 * elastic.shearModulus));
+    point.stiffening = branchFree::larger(along, across) *
+                       T(1 / (elastic.bulkModulus + 4.0 / 3.0 * elastic.shearModulus));
   }
 };
 } // namespace coplane

@@ -20,7 +20,8 @@ DruckerPrager makeDruckerPrager(const LinearElastic& elastic, Real frictionAngle
   demand(frictionAngle >= 0 && frictionAngle < pi / 2, "friction angle", frictionAngle, "rad",
          "0 or more, and below a right angle");
   demand(dilationAngle >= 0 && dilationAngle <= frictionAngle, "dilation angle", dilationAngle,
-         "rad", fmt::format("0 or more, and at most the friction angle ({:.6g} rad)", frictionAngle));
+         "rad",
+         fmt::format("0 or more, and at most the friction angle ({:.6g} rad)", frictionAngle));
   demand(cohesion >= 0 && cohesion + frictionAngle > 0, "cohesion", cohesion, "Pa",
          "0 or more; positive without friction");
   DruckerPrager law{elastic, 0, 0, 0};
@@ -54,8 +55,8 @@ MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParam
          p.residualCohesion, "Pa",
          fmt::format("0 or more, and at most the cohesion ({:.6g} Pa)", p.cohesion));
   const Real tip = p.frictionAngle > 0 ? p.cohesion / std::tan(p.frictionAngle) : infinity;
-  demand(p.tensileStrength >= 0 && p.tensileStrength <= tip, "tensile strength",
-         p.tensileStrength, "Pa",
+  demand(p.tensileStrength >= 0 && p.tensileStrength <= tip, "tensile strength", p.tensileStrength,
+         "Pa",
          fmt::format("0 or more, and at most cohesion / tan(friction angle) = {:.6g} Pa, the tip "
                      "of the planes",
                      tip));
@@ -63,14 +64,9 @@ MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParam
   demand(p.fractureEnergy >= 0, "fracture energy", p.fractureEnergy, "J/m^2",
          "0 (no softening) or more");
   const auto slope = [](Real angle) { return (1 + std::sin(angle)) / (1 - std::sin(angle)); };
-  return {elastic,
-          slope(p.frictionAngle),
-          slope(p.dilationAngle),
-          p.cohesion,
-          p.residualCohesion,
-          p.tensileStrength,
-          p.shearEnergy,
-          p.fractureEnergy};
+  return {elastic,       slope(p.frictionAngle), slope(p.dilationAngle),
+          p.cohesion,    p.residualCohesion,     p.tensileStrength,
+          p.shearEnergy, p.fractureEnergy};
 }
 
 HardeningPlasticity makeHardeningPlasticity(const LinearElastic& elastic,
@@ -87,8 +83,8 @@ HardeningPlasticity makeHardeningPlasticity(const LinearElastic& elastic,
   const std::size_t points = plasticStrains.size();
   demand(points > 0 && points <= HardeningPlasticity::capacity, "number of plastic strains",
          Real(points), "", fmt::format("1 to {}", HardeningPlasticity::capacity));
-  demand(yieldStresses.size() == points, "number of yield stresses", Real(yieldStresses.size()),
-         "", fmt::format("that of the plastic strains, {}", points));
+  demand(yieldStresses.size() == points, "number of yield stresses", Real(yieldStresses.size()), "",
+         fmt::format("that of the plastic strains, {}", points));
   demand(plasticStrains[0] == 0, "first plastic strain", plasticStrains[0], "", "0");
   demand(yieldStresses[0] > 0, "first yield stress", yieldStresses[0], "Pa", "positive");
   law.points = int(points);
@@ -105,8 +101,8 @@ HardeningPlasticity makeHardeningPlasticity(const LinearElastic& elastic,
            fmt::format("at least the one before it, {} Pa: softening depends on the mesh and is "
                        "not offered",
                        yieldStresses[i - 1]));
-    law.slope[i - 1] = (yieldStresses[i] - yieldStresses[i - 1]) /
-                       (plasticStrains[i] - plasticStrains[i - 1]);
+    law.slope[i - 1] =
+        (yieldStresses[i] - yieldStresses[i - 1]) / (plasticStrains[i] - plasticStrains[i - 1]);
   }
   return law;
 }
