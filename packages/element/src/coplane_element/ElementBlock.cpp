@@ -94,6 +94,8 @@ void ElementBlock::initialise(const ConstNodeVectors& x)
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
   Kokkos::deep_copy(tangent_, 1.0);
   Kokkos::deep_copy(cornerForce_, 0.0);
+  for (int e = 0; e < int(mass_.extent(0)); ++e)
+    setInitialStress(e, {});
 }
 
 void ElementBlock::setInitialStress(const SymTensor& stress)
@@ -112,6 +114,9 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
     stress_(k, element) = values[k];
+  const auto start = initialHistory(law_, s);
+  for (int k = 0; k < int(history_.extent(0)); ++k)
+    history_(k, element) = start[std::size_t(k)];
 }
 
 void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)

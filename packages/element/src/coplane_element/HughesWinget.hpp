@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_core/Vec3.hpp>
+#include <coplane_core/Rotate.hpp>
 
 namespace coplane
 {
@@ -28,21 +28,7 @@ KOKKOS_INLINE_FUNCTION Mat3Of<T> hughesWinget(const Vec3Of<T>& a)
   return r;
 }
 
-/// R s R^T.
-template <class T>
-KOKKOS_INLINE_FUNCTION SymTensorOf<T> rotated(const SymTensorOf<T>& s, const Mat3Of<T>& r)
-{
-  const T full[3][3] = {{s.xx, s.xy, s.zx}, {s.xy, s.yy, s.yz}, {s.zx, s.yz, s.zz}};
-  T half[3][3]; // R s
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      half[i][j] = r.a[i][0] * full[0][j] + r.a[i][1] * full[1][j] + r.a[i][2] * full[2][j];
-  const auto entry = [&](int i, int j)
-  { return half[i][0] * r.a[j][0] + half[i][1] * r.a[j][1] + half[i][2] * r.a[j][2]; };
-  return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(1, 2), entry(2, 0)};
-}
-
-/// The same for a rotation about z by the angle 2 atan(a) of a tensor without yz and zx.
+/// rotated() for a rotation about z of a tensor without yz and zx.
 template <class T>
 KOKKOS_INLINE_FUNCTION SymTensorOf<T> rotatedInPlane(const SymTensorOf<T>& s, const T& cosine,
                                                      const T& sine)

@@ -6,10 +6,13 @@
 #include <cmath>
 
 // The few operations that a law or an element kernel needs in the same spelling for one number
-// (Real) and for several elements side by side (Lanes). Each is one IEEE operation, so a lane has
-// the bits of the scalar.
+// (Real) and for several elements side by side (Lanes). Each is one IEEE operation or one call of
+// the mathematics library per lane, so a lane has the bits of the scalar.
 namespace coplane::branchFree
 {
+template <class T>
+using MaskOf = decltype(T() > T());
+
 KOKKOS_INLINE_FUNCTION Real choose(bool mask, Real a, Real b)
 {
   return mask ? a : b;
@@ -19,6 +22,15 @@ inline Lanes choose(const LaneMask& mask, const Lanes& a, const Lanes& b)
   return coplane::choose(mask, a, b);
 }
 
+KOKKOS_INLINE_FUNCTION bool anyOf(bool mask)
+{
+  return mask;
+}
+inline bool anyOf(const LaneMask& mask)
+{
+  return stdx::any_of(mask);
+}
+
 KOKKOS_INLINE_FUNCTION Real squareRoot(Real a)
 {
   return std::sqrt(a);
@@ -26,6 +38,69 @@ KOKKOS_INLINE_FUNCTION Real squareRoot(Real a)
 inline Lanes squareRoot(const Lanes& a)
 {
   return stdx::sqrt(a);
+}
+
+KOKKOS_INLINE_FUNCTION Real absolute(Real a)
+{
+  return std::fabs(a);
+}
+inline Lanes absolute(const Lanes& a)
+{
+  return stdx::fabs(a);
+}
+
+KOKKOS_INLINE_FUNCTION Real exponential(Real a)
+{
+  return std::exp(a);
+}
+inline Lanes exponential(const Lanes& a)
+{
+  return Lanes([&](auto lane) { return std::exp(Real(a[lane])); });
+}
+
+KOKKOS_INLINE_FUNCTION Real logarithm(Real a)
+{
+  return std::log(a);
+}
+inline Lanes logarithm(const Lanes& a)
+{
+  return Lanes([&](auto lane) { return std::log(Real(a[lane])); });
+}
+
+KOKKOS_INLINE_FUNCTION Real power(Real a, Real b)
+{
+  return std::pow(a, b);
+}
+inline Lanes power(const Lanes& a, Real b)
+{
+  return Lanes([&](auto lane) { return std::pow(Real(a[lane]), b); });
+}
+
+KOKKOS_INLINE_FUNCTION Real cubeRoot(Real a)
+{
+  return std::cbrt(a);
+}
+inline Lanes cubeRoot(const Lanes& a)
+{
+  return Lanes([&](auto lane) { return std::cbrt(Real(a[lane])); });
+}
+
+KOKKOS_INLINE_FUNCTION Real cosine(Real a)
+{
+  return std::cos(a);
+}
+inline Lanes cosine(const Lanes& a)
+{
+  return Lanes([&](auto lane) { return std::cos(Real(a[lane])); });
+}
+
+KOKKOS_INLINE_FUNCTION Real arcCosine(Real a)
+{
+  return std::acos(a);
+}
+inline Lanes arcCosine(const Lanes& a)
+{
+  return Lanes([&](auto lane) { return std::acos(Real(a[lane])); });
 }
 
 /// max(a, 0). A value that is not a number gives 0.
@@ -40,5 +115,48 @@ template <class T>
 KOKKOS_INLINE_FUNCTION T larger(const T& a, const T& b)
 {
   return branchFree::choose(a > b, a, b);
+}
+
+/// The smaller of a and b; b when a is not a number.
+template <class T>
+KOKKOS_INLINE_FUNCTION T smaller(const T& a, const T& b)
+{
+  return branchFree::choose(a < b, a, b);
+}
+
+/// Where a falling function f meets zero, in the lanes of `active`; `upper` in the others.
+/// Regula falsi with halved ends (Illinois), with a bisection every fourth time, which no shape of
+/// f can hold up. A lane that has converged is frozen, so it has the bits of the scalar.
+/// @param fLower, fUpper f at the ends; where fUpper is positive the answer is `upper`, where
+///        fLower is not, `lower`
+/// @param tolerance of f
+template <class T, class F>
+KOKKOS_INLINE_FUNCTION T fallingRoot(const F& f, T lower, T upper, T fLower, T fUpper,
+                                     const T& tolerance, MaskOf<T> active)
+{
+  const T zero(0.0), half(0.5);
+  T root = branchFree::choose(active && !(fLower > zero), lower, upper);
+  active = active && fLower > zero && fUpper < zero;
+  T side(0.0); // 1: the lower end moved last, -1: the upper one
+  for (int i = 0; i < 200 && anyOf(active); ++i)
+  {
+    T x = half * (lower + upper);
+    if (i % 4 != 3)
+    {
+      const T secant = upper - fUpper * (upper - lower) / (fUpper - fLower);
+      x = branchFree::choose(secant > lower && secant < upper, secant, x);
+    }
+    const T fx = f(x);
+    root = branchFree::choose(active, x, root);
+    const auto below = fx > zero; // x is below the root
+    const auto inside = x > lower && x < upper;
+    fUpper = branchFree::choose(below, branchFree::choose(side > zero, half * fUpper, fUpper), fx);
+    fLower = branchFree::choose(below, fx, branchFree::choose(side < zero, half * fLower, fLower));
+    lower = branchFree::choose(below, x, lower);
+    upper = branchFree::choose(below, upper, x);
+    side = branchFree::choose(below, T(1.0), T(-1.0));
+    active = active && inside && absolute(fx) > tolerance;
+  }
+  return root;
 }
 } // namespace coplane::branchFree

@@ -44,11 +44,18 @@ J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real densit
 
 namespace
 {
-template <class Law>
-void advanceLanes(const void* law, MaterialPoint<Lanes>& point)
+template <class Law, class T>
+void advance(const void* law, MaterialPoint<T>& point)
 {
   (*static_cast<const Law*>(law))(point);
 }
+
+/// Laws whose history does not start from zeros, or that have to know of an initial stress, say so
+/// by startFrom().
+template <class Law, class = void>
+constexpr bool startsFrom = false;
+template <class Law>
+constexpr bool startsFrom<Law, std::void_t<decltype(&Law::startFrom)>> = true;
 } // namespace
 
 std::vector<std::string> historyNames(const Material& material)
@@ -66,13 +73,30 @@ std::vector<std::string> historyNames(const Material& material)
       material);
 }
 
+std::array<Real, maximumHistory> initialHistory(const Material& material, const SymTensor& stress)
+{
+  std::array<Real, maximumHistory> history{};
+  std::visit(
+      [&](const auto& law)
+      {
+        if constexpr (startsFrom<std::decay_t<decltype(law)>>)
+          law.startFrom(stress, history.data());
+      },
+      material);
+  return history;
+}
+
 LawFunction lawFunction(const Material& material)
 {
   return std::visit(
       [](const auto& law)
       {
         using Law = std::decay_t<decltype(law)>;
-        return LawFunction{&law, &advanceLanes<Law>, Law::historyCount, Law::usesVolume,
+        return LawFunction{&law,
+                           &advance<Law, Lanes>,
+                           &advance<Law, Real>,
+                           Law::historyCount,
+                           Law::usesVolume,
                            Law::changesTangent};
       },
       material);

@@ -1,9 +1,18 @@
 #pragma once
 
 #include <coplane_core/Real.hpp>
+#include <coplane_material/DruckerPrager.hpp>
+#include <coplane_material/Fluid.hpp>
+#include <coplane_material/HardeningPlasticity.hpp>
+#include <coplane_material/HolmquistJohnsonCook.hpp>
 #include <coplane_material/J2Plasticity.hpp>
+#include <coplane_material/JohnsonCook.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/MohrCoulomb.hpp>
+#include <coplane_material/NeoHookean.hpp>
+#include <coplane_material/PseudoCap.hpp>
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -13,7 +22,9 @@ namespace coplane
 /// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
 /// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
 /// with the same bits in every lane.
-using Material = std::variant<LinearElastic, J2Plasticity>;
+using Material =
+    std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
+                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded
@@ -28,16 +39,22 @@ J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real densit
 /// Names of the law's history variables, in their order.
 std::vector<std::string> historyNames(const Material& material);
 
+/// The law's history at the start of a run, under the initial stress [Pa].
+std::array<Real, maximumHistory> initialHistory(const Material& material,
+                                                const SymTensor& stress = {});
+
 /// A law as kernels call it: one function per law, whatever the element.
 struct LawFunction
 {
   const void* law = nullptr;
   void (*advanceLanes)(const void*, MaterialPoint<Lanes>&) = nullptr;
+  void (*advanceOne)(const void*, MaterialPoint<Real>&) = nullptr;
   int historyCount = 0;
   bool usesVolume = false;     ///< reads volume ratios, energy and size of the point
   bool changesTangent = false; ///< writes stiffening and integrity
 
   void operator()(MaterialPoint<Lanes>& point) const { advanceLanes(law, point); }
+  void operator()(MaterialPoint<Real>& point) const { advanceOne(law, point); }
 };
 /// The function refers to the material, which has to stay where it is.
 LawFunction lawFunction(const Material& material);

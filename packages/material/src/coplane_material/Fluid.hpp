@@ -1,0 +1,33 @@
+#pragma once
+
+#include <coplane_material/EquationOfState.hpp>
+#include <coplane_material/LinearElastic.hpp>
+
+namespace coplane
+{
+/// What only has pressure, such as a gas: no strength.
+struct Fluid
+{
+  LinearElastic elastic; ///< shear modulus 0; the bulk modulus is that of the sound speed
+  EquationOfState eos;
+
+  static constexpr int historyCount = EquationOfState::rows;
+  static constexpr const char* historyNames[] = {"pressure_offset", "distension"};
+  static constexpr bool usesVolume = true, changesTangent = true;
+
+  void startFrom(const SymTensor& stress, Real* history) const { eos.startFrom(stress, history); }
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
+  {
+    T bulk;
+    const T p = eos.advance(point, SymTensorOf<T>{T(0.0), T(0.0), T(0.0), T(0.0), T(0.0), T(0.0)},
+                            point.history, elastic.bulkModulus, bulk);
+    point.stress = {-p, -p, -p, T(0.0), T(0.0), T(0.0)};
+    point.stiffening = branchFree::larger(bulk * T(1 / elastic.bulkModulus), T(1e-6));
+  }
+};
+
+/// @param pressure of the initial stress of its blocks, from which the first sound speed comes [Pa]
+Fluid makeIdealGas(Real density, Real ratioOfSpecificHeats, Real pressure);
+} // namespace coplane

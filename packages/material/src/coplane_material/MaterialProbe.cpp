@@ -1,0 +1,197 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Rotate.hpp>
+#include <coplane_material/Invariants.hpp>
+#include <coplane_material/MaterialProbe.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+std::array<Real, 6> componentsOf(const SymTensor& s)
+{
+  return {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
+}
+
+Mat3 gradientOf(const std::array<Real, 6>& e)
+{
+  return {{{e[0], e[3], e[5]}, {e[3], e[1], e[4]}, {e[5], e[4], e[2]}}};
+}
+
+Mat3 identityPlus(Real factor, const Mat3& l)
+{
+  Mat3 r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      r(i, j) = (i == j ? 1.0 : 0.0) + factor * l(i, j);
+  return r;
+}
+
+/// Solves a x = b for n unknowns by elimination with pivots; false when a is singular.
+bool solve(int n, Real (&a)[6][6], Real (&b)[6])
+{
+  for (int k = 0; k < n; ++k)
+  {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k]))
+        pivot = i;
+    if (!(std::abs(a[pivot][k]) > 0))
+      return false;
+    std::swap(a[pivot], a[k]);
+    std::swap(b[pivot], b[k]);
+    for (int i = k + 1; i < n; ++i)
+    {
+      const Real f = a[i][k] / a[k][k];
+      for (int j = k; j < n; ++j)
+        a[i][j] -= f * a[k][j];
+      b[i] -= f * b[k];
+    }
+  }
+  for (int k = n - 1; k >= 0; --k)
+  {
+    for (int j = k + 1; j < n; ++j)
+      b[k] -= a[k][j] * b[j];
+    b[k] /= a[k][k];
+  }
+  return true;
+}
+} // namespace
+
+MaterialProbe::MaterialProbe(const Material& material, Real size, const SymTensor& start)
+    : material_(material), names_(historyNames(material)), size_(size), stress_(start),
+      history_(initialHistory(material, start))
+{
+}
+
+void MaterialProbe::advance(const Mat3& l, Real dt)
+{
+  const Mat3 whole = inverse(identityPlus(-0.5, l)) * identityPlus(0.5, l);
+  const Real next = volumeRatio_ * determinant(whole);
+  // Positions in the middle of the step are the mean of those at its ends: (I - l/2)^-1.
+  const Real half = volumeRatio_ / determinant(identityPlus(-0.5, l));
+  const auto mean = [&](int i, int j) { return 0.5 * (l(i, j) + l(j, i)); };
+  MaterialPoint<Real> point;
+  point.dt = dt;
+  point.strainIncrement = {l(0, 0), l(1, 1), l(2, 2), mean(0, 1), mean(1, 2), mean(2, 0)};
+  point.displacementGradient = l;
+  Mat3 spin;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      spin(i, j) = 0.5 * (l(i, j) - l(j, i));
+  point.rotation = inverse(identityPlus(-0.5, spin)) * identityPlus(0.5, spin);
+  point.volumeRatio = next;
+  point.halfVolumeRatio = half;
+  point.energy = energy_;
+  point.size = size_;
+  point.oldStress = stress_;
+  point.stress = rotated(stress_, point.rotation);
+  std::copy(history_.begin(), history_.end(), point.history);
+  lawFunction(material_)(point);
+  std::copy(point.history, point.history + maximumHistory, history_.begin());
+  const SymTensor& de = point.strainIncrement;
+  energy_ += 0.5 * half * (contract(stress_, de) + contract(point.stress, de));
+  dissipation_ += half * point.dissipation;
+  stress_ = point.stress;
+  strain_ = sumOf(strain_, 1.0, de);
+  stiffening_ = point.stiffening;
+  volumeRatio_ = next;
+  time_ += dt;
+}
+
+void MaterialProbe::advance(const ProbeStep& step)
+{
+  int unknown[6], unknowns = 0;
+  for (int k = 0; k < 6; ++k)
+    if (step.stressGiven[k])
+      unknown[unknowns++] = k;
+  std::array<Real, 6> increment = step.value;
+  for (int i = 0; i < unknowns; ++i)
+    increment[unknown[i]] = lastIncrement_[unknown[i]];
+  const auto after = [&](const std::array<Real, 6>& de)
+  {
+    MaterialProbe trial = *this;
+    trial.advance(gradientOf(de), step.dt);
+    return trial;
+  };
+  const auto missing = [&](const MaterialProbe& trial, Real(&r)[6])
+  {
+    const auto s = componentsOf(trial.stress_);
+    Real worst = 0;
+    for (int i = 0; i < unknowns; ++i)
+    {
+      r[i] = step.value[unknown[i]] - s[unknown[i]];
+      worst = std::max(worst, std::abs(r[i]));
+    }
+    return worst;
+  };
+
+  const Real modulus = pWaveModulus(material_);
+  Real residual[6];
+  MaterialProbe trial = after(increment);
+  Real worst = missing(trial, residual);
+  const auto goodEnough = [&]
+  { return worst <= 1e-9 * (vonMises() + std::abs(pressure())) + 1e-13 * modulus; };
+  for (int iteration = 0; iteration < 60 && !goodEnough(); ++iteration)
+  {
+    // Small enough to stay on one branch of the law, large enough for its digits.
+    const Real h = std::max(1e-10, 1e-3 * worst / modulus);
+    Real jacobian[6][6], move[6];
+    for (int j = 0; j < unknowns; ++j)
+    {
+      std::array<Real, 6> nudged = increment;
+      const Real sign = residual[j] > 0 ? 1 : -1;
+      nudged[unknown[j]] += sign * h;
+      const auto s = componentsOf(after(nudged).stress_), s0 = componentsOf(trial.stress_);
+      for (int i = 0; i < unknowns; ++i)
+        jacobian[i][j] = (s[unknown[i]] - s0[unknown[i]]) / (sign * h);
+    }
+    std::copy(residual, residual + 6, move);
+    if (!solve(unknowns, jacobian, move))
+      for (int i = 0; i < unknowns; ++i)
+        move[i] = residual[i] / modulus;
+    // Shorter moves until one is better.
+    const MaterialProbe before = trial;
+    const std::array<Real, 6> from = increment;
+    const Real worstBefore = worst;
+    Real part = 1;
+    for (int cut = 0; cut < 12; ++cut, part *= 0.5)
+    {
+      increment = from;
+      for (int i = 0; i < unknowns; ++i)
+        increment[unknown[i]] += part * move[i];
+      trial = after(increment);
+      worst = missing(trial, residual);
+      if (worst < worstBefore)
+        break;
+    }
+  }
+  if (!(worst <= 1e-5 * (vonMises() + std::abs(pressure())) + 1e-9 * modulus))
+    fail(ExitCode::Computation,
+         "no strain increment gives the stresses asked for at t = {} s (off by {:.3g} Pa). The "
+         "material cannot bear them, or the step is too large: take more steps.",
+         time_ + step.dt, worst);
+  *this = trial;
+  lastIncrement_ = increment;
+}
+
+Real MaterialProbe::pressure() const
+{
+  return -meanOf(stress_);
+}
+
+Real MaterialProbe::vonMises() const
+{
+  return vonMisesOf(deviatorOf(stress_));
+}
+
+Real MaterialProbe::history(const std::string& name) const
+{
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end())
+    fail(ExitCode::Internal, "material probe: the law has no variable '{}'", name);
+  return history_[std::size_t(found - names_.begin())];
+}
+} // namespace coplane

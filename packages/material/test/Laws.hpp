@@ -1,0 +1,124 @@
+#pragma once
+
+#include <coplane_material/Material.hpp>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace coplane::testing
+{
+/// A law, and a strain that takes it far from its elastic range.
+struct NamedLaw
+{
+  std::string name;
+  Material law;
+  Real strain;
+};
+inline std::ostream& operator<<(std::ostream& out, const NamedLaw& law)
+{
+  return out << law.name;
+}
+
+inline EquationOfState mieGrueneisen(Real density, Real soundSpeed, Real slope, Real gamma)
+{
+  EquationOfState eos;
+  eos.kind = EquationOfState::Kind::MieGrueneisen;
+  eos.stiffness = density * soundSpeed * soundSpeed;
+  eos.slope = slope;
+  eos.gamma = gamma;
+  return eos;
+}
+
+/// Steel of 7850 kg/m^3 with the shock line of iron.
+inline EquationOfState steelShock()
+{
+  return mieGrueneisen(7850, 4570, 1.49, 1.93);
+}
+
+/// Half solid, half pores.
+inline EquationOfState porousShock()
+{
+  EquationOfState eos = mieGrueneisen(4000, 4570, 1.49, 1.93);
+  eos.kind = EquationOfState::Kind::PAlpha;
+  eos.distension = 2;
+  eos.crushStart = 0.2e9;
+  eos.crushEnd = 2e9;
+  return eos;
+}
+
+inline LinearElastic withBulkModulus(LinearElastic elastic, Real bulkModulus)
+{
+  elastic.bulkModulus = bulkModulus;
+  return elastic;
+}
+
+inline JohnsonCook steel4340()
+{
+  JohnsonCook law{};
+  law.elastic = makeLinearElastic(201e9, 0.3, 7830);
+  law.strength = 792e6;
+  law.hardening = 510e6;
+  law.exponent = 0.26;
+  law.rateFactor = 0.014;
+  law.thermalExponent = 1.03;
+  law.meltingTemperature = 1793;
+  law.heatCapacity = 477;
+  const Real d[5] = {0.05, 3.44, -2.12, 0.002, 0.61};
+  std::copy(d, d + 5, law.damage);
+  return checked(law);
+}
+
+inline HolmquistJohnsonCook concreteHjc48()
+{
+  HolmquistJohnsonCook law{};
+  law.elastic = {2440, 0, 14.86e9};
+  law.strength = 48e6;
+  law.cohesion = 0.79;
+  law.pressureFactor = 1.6;
+  law.pressureExponent = 0.61;
+  law.rateFactor = 0.007;
+  law.mostStrength = 7;
+  law.tension = 4e6;
+  law.leastFracture = 0.01;
+  law.damage1 = 0.04;
+  law.damage2 = 1;
+  law.crushPressure = 16e6;
+  law.crushCompression = 0.001;
+  law.lockPressure = 800e6;
+  law.lockCompression = 0.1;
+  const Real k[3] = {85e9, -171e9, 208e9};
+  std::copy(k, k + 3, law.locked);
+  return completed(law);
+}
+
+inline std::vector<NamedLaw> allLaws()
+{
+  const LinearElastic steel = makeLinearElastic(200e9, 0.3, 7850);
+  const LinearElastic rock = makeLinearElastic(20e9, 0.25, 2500);
+  const auto shocked = [&](const EquationOfState& eos)
+  {
+    return makeHardeningPlasticity(withBulkModulus(steel, eos.stiffness / eos.distension), eos, {0},
+                                   {400e6}, 0);
+  };
+  JohnsonCook hot = steel4340();
+  hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
+  hot.elastic.bulkModulus = hot.eos.stiffness;
+  return {{"linearElastic", steel, 1e-3},
+          {"j2Plasticity", makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9), 0.01},
+          {"hardeningPlasticity",
+           makeHardeningPlasticity(steel, {}, {0, 0.002, 0.02}, {300e6, 350e6, 420e6}, 2e9), 0.01},
+          {"j2MieGrueneisen", shocked(steelShock()), 0.05},
+          {"j2PAlpha", shocked(porousShock()), 0.05},
+          {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
+          {"druckerPrager", makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression),
+           0.005},
+          {"mohrCoulomb", makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 1e6, 2e6, 500, 100}), 0.005},
+          {"mohrCoulombTresca", makeMohrCoulomb(rock, {0, 0, 5e6, 5e6, 20e6}), 0.005},
+          {"johnsonCook", steel4340(), 0.05},
+          {"johnsonCookMieGrueneisen", checked(hot), 0.05},
+          {"pseudoCap", makePseudoCap(concreteC40()), 0.01},
+          {"hjc", concreteHjc48(), 0.01}};
+}
+} // namespace coplane::testing
