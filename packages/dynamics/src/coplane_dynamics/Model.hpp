@@ -29,6 +29,7 @@ struct BlockSetup
   std::string name; ///< for messages
   Material material;
   HourglassOptions hourglass;
+  ElementOptions element;
   Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start
   std::function<Vec3(const Vec3&)> velocityField; ///< added to it [m/s]; empty: none
   SymTensor stress{};                             ///< at the start, tension positive [Pa]
@@ -63,6 +64,7 @@ struct Model
   bool contactEnabled = true;
   ContactOptions contact;
   ContactRules contactRules;
+  bool axisymmetric() const { return conditions.axisymmetric; }
   /// Contact groups of faces that are not in the group of their block, by face id, sorted.
   std::vector<std::pair<GlobalId, int>> faceGroups;
   std::optional<Real> skin; ///< [m]
