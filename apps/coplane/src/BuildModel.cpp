@@ -247,6 +247,53 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
   return conditions;
 }
 
+ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const Mesh::Block& block)
+{
+  ElementOptions options;
+  options.form = card.element == "assumed_strain"           ? ElementForm::AssumedStrain
+                 : card.element == "full_integration"       ? ElementForm::FullIntegration
+                 : card.element == "full_integration_plain" ? ElementForm::FullIntegrationPlain
+                 : card.element == "nodal_pressure"         ? ElementForm::NodalPressure
+                                                            : ElementForm::OnePoint;
+  options.rate = card.objectiveRate == "jaumann"        ? ObjectiveRate::Jaumann
+                 : card.objectiveRate == "green_naghdi" ? ObjectiveRate::GreenNaghdi
+                                                        : ObjectiveRate::HughesWinget;
+  if (deck.geometry == "axisymmetric")
+    options.geometry = Geometry::Axisymmetric;
+  const ElementTopology& shape = topology(block.type);
+  const bool simplex = shape.nodes == shape.dimension + 1;
+  const bool forSimplices = options.form == ElementForm::NodalPressure;
+  if (options.form != ElementForm::OnePoint && simplex != forSimplices)
+    fail(ExitCode::Deck,
+         "{}: blocks.{}.element = '{}' is for {}, but the block has {}; accepted: one_point{}.",
+         card.where, card.name, card.element, forSimplices ? "TRI3 and TETRA4" : "QUAD4 and HEX8",
+         shape.exodusName, simplex ? ", nodal_pressure" : ", assumed_strain, full_integration");
+  return options;
+}
+
+/// A body of revolution: x is the radius. Points on the axis stay there.
+void revolve(const Mesh& mesh, const RankMesh& part, const Deck& deck, Conditions& conditions)
+{
+  if (mesh.dimension != 2)
+    fail(ExitCode::Deck,
+         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
+         "plane x, y with x >= 0, or leave the key out.",
+         deck.meshWhere);
+  for (int n = 0; n < mesh.nodes(); ++n)
+    if (mesh.coordinates[n].x < 0)
+      fail(ExitCode::Deck,
+           "{}: geometry = 'axisymmetric', but node {} is at x = {} m; accepted: x >= 0, the "
+           "distance from the axis. Move the mesh, or keep the half with x >= 0.",
+           deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
+  conditions.axisymmetric = true;
+  SymmetryPlane axis;
+  axis.normal = {1, 0, 0};
+  for (int n = 0; n < part.ownedNodes; ++n)
+    if (part.coordinates[n].x == 0)
+      axis.nodes.push_back(n);
+  conditions.symmetries.insert(conditions.symmetries.begin(), axis);
+}
+
 SymTensor tensorOf(const std::array<Real, 6>& s)
 {
   return {s[0], s[1], s[2], s[3], s[4], s[5]};
@@ -288,6 +335,7 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
     setup.materialName = card->material;
     setup.material = materialOf(*material);
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
+    setup.element = elementOptionsOf(deck, *card, block);
     for (const InitialCard& initial : deck.initial)
       if (initial.block == block.name)
         setStart(initial, setup);
@@ -297,6 +345,11 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
   model.contact = optionsOf(deck.contact);
+  if (deck.geometry == "axisymmetric")
+  {
+    revolve(mesh, part, deck, model.conditions);
+    model.contact.axisymmetric = true;
+  }
   addContactRules(deck, mesh, model);
   model.skin = deck.contact.skin;
   model.searchEvery = deck.contact.searchEvery;

@@ -68,7 +68,7 @@ TEST(ElementBlock, tensionPullsTheNodesOfABarTogether)
     EXPECT_NEAR(block.cornerForce()(0, c, 0), right ? -2 : 2, 1e-14);
     EXPECT_NEAR(block.cornerForce()(0, c, 1), 0, 1e-14);
   }
-  EXPECT_NEAR(block.cornerMass(0), 7850.0 / 8, 1e-10);
+  EXPECT_NEAR(block.cornerMass(0, 0), 7850.0 / 8, 1e-10);
   EXPECT_NEAR(block.volume()(0), 1, 1e-15);
 }
 
@@ -90,7 +90,7 @@ TEST(ElementBlock, aTetrahedronUnderPressureIsPushedAtEveryCornerByAThirdOfItsTh
       EXPECT_NEAR(block.cornerForce()(0, c, i), c == i + 1 ? 1 : 0, 1e-14);
   }
   EXPECT_NEAR(block.volume()(0), 1.0 / 6, 1e-16);
-  EXPECT_NEAR(block.cornerMass(0), 7850.0 / 24, 1e-11);
+  EXPECT_NEAR(block.cornerMass(0, 0), 7850.0 / 24, 1e-11);
 }
 
 TEST(ElementBlock, triangleAndTetrahedronHaveNoHourglassForces)
@@ -131,7 +131,7 @@ TEST(ElementBlock, hourglassMotionIsResistedWithTheFrequencyThatTheOptionNames)
   const Real omegaSquared = eps * 4 / 7850.0 * pWaveModulus(steel) * 2;
   for (int c = 0; c < 4; ++c) // relative error: the motion over the edge
     EXPECT_NEAR(block.cornerForce()(0, c, 0),
-                -omegaSquared * block.cornerMass(0) * u(mesh.connectivity[c], 0),
+                -omegaSquared * block.cornerMass(0, 0) * u(mesh.connectivity[c], 0),
                 2 * amplitude * omegaSquared * amplitude * 2000);
   // its energy: 1/2 sum m omega^2 u^2 over four corners
   EXPECT_NEAR(block.energy(0, ElementEnergy::Hourglass) /

@@ -9,10 +9,10 @@ namespace
 {
 const Material steel = makeLinearElastic(200e9, 0.3, 7850);
 
-class Patch : public testing::TestWithParam<ElementType>
+class Patch : public testing::TestWithParam<Formulation>
 {
 protected:
-  bool flat() const { return isFlat(GetParam()); }
+  bool flat() const { return isFlat(GetParam().type); }
   /// A velocity field whose gradient is the same everywhere at the middle of the step.
   Vec3 linear(const Vec3& x) const
   {
@@ -20,22 +20,23 @@ protected:
             flat() ? 0 : 0.7 * x.x + 0.2 * x.y - 1.5 * x.z};
   }
 };
-std::string nameOf(const testing::TestParamInfo<ElementType>& info)
+std::string nameOfParam(const testing::TestParamInfo<Formulation>& info)
 {
-  return topology(info.param).exodusName;
+  return nameOf(info.param);
 }
 } // namespace
 
 TEST_P(Patch, linearVelocityGivesTheExactUniformStressOnADistortedMesh)
 {
-  const TestMesh mesh = distorted(GetParam(), 4, 0.2);
-  ElementBlock block(GetParam(), steel, {}, noViscosity, mesh.connectivity);
+  const TestMesh mesh = distorted(GetParam().type, 4, 0.2);
+  ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                     GetParam().options);
   block.initialise(mesh.x);
   // v is linear in the positions at mid-step, where the rates are taken: x(n+1/2) is the mesh
   // itself here.
   const Real dt = 1e-6;
   const NodeVectors v = field(mesh.x, [&](const Vec3& x) { return linear(x); });
-  block.update(plus(mesh.x, dt / 2, v), v, dt);
+  advance(block, plus(mesh.x, dt / 2, v), v, dt);
 
   const Real lambda = lameLambda(elasticity(steel)), mu = elasticity(steel).shearModulus;
   const Real trace = flat() ? 6 : 4.5;
@@ -45,19 +46,22 @@ TEST_P(Patch, linearVelocityGivesTheExactUniformStressOnADistortedMesh)
                             0,
                             flat() ? 0 : mu * 0.5 * dt,
                             flat() ? 0 : mu * 1.2 * dt};
+  // Green and Naghdi turn the strain to the end of the step, by 3e-6 here.
+  const Real tolerance = GetParam().options.rate == ObjectiveRate::GreenNaghdi ? 1e-5 : 1e-12;
   for (int e = 0; e < block.count(); ++e)
     for (int k = 0; k < 6; ++k)
-      EXPECT_NEAR(block.stress()(k, e), expected[k], 1e-12 * expected[1]);
+      EXPECT_NEAR(block.stress()(k, e), expected[k], tolerance * expected[1]);
 }
 
 TEST_P(Patch, uniformStressLeavesInteriorNodesInBalance)
 {
-  const TestMesh mesh = distorted(GetParam(), 4, 0.2);
-  ElementBlock block(GetParam(), steel, {}, noViscosity, mesh.connectivity);
+  const TestMesh mesh = distorted(GetParam().type, 4, 0.2);
+  ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                     GetParam().options);
   block.initialise(mesh.x);
   const Real dt = 1e-6;
   const NodeVectors v = field(mesh.x, [&](const Vec3& x) { return linear(x); });
-  block.update(plus(mesh.x, dt / 2, v), v, dt);
+  advance(block, plus(mesh.x, dt / 2, v), v, dt);
   const NodeVectors f = nodalForces(block, mesh.nodes());
   const Real scale = largest(f);
   ASSERT_GT(scale, 0);
@@ -72,9 +76,11 @@ TEST_P(Patch, uniformStressLeavesInteriorNodesInBalance)
 
 TEST_P(Patch, linearVelocityDoesNotWakeTheHourglassForces)
 {
-  const TestMesh mesh = distorted(GetParam(), 3, 0.25);
-  ElementBlock with(GetParam(), steel, {0.5, 0.3}, noViscosity, mesh.connectivity);
-  ElementBlock without(GetParam(), steel, {0, 0}, noViscosity, mesh.connectivity);
+  if (GetParam().options.form != ElementForm::OnePoint)
+    GTEST_SKIP() << "other forms have no such options";
+  const TestMesh mesh = distorted(GetParam().type, 3, 0.25);
+  ElementBlock with(GetParam().type, steel, {0.5, 0.3}, noViscosity, mesh.connectivity);
+  ElementBlock without(GetParam().type, steel, {0, 0}, noViscosity, mesh.connectivity);
   const Real dt = 1e-6;
   const NodeVectors v = field(mesh.x, [&](const Vec3& x) { return linear(x); });
   const NodeVectors end = plus(mesh.x, dt / 2, v);
@@ -90,8 +96,11 @@ TEST_P(Patch, linearVelocityDoesNotWakeTheHourglassForces)
 
 TEST_P(Patch, rigidRotationBy90DegreesTurnsTheStressAndKeepsItsSize)
 {
-  const TestMesh mesh = distorted(GetParam(), 2, 0.2);
-  ElementBlock block(GetParam(), steel, {}, noViscosity, mesh.connectivity);
+  if (GetParam().options.rate == ObjectiveRate::Jaumann)
+    GTEST_SKIP() << "the first-order rate stretches the stress by the angle squared in every step";
+  const TestMesh mesh = distorted(GetParam().type, 2, 0.2);
+  ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                     GetParam().options);
   block.initialise(mesh.x);
   block.setInitialStress({100e6, -20e6, 30e6, 40e6, flat() ? 0 : 15e6, flat() ? 0 : -25e6});
   const int steps = 1000;
@@ -109,8 +118,8 @@ TEST_P(Patch, rigidRotationBy90DegreesTurnsTheStressAndKeepsItsSize)
   {
     const NodeVectors before = turned(pi / 2 * step / steps);
     const NodeVectors after = turned(pi / 2 * (step + 1) / steps);
-    block.update(after, field(plus(after, -1, before), [dt](const Vec3& d) { return 1 / dt * d; }),
-                 dt);
+    advance(block, after,
+            field(plus(after, -1, before), [dt](const Vec3& d) { return 1 / dt * d; }), dt);
   }
   // A quarter turn about z: xx and yy change places, xy its sign, (yz, zx) turns like a vector.
   const Real size = 130e6;
@@ -120,4 +129,4 @@ TEST_P(Patch, rigidRotationBy90DegreesTurnsTheStressAndKeepsItsSize)
       EXPECT_NEAR(block.stress()(k, e), expected[k], 1e-10 * size) << "component " << k;
 }
 
-INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(allTypes), nameOf);
+INSTANTIATE_TEST_SUITE_P(Elements, Patch, testing::ValuesIn(allFormulations()), nameOfParam);

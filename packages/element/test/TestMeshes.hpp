@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -77,6 +78,92 @@ inline TestMesh single(ElementType type, Real distortion, unsigned seed = 7)
   TestMesh mesh = distorted(type, 1, distortion, seed);
   mesh.connectivity.resize(mesh.corners());
   return mesh;
+}
+
+/// A step of a block alone: with nodal pressure, dilatations come from its own elements.
+inline void advance(ElementBlock& block, const NodeVectors& x, const NodeVectors& v, Real dt)
+{
+  Array<Real> dilatation;
+  if (block.options().form == ElementForm::NodalPressure && dt > 0)
+  {
+    block.findVolumeChanges(x, v, dt);
+    dilatation = Array<Real>("dilatation", x.extent(0));
+    Array<Real> volume("volume", x.extent(0));
+    for (int e = 0; e < block.count(); ++e)
+      for (int c = 0; c < int(block.connectivity().extent(1)); ++c)
+      {
+        dilatation(block.connectivity()(e, c)) += block.volumeChanges()(0, e);
+        volume(block.connectivity()(e, c)) += block.volumeChanges()(1, e);
+      }
+    for (int n = 0; n < int(x.extent(0)); ++n)
+      dilatation(n) = volume(n) > 0 ? dilatation(n) / volume(n) : 0;
+  }
+  block.update(x, v, dt, dilatation);
+}
+
+struct Formulation
+{
+  ElementType type;
+  ElementOptions options;
+};
+
+/// Every form in plane strain and in three dimensions, and every objective rate with some form.
+inline std::vector<Formulation> allFormulations()
+{
+  using F = ElementForm;
+  using R = ObjectiveRate;
+  std::vector<Formulation> list;
+  for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
+    for (const F form :
+         {F::OnePoint, F::AssumedStrain, F::FullIntegration, F::FullIntegrationPlain})
+      list.push_back({type, {form}});
+  for (const ElementType type : {ElementType::Tri3, ElementType::Tet4})
+    for (const F form : {F::OnePoint, F::NodalPressure})
+      list.push_back({type, {form}});
+  for (const ElementType type :
+       {ElementType::Tri3, ElementType::Quad4, ElementType::Tet4, ElementType::Hex8})
+    list.push_back({type, {F::OnePoint, R::GreenNaghdi}});
+  list.push_back({ElementType::Quad4, {F::OnePoint, R::Jaumann}});
+  list.push_back({ElementType::Hex8, {F::OnePoint, R::Jaumann}});
+  list.push_back({ElementType::Quad4, {F::FullIntegration, R::GreenNaghdi}});
+  list.push_back({ElementType::Hex8, {F::FullIntegration, R::GreenNaghdi}});
+  return list;
+}
+
+/// Bodies of revolution.
+inline std::vector<Formulation> revolvedFormulations()
+{
+  constexpr auto hughesWinget = ObjectiveRate::HughesWinget;
+  constexpr auto revolved = Geometry::Axisymmetric;
+  return {{ElementType::Tri3, {ElementForm::OnePoint, hughesWinget, revolved}},
+          {ElementType::Tri3, {ElementForm::NodalPressure, hughesWinget, revolved}},
+          {ElementType::Quad4, {ElementForm::OnePoint, hughesWinget, revolved}}};
+}
+
+inline std::vector<Formulation> allOf(std::vector<Formulation> list,
+                                      const std::vector<Formulation>& more)
+{
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
+/// The distorted unit square or cube; bodies of revolution half a metre off their axis.
+inline TestMesh meshOf(const Formulation& f, int n, Real distortion, unsigned seed = 7)
+{
+  TestMesh mesh = distorted(f.type, n, distortion, seed);
+  if (f.options.geometry == Geometry::Axisymmetric)
+    for (int node = 0; node < mesh.nodes(); ++node)
+      mesh.x(node, 0) += 0.5;
+  return mesh;
+}
+
+inline std::string nameOf(const Formulation& f)
+{
+  const char* forms[] = {"OnePoint", "AssumedStrain", "Full", "FullPlain", "NodalPressure"};
+  const char* rates[] = {"", "Jaumann", "GreenNaghdi"};
+  return std::string(topology(f.type).exodusName) + forms[int(f.options.form)] +
+         rates[int(f.options.rate)] +
+         (f.options.geometry == Geometry::Axisymmetric ? "Revolved" : "");
 }
 
 constexpr ElementType allTypes[] = {ElementType::Tri3, ElementType::Quad4, ElementType::Tet4,

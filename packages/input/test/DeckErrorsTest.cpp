@@ -51,6 +51,7 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
             "'steel'? There is: steel.\n"
             "wall.yaml:5:13: time.end = '0' is out of range; accepted: a number > 0 [s].\n"
             "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
             "time, output, history, partition.");
 }
@@ -434,6 +435,30 @@ TEST(DeckErrors, aDeckThatDoesNotExist)
   }
 }
 
+TEST(DeckErrors, elementsAndContactThatBodiesOfRevolutionDoNotHave)
+{
+  EXPECT_EQ(errorOf("mesh: wall.e\ngeometry: axisymmetric\n"
+                    "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
+                    "poisson_ratio: 0}}\n"
+                    "blocks: {bar: {material: steel, element: assumed_strain}}\n"
+                    "contact: {method: common_plane}\ntime: {end: 1}\n"),
+            "wall.yaml:4:42: blocks.bar.element = 'assumed_strain' is not offered with geometry = "
+            "'axisymmetric'; use one_point or nodal_pressure.\n"
+            "wall.yaml:5:19: contact.method = 'common_plane' is not offered with geometry = "
+            "'axisymmetric'; use simple_common_plane.");
+}
+
+TEST(DeckErrors, hourglassControlBelongsToOnePoint)
+{
+  EXPECT_NE(errorOf("mesh: wall.e\n"
+                    "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
+                    "poisson_ratio: 0}}\n"
+                    "blocks: {bar: {material: steel, element: full_integration, hourglass: "
+                    "{stiffness: 0.1}}}\ntime: {end: 1}\n")
+                .find("blocks.bar.hourglass"),
+            std::string::npos);
+}
+
 TEST(DeckErrors, aFolderForADeck)
 {
   try
@@ -490,6 +515,7 @@ TEST(DeckSetErrors, comeAfterThoseOfTheFile)
 {
   EXPECT_EQ(errorOf(leastDeck + "titel: x\n", {"mesh.name=1", "time.end=-1"}),
             "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
             "time, output, history, partition.\n"
             "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"

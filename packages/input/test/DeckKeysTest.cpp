@@ -106,12 +106,13 @@ std::string show(const Deck& d)
 {
   std::string out;
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
-          d.localDamping, d.dampingUntil, d.partitionMethod);
+          d.localDamping, d.dampingUntil, d.partitionMethod, d.geometry);
   for (const auto& m : d.materials)
     showAll(out, m.name, m.model, m.density, m.youngsModulus, m.poissonRatio, m.yieldStress,
             m.hardeningModulus);
   for (const auto& b : d.blocks)
-    showAll(out, b.name, b.material, b.hourglassStiffness, b.hourglassViscosity);
+    showAll(out, b.name, b.material, b.element, b.objectiveRate, b.hourglassStiffness,
+            b.hourglassViscosity);
   for (const auto& j : d.joints)
     showAll(out, j.name, j.model, j.stiffnessFraction, j.normalStiffness, j.initialStiffness,
             j.maximumClosure, j.closures, j.tractions, j.stiffnessCap, j.shearStiffness,

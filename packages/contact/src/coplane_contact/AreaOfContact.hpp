@@ -25,6 +25,16 @@ enum class AreaInUse : std::uint8_t
   Bonded       ///< all of it, also across an open gap: a joint that carries tension
 };
 
+/// Depth of a plane in two dimensions, by which lengths along it become areas: 1 m, or 2 pi r of a
+/// body of revolution.
+struct Depth
+{
+  Real atOrigin = 1; ///< at the trial point [m]
+  Real slope = 0;    ///< along the first axis of the plane [-]
+
+  KOKKOS_INLINE_FUNCTION Real at(Real along) const { return atOrigin + slope * along; }
+};
+
 /// Area of contact and what follows from it.
 struct Patch
 {
@@ -105,7 +115,7 @@ KOKKOS_INLINE_FUNCTION void affineWeights(const Shadow& shadow, const Vec2& at, 
 }
 
 KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, Real offset,
-                                             AreaInUse use, bool byPressure)
+                                             AreaInUse use, bool byPressure, const Depth& depth)
 {
   Patch patch;
   const auto parameter = [](const Shadow& s, Real at)
@@ -118,7 +128,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   Real hi = high(a) < high(b) ? high(a) : high(b);
   if (!(hi > lo))
     return patch;
-  patch.overlap = hi - lo;
+  patch.overlap = (hi - lo) * depth.at(0.5 * (lo + hi));
   const Real gapLo = height(b, lo) - height(a, lo) - offset;
   const Real gapHi = height(b, hi) - height(a, hi) - offset;
   patch.leastGap = gapLo < gapHi ? gapLo : gapHi;
@@ -134,15 +144,27 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
     if (!(hi > lo))
       return patch;
   }
-  patch.area = hi - lo;
-  patch.centroid = {0.5 * (lo + hi), 0};
+  const Real middle = 0.5 * (lo + hi), mean = depth.at(middle);
+  patch.area = (hi - lo) * mean;
+  // The centre of gravity and the centre of pressure of what has this depth.
+  patch.centroid = {middle, 0};
+  if (depth.slope != 0)
+    patch.centroid.x += depth.slope * (hi - lo) * (hi - lo) / (12 * mean);
   Real at = patch.centroid.x;
   if (byPressure && use != AreaInUse::Bonded)
   {
     const Real closureLo = gapLo > 0 ? 0 : -gapLo, closureHi = gapHi > 0 ? 0 : -gapHi;
     if (closureLo + closureHi > 0)
-      at = closedLo +
-           (closedHi - closedLo) * (closureLo + 2 * closureHi) / (3 * (closureLo + closureHi));
+    {
+      Real first = closureLo + 2 * closureHi, total = 3 * (closureLo + closureHi);
+      if (depth.slope != 0)
+      {
+        const Real d0 = depth.at(closedLo), d1 = depth.at(closedHi);
+        first = closureLo * (d0 + d1) + closureHi * (d0 + 3 * d1);
+        total = closureLo * (4 * d0 + 2 * d1) + closureHi * (2 * d0 + 4 * d1);
+      }
+      at = closedLo + (closedHi - closedLo) * first / total;
+    }
   }
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
@@ -422,10 +444,12 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b,
 /// point for both faces.
 template <int Dim>
 KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& b, Real offset,
-                                                 AreaInUse use, ContactOptions::Weights weights)
+                                                 AreaInUse use, ContactOptions::Weights weights,
+                                                 const Depth& depth = {})
 {
   if constexpr (Dim == 2)
-    return detail::patchOfSegments(a, b, offset, use, weights == ContactOptions::Weights::Pressure);
+    return detail::patchOfSegments(a, b, offset, use, weights == ContactOptions::Weights::Pressure,
+                                   depth);
   else
   {
     const ConvexPolygon outlineA = detail::outline(a, false), outlineB = detail::outline(b, true);
@@ -435,5 +459,11 @@ KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& 
       patch = detail::patchOfPieces(a, b, outlineA, outlineB, offset, use);
     return patch;
   }
+}
+
+/// What a plane's lengths are to be multiplied with.
+KOKKOS_INLINE_FUNCTION Depth depthOf(const TrialPlane& plane, const ContactOptions& options)
+{
+  return options.axisymmetric ? Depth{2 * pi * plane.point.x, 2 * pi * plane.e1.x} : Depth{};
 }
 } // namespace coplane

@@ -18,12 +18,13 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
   const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
   {
     constexpr auto weights = ContactOptions::Weights::Centroid;
-    return dimension_ == 2 ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
-                                                    stepC_projectOntoPlane<2>(trial, b, 0), 0,
-                                                    AreaInUse::Bonded, weights)
-                           : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
-                                                    stepC_projectOntoPlane<3>(trial, b, 0), 0,
-                                                    AreaInUse::Bonded, weights);
+    return dimension_ == 2
+               ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
+                                        stepC_projectOntoPlane<2>(trial, b, 0), 0,
+                                        AreaInUse::Bonded, weights, depthOf(trial, options_))
+               : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
+                                        stepC_projectOntoPlane<3>(trial, b, 0), 0,
+                                        AreaInUse::Bonded, weights);
   };
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
@@ -51,7 +52,8 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       trial = trialPlaneOf(between);
     }
     const Patch patch = patchOf(trial, a, b);
-    if (!(patch.area > options_.areaMin * std::min(a.area, b.area)))
+    if (!(patch.area > options_.areaMin * std::min(a.area, b.area) *
+                           depthOf(trial, options_).at(patch.centroid.x)))
       continue;
     plane.declared = true;
     plane.born = true;

@@ -42,8 +42,10 @@ std::vector<FaceContact> faceContact(const Contact& contact, const ConstNodeVect
     Vec3 corners[4];
     for (int k = 0; k < faces[f].count; ++k)
       corners[k] = at(x, faces[f].nodes[k]);
-    const Real whole = norm(contact.dimension() == 2 ? vectorArea<2>(corners, faces[f].count)
-                                                     : vectorArea<3>(corners, faces[f].count));
+    Real whole = norm(contact.dimension() == 2 ? vectorArea<2>(corners, faces[f].count)
+                                               : vectorArea<3>(corners, faces[f].count));
+    if (contact.options().axisymmetric)
+      whole *= pi * (corners[0].x + corners[1].x);
     list[f].areaFraction = area[f] / whole;
     list[f].normalTraction /= area[f];
     list[f].shearTraction = (1 / area[f]) * list[f].shearTraction;

@@ -288,12 +288,14 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
   const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
                         : options.area == ContactOptions::Area::Full ? AreaInUse::Full
                                                                      : AreaInUse::Penetrating;
+  const Depth depth = depthOf(trial, options);
   const Patch patch =
       trial.opposed && !shadowsApart(shadowA, shadowB)
-          ? stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights)
+          ? stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights, depth)
           : Patch{};
   plane.overlap = patch.overlap;
-  const Real smallest = options.areaMin * (a.area < b.area ? a.area : b.area);
+  const Real smallest =
+      options.areaMin * (a.area < b.area ? a.area : b.area) * depth.at(patch.centroid.x);
   plane.foundLate = plane.fresh && !plane.declared && !plane.born && patch.area > smallest;
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
   bool inContact = patch.area > smallest;

@@ -37,6 +37,7 @@ struct ContactOptions
     Total,      ///< from the geometry at the end of the step
     Incremental ///< sum of its increments (Cundall 1988)
   };
+  bool axisymmetric = false; ///< two dimensions: areas are those of the whole turn about x = 0
   Method method = Method::SimpleCommonPlane;
   PlaneSearch planeSearch = PlaneSearch::Candidates;
   Area area = Area::Penetrating;

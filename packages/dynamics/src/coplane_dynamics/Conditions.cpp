@@ -6,11 +6,14 @@
 
 namespace coplane
 {
-std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* x, int count)
+std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* x, int count, bool axisymmetric)
 {
   if (dimension == 2)
   {
     const Vec3 half = 0.5 * vectorArea<2>(x, count);
+    if (axisymmetric) // 2 pi int N_I r ds
+      return {(2 * pi / 3 * (2 * x[0].x + x[1].x)) * half,
+              (2 * pi / 3 * (x[0].x + 2 * x[1].x)) * half};
     return {half, half};
   }
   if (count == 3)
@@ -30,12 +33,13 @@ std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* x, int count)
 
 namespace
 {
-std::array<Vec3, 4> presentAreas(int dimension, const LoadedSide& side, const ConstNodeVectors& x)
+std::array<Vec3, 4> presentAreas(int dimension, const LoadedSide& side, const ConstNodeVectors& x,
+                                 bool axisymmetric)
 {
   Vec3 corners[4];
   for (int k = 0; k < side.count; ++k)
     corners[k] = at(x, side.nodes[k]);
-  return cornerAreas(dimension, corners, side.count);
+  return cornerAreas(dimension, corners, side.count, axisymmetric);
 }
 
 template <class Force>
@@ -61,7 +65,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
     const Real pressure = load.pressure(t);
     for (const LoadedSide& side : load.sides)
     {
-      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x);
+      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x, axisymmetric);
       addToCorners(side, ownedNodes, external, [&](int k) { return -pressure * areas[k]; });
     }
   }
@@ -70,7 +74,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
     const Vec3 traction = load.traction(t);
     for (const LoadedSide& side : load.sides)
     {
-      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x);
+      const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x, axisymmetric);
       const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
       addToCorners(side, ownedNodes, external,
                    [&](int k) { return dot(areas[k], normal) * traction; });
@@ -81,7 +85,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
     const Vec3 incident = boundary.incident(t);
     for (const AbsorbingSide& face : boundary.sides)
     {
-      const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x);
+      const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);
       const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
       const Vec3 along = dot(incident, normal) * normal;
       const Vec3 wave =

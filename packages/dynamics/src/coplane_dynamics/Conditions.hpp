@@ -105,8 +105,9 @@ inline Vec3 dot(const SymTensor& s, const Vec3& n)
 
 /// Vector areas of a face's corners: integrals of their shape functions times the normal, so that a
 /// uniform stress is in balance with its traction whatever the shape of the face. Their sum is the
-/// face's vector area. [m^2]
-std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* corners, int count);
+/// face's vector area. Bodies of revolution: over the whole turn. [m^2]
+std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* corners, int count,
+                                bool axisymmetric = false);
 
 struct Conditions
 {
@@ -123,6 +124,7 @@ struct Conditions
   std::vector<FacePressure> pressures;
   std::vector<FaceTraction> tractions;
   std::vector<AbsorbingBoundary> absorbing;
+  bool axisymmetric = false;    ///< faces are those of a body of revolution about x = 0
   VectorOfTime gravity;         ///< [m/s^2]
   OfTime massDamping;           ///< alpha of the force -alpha m v [1/s]; empty: none
   Real localDamping = 0;        ///< force -alpha |f_c| sign(v_c) on each component c [-]

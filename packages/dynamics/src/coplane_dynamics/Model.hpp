@@ -30,6 +30,7 @@ struct BlockSetup
   std::string materialName; ///< for tables; materials with one name are one
   Material material;
   HourglassOptions hourglass;
+  ElementOptions element;
   Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start
   std::function<Vec3(const Vec3&)> velocityField; ///< added to it [m/s]; empty: none
   SymTensor stress{};                             ///< at the start, tension positive [Pa]
@@ -64,6 +65,7 @@ struct Model
   bool contactEnabled = true;
   ContactOptions contact;
   ContactRules contactRules;
+  bool axisymmetric() const { return conditions.axisymmetric; }
   /// Contact groups of faces that are not in the group of their block, by face id, sorted.
   std::vector<std::pair<GlobalId, int>> faceGroups;
   std::optional<Real> skin; ///< [m]

@@ -36,7 +36,13 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     }
     const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
                                                : vectorArea<3>(corners, face.count));
-    face.thickness = blocks[exterior.block].referenceVolume()(exterior.element) / area;
+    const ElementBlock& block = blocks[exterior.block];
+    face.thickness = block.referenceVolume()(exterior.element) / area;
+    if (block.options().geometry == Geometry::Axisymmetric)
+    {
+      const Real length = block.referenceLength()(exterior.element);
+      face.thickness = length * length / area;
+    }
     face.modulus = pWaveModulus(blocks[exterior.block].material());
     faces.push_back(face);
   }
@@ -74,7 +80,7 @@ Solver::Solver(Model model, const Comm& comm)
     const RankMesh::Block& part = mesh.blocks[b];
     const BlockSetup& setup = model_.blocks[b];
     blocks_.emplace_back(part.type, setup.material, setup.hourglass, model_.viscosity,
-                         part.connectivity);
+                         part.connectivity, setup.element);
     ElementBlock& block = blocks_.back();
     block.initialise(state_.x);
     setInitialStress(b);
@@ -102,7 +108,7 @@ Solver::Solver(Model model, const Comm& comm)
         if (node < owned)
         {
           gather.entry(next[node]++) = e * corners + k;
-          state_.mass(node) += block.cornerMass(e);
+          state_.mass(node) += block.cornerMass(e, k);
         }
         const Vec3 x = at(state_.x, node);
         set(state_.v, node, setup.velocityAt(x));
@@ -187,14 +193,43 @@ void Solver::gatherElementForces()
   }
 }
 
+/// Dilatation of the step at every node from the elements of one block around it; empty where the
+/// block does not ask for it. Collective when it does.
+ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
+{
+  ElementBlock& block = blocks_[b];
+  if (block.options().form != ElementForm::NodalPressure || dt == 0)
+    return {};
+  block.findVolumeChanges(state_.x, state_.v, dt);
+  if (int(dilatation_.extent(0)) != layout_.size())
+    dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout_.size());
+  const auto start = gathers_[b].start;
+  const auto entry = gathers_[b].entry;
+  const auto changes = block.volumeChanges();
+  const auto dilatation = dilatation_;
+  const int corners = topology(block.type()).nodes;
+  parallelFor(
+      "coplane::dynamics::nodalDilatation", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        Real change = 0, volume = 0;
+        for (int i = start(n); i < start(n + 1); ++i)
+        {
+          change += changes(0, entry(i) / corners);
+          volume += changes(1, entry(i) / corners);
+        }
+        dilatation(n) = volume > 0 ? change / volume : 0;
+      });
+  layout_.refresh(dilatation_);
+  return dilatation_;
+}
+
 void Solver::findForces(Real dt)
 {
   if (contact_)
     contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   {
     TimedRegion region("coplane::element::update");
-    for (ElementBlock& block : blocks_)
-      block.update(state_.x, state_.v, dt);
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
   }
   gatherElementForces();
   if (contact_)

@@ -90,6 +90,7 @@ private:
 
   void search(bool again = false);
   void findForces(Real dt);
+  ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
   void gatherElementForces();
   Real stableStep();
   void setInitialStress(int block);
@@ -114,6 +115,7 @@ private:
   std::vector<Gather> gathers_;
   std::unique_ptr<Contact> contact_;
   Array<Real> elementStep_, contactStiffness_; ///< per owned node
+  Array<Real> dilatation_;                     ///< of the step, per node of the layout
   std::vector<int> constrained_;
   std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;

@@ -78,6 +78,13 @@ Momenta Solver::momenta() const
   momenta.impulse = {totals[6], totals[7], totals[8]};
   momenta.angularImpulse = {totals[9], totals[10], totals[11]};
   momenta.magnitude = totals[12];
+  if (model_.axisymmetric())
+  {
+    // Only the momentum along the axis does not vanish over the turn.
+    momenta.linear = {0, momenta.linear.y, 0};
+    momenta.impulse = {0, momenta.impulse.y, 0};
+    momenta.angular = momenta.angularImpulse = {};
+  }
   momenta.initialLinear = initialMomenta_.linear;
   momenta.initialAngular = initialMomenta_.angular;
   return momenta;

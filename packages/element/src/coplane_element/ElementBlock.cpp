@@ -1,7 +1,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Lanes.hpp>
 #include <coplane_element/ElementBlock.hpp>
-#include <coplane_element/ElementKernel.hpp>
+#include <coplane_element/FullKernel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +11,131 @@ namespace coplane
 {
 namespace
 {
+/// Volumes and masses of an element, from the positions of its corners.
 template <ElementType type>
-Real volumeOf(const ConstTable<int>& connectivity, int element, const ConstNodeVectors& x)
+struct Measures
 {
   using M = Modes<type>;
   Real modes[M::dimension][M::count], b[M::dimension][M::gradients];
-  for (int i = 0; i < M::dimension; ++i)
+  Real area = 0, volume = 0; ///< in two dimensions the area of the section; [m^2], [m^3]
+  Real share[M::nodes];      ///< int N_I dV, where masses of corners differ [m^3]
+
+  Measures(const ConstTable<int>& connectivity, int element, const ConstNodeVectors& x)
   {
-    Real corner[M::nodes];
-    for (int c = 0; c < M::nodes; ++c)
-      corner[c] = x(connectivity(element, c), i) - x(connectivity(element, 0), i);
-    M::fromCorners(corner, modes[i]);
+    for (int i = 0; i < M::dimension; ++i)
+    {
+      Real corner[M::nodes];
+      for (int c = 0; c < M::nodes; ++c)
+        corner[c] = x(connectivity(element, c), i) - x(connectivity(element, 0), i);
+      M::fromCorners(corner, modes[i]);
+    }
+    M::volumeGradient(modes, b);
+    area = volume = M::volume(modes, b);
+    for (Real& part : share)
+      part = volume / M::nodes;
   }
-  M::volumeGradient(modes, b);
-  return M::volume(modes, b);
-}
+
+  /// Of the ring of which the element is a section. r: radii of the corners [m]
+  void revolve(const Real* r)
+  {
+    if constexpr (type == ElementType::Tri3)
+    {
+      volume = 0;
+      for (int c = 0; c < 3; ++c)
+        volume += share[c] = 2 * pi * area / 12 * (r[c] + (r[0] + r[1] + r[2]));
+    }
+    else if constexpr (type == ElementType::Quad4)
+    {
+      Real mean = 0;
+      for (int c = 0; c < 4; ++c)
+        mean += 0.25 * r[c];
+      atPoints(
+          [&](const Real(&p)[3]) {
+            return 2 * pi *
+                   (mean + modes[0][0] * p[0] + modes[0][1] * p[1] + modes[0][2] * p[0] * p[1]);
+          });
+    }
+  }
+
+  /// Shares and volume by Gauss points; calls weight(point) for a factor. Returns the volumes of
+  /// the points.
+  template <class Weight>
+  std::array<Real, 8> atPoints(const Weight& weight)
+  {
+    std::array<Real, 8> parts{};
+    if constexpr (type == ElementType::Quad4 || type == ElementType::Hex8)
+    {
+      using Points = GaussPoints<type>;
+      volume = 0;
+      for (Real& part : share)
+        part = 0;
+      for (int q = 0; q < Points::count; ++q)
+      {
+        Real p[3];
+        gaussPoint(q, p);
+        Vec3 slope[3] = {{}, {}, {0, 0, 1}}; // columns: dx/dxi_k
+        for (int i = 0; i < M::dimension; ++i)
+        {
+          Real s[3];
+          Points::slopes(modes[i], p, s);
+          for (int k = 0; k < M::dimension; ++k)
+            slope[k][i] = s[k];
+        }
+        parts[q] = weight(p) * dot(cross(slope[0], slope[1]), slope[2]);
+        volume += parts[q];
+        static constexpr int sign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                           {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+        for (int c = 0; c < M::nodes; ++c)
+        {
+          Real shape = 1;
+          for (int k = 0; k < M::dimension; ++k)
+            shape *= 0.5 * (1 + sign[c][k] * p[k]);
+          share[c] += shape * parts[q];
+        }
+      }
+    }
+    return parts;
+  }
+};
+
+/// Increment of the volume over a step, and the volume in its middle.
+template <ElementType type, bool revolved>
+struct VolumeChanges
+{
+  using M = Modes<type>;
+  ElementKernelData data;
+  ElementBlock::Values changes;
+
+  [[gnu::noinline]] void operator()(const int batch) const
+  {
+    const int first = batch * laneCount;
+    Lanes x[M::dimension][M::count], v[M::dimension][M::count], radius(0.0), speed(0.0);
+    gatherModes<M>(data.connectivity, data.x, first, x, revolved ? &radius : nullptr);
+    gatherModes<M>(data.connectivity, data.v, first, v, revolved ? &speed : nullptr);
+    for (int i = 0; i < M::dimension; ++i)
+      for (int k = 0; k < M::count; ++k)
+        x[i][k] -= Lanes(0.5 * data.dt) * v[i][k];
+    Lanes b[M::dimension][M::gradients], sum(0.0), volume;
+    if constexpr (revolved)
+    {
+      Lanes hoop[M::gradients + 1];
+      volume = Revolved<type>::volumeGradient(x, radius - Lanes(0.5 * data.dt) * speed, b, hoop);
+      sum = speed * hoop[M::gradients];
+      for (int k = 0; k < M::gradients; ++k)
+        sum += v[0][k] * hoop[k];
+    }
+    else
+    {
+      M::volumeGradient(x, b);
+      volume = M::volume(x, b);
+    }
+    for (int i = 0; i < M::dimension; ++i)
+      for (int k = 0; k < M::gradients; ++k)
+        sum += v[i][k] * b[i][k];
+    store(Lanes(M::nodes * data.dt) * sum, &changes(0, first));
+    store(volume, &changes(1, first));
+  }
+};
 
 /// Calls f with the type as a constant.
 template <class F>
@@ -46,10 +156,24 @@ auto withType(ElementType type, F&& f)
 } // namespace
 
 ElementBlock::ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
-                           const BulkViscosity& viscosity, const std::vector<int>& connectivity)
-    : type_(type), law_(law), hourglass_(hourglass), viscosity_(viscosity)
+                           const BulkViscosity& viscosity, const std::vector<int>& connectivity,
+                           const ElementOptions& options)
+    : type_(type), law_(law), hourglass_(hourglass), viscosity_(viscosity), options_(options)
 {
   const int nodes = topology(type).nodes;
+  const int dim = topology(type).dimension;
+  const bool simplex = nodes == dim + 1;
+  const bool full = isFullyIntegrated(options.form);
+  const bool revolved = options.geometry == Geometry::Axisymmetric;
+  if (simplex ? full || options.form == ElementForm::AssumedStrain
+              : options.form == ElementForm::NodalPressure)
+    fail(ExitCode::Internal, "element block: {} has no such form", topology(type).exodusName);
+  if (revolved && (dim == 3 || full || options.form == ElementForm::AssumedStrain))
+    fail(ExitCode::Internal, "element block: {} of this form is not axisymmetric",
+         topology(type).exodusName);
+  // Neither the strain nor an assumed strain leaves anything to the options of one point.
+  if (options.form != ElementForm::OnePoint)
+    hourglass_ = {0, 0};
   if (connectivity.size() % nodes != 0)
     fail(ExitCode::Internal, "element block: {} node indices are no multiple of {} for {}",
          connectivity.size(), nodes, topology(type).exodusName);
@@ -75,27 +199,68 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   energies_ = Values("energies", elementEnergies, padded);
   const int rows =
       withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; });
-  hourglassForce_ = Values("hourglassForce", rows, padded);
+  hourglassForce_ = Values("hourglassForce", full ? 0 : rows, padded);
   hourglassViscousForce_ =
-      Values("hourglassViscousForce", hourglass.viscosity > 0 ? rows : 0, padded);
+      Values("hourglassViscousForce", hourglass_.viscosity > 0 ? rows : 0, padded);
+  const int points = full ? nodes : 0;
+  const int components = dim == 3 ? 6 : 4;
+  cornerMass_ = Values("cornerMass", full || revolved ? nodes : 0, padded);
+  pointMass_ = Values("pointMass", points, padded);
+  pointStress_ = Values("pointStress", points * components, padded);
+  pointHistory_ = Values("pointHistory", points * historyNames_.size(), padded);
+  pointEnergy_ = Values("pointEnergy", points, padded);
+  const bool tracked = options.rate == ObjectiveRate::GreenNaghdi;
+  deformation_ = Values("deformation", tracked ? std::max(points, 1) * dim * dim : 0, padded);
+  const bool nodal = options.form == ElementForm::NodalPressure;
+  volumeRatio_ = Values("volumeRatio", nodal ? 1 : 0, padded);
+  volumeChanges_ = Values("volumeChanges", nodal ? 2 : 0, padded);
 }
 
 void ElementBlock::initialise(const ConstNodeVectors& x)
 {
   const bool flat = topology(type_).dimension == 2;
-  const Real rho = coplane::density(law_);
   for (int e = 0; e < int(mass_.extent(0)); ++e)
   {
-    const Real volume = withType(type_, [&](auto t) { return volumeOf<t()>(connectivity_, e, x); });
-    referenceVolume_(e) = volume_(e) = volume;
-    referenceLength_(e) = flat ? std::sqrt(volume) : std::cbrt(volume);
-    mass_(e) = rho * volume;
+    const Real size = withType(type_, [&](auto t) { return measure<t()>(e, x); });
+    referenceLength_(e) = flat ? std::sqrt(size) : std::cbrt(size);
   }
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
   Kokkos::deep_copy(tangent_, 1.0);
   Kokkos::deep_copy(cornerForce_, 0.0);
   for (int e = 0; e < int(mass_.extent(0)); ++e)
     setInitialStress(e, {});
+  Kokkos::deep_copy(volumeRatio_, 1.0);
+  const int dim = topology(type_).dimension;
+  for (int k = 0; k < int(deformation_.extent(0)); ++k)
+    if (k % (dim * dim) % (dim + 1) == 0)
+      for (int e = 0; e < int(mass_.extent(0)); ++e)
+        deformation_(k, e) = 1;
+}
+
+/// Returns the area in two dimensions, else the volume.
+template <ElementType type>
+Real ElementBlock::measure(int e, const ConstNodeVectors& x)
+{
+  const Real rho = coplane::density(law_);
+  Measures<type> measures(connectivity_, e, x);
+  if (options_.geometry == Geometry::Axisymmetric)
+  {
+    Real radii[Modes<type>::nodes];
+    for (int c = 0; c < Modes<type>::nodes; ++c)
+      radii[c] = x(connectivity_(e, c), 0);
+    measures.revolve(radii);
+  }
+  else if (isFullyIntegrated(options_.form))
+  {
+    const auto parts = measures.atPoints([](const Real(&)[3]) { return 1.0; });
+    for (int q = 0; q < int(pointMass_.extent(0)); ++q)
+      pointMass_(q, e) = rho * parts[q];
+  }
+  referenceVolume_(e) = volume_(e) = measures.volume;
+  mass_(e) = rho * measures.volume;
+  for (int c = 0; c < int(cornerMass_.extent(0)); ++c)
+    cornerMass_(c, e) = rho * measures.share[c];
+  return measures.area;
 }
 
 void ElementBlock::setInitialStress(const SymTensor& stress)
@@ -115,50 +280,98 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
   for (int k = 0; k < 6; ++k)
     stress_(k, element) = values[k];
   const auto start = initialHistory(law_, s);
-  for (int k = 0; k < int(history_.extent(0)); ++k)
+  const int rows = int(history_.extent(0));
+  for (int k = 0; k < rows; ++k)
     history_(k, element) = start[std::size_t(k)];
+  for (int k = 0; k < int(pointHistory_.extent(0)); ++k)
+    pointHistory_(k, element) = start[std::size_t(k % rows)];
+  const int components = topology(type_).dimension == 3 ? 6 : 4;
+  for (int k = 0; k < int(pointStress_.extent(0)); ++k)
+    pointStress_(k, element) = values[k % components];
 }
 
-void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
+void ElementBlock::findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
 {
   if (count_ == 0)
     return;
+  const ElementKernelData data = kernelData(x, v, dt);
+  const auto changes = volumeChanges_;
+  const bool revolved = options_.geometry == Geometry::Axisymmetric;
+  const auto run = [&](auto type, auto isRevolved)
+  {
+    parallelFor("coplane::element::volumeChanges", data.batches,
+                VolumeChanges<type(), isRevolved()>{data, changes});
+  };
+  if (type_ == ElementType::Tet4)
+    run(std::integral_constant<ElementType, ElementType::Tet4>{}, std::false_type{});
+  else if (revolved)
+    run(std::integral_constant<ElementType, ElementType::Tri3>{}, std::true_type{});
+  else
+    run(std::integral_constant<ElementType, ElementType::Tri3>{}, std::false_type{});
+}
+
+ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                                           Real dt) const
+{
   const LinearElastic& elastic = elasticity(law_);
-  const ElementKernelData data{x,
-                               v,
-                               dt,
-                               hourglass_,
-                               viscosity_,
-                               lameLambda(elastic),
-                               elastic.shearModulus,
-                               pWaveModulus(elastic),
-                               soundSpeed(law_),
-                               int(mass_.extent(0)) / laneCount,
-                               &law_,
-                               connectivity_,
-                               mass_,
-                               referenceVolume_,
-                               referenceLength_,
-                               stress_,
-                               history_,
-                               tangent_,
-                               hourglassForce_,
-                               hourglassViscousForce_,
-                               compression_,
-                               energies_,
-                               cornerForce_,
-                               stableStep_,
-                               volume_};
+  ElementKernelData data;
+  data.x = x;
+  data.v = v;
+  data.dt = dt;
+  data.options = options_;
+  data.hourglass = hourglass_;
+  data.viscosity = viscosity_;
+  data.lambda = lameLambda(elastic);
+  data.shearModulus = elastic.shearModulus;
+  data.pWaveModulus = pWaveModulus(elastic);
+  data.soundSpeed = soundSpeed(law_);
+  data.batches = int(mass_.extent(0)) / laneCount;
+  data.material = &law_;
+  data.connectivity = connectivity_;
+  data.mass = mass_;
+  data.referenceVolume = referenceVolume_;
+  data.referenceLength = referenceLength_;
+  data.stress = stress_;
+  data.history = history_;
+  data.tangent = tangent_;
+  data.hourglassForce = hourglassForce_;
+  data.hourglassViscousForce = hourglassViscousForce_;
+  data.compression = compression_;
+  data.energies = energies_;
+  data.cornerForce = cornerForce_;
+  data.stableStep = stableStep_;
+  data.volume = volume_;
+  data.cornerMass = cornerMass_;
+  data.deformation = deformation_;
+  data.volumeRatio = volumeRatio_;
+  data.pointMass = pointMass_;
+  data.pointStress = pointStress_;
+  data.pointHistory = pointHistory_;
+  data.pointEnergy = pointEnergy_;
+  return data;
+}
+
+void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
+                          const ConstArray<Real>& nodalDilatation)
+{
+  if (count_ == 0)
+    return;
+  ElementKernelData data = kernelData(x, v, dt);
+  data.nodalDilatation = nodalDilatation;
+  if (options_.form == ElementForm::NodalPressure && dt > 0 && nodalDilatation.extent(0) == 0)
+    fail(ExitCode::Internal, "element block: nodal dilatations are missing");
+  const bool revolved = options_.geometry == Geometry::Axisymmetric;
+  const bool full = isFullyIntegrated(options_.form);
   switch (type_)
   {
   case ElementType::Tri3:
-    return updateTri3(data);
+    return revolved ? updateRevolvedTri3(data) : updateTri3(data);
   case ElementType::Quad4:
-    return updateQuad4(data);
+    return revolved ? updateRevolvedQuad4(data) : full ? updateFullQuad4(data) : updateQuad4(data);
   case ElementType::Tet4:
     return updateTet4(data);
   case ElementType::Hex8:
-    return updateHex8(data);
+    return full ? updateFullHex8(data) : updateHex8(data);
   }
 }
 

@@ -4,30 +4,16 @@
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_element/ElementOptions.hpp>
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coplane
 {
-/// Resistance against the deformations that the one-point strain does not see (Flanagan and
-/// Belytschko 1981).
-struct HourglassOptions
-{
-  Real stiffness = 0.05; ///< fraction of the stiffness of the element's fastest mode [-]
-  Real viscosity = 0;    ///< fraction of critical damping of the hourglass modes [-]
-};
-
-/// Pressure q = rho l r (linear c_d + quadratic l r) against compression at the rate r = <-tr D>
-/// (von Neumann and Richtmyer).
-struct BulkViscosity
-{
-  Real linear = 0.06;
-  Real quadratic = 1.5;
-};
-
 /// Energies of an element since the start of the run [J]; rows of ElementBlock::energies().
 enum class ElementEnergy : int
 {
@@ -37,6 +23,8 @@ enum class ElementEnergy : int
   Viscous             ///< work of the bulk viscosity
 };
 constexpr int elementEnergies = 4;
+
+struct ElementKernelData;
 
 /// All elements of one type and one law on this rank: from positions and velocities to internal
 /// forces, a cycle at a time. Time levels (central differences): x and stress at n, v at n + 1/2.
@@ -55,7 +43,8 @@ public:
 
   /// @param connectivity local node indices, topology(type).nodes per element
   ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
-               const BulkViscosity& viscosity, const std::vector<int>& connectivity);
+               const BulkViscosity& viscosity, const std::vector<int>& connectivity,
+               const ElementOptions& options = {});
 
   /// Takes reference volumes and masses from the nodes' first positions [m] and clears the history.
   void initialise(const ConstNodeVectors& x);
@@ -65,17 +54,26 @@ public:
   /// The same for one element.
   void setInitialStress(int element, const SymTensor& stress);
 
+  /// For ElementForm::NodalPressure, before update(): increments of volume over the step and
+  /// volumes in its middle, whose sums around a node give its dilatation, sum / sum.
+  void findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
+  /// Two rows, see there [m^3].
+  ConstTable<Real> volumeChanges() const { return volumeChanges_; }
+
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
   /// steps at x^(n+1). With dt = 0 nothing advances: it gives the forces that belong to the present
   /// stress, with the bits they had when that stress was computed (start of a run, restart). Never
   /// throws: see invertedElement().
   /// @param x positions at n + 1 [m]
   /// @param v velocities at n + 1/2 [m/s], by which the nodes came from x(n) to x(n+1)
-  void update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
+  /// @param nodalDilatation of the step, per local node; for NodalPressure and dt > 0 only [-]
+  void update(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
+              const ConstArray<Real>& nodalDilatation = {});
 
   int count() const { return count_; }
   ElementType type() const { return type_; }
   const Material& material() const { return law_; }
+  const ElementOptions& options() const { return options_; }
   /// [element][corner] -> local node
   ConstTable<int> connectivity() const { return connectivity_; }
 
@@ -83,22 +81,28 @@ public:
   /// (minus B sigma).
   ConstCornerVectors cornerForce() const { return cornerForce_; }
   Real mass(int element) const { return mass_(element); } ///< [kg]
-  Real cornerMass(int element) const
+  /// Lumped [kg]: equal parts, but for bodies of revolution and full integration integrals of the
+  /// shape functions.
+  Real cornerMass(int element, int corner) const
   {
-    return mass_(element) / topology(type_).nodes;
-  }                                                           ///< lumped [kg]
+    return cornerMass_.extent(0) > 0 ? cornerMass_(corner, element)
+                                     : mass_(element) / topology(type_).nodes;
+  }
   ConstArray<Real> stableStep() const { return stableStep_; } ///< [s]; 0 when inverted
   ConstArray<Real> volume() const
   {
     return volume_;
-  } ///< [m^3]; area times unit thickness in two dimensions
+  } ///< [m^3]; area times unit thickness in plane strain
   ConstArray<Real> referenceVolume() const { return referenceVolume_; }
-  /// xx, yy, zz, xy, yz, zx; tension positive, without bulk viscosity [Pa]
+  /// V^(1/3), in two dimensions the root of the area [m].
+  ConstArray<Real> referenceLength() const { return referenceLength_; }
+  /// xx, yy, zz, xy, yz, zx; tension positive, without bulk viscosity; the mean over the points; zz
+  /// is the hoop stress of bodies of revolution [Pa]
   ConstValues stress() const { return stress_; }
   Real pressure(int element) const; ///< -tr(stress)/3 [Pa]
   Real vonMises(int element) const; ///< sqrt(3/2 s:s) [Pa]
   Real density(int element) const { return mass_(element) / volume_(element); } ///< now [kg/m^3]
-  /// The law's variables, a row each; names in the order of the rows.
+  /// The law's variables, a row each, means over the points; names in the order of the rows.
   ConstValues history() const { return history_; }
   const std::vector<std::string>& historyVariables() const { return historyNames_; }
   int historyRow(const std::string& name) const; ///< -1 when the law has no such variable
@@ -125,27 +129,47 @@ public:
     f("hourglass_viscous_force", int(hourglassViscousForce_.extent(0)), hourglassViscousForce_);
     f("compression_rate", int(compression_.extent(0)), compression_);
     f("element_energy", int(energies_.extent(0)), energies_);
+    for (const auto& [name, values] : {std::pair{"deformation", deformation_},
+                                       {"volume_ratio", volumeRatio_},
+                                       {"point_stress", pointStress_},
+                                       {"point_history", pointHistory_},
+                                       {"point_energy", pointEnergy_}})
+      if (values.extent(0) > 0)
+        f(name, int(values.extent(0)), values);
   }
 
 private:
+  template <ElementType type>
+  Real measure(int element, const ConstNodeVectors& x);
+  ElementKernelData kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt) const;
+
   ElementType type_;
   Material law_;
   HourglassOptions hourglass_;
   BulkViscosity viscosity_;
   int count_ = 0;
+  ElementOptions options_;
   Table<int> connectivity_;
 
   // of the reference state
   Array<Real> mass_, referenceVolume_, referenceLength_;
+  Values cornerMass_; // a row per corner, where masses of corners differ
+  Values pointMass_;  // a row per point, full integration
 
   // history
   Values stress_, history_, hourglassForce_, hourglassViscousForce_, energies_;
   Values tangent_; // rows: stiffening, integrity of the law (MaterialPoint)
   std::vector<std::string> historyNames_;
+  Values deformation_; // GreenNaghdi: deformation gradient of each point
+  Values volumeRatio_; // NodalPressure: mean over the corners
+  // full integration: rows of all points one after another
+  Values pointStress_, pointHistory_;
+  Values pointEnergy_; // internal and viscous, per reference volume [J/m^3]
   Values compression_; // rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
 
   // of the last update
   CornerVectors cornerForce_;
   Array<Real> stableStep_, volume_;
+  Values volumeChanges_;
 };
 } // namespace coplane

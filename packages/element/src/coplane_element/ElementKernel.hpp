@@ -1,56 +1,30 @@
 #pragma once
 
-#include <coplane_core/Backend.hpp>
-#include <coplane_core/Lanes.hpp>
-#include <coplane_core/NodeViews.hpp>
-#include <coplane_element/ElementBlock.hpp>
-#include <coplane_element/HughesWinget.hpp>
-#include <coplane_element/MeanGradient.hpp>
+#include <coplane_element/AssumedStrain.hpp>
+#include <coplane_element/ElementKernelData.hpp>
+#include <coplane_element/ObjectiveRate.hpp>
+#include <coplane_element/Revolved.hpp>
 #include <coplane_element/StableStep.hpp>
 
 namespace coplane
 {
-/// What one call of ElementBlock::update() reads and writes.
-struct ElementKernelData
-{
-  ConstNodeVectors x, v;
-  Real dt;
-  HourglassOptions hourglass;
-  BulkViscosity viscosity;
-  Real lambda, shearModulus, pWaveModulus, soundSpeed; // [Pa], [m/s]
-  int batches;
-  const Material* material;
-  ConstTable<int> connectivity;
-  ConstArray<Real> mass, referenceVolume, referenceLength;
-  Table<Real> stress, history, tangent, hourglassForce, hourglassViscousForce, compression,
-      energies;
-  ElementBlock::CornerVectors cornerForce;
-  Array<Real> stableStep, volume;
-};
-
-void updateTri3(const ElementKernelData& data);
-void updateQuad4(const ElementKernelData& data);
-void updateTet4(const ElementKernelData& data);
-void updateHex8(const ElementKernelData& data);
-
-inline Lanes load(const Real* from)
-{
-  return Lanes(from, stdx::element_aligned);
-}
-inline void store(const Lanes& value, Real* to)
-{
-  value.copy_to(to, stdx::element_aligned);
-}
-
-/// One batch of laneCount elements: everything from positions to corner forces in one pass.
-/// Law: one of the laws itself, or LawFunction for any.
-template <ElementType type, class Law>
+/// One batch of laneCount elements with one point: everything from positions to corner forces in
+/// one pass.
+/// Law: one of the laws itself, or LawFunction for any. revolved: a body of revolution.
+template <ElementType type, class Law, bool revolved = false>
 struct ElementKernel
 {
   using M = Modes<type>;
   static constexpr int dim = M::dimension;
   static constexpr int nodes = M::nodes;
   static constexpr bool hasHourglass = M::hourglass > 0;
+  static constexpr int gradients = []
+  {
+    if constexpr (revolved)
+      return Revolved<type>::gradients;
+    else
+      return M::gradients;
+  }();
   /// One vector per hourglass mode; an unused one where the strain sees every deformation.
   using HourglassVectors = Lanes[hasHourglass ? M::hourglass : 1][dim];
 
@@ -62,28 +36,32 @@ struct ElementKernel
   {
     const int first = batch * laneCount;
     Lanes x[dim][M::count], v[dim][M::count];
-    gather(data.x, first, x);
-    gather(data.v, first, v);
+    Radial radial;
+    gatherModes<M>(data.connectivity, data.x, first, x, revolved ? &radial.position : nullptr);
+    gatherModes<M>(data.connectivity, data.v, first, v, revolved ? &radial.velocity : nullptr);
 
     HourglassVectors hourglass;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         hourglass[a][i] = load(&data.hourglassForce(a * dim + i, first));
 
-    SymTensorOf<Lanes> stress = loadStress(first);
+    SymTensorOf<Lanes> stress = loadTensor<dim>(data.stress, 0, first);
     const Lanes oldViscousPressure = load(&data.compression(1, first));
-    Lanes b[dim][M::gradients];
-    M::volumeGradient(x, b);
-    const Lanes volume = M::volume(x, b);
+    Lanes b[dim][gradients];
+    Hoop hoop;
+    const Lanes volume = volumeGradient(x, radial.position, b, hoop);
     const Lanes inverseVolume = Lanes(1.0) / volume;
     const Lanes mass = load(&data.mass(first));
     const Lanes rho = mass * inverseVolume;
-    const Lanes length = characteristicLength(volume, first);
+    const Lanes length = characteristicLength<dim>(data, revolved ? areaOf(hoop) : volume, first);
     Motion motion;
     MaterialPoint<Lanes> point;
     if (data.dt > 0)
     {
-      findMotion(x, v, motion, point);
+      findMotion(x, v, radial, motion, point);
+      if constexpr (!hasHourglass)
+        if (data.options.form == ElementForm::NodalPressure)
+          takeNodalDilatation(first, point);
       const SymTensorOf<Lanes>& de = point.strainIncrement;
       store(branchFree::positivePart(-(de.xx + de.yy + de.zz) / Lanes(data.dt)),
             &data.compression(0, first));
@@ -107,12 +85,16 @@ struct ElementKernel
           hourglass[a][i] += load(&data.hourglassViscousForce(a * dim + i, first));
 
     const LaneMask finite =
-        storeCornerForces(first, x, b, stress, viscousPressure, hourglass, inverseVolume);
+        storeCornerForces(first, x, b, hoop, stress, viscousPressure, hourglass, inverseVolume);
 
     // Tangent of the viscous pressure over the rate of compression, per density.
     const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
-    const Lanes step =
-        stableStepOf(x, b, inverseVolume, rho, viscosity, load(&data.tangent(0, first)));
+    const Lanes stiffening = load(&data.tangent(0, first));
+    Lanes step;
+    if constexpr (revolved)
+      step = revolvedStableStep(first, x, b, hoop, volume, viscosity, stiffening);
+    else
+      step = stableStepOf(x, b, inverseVolume, rho, viscosity, stiffening);
     const LaneMask good = finite && volume > Lanes(0.0) && step > Lanes(0.0);
     store(choose(good, step, Lanes(0.0)), &data.stableStep(first));
   }
@@ -124,78 +106,53 @@ private:
     store(load(where) + amount, where);
   }
 
-  /// Modes of a nodal field. Corner 0 is taken off first: a far origin or a common speed then costs
-  /// no digits.
-  void gather(const ConstNodeVectors& field, int first, Lanes (&modes)[dim][M::count]) const
+  /// Means over the corners of the radius and of the radial velocity.
+  struct Radial
   {
-    const int* const node = &data.connectivity(first, 0);
-    for (int i = 0; i < dim; ++i)
-    {
-      const auto corner = [&](int c)
-      { return Lanes([&](auto lane) { return field(node[int(lane) * nodes + c], i); }); };
-      const Lanes origin = corner(0);
-      Lanes u[nodes];
-      u[0] = Lanes(0.0);
-#pragma GCC unroll 8
-      for (int c = 1; c < nodes; ++c)
-        u[c] = corner(c) - origin;
-      M::fromCorners(u, modes[i]);
-    }
-  }
+    Lanes position, velocity;
+  };
+  /// Modes of the hoop operator, the last its mean (Revolved.hpp).
+  using Hoop = Lanes[revolved ? gradients + 1 : 1];
 
-  SymTensorOf<Lanes> loadStress(int first) const
+  static Lanes volumeGradient(const Lanes (&x)[dim][M::count], const Lanes& meanRadius,
+                              Lanes (&b)[dim][gradients], Hoop& hoop)
   {
-    const auto row = [&](int k) { return load(&data.stress(k, first)); };
-    if constexpr (dim == 3)
-      return {row(0), row(1), row(2), row(3), row(4), row(5)};
+    if constexpr (revolved)
+      return Revolved<type>::volumeGradient(x, meanRadius, b, hoop);
     else
-      return {row(0), row(1), row(2), row(3), Lanes(0.0), Lanes(0.0)};
-  }
-
-  void storeStress(const SymTensorOf<Lanes>& s, int first) const
-  {
-    store(s.xx, &data.stress(0, first));
-    store(s.yy, &data.stress(1, first));
-    store(s.zz, &data.stress(2, first));
-    store(s.xy, &data.stress(3, first));
-    if constexpr (dim == 3)
     {
-      store(s.yz, &data.stress(4, first));
-      store(s.zx, &data.stress(5, first));
+      M::volumeGradient(x, b);
+      return M::volume(x, b);
     }
   }
 
-  /// V^(1/3), or A^(1/2) in two dimensions [m]. The cube root is one step of Halley's method from
-  /// the reference length: exact to 1 % while the volume stays between half and twice the first
-  /// one; the viscosity needs no more.
-  Lanes characteristicLength(const Lanes& volume, int first) const
+  /// Area of the section [m^2].
+  static Lanes areaOf(const Hoop& hoop)
   {
-    if constexpr (dim == 2)
-      return stdx::sqrt(branchFree::positivePart(volume));
-    const Lanes reference = load(&data.referenceVolume(first));
-    return load(&data.referenceLength(first)) * (reference + Lanes(2.0) * volume) /
-           (Lanes(2.0) * reference + volume);
+    return Lanes(nodes / (2 * pi)) * hoop[revolved ? gradients : 0];
   }
 
   /// The motion from n to n + 1, seen from the positions in its middle.
   struct Motion
   {
     Lanes middle[dim][M::count]; ///< modes of the positions
-    Lanes volume;
-    Lanes dilatation; ///< tr(D) dt V at n + 1/2
-    Lanes traceG;     ///< sum of b_jI^2 over nodes and axes [1/m^2]
+    Lanes volume = Lanes(0.0);
+    Lanes dilatation = Lanes(0.0); ///< tr(D) dt V at n + 1/2
+    Lanes traceG = Lanes(0.0);     ///< sum of b_jI^2 over nodes and axes [1/m^2]
+    SymTensorOf<Lanes> strain;     ///< D dt of the element's own motion, on which its forces work
   };
 
-  void findMotion(const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count], Motion& motion,
-                  MaterialPoint<Lanes>& point) const
+  void findMotion(const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count],
+                  const Radial& radial, Motion& motion, MaterialPoint<Lanes>& point) const
   {
     const Lanes dt(data.dt), half(0.5), quarter(0.25);
-    Lanes b[dim][M::gradients];
+    Lanes b[dim][gradients];
+    Hoop hoop;
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < M::count; ++k)
         motion.middle[i][k] = x[i][k] - half * dt * v[i][k];
-    M::volumeGradient(motion.middle, b);
-    motion.volume = M::volume(motion.middle, b);
+    motion.volume =
+        volumeGradient(motion.middle, radial.position - half * dt * radial.velocity, b, hoop);
     const Lanes inverseVolume = Lanes(1.0) / motion.volume;
 
     // L_ij dt = dt sum_I v_iI b_jI
@@ -211,13 +168,20 @@ private:
       {
         Lanes sum = v[i][0] * b[j][0];
 #pragma GCC unroll 8
-        for (int k = 1; k < M::gradients; ++k)
+        for (int k = 1; k < gradients; ++k)
           sum += v[i][k] * b[j][k];
         l(i, j) = sum * factor;
       }
 #pragma GCC unroll 8
-      for (int k = 0; k < M::gradients; ++k)
+      for (int k = 0; k < gradients; ++k)
         squares += b[j][k] * b[j][k];
+    }
+    if constexpr (revolved)
+    {
+      Lanes sum = radial.velocity * hoop[gradients];
+      for (int k = 0; k < gradients; ++k)
+        sum += v[0][k] * hoop[k];
+      l(2, 2) = sum * factor;
     }
     motion.traceG = Lanes(nodes) * squares * inverseVolume * inverseVolume;
 
@@ -225,7 +189,8 @@ private:
     de.xx = l(0, 0);
     de.yy = l(1, 1);
     de.xy = half * (l(0, 1) + l(1, 0));
-    de.zz = de.yz = de.zx = Lanes(0.0);
+    de.zz = revolved ? l(2, 2) : Lanes(0.0);
+    de.yz = de.zx = Lanes(0.0);
     Mat3Of<Lanes>& r = point.rotation;
     if constexpr (dim == 3)
     {
@@ -243,6 +208,48 @@ private:
       r = {{{cosine, -sine, zero}, {sine, cosine, zero}, {zero, zero, Lanes(1.0)}}};
     }
     motion.dilatation = (de.xx + de.yy + de.zz) * motion.volume;
+    motion.strain = de;
+  }
+
+  /// Replaces the dilatation of the step by the mean of those at the corners.
+  void takeNodalDilatation(int first, MaterialPoint<Lanes>& point) const
+  {
+    const int* const node = &data.connectivity(first, 0);
+    Lanes sum(0.0);
+    for (int c = 0; c < nodes; ++c)
+      sum += Lanes([&](auto lane) { return data.nodalDilatation(node[int(lane) * nodes + c]); });
+    const Lanes mean = Lanes(1.0 / nodes) * sum;
+    SymTensorOf<Lanes>& de = point.strainIncrement;
+    const Lanes change = Lanes(1.0 / 3.0) * (mean - (de.xx + de.yy + de.zz));
+    de.xx += change;
+    de.yy += change;
+    de.zz += change;
+    for (int i = 0; i < 3; ++i)
+      point.displacementGradient(i, i) += change;
+    const Lanes start = load(&data.volumeRatio(0, first));
+    point.halfVolumeRatio = start / (Lanes(1.0) - Lanes(0.5) * mean);
+    point.volumeRatio = point.halfVolumeRatio * (Lanes(1.0) + Lanes(0.5) * mean);
+    store(point.volumeRatio, &data.volumeRatio(0, first));
+  }
+
+  /// The rotation of the step, where it is not that of Hughes and Winget, and the stress turned.
+  void turn(int first, const SymTensorOf<Lanes>& stress, MaterialPoint<Lanes>& point) const
+  {
+    if (data.options.rate == ObjectiveRate::Jaumann)
+    {
+      point.stress = turnedFirstOrder(stress, point.displacementGradient);
+      return;
+    }
+    Mat3Of<Lanes> f;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        f(i, j) = i < dim && j < dim ? load(&data.deformation(dim * i + j, first))
+                                     : Lanes(i == j ? 1.0 : 0.0);
+    greenNaghdi<dim>(point.displacementGradient, f, point.rotation, point.strainIncrement);
+    for (int i = 0; i < dim; ++i)
+      for (int j = 0; j < dim; ++j)
+        store(f(i, j), &data.deformation(dim * i + j, first));
+    point.stress = rotated(stress, point.rotation);
   }
 
   /// Stress, history, hourglass forces and energies from n to n + 1, with the rates at n + 1/2.
@@ -251,8 +258,10 @@ private:
                const Lanes& volume, const Lanes& length, MaterialPoint<Lanes>& point,
                SymTensorOf<Lanes>& stress, HourglassVectors& hourglass) const
   {
-    const SymTensorOf<Lanes>& de = point.strainIncrement;
     const Mat3Of<Lanes>& r = point.rotation;
+    const bool byDefault = data.options.rate == ObjectiveRate::HughesWinget;
+    if (!byDefault)
+      turn(first, stress, point);
     HourglassVectors oldHourglass;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
@@ -262,8 +271,11 @@ private:
     if (law.usesVolume)
     {
       const Lanes inverseReference = Lanes(1.0) / load(&data.referenceVolume(first));
-      point.volumeRatio = volume * inverseReference;
-      point.halfVolumeRatio = motion.volume * inverseReference;
+      if (hasHourglass || data.options.form != ElementForm::NodalPressure)
+      {
+        point.volumeRatio = volume * inverseReference;
+        point.halfVolumeRatio = motion.volume * inverseReference;
+      }
       point.energy = (load(&data.energies(int(ElementEnergy::Internal), first)) +
                       load(&data.energies(int(ElementEnergy::Viscous), first))) *
                      inverseReference;
@@ -272,7 +284,8 @@ private:
     point.oldStress = stress;
     if constexpr (dim == 3)
     {
-      point.stress = rotated(stress, r);
+      if (byDefault)
+        point.stress = rotated(stress, r);
       for (int a = 0; a < M::hourglass; ++a)
         for (int i = 0; i < 3; ++i)
           hourglass[a][i] = r.a[i][0] * oldHourglass[a][0] + r.a[i][1] * oldHourglass[a][1] +
@@ -281,7 +294,8 @@ private:
     else
     {
       const Lanes cosine = r(0, 0), sine = r(1, 0);
-      point.stress = rotatedInPlane(stress, cosine, sine);
+      if (byDefault)
+        point.stress = rotatedInPlane(stress, cosine, sine);
       for (int h = 0; h < M::hourglass; ++h)
       {
         hourglass[h][0] = cosine * oldHourglass[h][0] - sine * oldHourglass[h][1];
@@ -293,17 +307,10 @@ private:
     law(point);
     for (int k = 0; k < law.historyCount; ++k)
       store(point.history[k], &data.history(k, first));
-    storeStress(point.stress, first);
+    storeTensor<dim>(point.stress, data.stress, 0, first);
 
-    // The old stress as it was before the rotation: its mean with the new one belongs to n + 1/2 to
-    // second order.
-    const SymTensorOf<Lanes>& oldStress = point.oldStress;
     stress = point.stress;
-    const Lanes work =
-        (oldStress.xx + stress.xx) * de.xx + (oldStress.yy + stress.yy) * de.yy +
-        (oldStress.zz + stress.zz) * de.zz +
-        Lanes(2.0) * ((oldStress.xy + stress.xy) * de.xy + (oldStress.yz + stress.yz) * de.yz +
-                      (oldStress.zx + stress.zx) * de.zx);
+    const Lanes work = twiceWork(point.oldStress, stress, motion.strain);
     addTo(data.energies, ElementEnergy::Internal, first, Lanes(0.5) * motion.volume * work);
     addTo(data.energies, ElementEnergy::PlasticDissipation, first,
           motion.volume * point.dissipation);
@@ -334,6 +341,7 @@ private:
   {
     const Lanes dt(data.dt), half(0.5);
     const Lanes &volume = motion.volume, &traceG = motion.traceG;
+    const bool assumedStrain = data.options.form == ElementForm::AssumedStrain;
     // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
     const Lanes stiffness = point.integrity *
                             Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume *
@@ -347,9 +355,25 @@ private:
         for (int j = 0; j < dim; ++j)
           sum -= motion.middle[j][dim + a] * point.displacementGradient(i, j);
         increment[a][i] = sum;
-        hourglass[a][i] += stiffness * sum;
+        if (!assumedStrain)
+          hourglass[a][i] += stiffness * sum;
+      }
+    if constexpr (!revolved)
+      if (assumedStrain)
+      {
+        HourglassVectors forces;
+        assumedStrainForces(brickFrame<dim>(motion.middle),
+                            AssumedStrainModuli(data.lambda, data.shearModulus), volume, increment,
+                            forces);
+        for (int a = 0; a < M::hourglass; ++a)
+          for (int i = 0; i < dim; ++i)
+            hourglass[a][i] += point.integrity * forces[a][i];
+      }
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+      {
         store(hourglass[a][i], &data.hourglassForce(a * dim + i, first));
-        hourglassWork += (oldHourglass[a][i] + hourglass[a][i]) * sum;
+        hourglassWork += (oldHourglass[a][i] + hourglass[a][i]) * increment[a][i];
       }
     if (data.hourglass.viscosity > 0)
       hourglassWork += advanceHourglassViscosity(first, traceG, volume, increment);
@@ -379,9 +403,9 @@ private:
   /// Force on node I: -(sigma_ij - q delta_ij) B_jI - sum_a Q_ia gamma_aI V^0, the second part with
   /// gamma at x^(n+1).
   LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count],
-                             const Lanes (&b)[dim][M::gradients], const SymTensorOf<Lanes>& stress,
-                             const Lanes& viscousPressure, const HourglassVectors& hourglass,
-                             const Lanes& inverseVolume) const
+                             const Lanes (&b)[dim][gradients], const Hoop& hoop,
+                             const SymTensorOf<Lanes>& stress, const Lanes& viscousPressure,
+                             const HourglassVectors& hourglass, const Lanes& inverseVolume) const
   {
     Lanes s[dim][dim];
     s[0][0] = stress.xx - viscousPressure;
@@ -393,8 +417,9 @@ private:
       s[1][2] = s[2][1] = stress.yz;
       s[2][0] = s[0][2] = stress.zx;
     }
+    const Lanes around = stress.zz - viscousPressure;
     Real force[dim][nodes][laneCount];
-    Lanes all(0.0);
+    Lanes all = revolved ? around : Lanes(0.0);
     for (int i = 0; i < dim; ++i)
     {
       // The part of gamma along b joins the stress, the part along h adds to its own mode.
@@ -412,30 +437,80 @@ private:
       for (int k = 0; k < M::count; ++k)
       {
         modes[k] = Lanes(0.0);
-        if (k < M::gradients)
+        if (k < gradients)
           for (int j = 0; j < dim; ++j)
             modes[k] -= s[i][j] * b[j][k];
         if (hasHourglass && k >= dim)
           modes[k] -= Lanes(1.0 / nodes) * hourglass[k - dim][i];
+        if (revolved && i == 0 && k < gradients)
+          modes[k] -= around * hoop[revolved ? k : 0];
         all += modes[k];
       }
       Lanes corners[nodes];
       M::toCorners(modes, corners);
+      if (revolved && i == 0)
+        for (int c = 0; c < nodes; ++c)
+          corners[c] -= around * hoop[revolved ? gradients : 0];
 #pragma GCC unroll 8
       for (int c = 0; c < nodes; ++c)
         store(corners[c], force[i][c]);
     }
-    for (int lane = 0; lane < laneCount; ++lane)
-    {
-      Real* const out = &data.cornerForce(first + lane, 0, 0);
-      for (int c = 0; c < nodes; ++c)
-        for (int i = 0; i < dim; ++i)
-          out[3 * c + i] = force[i][c][lane];
-    }
+    storeForces<M>(data, first, force);
     return all * Lanes(0.0) == Lanes(0.0);
   }
 
-  Lanes stableStepOf(const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][M::gradients],
+  /// Masses of the corners differ: StableStep.hpp, on the corners themselves.
+  Lanes revolvedStableStep(int first, const Lanes (&x)[dim][M::count],
+                           const Lanes (&b)[dim][gradients], const Hoop& hoop, const Lanes& volume,
+                           const Lanes& viscosity, const Lanes& stiffening) const
+  {
+    const Lanes inverseVolume = Lanes(1.0) / volume;
+    Lanes corner[2][nodes], around[nodes];
+    for (int j = 0; j < 2; ++j)
+    {
+      Lanes modes[M::count];
+      for (int k = 0; k < M::count; ++k)
+        modes[k] = k < gradients ? b[j][k < gradients ? k : 0] * inverseVolume : Lanes(0.0);
+      M::toCorners(modes, corner[j]);
+    }
+    Lanes modes[M::count];
+    for (int k = 0; k < M::count; ++k)
+      modes[k] = k < gradients ? hoop[k < gradients ? k : 0] * inverseVolume : Lanes(0.0);
+    M::toCorners(modes, around);
+    Lanes weight[nodes]; // V / m_I [m^3/kg]
+    Lanes traceG(0.0), volumetric(0.0), hourglass(0.0);
+    for (int c = 0; c < nodes; ++c)
+    {
+      around[c] += hoop[revolved ? gradients : 0] * inverseVolume;
+      weight[c] = volume / load(&data.cornerMass(c, first));
+      traceG += corner[0][c] * corner[0][c] + corner[1][c] * corner[1][c];
+      const Lanes radial = corner[0][c] + around[c];
+      volumetric += weight[c] * (radial * radial + corner[1][c] * corner[1][c]);
+    }
+    const Real lambda = data.lambda > 0 ? data.lambda : 0;
+    const Lanes strain =
+        stiffening * fastestRevolvedMode(corner, around, weight, lambda, data.shearModulus);
+    const Lanes rho = load(&data.mass(first)) * inverseVolume;
+    Lanes damping = rho * viscosity * volumetric;
+    if constexpr (hasHourglass)
+    {
+      // gamma_I = h_I / n - (h.x_j / n) b_jI
+      for (int c = 0; c < nodes; ++c)
+      {
+        const Lanes gamma = Lanes((c % 2 == 0 ? 1.0 : -1.0) / nodes) -
+                            (x[0][dim] * corner[0][c] + x[1][dim] * corner[1][c]);
+        hourglass += weight[c] * gamma * gamma;
+      }
+      const Lanes stiffness = Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * traceG;
+      if (data.hourglass.viscosity > 0)
+        damping += Lanes(2.0 * data.hourglass.viscosity) * rho *
+                   stdx::sqrt(Lanes(nodes * data.pWaveModulus) * traceG / rho) * hourglass;
+      hourglass *= stiffness;
+    }
+    return stableStep(strain + hourglass, damping);
+  }
+
+  Lanes stableStepOf(const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][gradients],
                      const Lanes& inverseVolume, const Lanes& rho, const Lanes& viscosity,
                      const Lanes& stiffening) const
   {
@@ -447,7 +522,7 @@ private:
       {
         Lanes sum = b[j][0] * b[k][0];
 #pragma GCC unroll 8
-        for (int m = 1; m < M::gradients; ++m)
+        for (int m = 1; m < gradients; ++m)
           sum += b[j][m] * b[k][m];
         g[j][k] = g[k][j] = sum * scale;
       }
@@ -484,16 +559,18 @@ private:
         for (int k = 1; k < dim; ++k)
           along += x[k][dim + a] * g[k][j];
         Lanes shape(0.0);
-        if (dim + a < M::gradients)
-          shape = b[j][dim + a < M::gradients ? dim + a : 0] * inverseVolume;
+        if (dim + a < gradients)
+          shape = b[j][dim + a < gradients ? dim + a : 0] * inverseVolume;
         const Lanes product = shape - along;
         length -= x[j][dim + a] * (shape + product);
         products += product * product;
       }
       lengths += length;
     }
-    const Lanes perGamma =
-        Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * trace * perMass;
+    Lanes perGamma = Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * trace * perMass;
+    if constexpr (hasHourglass)
+      if (data.options.form == ElementForm::AssumedStrain)
+        perGamma = assumedStrainBound(x) * perMass;
     const Lanes coupling =
         stiffening * perMass * Lanes(dim * lambda + 2 * data.shearModulus) * perGamma * products;
     if (data.hourglass.viscosity > 0)
@@ -501,16 +578,32 @@ private:
                  stdx::sqrt(perMass * Lanes(data.pWaveModulus) * trace) * lengths;
     return stableStep(largestOfSum(strain, perGamma * lengths, coupling), damping);
   }
+
+  /// Bound of the stiffness of the hourglass modes over the volume [Pa/m^2].
+  Lanes assumedStrainBound(const Lanes (&x)[dim][M::count]) const
+  {
+    Lanes shortest;
+    for (int k = 0; k < dim; ++k)
+    {
+      Lanes squared = x[0][k] * x[0][k];
+      for (int i = 1; i < dim; ++i)
+        squared += x[i][k] * x[i][k];
+      shortest = k == 0 ? squared : lanesMin(shortest, squared);
+    }
+    const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
+    return Lanes(moduli.template largest<dim>() / 3) / shortest;
+  }
 };
 
-/// The commonest laws become part of the kernel; the others are called once per batch.
-template <ElementType type>
-void updateElements(const ElementKernelData& data)
+/// Runs a kernel over all batches: the commonest laws become part of it; the others are called
+/// once per batch.
+template <template <class> class Kernel>
+void runWithLaw(const ElementKernelData& data)
 {
   const auto run = [&](const auto& law)
   {
     using Law = std::decay_t<decltype(law)>;
-    parallelFor("coplane::element::update", data.batches, ElementKernel<type, Law>{data, law});
+    parallelFor("coplane::element::update", data.batches, Kernel<Law>{data, law});
   };
   if (const auto* elastic = std::get_if<LinearElastic>(data.material))
     run(*elastic);

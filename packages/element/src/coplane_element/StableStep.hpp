@@ -55,6 +55,59 @@ KOKKOS_INLINE_FUNCTION T fastestStrainMode(const T& i1, const T& i2, Real c)
          (a + branchFree::squareRoot(branchFree::positivePart(a * a - T(4 * (1.0 + 2 * c)) * i2)));
 }
 
+/// Squared frequency bound of the strain modes of a body of revolution, with a mass in each corner:
+/// the largest eigenvalue of C G with the strains (r, axial, hoop, shear) and
+/// G = sum_I (V/m_I) e_I e_I^T over the motions of the corners, bounded by trace((C G)^8)^(1/8): at
+/// most 19 % too high, and rounding when one mode is much faster than the others.
+/// @param b gradients over the volume of the corners [1/m]
+/// @param hoop H_I / V [1/m]; weight V / m_I [m^3/kg]
+template <int nodes, class T>
+KOKKOS_INLINE_FUNCTION T fastestRevolvedMode(const T (&b)[2][nodes], const T (&hoop)[nodes],
+                                             const T (&weight)[nodes], Real lambda, Real mu)
+{
+  T g[4][4];
+  for (auto& row : g)
+    for (T& value : row)
+      value = T(0.0);
+  for (int c = 0; c < nodes; ++c)
+  {
+    const T radial[4] = {b[0][c], T(0.0), hoop[c], b[1][c]};
+    const T axial[4] = {T(0.0), b[1][c], T(0.0), b[0][c]};
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        g[i][j] += weight[c] * (radial[i] * radial[j] + axial[i] * axial[j]);
+  }
+  T s[4][4], trace(0.0);
+  for (int j = 0; j < 4; ++j)
+  {
+    const T sum = T(lambda) * (g[0][j] + g[1][j] + g[2][j]);
+    for (int i = 0; i < 3; ++i)
+      s[i][j] = sum + T(2 * mu) * g[i][j];
+    s[3][j] = T(mu) * g[3][j];
+    trace += s[j][j];
+  }
+  const T scale = T(1.0) / trace;
+  for (auto& row : s)
+    for (T& value : row)
+      value *= scale;
+  for (int squaring = 0; squaring < 2; ++squaring)
+  {
+    T next[4][4];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        next[i][j] = s[i][0] * s[0][j] + s[i][1] * s[1][j] + s[i][2] * s[2][j] + s[i][3] * s[3][j];
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 4; ++j)
+        s[i][j] = next[i][j];
+  }
+  T eighth(0.0);
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      eighth += s[i][j] * s[j][i];
+  using branchFree::squareRoot;
+  return trace * squareRoot(squareRoot(squareRoot(eighth)));
+}
+
 /// Bound of the largest eigenvalue of A + H for matrices that are not negative, from those of A and
 /// H and from the squared norm of A^(1/2) H^(1/2) (Kittaneh 2002). Strain modes and hourglass modes
 /// of a parallelepiped do not mix (coupling 0, the larger wins).

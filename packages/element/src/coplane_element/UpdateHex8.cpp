@@ -2,8 +2,11 @@
 
 namespace coplane
 {
+template <class Law>
+using Hex8Kernel = ElementKernel<ElementType::Hex8, Law>;
+
 void updateHex8(const ElementKernelData& data)
 {
-  updateElements<ElementType::Hex8>(data);
+  runWithLaw<Hex8Kernel>(data);
 }
 } // namespace coplane

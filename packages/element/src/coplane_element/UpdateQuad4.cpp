@@ -2,8 +2,11 @@
 
 namespace coplane
 {
+template <class Law>
+using Quad4Kernel = ElementKernel<ElementType::Quad4, Law>;
+
 void updateQuad4(const ElementKernelData& data)
 {
-  updateElements<ElementType::Quad4>(data);
+  runWithLaw<Quad4Kernel>(data);
 }
 } // namespace coplane

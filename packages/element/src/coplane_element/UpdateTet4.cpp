@@ -2,8 +2,11 @@
 
 namespace coplane
 {
+template <class Law>
+using Tet4Kernel = ElementKernel<ElementType::Tet4, Law>;
+
 void updateTet4(const ElementKernelData& data)
 {
-  updateElements<ElementType::Tet4>(data);
+  runWithLaw<Tet4Kernel>(data);
 }
 } // namespace coplane

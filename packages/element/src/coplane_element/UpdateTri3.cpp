@@ -2,8 +2,11 @@
 
 namespace coplane
 {
+template <class Law>
+using Tri3Kernel = ElementKernel<ElementType::Tri3, Law>;
+
 void updateTri3(const ElementKernelData& data)
 {
-  updateElements<ElementType::Tri3>(data);
+  runWithLaw<Tri3Kernel>(data);
 }
 } // namespace coplane

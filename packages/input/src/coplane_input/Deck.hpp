@@ -42,8 +42,11 @@ struct BlockCard
 {
   std::string name, where; ///< element block of the mesh
   std::string material;
-  Real hourglassStiffness = 0.05; ///< [-]
-  Real hourglassViscosity = 0;    ///< [-]
+  std::string element = "one_point";           ///< one_point | assumed_strain | full_integration |
+                                               ///< full_integration_plain | nodal_pressure
+  std::string objectiveRate = "hughes_winget"; ///< hughes_winget | jaumann | green_naghdi
+  Real hourglassStiffness = 0.05;              ///< [-]
+  Real hourglassViscosity = 0;                 ///< [-]
 };
 
 /// A joint law. `penalty` takes its stiffness from the elements behind the faces.
@@ -189,6 +192,7 @@ struct Deck
   std::string title;
   std::string mesh,
       meshWhere; ///< path, relative paths are relative to the deck's folder (resolved)
+  std::string geometry = "plane_strain"; ///< of two dimensions: plane_strain | axisymmetric
   std::vector<MaterialCard> materials;
   std::vector<BlockCard> blocks;
   std::string blocksWhere;

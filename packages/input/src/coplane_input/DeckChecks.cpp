@@ -139,6 +139,17 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
         unknown("contact.default_joint", deck.contact.defaultJoint, "a card in joints", joints));
   checkPairs(deck, root, joints, problems);
   checkConditions(deck, root, problems);
+  if (deck.geometry == "axisymmetric" && deck.contact.method == "common_plane")
+    problems.add(nodeAt(root, {"contact", "method"}),
+                 "contact.method = 'common_plane' is not offered with geometry = 'axisymmetric'; "
+                 "use simple_common_plane.");
+  if (deck.geometry == "axisymmetric")
+    for (const auto& block : deck.blocks)
+      if (block.element != "one_point" && block.element != "nodal_pressure")
+        problems.add(nodeAt(root, {"blocks", block.name, "element"}),
+                     fmt::format("blocks.{}.element = '{}' is not offered with geometry = "
+                                 "'axisymmetric'; use one_point or nodal_pressure.",
+                                 block.name, block.element));
 
   Names seen;
   for (std::size_t i = 0; i < deck.initial.size(); ++i)

@@ -64,6 +64,18 @@ Key blocks()
                        .needed()
                        .like("concrete")
                        .means("name of a card in materials"),
+                   text("element", &BlockCard::element)
+                       .oneOf({"one_point", "assumed_strain", "full_integration",
+                               "full_integration_plain", "nodal_pressure"})
+                       .like("assumed_strain")
+                       .means("one_point: any shape; assumed_strain (bending), full_integration "
+                              "(B-bar), full_integration_plain (locks, for comparison): "
+                              "quadrilaterals and hexahedra; nodal_pressure: triangles and "
+                              "tetrahedra that flow or are nearly incompressible"),
+                   text("objective_rate", &BlockCard::objectiveRate)
+                       .oneOf({"hughes_winget", "jaumann", "green_naghdi"})
+                       .like("green_naghdi")
+                       .means("how stress turns with the material"),
                    section("hourglass",
                            {
                                number("stiffness", &BlockCard::hourglassStiffness)
@@ -77,9 +89,11 @@ Key blocks()
                                    .like("0.02")
                                    .means("viscous resistance to hourglass modes"),
                            })
+                       .onlyFor({"one_point"})
                        .means("control of the zero-energy modes of one-point elements"),
                })
       .needed()
+      .decidedBy("element")
       .means("element blocks of the mesh, by the names that the mesh gives them; all "
              "blocks need a card");
 }
@@ -398,6 +412,11 @@ Key makeSchema()
                   .needed()
                   .like("wall.e")
                   .means("Exodus file, relative to the folder of the deck"),
+              text("geometry", &Deck::geometry)
+                  .oneOf({"plane_strain", "axisymmetric"})
+                  .like("axisymmetric")
+                  .means("what a mesh in two dimensions is a section of; axisymmetric: x is the "
+                         "distance from the axis, y runs along it"),
               materials(),
               blocks(),
               jointKeys(),

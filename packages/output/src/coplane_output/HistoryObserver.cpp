@@ -152,7 +152,8 @@ void HistoryObserver::findShares(const Solver& solver)
       std::vector<Real> mass(mesh.ownedNodes, 0);
       for (int i = 0; i < int(block.connectivity.size()); ++i)
         if (block.connectivity[i] < mesh.ownedNodes)
-          mass[block.connectivity[i]] += solver.blocks()[probe.block].cornerMass(i / corners);
+          mass[block.connectivity[i]] +=
+              solver.blocks()[probe.block].cornerMass(i / corners, i % corners);
       for (int n = 0; n < mesh.ownedNodes; ++n)
         if (mass[n] > 0)
           shares.push_back({n, mass[n]});

@@ -71,7 +71,7 @@ void TablesObserver::findShares(const Solver& solver)
     std::vector<Real> mass(mesh.ownedNodes, 0);
     for (int i = 0; i < int(block.connectivity.size()); ++i)
       if (block.connectivity[i] < mesh.ownedNodes)
-        mass[block.connectivity[i]] += solver.blocks()[b].cornerMass(i / corners);
+        mass[block.connectivity[i]] += solver.blocks()[b].cornerMass(i / corners, i % corners);
     shares_.emplace_back();
     for (int n = 0; n < mesh.ownedNodes; ++n)
       if (mass[n] > 0)

@@ -1,0 +1,12 @@
+#include <coplane_element/ElementKernel.hpp>
+
+namespace coplane
+{
+template <class Law>
+using RevolvedQuad4Kernel = ElementKernel<ElementType::Quad4, Law, true>;
+
+void updateRevolvedQuad4(const ElementKernelData& data)
+{
+  runWithLaw<RevolvedQuad4Kernel>(data);
+}
+} // namespace coplane

@@ -1,0 +1,12 @@
+#include <coplane_element/ElementKernel.hpp>
+
+namespace coplane
+{
+template <class Law>
+using RevolvedTri3Kernel = ElementKernel<ElementType::Tri3, Law, true>;
+
+void updateRevolvedTri3(const ElementKernelData& data)
+{
+  runWithLaw<RevolvedTri3Kernel>(data);
+}
+} // namespace coplane

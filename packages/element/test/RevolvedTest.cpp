@@ -1,0 +1,128 @@
+#include "TestMeshes.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace coplane;
+using namespace coplane::testMeshes;
+
+namespace
+{
+const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+
+class RevolvedElement : public testing::TestWithParam<Formulation>
+{
+protected:
+  ElementBlock blockOf(const TestMesh& mesh) const
+  {
+    ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                       GetParam().options);
+    block.initialise(mesh.x);
+    return block;
+  }
+};
+} // namespace
+
+TEST_P(RevolvedElement, volumeAndMassAreThoseOfTheRing)
+{
+  // A square of 1 m, half a metre off the axis: pi (1.5^2 - 0.5^2) m^3, whatever the mesh inside.
+  const TestMesh square = meshOf(GetParam(), 3, 0);
+  TestMesh mesh = meshOf(GetParam(), 3, 0.2);
+  for (int n = 0; n < mesh.nodes(); ++n)
+    if (!mesh.interior[n])
+      set(mesh.x, n, at(square.x, n));
+  const ElementBlock block = blockOf(mesh);
+  Real volume = 0, mass = 0;
+  for (int e = 0; e < block.count(); ++e)
+  {
+    volume += block.volume()(e);
+    for (int c = 0; c < mesh.corners(); ++c)
+    {
+      mass += block.cornerMass(e, c);
+      EXPECT_GT(block.cornerMass(e, c), 0);
+    }
+  }
+  EXPECT_NEAR(volume, 2 * pi, 1e-13);
+  EXPECT_NEAR(mass, 7850 * 2 * pi, 1e-9);
+}
+
+TEST_P(RevolvedElement, linearVelocityGivesTheExactUniformStressOnADistortedMesh)
+{
+  // v_r = 2 r, v_y = -3 y + r: rates 2, -3, hoop 2, shear 1/2
+  const TestMesh mesh = meshOf(GetParam(), 4, 0.2);
+  ElementBlock block = blockOf(mesh);
+  const Real dt = 1e-6;
+  const NodeVectors v = field(mesh.x,
+                              [](const Vec3& p) {
+                                return Vec3{2 * p.x, -3 * p.y + p.x, 0};
+                              });
+  advance(block, plus(mesh.x, dt / 2, v), v, dt);
+  const Real lambda = lameLambda(elasticity(steel)), mu = elasticity(steel).shearModulus;
+  const Real expected[4] = {(lambda + 4 * mu) * dt, (lambda - 6 * mu) * dt, (lambda + 4 * mu) * dt,
+                            mu * dt};
+  for (int e = 0; e < block.count(); ++e)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(block.stress()(k, e), expected[k], 1e-12 * expected[0]);
+}
+
+TEST_P(RevolvedElement, radialAndAxialStressLeaveInteriorNodesInBalance)
+{
+  // Equal radial and hoop stress, and any axial one, need no body force.
+  const TestMesh mesh = meshOf(GetParam(), 4, 0.2);
+  ElementBlock block = blockOf(mesh);
+  block.setInitialStress({-3e6, 5e6, -3e6, 0, 0, 0});
+  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  const NodeVectors f = nodalForces(block, mesh.nodes());
+  for (int node = 0; node < mesh.nodes(); ++node)
+    if (mesh.interior[node])
+    {
+      EXPECT_LT(norm(at(f, node)), 1e-12 * largest(f));
+    }
+}
+
+TEST_P(RevolvedElement, hoopStressPullsTowardsTheAxis)
+{
+  // Only hoop stress s in a square of 1 m: its radial force is -2 pi s A, shared by the corners.
+  const TestMesh mesh = meshOf(GetParam(), 1, 0);
+  ElementBlock block = blockOf(mesh);
+  block.setInitialStress({0, 0, 1e6, 0, 0, 0});
+  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  const NodeVectors f = nodalForces(block, mesh.nodes());
+  Vec3 sum{};
+  for (int node = 0; node < mesh.nodes(); ++node)
+    sum += at(f, node);
+  EXPECT_NEAR(sum.x, -2 * pi * 1e6, 1e-8);
+  EXPECT_NEAR(sum.y, 0, 1e-8);
+}
+
+TEST_P(RevolvedElement, accelerationAlongTheAxisIsUniformUnderAStressThatGrowsAlongIt)
+{
+  if (GetParam().type == ElementType::Tri3)
+    GTEST_SKIP() << "triangles share a layer unevenly between its nodes in any geometry";
+  // Axial stress in layers, 1 MPa more in each: all nodes between two layers accelerate alike, also
+  // on the axis, because mass and force are shared by the same integrals.
+  TestMesh mesh = distorted(GetParam().type, 4, 0);
+  ElementBlock block = blockOf(mesh);
+  for (int e = 0; e < block.count(); ++e)
+  {
+    Real middle = 0;
+    for (int c = 0; c < mesh.corners(); ++c)
+      middle += mesh.x(block.connectivity()(e, c), 1) / mesh.corners();
+    block.setInitialStress(e, {0, 1e6 * std::floor(4 * middle), 0, 0, 0, 0});
+  }
+  block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+  const NodeVectors f = nodalForces(block, mesh.nodes());
+  std::vector<Real> mass(mesh.nodes(), 0.0);
+  for (int e = 0; e < block.count(); ++e)
+    for (int c = 0; c < mesh.corners(); ++c)
+      mass[block.connectivity()(e, c)] += block.cornerMass(e, c);
+  const Real expected = 1e6 / (7850 * 0.25);
+  for (int n = 0; n < mesh.nodes(); ++n)
+    if (mesh.x(n, 1) > 0.1 && mesh.x(n, 1) < 0.9)
+    {
+      EXPECT_NEAR(f(n, 1) / mass[n], expected, 1e-10 * expected) << n;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, RevolvedElement, testing::ValuesIn(revolvedFormulations()),
+                         [](const testing::TestParamInfo<Formulation>& info)
+                         { return nameOf(info.param); });
