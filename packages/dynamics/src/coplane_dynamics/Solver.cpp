@@ -1,5 +1,6 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
@@ -10,54 +11,6 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
-
-std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
-                               const std::vector<std::pair<GlobalId, int>>& faceGroups,
-                               const ConstNodeVectors& x)
-{
-  std::vector<Face> faces;
-  for (const ExteriorFace& exterior : exteriorFaces(mesh))
-  {
-    Face face;
-    face.id = exterior.id;
-    face.count = exterior.nodeCount;
-    face.block = exterior.block;
-    const auto special =
-        std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(exterior.id, 0));
-    face.group = special != faceGroups.end() && special->first == exterior.id ? special->second
-                                                                              : exterior.block;
-    face.local = true;
-    face.ownedHere = exterior.ownedHere;
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-    {
-      face.nodes[k] = exterior.nodes[k];
-      corners[k] = at(x, face.nodes[k]);
-    }
-    const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
-                                               : vectorArea<3>(corners, face.count));
-    face.thickness = blocks[exterior.block].referenceVolume()(exterior.element) / area;
-    face.modulus = pWaveModulus(blocks[exterior.block].material());
-    faces.push_back(face);
-  }
-  return faces;
-}
-
-/// The elements behind the faces, in the same order.
-std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh)
-{
-  std::vector<FaceElement> elements;
-  for (const ExteriorFace& exterior : exteriorFaces(mesh))
-  {
-    const RankMesh::Block& block = mesh.blocks[exterior.block];
-    FaceElement element;
-    element.count = topology(block.type).nodes;
-    for (int k = 0; k < element.count; ++k)
-      element.nodes[k] = block.connectivity[exterior.element * element.count + k];
-    elements.push_back(element);
-  }
-  return elements;
-}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -114,14 +67,16 @@ Solver::Solver(Model model, const Comm& comm)
   projections_ = model_.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
 
+  prepareErosion();
   if (model_.contactEnabled)
   {
-    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, state_.x);
+    const std::vector<ExteriorFace> exterior = exteriorFaces(mesh);
+    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, exterior, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
     std::vector<FaceElement> elements;
     if (model_.contact.method == ContactOptions::Method::CommonPlane)
-      elements = elementsOfFaces(mesh);
+      elements = elementsOfFaces(mesh, exterior);
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
                                          model_.contactRules, skin, smallest, std::move(elements));
   }
@@ -189,13 +144,16 @@ void Solver::gatherElementForces()
 
 void Solver::findForces(Real dt)
 {
-  if (contact_)
-    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   {
     TimedRegion region("coplane::element::update");
     for (ElementBlock& block : blocks_)
       block.update(state_.x, state_.v, dt);
   }
+  const bool someDied = dt > 0 && erode(dt);
+  if (contact_ && (searchIsDue_ || someDied))
+    search();
+  if (contact_)
+    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   gatherElementForces();
   if (contact_)
   {
@@ -384,7 +342,7 @@ void Solver::planNextCycle(bool first)
   // exact bound on the relative displacement of any two nodes since the last search.
   std::vector<Real> range(6, -infinity); // max, -min per axis
   for (int n = 0; n < layout_.owned(); ++n)
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3 && !isFree(n); ++c)
     {
       const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
       range[c] = std::max(range[c], moved);
@@ -432,8 +390,6 @@ void Solver::advance()
     TimedRegion region("coplane::mesh::refreshCopies");
     layout_.refresh(state_.x, state_.v);
   }
-  if (searchIsDue_)
-    search();
   findForces(dt);
   ++clock_.cycle;
   clock_.time += dt;

@@ -26,11 +26,12 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
           return;
         if (options_.blocks)
           open(blocks_, options_.base + "_blocks.csv",
-               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J]");
+               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J],"
+               "eroded[J]");
         if (options_.pairs)
           open(pairs_, options_.base + "_pairs.csv",
                "time[s],cycle,block_a,block_b,joint,planes,area[m^2],work[J],stored[J],"
-               "friction[J],hysteresis[J],fracture[J],damping[J],remainder[J]");
+               "friction[J],hysteresis[J],fracture[J],damping[J],eroded[J],remainder[J]");
       });
 }
 
@@ -75,7 +76,7 @@ void TablesObserver::findShares(const Solver& solver)
 
 std::string TablesObserver::blockLines(const Solver& solver) const
 {
-  constexpr int terms = 5;
+  constexpr int terms = 6;
   constexpr ElementEnergy kinds[] = {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
                                      ElementEnergy::Hourglass, ElementEnergy::Viscous};
   const NodalState& state = solver.state();
@@ -88,8 +89,9 @@ std::string TablesObserver::blockLines(const Solver& solver) const
     const RankMesh::Block& part = solver.mesh().blocks[b];
     for (int e = 0; e < part.elements(); ++e)
       if (part.owned[e])
-        for (int k = 0; k < terms - 1; ++k)
+        for (int k = 0; k < elementEnergies; ++k)
           sums[terms * b + 1 + k].add(solver.blocks()[b].energy(e, kinds[k]));
+    sums[terms * b + terms - 1].add(solver.erodedEnergy(int(b)));
   }
   if (sums.empty())
     return "";
@@ -119,7 +121,7 @@ std::string TablesObserver::pairLines(const Solver& solver) const
                         solver.model().blocks[row.kind.blocks[1]].name,
                         solver.contact().rules().joints[row.kind.joint].name, row.planes);
     for (const Real value : {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture,
-                             e.damping, e.remainder()})
+                             e.damping, e.eroded, e.remainder()})
       text += fmt::format(",{:.17g}", value);
     text += "\n";
   }
