@@ -22,6 +22,21 @@ Material materialOf(const MaterialCard& card)
   return makeLinearElastic(card.youngsModulus, card.poissonRatio, card.density);
 }
 
+ErosionCriteria erosionOf(const ErosionCard& card)
+{
+  ErosionCriteria erosion;
+  erosion.damage = card.damage;
+  if (card.plasticStrain)
+    erosion.variables.push_back({"equivalent_plastic_strain", *card.plasticStrain});
+  for (const ErosionVariableCard& variable : card.variables)
+    erosion.variables.push_back(
+        {variable.name, variable.above.value_or(infinity), variable.below.value_or(-infinity)});
+  if (card.volumeRatio.size() == 2)
+    erosion.volumeRatio = {card.volumeRatio[0], card.volumeRatio[1]};
+  erosion.stableStep = card.stableStep;
+  return erosion;
+}
+
 ContactOptions optionsOf(const ContactCard& card)
 {
   ContactOptions options;
@@ -320,6 +335,26 @@ void setStart(const InitialCard& card, BlockSetup& setup)
 }
 } // namespace
 
+std::vector<std::string> problemsOfLaws(const Deck& deck)
+{
+  std::vector<std::string> problems;
+  for (const BlockCard& card : deck.blocks)
+  {
+    const auto material =
+        std::find_if(deck.materials.begin(), deck.materials.end(),
+                     [&](const MaterialCard& m) { return m.name == card.material; });
+    const std::vector<std::string> names = historyNames(materialOf(*material));
+    for (const std::string& wanted : erosionOf(card.erosion).variableNames())
+      if (std::find(names.begin(), names.end(), wanted) == names.end())
+        problems.push_back(fmt::format(
+            "{}: blocks.{}.erosion asks for '{}', but material '{}' ({}) {}.", card.where,
+            card.name, wanted, material->name, material->model,
+            names.empty() ? std::string("has no variables; use volume_ratio or stable_step")
+                          : fmt::format("has only {}", fmt::join(names, ", "))));
+  }
+  return problems;
+}
+
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
 {
   Model model;
@@ -336,6 +371,7 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
     setup.material = materialOf(*material);
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
     setup.element = elementOptionsOf(deck, *card, block);
+    setup.erosion = erosionOf(card->erosion);
     for (const InitialCard& initial : deck.initial)
       if (initial.block == block.name)
         setStart(initial, setup);

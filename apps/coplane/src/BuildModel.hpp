@@ -7,6 +7,9 @@
 
 namespace coplane
 {
+/// What blocks ask of their material's law that it does not have.
+std::vector<std::string> problemsOfLaws(const Deck& deck);
+
 /// Joins the deck to this rank's part of the mesh. Names have been checked before.
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part);
 } // namespace coplane

@@ -51,6 +51,9 @@ void reportEnd(const Solver& solver)
           "{:.3e} of {:.3e} in play",
           energy.externalWork, energy.massDamping, energy.localDamping, energy.error(),
           energy.scale());
+  if (const ErosionTotals erosion = solver.erosion(); erosion.elements > 0)
+    logInfo("  eroded: {} elements, {:.6g} kg, with {:.3e} J, and {:.3e} J of their planes",
+            erosion.elements, erosion.mass, energy.eroded, energy.contact.eroded);
   logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,
           momenta.linear.y, momenta.linear.z, norm(momenta.linearError()), momenta.magnitude);
   if (solver.hasContact())

@@ -95,7 +95,9 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           nodeSets.push_back(set.name);
         for (const auto& set : mesh.sideSets)
           sideSets.push_back(set.name);
-        const auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
+        auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
+        for (const std::string& problem : problemsOfLaws(deck))
+          problems.push_back(problem);
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
         const MeshReport report = reportMesh(mesh);

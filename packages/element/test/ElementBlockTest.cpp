@@ -260,3 +260,44 @@ TEST(ElementBlock, outOfPlaneShearIsRefusedInPlaneStrain)
   ElementBlock block(ElementType::Quad4, steel, {}, {}, mesh.connectivity);
   EXPECT_THROW(block.setInitialStress({0, 0, 0, 0, 1, 0}), Error);
 }
+
+TEST(ElementBlock, anErodedElementGivesNoForceAndStaysAsItWas)
+{
+  for (const ElementType type : allTypes)
+  {
+    const TestMesh mesh = distorted(type, 3, 0.2);
+    const Material soft = makeJ2Plasticity(200e9, 0.3, 7850, 1e6, 0);
+    ElementBlock block(type, soft, {0.1, 0.1}, {}, mesh.connectivity);
+    ElementBlock whole(type, soft, {0.1, 0.1}, {}, mesh.connectivity);
+    block.initialise(mesh.x);
+    whole.initialise(mesh.x);
+    const Real dt = 1e-6;
+    const NodeVectors v = wild(mesh, 500);
+    NodeVectors x = plus(mesh.x, dt, v);
+    block.update(x, v, dt);
+    whole.update(x, v, dt);
+    const int last = block.count() - 1; // also what the padding behind it copies
+    const Real strain = block.history()(0, last), volume = block.volume()(last);
+    ASSERT_GT(strain, 0);
+    block.erode(last);
+    for (int cycle = 0; cycle < 3; ++cycle)
+    {
+      EXPECT_FALSE(block.isAlive(last));
+      EXPECT_EQ(block.stableStep()(last), infinity);
+      EXPECT_EQ(block.history()(0, last), strain);
+      EXPECT_EQ(block.volume()(last), volume);
+      EXPECT_EQ(block.vonMises(last), 0);
+      for (int kind = 0; kind < elementEnergies; ++kind)
+        EXPECT_EQ(block.energy(last, ElementEnergy(kind)), 0);
+      for (int c = 0; c < mesh.corners(); ++c)
+        for (int i = 0; i < 3; ++i)
+          EXPECT_EQ(block.cornerForce()(last, c, i), 0);
+      EXPECT_TRUE(block.isAlive(0));
+      EXPECT_EQ(block.stress()(0, 0), whole.stress()(0, 0)); // the others do not notice
+      x = plus(x, dt, v);
+      block.update(x, v, dt);
+      whole.update(x, v, dt);
+    }
+    EXPECT_EQ(block.mass(last), whole.mass(last)); // the nodes keep it
+  }
+}

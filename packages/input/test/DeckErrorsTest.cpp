@@ -33,6 +33,26 @@ TEST(DeckErrors, theLeastDeckHasNone)
   EXPECT_EQ(errorOf(leastDeck), "no error");
 }
 
+TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
+{
+  const auto errorOfErosion = [](const std::string& content)
+  {
+    return errorOf("mesh: wall.e\nmaterials: {steel: {model: linear_elastic, density: 7850, "
+                   "youngs_modulus: 200e9, poisson_ratio: 0.3}}\ntime: {end: 1}\nblocks:\n"
+                   "  bar: {material: steel, erosion: {" +
+                   content + "}}\n");
+  };
+  EXPECT_EQ(errorOfErosion("damage: 0.9, plastic_strain: 1, volume_ratio: [0.1, 4], stable_step: "
+                           "1e-9, variables: {energy: {above: 1, below: -1}}"),
+            "no error");
+  EXPECT_EQ(errorOfErosion("volume_ratio: [1, 4]"),
+            "wall.yaml:5:51: blocks.bar.erosion.volume_ratio = [1, 4] would take out elements as "
+            "they are at the start; accepted: the first below 1, the second above 1.");
+  EXPECT_EQ(errorOfErosion("variables: {porosity: {}}"),
+            "wall.yaml:5:59: blocks.bar.erosion.variables.porosity has no limit; accepted: above, "
+            "below or both, as in porosity: {above: 0.5}.");
+}
+
 TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
 {
   EXPECT_EQ(errorOf("mesh: wall.e\n"

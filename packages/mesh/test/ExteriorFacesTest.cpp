@@ -150,4 +150,91 @@ TEST(ExteriorFaces, cornersHaveTheSameOrderOnEveryRankThatHoldsTheFace)
     }
   }
 }
+
+namespace
+{
+/// Marks of the living elements of a rank's part; `dead`: ids.
+std::vector<std::vector<char>> aliveWithout(const RankMesh& part, const std::vector<GlobalId>& dead)
+{
+  std::vector<std::vector<char>> alive;
+  for (const RankMesh::Block& block : part.blocks)
+  {
+    alive.emplace_back();
+    for (const GlobalId id : block.elementIds)
+      alive.back().push_back(std::find(dead.begin(), dead.end(), id) == dead.end());
+  }
+  return alive;
+}
+} // namespace
+
+TEST(ElementSides, aCubeOf27ThatLosesItsMiddleGetsSixFacesAroundTheHole)
+{
+  // Elements count along x, then y, then z: 14 is the middle, its neighbours are 13, 15 (x), 11, 17
+  // (y) and 5, 23 (z). Sides of a hexahedron: 0 is -y, 1 +x, 2 +y, 3 -x, 4 -z, 5 +z.
+  const RankMesh part = distribute(unitBox(3, 3, 3), std::vector<int>(64, 0), 0);
+  const std::vector<ExteriorFace> before = exteriorFaces(part);
+  const std::vector<ExteriorFace> after = ElementSides(part).exterior(aliveWithout(part, {14}));
+  std::vector<GlobalId> expected = idsOf(before);
+  ASSERT_EQ(expected.size(), 54u);
+  for (const GlobalId id :
+       {faceId(13, 1), faceId(15, 3), faceId(11, 2), faceId(17, 0), faceId(5, 5), faceId(23, 4)})
+    expected.push_back(id);
+  std::sort(expected.begin(), expected.end());
+  EXPECT_EQ(idsOf(after), expected);
+  // Normals of the new faces point into the hole, whose middle is (1.5, 1.5, 1.5).
+  for (const ExteriorFace& face : after)
+    if (std::none_of(before.begin(), before.end(), [&](const auto& f) { return f.id == face.id; }))
+    {
+      Vec3 x[4], middle{};
+      for (int k = 0; k < 4; ++k)
+      {
+        x[k] = part.coordinates[face.nodes[k]];
+        middle += 0.25 * x[k];
+      }
+      const Vec3 normal = 0.5 * cross(x[2] - x[0], x[3] - x[1]);
+      EXPECT_EQ(norm(normal - 2.0 * (Vec3{1.5, 1.5, 1.5} - middle)), 0) << "face " << face.id;
+    }
+}
+
+TEST(ElementSides, facesKeepTheirIdsAsMoreElementsDieAndGoWithTheirElement)
+{
+  const RankMesh part = distribute(unitBox(3, 3, 3), std::vector<int>(64, 0), 0);
+  const ElementSides sides(part);
+  // A tunnel from the middle to +x: 13 more faces than sides that go: 4 around each of the two, the
+  // bottom at element 13, less the outer face of 15.
+  const std::vector<GlobalId> ids = idsOf(sides.exterior(aliveWithout(part, {14, 15})));
+  EXPECT_EQ(ids.size(), 54u + 9 - 1);
+  for (const GlobalId id : ids)
+    EXPECT_TRUE(elementOfFace(id) != 14 && elementOfFace(id) != 15);
+  EXPECT_EQ(sides.exterior(aliveWithout(part, {})).size(), 54u);
+}
+
+TEST(ElementSides, everyRankFindsItsOwnPartOfTheNewFaces)
+{
+  const Mesh mesh = unitBox(3, 3, 3);
+  const std::vector<GlobalId> dead{5, 14, 15, 27};
+  const RankMesh whole = distribute(mesh, std::vector<int>(mesh.nodes(), 0), 0);
+  const std::vector<ExteriorFace> all = ElementSides(whole).exterior(aliveWithout(whole, dead));
+  for (int ranks = 2; ranks <= 5; ++ranks)
+  {
+    const std::vector<int> owners = scatteredOwners(mesh, ranks);
+    std::vector<GlobalId> united;
+    for (int rank = 0; rank < ranks; ++rank)
+    {
+      std::vector<GlobalId> expected;
+      for (const ExteriorFace& face : all)
+        if (std::any_of(face.nodes.begin(), face.nodes.end(),
+                        [&](int n) { return owners[n] == rank; }))
+          expected.push_back(face.id);
+      const RankMesh part = distribute(mesh, owners, rank);
+      const auto found = ElementSides(part).exterior(aliveWithout(part, dead));
+      EXPECT_EQ(idsOf(found), expected);
+      for (const ExteriorFace& face : found)
+        if (face.ownedHere)
+          united.push_back(face.id);
+    }
+    std::sort(united.begin(), united.end());
+    EXPECT_EQ(united, idsOf(all));
+  }
+}
 } // namespace coplane

@@ -338,10 +338,11 @@ TEST_F(Files, energyErrorInTheHistoryIsWhatItsTermsLack)
     const auto value = [&](const char* name) { return table.number(line, name); };
     const Real contact = value("contact_stored[J]") + value("contact_friction[J]") +
                          value("contact_hysteresis[J]") + value("contact_fracture[J]") +
-                         value("contact_damping[J]") + value("contact_remainder[J]");
+                         value("contact_damping[J]") + value("contact_eroded[J]") +
+                         value("contact_remainder[J]");
     const Real total = value("kinetic[J]") + value("internal[J]") + value("hourglass[J]") +
-                       value("viscous[J]") + contact + value("mass_damping[J]") +
-                       value("local_damping[J]");
+                       value("viscous[J]") + value("eroded[J]") + contact +
+                       value("mass_damping[J]") + value("local_damping[J]");
     const Real error = total - value("external_work[J]") - value("initial[J]");
     // A dozen sums of terms up to the initial energy, 625 J.
     EXPECT_NEAR(error, value("error[J]"), 12 * epsilon * value("initial[J]"));

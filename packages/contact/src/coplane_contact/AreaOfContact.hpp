@@ -460,10 +460,4 @@ KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& 
     return patch;
   }
 }
-
-/// What a plane's lengths are to be multiplied with.
-KOKKOS_INLINE_FUNCTION Depth depthOf(const TrialPlane& plane, const ContactOptions& options)
-{
-  return options.axisymmetric ? Depth{2 * pi * plane.point.x, 2 * pi * plane.e1.x} : Depth{};
-}
 } // namespace coplane

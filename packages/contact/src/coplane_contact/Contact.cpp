@@ -335,6 +335,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     if (plane.born)
       return;
+    // The neighbours of a face that erosion has just laid bare lie on the old surface.
+    if (a.young || b.young)
+      return;
     // Slots that have not touched yet look for donors again at every search.
     plane.offset = 0;
     plane.closure = 0;
@@ -360,26 +363,85 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::elements"), elements_.size());
   std::copy(elements_.begin(), elements_.end(), elementTable_.data());
   buildLists(layout.owned());
+  for (Face& face : localFaces_)
+    face.young = false;
   if (!again)
     ++searches_;
   searchedSinceUpdate_ = true;
 }
 
-void Contact::buildLists(int ownedNodes)
+void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const ConstNodeVectors& x,
+                          const ConstNodeVectors& v, Real dt)
+{
+  const auto isDead = [&](GlobalId face)
+  { return std::binary_search(deadElements.begin(), deadElements.end(), elementOfFace(face)); };
+  const auto halfStep = [&](int face)
+  {
+    FaceNodes nodes = nodesOf(faces_[face], x);
+    for (int k = 0; k < nodes.count; ++k)
+    {
+      nodes.v[k] = at(v, faces_[face].nodes[k]);
+      nodes.mass[k] = 1; // masses matter for damping only
+    }
+    return dimension_ == 2 ? stepA_halfStepFace<2>(nodes, dt) : stepA_halfStepFace<3>(nodes, dt);
+  };
+  std::vector<std::size_t> kept;
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  {
+    Plane& plane = planes_(p);
+    if (!isDead(plane.faceId[0]) && !isDead(plane.faceId[1]))
+    {
+      kept.push_back(p);
+      continue;
+    }
+    if (!plane.born || !plane.countedHere)
+      continue;
+    // What the last force still does in this step belongs to what is lost.
+    Real eroded = plane.stored(lawOf(plane)) - plane.work;
+    if (plane.area > 0)
+      bookOldForce(plane, halfStep(plane.face[0]), halfStep(plane.face[1]), dt);
+    eroded += plane.work;
+    ended_.add(plane, eroded);
+  }
+  const Kokkos::View<Plane*, Kokkos::HostSpace> next(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), kept.size());
+  for (std::size_t i = 0; i < kept.size(); ++i)
+    new (&next(i)) Plane(planes_(kept[i]));
+  planes_ = next;
+}
+
+void Contact::replaceLocalFaces(std::vector<Face> localFaces,
+                                std::vector<FaceElement> localElements)
+{
+  localFaces_ = std::move(localFaces);
+  localElements_ = std::move(localElements);
+  // Donors are looked up by places in the new list.
+  listPlanesOfFaces(
+      [&](const Plane& plane, int side)
+      {
+        if (plane.face[side] < 0)
+          return -1;
+        const auto found =
+            std::lower_bound(localFaces_.begin(), localFaces_.end(), plane.faceId[side],
+                             [](const Face& f, GlobalId id) { return f.id < id; });
+        return found != localFaces_.end() && found->id == plane.faceId[side]
+                   ? int(found - localFaces_.begin())
+                   : -1;
+      });
+  facesStart_ = {}; // built anew with the next search
+}
+
+/// Lists of the planes of each local face. `faceOf(plane, side)`: place of a local face; negative
+/// for other faces and for pairs that are no candidates.
+template <class FaceOf>
+void Contact::listPlanesOfFaces(const FaceOf& faceOf)
 {
   const std::size_t local = localFaces_.size();
-  halfStepFaces_ = decltype(halfStepFaces_)(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
-  paired_ = Array<bool>("coplane::contact::paired", faces_.size());
   planesStart_ = Array<std::int32_t>("coplane::contact::planesStart", local + 1);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (const int face : planes_(p).face)
-      if (face >= 0)
-      {
-        paired_(face) = true;
-        if (faces_[face].local)
-          ++planesStart_(face + 1);
-      }
+    for (int side = 0; side < 2; ++side)
+      if (const int face = faceOf(planes_(p), side); face >= 0)
+        ++planesStart_(face + 1);
   for (std::size_t f = 0; f < local; ++f)
     planesStart_(f + 1) += planesStart_(f);
   planesEntry_ =
@@ -390,11 +452,26 @@ void Contact::buildLists(int ownedNodes)
   std::vector<std::int32_t> next(planesStart_.data(), planesStart_.data() + local);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     for (int side = 0; side < 2; ++side)
-    {
-      const int face = planes_(p).face[side];
-      if (face >= 0 && faces_[face].local)
+      if (const int face = faceOf(planes_(p), side); face >= 0)
         planesEntry_(next[face]++) = std::int32_t(2 * p + side);
-    }
+}
+
+void Contact::buildLists(int ownedNodes)
+{
+  const std::size_t local = localFaces_.size();
+  halfStepFaces_ = decltype(halfStepFaces_)(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
+  paired_ = Array<bool>("coplane::contact::paired", faces_.size());
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+    for (const int face : planes_(p).face)
+      if (face >= 0)
+        paired_(face) = true;
+  listPlanesOfFaces(
+      [&](const Plane& plane, int side)
+      {
+        const int face = plane.face[side];
+        return face >= 0 && faces_[face].local ? face : -1;
+      });
   if (facesStart_.extent(0) == std::size_t(ownedNodes) + 1)
     return;
   faceLoads_ = decltype(faceLoads_)("coplane::contact::faceLoads", local);
@@ -410,7 +487,7 @@ void Contact::buildLists(int ownedNodes)
   for (int n = 0; n < ownedNodes; ++n)
     facesStart_(n + 1) += facesStart_(n);
   facesEntry_ = Array<std::int32_t>("coplane::contact::facesEntry", facesStart_(ownedNodes));
-  next.assign(facesStart_.data(), facesStart_.data() + ownedNodes);
+  std::vector<std::int32_t> next(facesStart_.data(), facesStart_.data() + ownedNodes);
   forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
 }
 
@@ -480,6 +557,8 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   // the last search became a candidate by turning or rising: the search has not missed it.
   const Face& faceA = faces_[plane.face[0]];
   const Face& faceB = faces_[plane.face[1]];
+  if (faceA.young || faceB.young)
+    return false;
   const FacePlane a = facePlane(faceA, x, dimension_);
   const FacePlane b = facePlane(faceB, x, dimension_);
   const Real turn = 2 * skin_ / smallestFace_;

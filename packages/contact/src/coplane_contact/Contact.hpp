@@ -49,6 +49,14 @@ public:
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
   void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
+  /// Ends the planes of faces of these elements (sorted), with their energy booked as eroded: the
+  /// elements have died on the way to x. Every rank needs the same list.
+  void endPlanesOf(const std::vector<GlobalId>& deadElements, const ConstNodeVectors& x,
+                   const ConstNodeVectors& v, Real dt);
+  /// Other local faces, sorted by id; those that were there before keep their planes. A search has
+  /// to follow.
+  void replaceLocalFaces(std::vector<Face> localFaces, std::vector<FaceElement> localElements = {});
+
   /// Step 6: steps A to H for every slot.
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                 const ConstArray<Real>& mass, Real dt);
@@ -59,6 +67,7 @@ public:
                  const Array<Real>& stiffness) const;
 
   const std::vector<Face>& faces() const { return faces_; }
+  const std::vector<Face>& localFaces() const { return localFaces_; }
   const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
   const ContactOptions& options() const { return options_; }
   const ContactRules& rules() const { return rules_; }
@@ -93,6 +102,8 @@ private:
   std::vector<Donor> livingPlanes() const;
   std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,
                                    const ConstNodeVectors& x) const;
+  template <class FaceOf>
+  void listPlanesOfFaces(const FaceOf& faceOf);
   void buildLists(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;

@@ -27,6 +27,7 @@ ContactEnergy PlaneEnergySums::energyOf(const Real* totals)
   energy.hysteresis = totals[Hysteresis];
   energy.fracture = totals[Fracture];
   energy.damping = totals[Damping];
+  energy.eroded = totals[Eroded];
   return energy;
 }
 } // namespace coplane

@@ -15,9 +15,13 @@ namespace coplane
 struct ContactEnergy
 {
   Real stored = 0, friction = 0, hysteresis = 0, fracture = 0, damping = 0;
-  Real work = 0; ///< done on the planes by the nodes
+  Real eroded = 0; ///< was stored in planes when an element behind them died
+  Real work = 0;   ///< done on the planes by the nodes
   /// What the work is not accounted for by the other terms: areas that change at fixed traction.
-  Real remainder() const { return work - stored - friction - hysteresis - fracture - damping; }
+  Real remainder() const
+  {
+    return work - stored - friction - hysteresis - fracture - damping - eroded;
+  }
 };
 
 /// What planes are told apart by in tables of energies: joint card and blocks. Whichever of the two
@@ -52,6 +56,7 @@ struct PlaneEnergySums
     Hysteresis,
     Fracture,
     Damping,
+    Eroded,
     Terms
   };
   std::array<ExactSum, Terms> sums;
@@ -65,7 +70,13 @@ struct PlaneEnergySums
 class EndedPlanes
 {
 public:
-  void add(const Plane& plane) { byKind_[PlaneKind(plane)].add(plane, 0); }
+  /// eroded: what the plane stored when an element behind it died [J]
+  void add(const Plane& plane, Real eroded = 0)
+  {
+    PlaneEnergySums& sums = byKind_[PlaneKind(plane)];
+    sums.add(plane, 0);
+    sums.sums[PlaneEnergySums::Eroded].add(eroded);
+  }
   const std::map<PlaneKind, PlaneEnergySums>& byKind() const { return byKind_; }
 
 private:

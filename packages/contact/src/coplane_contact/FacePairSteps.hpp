@@ -17,6 +17,12 @@ struct TrialPlane
   Vec3 normal{}, point{}, e1{}, e2{};
 };
 
+/// What a plane's lengths are to be multiplied with.
+KOKKOS_INLINE_FUNCTION Depth depthOf(const TrialPlane& plane, const ContactOptions& options)
+{
+  return options.axisymmetric ? Depth{2 * pi * plane.point.x, 2 * pi * plane.e1.x} : Depth{};
+}
+
 /// Step B: midpoint of the segment that connects the faces' centres, and the mean of n_A and -n_B
 /// as normal. The projection is parallel to the normal, so area and centroid do not depend on where
 /// along it the point lies.

@@ -19,7 +19,8 @@ struct Face
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
   bool local = false; ///< this rank owns at least one node
   bool ownedHere =
-      false; ///< this rank owns the node with the lowest id: it sends the face to others
+      false;          ///< this rank owns the node with the lowest id: it sends the face to others
+  bool young = false; ///< was inside the body until now: planes on it inherit nothing
 };
 
 /// The element behind a face; known with ContactOptions::Method::CommonPlane only.
@@ -39,6 +40,7 @@ struct GhostFace
   int group = 0;
   Real thickness = 0;
   Real modulus = 0;
+  bool young = false;
   int elementCount = 0;                           ///< nodes of the element behind it; 0: not sent
   GlobalId element[8] = {0, 0, 0, 0, 0, 0, 0, 0}; ///< their ids
 };
@@ -55,6 +57,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.group = face.group;
   ghost.thickness = face.thickness;
   ghost.modulus = face.modulus;
+  ghost.young = face.young;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
   ghost.elementCount = element.count;
@@ -74,6 +77,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.group = ghost.group;
   face.thickness = ghost.thickness;
   face.modulus = ghost.modulus;
+  face.young = ghost.young;
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);
   return face;

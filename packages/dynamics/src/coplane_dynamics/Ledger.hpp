@@ -13,6 +13,7 @@ struct EnergyBalance
   Real plastic = 0;  ///< part of internal that is lost
   Real hourglass = 0;
   Real viscous = 0;      ///< bulk viscosity
+  Real eroded = 0;       ///< of elements that have died, when they died
   ContactEnergy contact; ///< stored, friction, hysteresis, damping, remainder
   Real massDamping = 0;  ///< taken out by mass-proportional damping
   Real localDamping = 0; ///< taken out by local damping
@@ -23,7 +24,8 @@ struct EnergyBalance
 
   Real total() const
   {
-    return kinetic + internal + hourglass + viscous + contact.work + massDamping + localDamping;
+    return kinetic + internal + hourglass + viscous + eroded + contact.work + massDamping +
+           localDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
   Real error() const { return total() - externalWork - initial; }

@@ -3,6 +3,7 @@
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/Erosion.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/RankMesh.hpp>
@@ -31,6 +32,7 @@ struct BlockSetup
   Material material;
   HourglassOptions hourglass;
   ElementOptions element;
+  ErosionCriteria erosion;
   Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start
   std::function<Vec3(const Vec3&)> velocityField; ///< added to it [m/s]; empty: none
   SymTensor stress{};                             ///< at the start, tension positive [Pa]

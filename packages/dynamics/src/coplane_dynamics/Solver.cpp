@@ -1,5 +1,6 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
@@ -10,60 +11,6 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
-
-std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
-                               const std::vector<std::pair<GlobalId, int>>& faceGroups,
-                               const ConstNodeVectors& x)
-{
-  std::vector<Face> faces;
-  for (const ExteriorFace& exterior : exteriorFaces(mesh))
-  {
-    Face face;
-    face.id = exterior.id;
-    face.count = exterior.nodeCount;
-    face.block = exterior.block;
-    const auto special =
-        std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(exterior.id, 0));
-    face.group = special != faceGroups.end() && special->first == exterior.id ? special->second
-                                                                              : exterior.block;
-    face.local = true;
-    face.ownedHere = exterior.ownedHere;
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-    {
-      face.nodes[k] = exterior.nodes[k];
-      corners[k] = at(x, face.nodes[k]);
-    }
-    const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
-                                               : vectorArea<3>(corners, face.count));
-    const ElementBlock& block = blocks[exterior.block];
-    face.thickness = block.referenceVolume()(exterior.element) / area;
-    if (block.options().geometry == Geometry::Axisymmetric)
-    {
-      const Real length = block.referenceLength()(exterior.element);
-      face.thickness = length * length / area;
-    }
-    face.modulus = pWaveModulus(blocks[exterior.block].material());
-    faces.push_back(face);
-  }
-  return faces;
-}
-
-/// The elements behind the faces, in the same order.
-std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh)
-{
-  std::vector<FaceElement> elements;
-  for (const ExteriorFace& exterior : exteriorFaces(mesh))
-  {
-    const RankMesh::Block& block = mesh.blocks[exterior.block];
-    FaceElement element;
-    element.count = topology(block.type).nodes;
-    for (int k = 0; k < element.count; ++k)
-      element.nodes[k] = block.connectivity[exterior.element * element.count + k];
-    elements.push_back(element);
-  }
-  return elements;
-}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -120,14 +67,16 @@ Solver::Solver(Model model, const Comm& comm)
   projections_ = model_.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
 
+  prepareErosion();
   if (model_.contactEnabled)
   {
-    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, state_.x);
+    const std::vector<ExteriorFace> exterior = exteriorFaces(mesh);
+    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, exterior, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
     std::vector<FaceElement> elements;
     if (model_.contact.method == ContactOptions::Method::CommonPlane)
-      elements = elementsOfFaces(mesh);
+      elements = elementsOfFaces(mesh, exterior);
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
                                          model_.contactRules, skin, smallest, std::move(elements));
   }
@@ -207,15 +156,17 @@ ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
   const auto entry = gathers_[b].entry;
   const auto changes = block.volumeChanges();
   const auto dilatation = dilatation_;
+  const ElementBlock* const elements = &block;
   const int corners = topology(block.type()).nodes;
   parallelFor(
       "coplane::dynamics::nodalDilatation", layout_.owned(), KOKKOS_LAMBDA(const int n) {
         Real change = 0, volume = 0;
         for (int i = start(n); i < start(n + 1); ++i)
-        {
-          change += changes(0, entry(i) / corners);
-          volume += changes(1, entry(i) / corners);
-        }
+          if (elements->isAlive(entry(i) / corners))
+          {
+            change += changes(0, entry(i) / corners);
+            volume += changes(1, entry(i) / corners);
+          }
         dilatation(n) = volume > 0 ? change / volume : 0;
       });
   layout_.refresh(dilatation_);
@@ -224,13 +175,16 @@ ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
 
 void Solver::findForces(Real dt)
 {
-  if (contact_)
-    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   {
     TimedRegion region("coplane::element::update");
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
   }
+  const bool someDied = dt > 0 && erode(dt);
+  if (contact_ && (searchIsDue_ || someDied))
+    search();
+  if (contact_)
+    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   gatherElementForces();
   if (contact_)
   {
@@ -419,7 +373,7 @@ void Solver::planNextCycle(bool first)
   // exact bound on the relative displacement of any two nodes since the last search.
   std::vector<Real> range(6, -infinity); // max, -min per axis
   for (int n = 0; n < layout_.owned(); ++n)
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; c < 3 && !isFree(n); ++c)
     {
       const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
       range[c] = std::max(range[c], moved);
@@ -467,8 +421,6 @@ void Solver::advance()
     TimedRegion region("coplane::mesh::refreshCopies");
     layout_.refresh(state_.x, state_.v);
   }
-  if (searchIsDue_)
-    search();
   findForces(dt);
   ++clock_.cycle;
   clock_.time += dt;

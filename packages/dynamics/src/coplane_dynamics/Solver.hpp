@@ -3,6 +3,7 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Dashpots.hpp>
+#include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalState.hpp>
@@ -12,6 +13,7 @@
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +74,7 @@ public:
 
   // Over all ranks, the same bits on all. Collective.
   EnergyBalance energy() const;
+  ErosionTotals erosion() const;
   Momenta momenta() const;
   StepControl stepControl() const;
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
@@ -80,6 +83,9 @@ public:
   /// Text that names the planes with the largest unexplained work, the deepest planes, and the
   /// elements whose volume has changed most.
   std::string worstEntities() const;
+
+  /// Energy of a block's elements on this rank that have died [J].
+  const ExactSum& erodedEnergy(int block) const { return erodedEnergy_[block]; }
 
 private:
   struct Gather
@@ -92,6 +98,13 @@ private:
   void findForces(Real dt);
   ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
   void gatherElementForces();
+  void prepareErosion();
+  /// Takes out the elements that meet their criterion, and finds the exterior faces anew. Returns
+  /// whether there were any on some rank. Collective.
+  bool erode(Real dt);
+  void kill(int block, int element, Real dt);
+  /// Whether all elements of an owned node have died.
+  bool isFree(int node) const { return erodes_ && livingElements_[node] == 0; }
   Real stableStep();
   void setInitialStress(int block);
   void applyLocalDamping();
@@ -119,6 +132,14 @@ private:
   std::vector<int> constrained_;
   std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;
+  bool erodes_ = false;                                  ///< some block has a criterion
+  std::vector<std::optional<ErosionRule>> erosionRules_; ///< by block
+  std::optional<ElementSides> sides_;
+  std::vector<std::vector<char>> alive_; ///< [block][element]
+  std::vector<int> livingElements_;      ///< around each owned node
+  std::vector<ExactSum> erodedEnergy_;   ///< by block
+  ExactSum erodedMass_;
+  std::int64_t erodedElements_ = 0;
   Clock clock_;
   EnergyBalance initialEnergy_;
   Momenta initialMomenta_;

@@ -14,6 +14,7 @@ EnergyBalance Solver::energy() const
     Plastic,
     Hourglass,
     Viscous,
+    Eroded,
     Damping,
     LocalDamping,
     External,
@@ -38,6 +39,8 @@ EnergyBalance Solver::energy() const
         sums[Hourglass].add(blocks_[b].energy(e, ElementEnergy::Hourglass));
         sums[Viscous].add(blocks_[b].energy(e, ElementEnergy::Viscous));
       }
+  for (const ExactSum& block : erodedEnergy_)
+    sums[Eroded].add(block);
   const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
   EnergyBalance balance;
   balance.kinetic = totals[Kinetic];
@@ -45,6 +48,7 @@ EnergyBalance Solver::energy() const
   balance.plastic = totals[Plastic];
   balance.hourglass = totals[Hourglass];
   balance.viscous = totals[Viscous];
+  balance.eroded = totals[Eroded];
   balance.massDamping = totals[Damping];
   balance.localDamping = totals[LocalDamping];
   balance.externalWork = totals[External];

@@ -85,7 +85,7 @@ std::string Solver::worstEntities() const
   std::vector<Entry> elements;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (int e = 0; e < blocks_[b].count(); ++e)
-      if (model_.mesh.blocks[b].owned[e])
+      if (model_.mesh.blocks[b].owned[e] && blocks_[b].isAlive(e))
       {
         const Real ratio = blocks_[b].volume()(e) / blocks_[b].referenceVolume()(e);
         elements.push_back({std::isnan(ratio) ? infinity : std::abs(ratio - 1), ratio,

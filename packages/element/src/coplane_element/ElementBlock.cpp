@@ -197,6 +197,7 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   tangent_ = Values("tangent", 2, padded);
   compression_ = Values("compression", 2, padded);
   energies_ = Values("energies", elementEnergies, padded);
+  alive_ = Values("alive", 1, padded);
   const int rows =
       withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; });
   hourglassForce_ = Values("hourglassForce", full ? 0 : rows, padded);
@@ -226,6 +227,8 @@ void ElementBlock::initialise(const ConstNodeVectors& x)
   }
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
   Kokkos::deep_copy(tangent_, 1.0);
+  Kokkos::deep_copy(alive_, 1.0);
+  eroded_.clear();
   Kokkos::deep_copy(cornerForce_, 0.0);
   for (int e = 0; e < int(mass_.extent(0)); ++e)
     setInitialStress(e, {});
@@ -365,14 +368,54 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
   switch (type_)
   {
   case ElementType::Tri3:
-    return revolved ? updateRevolvedTri3(data) : updateTri3(data);
+    revolved ? updateRevolvedTri3(data) : updateTri3(data);
+    break;
   case ElementType::Quad4:
-    return revolved ? updateRevolvedQuad4(data) : full ? updateFullQuad4(data) : updateQuad4(data);
+    revolved ? updateRevolvedQuad4(data) : full ? updateFullQuad4(data) : updateQuad4(data);
+    break;
   case ElementType::Tet4:
-    return updateTet4(data);
+    updateTet4(data);
+    break;
   case ElementType::Hex8:
-    return full ? updateFullHex8(data) : updateHex8(data);
+    full ? updateFullHex8(data) : updateHex8(data);
+    break;
   }
+  for (const Eroded& eroded : eroded_)
+    restore(eroded);
+}
+
+void ElementBlock::erode(int element)
+{
+  for (const Values& values : {stress_, hourglassForce_, hourglassViscousForce_, compression_,
+                               energies_, pointStress_, pointEnergy_, alive_})
+    for (std::size_t row = 0; row < values.extent(0); ++row)
+      values(row, element) = 0;
+  Eroded eroded{element, volume_(element), {}};
+  forEachState(
+      [&](const char*, int rows, const Values& values)
+      {
+        for (int row = 0; row < rows; ++row)
+          eroded.state.push_back(values(row, element));
+      });
+  restore(eroded);
+  eroded_.push_back(std::move(eroded));
+}
+
+void ElementBlock::restore(const Eroded& eroded)
+{
+  const int e = eroded.element;
+  std::size_t i = 0;
+  forEachState(
+      [&](const char*, int rows, const Values& values)
+      {
+        for (int row = 0; row < rows; ++row)
+          values(row, e) = eroded.state[i++];
+      });
+  volume_(e) = eroded.volume;
+  stableStep_(e) = infinity;
+  for (std::size_t corner = 0; corner < cornerForce_.extent(1); ++corner)
+    for (int c = 0; c < 3; ++c)
+      cornerForce_(e, corner, c) = 0;
 }
 
 Real ElementBlock::pressure(int e) const

@@ -110,6 +110,12 @@ public:
   ConstValues energies() const { return energies_; }
   Real energy(int element, ElementEnergy kind) const { return energies_(int(kind), element); }
 
+  /// Takes an element out: no force and no stable step from now on, energies and stress zero; its
+  /// history and its volume stay as they are. Its mass stays in mass() and cornerMass(): the nodes
+  /// keep it.
+  void erode(int element);
+  bool isAlive(int element) const { return alive_(0, element) > 0; }
+
   /// The least stable step of the block [s]; infinity when it has no elements, 0 when one has
   /// turned inside out.
   Real smallestStableStep() const;
@@ -136,12 +142,22 @@ public:
                                        {"point_energy", pointEnergy_}})
       if (values.extent(0) > 0)
         f(name, int(values.extent(0)), values);
+    f("alive", int(alive_.extent(0)), alive_);
   }
 
 private:
   template <ElementType type>
   Real measure(int element, const ConstNodeVectors& x);
   ElementKernelData kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt) const;
+  /// What an eroded element keeps. Kernels go over all elements of a block, dead ones too, and
+  /// update() then puts back what they wrote.
+  struct Eroded
+  {
+    int element;
+    Real volume;             ///< [m^3]
+    std::vector<Real> state; ///< in the order of forEachState
+  };
+  void restore(const Eroded& eroded);
 
   ElementType type_;
   Material law_;
@@ -166,6 +182,9 @@ private:
   Values pointStress_, pointHistory_;
   Values pointEnergy_; // internal and viscous, per reference volume [J/m^3]
   Values compression_; // rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
+
+  Values alive_; // 1 alive, 0 eroded
+  std::vector<Eroded> eroded_;
 
   // of the last update
   CornerVectors cornerForce_;

@@ -38,6 +38,29 @@ struct MaterialCard
       0; ///< j2, linear isotropic: slope of yield stress over plastic strain [Pa]
 };
 
+/// A limit on a variable of the law, by its name.
+struct ErosionVariableCard
+{
+  std::string name, where;
+  std::optional<Real> above, below;
+};
+
+/// When an element dies: when its damage is above `damage`, if given, and one of the others, if
+/// any, is exceeded.
+struct ErosionCard
+{
+  std::optional<Real> damage;        ///< [-]
+  std::optional<Real> plasticStrain; ///< [-]
+  std::vector<Real> volumeRatio;     ///< least, largest [-]; empty: no limit
+  std::optional<Real> stableStep;    ///< [s]
+  std::vector<ErosionVariableCard> variables;
+
+  bool any() const
+  {
+    return damage || plasticStrain || !volumeRatio.empty() || stableStep || !variables.empty();
+  }
+};
+
 struct BlockCard
 {
   std::string name, where; ///< element block of the mesh
@@ -47,6 +70,7 @@ struct BlockCard
   std::string objectiveRate = "hughes_winget"; ///< hughes_winget | jaumann | green_naghdi
   Real hourglassStiffness = 0.05;              ///< [-]
   Real hourglassViscosity = 0;                 ///< [-]
+  ErosionCard erosion;
 };
 
 /// A joint law. `penalty` takes its stiffness from the elements behind the faces.

@@ -122,6 +122,27 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
       }
   }
 }
+
+void checkErosion(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  for (const BlockCard& block : deck.blocks)
+  {
+    const std::string path = "blocks." + block.name + ".erosion";
+    const DeckNode& node = nodeAt(root, {"blocks", block.name, "erosion"});
+    const auto& ratio = block.erosion.volumeRatio;
+    if (ratio.size() == 2 && !(ratio[0] < 1 && ratio[1] > 1))
+      problems.add(nodeAt(node, {"volume_ratio"}),
+                   fmt::format("{}.volume_ratio = [{}, {}] would take out elements as they are at "
+                               "the start; accepted: the first below 1, the second above 1.",
+                               path, ratio[0], ratio[1]));
+    for (const auto& variable : block.erosion.variables)
+      if (!variable.above && !variable.below)
+        problems.add(nodeAt(node, {"variables", variable.name}),
+                     fmt::format("{0}.variables.{1} has no limit; accepted: above, below or both, "
+                                 "as in {1}: {{above: 0.5}}.",
+                                 path, variable.name));
+  }
+}
 } // namespace
 
 void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
@@ -150,6 +171,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
                      fmt::format("blocks.{}.element = '{}' is not offered with geometry = "
                                  "'axisymmetric'; use one_point or nodal_pressure.",
                                  block.name, block.element));
+  checkErosion(deck, root, problems);
 
   Names seen;
   for (std::size_t i = 0; i < deck.initial.size(); ++i)

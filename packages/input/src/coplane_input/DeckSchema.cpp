@@ -56,6 +56,56 @@ Key materials()
       .means("laws of the continuum, by a name of your choice");
 }
 
+Key erosion()
+{
+  return group("erosion", &BlockCard::erosion,
+               {
+                   number("damage", &ErosionCard::damage)
+                       .in("-")
+                       .atLeast(0)
+                       .below(1)
+                       .defaultIs("damage is not asked for")
+                       .like("0.99")
+                       .means("only elements whose damage is above this die; the law has to have a "
+                              "variable `damage`"),
+                   number("plastic_strain", &ErosionCard::plasticStrain)
+                       .in("-")
+                       .above(0)
+                       .defaultIs("no limit")
+                       .like("1.5")
+                       .means("limit of the equivalent plastic strain"),
+                   numbers("volume_ratio", &ErosionCard::volumeRatio, 2)
+                       .in("-")
+                       .atLeast(0)
+                       .defaultIs("no limit")
+                       .like("[0.05, 4]")
+                       .means("least and largest volume over the first one; a least one catches "
+                              "elements that turn inside out"),
+                   number("stable_step", &ErosionCard::stableStep)
+                       .in("s")
+                       .above(0)
+                       .defaultIs("no limit")
+                       .like("1e-9")
+                       .means("least stable step of the element"),
+                   named("variables", &ErosionCard::variables,
+                         {
+                             number("above", &ErosionVariableCard::above)
+                                 .in("of the variable")
+                                 .defaultIs("no limit")
+                                 .like("0.5")
+                                 .means("the limit is exceeded above this"),
+                             number("below", &ErosionVariableCard::below)
+                                 .in("of the variable")
+                                 .defaultIs("no limit")
+                                 .like("-0.1")
+                                 .means("the limit is exceeded below this"),
+                         })
+                       .means("limits of the law's variables, by their names"),
+               })
+      .means("when elements of the block die: when damage is high enough, if that is asked for, "
+             "and one of the limits, if there are any, is exceeded; without keys none dies");
+}
+
 Key blocks()
 {
   return named("blocks", &Deck::blocks,
@@ -91,6 +141,7 @@ Key blocks()
                            })
                        .onlyFor({"one_point"})
                        .means("control of the zero-energy modes of one-point elements"),
+                   erosion(),
                })
       .needed()
       .decidedBy("element")

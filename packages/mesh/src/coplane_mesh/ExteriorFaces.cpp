@@ -4,7 +4,7 @@
 
 namespace coplane
 {
-std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
+ElementSides::ElementSides(const RankMesh& mesh)
 {
   struct Candidate
   {
@@ -48,18 +48,42 @@ std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
             [](const Candidate& a, const Candidate& b)
             { return std::tie(a.sortedNodes, a.face.id) < std::tie(b.sortedNodes, b.face.id); });
 
-  std::vector<ExteriorFace> faces;
-  for (std::size_t i = 0; i < candidates.size();)
+  sides_.reserve(candidates.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i)
   {
-    std::size_t end = i + 1;
-    while (end < candidates.size() && candidates[end].sortedNodes == candidates[i].sortedNodes)
-      ++end;
-    if (end == i + 1)
-      faces.push_back(candidates[i].face);
-    i = end;
+    if (i == 0 || candidates[i].sortedNodes != candidates[i - 1].sortedNodes)
+      start_.push_back(int(i));
+    sides_.push_back(candidates[i].face);
+  }
+  start_.push_back(int(sides_.size()));
+}
+
+std::vector<ExteriorFace> ElementSides::exterior(const std::vector<std::vector<char>>& alive) const
+{
+  std::vector<ExteriorFace> faces;
+  for (std::size_t g = 0; g + 1 < start_.size(); ++g)
+  {
+    const ExteriorFace* only = nullptr;
+    int living = 0;
+    for (int i = start_[g]; i < start_[g + 1]; ++i)
+      if (alive[sides_[i].block][sides_[i].element])
+      {
+        only = &sides_[i];
+        ++living;
+      }
+    if (living == 1)
+      faces.push_back(*only);
   }
   std::sort(faces.begin(), faces.end(),
             [](const ExteriorFace& a, const ExteriorFace& b) { return a.id < b.id; });
   return faces;
+}
+
+std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
+{
+  std::vector<std::vector<char>> alive;
+  for (const RankMesh::Block& block : mesh.blocks)
+    alive.emplace_back(block.elements(), char(1));
+  return ElementSides(mesh).exterior(alive);
 }
 } // namespace coplane

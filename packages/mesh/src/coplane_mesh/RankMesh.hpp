@@ -61,4 +61,21 @@ struct ExteriorFace
 /// elements that touch an owned node are here, hence also the one behind a face that has such a
 /// node.
 std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh);
+
+/// All sides of all held elements that have an owned node, to find the exterior faces of a body
+/// that loses elements: a face between a dead element and a living one becomes exterior. A face
+/// keeps its id, and its corners their order, as long as its element lives.
+class ElementSides
+{
+public:
+  explicit ElementSides(const RankMesh& mesh);
+
+  /// The local faces that belong to exactly one living element, sorted by id.
+  /// @param alive [block][element] of the mesh
+  std::vector<ExteriorFace> exterior(const std::vector<std::vector<char>>& alive) const;
+
+private:
+  std::vector<ExteriorFace> sides_; ///< those with the same nodes stand together
+  std::vector<int> start_;          ///< of the sides with the same nodes; one more at the end
+};
 } // namespace coplane

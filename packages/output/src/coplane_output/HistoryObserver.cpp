@@ -44,11 +44,13 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("plastic[J]", energy.plastic);
   line.add("hourglass[J]", energy.hourglass);
   line.add("viscous[J]", energy.viscous);
+  line.add("eroded[J]", energy.eroded);
   line.add("contact_stored[J]", energy.contact.stored);
   line.add("contact_friction[J]", energy.contact.friction);
   line.add("contact_hysteresis[J]", energy.contact.hysteresis);
   line.add("contact_fracture[J]", energy.contact.fracture);
   line.add("contact_damping[J]", energy.contact.damping);
+  line.add("contact_eroded[J]", energy.contact.eroded);
   line.add("contact_remainder[J]", energy.contact.remainder());
   line.add("mass_damping[J]", energy.massDamping);
   line.add("local_damping[J]", energy.localDamping);
@@ -198,6 +200,9 @@ void HistoryObserver::write(const Solver& solver)
   addMomenta(line, solver.momenta());
   addCounts(line, solver.hasContact() ? solver.contact().counts() : ContactCounts{},
             solver.searches());
+  const ErosionTotals erosion = solver.erosion();
+  line.add("eroded_elements", erosion.elements);
+  line.add("eroded_mass[kg]", erosion.mass);
   const std::vector<Real> probes = probeValues(solver);
   for (std::size_t p = 0; p < options_.probes.size(); ++p)
   {

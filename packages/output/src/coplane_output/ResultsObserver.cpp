@@ -37,7 +37,8 @@ ResultsVariables variablesOf(int dimension)
       "time_step",          "kinetic_energy",     "internal_energy", "plastic_work",
       "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
       "contact_hysteresis", "contact_fracture",   "contact_damping", "contact_remainder",
-      "mass_damping_work",  "local_damping_work", "external_work",   "energy_error"};
+      "mass_damping_work",  "local_damping_work", "external_work",   "energy_error",
+      "eroded_energy",      "contact_eroded",     "eroded_mass"};
   names.side = sideVariableNames();
   return names;
 }
@@ -118,7 +119,8 @@ void ResultsObserver::write(const Solver& solver)
                     energy.hourglass, energy.viscous, energy.contact.stored,
                     energy.contact.friction, energy.contact.hysteresis, energy.contact.fracture,
                     energy.contact.damping, energy.contact.remainder(), energy.massDamping,
-                    energy.localDamping, energy.externalWork, energy.error()});
+                    energy.localDamping, energy.externalWork, energy.error(), energy.eroded,
+                    energy.contact.eroded, solver.erosion().mass});
   file_.endStep();
   lastCycle_ = solver.clock().cycle;
 }
@@ -188,7 +190,7 @@ void ResultsObserver::writeElements(const Solver& solver)
       mine(row, 7) = block.pressure(e);
       mine(row, 8) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
       mine(row, 9) = block.density(e);
-      mine(row, 10) = 1; // alive: no element dies yet
+      mine(row, 10) = block.isAlive(e);
       ++row;
     }
   }

@@ -61,13 +61,16 @@ Json sizesOf(const Solver& solver)
   const ContactCounts counts = solver.hasContact() ? solver.contact().counts() : ContactCounts{};
   std::vector<std::int64_t> sums{solver.layout().owned(), elements};
   comm.sum(sums);
+  const ErosionTotals erosion = solver.erosion();
   return {{"dimension", solver.mesh().dimension},
           {"nodes", sums[0]},
           {"elements", sums[1]},
           {"candidate_pairs", counts.slots},
           {"planes", counts.planes},
           {"searches", solver.searches()},
-          {"cycles", solver.clock().cycle}};
+          {"cycles", solver.clock().cycle},
+          {"eroded_elements", erosion.elements},
+          {"eroded_mass_kg", erosion.mass}};
 }
 
 Json facesOf(const GlobalId* ids, std::size_t count)
@@ -128,6 +131,8 @@ Json energiesOf(const EnergyBalance& e)
           {"contact_hysteresis", e.contact.hysteresis},
           {"contact_fracture", e.contact.fracture},
           {"contact_damping", e.contact.damping},
+          {"eroded", e.eroded},
+          {"contact_eroded", e.contact.eroded},
           {"contact_remainder", e.contact.remainder()},
           {"mass_damping", e.massDamping},
           {"local_damping", e.localDamping},

@@ -29,9 +29,10 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
           return;
         if (options_.blocks)
           open(blocks_, options_.base + "_blocks.csv",
-               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J]");
+               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J],"
+               "eroded[J]");
         const std::string terms = "joint,planes,area[m^2],work[J],stored[J],friction[J],"
-                                  "hysteresis[J],fracture[J],damping[J],remainder[J]";
+                                  "hysteresis[J],fracture[J],damping[J],eroded[J],remainder[J]";
         if (options_.pairs)
           open(pairs_, options_.base + "_pairs.csv", "time[s],cycle,block_a,block_b," + terms);
         if (options_.materials)
@@ -81,7 +82,7 @@ void TablesObserver::findShares(const Solver& solver)
 
 std::string TablesObserver::blockLines(const Solver& solver) const
 {
-  constexpr int terms = 5;
+  constexpr int terms = 6;
   constexpr ElementEnergy kinds[] = {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
                                      ElementEnergy::Hourglass, ElementEnergy::Viscous};
   const NodalState& state = solver.state();
@@ -94,8 +95,9 @@ std::string TablesObserver::blockLines(const Solver& solver) const
     const RankMesh::Block& part = solver.mesh().blocks[b];
     for (int e = 0; e < part.elements(); ++e)
       if (part.owned[e])
-        for (int k = 0; k < terms - 1; ++k)
+        for (int k = 0; k < elementEnergies; ++k)
           sums[terms * b + 1 + k].add(solver.blocks()[b].energy(e, kinds[k]));
+    sums[terms * b + terms - 1].add(solver.erodedEnergy(int(b)));
   }
   if (sums.empty())
     return "";
@@ -121,8 +123,8 @@ std::string lineOf(const Solver& solver, const std::string& sideA, const std::st
   std::string text =
       fmt::format("{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle, sideA, sideB,
                   solver.contact().rules().joints[row.kind.joint].name, row.planes);
-  for (const Real value :
-       {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture, e.damping, e.remainder()})
+  for (const Real value : {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture,
+                           e.damping, e.eroded, e.remainder()})
     text += fmt::format(",{:.17g}", value);
   return text + "\n";
 }
@@ -160,6 +162,7 @@ std::string TablesObserver::materialLines(const Solver& solver) const
       sum.energy.hysteresis += row.energy.hysteresis;
       sum.energy.fracture += row.energy.fracture;
       sum.energy.damping += row.energy.damping;
+      sum.energy.eroded += row.energy.eroded;
     }
   std::string text;
   for (const auto& [key, row] : rows)

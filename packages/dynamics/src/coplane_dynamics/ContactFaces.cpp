@@ -1,0 +1,78 @@
+#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_dynamics/ContactFaces.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
+                               const std::vector<std::pair<GlobalId, int>>& faceGroups,
+                               const std::vector<ExteriorFace>& exterior, const ConstNodeVectors& x,
+                               const std::vector<Face>* known)
+{
+  std::vector<Face> faces;
+  std::size_t old = 0;
+  for (const ExteriorFace& side : exterior)
+  {
+    while (known && old < known->size() && (*known)[old].id < side.id)
+      ++old;
+    if (known && old < known->size() && (*known)[old].id == side.id)
+    {
+      faces.push_back((*known)[old]);
+      continue;
+    }
+    Face face;
+    face.id = side.id;
+    face.count = side.nodeCount;
+    face.block = side.block;
+    const auto special =
+        std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(side.id, 0));
+    face.group =
+        special != faceGroups.end() && special->first == side.id ? special->second : side.block;
+    face.local = true;
+    face.ownedHere = side.ownedHere;
+    face.young = known != nullptr;
+    Vec3 corners[4];
+    for (int k = 0; k < face.count; ++k)
+    {
+      face.nodes[k] = side.nodes[k];
+      corners[k] = at(x, face.nodes[k]);
+    }
+    const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
+                                               : vectorArea<3>(corners, face.count));
+    const ElementBlock& block = blocks[side.block];
+    Real volume = block.volume()(side.element);
+    if (block.options().geometry == Geometry::Axisymmetric)
+    {
+      // Of one metre along the hoop.
+      const Real length = block.referenceLength()(side.element);
+      volume *= length * length / block.referenceVolume()(side.element);
+    }
+    const Real thickness = volume / area;
+    // An element that has been crushed may have a side without area: then its size counts.
+    const Real size =
+        mesh.dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));
+    face.thickness = thickness > 0 && thickness < 1e3 * size ? thickness : size;
+    face.modulus = pWaveModulus(block.material());
+    faces.push_back(face);
+  }
+  return faces;
+}
+
+std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh,
+                                         const std::vector<ExteriorFace>& exterior)
+{
+  std::vector<FaceElement> elements;
+  for (const ExteriorFace& side : exterior)
+  {
+    const RankMesh::Block& block = mesh.blocks[side.block];
+    FaceElement element;
+    element.count = topology(block.type).nodes;
+    for (int k = 0; k < element.count; ++k)
+      element.nodes[k] = block.connectivity[side.element * element.count + k];
+    elements.push_back(element);
+  }
+  return elements;
+}
+} // namespace coplane

@@ -1,0 +1,123 @@
+#include "Rig.hpp"
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+/// A column of five unit cubes along z whose ends part at 2 m/s; the middle element dies as soon as
+/// its volume has grown by 1 %.
+Model stretchedColumn(const Comm& comm)
+{
+  Mesh mesh;
+  addBox(mesh, "column", {1, 1, 5}, {0, 0, 0}, {1, 1, 5});
+  Model model = rockModel(mesh, comm);
+  model.blocks[0].velocityField = [](const Vec3& x) {
+    return Vec3{0, 0, x.z < 1.5 ? -10.0 : x.z > 3.5 ? 10.0 : 0.0};
+  };
+  model.blocks[0].erosion.volumeRatio = {0.5, 1.01};
+  model.time.fixedStep = 1e-4;
+  return model;
+}
+
+/// Two cubes that are pressed together; the element at a corner of the upper one dies by a limit
+/// that is changed during the run.
+Model pressed(const Comm& comm)
+{
+  Model model = rockModel(twoCubes(), comm, 0.25);
+  model.blocks[1].velocity = {0, 0, -2};
+  model.blocks[1].erosion.volumeRatio = {0.9985, 2};
+  return model;
+}
+
+std::int64_t deadAfter(Solver& solver, int n)
+{
+  cycles(solver, n);
+  return solver.erosion().elements;
+}
+} // namespace
+
+TEST(Erosion, keepsMassAndMomentumAndTheEnergyAccount)
+{
+  const Comm comm;
+  Solver solver(stretchedColumn(comm), comm);
+  solver.prepare();
+  ASSERT_GT(deadAfter(solver, 300), 0);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_GT(energy.eroded, 0);
+  EXPECT_LT(std::abs(energy.error()), 2e-3 * energy.initial);
+  EXPECT_LT(norm(solver.momenta().linearError()), 1e-13 * solver.momenta().magnitude);
+  EXPECT_LT(norm(solver.momenta().angularError()), 1e-12 * solver.momenta().magnitude);
+  ExactSum mass;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    mass.add(solver.state().mass(n));
+  std::vector<ExactSum> masses{mass};
+  EXPECT_EQ(ExactSum::overRanks(masses, comm)[0], 5000); // 5 m^3 of 1000 kg/m^3
+  EXPECT_EQ(solver.erosion().mass, 1000.0 * Real(solver.erosion().elements));
+}
+
+TEST(Erosion, endsPlanesWithTheirEnergy)
+{
+  const Comm comm;
+  Solver solver(pressed(comm), comm);
+  solver.prepare();
+  int n = 0;
+  while (solver.erosion().elements == 0 && n++ < 200)
+    solver.advance();
+  ASSERT_GT(solver.erosion().elements, 0);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_GT(energy.contact.eroded, 0);
+  EXPECT_LT(std::abs(energy.error()), 5e-3 * energy.initial);
+  // No plane is left on a dead element, on any rank.
+  std::vector<GlobalId> dead;
+  for (std::size_t b = 0; b < solver.blocks().size(); ++b)
+    for (int e = 0; e < solver.blocks()[b].count(); ++e)
+      if (!solver.blocks()[b].isAlive(e))
+        dead.push_back(solver.mesh().blocks[b].elementIds[e]);
+  dead = comm.allGather(dead);
+  for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
+    for (const GlobalId face : solver.contact().planes()(p).faceId)
+      EXPECT_EQ(std::count(dead.begin(), dead.end(), elementOfFace(face)), 0);
+  for (const Face& face : solver.contact().faces())
+    EXPECT_EQ(std::count(dead.begin(), dead.end(), elementOfFace(face.id)), 0);
+}
+
+TEST(Erosion, loadsEndWithTheElementThatCarriedThem)
+{
+  // A pressure of 50 MPa on the end of a cube squeezes it by 5 %: it dies at 1 %, and what is left
+  // are nodes that fly on without force.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "cube", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  model.conditions.pressures = {
+      pressureWhere(model.mesh, 50e6, [](const Vec3& x) { return x.z == 1; })};
+  model.blocks[0].erosion.volumeRatio = {0.99, 2};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  ASSERT_EQ(deadAfter(solver, 20), 1);
+  const Vec3 impulse = solver.momenta().impulse;
+  EXPECT_LT(impulse.z, 0);
+  cycles(solver, 20);
+  EXPECT_EQ(solver.momenta().impulse.z, impulse.z);
+  EXPECT_EQ(largest(solver.state().force, solver.layout().owned(), comm), 0);
+  EXPECT_EQ(solver.contact().faces().size(), 0u);
+}
+
+TEST(Erosion, hasTheSameBitsOnAnyRanks)
+{
+  const Comm world, alone(MPI_COMM_SELF);
+  for (const auto& scene : {stretchedColumn, pressed})
+  {
+    Solver one(scene(alone), alone), many(scene(world), world);
+    one.prepare();
+    many.prepare();
+    EXPECT_GT(deadAfter(one, 150), 0);
+    EXPECT_EQ(deadAfter(many, 150), one.erosion().elements);
+    EXPECT_EQ(many.stateHash(), one.stateHash());
+    EXPECT_EQ(many.energy().error(), one.energy().error());
+    EXPECT_EQ(many.energy().contact.eroded, one.energy().contact.eroded);
+  }
+}
+} // namespace coplane
