@@ -313,8 +313,6 @@ TEST(DeckErrors, requiredKeysThatAreMissing)
   EXPECT_EQ(errorOf("title: x\n"),
             "wall.yaml:1:1: mesh is missing; accepted: text: Exodus file, relative to the folder "
             "of the deck.\n"
-            "wall.yaml:1:1: materials is missing; accepted: names, each with keys and values: laws "
-            "of the continuum, by a name of your choice.\n"
             "wall.yaml:1:1: blocks is missing; accepted: names, each with keys and values: element "
             "blocks of the mesh, by the names that the mesh gives them; all blocks need a card.\n"
             "wall.yaml:1:1: time is missing; accepted: keys with values: time and its steps.");

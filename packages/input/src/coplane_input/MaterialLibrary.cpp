@@ -86,39 +86,42 @@ void insertMaterialSets(DeckNode& root)
       if (const DeckNode* set = card.find("set"))
         if (const DeckNode* found = library.find(set->text))
           add(card, *found, DeckNode(*set));
-  DeckNode* const blocks = child(root, "blocks");
-  if (!blocks)
-    return;
-  for (const auto& [name, block] : blocks->entries)
+  // Copies, because the tree grows.
+  std::vector<DeckNode> named;
+  for (const char* group : {"blocks", "material_paths"})
+    if (const DeckNode* cards = root.find(group))
+      for (const auto& [name, card] : cards->entries)
+        if (const DeckNode* material = card.find("material"))
+          named.push_back(*material);
+  for (const DeckNode& place : named)
   {
-    const DeckNode* const material = block.find("material");
-    const DeckNode* const found = material ? library.find(material->text) : nullptr;
+    const DeckNode* const found = library.find(place.text);
     if (!found)
       continue;
     DeckNode* materials = child(root, "materials");
     if (!materials)
     {
-      DeckNode key = *material, map = *material;
+      DeckNode key = place, map = place;
       key.text = "materials";
       map.text.clear();
       map.kind = DeckNode::Kind::Map;
       root.entries.emplace_back(key, map);
-      return insertMaterialSets(root); // the tree has moved
+      materials = child(root, "materials");
     }
     if (materials->kind != DeckNode::Kind::Map)
       continue;
-    if (DeckNode* const card = child(*materials, material->text))
+    if (DeckNode* const card = child(*materials, place.text))
     {
       // Such as made by --set materials.concrete_c40.fracture_energy=100.
       if (card->kind == DeckNode::Kind::Map && !card->find("model") && !card->find("set"))
-        add(*card, *found, *material);
+        add(*card, *found, place);
       continue;
     }
-    DeckNode card = *material;
+    DeckNode card = place;
     card.text.clear();
     card.kind = DeckNode::Kind::Map;
-    add(card, *found, *material);
-    materials->entries.emplace_back(*material, card);
+    add(card, *found, place);
+    materials->entries.emplace_back(place, card);
   }
 }
 } // namespace coplane
