@@ -113,7 +113,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   Solver solver(buildModel(deck, mesh, distribute(mesh, owners, comm.rank())), comm);
   solver.prepare();
   reportModel(solver, mesh);
-  reportSoftening(deck, solver, comm);
+  reportSoftening(deck, mesh, solver, comm);
   if (line.check)
   {
     logInfo("check: deck and mesh are fine; nothing was run");
