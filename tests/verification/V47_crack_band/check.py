@@ -43,4 +43,6 @@ for size in (0.005, 0.01, 0.02, 0.04):
     damage = sorted(run.results.element("bar", "damage"))
     case.check(f"{name}: damage of the cracked element", damage[-1], 1, 0.01)
     case.check(f"{name}: damage of the next", damage[-2], 0, 0.01)
+    if size == 0.01:
+        case.same_bits("ranks", recipe, deck, run)
 case.finish()
