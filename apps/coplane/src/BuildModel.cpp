@@ -2,6 +2,7 @@
 
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/JointCards.hpp>
+#include <coplane_input/MaterialCards.hpp>
 #include <coplane_input/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
@@ -14,14 +15,6 @@ namespace coplane
 {
 namespace
 {
-Material materialOf(const MaterialCard& card)
-{
-  if (card.model == "j2")
-    return makeJ2Plasticity(card.youngsModulus, card.poissonRatio, card.density, card.yieldStress,
-                            card.hardeningModulus);
-  return makeLinearElastic(card.youngsModulus, card.poissonRatio, card.density);
-}
-
 ErosionCriteria erosionOf(const ErosionCard& card)
 {
   ErosionCriteria erosion;

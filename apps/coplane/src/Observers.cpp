@@ -1,5 +1,6 @@
 #include "Observers.hpp"
 
+#include <coplane_input/MaterialCards.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ProgressObserver.hpp>
@@ -31,6 +32,24 @@ int positionOf(const Items& items, const std::string& name)
     if (items[i].name == name)
       return i;
   return -1;
+}
+
+/// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
+/// are written anyway are left out.
+std::vector<std::string> historyVariables(const Deck& deck, const Mesh& mesh)
+{
+  std::vector<std::string> names;
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const BlockCard& card = deck.blocks[std::size_t(positionOf(deck.blocks, block.name))];
+    const MaterialCard& material =
+        deck.materials[std::size_t(positionOf(deck.materials, card.material))];
+    for (const std::string& name : historyNames(materialOf(material)))
+      if (name != "equivalent_plastic_strain" &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  }
+  return names;
 }
 
 std::string withoutExtension(const std::string& file)
@@ -87,6 +106,7 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
     results.file = deck.output.results;
     results.when = when;
     results.filePerRank = deck.output.filePerRank;
+    results.history = historyVariables(deck, mesh);
     results.infoLines = linesOf(deck.text);
     results.infoLines.insert(results.infoLines.begin(), command);
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));

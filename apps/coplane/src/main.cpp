@@ -1,6 +1,7 @@
 #include "BuildModel.hpp"
 #include "Observers.hpp"
 #include "Report.hpp"
+#include "SofteningReport.hpp"
 
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
@@ -115,6 +116,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   Solver solver(buildModel(deck, mesh, distribute(mesh, owners, comm.rank())), comm);
   solver.prepare();
   reportModel(solver, mesh);
+  reportSoftening(deck, mesh, solver, comm);
   if (line.check)
   {
     logInfo("check: deck and mesh are fine; nothing was run");

@@ -6,6 +6,7 @@
 #include <coplane_input/ContactSchema.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/JointCards.hpp>
+#include <coplane_input/MaterialCards.hpp>
 #include <coplane_input/SchemaBuilder.hpp>
 #include <coplane_input/SchemaReader.hpp>
 #include <coplane_input/Suggestion.hpp>
@@ -126,7 +127,6 @@ Key jointPaths()
                      .defaultIs("all 0")
                      .means("slip along y at `times`"),
              })
-      .needed()
       .decidedBy("type")
       .means("paths on which joints are led, by a name of your choice; each gives one CSV file");
 }
@@ -216,6 +216,45 @@ private:
   const DeckNode& root_;
   Problems& problems_;
 };
+
+/// What the paths of materials demand beyond the schema.
+void checkMaterialPaths(PointDeck& deck, const DeckNode& root, Problems& problems)
+{
+  std::vector<std::string> names;
+  for (const auto& material : deck.materials)
+    names.push_back(material.name);
+  for (MaterialPathCard& card : deck.materialPaths)
+  {
+    const DeckNode& node = nodeAt(root, {"material_paths", card.name});
+    const std::string path = "material_paths." + card.name;
+    const auto at = [&](const char* key) -> const DeckNode& {
+      return nodeAt(root, {"material_paths", card.name, key});
+    };
+    if (!card.material.empty() &&
+        std::find(names.begin(), names.end(), card.material) == names.end())
+      problems.add(at("material"),
+                   fmt::format("{}.material = '{}' is neither a card in materials nor a set of the "
+                               "library.{} There {}.",
+                               path, card.material, didYouMean(card.material, names),
+                               names.empty() ? "are none" : "is: " + listOf(names)));
+    if (node.find("strains") && card.strains.empty())
+      problems.add(at("strains"),
+                   fmt::format("{}.strains is empty; accepted: at least one number.", path));
+    for (std::size_t i = 1; i < card.times.size(); ++i)
+      if (!(card.times[i] > card.times[i - 1]))
+        problems.add(at("times"), fmt::format("{}.times does not rise at item {}: {} s after {} s.",
+                                              path, i, card.times[i], card.times[i - 1]));
+    constexpr const char* components[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+    for (int k = 0; k < 6; ++k)
+      if (!card.values[k].empty() && card.values[k].size() != card.times.size())
+        problems.add(at(components[k]),
+                     fmt::format("{}.{} has {} numbers, but times has {}; accepted: as many.", path,
+                                 components[k], card.values[k].size(), card.times.size()));
+    if (card.output.empty())
+      card.output =
+          fmt::format("{}_{}.csv", std::filesystem::path(deck.file).stem().string(), card.name);
+  }
+}
 } // namespace
 
 const Key& pointSchema()
@@ -224,7 +263,6 @@ const Key& pointSchema()
       "", {
               text("title", &PointDeck::title).means("for the records").like("Direct shear"),
               Key(named("joints", &PointDeck::joints, jointCardKeys())
-                      .needed()
                       .decidedBy("model")
                       .atMostOneOf({"shear_stiffness", "shear_ratio"})
                       .means("laws of contact planes, as in decks of coplane")),
@@ -246,6 +284,13 @@ const Key& pointSchema()
                       .means("what a joint takes from the elements behind its faces: the stiffness "
                              "of penalty joints, the default of stiffness_cap")),
               jointPaths(),
+              Key(named("materials", &PointDeck::materials, materialCardKeys())
+                      .decidedBy("model")
+                      .means("laws of the continuum, as in decks of coplane")),
+              Key(named("material_paths", &PointDeck::materialPaths, materialPathKeys())
+                      .decidedBy("type")
+                      .means("paths on which materials are led, by a name of your choice; each "
+                             "gives one CSV file")),
           });
   return schema;
 }
@@ -265,6 +310,11 @@ PointDeck parsePointDeck(const std::string& text, const std::string& file,
       card.output =
           fmt::format("{}_{}.csv", std::filesystem::path(file).stem().string(), card.name);
   }
+  checkMaterials(deck.materials, root, problems);
+  checkMaterialPaths(deck, root, problems);
+  if (problems.empty() && deck.jointPaths.empty() && deck.materialPaths.empty())
+    problems.add(root, "joint_paths and material_paths are missing; accepted: at least one path in "
+                       "one of them.");
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
   for (JointPathCard& card : deck.jointPaths)

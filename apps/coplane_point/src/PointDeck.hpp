@@ -1,5 +1,7 @@
 #pragma once
 
+#include "MaterialPaths.hpp"
+
 #include <coplane_input/Deck.hpp>
 #include <coplane_input/Schema.hpp>
 
@@ -40,6 +42,8 @@ struct PointDeck
   std::vector<JointCard> joints;
   ElementCard elements;
   std::vector<JointPathCard> jointPaths;
+  std::vector<MaterialCard> materials;
+  std::vector<MaterialPathCard> materialPaths;
 };
 
 const Key& pointSchema();

@@ -6,9 +6,11 @@
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckReference.hpp>
+#include <coplane_input/MaterialCards.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace coplane
@@ -78,6 +80,14 @@ int run(int argc, char** argv)
   else
     for (const JointPathCard& card : deck.jointPaths)
       runPath(deck, card);
+  if (!check)
+    for (const MaterialPathCard& card : deck.materialPaths)
+    {
+      const auto material =
+          std::find_if(deck.materials.begin(), deck.materials.end(),
+                       [&](const MaterialCard& one) { return one.name == card.material; });
+      print(runMaterialPath(card, materialOf(*material)));
+    }
   return int(ExitCode::Success);
 }
 } // namespace

@@ -61,10 +61,9 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
                     "blocks: {bar: {material: stel}}\n"
                     "time: {end: 0}\n"
                     "tilte: x\n"),
-            "wall.yaml:3:10: materials.steel.poisson_ratio is missing; accepted: a number > -1 and "
-            "< 0.5 [-]: Poisson's ratio.\n"
             "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
-            "Accepted: one of linear_elastic, j2.\n"
+            "Accepted: one of linear_elastic, j2, neo_hookean, drucker_prager, mohr_coulomb, "
+            "johnson_cook, pseudo_cap, hjc, ideal_gas.\n"
             "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
             "0 [kg/m^3].\n"
             "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
@@ -266,24 +265,32 @@ TEST(DeckErrors, modulesDensitiesAndRatiosOutOfRange)
 
 TEST(DeckErrors, aKeyOfAnotherModel)
 {
-  EXPECT_EQ(errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
-                            "poisson_ratio: 0, yield_stress: 1"),
-            "wall.yaml:6:79: materials.m.yield_stress belongs to model: j2, but model is "
-            "linear_elastic here; remove it or change model.");
+  EXPECT_EQ(
+      errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
+                      "poisson_ratio: 0, yield_stress: 1"),
+      "wall.yaml:6:79: materials.m.yield_stress belongs to model: j2, johnson_cook, but model is "
+      "linear_elastic here; remove it or change model.");
 }
 
 TEST(DeckErrors, aKeyThatTheModelNeeds)
 {
-  EXPECT_EQ(errorOfMaterial("model: j2, density: 1, youngs_modulus: 1, poisson_ratio: 0"),
-            "wall.yaml:6:6: materials.m.yield_stress is missing (model: j2 needs it); accepted: a "
-            "number > 0 [Pa]: uniaxial stress at first yield.");
+  EXPECT_EQ(
+      errorOfMaterial("model: j2, density: 1, youngs_modulus: 1, poisson_ratio: 0"),
+      "wall.yaml:6:6: materials.m.yield_stress is missing; accepted: either yield_stress (with "
+      "hardening_modulus) or a table, plastic_strains and yield_stresses.");
+  EXPECT_EQ(errorOfMaterial("model: j2, density: 1, youngs_modulus: 1, yield_stress: 1"),
+            "wall.yaml:6:6: materials.m.poisson_ratio is missing (model: j2 needs it); accepted: a "
+            "number > -1 and < 0.5 [-]: Poisson's ratio.");
 }
 
 TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
 {
   EXPECT_EQ(errorOfMaterial("density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1"),
-            "wall.yaml:6:6: materials.m.model is missing; accepted: one of linear_elastic, j2: law "
-            "of the continuum.");
+            "wall.yaml:6:6: materials.m.model is missing; accepted: one of linear_elastic, j2, "
+            "neo_hookean, drucker_prager, mohr_coulomb, johnson_cook, pseudo_cap, hjc, ideal_gas: "
+            "law of the continuum: Hooke; von Mises with hardening; rubber; Drucker and Prager; "
+            "Mohr and Coulomb; Johnson and Cook; concrete with a pseudo-cap; concrete of "
+            "Holmquist, Johnson and Cook; gas.");
 }
 
 TEST(DeckErrors, aJointWithoutModelIsAPenalty)
@@ -327,8 +334,6 @@ TEST(DeckErrors, requiredKeysThatAreMissing)
   EXPECT_EQ(errorOf("title: x\n"),
             "wall.yaml:1:1: mesh is missing; accepted: text: Exodus file, relative to the folder "
             "of the deck.\n"
-            "wall.yaml:1:1: materials is missing; accepted: names, each with keys and values: laws "
-            "of the continuum, by a name of your choice.\n"
             "wall.yaml:1:1: blocks is missing; accepted: names, each with keys and values: element "
             "blocks of the mesh, by the names that the mesh gives them; all blocks need a card.\n"
             "wall.yaml:1:1: time is missing; accepted: keys with values: time and its steps.");

@@ -1,6 +1,7 @@
 #include "DeckChecks.hpp"
 
 #include "JointCards.hpp"
+#include "MaterialCards.hpp"
 #include "Suggestion.hpp"
 
 #include <fmt/format.h>
@@ -153,6 +154,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
       problems.add(nodeAt(root, {"blocks", block.name, "material"}),
                    unknown("blocks." + block.name + ".material", block.material,
                            "a card in materials", materials));
+  checkMaterials(deck.materials, root, problems);
   checkJoints(deck.joints, root, problems);
   if (!deck.contact.defaultJoint.empty() && !contains(joints, deck.contact.defaultJoint))
     problems.add(

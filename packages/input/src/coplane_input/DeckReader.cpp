@@ -2,6 +2,7 @@
 
 #include "DeckChecks.hpp"
 #include "DeckNode.hpp"
+#include "MaterialCards.hpp"
 #include "Schema.hpp"
 #include "SchemaReader.hpp"
 #include "Suggestion.hpp"
@@ -462,6 +463,7 @@ DeckNode readBySchema(const Key& schema, const std::string& text, const std::str
   DeckNode root = parseYaml(text, file);
   for (std::size_t i = 0; i < overrides.size(); ++i)
     applyOverride(root, overrides[i], static_cast<int>(i), problems);
+  insertMaterialSets(root);
   SchemaReader(schema, problems).readGroup(schema, root, "", target);
   return root;
 }
@@ -476,7 +478,7 @@ Deck parseDeck(const std::string& text, const std::string& file,
   deck.output.results = path.stem().string() + ".e";
   deck.history.file = path.stem().string() + ".csv";
   const DeckNode root = readBySchema(deckSchema(), text, file, overrides, &deck, problems);
-  deck.text = overrides.empty() ? text : toYaml(root);
+  deck.text = overrides.empty() ? text : toYaml(root); // the same deck with or without its sets
   if (const DeckNode* mesh = root.find("mesh"))
     deck.meshWhere = mesh->where;
   if (const DeckNode* blocks = root.find("blocks"))

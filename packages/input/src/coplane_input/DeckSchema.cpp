@@ -1,4 +1,5 @@
 #include "ContactSchema.hpp"
+#include "MaterialCards.hpp"
 #include "SchemaBuilder.hpp"
 
 #include <algorithm>
@@ -9,53 +10,6 @@ using namespace schema;
 
 namespace
 {
-Key materials()
-{
-  return named("materials", &Deck::materials,
-               {
-                   text("model", &MaterialCard::model)
-                       .needed()
-                       .oneOf({"linear_elastic", "j2"})
-                       .means("law of the continuum")
-                       .like("j2"),
-                   number("density", &MaterialCard::density)
-                       .needed()
-                       .in("kg/m^3")
-                       .above(0)
-                       .means("mass per reference volume")
-                       .like("7850"),
-                   number("youngs_modulus", &MaterialCard::youngsModulus)
-                       .needed()
-                       .in("Pa")
-                       .above(0)
-                       .means("Young's modulus")
-                       .like("210e9"),
-                   number("poisson_ratio", &MaterialCard::poissonRatio)
-                       .needed()
-                       .in("-")
-                       .above(-1)
-                       .below(0.5)
-                       .means("Poisson's ratio")
-                       .like("0.3"),
-                   number("yield_stress", &MaterialCard::yieldStress)
-                       .onlyFor({"j2"})
-                       .needed()
-                       .in("Pa")
-                       .above(0)
-                       .means("uniaxial stress at first yield")
-                       .like("1e9"),
-                   number("hardening_modulus", &MaterialCard::hardeningModulus)
-                       .onlyFor({"j2"})
-                       .in("Pa")
-                       .atLeast(0)
-                       .like("1e9")
-                       .means("slope of the yield stress over equivalent plastic strain"),
-               })
-      .needed()
-      .decidedBy("model")
-      .means("laws of the continuum, by a name of your choice");
-}
-
 Key erosion()
 {
   return group("erosion", &BlockCard::erosion,
@@ -113,7 +67,7 @@ Key blocks()
                    text("material", &BlockCard::material)
                        .needed()
                        .like("concrete")
-                       .means("name of a card in materials"),
+                       .means("name of a card in materials, or of a set of the library"),
                    text("element", &BlockCard::element)
                        .oneOf({"one_point", "assumed_strain", "full_integration",
                                "full_integration_plain", "nodal_pressure"})
@@ -468,7 +422,7 @@ Key makeSchema()
                   .like("axisymmetric")
                   .means("what a mesh in two dimensions is a section of; axisymmetric: x is the "
                          "distance from the axis, y runs along it"),
-              materials(),
+              materialKeys(),
               blocks(),
               jointKeys(),
               contactKeys(),

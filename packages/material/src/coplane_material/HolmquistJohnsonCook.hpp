@@ -123,9 +123,12 @@ struct HolmquistJohnsonCook
     const T ductility =
         branchFree::larger(T(damage1) * branchFree::power(reach, damage2), T(leastFracture));
     h[Damage] = branchFree::smaller(h[Damage] + (plastic + compaction) / ductility, one);
-    // Volume per present volume: d mu (1 + mu)^-1.
-    point.dissipation =
-        yield * plastic + branchFree::positivePart(p) * compaction * point.volumeRatio;
+    // Pores that close take p dmu_p, less what the changed modulus stores, p^2 / 2K. Volume per
+    // present volume is dmu (1 + mu)^-1.
+    const T compression = branchFree::positivePart(p), former = unloadingSlope(before);
+    const T ofPores = compression * compaction -
+                      T(0.5) * compression * compression * (back - former) / (back * former);
+    point.dissipation = yield * plastic + branchFree::positivePart(ofPores) * point.volumeRatio;
     point.integrity = branchFree::larger(one - h[Damage], T(0.02));
     const T m = branchFree::positivePart((mu - T(lockCompression)) * T(1 / (1 + lockCompression)));
     const T ofLocked = (T(locked[0]) + m * (T(2 * locked[1]) + m * T(3 * locked[2]))) *

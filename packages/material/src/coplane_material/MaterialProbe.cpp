@@ -134,7 +134,7 @@ void MaterialProbe::advance(const ProbeStep& step)
   Real worst = missing(trial, residual);
   const auto goodEnough = [&]
   { return worst <= 1e-9 * (vonMises() + std::abs(pressure())) + 1e-13 * modulus; };
-  for (int iteration = 0; iteration < 60 && !goodEnough(); ++iteration)
+  for (int iteration = 0; iteration < 1000 && !goodEnough(); ++iteration)
   {
     // Small enough to stay on one branch of the law, large enough for its digits.
     const Real h = std::max(1e-10, 1e-3 * worst / modulus);
@@ -153,7 +153,8 @@ void MaterialProbe::advance(const ProbeStep& step)
       for (int i = 0; i < unknowns; ++i)
         move[i] = residual[i] / modulus;
     // Shorter moves until one is better.
-    const MaterialProbe before = trial;
+    Real start[6];
+    std::copy(residual, residual + 6, start);
     const std::array<Real, 6> from = increment;
     const Real worstBefore = worst;
     Real part = 1;
@@ -166,6 +167,16 @@ void MaterialProbe::advance(const ProbeStep& step)
       worst = missing(trial, residual);
       if (worst < worstBefore)
         break;
+    }
+    if (worst >= worstBefore)
+    {
+      // At a kink of the law no direction of Newton's helps: creep with the elastic modulus, which
+      // is stiffer than any answer.
+      increment = from;
+      for (int i = 0; i < unknowns; ++i)
+        increment[unknown[i]] += start[i] / modulus;
+      trial = after(increment);
+      worst = missing(trial, residual);
     }
   }
   if (!(worst <= 1e-5 * (vonMises() + std::abs(pressure())) + 1e-9 * modulus))

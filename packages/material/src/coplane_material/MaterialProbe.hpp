@@ -31,6 +31,7 @@ public:
   /// found by Newton's method. Throws Error(ExitCode::Computation) when there are none.
   void advance(const ProbeStep& step);
 
+  const Material& material() const { return material_; }
   const SymTensor& stress() const { return stress_; }
   const SymTensor& strain() const { return strain_; } ///< sum of the increments [-]
   Real pressure() const;

@@ -17,7 +17,7 @@ std::vector<std::string> vectorNames(const std::string& stem, int dimension)
 
 /// Displacement comes first: the IOSS reader moves the mesh by the first nodal vector that starts
 /// with "dis".
-ResultsVariables variablesOf(int dimension)
+ResultsVariables variablesOf(int dimension, const std::vector<std::string>& history)
 {
   ResultsVariables names;
   for (const char* stem : {"displacement", "velocity", "contact_force", "contact_traction"})
@@ -33,6 +33,7 @@ ResultsVariables variablesOf(int dimension)
                    "stress_xy", "stress_yz", "stress_zx",
                    "von_mises", "pressure",  "equivalent_plastic_strain",
                    "density",   "alive"};
+  names.element.insert(names.element.end(), history.begin(), history.end());
   names.global = {
       "time_step",          "kinetic_energy",     "internal_energy", "plastic_work",
       "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
@@ -53,10 +54,10 @@ std::vector<std::int64_t> firstElements(const Mesh& mesh)
 } // namespace
 
 ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options)
-    : dimension_(mesh.dimension), firstOfBlock_(firstElements(mesh)),
+    : dimension_(mesh.dimension), history_(options.history), firstOfBlock_(firstElements(mesh)),
       schedule_(std::move(options.when)),
-      file_(options.file, comm, mesh, variablesOf(mesh.dimension), options.infoLines,
-            options.filePerRank)
+      file_(options.file, comm, mesh, variablesOf(mesh.dimension, options.history),
+            options.infoLines, options.filePerRank)
 {
 }
 
@@ -163,7 +164,8 @@ void ResultsObserver::writeNodes(const Solver& solver)
 
 void ResultsObserver::writeElements(const Solver& solver)
 {
-  constexpr int columns = 11;
+  constexpr int fixed = 11;
+  const int columns = fixed + int(history_.size());
   const RankMesh& mesh = solver.mesh();
   int owned = 0, rows = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -180,6 +182,9 @@ void ResultsObserver::writeElements(const Solver& solver)
     const ElementBlock& block = solver.blocks()[b];
     const auto stress = block.stress();
     const int plasticStrain = block.historyRow("equivalent_plastic_strain");
+    std::vector<int> rowOf;
+    for (const std::string& name : history_)
+      rowOf.push_back(block.historyRow(name));
     for (int e = 0; e < part.elements(); ++e)
     {
       if (!part.owned[e])
@@ -191,6 +196,8 @@ void ResultsObserver::writeElements(const Solver& solver)
       mine(row, 8) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
       mine(row, 9) = block.density(e);
       mine(row, 10) = block.isAlive(e);
+      for (std::size_t k = 0; k < history_.size(); ++k)
+        mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history()(rowOf[k], e);
       ++row;
     }
   }

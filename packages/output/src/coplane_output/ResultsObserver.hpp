@@ -19,6 +19,7 @@ struct ResultsOptions
   OutputTimes when;
   bool filePerRank = false;           ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines; ///< kept in the file: command line, deck
+  std::vector<std::string> history;   ///< variables of the blocks' laws that are written besides
 };
 
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
@@ -45,6 +46,7 @@ private:
   void writeElements(const Solver& solver);
 
   int dimension_;
+  std::vector<std::string> history_;
   std::vector<std::int64_t> firstOfBlock_; ///< position of each block's first element in the file
   OutputSchedule schedule_;
   ResultsFile file_;

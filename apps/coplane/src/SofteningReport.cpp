@@ -1,0 +1,42 @@
+#include "SofteningReport.hpp"
+
+#include <coplane_core/Log.hpp>
+#include <coplane_input/MaterialCards.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+void reportSoftening(const Deck& deck, const Mesh& whole, const Solver& solver, const Comm& comm)
+{
+  for (std::size_t b = 0; b < whole.blocks.size(); ++b)
+  {
+    const ElementBlock& block = solver.blocks()[b];
+    const std::string& name = whole.blocks[b].name;
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& c) { return c.name == name; });
+    const auto material =
+        std::find_if(deck.materials.begin(), deck.materials.end(),
+                     [&](const MaterialCard& m) { return m.name == card->material; });
+    const Real limit = largestElement(*material);
+    if (limit == infinity)
+      continue; // the same on every rank
+    const bool flat = topology(block.type()).dimension == 2;
+    Real largest = 0;
+    for (int e = 0; e < block.count(); ++e)
+    {
+      const Real volume = block.referenceVolume()(e);
+      largest = std::max(largest, flat ? std::sqrt(volume) : std::cbrt(volume));
+    }
+    largest = comm.max(largest);
+    if (largest >= limit)
+      logWarning("softening",
+                 fmt::format("block '{}' has elements of up to {:.4g} m, but material '{}' can be "
+                             "followed up to G_F E / ft^2 = {:.4g} m: larger elements have to "
+                             "spring back when they crack, and take more energy than they should. "
+                             "Refine the mesh, or lower tensile_strength for large elements.",
+                             name, largest, material->name, limit));
+  }
+}
+} // namespace coplane

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <coplane_input/Deck.hpp>
+#include <coplane_input/DeckNode.hpp>
+#include <coplane_input/Schema.hpp>
+#include <coplane_material/Material.hpp>
+
+namespace coplane
+{
+/// Keys of a card in `materials`; their target is a MaterialCard.
+std::vector<Key> materialCardKeys();
+
+/// The part `materials` of the deck's schema; its target is the Deck.
+Key materialKeys();
+
+/// Named sets of parameters, documented in docs/user/materials.md: cards as a deck would have them,
+/// as YAML.
+const char* materialLibrary();
+std::vector<std::string> materialSetNames();
+
+/// Fills cards that name a set with the keys of the set that they do not give themselves, and makes
+/// cards for sets that blocks name directly.
+void insertMaterialSets(DeckNode& root);
+
+/// The law of a card. Throws Error(ExitCode::Deck) with what is wrong.
+Material materialOf(const MaterialCard& card);
+
+/// What the laws demand of their cards.
+void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& root,
+                    Problems& problems);
+
+/// The largest element that can follow the softening of a material, G_F E / ft^2: a larger one
+/// would have to spring back [m]. Infinity for laws without fracture energy.
+Real largestElement(const MaterialCard& card);
+} // namespace coplane

@@ -1,0 +1,174 @@
+"""V46: material laws at one point, through coplane_point and the decks of exodus_inputs/material_paths."""
+
+import csv
+import math
+import os
+import pathlib
+import subprocess
+
+import numpy
+from coplanetest import Case, program
+
+case = Case("V46", __file__)
+examples = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/material_paths"
+
+
+def point(*arguments):
+    done = subprocess.run(
+        [program.binary("coplane_point"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    )
+    return done.returncode, done.stdout
+
+
+class Path:
+    """Columns of a path by their names without units; stresses in MPa, compression positive."""
+
+    def __init__(self, deck, name):
+        self.name = name
+        with open(f"{deck}_{name}.csv") as file:
+            rows = list(csv.reader(file))
+        values = numpy.array(rows[1:], dtype=float)
+        self.columns = {heading.split("[")[0]: values[:, i] for i, heading in enumerate(rows[0])}
+        self.axial = -self.stress_xx / 1e6
+        self.shortening = -self.strain_xx
+
+    def __getattr__(self, name):
+        return self.columns[name]
+
+    def check(self, what, value, reference, tolerance, relative=True):
+        case.check(f"{self.name}: {what}", value, reference, tolerance, relative=relative)
+
+    def table(self, what, x, y, pairs, tolerance=0.01):
+        """Values of y where x, which rises, has reached those of the table."""
+        for at, reference in pairs:
+            i = int(numpy.argmax(x >= at - 1e-6 * abs(at)))
+            self.check(f"{what} at {at:g} [MPa]", y[i], reference, tolerance)
+
+    def dissipates(self):
+        """Nothing that was dissipated ever comes back."""
+        least = numpy.min(numpy.diff(self.dissipation))
+        self.check("dissipation that came back [J/m^3]", min(least, 0), 0, 1e-9 * self.dissipation[-1], relative=False)
+
+
+decks = sorted(path.stem for path in examples.glob("*.yaml"))
+case.check_equal("decks", decks, ["clay_brick", "concrete_c40", "concrete_hjc", "metals", "rubber"])
+for deck in decks:
+    code, output = point(examples / f"{deck}.yaml")
+    case.check_equal(f"{deck}: exit code", code, 0)
+    if code:
+        print(output)
+
+# --- pseudo-cap concrete: the table of docs/theory/materials.md ------------------------------------------
+
+c40 = {path.stem[len("concrete_c40_") :]: Path("concrete_c40", path.stem[len("concrete_c40_") :])
+       for path in pathlib.Path(".").glob("concrete_c40_*.csv")}
+compression = c40["compression"]
+peak = int(numpy.argmax(compression.axial))
+compression.check("peak [MPa]", compression.axial[peak], 40, 0.005)
+compression.check("strain at the peak", compression.shortening[peak], 1.2121e-3, 0.01)
+compression.table(
+    "stress", compression.shortening, compression.axial,
+    [(0.002, 39.22), (0.005, 36.11), (0.01, 30.71), (0.02, 20.41), (0.05, 5.42)],
+)
+at = int(numpy.argmax(compression.shortening >= 0.005 - 1e-9))
+compression.check("volume strain at 0.005", math.log(compression.volume_ratio[at]), 0.00235, 0.01)
+large = c40["compression_large"]
+large.table("stress", large.shortening, large.axial, [(0.002, 31.46), (0.005, 8.77), (0.01, 2.33)])
+
+tension = c40["tension"]
+tension.check("peak [MPa]", -min(tension.axial), 4, 0.005)
+tension.table(
+    "stress", tension.strain_xx, -tension.axial, [(0.001, 2.9535), (0.002, 2.0981), (0.004, 1.0660), (0.008, 0.2788)]
+)
+tension.check("energy times size at 0.012 [J/m^2]", tension.energy[-1] * 0.01, 117.8, 0.03)
+
+for confinement, strength in ((2, 53.07), (5, 70.34), (10, 95.04), (20, 135.43), (50, 224.55), (100, 332.32), (200, 496.43)):
+    path = c40[f"triaxial_{confinement}"]
+    path.check("peak [MPa]", max(path.axial), strength, 0.005)
+for confinement, compaction in ((20, 0.0097), (50, 0.030), (100, 0.049), (200, 0.068)):
+    path = c40[f"triaxial_{confinement}"]
+    path.check("compaction at the peak", path.compaction[int(numpy.argmax(path.axial))], compaction, 0.03)
+c40["biaxial"].check("peak [MPa]", max(c40["biaxial"].axial), 46, 0.005)
+c40["shear"].check("peak [MPa]", max(c40["shear"].stress_xy) / 1e6, 3.904, 0.005)
+
+hydrostat = c40["hydrostat_far"]
+shrinking = -numpy.log(hydrostat.volume_ratio)
+table = [(0.002, 36.85), (0.004, 74.07), (0.01, 98.65), (0.02, 134.79), (0.04, 223.47), (0.06, 346.46), (0.08, 537.75),
+         (0.10, 898.63), (0.12, 1624.8)]
+hydrostat.table("pressure", shrinking, hydrostat.pressure / 1e6, table)
+for strain, porosity in ((0.01, 0.07536), (0.04, 0.05037), (0.08, 0.01797), (0.12, 0.00048)):
+    i = int(numpy.argmax(shrinking >= strain * (1 - 1e-6)))
+    hydrostat.check(f"porosity at {strain:g}", hydrostat.porosity[i], porosity, 2e-5, relative=False)
+back = c40["hydrostat"]
+returned = -numpy.log(back.volume_ratio[801:])
+back.table(
+    "pressure on the way back", -returned, back.pressure[801:] / 1e6,
+    [(-0.038, 168.80), (-0.036, 114.67), (-0.034, 61.08), (-0.032, 8.02)],
+)
+back.check("pressure at the end [MPa]", back.pressure[-1] / 1e6, -2.35, 0.01)
+pulled = c40["hydrostatic_tension"]
+pulled.check("peak [MPa]", -min(pulled.pressure) / 1e6, 4, 0.005)
+pulled.table(
+    "tension", numpy.log(pulled.volume_ratio), -pulled.pressure / 1e6, [(0.0005, 3.618), (0.001, 3.030), (0.002, 2.136)]
+)
+strain = c40["uniaxial_strain"]
+sides = -strain.stress_yy / 1e6
+strain.table("axial stress", strain.shortening, strain.axial,
+             [(0.001, 36.71), (0.002, 73.52), (0.003, 110.41), (0.004, 131.69), (0.01, 157.2), (0.02, 203.8), (0.04, 310.6),
+              (0.06, 447.1), (0.1, 1038)])
+strain.table("lateral stress", strain.shortening, sides,
+             [(0.001, 9.21), (0.002, 18.52), (0.003, 27.91), (0.004, 34.58), (0.01, 51.4), (0.02, 77.2), (0.04, 141.7),
+              (0.06, 235.6), (0.1, 687)])
+for path in c40.values():
+    path.dissipates()
+
+# --- Holmquist, Johnson and Cook --------------------------------------------------------------------------
+
+# Root of s = 0.79 + 1.6 (s / 3)^0.61, the intact strength at the reference rate.
+strength = 2.0
+for _ in range(200):
+    strength = 0.79 + 1.6 * (strength / 3) ** 0.61
+intact = Path("concrete_hjc", "compression_intact")
+intact.check("strength over fc", max(intact.axial) / 48, strength, 1e-3)
+intact.check("root of the formula", strength, 2.0634, 1e-4)
+
+# --- metals, brick, rubber: one number each from a closed form --------------------------------------------
+
+kinematic = Path("metals", "kinematic")
+i = 400  # strain 0.02: Y + Hk ep = E (e - ep)
+ep = (200e9 * 0.02 - 300e6) / (210e9)
+kinematic.check("stress at 0.02 [MPa]", kinematic.stress_xx[i] / 1e6, 300 + 10e3 * ep, 1e-6)
+slow, fast = Path("metals", "slow"), Path("metals", "fast")
+case.check("johnson_cook: heat is 0.9 of the plastic work", fast.temperature[-1] - 293,
+           0.9 * fast.dissipation[-1] / (7830 * 477), 1e-3, relative=True)
+rate = 1e4 * 2 / math.sqrt(3)
+static = (792e6 + 510e6 * slow.equivalent_plastic_strain[20] ** 0.26)
+case.check("johnson_cook: slow shear [MPa]", slow.von_mises[20] / 1e6,
+           static * (1 - ((slow.temperature[19] - 293) / 1500) ** 1.03) / 1e6, 1e-6, relative=True)
+hot = ((fast.temperature[19] - 293) / 1500) ** 1.03
+plastic = (fast.equivalent_plastic_strain[20] - fast.equivalent_plastic_strain[19]) / (fast.time[20] - fast.time[19])
+case.check("johnson_cook: rate of the fast shear [1/s]", plastic, rate, 0.02, relative=True)
+case.check("johnson_cook: fast shear [MPa]", fast.von_mises[20] / 1e6,
+           (792 + 510 * fast.equivalent_plastic_strain[20] ** 0.26) * (1 + 0.014 * math.log(plastic)) * (1 - hot), 1e-6, relative=True)
+brick = Path("clay_brick", "tension")
+brick.check("peak [MPa]", max(brick.stress_xx) / 1e6, 2, 0.005)
+brick.check("energy times size [J/m^2]", brick.dissipation[-1] * 0.01, 60 * (1 - brick.stress_xx[-1] / 2e6), 0.01)
+angle = math.atan(0.84)
+crushed = Path("clay_brick", "compression")
+crushed.check("peak [MPa]", max(crushed.axial), 2 * 4.66 * math.cos(angle) / (1 - math.sin(angle)), 0.01)
+squeeze = Path("rubber", "squeeze")
+J = squeeze.volume_ratio[-1]
+K, G = 3e6 / 0.6, 3e6 / 2.8
+squeeze.check("stress [MPa]", squeeze.stress_xx[-1] / 1e6,
+              (K / 2 * (J - 1 / J) + 2 / 3 * G * J ** (-5 / 3) * (J * J - 1)) / 1e6, 1e-6)
+
+# --- what is refused --------------------------------------------------------------------------------------
+
+pathlib.Path("wrong.yaml").write_text("material_paths:\n  a: {type: shear, material: concrete_c4, strains: [1e-3]}\n")
+code, output = point("wrong.yaml")
+case.check_equal("unknown material: exit code", code, 3)
+case.check_equal("unknown material: the place is named", "wrong.yaml:2:" in output and "concrete_c4" in output, True)
+code, output = point(examples / "concrete_c40.yaml", "--set", "materials.concrete_c40.tensile_strength=41e6")
+case.check_equal("ft > fc: exit code", code, 3)
+case.check_equal("ft > fc: what is accepted", "between 0 and a third of the compressive strength" in output, True)
+case.finish()
