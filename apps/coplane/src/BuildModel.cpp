@@ -1,5 +1,6 @@
 #include "BuildModel.hpp"
 
+#include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_input/TimeFunctionEvaluator.hpp>
@@ -290,6 +291,32 @@ std::vector<std::string> problemsOfLaws(const Deck& deck)
   return problems;
 }
 
+std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mesh)
+{
+  std::vector<std::string> problems;
+  std::vector<std::string> rigid; // by element, in the order of the file; empty: deformable
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& b) { return b.name == block.name; });
+    rigid.insert(rigid.end(), std::size_t(block.elements()),
+                 card != deck.blocks.end() && card->rigid ? block.name : "");
+  }
+  for (const ConditionCard& card : deck.conditions)
+    if (card.type == "absorbing")
+      if (const int set = indexOf(mesh.sideSets, card.set); set >= 0)
+        for (const int element : mesh.sideSets[set].elements)
+          if (!rigid[element].empty())
+          {
+            problems.push_back(fmt::format(
+                "{}: absorbing side set '{}' has a side of the rigid block '{}', through which no "
+                "waves run; take it out of the set, or remove rigid.",
+                card.where, card.set, rigid[element]));
+            break;
+          }
+  return problems;
+}
+
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
 {
   Model model;
@@ -305,10 +332,20 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
     setup.material = materialOf(*material);
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
     setup.erosion = erosionOf(card->erosion);
+    setup.rigid = card->rigid;
     for (const InitialCard& initial : deck.initial)
       if (initial.block == block.name)
         setStart(initial, setup);
     model.blocks.push_back(std::move(setup));
+  }
+  std::vector<char> rigidBlocks;
+  for (const BlockSetup& setup : model.blocks)
+    rigidBlocks.push_back(setup.rigid);
+  if (std::count(rigidBlocks.begin(), rigidBlocks.end(), 1) > 0)
+  {
+    const std::vector<int> bodies = rigidBodiesOf(mesh, rigidBlocks);
+    for (const int position : part.nodePositions)
+      model.rigidBodyOfNode.push_back(bodies[position]);
   }
   model.conditions = conditionsOf(deck, mesh, part, model.blocks);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};

@@ -68,6 +68,7 @@ struct BlockCard
   Real hourglassStiffness = 0.05; ///< [-]
   Real hourglassViscosity = 0;    ///< [-]
   ErosionCard erosion;
+  bool rigid = false;
 };
 
 /// A joint law. `penalty` takes its stiffness from the elements behind the faces.

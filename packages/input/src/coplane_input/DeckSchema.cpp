@@ -129,6 +129,10 @@ Key blocks()
                            })
                        .means("control of the zero-energy modes of one-point elements"),
                    erosion(),
+                   flag("rigid", &BlockCard::rigid)
+                       .like("true")
+                       .means("each connected part of the block moves as a rigid body; of its "
+                              "material the density counts, and the moduli in contact"),
                })
       .needed()
       .means("element blocks of the mesh, by the names that the mesh gives them; all "
