@@ -344,7 +344,9 @@ void Solver::planNextCycle(bool first)
   }
   if (!(step < infinity))
     fail(ExitCode::Computation,
-         "The stable step is not finite: no element or contact limits it. Check the mesh.");
+         "The stable step is not finite: no element or contact limits it. Give "
+         "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
+         "the mesh.");
   kick(step);
   clock_.nextStep = step;
   if (first)
