@@ -137,10 +137,16 @@ void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
 
 OfTime functionOf(const TimeFunction& card)
 {
-  if (card.expression.empty())
+  if (card.expression.empty() && card.times.empty())
     return [value = card.constant](Real) { return value; };
   const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
   return [evaluator](Real t) { return (*evaluator)(t); };
+}
+
+OfTimeAndPlace fieldOf(const TimeFunction& card)
+{
+  const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
+  return [evaluator](Real t, const Vec3& place) { return (*evaluator)(t, place); };
 }
 
 template <class Sets>
@@ -162,9 +168,12 @@ LoadedSide loadedSide(const RankMesh& part, const RankMesh::Side& side)
   const RankMesh::Block& block = part.blocks[side.block];
   const ElementTopology& shape = topology(block.type);
   LoadedSide face{
-      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}};
+      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}, {}};
   for (int k = 0; k < face.count; ++k)
+  {
     face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+    face.place += (1.0 / face.count) * part.coordinates[face.nodes[k]];
+  }
   return face;
 }
 
@@ -220,9 +229,25 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
     {
       const auto& set = part.sideSets[indexOf(mesh.sideSets, card.set)];
       if (card.type == "pressure")
-        conditions.pressures.push_back({sidesOf(part, set), functionOf(card.pressure)});
+      {
+        FacePressure load{sidesOf(part, set), {}, {}};
+        if (card.pressure.ofPlace)
+          load.field = fieldOf(card.pressure);
+        else
+          load.pressure = functionOf(card.pressure);
+        conditions.pressures.push_back(std::move(load));
+      }
       else if (card.type == "traction")
-        conditions.tractions.push_back({sidesOf(part, set), vectorOf(card.traction)});
+      {
+        FaceTraction load{sidesOf(part, set), {}, {}};
+        if (std::any_of(card.traction.begin(), card.traction.end(),
+                        [](const TimeFunction& f) { return f.ofPlace; }))
+          for (int c = 0; c < 3; ++c)
+            load.field[c] = fieldOf(card.traction[c]);
+        else
+          load.traction = vectorOf(card.traction);
+        conditions.tractions.push_back(std::move(load));
+      }
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
@@ -236,9 +261,16 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       PrescribedVelocity condition;
       condition.nodes = nodes;
       condition.components = card.components;
-      if (card.type == "velocity")
-        for (int c = 0; c < 3; ++c)
-          condition.velocity[c] = functionOf(card.velocity[c]);
+      condition.isDisplacement = card.type == "displacement";
+      const auto& motion = condition.isDisplacement ? card.displacement : card.velocity;
+      for (int c = 0; c < 3 && card.type != "fixed"; ++c)
+        if (motion[c].ofPlace && condition.components[c])
+          condition.field[c] = fieldOf(motion[c]);
+        else
+          condition.velocity[c] = functionOf(motion[c]);
+      if (condition.hasField())
+        for (const int n : nodes)
+          condition.places.push_back(part.coordinates[n]);
       conditions.velocities.push_back(std::move(condition));
     }
   }

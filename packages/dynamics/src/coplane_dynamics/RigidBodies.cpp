@@ -242,10 +242,11 @@ void RigidBodies::takeConditions(Conditions& conditions)
     const auto held = take(plane.nodes, "a symmetry plane");
     for (std::size_t b = 0; b < held.size(); ++b)
       if (held[b] > 0)
-        constrain(bodies_[b], plane.normal, {});
+        constrain(bodies_[b], {plane.normal, {}});
   }
   for (PrescribedVelocity& condition : conditions.velocities)
   {
+    const std::size_t before = condition.nodes.size();
     const auto held = take(condition.nodes, "a condition of type fixed or velocity");
     for (std::size_t b = 0; b < held.size(); ++b)
       for (int c = 0; c < 3 && held[b] > 0; ++c)
@@ -253,13 +254,25 @@ void RigidBodies::takeConditions(Conditions& conditions)
         {
           Vec3 axis{};
           axis[c] = 1;
-          constrain(bodies_[b], axis, condition.velocity[c]);
+          if (!condition.velocity[c])
+            constrain(bodies_[b], {axis, {}});
+          else
+            constrain(bodies_[b], {axis, [condition, c](Real t, Real dt)
+                                   { return condition.speed(condition.velocity[c], t, dt); }});
         }
+    const bool lost = condition.hasField() && condition.nodes.size() < before;
+    if (comm_->max(std::int64_t(lost)) > 0)
+      failOnAllRanks(
+          ExitCode::Deck,
+          "conditions: the motion of a rigid body is prescribed by an expression of x, y "
+          "or z; accepted: numbers, tables and expressions of t. Its points cannot move "
+          "apart.");
   }
 }
 
-void RigidBodies::constrain(Body& body, const Vec3& direction, const OfTime& speed)
+void RigidBodies::constrain(Body& body, const Constraint& constraint)
 {
+  const Vec3& direction = constraint.direction;
   // A body of which all points keep their speed along a direction turns about that direction only.
   const Vec3 axis = dimension_ == 2 ? Vec3{0, 0, 1} : body.axis;
   const bool first = body.turning == Body::Turning::Free && dimension_ == 3;
@@ -270,14 +283,14 @@ void RigidBodies::constrain(Body& body, const Vec3& direction, const OfTime& spe
   }
   else
     body.turning = Body::Turning::None;
-  body.constraints.push_back({direction, speed});
+  body.constraints.push_back(constraint);
 }
 
-void RigidBodies::applyConstraints(Body& body, Real t) const
+void RigidBodies::applyConstraints(Body& body, Real t, Real dt) const
 {
   for (const Constraint& c : body.constraints)
   {
-    const Real speed = c.speed ? c.speed(t) : 0;
+    const Real speed = c.speed ? c.speed(t, dt) : 0;
     body.velocity += (speed - dot(body.velocity, c.direction)) * c.direction;
   }
   if (body.turning == Body::Turning::None)
@@ -313,7 +326,7 @@ void RigidBodies::start(NodalState& state)
     body.angularMomentum = body.inertia * (ofNodes * Vec3{total[3], total[4], total[5]});
     if (dimension_ == 2)
       body.angularMomentum = {0, 0, body.angularMomentum.z};
-    applyConstraints(body, 0);
+    applyConstraints(body, 0, 0);
     body.spin = spinOf(body, 0);
     if (body.turning == Body::Turning::AboutAxis)
       body.angularMomentum = body.inertia * body.spin;
@@ -487,7 +500,7 @@ void RigidBodies::kick(Real dtKick, Real dt, Real t, Real massDamping, Real loca
     if (dimension_ == 2)
       body.angularMomentum = {0, 0, body.angularMomentum.z};
     const Vec3 freeVelocity = body.velocity, freeMomentum = body.angularMomentum;
-    applyConstraints(body, t + 0.5 * dt);
+    applyConstraints(body, t + 0.5 * dt, dt);
     body.spin = spinOf(body, dt);
     const Turn step = Turn{1, (0.5 * dt) * body.spin}.normalised();
     if (body.turning == Body::Turning::AboutAxis && dimension_ == 3)

@@ -116,8 +116,8 @@ public:
 private:
   struct Constraint
   {
-    Vec3 direction; ///< unit
-    OfTime speed;   ///< empty: none [m/s]
+    Vec3 direction;                             ///< unit
+    std::function<Real(Real t, Real dt)> speed; ///< empty: none [m/s]
   };
   struct Wrench
   {
@@ -153,8 +153,8 @@ private:
 
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
-  void constrain(Body& body, const Vec3& direction, const OfTime& speed);
-  void applyConstraints(Body& body, Real t) const;
+  void constrain(Body& body, const Constraint& constraint);
+  void applyConstraints(Body& body, Real t, Real dt) const;
   Vec3 spinOf(const Body& body, Real dt) const;
   void moveNodes(Body& body, Real dt, const NodalState& state) const;
   static void bookWork(Body& body, Real dt, const Vec3& velocity, const Vec3& spin);

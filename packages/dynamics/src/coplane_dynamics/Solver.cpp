@@ -284,7 +284,7 @@ void Solver::kick(Real step)
   }
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     set(beforeConstraint_, int(i), at(v, constrained_[i]));
-  conditions.prescribeVelocities(clock_.time + 0.5 * step, v, projections_);
+  conditions.prescribeVelocities(clock_.time + 0.5 * step, step, v, projections_);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
   {
     // The force that this took, and what the dampings no longer give.

@@ -110,11 +110,12 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
     const auto& card = deck.conditions[i];
     const std::string path = fmt::format("conditions.{}", i);
     const DeckNode& node = nodeAt(root, {"conditions", std::to_string(i)});
-    if (card.type == "velocity")
+    if (card.type == "velocity" || card.type == "displacement")
       for (int c = 0; c < 3; ++c)
       {
-        const auto& value = card.velocity[c];
-        if (!card.components[c] && (!value.expression.empty() || value.constant != 0))
+        const auto& value = card.type == "velocity" ? card.velocity[c] : card.displacement[c];
+        if (!card.components[c] &&
+            (!value.expression.empty() || value.constant != 0 || !value.times.empty()))
           problems.add(nodeAt(node, {"value", std::to_string(c)}),
                        fmt::format("{0}.value.{1} has no effect because {0}.components does not "
                                    "have {2}; write 0 or add {2} to components.",
