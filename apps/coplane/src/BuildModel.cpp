@@ -1,5 +1,6 @@
 #include "BuildModel.hpp"
 
+#include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_input/MaterialCards.hpp>
@@ -147,10 +148,16 @@ void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
 
 OfTime functionOf(const TimeFunction& card)
 {
-  if (card.expression.empty())
+  if (card.expression.empty() && card.times.empty())
     return [value = card.constant](Real) { return value; };
   const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
   return [evaluator](Real t) { return (*evaluator)(t); };
+}
+
+OfTimeAndPlace fieldOf(const TimeFunction& card)
+{
+  const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
+  return [evaluator](Real t, const Vec3& place) { return (*evaluator)(t, place); };
 }
 
 template <class Sets>
@@ -172,9 +179,12 @@ LoadedSide loadedSide(const RankMesh& part, const RankMesh::Side& side)
   const RankMesh::Block& block = part.blocks[side.block];
   const ElementTopology& shape = topology(block.type);
   LoadedSide face{
-      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}};
+      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}, {}};
   for (int k = 0; k < face.count; ++k)
+  {
     face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+    face.place += (1.0 / face.count) * part.coordinates[face.nodes[k]];
+  }
   return face;
 }
 
@@ -230,9 +240,25 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
     {
       const auto& set = part.sideSets[indexOf(mesh.sideSets, card.set)];
       if (card.type == "pressure")
-        conditions.pressures.push_back({sidesOf(part, set), functionOf(card.pressure)});
+      {
+        FacePressure load{sidesOf(part, set), {}, {}};
+        if (card.pressure.ofPlace)
+          load.field = fieldOf(card.pressure);
+        else
+          load.pressure = functionOf(card.pressure);
+        conditions.pressures.push_back(std::move(load));
+      }
       else if (card.type == "traction")
-        conditions.tractions.push_back({sidesOf(part, set), vectorOf(card.traction)});
+      {
+        FaceTraction load{sidesOf(part, set), {}, {}};
+        if (std::any_of(card.traction.begin(), card.traction.end(),
+                        [](const TimeFunction& f) { return f.ofPlace; }))
+          for (int c = 0; c < 3; ++c)
+            load.field[c] = fieldOf(card.traction[c]);
+        else
+          load.traction = vectorOf(card.traction);
+        conditions.tractions.push_back(std::move(load));
+      }
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
@@ -246,9 +272,16 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       PrescribedVelocity condition;
       condition.nodes = nodes;
       condition.components = card.components;
-      if (card.type == "velocity")
-        for (int c = 0; c < 3; ++c)
-          condition.velocity[c] = functionOf(card.velocity[c]);
+      condition.isDisplacement = card.type == "displacement";
+      const auto& motion = condition.isDisplacement ? card.displacement : card.velocity;
+      for (int c = 0; c < 3 && card.type != "fixed"; ++c)
+        if (motion[c].ofPlace && condition.components[c])
+          condition.field[c] = fieldOf(motion[c]);
+        else
+          condition.velocity[c] = functionOf(motion[c]);
+      if (condition.hasField())
+        for (const int n : nodes)
+          condition.places.push_back(part.coordinates[n]);
       conditions.velocities.push_back(std::move(condition));
     }
   }
@@ -348,6 +381,32 @@ std::vector<std::string> problemsOfLaws(const Deck& deck)
   return problems;
 }
 
+std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mesh)
+{
+  std::vector<std::string> problems;
+  std::vector<std::string> rigid; // by element, in the order of the file; empty: deformable
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& b) { return b.name == block.name; });
+    rigid.insert(rigid.end(), std::size_t(block.elements()),
+                 card != deck.blocks.end() && card->rigid ? block.name : "");
+  }
+  for (const ConditionCard& card : deck.conditions)
+    if (card.type == "absorbing")
+      if (const int set = indexOf(mesh.sideSets, card.set); set >= 0)
+        for (const int element : mesh.sideSets[set].elements)
+          if (!rigid[element].empty())
+          {
+            problems.push_back(fmt::format(
+                "{}: absorbing side set '{}' has a side of the rigid block '{}', through which no "
+                "waves run; take it out of the set, or remove rigid.",
+                card.where, card.set, rigid[element]));
+            break;
+          }
+  return problems;
+}
+
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
 {
   Model model;
@@ -365,10 +424,20 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
     setup.hourglass = {card->hourglassStiffness, card->hourglassViscosity};
     setup.element = elementOptionsOf(deck, *card, block);
     setup.erosion = erosionOf(card->erosion);
+    setup.rigid = card->rigid;
     for (const InitialCard& initial : deck.initial)
       if (initial.block == block.name)
         setStart(initial, setup);
     model.blocks.push_back(std::move(setup));
+  }
+  std::vector<char> rigidBlocks;
+  for (const BlockSetup& setup : model.blocks)
+    rigidBlocks.push_back(setup.rigid);
+  if (std::count(rigidBlocks.begin(), rigidBlocks.end(), 1) > 0)
+  {
+    const std::vector<int> bodies = rigidBodiesOf(mesh, rigidBlocks);
+    for (const int position : part.nodePositions)
+      model.rigidBodyOfNode.push_back(bodies[position]);
   }
   model.conditions = conditionsOf(deck, mesh, part, model.blocks);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};

@@ -10,6 +10,9 @@ namespace coplane
 /// What blocks ask of their material's law that it does not have.
 std::vector<std::string> problemsOfLaws(const Deck& deck);
 
+/// What a deck asks of rigid blocks that they cannot do. Names have been checked before.
+std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mesh);
+
 /// Joins the deck to this rank's part of the mesh. Names have been checked before.
 Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part);
 } // namespace coplane

@@ -99,6 +99,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
         auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
         for (const std::string& problem : problemsOfLaws(deck))
           problems.push_back(problem);
+        for (const std::string& problem : problemsOfRigidBlocks(deck, mesh))
+          problems.push_back(problem);
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
         const MeshReport report = reportMesh(mesh);

@@ -158,4 +158,49 @@ TEST(Conditions, constrainedNodesAreSortedAndNamedOnce)
   conditions.velocities = {fixed};
   EXPECT_EQ(conditions.constrainedNodes(), (std::vector<int>{0, 2, 5, 9}));
 }
+
+TEST(PrescribedVelocity, asDisplacementBringsNodesThereWithoutDrift)
+{
+  // u = 0.01 sin(50 t) along x, twice that at z = 1: any steps lead to the place of the function.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "cube", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  PrescribedVelocity shaken;
+  shaken.isDisplacement = true;
+  shaken.nodes = ownedNodesWhere(model.mesh, [](const Vec3&) { return true; });
+  for (const int n : shaken.nodes)
+    shaken.places.push_back(model.mesh.coordinates[n]);
+  shaken.components = {true, false, false};
+  shaken.field[0] = [](Real t, const Vec3& x) { return (1 + x.z) * 0.01 * std::sin(50 * t); };
+  model.conditions.velocities = {shaken};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 100);
+  const Real u = 0.01 * std::sin(50 * solver.clock().time);
+  ASSERT_GT(std::abs(u), 1e-3);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+  {
+    const Vec3 start = at(solver.state().reference, n);
+    EXPECT_NEAR(solver.state().x(n, 0) - start.x, (1 + start.z) * u, 1e-14);
+  }
+}
+
+TEST(FacePressure, mayVaryFromFaceToFace)
+{
+  // p = 1000 z on the side x = 0 of two cubes, one on the other: middles at z = 0.5 and 1.5.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "column", {1, 1, 2}, {0, 0, 0}, {1, 1, 2});
+  Model model = rockModel(mesh, comm);
+  FacePressure load{sidesWhere(model.mesh, [](const Vec3& x) { return x.x == 0; }), {}, {}};
+  for (LoadedSide& side : load.sides)
+    for (int k = 0; k < 4; ++k)
+      side.place += 0.25 * model.mesh.coordinates[side.nodes[k]];
+  load.field = [](Real, const Vec3& x) { return 1000 * x.z; };
+  model.conditions.pressures = {load};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  EXPECT_NEAR(sumOverRanks(solver.state().external, solver.layout().owned(), comm).x, 2000, 1e-10);
+}
 } // namespace coplane

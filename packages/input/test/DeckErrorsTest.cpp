@@ -33,6 +33,37 @@ TEST(DeckErrors, theLeastDeckHasNone)
   EXPECT_EQ(errorOf(leastDeck), "no error");
 }
 
+TEST(DeckErrors, tablesHaveAsManyTimesAsValuesAndTimesRise)
+{
+  const auto errorOfGravity = [](const std::string& table)
+  { return errorWith("gravity: [0, " + table + ", 0]\n"); };
+  EXPECT_EQ(errorOfGravity("{times: [0, 1], values: [0, -10]}"), "no error");
+  EXPECT_EQ(
+      errorOfGravity("{times: [0, 0], values: [0, -10]}"),
+      "wall.yaml:5:14: gravity.1 has 2 times and 2 values; accepted: as many of both, at least "
+      "2, with times that rise.");
+  EXPECT_EQ(
+      errorOfGravity("{times: [0, 1, 2], values: [0, -10]}"),
+      "wall.yaml:5:14: gravity.1 has 3 times and 2 values; accepted: as many of both, at least "
+      "2, with times that rise.");
+  EXPECT_EQ(errorOfGravity("{times: [0, 1]}"),
+            "wall.yaml:5:14: gravity.1.values is missing; accepted: a table has times [s] and "
+            "values, as in {times: [0, 0.01], values: [0, 1]}.");
+}
+
+TEST(DeckErrors, rigidBlocksNeitherErodeNorCarryStress)
+{
+  EXPECT_EQ(
+      errorOf("mesh: wall.e\nmaterials: {steel: {model: linear_elastic, density: 7850, "
+              "youngs_modulus: 200e9, poisson_ratio: 0.3}}\ntime: {end: 1}\nblocks:\n"
+              "  bar: {material: steel, rigid: true, erosion: {stable_step: 1e-9}}\n"
+              "initial:\n  - {block: bar, stress: [1, 0, 0, 0, 0, 0]}\n"),
+      "wall.yaml:5:48: blocks.bar.erosion has no effect because blocks.bar.rigid is true; "
+      "remove one of them.\n"
+      "wall.yaml:7:5: initial.0: block 'bar' is rigid and carries no stress; remove stress and "
+      "stress_gradient, or rigid.");
+}
+
 TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
 {
   const auto errorOfErosion = [](const std::string& content)

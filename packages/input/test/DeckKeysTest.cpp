@@ -36,7 +36,8 @@ materials:
     lock_moduli: [80e9, -170e9, 200e9]}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
 blocks:
-  a: {material: j2}
+  a: {material: j2, erosion: {variables: {energy: {above: 1}}}}
+  b: {material: j2}
 joints:
   penalty: {model: penalty, friction: 0.7, dynamic_friction: 0.5, slip_speed: 0.2, dilation: 0.05}
   linear: {model: linear, normal_stiffness: 1}
@@ -60,6 +61,7 @@ conditions:
   - {type: fixed, node_set: a}
   - {type: traction, side_set: a, value: [0, 0, 0]}
   - {type: absorbing, side_set: a}
+  - {type: displacement, node_set: a, value: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 time: {end: 1}
 history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
@@ -91,7 +93,8 @@ void show(std::string& out, const Vec3& v)
 }
 void show(std::string& out, const TimeFunction& f)
 {
-  out += fmt::format("'{}'|{} ", f.expression, f.constant);
+  out += fmt::format("'{}'|{}|{}|{} ", f.expression, f.constant, fmt::join(f.times, " "),
+                     fmt::join(f.values, " "));
 }
 void show(std::string& out, const std::optional<std::array<PlaceFunction, 3>>& v)
 {
@@ -137,8 +140,14 @@ std::string show(const Deck& d)
             m.largestStrength, m.leastFractureStrain, m.damageFactor, m.damageExponent,
             m.crushCompression, m.lockPressure, m.lockCompression, m.lockModuli);
   for (const auto& b : d.blocks)
+  {
     showAll(out, b.name, b.material, b.element, b.objectiveRate, b.hourglassStiffness,
-            b.hourglassViscosity);
+            b.hourglassViscosity, b.rigid);
+    const auto& e = b.erosion;
+    showAll(out, e.damage, e.plasticStrain, e.volumeRatio, e.stableStep);
+    for (const auto& v : e.variables)
+      showAll(out, v.name, v.above, v.below);
+  }
   for (const auto& j : d.joints)
     showAll(out, j.name, j.model, j.stiffnessFraction, j.normalStiffness, j.initialStiffness,
             j.maximumClosure, j.closures, j.tractions, j.stiffnessCap, j.shearStiffness,
@@ -152,8 +161,8 @@ std::string show(const Deck& d)
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
-    showAll(out, k.type, k.set, k.components, k.velocity, k.normal, k.pressure, k.traction,
-            k.incident);
+    showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.normal, k.pressure,
+            k.traction, k.incident);
   for (const auto& i : d.initial)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
@@ -184,18 +193,21 @@ std::string cardFor(const Key& group, const Key& key)
   if (group.kind == KeyKind::Group)
     return "";
   if (group.name == "blocks")
-    return ".a";
+    return key.name == "rigid" ? ".b" : ".a";
+  if (group.name == "variables")
+    return ".energy";
   if (group.name == "materials")
     return key.models.empty() ? ".concrete" : "." + key.models[0];
   if (group.name == "joints")
     return key.models.empty() ? ".penalty" : "." + key.models[0];
   if (group.name == "conditions")
-    return key.appliesTo("pressure")    ? ".2"
-           : key.appliesTo("traction")  ? ".4"
-           : key.appliesTo("absorbing") ? ".5"
-           : key.appliesTo("fixed")     ? ".3"
-           : key.appliesTo("velocity")  ? ".1"
-                                        : ".0";
+    return key.appliesTo("pressure")       ? ".2"
+           : key.appliesTo("traction")     ? ".4"
+           : key.appliesTo("absorbing")    ? ".5"
+           : key.appliesTo("fixed")        ? ".3"
+           : key.appliesTo("velocity")     ? ".1"
+           : key.appliesTo("displacement") ? ".6"
+                                           : ".0";
   return key.name == "block" && group.name == "probes" ? ".1" : ".0";
 }
 
@@ -269,6 +281,7 @@ TEST(DeckKeys, modelsAndTypesActOnTheDeck)
   EXPECT_EQ(deck.conditions[3].type, "fixed");
   EXPECT_EQ(deck.conditions[4].type, "traction");
   EXPECT_EQ(deck.conditions[5].type, "absorbing");
+  EXPECT_EQ(deck.conditions[6].type, "displacement");
 }
 
 void eachKey(const Key& group, const std::function<void(const Key& group, const Key& key)>& action)

@@ -26,6 +26,31 @@ TEST(TimeFunctionEvaluator, aNumberIsTheSameAtAllTimes)
   EXPECT_EQ(evaluate(5), 3);
 }
 
+TEST(TimeFunctionEvaluator, aTableHasStraightLinesBetweenItsPointsAndIsConstantOutside)
+{
+  TimeFunction table;
+  table.times = {1, 2, 4};
+  table.values = {10, 20, -20};
+  TimeFunctionEvaluator evaluate(table);
+  EXPECT_EQ(evaluate(0), 10);
+  EXPECT_EQ(evaluate(1), 10);
+  EXPECT_EQ(evaluate(1.5), 15);
+  EXPECT_EQ(evaluate(2), 20);
+  EXPECT_EQ(evaluate(3), 0);
+  EXPECT_EQ(evaluate(4), -20);
+  EXPECT_EQ(evaluate(9), -20);
+}
+
+TEST(TimeFunctionEvaluator, mayVaryWithThePlaceToo)
+{
+  TimeFunction function = expression("t*(x + 10*y + 100*z)");
+  function.ofPlace = true;
+  TimeFunctionEvaluator evaluate(function);
+  EXPECT_EQ(evaluate(2, {1, 2, 3}), 642);
+  EXPECT_TRUE(hasPlace("t + y"));
+  EXPECT_FALSE(hasPlace("exp(t)"));
+}
+
 TEST(TimeFunctionEvaluator, followsTheTime)
 {
   TimeFunctionEvaluator evaluate(expression("1e5*min(t/0.01,1)"));

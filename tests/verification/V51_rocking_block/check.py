@@ -54,12 +54,14 @@ def angles(run, start):
     return numpy.arctan2(across, up)
 
 
-def rock(name, start, end, damping=1.0, feet=False, report=False, **contact):
+def rock(name, start, end, damping=1.0, feet=False, report=False, rigid=False, **contact):
     """Lets the block go; returns the part of the energy left after the first impact, where the run is long enough."""
     deck = case.load()
     deck["time"]["end"] = end
     deck["contact"]["damping"]["normal"] = damping
     deck["contact"].update(contact)
+    for block in deck["blocks"].values():
+        block["rigid"] = rigid
     run = case.run(name, tilted(start, feet), deck)
     times, turn = run.history["time"], angles(run, start)
     case.check(f"{name}: tilt at the start over alpha", turn[0] / alpha, start, 1e-9)
@@ -75,6 +77,9 @@ housner = (1 - 1.5 * math.sin(alpha) ** 2) ** 2
 case.check("quarter period after Housner's linear equation [s]", math.acosh(1 / (1 - 0.5)) / frequency, quarter_period(0.5), 0.005, relative=True)
 rock("quarter", 0.25, 0.26)
 rock("three_quarters", 0.75, 0.65)
+rock("rigid_quarter", 0.25, 0.26, rigid=True)
+rigid = rock("rigid_half", 0.5, 0.85, rigid=True)
+case.check_within("rigid_half: energy left after the first impact", rigid, housner, 1)
 full = rock("half", 0.5, 0.85)
 case.check_within("half: energy left after the first impact", full, housner, 1)
 

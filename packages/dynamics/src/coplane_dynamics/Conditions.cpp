@@ -62,18 +62,23 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
       KOKKOS_LAMBDA(const int n) { set(external, n, mass(n) * g); });
   for (const FacePressure& load : pressures)
   {
-    const Real pressure = load.pressure(t);
+    const Real everywhere = load.field ? 0 : load.pressure(t);
     for (const LoadedSide& side : load.sides)
     {
+      const Real pressure = load.field ? load.field(t, side.place) : everywhere;
       const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x, axisymmetric);
       addToCorners(side, ownedNodes, external, [&](int k) { return -pressure * areas[k]; });
     }
   }
   for (const FaceTraction& load : tractions)
   {
-    const Vec3 traction = load.traction(t);
+    const bool varies = bool(load.field[0]);
+    const Vec3 everywhere = varies ? Vec3{} : load.traction(t);
     for (const LoadedSide& side : load.sides)
     {
+      Vec3 traction = everywhere;
+      for (int c = 0; c < 3 && varies; ++c)
+        traction[c] = load.field[c](t, side.place);
       const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x, axisymmetric);
       const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
       addToCorners(side, ownedNodes, external,
@@ -136,10 +141,10 @@ std::vector<Conditions::Projection> Conditions::projections() const
 
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const
 {
-  prescribeVelocities(t, v, projections());
+  prescribeVelocities(t, 0, v, projections());
 }
 
-void Conditions::prescribeVelocities(Real t, const NodeVectors& v,
+void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
                                      const std::vector<Projection>& fromSymmetry) const
 {
   for (const Projection& projection : fromSymmetry)
@@ -152,7 +157,17 @@ void Conditions::prescribeVelocities(Real t, const NodeVectors& v,
     {
       if (!condition.components[c])
         continue;
-      const Real value = condition.velocity[c] ? condition.velocity[c](t) : 0;
+      if (condition.isDisplacement && !(dt > 0))
+        continue; // at the start: the velocities that are given there
+      if (const OfTimeAndPlace& field = condition.field[c])
+      {
+        for (std::size_t i = 0; i < condition.nodes.size(); ++i)
+          v(condition.nodes[i], c) =
+              condition.speed([&](Real time) { return field(time, condition.places[i]); }, t, dt);
+        continue;
+      }
+      const OfTime& function = condition.velocity[c];
+      const Real value = function ? condition.speed(function, t, dt) : 0;
       for (const int n : condition.nodes)
         v(n, c) = value;
     }

@@ -12,6 +12,8 @@ namespace coplane
 {
 /// A number that varies in time [s].
 using OfTime = std::function<Real(Real)>;
+/// The same, different from place to place [m].
+using OfTimeAndPlace = std::function<Real(Real, const Vec3&)>;
 
 /// A vector that varies in time; constant zero when nothing is given.
 class VectorOfTime
@@ -36,12 +38,25 @@ private:
   std::array<OfTime, 3> functions_;
 };
 
-/// Given velocity of some components; zero fixes them.
+/// Given velocity of some components, or given displacement; zero fixes them.
 struct PrescribedVelocity
 {
-  std::vector<int> nodes; ///< owned local nodes
+  bool isDisplacement = false; ///< the functions are displacements [m]
+  std::vector<int> nodes;      ///< owned local nodes
   std::array<bool, 3> components{true, true, true};
-  std::array<OfTime, 3> velocity; ///< [m/s]; only those of the chosen components are called
+  std::array<OfTime, 3> velocity;      ///< [m/s]; only those of the chosen components are called
+  std::array<OfTimeAndPlace, 3> field; ///< instead of `velocity` where it varies with the place
+  std::vector<Vec3> places;            ///< of the nodes at the start, where there is a field [m]
+
+  bool hasField() const { return field[0] || field[1] || field[2]; }
+  /// Mean speed from t - dt/2 to t + dt/2 of a displacement, speed at t of a velocity [m/s].
+  template <class F>
+  Real speed(const F& function, Real t, Real dt) const
+  {
+    if (!isDisplacement)
+      return function(t);
+    return dt > 0 ? (function(t + 0.5 * dt) - function(t - 0.5 * dt)) / dt : 0;
+  }
 };
 
 /// No motion along a normal.
@@ -59,6 +74,7 @@ struct LoadedSide
   GlobalId id;
   int count;
   std::array<int, 4> nodes;
+  Vec3 place{}; ///< middle at the start [m]
 };
 
 /// Pressure on faces that follows their motion; positive pushes into the body.
@@ -66,14 +82,16 @@ struct FacePressure
 {
   using Side = LoadedSide;
   std::vector<LoadedSide> sides;
-  OfTime pressure; ///< [Pa]
+  OfTime pressure;        ///< [Pa]
+  OfTimeAndPlace field{}; ///< instead, where it varies with the place
 };
 
 /// Force per present area on faces, in fixed axes: its direction does not follow the faces.
 struct FaceTraction
 {
   std::vector<LoadedSide> sides;
-  VectorOfTime traction; ///< [Pa]
+  VectorOfTime traction;                 ///< [Pa]
+  std::array<OfTimeAndPlace, 3> field{}; ///< instead, where one of them varies with the place: all
 };
 
 /// A face behind which the body is thought to go on without end (Lysmer and Kuhlemeyer 1969):
@@ -145,7 +163,8 @@ struct Conditions
   /// latter win.
   void prescribeVelocities(Real t, const NodeVectors& v) const;
   /// The same with projections() at hand, for a call in every cycle.
-  void prescribeVelocities(Real t, const NodeVectors& v,
+  /// @param t in the middle of the step [s]; dt: its length [s]
+  void prescribeVelocities(Real t, Real dt, const NodeVectors& v,
                            const std::vector<Projection>& fromSymmetry) const;
 
   /// What the symmetry planes forbid, node by node: the normals of planes that meet at a node are

@@ -33,6 +33,7 @@ struct BlockSetup
   HourglassOptions hourglass;
   ElementOptions element;
   ErosionCriteria erosion;
+  bool rigid = false;
   Vec3 velocity{}, angularVelocity{}, center{};   ///< rigid motion at the start
   std::function<Vec3(const Vec3&)> velocityField; ///< added to it [m/s]; empty: none
   SymTensor stress{};                             ///< at the start, tension positive [Pa]
@@ -63,6 +64,8 @@ struct Model
 {
   RankMesh mesh;
   std::vector<BlockSetup> blocks; ///< one per block of the mesh file
+  /// Rigid body of each node of `mesh`, from rigidBodiesOf(); -1: none. Empty without rigid blocks.
+  std::vector<int> rigidBodyOfNode;
   BulkViscosity viscosity;
   bool contactEnabled = true;
   ContactOptions contact;

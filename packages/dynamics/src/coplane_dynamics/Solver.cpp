@@ -30,7 +30,8 @@ Solver::Solver(Model model, const Comm& comm)
                          part.connectivity, setup.element);
     ElementBlock& block = blocks_.back();
     block.initialise(state_.x);
-    setInitialStress(b);
+    if (!setup.rigid)
+      setInitialStress(b);
 
     const int corners = topology(part.type).nodes;
     // Node to corners, in the order of element ids, so that sums have the same order on every rank.
@@ -63,6 +64,14 @@ Solver::Solver(Model model, const Comm& comm)
     gathers_.push_back(gather);
   }
   layout_.refresh(state_.mass);
+  std::vector<char> rigidBlocks;
+  for (const BlockSetup& setup : model_.blocks)
+    rigidBlocks.push_back(setup.rigid);
+  rigid_.emplace(mesh, model_.rigidBodyOfNode, rigidBlocks, blocks_, state_, comm);
+  rigid_->takeConditions(model_.conditions);
+  followsBody_ = Array<bool>("coplane::dynamics::followsBody", owned);
+  for (int n = 0; n < owned; ++n)
+    followsBody_(n) = rigid_->holds(n);
   constrained_ = model_.conditions.constrainedNodes();
   projections_ = model_.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
@@ -119,6 +128,8 @@ void Solver::gatherElementForces()
       });
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
+    if (isRigid(b))
+      continue;
     const auto start = gathers_[b].start;
     const auto entry = gathers_[b].entry;
     const auto cornerForce = blocks_[b].cornerForce();
@@ -178,7 +189,8 @@ void Solver::findForces(Real dt)
   {
     TimedRegion region("coplane::element::update");
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-      blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
+      if (!isRigid(b))
+        blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
   }
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searchIsDue_ || someDied))
@@ -204,15 +216,17 @@ Real Solver::stableStep()
   const auto elementStep = elementStep_;
   const auto stiffness = contactStiffness_;
   const auto mass = state_.mass;
-  return parallelMin(
+  const auto followsBody = followsBody_;
+  const Real ofNodes = parallelMin(
       "coplane::dynamics::stableStep", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-        if (!(mass(n) > 0))
-          return infinity; // a node without elements
+        if (!(mass(n) > 0) || followsBody(n))
+          return infinity; // a node without elements, or of a rigid body
         const Real omega = 2 / elementStep(n);
         const Real squared = omega * omega + stiffness(n) / mass(n);
         // Not a number: a force or stiffness is broken; planNextCycle() stops the run.
         return squared > 0 ? 2 / std::sqrt(squared) : squared == 0 ? infinity : 0;
       });
+  return std::min(ofNodes, rigid_->stableStep());
 }
 
 void Solver::drift(Real dt)
@@ -223,6 +237,7 @@ void Solver::drift(Real dt)
   parallelFor(
       "coplane::dynamics::drift", layout_.owned(),
       KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
+  rigid_->drift(dt);
 }
 
 /// Works of the forces at n over the half step before or after it.
@@ -257,11 +272,12 @@ void Solver::applyLocalDamping()
       "coplane::dynamics::unbalancedForces", layout_.owned(),
       KOKKOS_LAMBDA(const int n) { set(damping, n, at(force, n) + at(external, n)); });
   model_.conditions.clearConstrained(projections_, damping);
+  const auto followsBody = followsBody_;
   parallelFor(
       "coplane::dynamics::localDamping", layout_.owned(), KOKKOS_LAMBDA(const int n) {
         for (int c = 0; c < 3; ++c)
         {
-          const Real size = fraction * std::abs(damping(n, c));
+          const Real size = followsBody(n) ? 0 : fraction * std::abs(damping(n, c));
           damping(n, c) = v(n, c) > 0 ? -size : v(n, c) < 0 ? size : 0;
         }
       });
@@ -273,7 +289,6 @@ void Solver::kick(Real step)
   const int owned = layout_.owned();
   const Real dtKick = 0.5 * (clock_.step + step);
   const Conditions& conditions = model_.conditions;
-  conditions.applyLoads(model_.mesh.dimension, owned, clock_.time, state_);
   applyLocalDamping();
 
   // Mass damping takes v at n as the mean of both half steps, like dashpots do: second order, and
@@ -300,7 +315,7 @@ void Solver::kick(Real step)
   }
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     set(beforeConstraint_, int(i), at(v, constrained_[i]));
-  conditions.prescribeVelocities(clock_.time + 0.5 * step, v, projections_);
+  conditions.prescribeVelocities(clock_.time + 0.5 * step, step, v, projections_);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
   {
     // The force that this took, and what the dampings no longer give.
@@ -311,25 +326,31 @@ void Solver::kick(Real step)
             0.5 * dashpots_.drag(n, change));
   }
   dashpots_.book(vPrevious, v, external);
+  rigid_->kick(dtKick, step, clock_.time, alpha, conditions.localDampingAt(clock_.time), state_);
 
   const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
+  const auto followsBody = followsBody_;
   parallelFor(
       "coplane::dynamics::bookImpulse", owned, KOKKOS_LAMBDA(const int n) {
-        set(damping, n, (-0.5 * alpha * mass(n)) * (at(vPrevious, n) + at(v, n)));
+        const Real drag = followsBody(n) ? 0 : -0.5 * alpha * mass(n);
+        set(damping, n, drag * (at(vPrevious, n) + at(v, n)));
         const Vec3 outer = at(external, n) + at(damping, n) + at(localDamping, n);
         set(impulse, n, at(impulse, n) + dtKick * outer);
         set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), outer));
       });
   bookHalfStep(clock_.step, vPrevious);
+  rigid_->bookSecondHalf(clock_.step);
 }
 
 void Solver::planNextCycle(bool first)
 {
+  model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
+  rigid_->sumForces(state_, contactStiffness_, elementStep_);
   // One reduction decides everything that must not differ between ranks.
   const Real stable = stableStep();
   int broken = -1;
   for (std::size_t b = 0; b < blocks_.size() && broken < 0; ++b)
-    broken = blocks_[b].invertedElement() >= 0 ? int(b) : -1;
+    broken = !isRigid(b) && blocks_[b].invertedElement() >= 0 ? int(b) : -1;
   std::vector<Real> extremes{-stable, Real(broken >= 0 || !(stable > 0)), Real(int(takeRequest()))};
   comm_->max(extremes);
   failed_ = extremes[1] > 0;
@@ -354,7 +375,9 @@ void Solver::planNextCycle(bool first)
   }
   if (!(step < infinity))
     fail(ExitCode::Computation,
-         "The stable step is not finite: no element or contact limits it. Check the mesh.");
+         "The stable step is not finite: no element or contact limits it. Give "
+         "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
+         "the mesh.");
   kick(step);
   clock_.nextStep = step;
   if (first)
@@ -365,6 +388,7 @@ void Solver::planNextCycle(bool first)
     parallelFor(
         "coplane::dynamics::mirrorVelocities", layout_.owned(),
         KOKKOS_LAMBDA(const int n) { set(vPrevious, n, 2.0 * at(vPrevious, n) - at(v, n)); });
+    rigid_->mirrorVelocities();
   }
   if (!contact_)
     return;
@@ -390,6 +414,7 @@ void Solver::planNextCycle(bool first)
 void Solver::prepare()
 {
   model_.conditions.prescribeVelocities(0, state_.v);
+  rigid_->start(state_);
   layout_.refresh(state_.x, state_.v);
   if (contact_)
   {
@@ -500,7 +525,7 @@ void Solver::failTogether(const std::string& what)
       {
         for (std::size_t b = 0; b < blocks_.size(); ++b)
         {
-          const int e = blocks_[b].invertedElement();
+          const int e = isRigid(b) ? -1 : blocks_[b].invertedElement();
           if (e >= 0)
             fail(ExitCode::Computation,
                  "cycle {}, t = {:.6e} s: element {} (block '{}') has turned inside out or has a "

@@ -8,6 +8,7 @@
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_dynamics/Observer.hpp>
+#include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/Signals.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
@@ -32,6 +33,7 @@ struct StepControl
 {
   Real stableStep = infinity;  ///< without the safety factor [s]
   GlobalId node = 0;           ///< the node with it (the lowest id when several have)
+  bool rigid = false;          ///< a rigid body, which has the node, is what limits it
   bool contact = false;        ///< whether contact adds more than elements to its frequency
   GlobalId element = 0;        ///< of those around the node the one with the smallest step
   GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
@@ -69,6 +71,7 @@ public:
   bool hasContact() const { return contact_ != nullptr; }
   const Contact& contact() const { return *contact_; }
   const Clock& clock() const { return clock_; }
+  const RigidBodies& rigidBodies() const { return *rigid_; }
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
   bool resultsRequested() const { return resultsRequested_; } ///< by SIGUSR1, in this cycle
 
@@ -112,6 +115,7 @@ private:
   void drift(Real dt);
   void bookHalfStep(Real dt, const ConstNodeVectors& v);
   void planNextCycle(bool first);
+  bool isRigid(std::size_t block) const { return model_.blocks[block].rigid; }
   void nameWhatLimits(int node, StepControl& control) const;
   std::string worstByRemainder() const;
   std::string deepestPlanes() const;
@@ -132,6 +136,8 @@ private:
   std::vector<int> constrained_;
   std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;
+  std::optional<RigidBodies> rigid_;
+  Array<bool> followsBody_;                              ///< owned nodes of rigid bodies
   bool erodes_ = false;                                  ///< some block has a criterion
   std::vector<std::optional<ErosionRule>> erosionRules_; ///< by block
   std::optional<ElementSides> sides_;

@@ -24,7 +24,8 @@ EnergyBalance Solver::energy() const
   std::vector<ExactSum> sums(Terms);
   for (int n = 0; n < layout_.owned(); ++n)
   {
-    sums[Kinetic].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
+    if (!followsBody_(n))
+      sums[Kinetic].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
     sums[Damping].add(state_.dampingWork(n));
     sums[LocalDamping].add(state_.localDampingWork(n));
     sums[External].add(state_.externalWork(n));
@@ -39,6 +40,16 @@ EnergyBalance Solver::energy() const
         sums[Hourglass].add(blocks_[b].energy(e, ElementEnergy::Hourglass));
         sums[Viscous].add(blocks_[b].energy(e, ElementEnergy::Viscous));
       }
+  if (comm_->isRoot()) // every rank has all bodies
+  {
+    sums[Kinetic].add(rigid_->kinetic());
+    sums[Damping].add(rigid_->dampingWork());
+    sums[LocalDamping].add(rigid_->localDampingWork());
+    sums[External].add(rigid_->reactionWork());
+    for (const Real work :
+         {rigid_->reactionWork(), -rigid_->dampingWork(), -rigid_->localDampingWork()})
+      sums[Nodal].add(work);
+  }
   for (const ExactSum& block : erodedEnergy_)
     sums[Eroded].add(block);
   const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
@@ -68,12 +79,28 @@ Momenta Solver::momenta() const
     const Vec3 l = cross(at(state_.x, n), p);
     for (int c = 0; c < 3; ++c)
     {
-      sums[c].add(p[c]);
-      sums[3 + c].add(l[c]);
+      if (!followsBody_(n))
+      {
+        sums[c].add(p[c]);
+        sums[3 + c].add(l[c]);
+      }
       sums[6 + c].add(state_.impulse(n, c));
       sums[9 + c].add(state_.angularImpulse(n, c));
     }
-    sums[12].add(norm(p));
+    if (!followsBody_(n))
+      sums[12].add(norm(p));
+  }
+  for (int b = 0; b < rigid_->count() && comm_->isRoot(); ++b) // every rank has all bodies
+  {
+    const RigidBodies::BodyMomenta body = rigid_->momenta(b);
+    for (int c = 0; c < 3; ++c)
+    {
+      sums[c].add(body.linear[c]);
+      sums[3 + c].add(body.angular[c]);
+      sums[6 + c].add(body.impulse[c]);
+      sums[9 + c].add(body.angularImpulse[c]);
+    }
+    sums[12].add(body.magnitude);
   }
   const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
   Momenta momenta;

@@ -9,6 +9,8 @@ namespace coplane
 {
 std::string StepControl::text() const
 {
+  if (rigid)
+    return fmt::format("contact of the rigid body with node {}", node);
   if (!contact)
     return fmt::format("element {} at node {}", element, node);
   return fmt::format("contact at node {}, most by {} against {}", node, faceName(faceId[0]),
@@ -21,7 +23,7 @@ StepControl Solver::stepControl() const
   int node = -1;
   for (int n = 0; n < layout_.owned(); ++n)
   {
-    if (!(state_.mass(n) > 0))
+    if (!(state_.mass(n) > 0) || followsBody_(n))
       continue;
     const Real omega = 2 / elementStep_(n);
     const Real step = 2 / std::sqrt(omega * omega + contactStiffness_(n) / state_.mass(n));
@@ -33,6 +35,13 @@ StepControl Solver::stepControl() const
     }
   }
   const Real least = comm_->min(control.stableStep);
+  if (rigid_->stableStep() < least)
+  {
+    control.stableStep = rigid_->stableStep();
+    control.rigid = control.contact = true;
+    control.node = rigid_->nodeThatLimits(layout_);
+    return control;
+  }
   constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
   const bool mine = node >= 0 && control.stableStep == least;
   control.node = comm_->min(mine ? layout_.ids()[node] : none);
@@ -56,6 +65,8 @@ void Solver::nameWhatLimits(int node, StepControl& control) const
   Real least = infinity;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
+    if (isRigid(b))
+      continue;
     const int corners = topology(blocks_[b].type()).nodes;
     for (int i = gathers_[b].start(node); i < gathers_[b].start(node + 1); ++i)
     {

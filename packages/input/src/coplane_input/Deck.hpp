@@ -15,12 +15,15 @@ namespace coplane
 // defaults of the schema. Units: SI. `where` is the place of a card for later messages:
 // "wall.yaml:12:5", or "--set a.b=value" when it came from there.
 
-/// A number, or a muParser expression of t [s] (conditions that vary in time); of x, y, z [m] where
-/// a PlaceFunction is meant (states that vary in space).
+/// A number, a muParser expression of t [s] (conditions that vary in time), or a table over t; of
+/// x, y, z [m] where a PlaceFunction is meant (states that vary in space).
 struct TimeFunction
 {
-  std::string expression; ///< empty: constant
+  std::string expression; ///< empty: constant or table
   Real constant = 0;
+  std::vector<Real> times;  ///< of a table, rising [s]; straight lines between, constant outside
+  std::vector<Real> values; ///< of a table
+  bool ofPlace = false;     ///< the expression has x, y or z beside t
   std::string where;
 };
 
@@ -126,6 +129,7 @@ struct BlockCard
   Real hourglassStiffness = 0.05;              ///< [-]
   Real hourglassViscosity = 0;                 ///< [-]
   ErosionCard erosion;
+  bool rigid = false;
 };
 
 /// A joint law. `penalty` takes its stiffness from the elements behind the faces.
@@ -201,10 +205,12 @@ struct ContactCard
 struct ConditionCard
 {
   std::string where;
-  std::string type; ///< fixed | velocity | symmetry | pressure | traction | absorbing
-  std::string set;  ///< node set (fixed, velocity, symmetry) or side set (the others)
+  std::string
+      type;        ///< fixed | velocity | displacement | symmetry | pressure | traction | absorbing
+  std::string set; ///< node set (fixed, velocity, displacement, symmetry) or side set (the others)
   std::array<bool, 3> components{true, true, true}; ///< fixed, velocity
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
+  std::array<TimeFunction, 3> displacement;         ///< displacement [m]
   Vec3 normal{0, 0, 0};                             ///< symmetry
   TimeFunction pressure;                ///< pressure, follower, positive pushes into the body [Pa]
   std::array<TimeFunction, 3> traction; ///< traction, in fixed axes [Pa]

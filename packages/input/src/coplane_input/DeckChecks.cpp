@@ -111,11 +111,12 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
     const auto& card = deck.conditions[i];
     const std::string path = fmt::format("conditions.{}", i);
     const DeckNode& node = nodeAt(root, {"conditions", std::to_string(i)});
-    if (card.type == "velocity")
+    if (card.type == "velocity" || card.type == "displacement")
       for (int c = 0; c < 3; ++c)
       {
-        const auto& value = card.velocity[c];
-        if (!card.components[c] && (!value.expression.empty() || value.constant != 0))
+        const auto& value = card.type == "velocity" ? card.velocity[c] : card.displacement[c];
+        if (!card.components[c] &&
+            (!value.expression.empty() || value.constant != 0 || !value.times.empty()))
           problems.add(nodeAt(node, {"value", std::to_string(c)}),
                        fmt::format("{0}.value.{1} has no effect because {0}.components does not "
                                    "have {2}; write 0 or add {2} to components.",
@@ -130,6 +131,10 @@ void checkErosion(const Deck& deck, const DeckNode& root, Problems& problems)
   {
     const std::string path = "blocks." + block.name + ".erosion";
     const DeckNode& node = nodeAt(root, {"blocks", block.name, "erosion"});
+    if (block.rigid && block.erosion.any())
+      problems.add(node, fmt::format("{} has no effect because blocks.{}.rigid is true; remove one "
+                                     "of them.",
+                                     path, block.name));
     const auto& ratio = block.erosion.volumeRatio;
     if (ratio.size() == 2 && !(ratio[0] < 1 && ratio[1] > 1))
       problems.add(nodeAt(node, {"volume_ratio"}),
@@ -174,6 +179,21 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
                                  "'axisymmetric'; use one_point or nodal_pressure.",
                                  block.name, block.element));
   checkErosion(deck, root, problems);
+
+  for (std::size_t i = 0; i < deck.initial.size(); ++i)
+  {
+    const auto& initial = deck.initial[i];
+    const auto given = [](const auto& values)
+    { return std::any_of(values.begin(), values.end(), [](Real value) { return value != 0; }); };
+    const auto block = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                    [&](const auto& b) { return b.name == initial.block; });
+    if (block != deck.blocks.end() && block->rigid &&
+        (given(initial.stress) || given(initial.stressGradient)))
+      problems.add(nodeAt(root, {"initial", std::to_string(i)}),
+                   fmt::format("initial.{}: block '{}' is rigid and carries no stress; remove "
+                               "stress and stress_gradient, or rigid.",
+                               i, initial.block));
+  }
 
   Names seen;
   for (std::size_t i = 0; i < deck.initial.size(); ++i)

@@ -41,6 +41,7 @@ class Problems
 public:
   void add(const DeckNode& at, const std::string& text);
   bool empty() const { return problems_.empty(); }
+  std::size_t size() const { return problems_.size(); }
 
   /// One line each, "where: text", in the order of the file.
   std::string text() const;

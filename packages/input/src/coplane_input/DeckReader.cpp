@@ -261,7 +261,8 @@ private:
                         key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions;
     if (isList)
       return readList(key, node, path);
-    if (node.kind != Kind::Scalar || node.text.empty())
+    const bool isTable = key.kind == KeyKind::TimeFunction && node.kind == Kind::Map;
+    if (!isTable && (node.kind != Kind::Scalar || node.text.empty()))
     {
       wrong(node, path, "", acceptedText(key));
       return std::nullopt;
@@ -347,6 +348,8 @@ private:
     const bool ofPlace = key.kind == KeyKind::PlaceFunctions;
     TimeFunction function;
     function.where = node.where;
+    if (!ofPlace && node.kind == Kind::Map)
+      return readTable(node, path);
     if (node.kind != Kind::Scalar || node.text.empty())
     {
       wrong(node, path, "", acceptedText(key));
@@ -368,15 +371,64 @@ private:
       return function;
     }
     const std::string problem =
-        expressionProblem(node.text, ofPlace ? variablesOfPlace : variablesOfTime);
+        expressionProblem(node.text, ofPlace          ? variablesOfPlace
+                                     : key.ofPlaceToo ? variablesOfTimeAndPlace
+                                                      : variablesOfTime);
     if (!problem.empty())
     {
       wrong(node, path,
-            fmt::format(" is not an expression of {} ({})", ofPlace ? "x, y, z" : "t", problem),
+            fmt::format(" is not an expression of {} ({})",
+                        ofPlace          ? "x, y, z"
+                        : key.ofPlaceToo ? "t, x, y, z"
+                                         : "t",
+                        problem),
             acceptedText(key));
       return std::nullopt;
     }
     function.expression = node.text;
+    function.ofPlace = key.ofPlaceToo && hasPlace(node.text);
+    return function;
+  }
+
+  /// {times: [...], values: [...]}
+  std::optional<TimeFunction> readTable(const DeckNode& node, const std::string& path)
+  {
+    const std::size_t before = problems_.size();
+    TimeFunction function;
+    function.where = node.where;
+    checkNames(node, path);
+    for (const auto& [name, value] : node.entries)
+      if (name.kind == Kind::Scalar && name.text != "times" && name.text != "values" &&
+          name.text != "<<")
+        problems_.add(name, fmt::format("{} is not known. Accepted here: times, values.",
+                                        join(path, name.text)));
+    for (const bool isTimes : {true, false})
+    {
+      const char* const name = isTimes ? "times" : "values";
+      Key key;
+      key.kind = KeyKind::Numbers;
+      const DeckNode* const list = node.find(name);
+      if (!list)
+        problems_.add(node,
+                      fmt::format("{} is missing; accepted: a table has times [s] and values, "
+                                  "as in {{times: [0, 0.01], values: [0, 1]}}.",
+                                  join(path, name)));
+      else if (const auto numbers = readList(key, *list, join(path, name)))
+        (isTimes ? function.times : function.values) = std::get<std::vector<Real>>(*numbers);
+    }
+    if (problems_.size() > before)
+      return std::nullopt;
+    const bool rising =
+        std::adjacent_find(function.times.begin(), function.times.end(),
+                           [](Real a, Real b) { return !(a < b); }) == function.times.end();
+    if (function.times.size() < 2 || function.times.size() != function.values.size() || !rising)
+    {
+      problems_.add(node,
+                    fmt::format("{} has {} times and {} values; accepted: as many of both, at "
+                                "least 2, with times that rise.",
+                                path, function.times.size(), function.values.size()));
+      return std::nullopt;
+    }
     return function;
   }
 

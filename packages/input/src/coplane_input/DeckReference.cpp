@@ -136,6 +136,13 @@ Json valueSchema(const Key& key)
   const Json word = key.choices.empty() ? Json{{"type", "string"}, {"minLength", 1}}
                                         : Json{{"enum", key.choices}};
   const Json function{{"type", {"number", "string"}}};
+  const Json numbers{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}};
+  const Json timeFunction{{"anyOf",
+                           {function,
+                            {{"type", "object"},
+                             {"properties", {{"times", numbers}, {"values", numbers}}},
+                             {"required", {"times", "values"}},
+                             {"additionalProperties", false}}}}};
   switch (key.kind)
   {
   case KeyKind::Text:
@@ -152,8 +159,9 @@ Json valueSchema(const Key& key)
   case KeyKind::Texts:
     return listSchema(key, word);
   case KeyKind::TimeFunction:
-    return function;
+    return timeFunction;
   case KeyKind::TimeFunctions:
+    return listSchema(key, timeFunction);
   case KeyKind::PlaceFunctions:
     return listSchema(key, function);
   case KeyKind::Group:

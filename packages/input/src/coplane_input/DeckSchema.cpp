@@ -96,6 +96,10 @@ Key blocks()
                        .onlyFor({"one_point"})
                        .means("control of the zero-energy modes of one-point elements"),
                    erosion(),
+                   flag("rigid", &BlockCard::rigid)
+                       .like("true")
+                       .means("each connected part of the block moves as a rigid body; of its "
+                              "material the density counts, and the moduli in contact"),
                })
       .needed()
       .decidedBy("element")
@@ -124,65 +128,83 @@ Key conditions()
     key.length = 3;
     return KeyBuilder(key);
   };
-  return list("conditions", &Deck::conditions,
-              {
-                  text("type", &ConditionCard::type)
-                      .needed()
-                      .oneOf({"fixed", "velocity", "symmetry", "pressure", "traction", "absorbing"})
-                      .like("fixed")
-                      .means("fixed: no motion; velocity: prescribed motion; symmetry: no motion "
-                             "along the normal; pressure: follows the moving faces; traction: in "
-                             "fixed axes; absorbing: waves leave through the faces"),
-                  text("node_set", &ConditionCard::set)
-                      .onlyFor({"fixed", "velocity", "symmetry"})
-                      .needed()
-                      .means("node set of the mesh")
-                      .like("base"),
-                  text("side_set", &ConditionCard::set)
-                      .onlyFor({"pressure", "traction", "absorbing"})
-                      .needed()
-                      .means("side set of the mesh")
-                      .like("top"),
-                  bound<std::vector<std::string>>("components", KeyKind::Texts,
-                                                  &ConditionCard::components, takeComponents)
-                      .onlyFor({"fixed", "velocity"})
-                      .oneOf({"x", "y", "z"})
-                      .like("[x]")
-                      .defaultIs("[x, y, z]")
-                      .means("axes along which the condition acts"),
-                  vectorOfTime("value", &ConditionCard::velocity)
-                      .onlyFor({"velocity"})
-                      .needed()
-                      .in("m/s")
-                      .like("[\"0.1*t\", 0, 0]")
-                      .means("velocity in x, y, z; 0 for components that are left free"),
-                  vectorOfTime("value", &ConditionCard::traction)
-                      .onlyFor({"traction"})
-                      .needed()
-                      .in("Pa")
-                      .like("[0, \"-1e5*min(t/0.01, 1)\", 0]")
-                      .means("force per present area, in fixed axes"),
-                  vectorOfTime("incident", &ConditionCard::incident)
-                      .onlyFor({"absorbing"})
-                      .in("m/s")
-                      .defaultIs("[0, 0, 0]")
-                      .like("[\"0.1*sin(2*_pi*200*t)\", 0, 0]")
-                      .means("particle velocity of the wave that enters through the faces"),
-                  bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunction,
-                                                   &ConditionCard::pressure, takeOne)
-                      .onlyFor({"pressure"})
-                      .needed()
-                      .in("Pa")
-                      .like("\"1e5*min(t/0.01, 1)\"")
-                      .means("pressure; positive pushes into the body"),
-                  vector("normal", &ConditionCard::normal)
-                      .onlyFor({"symmetry"})
-                      .needed()
-                      .in("-")
-                      .notAllZero()
-                      .like("[0, 0, 1]")
-                      .means("normal of the plane, of any length"),
-              })
+  return list(
+             "conditions", &Deck::conditions,
+             {
+                 text("type", &ConditionCard::type)
+                     .needed()
+                     .oneOf({"fixed", "velocity", "displacement", "symmetry", "pressure",
+                             "traction", "absorbing"})
+                     .like("fixed")
+                     .means("fixed: no motion; velocity, displacement: prescribed motion; "
+                            "symmetry: no motion "
+                            "along the normal; pressure: follows the moving faces; traction: in "
+                            "fixed axes; absorbing: waves leave through the faces"),
+                 text("node_set", &ConditionCard::set)
+                     .onlyFor({"fixed", "velocity", "displacement", "symmetry"})
+                     .needed()
+                     .means("node set of the mesh")
+                     .like("base"),
+                 text("side_set", &ConditionCard::set)
+                     .onlyFor({"pressure", "traction", "absorbing"})
+                     .needed()
+                     .means("side set of the mesh")
+                     .like("top"),
+                 bound<std::vector<std::string>>("components", KeyKind::Texts,
+                                                 &ConditionCard::components, takeComponents)
+                     .onlyFor({"fixed", "velocity", "displacement"})
+                     .oneOf({"x", "y", "z"})
+                     .like("[x]")
+                     .defaultIs("[x, y, z]")
+                     .means("axes along which the condition acts"),
+                 vectorOfTime("value", &ConditionCard::displacement)
+                     .onlyFor({"displacement"})
+                     .needed()
+                     .ofPlaceToo()
+                     .in("m")
+                     .like("[{times: [0, 0.1], values: [0, 0.01]}, 0, 0]")
+                     .means("displacement in x, y, z, of which its value at t = 0 is taken off; 0 "
+                            "for components that are left free; x, y, z: place at t = 0"),
+                 vectorOfTime("value", &ConditionCard::velocity)
+                     .onlyFor({"velocity"})
+                     .needed()
+                     .ofPlaceToo()
+                     .in("m/s")
+                     .like("[\"0.1*t\", 0, 0]")
+                     .means("velocity in x, y, z; 0 for components that are left free; x, y, z: "
+                            "place at t = 0"),
+                 vectorOfTime("value", &ConditionCard::traction)
+                     .onlyFor({"traction"})
+                     .needed()
+                     .ofPlaceToo()
+                     .in("Pa")
+                     .like("[0, \"-1e5*min(t/0.01, 1)\", 0]")
+                     .means("force per present area, in fixed axes; x, y, z: middle of the face at "
+                            "t = 0"),
+                 vectorOfTime("incident", &ConditionCard::incident)
+                     .onlyFor({"absorbing"})
+                     .in("m/s")
+                     .defaultIs("[0, 0, 0]")
+                     .like("[\"0.1*sin(2*_pi*200*t)\", 0, 0]")
+                     .means("particle velocity of the wave that enters through the faces"),
+                 bound<std::vector<TimeFunction>>("value", KeyKind::TimeFunction,
+                                                  &ConditionCard::pressure, takeOne)
+                     .onlyFor({"pressure"})
+                     .needed()
+                     .ofPlaceToo()
+                     .in("Pa")
+                     .like("\"1e5*min(t/0.01, 1)\"")
+                     .means(
+                         "pressure; positive pushes into the body; x, y, z: middle of the face at "
+                         "t = 0"),
+                 vector("normal", &ConditionCard::normal)
+                     .onlyFor({"symmetry"})
+                     .needed()
+                     .in("-")
+                     .notAllZero()
+                     .like("[0, 0, 1]")
+                     .means("normal of the plane, of any length"),
+             })
       .decidedBy("type")
       .means("boundary conditions; t is the time [s], _pi is 3.14159...");
 }

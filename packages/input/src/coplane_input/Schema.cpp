@@ -38,9 +38,11 @@ std::string acceptedText(const Key& key)
   case KeyKind::Texts:
     return fmt::format("a list of {}names{}", count, words.empty() ? "" : " out of " + words);
   case KeyKind::TimeFunction:
-    return "a number" + range + " or an expression of t" + unit;
+    return "a number" + range + ", an expression of t" + (key.ofPlaceToo ? ", x, y, z" : "") +
+           " or a table" + unit;
   case KeyKind::TimeFunctions:
-    return fmt::format("a list of {}numbers or expressions of t{}", count, unit);
+    return fmt::format("a list of {}numbers, expressions of t{} or tables{}", count,
+                       key.ofPlaceToo ? ", x, y, z" : "", unit);
   case KeyKind::PlaceFunctions:
     return fmt::format("a list of {}numbers or expressions of x, y, z{}", count, unit);
   case KeyKind::Group:

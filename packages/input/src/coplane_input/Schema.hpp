@@ -20,7 +20,7 @@ enum class KeyKind
   Flag,
   Numbers,        ///< list of numbers
   Texts,          ///< list of words
-  TimeFunction,   ///< a number or an expression of t
+  TimeFunction,   ///< a number, an expression of t, or a table over t
   TimeFunctions,  ///< a list of them
   PlaceFunctions, ///< a list of numbers or expressions of x, y and z
   Group,          ///< keys
@@ -59,6 +59,7 @@ struct Key
   bool lowerOpen = false, upperOpen = false; ///< the limit itself is refused
   std::size_t length = 0;                    ///< of a list; 0: any
   bool notAllZero = false;                   ///< Numbers: a direction
+  bool ofPlaceToo = false; ///< TimeFunction(s): expressions may have x, y, z beside t
   std::function<void(void* target, const KeyValue&)> store;
 
   // groups

@@ -4,6 +4,7 @@
 
 #include <muParser.h>
 
+#include <algorithm>
 #include <cmath>
 #include <regex>
 
@@ -11,7 +12,7 @@ namespace coplane
 {
 struct ParsedExpression
 {
-  Real values[3] = {};
+  Real values[4] = {};
   mu::Parser parser;
 
   ParsedExpression(const std::string& text, const std::vector<std::string>& variables)
@@ -53,7 +54,9 @@ std::unique_ptr<ParsedExpression> parsed(const TimeFunction& function,
 } // namespace
 
 TimeFunctionEvaluator::TimeFunctionEvaluator(const TimeFunction& function)
-    : expression_(parsed(function, variablesOfTime, "t")), function_(function)
+    : expression_(parsed(function, function.ofPlace ? variablesOfTimeAndPlace : variablesOfTime,
+                         function.ofPlace ? "t, x, y, z" : "t")),
+      function_(function)
 {
 }
 
@@ -61,11 +64,23 @@ TimeFunctionEvaluator::~TimeFunctionEvaluator() = default;
 TimeFunctionEvaluator::TimeFunctionEvaluator(TimeFunctionEvaluator&&) noexcept = default;
 TimeFunctionEvaluator& TimeFunctionEvaluator::operator=(TimeFunctionEvaluator&&) noexcept = default;
 
-Real TimeFunctionEvaluator::operator()(Real t)
+Real TimeFunctionEvaluator::operator()(Real t, const Vec3& place)
 {
+  const std::vector<Real>& times = function_.times;
+  if (!times.empty())
+  {
+    const auto next = std::upper_bound(times.begin(), times.end(), t);
+    if (next == times.begin() || next == times.end())
+      return next == times.begin() ? function_.values.front() : function_.values.back();
+    const std::size_t i = std::size_t(next - times.begin());
+    const Real part = (t - times[i - 1]) / (times[i] - times[i - 1]);
+    return (1 - part) * function_.values[i - 1] + part * function_.values[i];
+  }
   if (!expression_)
     return function_.constant;
   expression_->values[0] = t;
+  for (int c = 0; c < 3; ++c)
+    expression_->values[1 + c] = place[c];
   const Real value = expression_->parser.Eval();
   if (!std::isfinite(value))
     fail(ExitCode::Computation,
@@ -97,6 +112,15 @@ Real PlaceFunctionEvaluator::operator()(const Vec3& point)
          "{}: '{}' is {} at ({}, {}, {}) m, which is not a finite number. Change the expression.",
          function_.where, function_.expression, value, point.x, point.y, point.z);
   return value;
+}
+
+bool hasPlace(const std::string& expression)
+{
+  ParsedExpression parsed(expression, variablesOfTimeAndPlace);
+  for (const auto& [name, value] : parsed.parser.GetUsedVar())
+    if (name != "t")
+      return true;
+  return false;
 }
 
 std::string expressionProblem(const std::string& expression,

@@ -16,10 +16,11 @@ namespace coplane
 
 const std::vector<std::string> variablesOfTime{"t"};
 const std::vector<std::string> variablesOfPlace{"x", "y", "z"};
+const std::vector<std::string> variablesOfTimeAndPlace{"t", "x", "y", "z"};
 
 struct ParsedExpression;
 
-/// Evaluates a number or an expression of t [s].
+/// Evaluates a number, an expression of t [s] or of t and x, y, z [m], or a table over t.
 class TimeFunctionEvaluator
 {
 public:
@@ -31,7 +32,7 @@ public:
   TimeFunctionEvaluator& operator=(TimeFunctionEvaluator&&) noexcept;
 
   /// Value at time t [s]. Throws Error(Computation) when it is not finite (1/t at t = 0).
-  Real operator()(Real t);
+  Real operator()(Real t, const Vec3& place = {});
 
 private:
   std::unique_ptr<ParsedExpression> expression_; // empty: constant
@@ -54,6 +55,9 @@ private:
   std::unique_ptr<ParsedExpression> expression_;
   PlaceFunction function_;
 };
+
+/// Whether a correct expression of t, x, y, z has one of x, y, z.
+bool hasPlace(const std::string& expression);
 
 /// What is wrong with an expression of these variables, with the place in it; empty when it can be
 /// evaluated.

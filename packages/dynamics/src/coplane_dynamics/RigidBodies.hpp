@@ -1,0 +1,167 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_element/ElementBlock.hpp>
+#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// A turn, as a unit quaternion.
+struct Turn
+{
+  Real w = 1;
+  Vec3 v{};
+
+  Vec3 operator()(const Vec3& r) const
+  {
+    const Vec3 t = 2.0 * cross(v, r);
+    return r + w * t + cross(v, t);
+  }
+  Turn back() const { return {w, {-v.x, -v.y, -v.z}}; }
+  /// First the other, then this one.
+  Turn after(const Turn& other) const
+  {
+    return Turn{w * other.w - dot(v, other.v), w * other.v + other.w * v + cross(v, other.v)}
+        .normalised();
+  }
+  Turn normalised() const
+  {
+    const Real scale = 1 / std::sqrt(w * w + dot(v, v));
+    return {scale * w, scale * v};
+  }
+  /// Half of it.
+  Turn half() const { return Turn{w + 1, v}.normalised(); }
+};
+
+/// Number of the rigid body of every node of the mesh; -1: none. Elements of rigid blocks that
+/// share nodes belong to one body. Bodies are counted in the order of their first node in the file.
+/// @param rigidBlocks by block of the mesh
+std::vector<int> rigidBodiesOf(const Mesh& mesh, const std::vector<char>& rigidBlocks);
+
+/// The rigid bodies of a run. Every rank has all of them with the same bits: forces of nodes come
+/// together by exact sums. Their nodes follow, and get forces from loads, contact and neighbouring
+/// elements like any others.
+///
+/// At the end of a cycle a body has its centre and turn at n, and momenta at n - 1/2 and n + 1/2:
+///
+///     P(n+1/2) = P(n-1/2) + dt F(n),   L(n+1/2) = L(n-1/2) + dt T(n),   T about the centre
+///     centre(n+1) = centre(n) + dt P / M
+///     turn(n+1) = cayley(dt w) turn(n),   w = J(n+1/2)^-1 L(n+1/2) with the turn half way
+///
+/// so that both momenta change by the given forces alone, to round-off. Velocities of nodes are
+/// what brings them to their places at n + 1 in one step.
+class RigidBodies
+{
+public:
+  /// @param bodyOfNode of all nodes of the mesh part; empty: no bodies
+  /// @param rigidBlocks by block
+  RigidBodies(const RankMesh& mesh, const std::vector<int>& bodyOfNode,
+              const std::vector<char>& rigidBlocks, const std::vector<ElementBlock>& blocks,
+              const NodalState& state, const Comm& comm);
+
+  bool empty() const { return bodies_.empty(); }
+  int count() const { return int(bodies_.size()); }
+  bool holds(int ownedNode) const { return !empty() && bodyOfNode_[ownedNode] >= 0; }
+
+  /// Takes their nodes out of the conditions on velocities and keeps these for the bodies. A
+  /// condition has to be on all nodes of a body or on none: throws on all ranks otherwise.
+  void takeConditions(Conditions& conditions);
+  /// Momenta from the velocities of the nodes at the start, and their velocities from the momenta.
+  void start(NodalState& state);
+
+  /// Sums forces, torques and what limits the step, from forces and loads of nodes at n.
+  /// Collective.
+  void sumForces(const NodalState& state, const Array<Real>& contactStiffness,
+                 const Array<Real>& elementStep);
+  /// Largest stable step of the bodies, from the last sums [s]; 0 when a force is not finite.
+  Real stableStep() const;
+  /// Lowest id of a node of the body with the least stable step. Collective.
+  GlobalId nodeThatLimits(const NodeLayout& layout) const;
+
+  /// Momenta to n + 1/2, and the velocities of the nodes.
+  /// @param dtKick from n - 1/2 to n + 1/2; dt: from n to n + 1; t: at n [s]
+  void kick(Real dtKick, Real dt, Real t, Real massDamping, Real localDamping,
+            const NodalState& state);
+  void mirrorVelocities(); ///< v(-1/2) mirrors v(1/2) about the given velocities
+  /// Work of the forces at n in the half step before them; drift() books the half after them.
+  void bookSecondHalf(Real dt);
+  void drift(Real dt); ///< to n + 1
+
+  // Sums that every rank has. What loads on nodes do is booked with the nodes.
+  Real kinetic() const; ///< [J]
+  Real reactionWork() const;
+  Real dampingWork() const;
+  Real localDampingWork() const;
+  struct BodyMomenta
+  {
+    Vec3 linear{}, angular{};         ///< at n + 1/2, about the origin
+    Vec3 impulse{}, angularImpulse{}; ///< of reactions and dampings since the start
+    Real magnitude = 0;
+  };
+  BodyMomenta momenta(int body) const;
+
+  // For tests and reports.
+  Real mass(int body) const { return bodies_[body].mass; }
+  Vec3 center(int body) const { return bodies_[body].center; }
+  Vec3 spin(int body) const { return bodies_[body].spin; }
+  /// About the centre, at the start [kg m^2].
+  const Mat3& inertia(int body) const { return bodies_[body].inertia; }
+
+private:
+  struct Constraint
+  {
+    Vec3 direction;                             ///< unit
+    std::function<Real(Real t, Real dt)> speed; ///< empty: none [m/s]
+  };
+  struct Wrench
+  {
+    Vec3 force{}, torque{}; ///< torque about the centre
+  };
+  struct Body
+  {
+    std::vector<int> nodes; ///< owned by this rank
+    std::vector<Vec3> arms; ///< from the centre, at the start
+    std::int64_t allNodes = 0;
+    Real mass = 0;
+    Mat3 inertia, inverseInertia; ///< at the start; in two dimensions only zz counts
+    std::vector<Constraint> constraints;
+    enum class Turning
+    {
+      Free,
+      AboutAxis,
+      None
+    } turning = Turning::Free;
+    Vec3 axis{};
+
+    Vec3 center{}, nextCenter{};
+    Turn turn, nextTurn;
+    Vec3 velocity{}, previousVelocity{};
+    Vec3 angularMomentum{}, previousAngularMomentum{};
+    Vec3 spin{}, previousSpin{};
+
+    Wrench given, reaction, damping, localDamping; ///< at n
+    Real frequencySquared = 0;                     ///< bound for the stable step [1/s^2]
+    Real reactionWork = 0, dampingWork = 0, localDampingWork = 0;
+    Vec3 impulse{}, angularImpulse{};
+  };
+
+  void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
+                   const std::vector<ElementBlock>& blocks, const NodalState& state);
+  void constrain(Body& body, const Constraint& constraint);
+  void applyConstraints(Body& body, Real t, Real dt) const;
+  Vec3 spinOf(const Body& body, Real dt) const;
+  void moveNodes(Body& body, Real dt, const NodalState& state) const;
+  static void bookWork(Body& body, Real dt, const Vec3& velocity, const Vec3& spin);
+
+  const Comm* comm_;
+  int dimension_;
+  std::vector<int> bodyOfNode_; ///< of owned nodes
+  std::vector<Body> bodies_;
+};
+} // namespace coplane
