@@ -77,10 +77,10 @@ TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
                            "1e-9, variables: {energy: {above: 1, below: -1}}"),
             "no error");
   EXPECT_EQ(errorOfErosion("volume_ratio: [1, 4]"),
-            "wall.yaml:5:51: blocks.bar.erosion.volume_ratio = [1, 4] would take out elements as "
+            "wall.yaml:5:50: blocks.bar.erosion.volume_ratio = [1, 4] would take out elements as "
             "they are at the start; accepted: the first below 1, the second above 1.");
   EXPECT_EQ(errorOfErosion("variables: {porosity: {}}"),
-            "wall.yaml:5:59: blocks.bar.erosion.variables.porosity has no limit; accepted: above, "
+            "wall.yaml:5:58: blocks.bar.erosion.variables.porosity has no limit; accepted: above, "
             "below or both, as in porosity: {above: 0.5}.");
 }
 
@@ -224,22 +224,23 @@ TEST(DeckErrors, aVectorOfTwoNumbers)
 {
   EXPECT_EQ(
       errorWith("gravity: [0, 1]\n"),
-      "wall.yaml:5:10: gravity = a list of 2; accepted: a list of 3 numbers or expressions of t "
-      "[m/s^2].");
+      "wall.yaml:5:10: gravity = a list of 2; accepted: a list of 3 numbers, expressions of t "
+      "or tables [m/s^2].");
 }
 
 TEST(DeckErrors, anItemOfAVectorThatIsNoNumber)
 {
   EXPECT_EQ(errorWith("gravity: [0, g, 0]\n"),
             "wall.yaml:5:14: gravity.1 = 'g' is not an expression of t (Unexpected token \"g\" "
-            "found at character 1); accepted: a number or an expression of t [m/s^2].");
+            "found at character 1); accepted: a number, an expression of t or a table "
+            "[m/s^2].");
 }
 
 TEST(DeckErrors, aNegativeNumberWhereAnExpressionMayStand)
 {
   EXPECT_EQ(errorWith("damping: {mass: -1}\n"),
-            "wall.yaml:5:17: damping.mass = '-1' is out of range; accepted: a number >= 0 or an "
-            "expression of t [1/s].");
+            "wall.yaml:5:17: damping.mass = '-1' is out of range; accepted: a number >= 0, an "
+            "expression of t or a table [1/s].");
 }
 
 TEST(DeckErrors, anExpressionOfTimeWhereOneOfPlaceIsMeant)
@@ -437,9 +438,9 @@ TEST(DeckErrors, aVelocityOfAComponentThatIsFree)
 TEST(DeckErrors, aWrongExpression)
 {
   EXPECT_EQ(errorWith("conditions: [{type: pressure, side_set: a, value: \"2*sn(t)\"}]\n"),
-            "wall.yaml:5:51: conditions.0.value = \"2*sn(t)\" is not an expression of t "
-            "(Unexpected token \"sn\" found at character 3); accepted: a number or an expression "
-            "of t [Pa].");
+            "wall.yaml:5:51: conditions.0.value = \"2*sn(t)\" is not an expression of t, x, y, "
+            "z (Unexpected token \"sn\" found at character 3); accepted: a number, an expression "
+            "of t, x, y, z or a table [Pa].");
 }
 
 TEST(DeckErrors, wrongYaml)

@@ -108,8 +108,8 @@ class Case:
             numpy.max(numpy.abs(h["external_work"])),
             h["contact_stored"][0],  # of joints under initial stress: all that there is at rest
         )
-        # Components that are expressions of t do not count.
-        gravity = [g for g in deck.get("gravity", []) if not isinstance(g, str)]
+        # Components that vary in time do not count.
+        gravity = [g for g in deck.get("gravity", []) if isinstance(g, (int, float))]
         weight = run.mass * numpy.linalg.norm(gravity)
         scale = numpy.sqrt(2 * run.mass * numpy.max(h["kinetic"])) + weight * h["time"][-1]
         results = run.results
