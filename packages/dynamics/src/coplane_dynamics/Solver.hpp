@@ -97,7 +97,6 @@ private:
   void applyLocalDamping();
   void kick(Real step);
   void drift(Real dt);
-  void bookHalfStep(Real dt, const ConstNodeVectors& v);
   void planNextCycle(bool first);
   void nameWhatLimits(int node, StepControl& control) const;
   std::string worstByRemainder() const;
