@@ -5,19 +5,15 @@
 //   graded    the same, where the sides of the quadrilaterals grow a hundredfold along both axes
 // The memory bandwidth of the same machine at the same time is measured beside them.
 // Options: those of Google Benchmark, and --threads N. Times are wall times.
+#include "Benchmarks.hpp"
+
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Memory.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
-#include <Kokkos_Core.hpp>
-#include <benchmark/benchmark.h>
-#include <mpi.h>
-
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -121,18 +117,6 @@ void search(benchmark::State& state, Backend backend, Scene (*make)(int))
   state.counters["threads"] = threadCount();
 }
 
-/// a = b + s c: what the memory of the machine gives meanwhile.
-void triad(benchmark::State& state, Backend backend)
-{
-  setBackend(backend);
-  const int n = 1 << 24;
-  const Array<Real> a("a", n), b("b", n), c("c", n);
-  for (auto _ : state)
-    parallelFor(
-        "triad", n, KOKKOS_LAMBDA(const int i) { a(i) = b(i) + 3.0 * c(i); });
-  state.SetBytesProcessed(state.iterations() * 3 * sizeof(Real) * n);
-  state.counters["threads"] = threadCount();
-}
 } // namespace
 } // namespace coplane
 
@@ -140,45 +124,19 @@ int main(int argc, char** argv)
 {
   using namespace coplane;
   keepFreedMemory(); // as the solver does
-  MPI_Init(&argc, &argv);
-  Kokkos::InitArguments arguments;
-  arguments.num_threads = 1;
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], "--threads") == 0)
-    {
-      arguments.num_threads = std::atoi(argv[i + 1]);
-      for (int j = i; j + 2 < argc; ++j)
-        argv[j] = argv[j + 2];
-      argc -= 2;
-      break;
-    }
-  int status = 0;
-  {
-    const Kokkos::ScopeGuard kokkos(arguments);
-    for (const Backend backend : {Backend::Serial, Backend::Threads})
-    {
-      const auto add = [&](const char* what, Scene (*make)(int), std::initializer_list<int> sizes)
+  return runBenchmarks(
+      argc, argv,
+      [](Backend backend)
       {
-        for (const int n : sizes)
-          benchmark::RegisterBenchmark((std::string(what) + "/" + name(backend)).c_str(), search,
-                                       backend, make)
-              ->Arg(n)
-              ->UseRealTime()
-              ->Unit(benchmark::kMillisecond);
-      };
-      benchmark::RegisterBenchmark((std::string("triad/") + name(backend)).c_str(), triad, backend)
-          ->UseRealTime()
-          ->Unit(benchmark::kMillisecond);
-      add("flat", flat, {70, 200, 707});
-      add("huge", huge, {200});
-      add("graded", graded, {200});
-    }
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv))
-      status = 2;
-    else
-      benchmark::RunSpecifiedBenchmarks();
-  }
-  MPI_Finalize();
-  return status;
+        const auto add = [&](const char* what, Scene (*make)(int), std::initializer_list<int> sizes)
+        {
+          for (const int n : sizes)
+            addBenchmark(what, backend,
+                         [make](benchmark::State& state, Backend b) { search(state, b, make); })
+                ->Arg(n);
+        };
+        add("flat", flat, {70, 200, 707});
+        add("huge", huge, {200});
+        add("graded", graded, {200});
+      });
 }

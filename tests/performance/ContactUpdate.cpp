@@ -6,17 +6,13 @@
 //   warped    the same with every node moved in all directions, so that no face is plane
 // The memory bandwidth of the same machine at the same time is measured beside them.
 // Options: those of Google Benchmark, and --threads N. Times are wall times.
+#include "Benchmarks.hpp"
+
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
-#include <Kokkos_Core.hpp>
-#include <benchmark/benchmark.h>
-#include <mpi.h>
-
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
 #include <string>
 #include <vector>
 
@@ -119,62 +115,24 @@ void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
   state.counters["bytes/plane"] = Real(sizeof(Plane) + 2 * sizeof(std::int32_t));
 }
 
-/// Bytes per second of a = b + s c on arrays that no cache holds.
-void bandwidth(benchmark::State& state, Backend backend)
-{
-  setBackend(backend);
-  const int n = 1 << 25;
-  const Array<Real> a("a", n), b("b", n), c("c", n);
-  for (auto _ : state)
-  {
-    parallelFor(
-        "triad", n, KOKKOS_LAMBDA(const int i) { a(i) = b(i) + 3.0 * c(i); });
-    benchmark::DoNotOptimize(a.data());
-  }
-  state.counters["bytes/s"] =
-      benchmark::Counter(24.0 * n, benchmark::Counter::kIsIterationInvariantRate);
-}
 } // namespace
 } // namespace coplane
 
 int main(int argc, char** argv)
 {
-  Kokkos::InitArguments arguments;
-  arguments.num_threads = 1;
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::strcmp(argv[i], "--threads") == 0)
-    {
-      arguments.num_threads = std::atoi(argv[i + 1]);
-      for (int j = i; j + 2 < argc; ++j)
-        argv[j] = argv[j + 2];
-      argc -= 2;
-      break;
-    }
-  MPI_Init(&argc, &argv);
-  const Kokkos::ScopeGuard kokkos(arguments);
-  const auto add = [](const std::string& name, coplane::Real inPlane, coplane::Real across)
-  {
-    for (const auto backend : {coplane::Backend::Serial, coplane::Backend::Threads})
-      benchmark::RegisterBenchmark((name + "/" + coplane::name(backend)).c_str(),
-                                   [=](benchmark::State& state)
-                                   { coplane::update(state, backend, inPlane, across); })
-          ->Arg(200)
-          ->UseRealTime()
-          ->Unit(benchmark::kMillisecond);
-  };
-  add("flat", 0, 0);
-  add("sheared", 0.05, 0);
-  add("warped", 0.05, 0.001);
-  for (const auto backend : {coplane::Backend::Serial, coplane::Backend::Threads})
-    benchmark::RegisterBenchmark((std::string("bandwidth/") + coplane::name(backend)).c_str(),
-                                 [=](benchmark::State& state)
-                                 { coplane::bandwidth(state, backend); })
-        ->UseRealTime()
-        ->Unit(benchmark::kMillisecond);
-  benchmark::Initialize(&argc, argv);
-  if (benchmark::ReportUnrecognizedArguments(argc, argv))
-    return 2;
-  benchmark::RunSpecifiedBenchmarks();
-  MPI_Finalize();
-  return 0;
+  using namespace coplane;
+  return runBenchmarks(argc, argv,
+                       [](Backend backend)
+                       {
+                         const auto add = [backend](const char* scene, Real inPlane, Real across)
+                         {
+                           addBenchmark(scene, backend,
+                                        [=](benchmark::State& state, Backend b)
+                                        { update(state, b, inPlane, across); })
+                               ->Arg(200);
+                         };
+                         add("flat", 0, 0);
+                         add("sheared", 0.05, 0);
+                         add("warped", 0.05, 0.001);
+                       });
 }

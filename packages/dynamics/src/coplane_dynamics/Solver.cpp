@@ -116,40 +116,65 @@ void Solver::search(bool again)
       KOKKOS_LAMBDA(const int n) { set(atSearch, n, at(x, n)); });
 }
 
+namespace
+{
+/// Adds what the elements of a block give to owned nodes: forces, and the least of their steps. The
+/// number of corners is a constant, because this divides by it for every corner.
+template <int corners>
+void gatherBlock(int owned, const Array<int>& start, const Array<int>& entry,
+                 const ElementBlock& block, bool first, const NodeVectors& force,
+                 const Array<Real>& step)
+{
+  const auto cornerForce = block.cornerForce();
+  const auto elementStep = block.stableStep();
+  parallelFor(
+      "coplane::dynamics::gatherForces", owned, KOKKOS_LAMBDA(const int n) {
+        Vec3 sum = first ? Vec3{} : at(force, n);
+        Real least = first ? infinity : step(n);
+        for (int i = start(n); i < start(n + 1); ++i)
+        {
+          const int element = entry(i) / corners, corner = entry(i) % corners;
+          sum += {cornerForce(element, corner, 0), cornerForce(element, corner, 1),
+                  cornerForce(element, corner, 2)};
+          const Real candidate = elementStep(element);
+          least = candidate < least ? candidate : least;
+        }
+        set(force, n, sum);
+        step(n) = least;
+      });
+}
+} // namespace
+
 void Solver::gatherElementForces()
 {
   TimedRegion region("coplane::dynamics::gatherForces");
-  const auto force = state_.force;
-  const auto step = elementStep_;
-  parallelFor(
-      "coplane::dynamics::clearForces", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-        set(force, n, Vec3{});
-        step(n) = infinity;
-      });
+  bool first = true;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
     if (isRigid(b))
       continue;
-    const auto start = gathers_[b].start;
-    const auto entry = gathers_[b].entry;
-    const auto cornerForce = blocks_[b].cornerForce();
-    const auto elementStep = blocks_[b].stableStep();
-    const int corners = topology(blocks_[b].type()).nodes;
-    parallelFor(
-        "coplane::dynamics::gatherForces", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-          Vec3 sum = at(force, n);
-          Real least = step(n);
-          for (int i = start(n); i < start(n + 1); ++i)
-          {
-            const int element = entry(i) / corners, corner = entry(i) % corners;
-            sum += {cornerForce(element, corner, 0), cornerForce(element, corner, 1),
-                    cornerForce(element, corner, 2)};
-            const Real candidate = elementStep(element);
-            least = candidate < least ? candidate : least;
-          }
-          set(force, n, sum);
-          step(n) = least;
-        });
+    const auto run = [&](auto corners)
+    {
+      gatherBlock<corners()>(layout_.owned(), gathers_[b].start, gathers_[b].entry, blocks_[b],
+                             first, state_.force, elementStep_);
+    };
+    switch (topology(blocks_[b].type()).nodes)
+    {
+    case 3:
+      run(std::integral_constant<int, 3>{});
+      break;
+    case 4:
+      run(std::integral_constant<int, 4>{});
+      break;
+    default:
+      run(std::integral_constant<int, 8>{});
+    }
+    first = false;
+  }
+  if (first)
+  {
+    Kokkos::deep_copy(state_.force, 0.0);
+    Kokkos::deep_copy(elementStep_, infinity);
   }
 }
 
@@ -229,33 +254,44 @@ Real Solver::stableStep()
   return std::min(ofNodes, rigid_->stableStep());
 }
 
+namespace
+{
+/// Works of the forces at n over the half step before or after it, node by node.
+struct HalfStepWork
+{
+  ConstNodeVectors force, external, damping, localDamping;
+  Array<Real> externalWork, dampingWork, localDampingWork, totalWork;
+
+  explicit HalfStepWork(const NodalState& state)
+      : force(state.force), external(state.external), damping(state.damping),
+        localDamping(state.localDamping), externalWork(state.externalWork),
+        dampingWork(state.dampingWork), localDampingWork(state.localDampingWork),
+        totalWork(state.totalWork)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION void book(int n, const Vec3& half) const
+  {
+    externalWork(n) += dot(at(external, n), half);
+    dampingWork(n) -= dot(at(damping, n), half);
+    localDampingWork(n) -= dot(at(localDamping, n), half);
+    totalWork(n) +=
+        dot(at(force, n) + at(external, n) + at(damping, n) + at(localDamping, n), half);
+  }
+};
+} // namespace
+
 void Solver::drift(Real dt)
 {
-  bookHalfStep(dt, state_.v);
   const auto x = state_.x;
   const ConstNodeVectors v = state_.v;
+  const HalfStepWork work(state_);
   parallelFor(
-      "coplane::dynamics::drift", layout_.owned(),
-      KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
-  rigid_->drift(dt);
-}
-
-/// Works of the forces at n over the half step before or after it.
-void Solver::bookHalfStep(Real dt, const ConstNodeVectors& v)
-{
-  const ConstNodeVectors force = state_.force, external = state_.external, damping = state_.damping,
-                         localDamping = state_.localDamping;
-  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
-             localDampingWork = state_.localDampingWork, totalWork = state_.totalWork;
-  parallelFor(
-      "coplane::dynamics::bookWork", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-        const Vec3 half = (0.5 * dt) * at(v, n);
-        externalWork(n) += dot(at(external, n), half);
-        dampingWork(n) -= dot(at(damping, n), half);
-        localDampingWork(n) -= dot(at(localDamping, n), half);
-        totalWork(n) +=
-            dot(at(force, n) + at(external, n) + at(damping, n) + at(localDamping, n), half);
+      "coplane::dynamics::drift", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 speed = at(v, n);
+        work.book(n, (0.5 * dt) * speed);
+        set(x, n, at(x, n) + dt * speed);
       });
+  rigid_->drift(dt);
 }
 
 void Solver::applyLocalDamping()
@@ -330,15 +366,17 @@ void Solver::kick(Real step)
 
   const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
   const auto followsBody = followsBody_;
+  const HalfStepWork work(state_);
+  const Real halfStep = 0.5 * clock_.step;
   parallelFor(
-      "coplane::dynamics::bookImpulse", owned, KOKKOS_LAMBDA(const int n) {
+      "coplane::dynamics::bookForces", owned, KOKKOS_LAMBDA(const int n) {
         const Real drag = followsBody(n) ? 0 : -0.5 * alpha * mass(n);
         set(damping, n, drag * (at(vPrevious, n) + at(v, n)));
         const Vec3 outer = at(external, n) + at(damping, n) + at(localDamping, n);
         set(impulse, n, at(impulse, n) + dtKick * outer);
         set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), outer));
+        work.book(n, halfStep * at(vPrevious, n));
       });
-  bookHalfStep(clock_.step, vPrevious);
   rigid_->bookSecondHalf(clock_.step);
 }
 

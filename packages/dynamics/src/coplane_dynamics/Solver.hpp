@@ -113,7 +113,6 @@ private:
   void applyLocalDamping();
   void kick(Real step);
   void drift(Real dt);
-  void bookHalfStep(Real dt, const ConstNodeVectors& v);
   void planNextCycle(bool first);
   bool isRigid(std::size_t block) const { return model_.blocks[block].rigid; }
   void nameWhatLimits(int node, StepControl& control) const;
