@@ -350,6 +350,28 @@ TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
   }
 }
 
+TEST(FacePair_FaceToFace, depthThatGrowsAlongThePlaneWeighsAreaAndCentres)
+{
+  // Both segments are [0, 1]; closure 0.1 + 0.2 s, depth W = 2 + 3 s.
+  //   area = int W = 3.5,  centre of gravity = (2/2 + 3/3) / 3.5
+  //   int c W = 0.75,  int s c W = 0.1 + 0.7/3 + 0.15 = 0.48333...
+  Shadow a, b;
+  a.count = b.count = 2;
+  a.p[0] = b.p[1] = {0, 0};
+  a.p[1] = b.p[0] = {1, 0};
+  a.height[0] = a.height[1] = 0;
+  b.height[1] = -0.1;
+  b.height[0] = -0.3;
+  const Patch patch = stepD_areaOfContact<2>(a, b, 0, AreaInUse::Penetrating,
+                                             ContactOptions::Weights::Pressure, Depth{2, 3});
+  EXPECT_NEAR(patch.area, 3.5, 1e-15);
+  EXPECT_NEAR(patch.overlap, 3.5, 1e-15);
+  EXPECT_NEAR(patch.centroid.x, 2 / 3.5, 1e-15);
+  const Real center = (0.1 + 0.7 / 3 + 0.15) / 0.75;
+  EXPECT_NEAR(patch.weights[0][1], center, 1e-14);
+  EXPECT_NEAR(patch.weights[1][0], center, 1e-14);
+}
+
 TEST(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
 {
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
