@@ -17,9 +17,9 @@ struct ResultsOptions
 {
   std::string file; ///< Exodus file, e.g. wall.e
   OutputTimes when;
-  bool filePerRank = false;           ///< file.N.r, to be joined by `epu -auto`
-  std::vector<std::string> infoLines; ///< kept in the file: command line, deck
-  std::vector<std::string> history;   ///< variables of the blocks' laws that are written besides
+  bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
+  std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
+  std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
 };
 
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
