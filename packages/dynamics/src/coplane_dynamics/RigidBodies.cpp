@@ -184,7 +184,7 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
       if (!rigidBlocks[b])
         for (int k = 0; k < corners; ++k)
           if (nodes[k] < mesh.ownedNodes)
-            others[nodes[k]] += blocks[b].cornerMass(e);
+            others[nodes[k]] += blocks[b].cornerMass(e, k);
       if (!rigidBlocks[b] || !part.owned[e])
         continue;
       // The owner of an element owns its node with the lowest id.

@@ -50,7 +50,7 @@ struct ElementKernel
     const Lanes rho = mass * inverseVolume;
     const Lanes length =
         characteristicLength<dim>(data, revolved ? Shape::areaOf(hoop) : volume, first);
-    Motion motion;
+    Motion motion{};
     MaterialPoint<Lanes> point;
     if (data.dt > 0)
     {
