@@ -505,6 +505,16 @@ TEST(DeckErrors, elementsAndContactThatBodiesOfRevolutionDoNotHave)
             "'axisymmetric'; use simple_common_plane.");
 }
 
+TEST(DeckErrors, rigidBodiesOfRevolution)
+{
+  EXPECT_EQ(errorOf("mesh: wall.e\ngeometry: axisymmetric\n"
+                    "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
+                    "poisson_ratio: 0}}\n"
+                    "blocks: {bar: {material: steel, rigid: true}}\ntime: {end: 1}\n"),
+            "wall.yaml:4:40: blocks.bar.rigid is not offered with geometry = 'axisymmetric'; use a "
+            "stiff material.");
+}
+
 TEST(DeckErrors, hourglassControlBelongsToOnePoint)
 {
   EXPECT_NE(errorOf("mesh: wall.e\n"

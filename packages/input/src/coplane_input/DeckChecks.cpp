@@ -173,11 +173,18 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
                  "use simple_common_plane.");
   if (deck.geometry == "axisymmetric")
     for (const auto& block : deck.blocks)
+    {
       if (block.element != "one_point" && block.element != "nodal_pressure")
         problems.add(nodeAt(root, {"blocks", block.name, "element"}),
                      fmt::format("blocks.{}.element = '{}' is not offered with geometry = "
                                  "'axisymmetric'; use one_point or nodal_pressure.",
                                  block.name, block.element));
+      if (block.rigid)
+        problems.add(nodeAt(root, {"blocks", block.name, "rigid"}),
+                     fmt::format("blocks.{}.rigid is not offered with geometry = 'axisymmetric'; "
+                                 "use a stiff material.",
+                                 block.name));
+    }
   checkErosion(deck, root, problems);
 
   for (std::size_t i = 0; i < deck.initial.size(); ++i)
