@@ -61,7 +61,7 @@ void Dashpots::find(int dimension, const Conditions& conditions, const ConstNode
 }
 
 void Dashpots::kick(Real dt, Real massDamping, const ConstArray<Real>& mass,
-                    const NodeVectors& force, const ConstNodeVectors& vOld,
+                    const std::function<Vec3(int)>& force, const ConstNodeVectors& vOld,
                     const NodeVectors& v) const
 {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
@@ -78,7 +78,7 @@ void Dashpots::kick(Real dt, Real massDamping, const ConstArray<Real>& mass,
                       half * c.xy,
                       half * c.yz,
                       half * c.zx};
-    set(v, n, solved(a, kept * old - half * dot(c, old) + dt * at(force, n)));
+    set(v, n, solved(a, kept * old - half * dot(c, old) + dt * force(n)));
   }
 }
 

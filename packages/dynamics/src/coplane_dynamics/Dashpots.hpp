@@ -4,6 +4,7 @@
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/Conditions.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace coplane
@@ -29,9 +30,10 @@ public:
   ///
   ///     m (v - vOld) / dt = force - (C + alpha m) (v + vOld) / 2
   ///
-  /// @param force all other forces of every owned node but mass damping [N]
-  void kick(Real dt, Real massDamping, const ConstArray<Real>& mass, const NodeVectors& force,
-            const ConstNodeVectors& vOld, const NodeVectors& v) const;
+  /// @param force all other forces of an owned node but mass damping [N]
+  void kick(Real dt, Real massDamping, const ConstArray<Real>& mass,
+            const std::function<Vec3(int)>& force, const ConstNodeVectors& vOld,
+            const NodeVectors& v) const;
 
   /// Adds -C (v + vOld)/2 to the external forces: once velocities are final.
   void book(const ConstNodeVectors& vOld, const ConstNodeVectors& v,

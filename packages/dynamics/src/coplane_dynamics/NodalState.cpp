@@ -7,10 +7,9 @@ NodalState::NodalState(const RankMesh& mesh)
       reference("reference", mesh.ownedNodes), vPrevious("vPrevious", mesh.ownedNodes),
       force("force", mesh.ownedNodes), contactForce("contactForce", mesh.ownedNodes),
       external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
-      localDamping("localDamping", mesh.ownedNodes), given("given", mesh.ownedNodes),
-      impulse("impulse", mesh.ownedNodes), angularImpulse("angularImpulse", mesh.ownedNodes),
-      atSearch("atSearch", mesh.ownedNodes), externalWork("externalWork", mesh.ownedNodes),
-      dampingWork("dampingWork", mesh.ownedNodes),
+      localDamping("localDamping", mesh.ownedNodes), impulse("impulse", mesh.ownedNodes),
+      angularImpulse("angularImpulse", mesh.ownedNodes), atSearch("atSearch", mesh.ownedNodes),
+      externalWork("externalWork", mesh.ownedNodes), dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes), totalWork("totalWork", mesh.ownedNodes)
 {
   for (int n = 0; n < mesh.nodes(); ++n)

@@ -336,7 +336,7 @@ void RigidBodies::start(NodalState& state)
 }
 
 void RigidBodies::sumForces(const NodalState& state, const Array<Real>& contactStiffness,
-                            const Array<Real>& elementStep)
+                            const std::function<Real(int)>& elementStep)
 {
   if (empty())
     return;

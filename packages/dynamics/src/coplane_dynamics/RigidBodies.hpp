@@ -8,6 +8,7 @@
 #include <coplane_mesh/Mesh.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace coplane
@@ -78,7 +79,7 @@ public:
   /// Sums forces, torques and what limits the step, from forces and loads of nodes at n.
   /// Collective.
   void sumForces(const NodalState& state, const Array<Real>& contactStiffness,
-                 const Array<Real>& elementStep);
+                 const std::function<Real(int)>& elementStep);
   /// Largest stable step of the bodies, from the last sums [s]; 0 when a force is not finite.
   Real stableStep() const;
   /// Lowest id of a node of the body with the least stable step. Collective.

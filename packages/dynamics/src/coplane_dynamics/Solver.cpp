@@ -19,7 +19,6 @@ Solver::Solver(Model model, const Comm& comm)
 {
   const RankMesh& mesh = model_.mesh;
   const int owned = mesh.ownedNodes;
-  elementStep_ = Array<Real>("coplane::dynamics::elementStep", owned);
   contactStiffness_ = Array<Real>("coplane::dynamics::contactStiffness", owned);
 
   for (int b = 0; b < int(mesh.blocks.size()); ++b)
@@ -118,29 +117,21 @@ void Solver::search(bool again)
 
 namespace
 {
-/// Adds what the elements of a block give to owned nodes: forces, and the least of their steps. The
-/// number of corners is a constant, because this divides by it for every corner.
-template <int corners>
+/// Adds the forces of the elements of a block to owned nodes.
 void gatherBlock(int owned, const Array<int>& start, const Array<int>& entry,
-                 const ElementBlock& block, bool first, const NodeVectors& force,
-                 const Array<Real>& step)
+                 const ElementBlock& block, bool first, const NodeVectors& force)
 {
-  const auto cornerForce = block.cornerForce();
-  const auto elementStep = block.stableStep();
+  // Corners of all elements one after another, as the entries count them.
+  const Real* const cornerForce = block.cornerForce().data();
   parallelFor(
       "coplane::dynamics::gatherForces", owned, KOKKOS_LAMBDA(const int n) {
         Vec3 sum = first ? Vec3{} : at(force, n);
-        Real least = first ? infinity : step(n);
         for (int i = start(n); i < start(n + 1); ++i)
         {
-          const int element = entry(i) / corners, corner = entry(i) % corners;
-          sum += {cornerForce(element, corner, 0), cornerForce(element, corner, 1),
-                  cornerForce(element, corner, 2)};
-          const Real candidate = elementStep(element);
-          least = candidate < least ? candidate : least;
+          const Real* const f = cornerForce + 3 * std::size_t(entry(i));
+          sum += {f[0], f[1], f[2]};
         }
         set(force, n, sum);
-        step(n) = least;
       });
 }
 } // namespace
@@ -153,29 +144,12 @@ void Solver::gatherElementForces()
   {
     if (isRigid(b))
       continue;
-    const auto run = [&](auto corners)
-    {
-      gatherBlock<corners()>(layout_.owned(), gathers_[b].start, gathers_[b].entry, blocks_[b],
-                             first, state_.force, elementStep_);
-    };
-    switch (topology(blocks_[b].type()).nodes)
-    {
-    case 3:
-      run(std::integral_constant<int, 3>{});
-      break;
-    case 4:
-      run(std::integral_constant<int, 4>{});
-      break;
-    default:
-      run(std::integral_constant<int, 8>{});
-    }
+    gatherBlock(layout_.owned(), gathers_[b].start, gathers_[b].entry, blocks_[b], first,
+                state_.force);
     first = false;
   }
   if (first)
-  {
     Kokkos::deep_copy(state_.force, 0.0);
-    Kokkos::deep_copy(elementStep_, infinity);
-  }
 }
 
 /// Dilatation of the step at every node from the elements of one block around it; empty where the
@@ -236,61 +210,13 @@ void Solver::findForces(Real dt)
   }
 }
 
-Real Solver::stableStep()
-{
-  const auto elementStep = elementStep_;
-  const auto stiffness = contactStiffness_;
-  const auto mass = state_.mass;
-  const auto followsBody = followsBody_;
-  const Real ofNodes = parallelMin(
-      "coplane::dynamics::stableStep", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-        if (!(mass(n) > 0) || followsBody(n))
-          return infinity; // a node without elements, or of a rigid body
-        const Real omega = 2 / elementStep(n);
-        const Real squared = omega * omega + stiffness(n) / mass(n);
-        // Not a number: a force or stiffness is broken; planNextCycle() stops the run.
-        return squared > 0 ? 2 / std::sqrt(squared) : squared == 0 ? infinity : 0;
-      });
-  return std::min(ofNodes, rigid_->stableStep());
-}
-
-namespace
-{
-/// Works of the forces at n over the half step before or after it, node by node.
-struct HalfStepWork
-{
-  ConstNodeVectors force, external, damping, localDamping;
-  Array<Real> externalWork, dampingWork, localDampingWork, totalWork;
-
-  explicit HalfStepWork(const NodalState& state)
-      : force(state.force), external(state.external), damping(state.damping),
-        localDamping(state.localDamping), externalWork(state.externalWork),
-        dampingWork(state.dampingWork), localDampingWork(state.localDampingWork),
-        totalWork(state.totalWork)
-  {
-  }
-  KOKKOS_INLINE_FUNCTION void book(int n, const Vec3& half) const
-  {
-    externalWork(n) += dot(at(external, n), half);
-    dampingWork(n) -= dot(at(damping, n), half);
-    localDampingWork(n) -= dot(at(localDamping, n), half);
-    totalWork(n) +=
-        dot(at(force, n) + at(external, n) + at(damping, n) + at(localDamping, n), half);
-  }
-};
-} // namespace
-
 void Solver::drift(Real dt)
 {
   const auto x = state_.x;
   const ConstNodeVectors v = state_.v;
-  const HalfStepWork work(state_);
   parallelFor(
-      "coplane::dynamics::drift", layout_.owned(), KOKKOS_LAMBDA(const int n) {
-        const Vec3 speed = at(v, n);
-        work.book(n, (0.5 * dt) * speed);
-        set(x, n, at(x, n) + dt * speed);
-      });
+      "coplane::dynamics::drift", layout_.owned(),
+      KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
   rigid_->drift(dt);
 }
 
@@ -300,9 +226,12 @@ void Solver::applyLocalDamping()
   const NodeVectors damping = state_.localDamping;
   if (fraction == 0)
   {
-    Kokkos::deep_copy(damping, 0.0);
+    if (localDampingActs_)
+      Kokkos::deep_copy(damping, 0.0);
+    localDampingActs_ = false;
     return;
   }
+  localDampingActs_ = true;
   const ConstNodeVectors force = state_.force, external = state_.external, v = state_.v;
   parallelFor(
       "coplane::dynamics::unbalancedForces", layout_.owned(),
@@ -332,15 +261,20 @@ void Solver::kick(Real step)
   const Real alpha = conditions.massDampingAt(clock_.time);
   const Real half = 0.5 * dtKick * alpha;
   const NodeVectors v = state_.v, vPrevious = state_.vPrevious, external = state_.external,
-                    damping = state_.damping, given = state_.given;
+                    damping = state_.damping;
   const ConstNodeVectors force = state_.force, localDamping = state_.localDamping, x = state_.x;
   const ConstArray<Real> mass = state_.mass;
+  const bool locally = localDampingActs_;
+  const auto given = [=](int n) // all forces at n that do not depend on v(n+1/2)
+  {
+    const Vec3 sum = at(force, n) + at(external, n);
+    return locally ? sum + at(localDamping, n) : sum;
+  };
   parallelFor(
       "coplane::dynamics::kickVelocities", owned, KOKKOS_LAMBDA(const int n) {
-        const Vec3 total = at(force, n) + at(external, n) + at(localDamping, n);
+        const Vec3 total = given(n);
         const Vec3 old = at(v, n);
         set(vPrevious, n, old);
-        set(given, n, total);
         if (mass(n) > 0)
           set(v, n, (1 / (1 + half)) * ((1 - half) * old + (dtKick / mass(n)) * total));
       });
@@ -366,16 +300,40 @@ void Solver::kick(Real step)
 
   const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
   const auto followsBody = followsBody_;
-  const HalfStepWork work(state_);
-  const Real halfStep = 0.5 * clock_.step;
+  const auto externalWork = state_.externalWork, dampingWork = state_.dampingWork,
+             localDampingWork = state_.localDampingWork, totalWork = state_.totalWork;
+  const Real before = 0.5 * clock_.step, after = 0.5 * step;
+  if (alpha == 0 && massDampingActs_)
+    Kokkos::deep_copy(damping, 0.0);
+  massDampingActs_ = alpha > 0;
+  const bool massive = massDampingActs_;
+  const auto acts = [](const Vec3& f) { return f.x != 0 || f.y != 0 || f.z != 0; };
+  // This pass is bound by memory: it leaves alone what does not change.
   parallelFor(
       "coplane::dynamics::bookForces", owned, KOKKOS_LAMBDA(const int n) {
-        const Real drag = followsBody(n) ? 0 : -0.5 * alpha * mass(n);
-        set(damping, n, drag * (at(vPrevious, n) + at(v, n)));
-        const Vec3 outer = at(external, n) + at(damping, n) + at(localDamping, n);
-        set(impulse, n, at(impulse, n) + dtKick * outer);
-        set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), outer));
-        work.book(n, halfStep * at(vPrevious, n));
+        const Vec3 path = before * at(vPrevious, n) + after * at(v, n);
+        Vec3 outer = at(external, n);
+        if (acts(outer))
+          externalWork(n) += dot(outer, path);
+        if (massive)
+        {
+          const Real drag = followsBody(n) ? 0 : -0.5 * alpha * mass(n);
+          const Vec3 dragged = drag * (at(vPrevious, n) + at(v, n));
+          set(damping, n, dragged);
+          dampingWork(n) -= dot(dragged, path);
+          outer += dragged;
+        }
+        if (locally)
+        {
+          localDampingWork(n) -= dot(at(localDamping, n), path);
+          outer += at(localDamping, n);
+        }
+        if (acts(outer))
+        {
+          set(impulse, n, at(impulse, n) + dtKick * outer);
+          set(angularImpulse, n, at(angularImpulse, n) + dtKick * cross(at(x, n), outer));
+        }
+        totalWork(n) += dot(at(force, n) + outer, path);
       });
   rigid_->bookSecondHalf(clock_.step);
 }
@@ -383,17 +341,13 @@ void Solver::kick(Real step)
 void Solver::planNextCycle(bool first)
 {
   model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
-  rigid_->sumForces(state_, contactStiffness_, elementStep_);
+  rigid_->sumForces(state_, contactStiffness_, [this](int n) { return leastElementStep(n); });
   // One reduction decides everything that must not differ between ranks.
-  const Real stable = stableStep();
-  int broken = -1;
-  for (std::size_t b = 0; b < blocks_.size() && broken < 0; ++b)
-    broken = !isRigid(b) && blocks_[b].invertedElement() >= 0 ? int(b) : -1;
-  std::vector<Real> extremes{-stable, Real(broken >= 0 || !(stable > 0)), Real(int(takeRequest()))};
+  std::vector<Real> extremes{-stableStep(), Real(int(takeRequest()))};
   comm_->max(extremes);
-  failed_ = extremes[1] > 0;
-  resultsRequested_ = extremes[2] == Real(int(Request::WriteResults));
-  stopRequested_ = extremes[2] == Real(int(Request::Stop));
+  failed_ = !(extremes[0] < 0);
+  resultsRequested_ = extremes[1] == Real(int(Request::WriteResults));
+  stopRequested_ = extremes[1] == Real(int(Request::Stop));
   if (failed_)
     return;
 

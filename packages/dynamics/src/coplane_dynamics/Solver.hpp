@@ -108,7 +108,11 @@ private:
   void kill(int block, int element, Real dt);
   /// Whether all elements of an owned node have died.
   bool isFree(int node) const { return erodes_ && livingElements_[node] == 0; }
-  Real stableStep();
+  /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
+  /// inside out, or a force or stiffness is no number.
+  Real stableStep() const;
+  Real leastElementStep(int node) const; ///< of the elements around an owned node [s]
+  Real nodeStep(int node) const;         ///< of elements and contacts there [s]
   void setInitialStress(int block);
   void applyLocalDamping();
   void kick(Real step);
@@ -130,8 +134,8 @@ private:
   std::vector<ElementBlock> blocks_;
   std::vector<Gather> gathers_;
   std::unique_ptr<Contact> contact_;
-  Array<Real> elementStep_, contactStiffness_; ///< per owned node
-  Array<Real> dilatation_;                     ///< of the step, per node of the layout
+  Array<Real> contactStiffness_; ///< per owned node [N/m]
+  Array<Real> dilatation_;       ///< of the step, per node of the layout
   std::vector<int> constrained_;
   std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;
@@ -157,6 +161,7 @@ private:
     Real error = 0, remainder = 0, tooDeep = 0;
   };
   Warned warned_;
+  bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero
   bool searchIsDue_ = false;
   bool failed_ = false;
   bool stopRequested_ = false;

@@ -26,10 +26,14 @@ EnergyBalance Solver::energy() const
   {
     if (!followsBody_(n))
       sums[Kinetic].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
-    sums[Damping].add(state_.dampingWork(n));
-    sums[LocalDamping].add(state_.localDampingWork(n));
-    sums[External].add(state_.externalWork(n));
-    sums[Nodal].add(state_.totalWork(n));
+    const Vec3 ahead = (0.5 * clock_.nextStep) * at(state_.v, n);
+    const Vec3 external = at(state_.external, n), damping = at(state_.damping, n),
+               localDamping = at(state_.localDamping, n);
+    sums[Damping].add(state_.dampingWork(n) + dot(damping, ahead));
+    sums[LocalDamping].add(state_.localDampingWork(n) + dot(localDamping, ahead));
+    sums[External].add(state_.externalWork(n) - dot(external, ahead));
+    sums[Nodal].add(state_.totalWork(n) -
+                    dot(at(state_.force, n) + external + damping + localDamping, ahead));
   }
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     for (int e = 0; e < blocks_[b].count(); ++e)

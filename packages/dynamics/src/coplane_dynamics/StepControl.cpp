@@ -2,6 +2,7 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,6 +18,51 @@ std::string StepControl::text() const
                      faceName(faceId[1]));
 }
 
+Real Solver::leastElementStep(int node) const
+{
+  Real least = infinity;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    if (isRigid(b))
+      continue;
+    const int corners = topology(blocks_[b].type()).nodes;
+    for (int i = gathers_[b].start(node); i < gathers_[b].start(node + 1); ++i)
+      least = std::min(least, blocks_[b].stableStep()(gathers_[b].entry(i) / corners));
+  }
+  return least;
+}
+
+Real Solver::nodeStep(int node) const
+{
+  const Real stiffness = contactStiffness_(node), elements = leastElementStep(node);
+  if (stiffness == 0)
+    return elements;
+  const Real omega = 2 / elements;
+  const Real squared = omega * omega + stiffness / state_.mass(node);
+  return squared > 0 ? 2 / std::sqrt(squared) : 0;
+}
+
+Real Solver::stableStep() const
+{
+  Real least = rigid_->stableStep();
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!isRigid(b))
+      least = std::min(least, blocks_[b].smallestStableStep());
+  if (!contact_)
+    return least;
+  const auto stiffness = contactStiffness_;
+  const auto mass = state_.mass;
+  const auto followsBody = followsBody_;
+  const Solver* const solver = this;
+  const Real atContacts = parallelMin(
+      "coplane::dynamics::stableStep", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        if (stiffness(n) == 0 || !(mass(n) > 0) || followsBody(n))
+          return infinity;
+        return solver->nodeStep(n);
+      });
+  return std::min(least, atContacts);
+}
+
 StepControl Solver::stepControl() const
 {
   StepControl control;
@@ -25,8 +71,7 @@ StepControl Solver::stepControl() const
   {
     if (!(state_.mass(n) > 0) || followsBody_(n))
       continue;
-    const Real omega = 2 / elementStep_(n);
-    const Real step = 2 / std::sqrt(omega * omega + contactStiffness_(n) / state_.mass(n));
+    const Real step = nodeStep(n);
     if (step < control.stableStep ||
         (step == control.stableStep && layout_.ids()[n] < layout_.ids()[node]))
     {
@@ -48,7 +93,7 @@ StepControl Solver::stepControl() const
   bool contact = false;
   if (mine && layout_.ids()[node] == control.node)
   {
-    const Real omega = 2 / elementStep_(node);
+    const Real omega = 2 / leastElementStep(node);
     contact = contactStiffness_(node) / state_.mass(node) > omega * omega;
   }
   control.contact = comm_->max(std::int64_t(contact)) > 0;
