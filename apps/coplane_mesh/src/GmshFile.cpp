@@ -287,6 +287,9 @@ private:
       const int nodes = nodesOfGmshType(type);
       if (nodes == 0)
         refuseType(type, dimension, tag);
+      if (const int own = type == 15 ? 0 : type == 1 ? 1 : type <= 3 ? 2 : 3; own != dimension)
+        tokens_.refuse(fmt::format("elements of Gmsh's type {} have dimension {}, their entity {}",
+                                   type, own, dimension));
       for (GlobalId i = 0; i < count; ++i)
       {
         GmshFile::Element element{

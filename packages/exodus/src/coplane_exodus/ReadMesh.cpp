@@ -1,14 +1,20 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
+#include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 
 #include <exodusII.h>
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cmath>
+#include <condition_variable>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
+#include <thread>
 #include <unordered_map>
 
 namespace coplane
@@ -40,6 +46,43 @@ bool looksLikeNetcdf(std::ifstream& file)
   return std::string(magic, 3) == "CDF" || std::string(magic, 4) == "\x89HDF";
 }
 
+/// Ends the program with a message when it lives for longer than a minute. The HDF5 library (1.10)
+/// never comes back from some damaged files: nothing else can be done about it.
+class OpeningDeadline
+{
+public:
+  explicit OpeningDeadline(const std::string& file)
+      : timer_(
+            [this, file]
+            {
+              std::unique_lock<std::mutex> lock(mutex_);
+              if (ended_.wait_for(lock, std::chrono::minutes(1), [this] { return isOver_; }))
+                return;
+              fmt::print(stderr,
+                         "ERROR: {}: opening the file takes more than a minute. It is damaged, or "
+                         "the disk does not answer; write the mesh again.\n",
+                         file);
+              std::_Exit(int(ExitCode::Mesh));
+            })
+  {
+  }
+  ~OpeningDeadline()
+  {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      isOver_ = true;
+    }
+    ended_.notify_one();
+    timer_.join();
+  }
+
+private:
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool isOver_ = false;
+  std::thread timer_; // last: it uses the others
+};
+
 /// One open Exodus file and the steps of reading it.
 class Reader
 {
@@ -48,7 +91,10 @@ public:
   {
     int memoryWord = 8, fileWord = 0;
     float version = 0;
-    exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
+    {
+      const OpeningDeadline deadline(file);
+      exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
+    }
     if (exoid_ < 0)
       refuse(file);
     ex_set_max_name_length(
@@ -382,7 +428,7 @@ Mesh readMesh(const std::string& file)
   if (!probe)
     fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",
          file);
-  if (!looksLikeNetcdf(probe))
+  if (!looksLikeNetcdf(probe) || !classicHeaderFitsFile(file))
     refuse(file);
   probe.close();
   return Reader(file).read();
