@@ -1,5 +1,6 @@
 #include "BuildModel.hpp"
 #include "Observers.hpp"
+#include "PartitionPlan.hpp"
 #include "Report.hpp"
 #include "SofteningReport.hpp"
 
@@ -13,7 +14,6 @@
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/DeckReference.hpp>
-#include <coplane_partition/Partition.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -114,8 +114,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
-  const std::vector<int> owners = nodeOwners(mesh, comm, deck.partitionMethod);
-  Solver solver(buildModel(deck, mesh, distribute(mesh, owners, comm.rank())), comm);
+  Solver solver(buildModel(deck, mesh, partOf(mesh, deck, comm)), comm);
   solver.prepare();
   reportModel(solver, mesh);
   reportSoftening(deck, mesh, solver, comm);

@@ -126,7 +126,7 @@ std::string show(const Deck& d)
 {
   std::string out;
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
-          d.localDamping, d.dampingUntil, d.partitionMethod, d.geometry);
+          d.localDamping, d.dampingUntil, d.partitionMethod, d.partitionBalance, d.geometry);
   for (const auto& m : d.materials)
     showAll(out, m.name, m.set, m.model, m.density, m.youngsModulus, m.poissonRatio, m.shearModulus,
             m.yieldStress, m.hardeningModulus, m.plasticStrains, m.yieldStresses,

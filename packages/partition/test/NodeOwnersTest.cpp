@@ -6,6 +6,7 @@
 #include <BoxMesh.hpp>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace coplane
 {
@@ -111,6 +112,68 @@ TEST_P(NodeOwners, ofNoNodesAreNone)
   EXPECT_TRUE(nodeOwners(Mesh{}, comm, GetParam()).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, NodeOwners, testing::Values("multijagged", "rcb"),
+TEST_P(NodeOwners, balanceCostsRatherThanNodes)
+{
+  // A quarter of the box costs nine times as much per element: 9 / 4 + 3 / 4 = 3 times as much as
+  // all would, three quarters of it there.
+  const Comm comm;
+  Mesh mesh = unitBox(12, 12, 12);
+  Mesh::Block& all = mesh.blocks[0];
+  Mesh::Block dear{2, "dear", all.type, {}, {}, {}}, cheap{1, "cheap", all.type, {}, {}, {}};
+  for (int e = 0; e < all.elements(); ++e)
+  {
+    const Vec3 corner = mesh.coordinates[all.connectivity[8 * e]];
+    Mesh::Block& block = corner.x < 3 ? dear : cheap;
+    block.elementIds.push_back(all.elementIds[e]);
+    block.connectivity.insert(block.connectivity.end(), &all.connectivity[8 * e],
+                              &all.connectivity[8 * e] + 8);
+  }
+  ASSERT_EQ(3 * dear.elements(), cheap.elements());
+  mesh.blocks = {cheap, dear};
+  const std::vector<Real> costs = nodeCosts(mesh, {{1, 9}, 0});
+  const Real total = std::accumulate(costs.begin(), costs.end(), Real(0));
+  EXPECT_NEAR(total, 12 * 12 * (9 + 3 * 9), 1e-9 * total);
+  const PartitionQuality even =
+      qualityOf(mesh, nodeOwners(mesh, comm, GetParam(), costs), comm.size(), costs);
+  EXPECT_LT(even.imbalance, 1.2);
+  EXPECT_EQ(std::accumulate(even.owned.begin(), even.owned.end(), 0), mesh.nodes());
+  if (comm.size() > 1)
+  {
+    const PartitionQuality uneven =
+        qualityOf(mesh, nodeOwners(mesh, comm, GetParam()), comm.size(), costs);
+    EXPECT_GT(uneven.imbalance, even.imbalance);
+  }
+}
+
+TEST(PartitionCosts, countExteriorFacesOnce)
+{
+  // A box of 2 x 2 x 2 cells has 24 faces outside.
+  const Mesh mesh = unitBox(2, 2, 2);
+  const std::vector<Real> costs = nodeCosts(mesh, {{0}, 4});
+  EXPECT_EQ(std::accumulate(costs.begin(), costs.end(), Real(0)), 24 * 4);
+  for (int n = 0; n < mesh.nodes(); ++n)
+  {
+    const Vec3& x = mesh.coordinates[n];
+    const bool inside = x.x == 1 && x.y == 1 && x.z == 1;
+    EXPECT_EQ(costs[n] == 0, inside) << "node " << n;
+  }
+}
+
+TEST(PartitionQuality, countsWhatRanksNeedOfEachOther)
+{
+  // Two cells side by side; the nodes of one end belong to rank 1, the others to rank 0.
+  const Mesh mesh = unitBox(2, 1, 1);
+  std::vector<int> owners(mesh.nodes());
+  for (int n = 0; n < mesh.nodes(); ++n)
+    owners[n] = mesh.coordinates[n].x > 1.5;
+  const PartitionQuality quality = qualityOf(mesh, owners, 2, {});
+  EXPECT_EQ(quality.cutElements, 1);
+  EXPECT_EQ(quality.owned, (std::vector<int>{8, 4}));
+  EXPECT_EQ(quality.neighbors, (std::vector<int>{4, 4}));
+  EXPECT_NEAR(quality.imbalance, 8.0 / 6, 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, NodeOwners,
+                         testing::Values("multijagged", "rcb", "rib", "hsfc", "hypergraph"),
                          [](const auto& info) { return std::string(info.param); });
 } // namespace coplane

@@ -56,4 +56,5 @@ for ranks, threads, backend in product if full else covering:
         continue
     compare(f"{ranks}x{threads}_{backend}", ranks, threads, backend)
 compare("rcb", 7 if dimension == "tiny" else 3, 1, "serial", partition={"method": "rcb"})
+compare("hypergraph", 2, 1, "serial", partition={"method": "hypergraph", "balance": "nodes"})
 case.finish()

@@ -294,6 +294,7 @@ struct Deck
   TimeCard time;
   OutputCard output;
   HistoryCard history;
-  std::string partitionMethod = "multijagged"; ///< multijagged | rcb
+  std::string partitionMethod = "multijagged"; ///< multijagged | rcb | rib | hsfc | hypergraph
+  std::string partitionBalance = "cost";       ///< cost | nodes
 };
 } // namespace coplane

@@ -472,9 +472,14 @@ Key makeSchema()
               section("partition",
                       {
                           text("method", &Deck::partitionMethod)
-                              .oneOf({"multijagged", "rcb"})
+                              .oneOf({"multijagged", "rcb", "rib", "hsfc", "hypergraph"})
                               .like("rcb")
                               .means("method of Zoltan2"),
+                          text("balance", &Deck::partitionBalance)
+                              .oneOf({"cost", "nodes"})
+                              .like("nodes")
+                              .means("what every rank gets as much of: estimated cost of elements, "
+                                     "laws and contact, or nodes"),
                       })
                   .means("how elements are dealt out to ranks; the results do not depend on it"),
           });

@@ -1,0 +1,71 @@
+#include "PartitionPlan.hpp"
+
+#include <coplane_core/Log.hpp>
+#include <coplane_partition/Partition.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace coplane
+{
+namespace
+{
+/// What a cycle costs, in units of a hexahedron with one point and an elastic law. Measured with
+/// coplane_bench_elements and on the bar that strikes a wall (docs/developer/backends.md); only how
+/// even the ranks are depends on it.
+PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
+{
+  static const std::map<ElementType, Real> ofType{{ElementType::Hex8, 1},
+                                                  {ElementType::Tet4, 0.4},
+                                                  {ElementType::Quad4, 0.33},
+                                                  {ElementType::Tri3, 0.23}};
+  static const std::map<std::string, Real> ofForm{{"one_point", 1},
+                                                  {"assumed_strain", 1.25},
+                                                  {"nodal_pressure", 1.25},
+                                                  {"full_integration", 3.2},
+                                                  {"full_integration_plain", 3.2}};
+  static const std::map<std::string, Real> ofLaw{{"pseudo_cap", 3}, {"hjc", 2}};
+  PartitionCosts costs;
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    Real cost = ofType.at(block.type);
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& c) { return c.name == block.name; });
+    if (card != deck.blocks.end())
+    {
+      const auto material =
+          std::find_if(deck.materials.begin(), deck.materials.end(),
+                       [&](const MaterialCard& m) { return m.name == card->material; });
+      if (material != deck.materials.end())
+        if (const auto law = ofLaw.find(material->model); law != ofLaw.end())
+          cost *= law->second;
+      cost *= card->rigid ? 0.02 : ofForm.at(card->element);
+    }
+    costs.ofElement.push_back(cost);
+  }
+  costs.ofFace = deck.contact.enabled ? (mesh.dimension == 3 ? 4 : 0.6) : 0;
+  return costs;
+}
+} // namespace
+
+RankMesh partOf(const Mesh& mesh, const Deck& deck, const Comm& comm)
+{
+  if (comm.size() == 1)
+    return distribute(mesh, std::vector<int>(mesh.nodes(), 0), 0);
+  const std::vector<Real> costs = nodeCosts(mesh, costsOf(mesh, deck));
+  const std::vector<int> owners =
+      nodeOwners(mesh, comm, deck.partitionMethod,
+                 deck.partitionBalance == "cost" ? costs : std::vector<Real>{});
+  if (comm.isRoot())
+  {
+    const PartitionQuality quality = qualityOf(mesh, owners, comm.size(), costs);
+    const auto [fewest, most] = std::minmax_element(quality.owned.begin(), quality.owned.end());
+    logInfo("partition by {}: the dearest rank has {:.3f} times the mean cost; {} to {} nodes a "
+            "rank, and up to {} of others; {} of {} elements on several ranks",
+            deck.partitionMethod, quality.imbalance, *fewest, *most,
+            *std::max_element(quality.neighbors.begin(), quality.neighbors.end()),
+            quality.cutElements, mesh.elements());
+  }
+  return distribute(mesh, owners, comm.rank());
+}
+} // namespace coplane

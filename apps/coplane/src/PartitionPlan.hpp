@@ -1,0 +1,13 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_input/Deck.hpp>
+#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+namespace coplane
+{
+/// This rank's part of the mesh, by the method and the costs of the deck; logs how even it is.
+/// Collective.
+RankMesh partOf(const Mesh& mesh, const Deck& deck, const Comm& comm);
+} // namespace coplane
