@@ -1,6 +1,7 @@
 #include "SampleMeshes.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_exodus/MeshParts.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
 
@@ -245,6 +246,119 @@ TEST(MeshFile, twoBlocksOfOneNameAreRefused)
   mesh.blocks[1].name = "wall";
   EXPECT_TRUE(contains(readError(mesh, "names.e"),
                        "element blocks 5 and 3 are both named 'wall'; names must be unique"));
+}
+
+namespace
+{
+/// Every part gets the elements whose number modulo `parts` is its own, and their nodes; blocks
+/// stay everywhere.
+void writeParts(const Mesh& mesh, const std::string& file, int parts)
+{
+  for (int p = 0; p < parts; ++p)
+  {
+    Mesh part;
+    part.title = mesh.title;
+    part.dimension = mesh.dimension;
+    part.qaRecords = mesh.qaRecords;
+    std::vector<int> here(mesh.nodes(), -1), elementHere;
+    const auto local = [&](int node)
+    {
+      if (here[node] < 0)
+      {
+        here[node] = part.nodes();
+        part.nodeIds.push_back(mesh.nodeIds[node]);
+        part.coordinates.push_back(mesh.coordinates[node]);
+      }
+      return here[node];
+    };
+    int index = 0, kept = 0;
+    for (const Mesh::Block& block : mesh.blocks)
+    {
+      Mesh::Block mine{block.id, block.name, block.type, {}, {}, {}};
+      const int corners = topology(block.type).nodes;
+      for (int e = block.elements() - 1; e >= 0; --e) // not in the order of ids
+      {
+        if ((index + e) % parts != p)
+          continue;
+        mine.elementIds.push_back(block.elementIds[e]);
+        mine.bodyIds.push_back(block.bodyIds[e]);
+        for (int k = 0; k < corners; ++k)
+          mine.connectivity.push_back(local(block.connectivity[e * corners + k]));
+      }
+      elementHere.resize(index + block.elements(), -1);
+      for (int e = block.elements() - 1; e >= 0; --e)
+        if ((index + e) % parts == p)
+          elementHere[index + e] = kept++;
+      index += block.elements();
+      part.blocks.push_back(mine);
+    }
+    for (const Mesh::NodeSet& set : mesh.nodeSets)
+    {
+      part.nodeSets.push_back({set.id, set.name, {}});
+      for (const int node : set.nodes)
+        if (here[node] >= 0)
+          part.nodeSets.back().nodes.push_back(here[node]);
+    }
+    for (const Mesh::SideSet& set : mesh.sideSets)
+    {
+      part.sideSets.push_back({set.id, set.name, {}, {}});
+      for (std::size_t i = 0; i < set.elements.size(); ++i)
+        if (elementHere[set.elements[i]] >= 0)
+        {
+          part.sideSets.back().elements.push_back(elementHere[set.elements[i]]);
+          part.sideSets.back().sides.push_back(set.sides[i]);
+        }
+    }
+    writeMesh(part, fmt::format("{}.{}.{}", file, parts, p));
+  }
+}
+
+/// The mesh with nodes, and elements within blocks, in the order of their ids.
+Mesh inOrderOfIds(const Mesh& mesh)
+{
+  std::vector<GlobalId> blocks;
+  for (const Mesh::Block& block : mesh.blocks)
+    blocks.push_back(block.id);
+  return mergedParts({mesh}, blocks, "order");
+}
+} // namespace
+
+TEST(MeshFile, partsForSeveralRanksAreOneMesh)
+{
+  for (const Mesh& mesh : {sampleMesh2d(), sampleMesh3d()})
+    for (const int parts : {2, 3, 5}) // with 5 some are empty
+    {
+      const std::string file = ownFile("split.e");
+      writeParts(mesh, file, parts);
+      expectSame(readMesh(file), inOrderOfIds(mesh));
+      std::filesystem::remove(fmt::format("{}.{}.1", file, parts));
+      try
+      {
+        readMesh(file);
+        ADD_FAILURE() << "a missing part is not missed";
+      }
+      catch (const Error& error)
+      {
+        EXPECT_NE(std::string(error.what()).find(fmt::format("part 1 of the {} parts", parts)),
+                  std::string::npos)
+            << error.what();
+      }
+      for (int p = 0; p < parts; ++p)
+        std::filesystem::remove(fmt::format("{}.{}.{}", file, parts, p));
+    }
+}
+
+TEST(MeshFile, partsOfTwoMeshesAreRefused)
+{
+  const std::string file = ownFile("mixed.e");
+  Mesh mesh = sampleMesh2d();
+  writeParts(mesh, file, 2);
+  mesh.coordinates[4].x += 0.1; // a node of both elements of the wall
+  writeParts(mesh, ownFile("other.e"), 2);
+  std::filesystem::rename(ownFile("other.e") + ".2.1", file + ".2.1");
+  EXPECT_THROW(readMesh(file), Error);
+  for (const std::string& name : {file + ".2.0", file + ".2.1", ownFile("other.e") + ".2.0"})
+    std::filesystem::remove(name);
 }
 
 TEST(MeshFile, writingIntoAMissingFolderIsAnOutputError)

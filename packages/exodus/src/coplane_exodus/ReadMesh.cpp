@@ -1,5 +1,6 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
+#include <coplane_exodus/MeshParts.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 
@@ -87,7 +88,8 @@ private:
 class Reader
 {
 public:
-  explicit Reader(const std::string& file) : file_(file)
+  /// @param isPart of a split mesh: it may be empty
+  Reader(const std::string& file, bool isPart) : file_(file), isPart_(isPart)
   {
     int memoryWord = 8, fileWord = 0;
     float version = 0;
@@ -103,6 +105,9 @@ public:
   ~Reader() { ex_close(exoid_); }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
+
+  /// Of all blocks, those without elements too.
+  const std::vector<GlobalId>& blockIds() const { return blockIds_; }
 
   Mesh read()
   {
@@ -141,7 +146,7 @@ private:
     if (sizes.num_dim != 2 && sizes.num_dim != 3)
       fail(ExitCode::Mesh, "{}: the mesh has {} dimensions; 2 and 3 are accepted.", file_,
            sizes.num_dim);
-    if (sizes.num_elem == 0 || sizes.num_nodes == 0)
+    if ((sizes.num_elem == 0 || sizes.num_nodes == 0) && !isPart_)
       fail(ExitCode::Mesh,
            "{}: the mesh has no elements ({} nodes, {} element blocks). Export the element blocks "
            "too.",
@@ -213,6 +218,7 @@ private:
     std::vector<ExodusInt> ids(blocks_);
     check(ex_get_ids(exoid_, EX_ELEM_BLOCK, ids.data()), "block ids");
     checkIds("element block", ids);
+    blockIds_.assign(ids.begin(), ids.end());
     for (const ExodusInt id : ids)
     {
       ex_block b{};
@@ -408,20 +414,19 @@ private:
   }
 
   std::string file_;
+  bool isPart_;
   int exoid_ = -1;
   Mesh mesh_;
+  std::vector<GlobalId> blockIds_;
   int64_t nodes_ = 0, elements_ = 0, blocks_ = 0, nodeSets_ = 0, sideSets_ = 0;
 };
 } // namespace
 
-Mesh readMesh(const std::string& file)
+namespace
 {
-  quietExodus();
-  if (!std::filesystem::exists(file))
-    fail(ExitCode::Mesh,
-         "{}: the mesh file does not exist (looked in '{}'). Check the name, or write it with "
-         "coplane_mesh make.",
-         file, std::filesystem::absolute(file).parent_path().string());
+/// Whether the file may be given to the library; throws where it may not.
+void probeFile(const std::string& file)
+{
   if (std::filesystem::is_directory(file))
     fail(ExitCode::Mesh, "{}: this is a folder; name an Exodus II file.", file);
   std::ifstream probe(file, std::ios::binary);
@@ -430,7 +435,36 @@ Mesh readMesh(const std::string& file)
          file);
   if (!looksLikeNetcdf(probe) || !classicHeaderFitsFile(file))
     refuse(file);
-  probe.close();
-  return Reader(file).read();
+}
+} // namespace
+
+Mesh readMesh(const std::string& file)
+{
+  quietExodus();
+  if (std::filesystem::exists(file))
+  {
+    probeFile(file);
+    return Reader(file, false).read();
+  }
+  const std::vector<std::string> names = partsOfMesh(file);
+  if (names.empty())
+    fail(ExitCode::Mesh,
+         "{}: the mesh file does not exist (looked in '{}'). Check the name, or write it with "
+         "coplane_mesh make.",
+         file, std::filesystem::absolute(file).parent_path().string());
+  std::vector<Mesh> parts;
+  std::vector<GlobalId> blocks;
+  for (const std::string& name : names)
+  {
+    probeFile(name);
+    Reader reader(name, true);
+    parts.push_back(reader.read());
+    blocks = reader.blockIds();
+  }
+  Mesh mesh = mergedParts(parts, blocks, file);
+  if (mesh.elements() == 0)
+    fail(ExitCode::Mesh, "{}: its {} parts have no elements. Split the mesh again.", file,
+         names.size());
+  return mesh;
 }
 } // namespace coplane

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <coplane_mesh/Mesh.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// The files of a mesh that has been split among N ranks by another program, as Exodus names them:
+/// mesh.e.N.0 to mesh.e.N.(N-1), numbers filled up with zeros. Empty when there are none. Throws
+/// Error(ExitCode::Mesh) when one is missing, or when there are several splits.
+std::vector<std::string> partsOfMesh(const std::string& file);
+
+/// One mesh from its parts: a node that several parts have, known by its id, becomes one. Nodes,
+/// and elements within their block, stand in the order of their ids, blocks and sets in the order
+/// of the parts.
+/// @param file for messages
+/// @param blockOrder ids of all blocks in the order of the parts
+Mesh mergedParts(const std::vector<Mesh>& parts, const std::vector<GlobalId>& blockOrder,
+                 const std::string& file);
+} // namespace coplane
