@@ -21,12 +21,12 @@ constexpr Real dt = 1e-3;
 
 /// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, apart, touching,
 /// aligned to the last bit, new, old, bonded.
-struct Table
+struct PairTable
 {
   std::vector<FaceNodes> nodes;
   std::vector<Plane> planes;
 
-  explicit Table(int count, unsigned seed)
+  explicit PairTable(int count, unsigned seed)
   {
     std::mt19937 random(seed);
     std::uniform_real_distribution<Real> u(-1, 1);
@@ -115,7 +115,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     for (const auto weights : allWeights)
     {
       const ContactOptions o = someOptions(area, weights);
-      Table table(3000, 17);
+      PairTable table(3000, 17);
       std::vector<Plane> alone = table.planes, together = table.planes;
       int carrying = 0, irregular = 0;
       for (int cycle = 0; cycle < 5; ++cycle, table.move())
@@ -146,7 +146,7 @@ TEST(PairLanes, doNotDependOnTheirNeighbours)
   const std::vector<JointLaw> laws = twoLaws();
   const ContactOptions o =
       someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure);
-  Table table(2000, 5);
+  PairTable table(2000, 5);
   const std::vector<HalfStepFace> faces = table.faces();
   std::vector<int> order(table.planes.size());
   std::iota(order.begin(), order.end(), 0);
