@@ -347,7 +347,7 @@ TEST(TurnIntoPlane, keepsTheLengthAndLiesInTheNewPlane)
     const Vec3 to = normalised(from + .5 * Vec3{u(random), u(random), u(random)});
     const Vec3 any{u(random), u(random), u(random)};
     const Vec3 tau = any - dot(any, from) * from;
-    const Vec3 got = turnIntoPlane(tau, from, to, {u(random), u(random), u(random)}, .3);
+    const Vec3 got = turnIntoPlane<Real>(tau, from, to, {u(random), u(random), u(random)}, .3);
     EXPECT_NEAR(norm(got), norm(tau), 1e-14);
     EXPECT_NEAR(dot(got, to), 0, 1e-14);
   }
@@ -355,7 +355,7 @@ TEST(TurnIntoPlane, keepsTheLengthAndLiesInTheNewPlane)
 
 TEST(TurnIntoPlane, turnsWithTheSpinAboutTheNormal)
 {
-  const Vec3 got = turnIntoPlane({2, 0, 0}, {0, 0, 1}, {0, 0, 1}, {5, 7, .3}, .5);
+  const Vec3 got = turnIntoPlane<Real>({2, 0, 0}, {0, 0, 1}, {0, 0, 1}, {5, 7, .3}, .5);
   // The spin is a Cayley vector: .3 * .5 = 2 tan(angle / 2).
   const Real angle = 2 * std::atan(.075);
   EXPECT_NEAR(got.x, 2 * std::cos(angle), 1e-15);
@@ -366,9 +366,9 @@ TEST(TurnIntoPlane, followsTheLeastRotation)
 {
   // Normal from z towards x by 30 degrees: y stays, x goes to the new in-plane direction.
   const Real c = std::cos(pi / 6), s = std::sin(pi / 6);
-  const Vec3 y = turnIntoPlane({0, 1, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
+  const Vec3 y = turnIntoPlane<Real>({0, 1, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
   EXPECT_NEAR(y.y, 1, 1e-15);
-  const Vec3 x = turnIntoPlane({1, 0, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
+  const Vec3 x = turnIntoPlane<Real>({1, 0, 0}, {0, 0, 1}, {s, 0, c}, {}, 1);
   EXPECT_NEAR(x.x, c, 1e-15);
   EXPECT_NEAR(x.z, -s, 1e-15);
 }

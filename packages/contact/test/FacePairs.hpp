@@ -103,7 +103,7 @@ void cornerForces(const coplane::Plane& plane, const FaceNodes& a, const FaceNod
     load.add(plane, f, faces[f]->count);
     load.balanceMoment<Dim>(faces[f]->x, faces[f]->count);
     for (int i = 0; i < 4; ++i)
-      forces[f][i] = load.force[i];
+      forces[f][i] = load.force(i);
   }
 }
 

@@ -1,5 +1,5 @@
-#include <coplane_geometry/ConvexPolygon.hpp>
 #include <coplane_geometry/FaceMap.hpp>
+#include <coplane_geometry/PolygonSides.hpp>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +56,15 @@ struct ExactArea
 {
   long double area = 0, momentX = 0, momentY = 0;
 };
+
+/// The same with unordered sides; their cuts never cross a convex border more than twice here.
+AreaAndCentroid sharedBySides(const ConvexPolygon& a, const ConvexPolygon& b)
+{
+  PolygonSides<Real> sides;
+  intersect(a.vertex, a.size, b.vertex, b.size, sides);
+  EXPECT_FALSE(sides.crossed);
+  return areaAndCentroid(sides);
+}
 
 /// A second method: Green's theorem over the boundary of the shared region. That boundary is the
 /// part of A's edges inside B and the part of B's edges inside A. The ends of each part are
@@ -145,15 +154,20 @@ void compareWithExact(int half, int pairs, unsigned seed)
   for (int n = 0; n < pairs; ++n)
   {
     const GridPolygon a = randomGridPolygon(random, half), b = randomGridPolygon(random, half);
-    const AreaAndCentroid got = shared(asPolygon(a), asPolygon(b));
     const ExactArea exact = exactlyShared(a, b);
     overlapping += exact.area > 0;
     const Real size = half;
-    worstArea = std::max(worstArea, std::abs(got.area - Real(exact.area)) / (size * size));
-    worstMoment = std::max(worstMoment, std::abs(got.area * got.centroid.x - Real(exact.momentX)) /
-                                            std::pow(size, 3));
-    worstMoment = std::max(worstMoment, std::abs(got.area * got.centroid.y - Real(exact.momentY)) /
-                                            std::pow(size, 3));
+    for (const AreaAndCentroid& got :
+         {shared(asPolygon(a), asPolygon(b)), sharedBySides(asPolygon(a), asPolygon(b))})
+    {
+      worstArea = std::max(worstArea, std::abs(got.area - Real(exact.area)) / (size * size));
+      worstMoment =
+          std::max(worstMoment,
+                   std::abs(got.area * got.centroid.x - Real(exact.momentX)) / std::pow(size, 3));
+      worstMoment =
+          std::max(worstMoment,
+                   std::abs(got.area * got.centroid.y - Real(exact.momentY)) / std::pow(size, 3));
+    }
   }
   EXPECT_GT(overlapping, pairs / 4)
       << "the random pairs must overlap often enough to mean something";
@@ -315,4 +329,38 @@ TEST(ConvexPolygon_Cut, octagonWithAlternatingSignsFitsTheFixedArray)
   const Real s = 2 * std::sin(pi / 8);
   const Real cut = 4 * 0.5 * (s / 2) * (s / 2) * std::sin(.75 * pi);
   EXPECT_NEAR(areaAndCentroid(p).area, 2 * std::sqrt(2.0) - cut, 1e-14);
+}
+
+TEST(PolygonSides_Cut, leavesThePolygonThatACutInOrderLeaves)
+{
+  // Unit square, f = 3/4 - x - y: one corner goes.
+  PolygonSides<Real> sides = sidesOf(square({0, 0}, 1));
+  Real from[PolygonSides<Real>::capacity] = {.75, -.25, -1.25, -.25};
+  Real to[PolygonSides<Real>::capacity] = {-.25, -1.25, -.25, .75};
+  cutWhereNegative(sides, from, to);
+  EXPECT_FALSE(sides.crossed);
+  const AreaAndCentroid got = areaAndCentroid(sides);
+  EXPECT_NEAR(got.area, .28125, 1e-16);
+  EXPECT_NEAR(got.centroid.x, .25, 1e-16);
+  EXPECT_NEAR(got.centroid.y, .25, 1e-16);
+  for (int k = 0; k < sides.size; ++k)
+    if (sides.isThere(k))
+    {
+      EXPECT_NEAR(from[k], .75 - sides.from[k].x - sides.from[k].y, 1e-16);
+      EXPECT_NEAR(to[k], .75 - sides.to[k].x - sides.to[k].y, 1e-16);
+    }
+}
+
+TEST(PolygonSides_Cut, tellsWhenTheBorderIsCrossedMoreThanTwice)
+{
+  PolygonSides<Real> sides = sidesOf(square({0, 0}, 1));
+  Real from[PolygonSides<Real>::capacity] = {1, -1, 1, -1};
+  Real to[PolygonSides<Real>::capacity] = {-1, 1, -1, 1};
+  PolygonSides<Real> ordered = sides;
+  cutWhereNegative(sides, from, to);
+  EXPECT_TRUE(sides.crossed);
+  Real f[PolygonSides<Real>::capacity] = {1, -1, 1, -1}, g[PolygonSides<Real>::capacity];
+  cutInOrder(ordered, f, g);
+  EXPECT_EQ(ordered.size, 6);
+  EXPECT_NEAR(areaAndCentroid(ordered).area, .75, 1e-16);
 }

@@ -1,21 +1,22 @@
 #pragma once
 
 #include <coplane_contact/Plane.hpp>
-#include <coplane_core/Lanes.hpp>
-#include <coplane_geometry/ConvexPolygon.hpp>
 #include <coplane_geometry/FaceMap.hpp>
+#include <coplane_geometry/PolygonSides.hpp>
 
 #include <cmath>
 
 namespace coplane
 {
 /// A face projected on the plane: in-plane coordinates and heights of its nodes.
-struct Shadow
+template <class T>
+struct ShadowOf
 {
   int count = 0;
-  Vec2 p[4];
-  Real height[4]; ///< along the normal, from the trial point [m]
+  Vec2Of<T> p[4];
+  T height[4]; ///< along the normal, from the trial point [m]
 };
+using Shadow = ShadowOf<Real>;
 
 /// Which part of the overlap carries traction.
 enum class AreaInUse : std::uint8_t
@@ -36,28 +37,45 @@ struct Depth
 };
 
 /// Area of contact and what follows from it.
-struct Patch
+template <class T>
+struct PatchOf
 {
-  bool folded = false;             ///< a face is turned over: the pair is skipped
-  Real overlap = 0;                ///< whole overlap of the shadows [m^2]
-  Real area = 0;                   ///< that carries traction [m^2]
-  Real leastGap = infinity;        ///< smallest local gap minus offset over the overlap [m]
-  Vec2 centroid;                   ///< of the area that carries traction
-  Real weights[2][4] = {};         ///< where force acts and slip is measured
-  Real centroidWeights[2][4] = {}; ///< where the closure is measured
+  /// False in lanes where a shadow is not convex or has no bilinear map, or where round-off asks
+  /// for the order of the sides: there the rest is void, and stepD_areaOfContact<Real> is needed.
+  branchFree::MaskOf<T> regular{true};
+  bool folded = false;          ///< a face is turned over: the pair is skipped
+  T overlap{};                  ///< whole overlap of the shadows [m^2]
+  T area{};                     ///< that carries traction [m^2]
+  T leastGap = T(infinity);     ///< smallest local gap minus offset over the overlap [m]
+  Vec2Of<T> centroid;           ///< of the area that carries traction
+  T weights[2][4] = {};         ///< where force acts and slip is measured
+  T centroidWeights[2][4] = {}; ///< where the closure is measured
 };
+using Patch = PatchOf<Real>;
 
 namespace detail
 {
-/// The shadow as a polygon; that of the higher face is clockwise and gets reversed.
-KOKKOS_INLINE_FUNCTION ConvexPolygon outline(const Shadow& shadow, bool reversed)
+/// The corners of a shadow counter-clockwise; that of the higher face is clockwise and gets
+/// reversed.
+template <class T>
+struct Outline
 {
-  ConvexPolygon polygon;
-  polygon.size = shadow.count;
-  for (int i = 0; i < shadow.count; ++i)
-    polygon.vertex[i] = shadow.p[reversed ? shadow.count - 1 - i : i];
-  return polygon;
-}
+  int count;
+  Vec2Of<T> p[4];
+
+  KOKKOS_INLINE_FUNCTION Outline(const ShadowOf<T>& shadow, bool reversed) : count(shadow.count)
+  {
+    for (int i = 0; i < count; ++i)
+      p[i] = shadow.p[reversed ? count - 1 - i : i];
+  }
+  KOKKOS_INLINE_FUNCTION ConvexPolygon polygon() const
+  {
+    ConvexPolygon result;
+    for (int i = 0; i < count; ++i)
+      result.add(p[i]);
+    return result;
+  }
+};
 
 /// A quadrilateral warped by more than about 45 degrees, as the two counter-clockwise triangles
 /// that one of its diagonals leaves; none where the shadow is folded.
@@ -179,180 +197,222 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
 }
 
 /// Closure (offset minus gap) between two faces as a function of the point of the plane.
+template <class T>
 struct ClosureField
 {
-  Real atOrigin = 0;
-  Vec2 slope;
-  Real warp[2] = {0, 0};
+  T atOrigin{};
+  Vec2Of<T> slope;
+  T warp[2];
+  branchFree::MaskOf<T> warped[2];
 
-  KOKKOS_INLINE_FUNCTION ClosureField(const FaceMap (&map)[2], const Shadow& a, const Shadow& b,
-                                      Real offset, Real size)
+  KOKKOS_INLINE_FUNCTION ClosureField(const FaceMapOf<T> (&map)[2], const ShadowOf<T>& a,
+                                      const ShadowOf<T>& b, const T& offset, const T& size)
+      : atOrigin(offset)
   {
-    atOrigin = offset;
-    const Shadow* shadows[2] = {&a, &b};
+    const ShadowOf<T>* shadows[2] = {&a, &b};
     for (int f = 0; f < 2; ++f)
     {
-      const FaceHeights h(map[f], shadows[f]->height);
-      const Vec2 gradient = h.xi * map[f].gradXi + h.eta * map[f].gradEta;
+      const FaceHeightsOf<T> h(map[f], shadows[f]->height);
+      const Vec2Of<T> gradient = h.xi * map[f].gradXi + h.eta * map[f].gradEta;
       const Real sign = f == 0 ? 1 : -1;
       slope = slope + sign * gradient;
       atOrigin += sign * (h.mean - dot(gradient, map[f].origin));
-      warp[f] = std::abs(h.warp) > 1e-14 * size ? sign * h.warp : 0;
+      warp[f] = sign * h.warp;
+      warped[f] = branchFree::absolute(h.warp) > 1e-14 * size;
     }
   }
-  KOKKOS_INLINE_FUNCTION bool linear() const { return warp[0] == 0 && warp[1] == 0; }
-  KOKKOS_INLINE_FUNCTION Real at(const FaceMap (&map)[2], const Vec2& p) const
+
+  /// @param wanted where nobody wants it, a point without coordinates does no harm
+  KOKKOS_FORCEINLINE_FUNCTION T at(const FaceMapOf<T> (&map)[2], const Vec2Of<T>& p,
+                                   const branchFree::MaskOf<T>& wanted) const
   {
-    Real c = atOrigin + dot(slope, p);
+    using namespace branchFree;
+    T c = atOrigin + dot(slope, p);
     for (int f = 0; f < 2; ++f)
-      if (warp[f] != 0)
-        c += warp[f] * map[f].product(map[f].straight(p));
+    {
+      const auto bent = warped[f] && wanted;
+      if (anyOf(bent))
+        c = choose(bent, c + warp[f] * map[f].product(map[f].straight(p), bent), c);
+    }
     return c;
   }
 };
 
-/// Integrals over a polygon of a function that is linear in the triangles of a fan: of itself, and
-/// times the coordinates relative to the apex, and their products. Exact.
+/// Integrals over a polygon of a function that is linear in the triangles from a point, the apex,
+/// to its sides: of itself, and times the coordinates relative to the apex, and their products.
+/// Exact.
+template <class T>
 struct Moments
 {
-  Real total = 0;
-  Vec2 first;
-  Real xx = 0, xy = 0, yy = 0;
+  T total{};
+  Vec2Of<T> first;
+  T xx{}, xy{}, yy{};
 
-  KOKKOS_INLINE_FUNCTION void add(const Vec2& a, const Vec2& b, Real c0, Real ca, Real cb)
+  KOKKOS_FORCEINLINE_FUNCTION void add(const Vec2Of<T>& a, const Vec2Of<T>& b, const T& c0,
+                                       const T& ca, const T& cb)
   {
-    const Real area = 0.5 * cross(a, b);
-    const Real sum = c0 + ca + cb;
-    const Vec2 both = a + b;
-    const Vec2 weighted = ca * a + cb * b;
-    total += area / 3 * sum;
-    first = first + (area / 12) * (sum * both + weighted);
-    const Real w = area / 60;
-    xx += w * (sum * (both.x * both.x + (a.x * a.x + b.x * b.x)) + 2 * both.x * weighted.x +
-               2 * (ca * a.x * a.x + cb * b.x * b.x));
-    yy += w * (sum * (both.y * both.y + (a.y * a.y + b.y * b.y)) + 2 * both.y * weighted.y +
-               2 * (ca * a.y * a.y + cb * b.y * b.y));
+    const T area = 0.5 * cross(a, b);
+    const T sum = c0 + ca + cb;
+    const Vec2Of<T> both = a + b;
+    const Vec2Of<T> weighted = ca * a + cb * b;
+    total += area / 3.0 * sum;
+    first = first + (area / 12.0) * (sum * both + weighted);
+    const T w = area / 60.0;
+    xx += w * (sum * (both.x * both.x + (a.x * a.x + b.x * b.x)) + 2.0 * both.x * weighted.x +
+               2.0 * (ca * a.x * a.x + cb * b.x * b.x));
+    yy += w * (sum * (both.y * both.y + (a.y * a.y + b.y * b.y)) + 2.0 * both.y * weighted.y +
+               2.0 * (ca * a.y * a.y + cb * b.y * b.y));
     xy += w * (sum * (both.x * both.y + (a.x * a.y + b.x * b.y)) + both.x * weighted.y +
-               both.y * weighted.x + 2 * (ca * a.x * a.y + cb * b.x * b.y));
+               both.y * weighted.x + 2.0 * (ca * a.x * a.y + cb * b.x * b.y));
   }
 };
 
-/// Weights of the pair's nodes at the centre of pressure, c at the vertices, or at the mean of the
-/// shape functions over the polygon (c = 1 there). Parallelograms: polygon moments in closed form.
-/// Other quadrilaterals: the small difference between xi eta and the product of the straight
-/// coordinates by a rule of degree 3 on the triangles about the centroid; a fan about a vertex
-/// would make it depend on the node that the face happens to start from.
-KOKKOS_INLINE_FUNCTION void weightsOver(const FaceMap (&map)[2], const ConvexPolygon& q,
-                                        const Real* c, const Vec2& center, Real centerClosure,
-                                        bool linear, Real (&weights)[2][4])
+/// Integral of the small difference between xi eta and the product of the straight coordinates,
+/// times a function that is linear in the triangle (apex, apex + a, apex + b) with the values c0,
+/// ca and cb: by a rule of degree 3.
+template <class T>
+KOKKOS_INLINE_FUNCTION T differenceOver(const FaceMapOf<T>& map, const Vec2Of<T>& apex,
+                                        const Vec2Of<T>& a, const Vec2Of<T>& b, const T& c0,
+                                        const T& ca, const T& cb)
 {
-  const bool aboutVertex = map[0].affine && map[1].affine && linear;
-  const Vec2 apex = aboutVertex ? q.vertex[0] : center;
-  const Real atApex = aboutVertex ? c[0] : centerClosure;
-  Moments moments;
-  Real correction[2] = {0, 0};
-  for (int v = aboutVertex ? 1 : 0; v < (aboutVertex ? q.size - 1 : q.size); ++v)
+  using namespace branchFree;
+  const T factor = 0.5 * cross(a, b) / 48.0;
+  const auto wanted = factor != 0.0 && !map.affine;
+  const T sum = c0 + ca + cb;
+  const Vec2Of<T> start = map.straight(apex);
+  const Vec2Of<T> alongA{dot(map.gradXi, a), dot(map.gradEta, a)};
+  const Vec2Of<T> alongB{dot(map.gradXi, b), dot(map.gradEta, b)};
+  const auto difference = [&](Real shareA, Real shareB)
   {
-    const int next = v + 1 == q.size ? 0 : v + 1;
-    const Vec2 a = q.vertex[v] - apex, b = q.vertex[next] - apex;
-    moments.add(a, b, atApex, c[v], c[next]);
-    if (aboutVertex)
-      continue;
-    // The four points of the rule side by side.
-    const Real sum = atApex + c[v] + c[next];
-    const Real third = 1.0 / 3;
-    const Real shareA[4] = {0.2, 0.6, 0.2, third}, shareB[4] = {0.2, 0.2, 0.6, third};
-    const Real w[4] = {0.2 * sum + 0.4 * atApex, 0.2 * sum + 0.4 * c[v], 0.2 * sum + 0.4 * c[next],
-                       third * sum};
-    const Real factor = 0.5 * cross(a, b) / 48;
-    const Lanes toA(shareA, stdx::element_aligned), toB(shareB, stdx::element_aligned);
-    const Lanes x = toA * Lanes(a.x) + toB * Lanes(b.x), y = toA * Lanes(a.y) + toB * Lanes(b.y);
-    for (int f = 0; f < 2; ++f)
-    {
-      const FaceMap& m = map[f];
-      if (m.affine)
-        continue;
-      const Vec2 start = m.straight(apex);
-      const Lanes sx = start.x + (m.gradXi.x * x + m.gradXi.y * y);
-      const Lanes sy = start.y + (m.gradEta.x * x + m.gradEta.y * y);
-      const Lanes q = sx * sy;
-      const Lanes half = 1 + m.alpha * sy + m.beta * sx;
-      const Lanes discriminant = half * half - (4 * (m.alpha * m.beta)) * q;
-      const Lanes denominator = half + stdx::sqrt(lanesMax(discriminant, Lanes(0.0)));
-      if (!stdx::all_of(denominator > 1e-14))
-      {
-        m.lost = true;
-        return;
-      }
-      const Lanes difference = 2 * q / denominator - q;
-      correction[f] +=
-          factor * (25 * (w[0] * difference[0] + w[1] * difference[1] + w[2] * difference[2]) -
-                    27 * (w[3] * difference[3]));
-    }
-  }
-  const Real inverse = 1 / moments.total;
-  const Vec2 mean = inverse * moments.first;
+    const Vec2Of<T> s = start + (shareA * alongA + shareB * alongB);
+    const T q = s.x * s.y;
+    const T half = 1.0 + map.alpha * s.y + map.beta * s.x;
+    const T discriminant = half * half - 4.0 * (map.alpha * map.beta) * q;
+    const T denominator = half + squareRoot(positivePart(discriminant));
+    const auto found = denominator > 1e-14;
+    map.lost = map.lost || (wanted && !found);
+    return choose(found, 2.0 * q / denominator - q, T(0.0));
+  };
+  return factor * (25.0 * ((0.2 * sum + 0.4 * c0) * difference(0.2, 0.2) +
+                           (0.2 * sum + 0.4 * ca) * difference(0.6, 0.2) +
+                           (0.2 * sum + 0.4 * cb) * difference(0.2, 0.6)) -
+                   27.0 * (sum / 3.0 * difference(1.0 / 3, 1.0 / 3)));
+}
+
+/// Weights of the pair's nodes at the centre of pressure, c at the ends of the sides, or at the
+/// mean of the shape functions over the polygon (c = 1 there). Parallelograms: polygon moments in
+/// closed form. Other quadrilaterals: with differenceOver(). All triangles start from the center; a
+/// vertex would make the result depend on the node that the face happens to start from.
+template <class T>
+KOKKOS_INLINE_FUNCTION void weightsOver(const FaceMapOf<T> (&map)[2], const PolygonSides<T>& q,
+                                        const T* cFrom, const T* cTo, const Vec2Of<T>& center,
+                                        const T& centerClosure, T (&weights)[2][4])
+{
+  using namespace branchFree;
+  Moments<T> moments;
+  for (int k = 0; k < q.size; ++k)
+    moments.add(q.from[k] - center, q.to[k] - center, centerClosure, cFrom[k], cTo[k]);
+  const T inverse = 1.0 / moments.total;
+  const Vec2Of<T> mean = inverse * moments.first;
   for (int f = 0; f < 2; ++f)
   {
-    const FaceMap& m = map[f];
-    Real xiEta = 0;
+    const FaceMapOf<T>& m = map[f];
+    T xiEta{};
     if (m.nodes == 4)
     {
-      const Vec2 s = m.straight(apex);
-      const Vec2 &gx = m.gradXi, &gy = m.gradEta;
+      T difference{};
+      if (!allOf(m.affine))
+        for (int k = 0; k < q.size; ++k)
+          difference += differenceOver(m, center, q.from[k] - center, q.to[k] - center,
+                                       centerClosure, cFrom[k], cTo[k]);
+      const Vec2Of<T> s = m.straight(center);
+      const Vec2Of<T>&gx = m.gradXi, &gy = m.gradEta;
       xiEta = s.x * s.y + s.x * dot(gy, mean) + s.y * dot(gx, mean) +
               inverse * (gx.x * gy.x * moments.xx + (gx.x * gy.y + gx.y * gy.x) * moments.xy +
-                         gx.y * gy.y * moments.yy + correction[f]);
+                         gx.y * gy.y * moments.yy + choose(m.affine, T(0.0), difference));
     }
-    m.weightsAt(apex + mean, xiEta, weights[f]);
+    m.weightsAt(center + mean, xiEta, weights[f]);
   }
 }
 
-/// For convex shadows whose maps can be inverted, which is nearly all; false where they cannot.
-KOKKOS_INLINE_FUNCTION bool patchOfPolygons(const Shadow& a, const Shadow& b,
-                                            const ConvexPolygon& outlineA,
-                                            const ConvexPolygon& outlineB, Real offset,
-                                            AreaInUse use, ContactOptions::Weights weights,
-                                            Patch& patch)
+/// For convex shadows whose maps can be inverted, which is nearly all; where they cannot, or where
+/// only the order of the sides tells what a cut leaves, the patch is not regular.
+/// @param bonded the plane's joint holds: the whole overlap carries
+/// @param inOrder keep the sides in order; T is Real
+template <class T>
+KOKKOS_INLINE_FUNCTION void
+patchOfPolygons(const ShadowOf<T>& a, const ShadowOf<T>& b, const T& offset,
+                const branchFree::MaskOf<T>& bonded, ContactOptions::Area areaInUse,
+                ContactOptions::Weights weights, bool inOrder, PatchOf<T>& patch)
 {
-  ConvexPolygon q = intersection(outlineA, outlineB);
-  AreaAndCentroid part = areaAndCentroid(q);
-  if (!(part.area > 0))
-    return true;
-  patch.overlap = part.area;
-  const FaceMap map[2] = {FaceMap(a.p, a.count), FaceMap(b.p, b.count)};
-  if (map[0].lost || map[1].lost)
-    return false;
-  const ClosureField field(map, a, b, offset, std::sqrt(part.area));
-  Real c[ConvexPolygon::capacity];
-  Real least = infinity, most = -infinity;
-  for (int v = 0; v < q.size; ++v)
+  using namespace branchFree;
+  const Outline<T> outlineA(a, false), outlineB(b, true);
+  patch.regular = isConvex(outlineA.p, a.count) && isConvex(outlineB.p, b.count);
+  if (!anyOf(patch.regular))
+    return;
+  PolygonSides<T> q;
+  if constexpr (widthOf<T> == 1)
   {
-    c[v] = field.at(map, q.vertex[v]);
-    least = c[v] < least ? c[v] : least;
-    most = c[v] > most ? c[v] : most;
+    if (inOrder)
+      q = sidesOf(intersection(outlineA.polygon(), outlineB.polygon()));
+    else
+      intersect(outlineA.p, a.count, outlineB.p, b.count, q);
   }
-  patch.leastGap = -most;
-  if (use != AreaInUse::Bonded && !(most > 0))
-    return true;
-  const bool byPressure = weights == ContactOptions::Weights::Pressure && use != AreaInUse::Bonded;
-  const bool partly = use == AreaInUse::Full && byPressure && least < 0;
-  ConvexPolygon pressed; // the closed part of a full area
-  if (partly)
-    pressed = q;
-  if (least < 0 && (use == AreaInUse::Penetrating || partly))
+  else
+    intersect(outlineA.p, a.count, outlineB.p, b.count, q);
+  patch.regular = patch.regular && !q.crossed;
+  AreaAndCentroidOf<T> part = areaAndCentroid(q);
+  const auto overlaps = part.area > 0.0;
+  if (!anyOf(overlaps))
+    return;
+  patch.overlap = positivePart(part.area);
+  const FaceMapOf<T> map[2] = {FaceMapOf<T>(a.p, a.count), FaceMapOf<T>(b.p, b.count)};
+  const ClosureField<T> field(map, a, b, offset, squareRoot(patch.overlap));
+  T cFrom[PolygonSides<T>::capacity], cTo[PolygonSides<T>::capacity];
+  T least(infinity), most(-infinity);
+  for (int k = 0; k < q.size; ++k)
   {
-    cutWhereNegative(partly ? pressed : q, c);
-    if (!partly)
-      part = areaAndCentroid(q);
-    if (!(part.area > 0))
-      return true;
-    least = 0;
+    const auto isThere = q.isThere(k);
+    cFrom[k] = field.at(map, q.from[k], isThere);
+    cTo[k] = field.at(map, q.to[k], isThere);
+    least = choose(isThere, smaller(cFrom[k], least), least);
+    most = choose(isThere, larger(cFrom[k], most), most);
   }
-  patch.area = part.area;
+  patch.leastGap = choose(overlaps, -most, patch.leastGap);
+  patch.regular = patch.regular && !map[0].lost && !map[1].lost;
+  const auto carries = overlaps && (bonded || most > 0.0);
+  if (!anyOf(carries))
+    return;
+
+  const bool penetrating = areaInUse == ContactOptions::Area::Penetrating;
+  const bool byPressure = weights == ContactOptions::Weights::Pressure;
+  AreaAndCentroidOf<T> pressed = part;
+  if (penetrating || byPressure)
+  {
+    for (int k = 0; k < q.size; ++k)
+    {
+      cFrom[k] = choose(bonded, T(1.0), cFrom[k]);
+      cTo[k] = choose(bonded, T(1.0), cTo[k]);
+    }
+    if (anyOf(least < 0.0 && !bonded))
+    {
+      if constexpr (widthOf<T> == 1)
+        inOrder ? cutInOrder(q, cFrom, cTo) : cutWhereNegative(q, cFrom, cTo);
+      else
+        cutWhereNegative(q, cFrom, cTo);
+      patch.regular = patch.regular && !q.crossed;
+      pressed = areaAndCentroid(q);
+    }
+    if (penetrating)
+      part = pressed;
+  }
+  patch.area = choose(carries, positivePart(part.area), T(0.0));
   patch.centroid = part.centroid;
+  if (!anyOf(patch.area > 0.0))
+    return;
+  const auto used = patch.area > 0.0;
   for (int f = 0; f < 2; ++f)
-    map[f].weightsAt(part.centroid, map[f].product(map[f].straight(part.centroid)),
+    map[f].weightsAt(part.centroid, map[f].product(map[f].straight(part.centroid), used),
                      patch.centroidWeights[f]);
   if (weights == ContactOptions::Weights::Centroid)
     for (int f = 0; f < 2; ++f)
@@ -360,34 +420,28 @@ KOKKOS_INLINE_FUNCTION bool patchOfPolygons(const Shadow& a, const Shadow& b,
         patch.weights[f][k] = patch.centroidWeights[f][k];
   else
   {
-    const ConvexPolygon& used = partly ? pressed : q;
-    const bool uneven = byPressure && most - least > 1e-14 * std::sqrt(part.area);
-    Vec2 center = part.centroid;
-    Real centerClosure = 1;
-    if (uneven)
+    const auto uneven = MaskOf<T>(byPressure) && !bonded &&
+                        most - positivePart(least) > 1e-14 * squareRoot(patch.area);
+    const T one(1.0);
+    const T centerClosure =
+        choose(uneven, positivePart(field.at(map, pressed.centroid, uneven && used)), one);
+    for (int k = 0; k < q.size; ++k)
     {
-      if (partly)
-        center = areaAndCentroid(used).centroid;
-      centerClosure = field.at(map, center);
-      centerClosure = centerClosure > 0 ? centerClosure : 0;
+      cFrom[k] = choose(uneven, cFrom[k], one);
+      cTo[k] = choose(uneven, cTo[k], one);
     }
-    else
-      for (int v = 0; v < used.size; ++v)
-        c[v] = 1;
-    weightsOver(map, used, c, center, centerClosure, !uneven || field.linear(), patch.weights);
+    weightsOver(map, q, cFrom, cTo, pressed.centroid, centerClosure, patch.weights);
   }
-  return !map[0].lost && !map[1].lost;
+  patch.regular = patch.regular && (!used || (!map[0].lost && !map[1].lost));
 }
 
 /// For faces whose shadow is not convex or has no bilinear map: up to four pieces, weights and gaps
 /// from affine weights of least norm.
-KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b,
-                                           const ConvexPolygon& outlineA,
-                                           const ConvexPolygon& outlineB, Real offset,
+KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b, Real offset,
                                            AreaInUse use)
 {
   Patch patch;
-  const Pieces piecesA(outlineA), piecesB(outlineB);
+  const Pieces piecesA(Outline(a, false).polygon()), piecesB(Outline(b, true).polygon());
   patch.folded = piecesA.count == 0 || piecesB.count == 0;
   Vec2 moment;
   for (int i = 0; i < piecesA.count; ++i)
@@ -452,12 +506,29 @@ KOKKOS_INLINE_FUNCTION Patch stepD_areaOfContact(const Shadow& a, const Shadow& 
                                    depth);
   else
   {
-    const ConvexPolygon outlineA = detail::outline(a, false), outlineB = detail::outline(b, true);
-    Patch patch;
-    if (!isConvex(outlineA.vertex, outlineA.size) || !isConvex(outlineB.vertex, outlineB.size) ||
-        !detail::patchOfPolygons(a, b, outlineA, outlineB, offset, use, weights, patch))
-      patch = detail::patchOfPieces(a, b, outlineA, outlineB, offset, use);
-    return patch;
+    const bool bonded = use == AreaInUse::Bonded;
+    const auto area =
+        use == AreaInUse::Full ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
+    for (const bool inOrder : {false, true})
+    {
+      Patch patch;
+      detail::patchOfPolygons<Real>(a, b, offset, bonded, area, weights, inOrder, patch);
+      if (patch.regular)
+        return patch;
+    }
+    return detail::patchOfPieces(a, b, offset, use);
   }
+}
+
+/// Step D for several pairs of quadrilaterals or triangles side by side; whether a joint is bonded
+/// is the pair's own.
+inline PatchOf<Lanes> stepD_areaOfContact(const ShadowOf<Lanes>& a, const ShadowOf<Lanes>& b,
+                                          const Lanes& offset, const LaneMask& bonded,
+                                          ContactOptions::Area area,
+                                          ContactOptions::Weights weights)
+{
+  PatchOf<Lanes> patch;
+  detail::patchOfPolygons<Lanes>(a, b, offset, bonded, area, weights, false, patch);
+  return patch;
 }
 } // namespace coplane

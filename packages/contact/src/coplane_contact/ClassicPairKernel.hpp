@@ -121,8 +121,13 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
                          .gap();
     if (!stepE_planeExists(plane))
       stepF_createPlane(plane, classic.normal, gap);
+    bookOldForce(plane, a, b, dt);
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    stepH_updatePlaneVariables(plane, patch, gap, trial, a, b, shadowA, shadowB, law, options, dt);
+    PlaneBatch<Real> one;
+    one.plane[0] = &plane;
+    one.law[0] = &law;
+    stepH_updatePlaneVariables<Real>(one, true, patch, gap, trial, a, b, shadowA, shadowB, options,
+                                     dt);
   }
   else
   {

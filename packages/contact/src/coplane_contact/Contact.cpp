@@ -1,4 +1,5 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/FacePairLanes.hpp>
 #include <coplane_contact/Inheritance.hpp>
 #include <coplane_core/Timers.hpp>
 
@@ -19,6 +20,28 @@ void prefetch(const Plane& plane)
   const char* line = reinterpret_cast<const char*>(&plane);
   for (int i = 0; i < 3; ++i)
     __builtin_prefetch(line + 64 * i);
+}
+
+/// What step A needs of the first face, or of as many as T has lanes.
+template <class T>
+void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
+                 const ConstArray<Real>& mass, FaceNodesOf<T>& nodes)
+{
+  nodes.count = faces[0].count;
+  for (int k = 0; k < nodes.count; ++k)
+  {
+    const auto each = [&](const auto& get)
+    { return branchFree::gathered<T>([&](int i) { return get(faces[i].nodes[k]); }); };
+    const auto vector = [&](const ConstNodeVectors& field) -> Vec3Of<T>
+    {
+      return {each([&](int node) { return field(node, 0); }),
+              each([&](int node) { return field(node, 1); }),
+              each([&](int node) { return field(node, 2); })};
+    };
+    nodes.x[k] = vector(x);
+    nodes.v[k] = vector(v);
+    nodes.mass[k] = each([&](int node) { return mass(node); });
+  }
 }
 
 /// Carries nothing until its faces are candidates again.
@@ -504,45 +527,68 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const bool classic = this->classic();
   const ContactOptions options = options_;
   const int dimension = dimension_;
+  const auto halfStepOf = KOKKOS_LAMBDA(const int f)
+  {
+    if (!paired(f))
+      return;
+    FaceNodes nodes;
+    gatherNodes(&faces(f), x, v, mass, nodes);
+    if (dimension == 2)
+      new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<2>(nodes, dt));
+    else
+      new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<3>(nodes, dt));
+  };
+  const int faceCount = int(faces.extent(0));
   parallelFor(
-      "coplane::contact::stepA_halfStepFace", int(faces.extent(0)), KOKKOS_LAMBDA(const int f) {
-        if (!paired(f))
-          return;
-        const Face& face = faces(f);
-        FaceNodes nodes;
-        nodes.count = face.count;
-        for (int k = 0; k < face.count; ++k)
+      "coplane::contact::stepA_halfStepFace", (faceCount + laneCount - 1) / laneCount,
+      KOKKOS_LAMBDA(const int batch) {
+        const int first = batch * laneCount;
+        const int last = first + laneCount < faceCount ? first + laneCount : faceCount;
+        bool alike = dimension == 3 && last - first == laneCount;
+        for (int f = first; f < last; ++f)
+          alike = alike && paired(f) && faces(f).count == faces(first).count;
+        if (!alike)
         {
-          nodes.x[k] = at(x, face.nodes[k]);
-          nodes.v[k] = at(v, face.nodes[k]);
-          nodes.mass[k] = mass(face.nodes[k]);
+          for (int f = first; f < last; ++f)
+            halfStepOf(f);
+          return;
         }
-        if (dimension == 2)
-          new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<2>(nodes, dt));
-        else
-          new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<3>(nodes, dt));
+        FaceNodesOf<Lanes> nodes;
+        gatherNodes(&faces(first), x, v, mass, nodes);
+        stepA_halfStepFaces(nodes, dt, &halfStep(first));
       });
-  parallelFor(
-      "coplane::contact::stepsBtoH", int(planes.extent(0)), KOKKOS_LAMBDA(const int p) {
-        Plane& plane = planes(p);
-        if (plane.face[0] < 0)
-          return;
-        const HalfStepFace& a = halfStep(plane.face[0]);
-        const HalfStepFace& b = halfStep(plane.face[1]);
-        if (classic)
-        {
+  const int planeCount = int(planes.extent(0));
+  if (dimension == 3 && !classic)
+  {
+    constexpr int stretch = 256; // long enough that few lanes stay empty at its end
+    parallelFor(
+        "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
+        KOKKOS_LAMBDA(const int s) {
+          const int first = s * stretch;
+          const int last = first + stretch < planeCount ? first + stretch : planeCount;
+          PairLanes(planes.data(), halfStep.data(), laws.data(), options, dt).update(first, last);
+        });
+  }
+  else
+    parallelFor(
+        "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
+          Plane& plane = planes(p);
+          if (plane.face[0] < 0)
+            return;
+          const HalfStepFace& a = halfStep(plane.face[0]);
+          const HalfStepFace& b = halfStep(plane.face[1]);
+          if (!classic)
+          {
+            updatePlane<2>(plane, a, b, laws(plane.joint), options, dt);
+            return;
+          }
           const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
           const ElementNodes nodesB = elementNodes(elements(plane.face[1]), x, v);
           if (dimension == 2)
             updateClassicPlane<2>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
           else
             updateClassicPlane<3>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
-        }
-        else if (dimension == 2)
-          updatePlane<2>(plane, a, b, laws(plane.joint), options, dt);
-        else
-          updatePlane<3>(plane, a, b, laws(plane.joint), options, dt);
-      });
+        });
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).foundLate && planes_(p).countedHere && planes_(p).face[0] >= 0)
@@ -605,8 +651,8 @@ void Contact::addForces(const ConstNodeVectors& x, const NodeVectors& f,
         for (std::int32_t i = facesStart(node); i < facesStart(node + 1); ++i)
         {
           const FaceLoad& load = loads(facesEntry(i) / 4);
-          force += load.force[facesEntry(i) % 4];
-          sum += load.stiffness[facesEntry(i) % 4];
+          force += load.force(facesEntry(i) % 4);
+          sum += load.stiffness(facesEntry(i) % 4);
         }
         set(f, node, force);
         stiffness(node) = sum;

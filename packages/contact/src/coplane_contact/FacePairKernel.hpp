@@ -4,21 +4,49 @@
 
 namespace coplane
 {
-/// Velocity of face 1 relative to face 0 at the point of contact, and the mean spin of the pair.
-struct RelativeMotion
+/// Planes that are updated side by side, one for each lane of T; with Real just one. The lanes from
+/// `count` on repeat others and are not written.
+template <class T>
+struct PlaneBatch
 {
-  Vec3 drift{}; ///< difference of the weighted velocities of the faces [m/s]
-  Vec3 jump{};  ///< the same less what the pair does as a rigid body [m/s]
-  Vec3 spin{};  ///< [1/s]
+  static constexpr int width = branchFree::widthOf<T>;
+  int count = width;
+  Plane* plane[width];
+  const JointLaw* law[width];
+
+  /// get(plane) of all of them.
+  template <class Get>
+  KOKKOS_INLINE_FUNCTION T each(const Get& get) const
+  {
+    return branchFree::gathered<T>([&](int i) -> Real { return get(*plane[i]); });
+  }
+  template <class Get>
+  KOKKOS_INLINE_FUNCTION Vec3Of<T> eachVector(const Get& get) const
+  {
+    return {each([&](const Plane& p) { return get(p).x; }),
+            each([&](const Plane& p) { return get(p).y; }),
+            each([&](const Plane& p) { return get(p).z; })};
+  }
 };
+
+/// Velocity of face 1 relative to face 0 at the point of contact, and the mean spin of the pair.
+template <class T>
+struct RelativeMotionOf
+{
+  Vec3Of<T> drift{}; ///< difference of the weighted velocities of the faces [m/s]
+  Vec3Of<T> jump{};  ///< the same less what the pair does as a rigid body [m/s]
+  Vec3Of<T> spin{};  ///< [1/s]
+};
+using RelativeMotion = RelativeMotionOf<Real>;
 
 /// Position of the point of face 1 relative to that of face 0 by the weights, at the time of the
 /// shadows' heights: along the normal but for round-off, since both project to one point [m].
-KOKKOS_INLINE_FUNCTION Vec3 armBetween(const TrialPlane& plane, const Shadow& a, const Shadow& b,
-                                       const Patch& patch)
+template <class T>
+KOKKOS_INLINE_FUNCTION Vec3Of<T> armBetween(const TrialPlaneOf<T>& plane, const ShadowOf<T>& a,
+                                            const ShadowOf<T>& b, const PatchOf<T>& patch)
 {
-  Vec2 inPlane;
-  Real height = 0;
+  Vec2Of<T> inPlane;
+  T height{};
   for (int i = 0; i < b.count; ++i)
   {
     inPlane = inPlane + patch.weights[1][i] * b.p[i];
@@ -34,10 +62,12 @@ KOKKOS_INLINE_FUNCTION Vec3 armBetween(const TrialPlane& plane, const Shadow& a,
 
 /// Objective: the jump is zero for any rigid motion of both faces together, also when they are
 /// apart by a gap.
-KOKKOS_INLINE_FUNCTION RelativeMotion relativeMotion(const HalfStepFace& a, const HalfStepFace& b,
-                                                     const Patch& patch, const Vec3& arm)
+template <class T>
+KOKKOS_INLINE_FUNCTION RelativeMotionOf<T>
+relativeMotion(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const PatchOf<T>& patch,
+               const Vec3Of<T>& arm)
 {
-  RelativeMotion motion;
+  RelativeMotionOf<T> motion;
   motion.spin = 0.5 * (a.spin + b.spin);
   motion.drift =
       weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
@@ -47,72 +77,89 @@ KOKKOS_INLINE_FUNCTION RelativeMotion relativeMotion(const HalfStepFace& a, cons
 
 /// Carries a traction that lies in the plane with normal `from` into the plane with normal `to`:
 /// least rotation, then the pair's spin about the new normal during dt, and no change of length.
-KOKKOS_INLINE_FUNCTION Vec3 turnIntoPlane(const Vec3& traction, const Vec3& from, const Vec3& to,
-                                          const Vec3& spin, Real dt)
+template <class T>
+KOKKOS_INLINE_FUNCTION Vec3Of<T> turnIntoPlane(const Vec3Of<T>& traction, const Vec3Of<T>& from,
+                                               const Vec3Of<T>& to, const Vec3Of<T>& spin, Real dt)
 {
-  const Real size = norm(traction);
-  if (size == 0)
+  const T size = norm(traction);
+  if (!branchFree::anyOf(size > 0.0))
     return traction;
-  const Vec3 k = cross(from, to);
-  const Vec3 kTau = cross(k, traction);
-  Vec3 turned = traction + kTau + (1 / (1 + dot(from, to))) * cross(k, kTau);
+  const Vec3Of<T> k = cross(from, to);
+  const Vec3Of<T> kTau = cross(k, traction);
+  Vec3Of<T> turned = traction + kTau + (1.0 / (1.0 + dot(from, to))) * cross(k, kTau);
   // The spin of a finite rotation between two positions is its Cayley vector: 2 tan(angle / 2) /
   // dt.
-  const Real t = 0.5 * dt * dot(to, spin);
-  const Real scale = 1 / (1 + t * t);
-  turned = (scale * (1 - t * t)) * turned + (2 * scale * t) * cross(to, turned);
+  const T t = 0.5 * dt * dot(to, spin);
+  const T scale = 1.0 / (1.0 + t * t);
+  turned = (scale * (1.0 - t * t)) * turned + (2.0 * scale * t) * cross(to, turned);
   turned = turned - dot(to, turned) * to;
-  const Real length = norm(turned);
-  return length > 0 ? (size / length) * turned : Vec3{};
+  const T length = norm(turned);
+  return branchFree::choose(length > 0.0, size / length, T(0.0)) * turned;
 }
 
 /// Power of the plane's forces on the nodes with the velocities at hand; `spins` is the sum of the
 /// spins of both faces at the time of the force [W].
-KOKKOS_INLINE_FUNCTION Real powerOf(const Vec3& force, const Vec3& moment, const Vec3& drift,
-                                    const Vec3& spins)
+template <class T>
+KOKKOS_INLINE_FUNCTION T powerOf(const Vec3Of<T>& force, const Vec3Of<T>& moment,
+                                 const Vec3Of<T>& drift, const Vec3Of<T>& spins)
 {
   return dot(force, drift) - 0.5 * dot(moment, spins);
 }
 
-/// Work of the old force on the nodes in this step, by the trapezoid rule [J].
+/// Work of the old force on the nodes in this step, by the trapezoid rule [J]; of the planes that
+/// carry traction, in the lanes of `mine`.
+template <class T>
+KOKKOS_INLINE_FUNCTION void
+bookOldForce(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& mine,
+             const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, Real dt)
+{
+  const auto carried = mine && planes.each([](const Plane& p) { return p.area; }) > 0.0;
+  if (!branchFree::anyOf(carried))
+    return;
+  T weights[2][4];
+  const int count[2] = {a.count, b.count};
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < count[f]; ++i)
+      weights[f][i] = planes.each([&](const Plane& p) { return p.weights[f][i]; });
+  const Vec3Of<T> drift = weighted(weights[1], b.v, b.count) - weighted(weights[0], a.v, a.count);
+  const T work = (0.5 * dt) * powerOf(planes.eachVector([](const Plane& p) { return p.force; }),
+                                      planes.eachVector([](const Plane& p) { return p.moment; }),
+                                      drift, a.spinAtStart + b.spinAtStart);
+  for (int i = 0; i < planes.count; ++i)
+    if (branchFree::lane(carried, i))
+      planes.plane[i]->work -= branchFree::lane(work, i);
+}
+
 KOKKOS_INLINE_FUNCTION void bookOldForce(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
                                          Real dt)
 {
-  const Vec3 drift =
-      weighted(plane.weights[1], b.v, b.count) - weighted(plane.weights[0], a.v, a.count);
-  plane.work -=
-      (0.5 * dt) * powerOf(plane.force, plane.moment, drift, a.spinAtStart + b.spinAtStart);
+  PlaneBatch<Real> one;
+  one.plane[0] = &plane;
+  bookOldForce(one, true, a, b, dt);
 }
 
-/// What the forces of all planes of a face add to its nodes.
+/// What the forces of all planes of a face add to its nodes; a lane for each node.
 struct FaceLoad
 {
-  Vec3 force[4];     ///< [N]
-  Real stiffness[4]; ///< bound on the stiffness that a node feels [N/m]
-  Vec3 moment{};     ///< to be balanced by the couples of both faces [N m]
+  static_assert(laneCount == 4, "a face has up to four nodes");
+  Vec3Of<Lanes> forces{}; ///< [N]
+  Lanes stiffnesses{};    ///< bound on the stiffness that a node feels [N/m]
+  Vec3 moment{};          ///< to be balanced by the couples of both faces [N m]
 
-  KOKKOS_INLINE_FUNCTION FaceLoad()
-  {
-    for (int i = 0; i < 4; ++i)
-    {
-      force[i] = {};
-      stiffness[i] = 0;
-    }
-  }
+  KOKKOS_FORCEINLINE_FUNCTION Vec3 force(int node) const { return branchFree::lane(forces, node); }
+  KOKKOS_FORCEINLINE_FUNCTION Real stiffness(int node) const { return stiffnesses[node]; }
 
   /// Adds a plane of which this face is number `side`, 0 or 1. Stiffness: 2 k A |w| by Gershgorin's
   /// circles. The overlap's part of a node is at most all of it; 1.5/n covers uniform and mildly
   /// uneven patches, and the weights of the area in contact cover the uneven ones.
-  KOKKOS_INLINE_FUNCTION void add(const Plane& plane, int side, int count)
+  KOKKOS_FORCEINLINE_FUNCTION void add(const Plane& plane, int side, int count)
   {
-    const Real sign = side == 0 ? -1.0 : 1.0;
-    const Real whole = plane.overlap * (1.5 / count < 1 ? 1.5 / count : 1.0);
-    for (int i = 0; i < count; ++i)
-    {
-      force[i] += (sign * plane.weights[side][i]) * plane.force;
-      const Real part = plane.area * std::abs(plane.weights[side][i]);
-      stiffness[i] += 2 * Real(plane.stiffness) * (whole > part ? whole : part);
-    }
+    const Lanes weights(plane.weights[side], stdx::element_aligned);
+    const Lanes share = side == 0 ? -weights : weights;
+    forces += Vec3Of<Lanes>{share * plane.force.x, share * plane.force.y, share * plane.force.z};
+    const Lanes whole(plane.overlap * (1.5 / count < 1 ? 1.5 / count : 1.0));
+    const Lanes part = plane.area * branchFree::absolute(weights);
+    stiffnesses += 2 * Real(plane.stiffness) * branchFree::larger(whole, part);
     moment += plane.moment;
   }
 
@@ -123,19 +170,22 @@ struct FaceLoad
   {
     if (dot(moment, moment) == 0)
       return;
-    const FaceInertia<Dim> inertia(x, count);
+    const FaceInertia<Dim, Real> inertia(x, count);
     const Vec3 turn = -0.5 * inertia.solve(moment);
-    for (int i = 0; i < count; ++i)
-      force[i] += cross(turn, inertia.r[i]);
+    const auto each = [&](const auto& get) {
+      return branchFree::gathered<Lanes>([&](int i)
+                                         { return i < count ? get(inertia.r[i]) : 0.0; });
+    };
+    const Vec3Of<Lanes> r{each([](const Vec3& q) { return q.x; }),
+                          each([](const Vec3& q) { return q.y; }),
+                          each([](const Vec3& q) { return q.z; })};
+    forces += cross(Vec3Of<Lanes>{turn.x, turn.y, turn.z}, r);
   }
 };
 
-/// No traction in this cycle; history stays.
-KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                   Real dt)
+/// No traction in this cycle; history stays. The work of the last force has been booked.
+KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
 {
-  if (plane.area > 0)
-    bookOldForce(plane, a, b, dt);
   plane.force = plane.moment = {};
   plane.area = 0;
   plane.normalTraction = 0;
@@ -148,10 +198,18 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const Ha
   }
 }
 
-/// Gap at the time of the heights at the centre of gravity [m].
-KOKKOS_INLINE_FUNCTION Real gapOf(const Patch& patch, const Shadow& a, const Shadow& b)
+KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
+                                   Real dt)
 {
-  Real gap = 0;
+  bookOldForce(plane, a, b, dt);
+  carryNothing(plane);
+}
+
+/// Gap at the time of the heights at the centre of gravity [m].
+template <class T>
+KOKKOS_INLINE_FUNCTION T gapOf(const PatchOf<T>& patch, const ShadowOf<T>& a, const ShadowOf<T>& b)
+{
+  T gap{};
   for (int i = 0; i < b.count; ++i)
     gap += patch.centroidWeights[1][i] * b.height[i];
   for (int i = 0; i < a.count; ++i)
@@ -160,99 +218,136 @@ KOKKOS_INLINE_FUNCTION Real gapOf(const Patch& patch, const Shadow& a, const Sha
 }
 
 /// Step H: plane variables. Cundall's update in tractions: closure, shear increment, joint law,
-/// force, energies. `gap`: at the end of the step [m].
-KOKKOS_INLINE_FUNCTION void stepH_updatePlaneVariables(Plane& plane, const Patch& patch, Real gap,
-                                                       const TrialPlane& trial,
-                                                       const HalfStepFace& a, const HalfStepFace& b,
-                                                       const Shadow& shadowA, const Shadow& shadowB,
-                                                       const JointLaw& law,
-                                                       const ContactOptions& options, Real dt)
+/// force, energies; for the lanes of `touching`. The work of the old force has been booked.
+/// @param gap at the end of the step [m]
+template <class T>
+KOKKOS_INLINE_FUNCTION void
+stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& touching,
+                           const PatchOf<T>& patch, const T& gap, const TrialPlaneOf<T>& trial,
+                           const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                           const ShadowOf<T>& shadowA, const ShadowOf<T>& shadowB,
+                           const ContactOptions& options, Real dt)
 {
-  const Vec3& n = trial.normal;
+  using namespace branchFree;
+  constexpr int width = PlaneBatch<T>::width;
+  const Vec3Of<T>& n = trial.normal;
   // Heights are those of the end of the step, the rates belong to the half step.
-  const Real opening =
-      dot(n, weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count));
-  const Vec3 arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * opening) * n;
-  const RelativeMotion motion = relativeMotion(a, b, patch, arm);
-  const Real speed = dot(n, motion.jump);
-  const Vec3 sliding = dt * (motion.jump - speed * n);
+  const Vec3Of<T> drift =
+      weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
+  const Vec3Of<T> arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * dot(n, drift)) * n;
+  const RelativeMotionOf<T> motion = relativeMotion(a, b, patch, arm);
+  const T speed = dot(n, motion.jump);
+  const Vec3Of<T> tangential = motion.jump - speed * n;
+  const Vec3Of<T> sliding = dt * tangential;
 
-  if (plane.area > 0)
-    bookOldForce(plane, a, b, dt);
+  Vec3Of<T> tau =
+      turnIntoPlane(planes.eachVector([](const Plane& p) { return p.history.shearTraction; }),
+                    planes.eachVector([](const Plane& p) { return p.normal; }), n, motion.spin, dt);
+  if (options.areaRule)
+  {
+    const T before = planes.each([](const Plane& p) { return p.area; });
+    tau = choose(before > 0.0 && patch.area > before, before / patch.area, T(1.0)) * tau;
+  }
 
-  plane.gap = gap;
-  if (options.closure == ContactOptions::Closure::Total)
-    plane.closure = plane.offset - plane.gap;
-  else
-    plane.closure -= dt * speed;
-  plane.tooDeep = plane.closure > plane.depthLimit;
+  // The law and its history, plane by plane.
+  Real normalTraction[width] = {}, normalStiffness[width] = {};
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(touching, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    plane.gap = lane(gap, i);
+    if (options.closure == ContactOptions::Closure::Total)
+      plane.closure = plane.offset - plane.gap;
+    else
+      plane.closure -= dt * lane(speed, i);
+    plane.tooDeep = plane.closure > plane.depthLimit;
+    plane.history.shearTraction = lane(tau, i);
+    const JointResponse response =
+        (*planes.law[i])(plane.fit, plane.limitedClosure(), lane(sliding, i), dt, plane.history);
+    plane.normal = lane(n, i);
+    plane.area = lane(patch.area, i);
+    plane.normalTraction = normalTraction[i] = response.normalTraction;
+    normalStiffness[i] = response.normalStiffness;
+    plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
+                  : response.slipping                                   ? PlaneState::Slip
+                                                                        : PlaneState::Stick;
+    plane.offset += response.dilation;
+    plane.closure += response.dilation;
+    plane.frictionWork += plane.area * response.frictionWork;
+    plane.hysteresisWork += plane.area * response.hysteresisWork;
+    plane.fractureWork += plane.area * response.fractureWork;
+  }
+  const auto each = [&](const Real* values)
+  { return gathered<T>([&](int i) { return values[i]; }); };
+  const T sigma = each(normalTraction);
+  Vec3Of<T> force =
+      patch.area *
+      (sigma * n + planes.eachVector([](const Plane& p) { return p.history.shearTraction; }));
 
-  Vec3 tau = turnIntoPlane(plane.history.shearTraction, plane.normal, n, motion.spin, dt);
-  if (options.areaRule && plane.area > 0 && patch.area > plane.area)
-    tau = (plane.area / patch.area) * tau;
-  plane.history.shearTraction = tau;
-  const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
-
-  plane.normal = n;
-  plane.area = patch.area;
-  plane.normalTraction = response.normalTraction;
-  plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
-                : response.slipping                                   ? PlaneState::Slip
-                                                                      : PlaneState::Stick;
-  plane.offset += response.dilation;
-  plane.closure += response.dilation;
-  plane.frictionWork += plane.area * response.frictionWork;
-  plane.hysteresisWork += plane.area * response.hysteresisWork;
-  plane.fractureWork += plane.area * response.fractureWork;
-  Vec3 force = plane.area * (response.normalTraction * n + plane.history.shearTraction);
-
+  T dampingWork{};
   if (options.dampNormal > 0 || options.dampShear > 0)
   {
-    Real inverseMass = 0;
+    T inverseMass{};
     for (int i = 0; i < a.count; ++i)
-      inverseMass += patch.weights[0][i] * patch.weights[0][i] * a.inverseMass[i];
+      inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
     for (int i = 0; i < b.count; ++i)
-      inverseMass += patch.weights[1][i] * patch.weights[1][i] * b.inverseMass[i];
-    Real normalForce = -2 * options.dampNormal *
-                       std::sqrt(plane.area * response.normalStiffness / inverseMass) * speed;
-    const Real elastic = plane.area * response.normalTraction;
-    if (!plane.history.bonded && normalForce < -elastic)
-      normalForce = -elastic; // no tension
-    Vec3 damping = normalForce * n;
-    if (plane.state == PlaneState::Stick)
-      damping += (-2 * options.dampShear *
-                  std::sqrt(plane.area * plane.fit.shearStiffness / inverseMass)) *
-                 (motion.jump - speed * n);
-    plane.dampingWork -= dt * dot(damping, motion.jump);
+      inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
+    const T elastic = patch.area * sigma;
+    T normalForce = -2.0 * options.dampNormal *
+                    squareRoot(patch.area * each(normalStiffness) / inverseMass) * speed;
+    const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+    normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
+    const auto sticks =
+        planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
+    const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
+    const T shearing = choose(
+        sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
+        T(0.0));
+    const Vec3Of<T> damping = normalForce * n + shearing * tangential;
+    dampingWork = dt * dot(damping, motion.jump);
     force += damping;
   }
 
-  plane.force = force;
-  plane.moment = options.couple ? cross(arm + (0.5 * dt) * motion.drift, force) : Vec3{};
-  for (int f = 0; f < 2; ++f)
-    for (int i = 0; i < 4; ++i)
-      plane.weights[f][i] = patch.weights[f][i];
-  plane.work -= (0.5 * dt) * powerOf(force, plane.moment, motion.drift, a.spinAtEnd + b.spinAtEnd);
+  const Vec3Of<T> moment =
+      options.couple ? cross(arm + (0.5 * dt) * motion.drift, force) : Vec3Of<T>{};
+  const T work = (0.5 * dt) * powerOf(force, moment, motion.drift, a.spinAtEnd + b.spinAtEnd);
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(touching, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    plane.dampingWork -= lane(dampingWork, i);
+    plane.force = lane(force, i);
+    plane.moment = lane(moment, i);
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        plane.weights[f][k] = lane(patch.weights[f][k], i);
+    plane.work -= lane(work, i);
+  }
 }
 
 /// Whether the bounding boxes of two shadows share no area: most candidates are neighbours that
 /// only touch along an edge.
-KOKKOS_INLINE_FUNCTION bool shadowsApart(const Shadow& a, const Shadow& b)
+template <class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
+                                                          const ShadowOf<T>& b)
 {
-  Vec2 low[2], high[2];
-  const Shadow* shadows[2] = {&a, &b};
+  using namespace branchFree;
+  Vec2Of<T> low[2], high[2];
+  const ShadowOf<T>* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
   {
     low[f] = high[f] = shadows[f]->p[0];
     for (int i = 1; i < shadows[f]->count; ++i)
     {
-      const Vec2& p = shadows[f]->p[i];
-      low[f] = {p.x < low[f].x ? p.x : low[f].x, p.y < low[f].y ? p.y : low[f].y};
-      high[f] = {p.x > high[f].x ? p.x : high[f].x, p.y > high[f].y ? p.y : high[f].y};
+      const Vec2Of<T>& p = shadows[f]->p[i];
+      low[f] = {smaller(p.x, low[f].x), smaller(p.y, low[f].y)};
+      high[f] = {larger(p.x, high[f].x), larger(p.y, high[f].y)};
     }
   }
-  return low[0].x >= high[1].x || low[1].x >= high[0].x ||
-         (a.count > 2 && (low[0].y >= high[1].y || low[1].y >= high[0].y));
+  const auto alongX = low[0].x >= high[1].x || low[1].x >= high[0].x;
+  return a.count > 2 ? alongX || low[0].y >= high[1].y || low[1].y >= high[0].y : alongX;
 }
 
 /// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
@@ -260,54 +355,37 @@ KOKKOS_INLINE_FUNCTION bool shadowsApart(const Shadow& a, const Shadow& b)
 constexpr Real deepestBirth = 0.25;
 
 /// Bound on the speed at which corners of the faces approach each other along the normal [m/s].
-KOKKOS_INLINE_FUNCTION Real approachSpeed(const Vec3& normal, const HalfStepFace& a,
-                                          const HalfStepFace& b)
+template <class T>
+KOKKOS_INLINE_FUNCTION T approachSpeed(const Vec3Of<T>& normal, const HalfStepFaceOf<T>& a,
+                                       const HalfStepFaceOf<T>& b)
 {
-  Real towards = 0, away = 0;
+  T towards{}, away{};
   for (int i = 0; i < a.count; ++i)
-  {
-    const Real speed = dot(normal, a.v[i] - b.v[0]);
-    towards = speed > towards ? speed : towards;
-  }
+    towards = branchFree::larger(dot(normal, a.v[i] - b.v[0]), towards);
   for (int i = 0; i < b.count; ++i)
-  {
-    const Real speed = dot(normal, b.v[0] - b.v[i]);
-    away = speed > away ? speed : away;
-  }
+    away = branchFree::larger(dot(normal, b.v[0] - b.v[i]), away);
   return towards + away;
 }
 
-/// Steps B to H of one candidate pair in one cycle; step A has been done for its faces.
-template <int Dim>
-KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
-                                        const JointLaw& law, const ContactOptions& options, Real dt)
+/// Steps B and C, for the question whether the shadows of a pair can share area at all.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
+                                                     const HalfStepFaceOf<T>& b)
 {
-  const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
-  const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
-  const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
-  const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
-                        : options.area == ContactOptions::Area::Full ? AreaInUse::Full
-                                                                     : AreaInUse::Penetrating;
-  const Depth depth = depthOf(trial, options);
-  const Patch patch =
-      trial.opposed && !shadowsApart(shadowA, shadowB)
-          ? stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights, depth)
-          : Patch{};
-  plane.overlap = patch.overlap;
-  const Real smallest =
-      options.areaMin * (a.area < b.area ? a.area : b.area) * depth.at(patch.centroid.x);
-  plane.foundLate = plane.fresh && !plane.declared && !plane.born && patch.area > smallest;
-  // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
-  bool inContact = patch.area > smallest;
-  const Real approach =
-      trial.opposed && patch.overlap > 0 ? 2 * dt * approachSpeed(trial.normal, a, b) : 0;
-  if (inContact && !stepE_planeExists(plane))
+  const TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
+  return trial.opposed && !shadowsApart(stepC_projectOntoPlane<Dim>(trial, a, 0),
+                                        stepC_projectOntoPlane<Dim>(trial, b, 0));
+}
+
+/// Steps E and F: whether a pair that shares enough area touches, for which it becomes a plane if
+/// it is none yet.
+/// @param gap at the end of the step, motion: its change since the half step, approach: of the
+///        faces in two steps [m]
+KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, Real motion,
+                                    Real approach)
+{
+  if (!stepE_planeExists(plane))
   {
-    const Real gap = gapOf(patch, shadowA, shadowB);
-    // From the half step to the end of the step.
-    const Real motion =
-        (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
-                                           weighted(patch.centroidWeights[0], a.v, a.count));
     // A new contact begins at the surface. Faces that share area for the first time while one lies
     // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
     // horizontal joint closed by a hair.
@@ -318,27 +396,124 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
     if (!plane.declared && !plane.inherited && motion - gap > deepest)
       plane.released = true;
     if (!plane.released)
-      stepF_createPlane(plane, trial.normal, gap);
+      stepF_createPlane(plane, normal, gap);
   }
-  if (!(patch.area > 0))
-    plane.released = false;
-  inContact = inContact && !plane.released;
-  if (inContact)
+  return !plane.released;
+}
+
+/// A pair whose shadows share nothing in this cycle.
+KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
+                                   Real dt)
+{
+  openUp(plane, a, b, dt);
+  plane.overlap = 0;
+  plane.stiffness = 0;
+  plane.fresh = plane.foundLate = plane.released = false;
+}
+
+/// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.
+/// @returns the lanes that are done. With Lanes, planes whose patch is not regular are left
+///          untouched; updatePlanes<Real> does them.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
+updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+             const ContactOptions& options, Real dt)
+{
+  using namespace branchFree;
+  constexpr bool single = widthOf<T> == 1;
+  const TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
+  const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
+  const ShadowOf<T> shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
+  const auto meet = trial.opposed && !shadowsApart(shadowA, shadowB);
+  PatchOf<T> patch;
+  T smallest = options.areaMin * smaller(a.area, b.area);
+  if constexpr (single)
   {
-    plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    const Real gap = gapOf(patch, shadowA, shadowB);
-    stepH_updatePlaneVariables(plane, patch, gap, trial, a, b, shadowA, shadowB, law, options, dt);
+    const Plane& plane = *planes.plane[0];
+    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
+                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
+                                                                       : AreaInUse::Penetrating;
+    const Depth depth = depthOf(trial, options);
+    if (meet)
+      patch = stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights, depth);
+    smallest *= depth.at(patch.centroid.x);
   }
   else
+    patch =
+        stepD_areaOfContact(shadowA, shadowB, planes.each([](const Plane& p) { return p.offset; }),
+                            planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0,
+                            options.area, options.weights);
+  const auto done = patch.regular && (meet || MaskOf<T>(single));
+  bookOldForce(planes, done, a, b, dt);
+
+  // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
+  const auto large = patch.area > smallest;
+  const T gap = gapOf(patch, shadowA, shadowB);
+  const auto born = planes.each([](const Plane& p) { return p.born; }) > 0.0;
+  T motion{}, approach{};
+  if (!allOf(large && born))
   {
-    openUp(plane, a, b, dt);
-    if (patch.overlap > 0)
-      plane.gap = patch.leastGap + plane.offset;
+    approach = choose(patch.overlap > 0.0, 2.0 * dt * approachSpeed(trial.normal, a, b), T(0.0));
+    // From the half step to the end of the step.
+    motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
+                                                weighted(patch.centroidWeights[0], a.v, a.count));
   }
-  plane.fresh = false;
+  const auto touching =
+      gathered<T>(
+          [&](int i) -> Real
+          {
+            if (i >= planes.count || !lane(done, i))
+              return 0;
+            Plane& plane = *planes.plane[i];
+            plane.overlap = lane(patch.overlap, i);
+            const bool isLarge = lane(large, i);
+            plane.foundLate = plane.fresh && !plane.declared && !plane.born && isLarge;
+            const bool inContact = isLarge && touches(plane, lane(trial.normal, i), lane(gap, i),
+                                                      lane(motion, i), lane(approach, i));
+            if (!(lane(patch.area, i) > 0))
+              plane.released = false;
+            return inContact;
+          }) > 0.0;
+  if (anyOf(touching))
+  {
+    const Vec3Of<T> point = stepG_placePointOfContact(patch, a, b);
+    for (int i = 0; i < planes.count; ++i)
+      if (lane(touching, i))
+        planes.plane[i]->pointOfContact = lane(point, i);
+    stepH_updatePlaneVariables(planes, touching, patch, gap, trial, a, b, shadowA, shadowB, options,
+                               dt);
+  }
   // The overlap counts for the stable step as soon as the faces could touch within the next two
   // steps, so that the step does not drop suddenly.
-  const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
-  plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
+  const auto near = patch.leastGap <= approach + 1e-8 * squareRoot(patch.overlap);
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(done, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    if (!lane(touching, i))
+    {
+      carryNothing(plane);
+      if (plane.overlap > 0)
+        plane.gap = lane(patch.leastGap, i) + plane.offset;
+    }
+    plane.fresh = false;
+    plane.stiffness =
+        plane.area > 0 || lane(near, i)
+            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * 1.000001)
+            : 0;
+  }
+  return done;
+}
+
+/// Steps B to H of one candidate pair in one cycle.
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
+                                        const JointLaw& law, const ContactOptions& options, Real dt)
+{
+  PlaneBatch<Real> one;
+  one.plane[0] = &plane;
+  one.law[0] = &law;
+  updatePlanes<Dim, Real>(one, a, b, options, dt);
 }
 } // namespace coplane

@@ -5,17 +5,20 @@
 #include <coplane_contact/Plane.hpp>
 
 // Steps A to G of the Simple Common Plane algorithm for one pair of faces (Vorobiev 2006), as pure
-// functions. Dim is 2 or 3; in two dimensions a face is a segment, "area" is length times unit
+// functions. T is Real, or Lanes for several pairs side by side, which then have the same numbers
+// of nodes. Dim is 2 or 3; in two dimensions a face is a segment, "area" is length times unit
 // thickness, and only the first in-plane axis is used.
 
 namespace coplane
 {
 /// Common plane of a pair: normal from face A to face B, a point on it, and two axes in it.
-struct TrialPlane
+template <class T>
+struct TrialPlaneOf
 {
-  bool opposed = false;
-  Vec3 normal{}, point{}, e1{}, e2{};
+  branchFree::MaskOf<T> opposed{false};
+  Vec3Of<T> normal{}, point{}, e1{}, e2{};
 };
+using TrialPlane = TrialPlaneOf<Real>;
 
 /// What a plane's lengths are to be multiplied with.
 KOKKOS_INLINE_FUNCTION Depth depthOf(const TrialPlane& plane, const ContactOptions& options)
@@ -26,27 +29,31 @@ KOKKOS_INLINE_FUNCTION Depth depthOf(const TrialPlane& plane, const ContactOptio
 /// Step B: midpoint of the segment that connects the faces' centres, and the mean of n_A and -n_B
 /// as normal. The projection is parallel to the normal, so area and centroid do not depend on where
 /// along it the point lies.
-template <int Dim>
-KOKKOS_INLINE_FUNCTION TrialPlane stepB_trialPointOfContact(const HalfStepFace& a,
-                                                            const HalfStepFace& b)
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION TrialPlaneOf<T> stepB_trialPointOfContact(const HalfStepFaceOf<T>& a,
+                                                                 const HalfStepFaceOf<T>& b)
 {
-  TrialPlane plane;
-  plane.opposed = dot(a.normal, b.normal) < 0;
-  if (!plane.opposed)
+  using namespace branchFree;
+  TrialPlaneOf<T> plane;
+  plane.opposed = dot(a.normal, b.normal) < 0.0;
+  if (!anyOf(plane.opposed))
     return plane;
   plane.normal = normalised(a.normal - b.normal);
   plane.point = 0.5 * (a.center + b.center);
-  const Vec3& n = plane.normal;
+  const Vec3Of<T>& n = plane.normal;
   if constexpr (Dim == 2)
-    plane.e1 = {-n.y, n.x, 0};
+    plane.e1 = {-n.y, n.x, T(0.0)};
   else
   {
     // The axis with the smallest component of the normal, less that component.
-    const Vec3 size{std::abs(n.x), std::abs(n.y), std::abs(n.z)};
-    const int k = size.x <= size.y && size.x <= size.z ? 0 : size.y <= size.z ? 1 : 2;
-    Vec3 axis{};
-    axis[k] = 1;
-    plane.e1 = normalised(axis - n[k] * n);
+    const Vec3Of<T> size{absolute(n.x), absolute(n.y), absolute(n.z)};
+    const auto isX = size.x <= size.y && size.x <= size.z;
+    const auto isZ = !isX && size.z < size.y;
+    const T none(0.0), one(1.0);
+    const Vec3Of<T> axis{choose(isX, one, none), choose(isX || isZ, none, one),
+                         choose(isZ, one, none)};
+    const T along = choose(isX, n.x, choose(isZ, n.z, n.y));
+    plane.e1 = normalised(axis - along * n);
     plane.e2 = cross(n, plane.e1);
   }
   return plane;
@@ -55,16 +62,16 @@ KOKKOS_INLINE_FUNCTION TrialPlane stepB_trialPointOfContact(const HalfStepFace& 
 /// Step C. The outline is that of the half step; the heights are those dt / 2 later, at the end of
 /// the step: area in contact and centre of pressure come from heights, and like the closure they
 /// must not lag behind the positions on which the force acts.
-template <int Dim>
-KOKKOS_INLINE_FUNCTION Shadow stepC_projectOntoPlane(const TrialPlane& plane,
-                                                     const HalfStepFace& face, Real dt)
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION ShadowOf<T> stepC_projectOntoPlane(const TrialPlaneOf<T>& plane,
+                                                          const HalfStepFaceOf<T>& face, Real dt)
 {
-  Shadow shadow;
+  ShadowOf<T> shadow;
   shadow.count = face.count;
   for (int i = 0; i < face.count; ++i)
   {
-    const Vec3 r = face.x[i] - plane.point;
-    shadow.p[i] = {dot(plane.e1, r), Dim == 2 ? 0.0 : dot(plane.e2, r)};
+    const Vec3Of<T> r = face.x[i] - plane.point;
+    shadow.p[i] = {dot(plane.e1, r), Dim == 2 ? T(0.0) : dot(plane.e2, r)};
     shadow.height[i] = dot(plane.normal, r) + (0.5 * dt) * dot(plane.normal, face.v[i]);
   }
   return shadow;
@@ -88,9 +95,10 @@ KOKKOS_INLINE_FUNCTION void stepF_createPlane(Plane& plane, const Vec3& normal, 
 }
 
 /// Weighted mean of node vectors.
-KOKKOS_INLINE_FUNCTION Vec3 weighted(const Real* w, const Vec3* x, int count)
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> weighted(const T* w, const Vec3Of<T>* x, int count)
 {
-  Vec3 sum{};
+  Vec3Of<T> sum{};
   for (int i = 0; i < count; ++i)
     sum += w[i] * x[i];
   return sum;
@@ -98,8 +106,10 @@ KOKKOS_INLINE_FUNCTION Vec3 weighted(const Real* w, const Vec3* x, int count)
 
 /// Step G: half way between the two material points that project to the centre of gravity of the
 /// area.
-KOKKOS_INLINE_FUNCTION Vec3 stepG_placePointOfContact(const Patch& patch, const HalfStepFace& a,
-                                                      const HalfStepFace& b)
+template <class T>
+KOKKOS_INLINE_FUNCTION Vec3Of<T> stepG_placePointOfContact(const PatchOf<T>& patch,
+                                                           const HalfStepFaceOf<T>& a,
+                                                           const HalfStepFaceOf<T>& b)
 {
   return 0.5 * (weighted(patch.centroidWeights[0], a.x, a.count) +
                 weighted(patch.centroidWeights[1], b.x, b.count));

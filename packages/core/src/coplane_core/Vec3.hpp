@@ -15,19 +15,19 @@ struct Vec3Of
 {
   T x{}, y{}, z{};
 
-  KOKKOS_INLINE_FUNCTION constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
-  KOKKOS_INLINE_FUNCTION constexpr const T& operator[](int i) const
+  KOKKOS_FORCEINLINE_FUNCTION constexpr T& operator[](int i) { return i == 0 ? x : i == 1 ? y : z; }
+  KOKKOS_FORCEINLINE_FUNCTION constexpr const T& operator[](int i) const
   {
     return i == 0 ? x : i == 1 ? y : z;
   }
-  KOKKOS_INLINE_FUNCTION constexpr Vec3Of& operator+=(const Vec3Of& b)
+  KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of& operator+=(const Vec3Of& b)
   {
     x += b.x;
     y += b.y;
     z += b.z;
     return *this;
   }
-  KOKKOS_INLINE_FUNCTION constexpr Vec3Of& operator-=(const Vec3Of& b)
+  KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of& operator-=(const Vec3Of& b)
   {
     x -= b.x;
     y -= b.y;
@@ -39,40 +39,40 @@ struct Vec3Of
 using Vec3 = Vec3Of<Real>;
 
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator+(const Vec3Of<T>& a, const Vec3Of<T>& b)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> operator+(const Vec3Of<T>& a, const Vec3Of<T>& b)
 {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator-(const Vec3Of<T>& a, const Vec3Of<T>& b)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> operator-(const Vec3Of<T>& a, const Vec3Of<T>& b)
 {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator-(const Vec3Of<T>& a)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> operator-(const Vec3Of<T>& a)
 {
   return {-a.x, -a.y, -a.z};
 }
 template <class T, class S>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator*(const S& s, const Vec3Of<T>& a)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> operator*(const S& s, const Vec3Of<T>& a)
 {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr T dot(const Vec3Of<T>& a, const Vec3Of<T>& b)
+KOKKOS_FORCEINLINE_FUNCTION constexpr T dot(const Vec3Of<T>& a, const Vec3Of<T>& b)
 {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> cross(const Vec3Of<T>& a, const Vec3Of<T>& b)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> cross(const Vec3Of<T>& a, const Vec3Of<T>& b)
 {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-KOKKOS_INLINE_FUNCTION Real norm(const Vec3& a)
+KOKKOS_FORCEINLINE_FUNCTION Real norm(const Vec3& a)
 {
   return std::sqrt(dot(a, a));
 }
-KOKKOS_INLINE_FUNCTION Vec3 normalised(const Vec3& a)
+KOKKOS_FORCEINLINE_FUNCTION Vec3 normalised(const Vec3& a)
 {
   return (1.0 / norm(a)) * a;
 }
@@ -82,13 +82,13 @@ template <class T>
 struct Mat3Of
 {
   T a[3][3]{};
-  KOKKOS_INLINE_FUNCTION constexpr T& operator()(int i, int j) { return a[i][j]; }
-  KOKKOS_INLINE_FUNCTION constexpr const T& operator()(int i, int j) const { return a[i][j]; }
+  KOKKOS_FORCEINLINE_FUNCTION constexpr T& operator()(int i, int j) { return a[i][j]; }
+  KOKKOS_FORCEINLINE_FUNCTION constexpr const T& operator()(int i, int j) const { return a[i][j]; }
 };
 using Mat3 = Mat3Of<Real>;
 
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator*(const Mat3Of<T>& m, const Vec3Of<T>& v)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Vec3Of<T> operator*(const Mat3Of<T>& m, const Vec3Of<T>& v)
 {
   return {m.a[0][0] * v.x + m.a[0][1] * v.y + m.a[0][2] * v.z,
           m.a[1][0] * v.x + m.a[1][1] * v.y + m.a[1][2] * v.z,
@@ -96,7 +96,7 @@ KOKKOS_INLINE_FUNCTION constexpr Vec3Of<T> operator*(const Mat3Of<T>& m, const V
 }
 
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Mat3Of<T> operator*(const Mat3Of<T>& m, const Mat3Of<T>& n)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Mat3Of<T> operator*(const Mat3Of<T>& m, const Mat3Of<T>& n)
 {
   Mat3Of<T> r;
   for (int i = 0; i < 3; ++i)
@@ -106,7 +106,7 @@ KOKKOS_INLINE_FUNCTION constexpr Mat3Of<T> operator*(const Mat3Of<T>& m, const M
 }
 
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr T determinant(const Mat3Of<T>& m)
+KOKKOS_FORCEINLINE_FUNCTION constexpr T determinant(const Mat3Of<T>& m)
 {
   return m.a[0][0] * (m.a[1][1] * m.a[2][2] - m.a[1][2] * m.a[2][1]) -
          m.a[0][1] * (m.a[1][0] * m.a[2][2] - m.a[1][2] * m.a[2][0]) +
@@ -115,7 +115,7 @@ KOKKOS_INLINE_FUNCTION constexpr T determinant(const Mat3Of<T>& m)
 
 /// Inverse by cofactors; the caller sees to it that the matrix is regular.
 template <class T>
-KOKKOS_INLINE_FUNCTION constexpr Mat3Of<T> inverse(const Mat3Of<T>& m)
+KOKKOS_FORCEINLINE_FUNCTION constexpr Mat3Of<T> inverse(const Mat3Of<T>& m)
 {
   const T d = T(1.0) / determinant(m);
   Mat3Of<T> r;

@@ -140,9 +140,9 @@ void Solver::nameWhatLimits(int node, StepControl& control) const
       FaceLoad load;
       load.add(plane, side, face.count);
       for (int k = 0; k < face.count; ++k)
-        if (face.nodes[k] == node && load.stiffness[k] > most)
+        if (face.nodes[k] == node && load.stiffness(k) > most)
         {
-          most = load.stiffness[k];
+          most = load.stiffness(k);
           control.faceId[0] = plane.faceId[0];
           control.faceId[1] = plane.faceId[1];
         }

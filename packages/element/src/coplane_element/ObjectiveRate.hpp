@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_element/HughesWinget.hpp>
-#include <coplane_material/BranchFree.hpp>
+#include <coplane_core/BranchFree.hpp>
 
 namespace coplane
 {

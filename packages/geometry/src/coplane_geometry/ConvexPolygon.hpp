@@ -1,38 +1,9 @@
 #pragma once
 
-#include <coplane_core/Real.hpp>
-
-#include <Kokkos_Core.hpp>
+#include <coplane_geometry/Vec2.hpp>
 
 namespace coplane
 {
-/// Point of a plane, in coordinates along two axes of that plane [m].
-struct Vec2
-{
-  Real x = 0, y = 0;
-};
-KOKKOS_INLINE_FUNCTION constexpr Vec2 operator+(const Vec2& a, const Vec2& b)
-{
-  return {a.x + b.x, a.y + b.y};
-}
-KOKKOS_INLINE_FUNCTION constexpr Vec2 operator-(const Vec2& a, const Vec2& b)
-{
-  return {a.x - b.x, a.y - b.y};
-}
-KOKKOS_INLINE_FUNCTION constexpr Vec2 operator*(Real s, const Vec2& a)
-{
-  return {s * a.x, s * a.y};
-}
-KOKKOS_INLINE_FUNCTION constexpr Real dot(const Vec2& a, const Vec2& b)
-{
-  return a.x * b.x + a.y * b.y;
-}
-/// z component of the cross product: twice the signed area of the triangle (0, a, b).
-KOKKOS_INLINE_FUNCTION constexpr Real cross(const Vec2& a, const Vec2& b)
-{
-  return a.x * b.y - a.y * b.x;
-}
-
 /// Convex polygon, counter-clockwise, in a fixed array: nothing is allocated in kernels. Two
 /// quadrilaterals share at most an octagon; one more cut adds one vertex.
 struct ConvexPolygon
@@ -112,12 +83,14 @@ KOKKOS_INLINE_FUNCTION ConvexPolygon intersection(const ConvexPolygon& subject,
   return result;
 }
 
-/// Area [m^2] and its first moment about vertex 0.
-struct AreaAndCentroid
+/// Area [m^2] and centre of gravity of a polygon.
+template <class T>
+struct AreaAndCentroidOf
 {
-  Real area = 0;
-  Vec2 centroid;
+  T area{};
+  Vec2Of<T> centroid;
 };
+using AreaAndCentroid = AreaAndCentroidOf<Real>;
 
 /// By a fan about vertex 0 in relative coordinates, so that a polygon far from the origin loses no
 /// digits.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_material/BranchFree.hpp>
+#include <coplane_core/BranchFree.hpp>
 #include <coplane_material/LinearElastic.hpp>
 
 namespace coplane

@@ -5,51 +5,96 @@
 
 #include <cmath>
 
-// The few operations that a law or an element kernel needs in the same spelling for one number
-// (Real) and for several elements side by side (Lanes). Each is one IEEE operation or one call of
-// the mathematics library per lane, so a lane has the bits of the scalar.
+// The few operations that a law or a kernel needs in the same spelling for one number
+// (Real) and for several elements or pairs of faces side by side (Lanes). Each is one IEEE
+// operation or one call of the mathematics library per lane, so a lane has the bits of the scalar.
 namespace coplane::branchFree
 {
 template <class T>
 using MaskOf = decltype(T() > T());
 
-KOKKOS_INLINE_FUNCTION Real choose(bool mask, Real a, Real b)
+KOKKOS_FORCEINLINE_FUNCTION Real choose(bool mask, Real a, Real b)
 {
   return mask ? a : b;
 }
-inline Lanes choose(const LaneMask& mask, const Lanes& a, const Lanes& b)
-{
-  return coplane::choose(mask, a, b);
-}
+using coplane::choose; // of lanes
 
-KOKKOS_INLINE_FUNCTION bool anyOf(bool mask)
+KOKKOS_FORCEINLINE_FUNCTION bool anyOf(bool mask)
 {
   return mask;
 }
-inline bool anyOf(const LaneMask& mask)
+KOKKOS_FORCEINLINE_FUNCTION bool anyOf(const LaneMask& mask)
 {
   return stdx::any_of(mask);
 }
 
-KOKKOS_INLINE_FUNCTION Real squareRoot(Real a)
+KOKKOS_FORCEINLINE_FUNCTION bool allOf(bool mask)
+{
+  return mask;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool allOf(const LaneMask& mask)
+{
+  return stdx::all_of(mask);
+}
+
+/// How many numbers a T holds.
+template <class T>
+constexpr int widthOf = 1;
+template <>
+inline constexpr int widthOf<Lanes> = laneCount;
+
+/// The number or the answer in one lane.
+KOKKOS_FORCEINLINE_FUNCTION Real lane(Real a, int)
+{
+  return a;
+}
+KOKKOS_FORCEINLINE_FUNCTION Real lane(const Lanes& a, int i)
+{
+  return a[i];
+}
+KOKKOS_FORCEINLINE_FUNCTION bool lane(bool a, int)
+{
+  return a;
+}
+KOKKOS_FORCEINLINE_FUNCTION bool lane(const LaneMask& a, int i)
+{
+  return a[i];
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3 lane(const Vec3Of<T>& a, int i)
+{
+  return {lane(a.x, i), lane(a.y, i), lane(a.z, i)};
+}
+
+/// get(0), get(1), ... side by side.
+template <class T, class Get>
+KOKKOS_FORCEINLINE_FUNCTION T gathered(const Get& get)
+{
+  if constexpr (widthOf<T> == 1)
+    return get(0);
+  else
+    return T([&](auto i) { return Real(get(int(i))); });
+}
+
+KOKKOS_FORCEINLINE_FUNCTION Real squareRoot(Real a)
 {
   return std::sqrt(a);
 }
-inline Lanes squareRoot(const Lanes& a)
+KOKKOS_FORCEINLINE_FUNCTION Lanes squareRoot(const Lanes& a)
 {
   return stdx::sqrt(a);
 }
 
-KOKKOS_INLINE_FUNCTION Real absolute(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real absolute(Real a)
 {
   return std::fabs(a);
 }
-inline Lanes absolute(const Lanes& a)
+KOKKOS_FORCEINLINE_FUNCTION Lanes absolute(const Lanes& a)
 {
   return stdx::fabs(a);
 }
 
-KOKKOS_INLINE_FUNCTION Real exponential(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real exponential(Real a)
 {
   return std::exp(a);
 }
@@ -58,7 +103,7 @@ inline Lanes exponential(const Lanes& a)
   return Lanes([&](auto lane) { return std::exp(Real(a[lane])); });
 }
 
-KOKKOS_INLINE_FUNCTION Real logarithm(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real logarithm(Real a)
 {
   return std::log(a);
 }
@@ -67,7 +112,7 @@ inline Lanes logarithm(const Lanes& a)
   return Lanes([&](auto lane) { return std::log(Real(a[lane])); });
 }
 
-KOKKOS_INLINE_FUNCTION Real power(Real a, Real b)
+KOKKOS_FORCEINLINE_FUNCTION Real power(Real a, Real b)
 {
   return std::pow(a, b);
 }
@@ -76,7 +121,7 @@ inline Lanes power(const Lanes& a, Real b)
   return Lanes([&](auto lane) { return std::pow(Real(a[lane]), b); });
 }
 
-KOKKOS_INLINE_FUNCTION Real cubeRoot(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real cubeRoot(Real a)
 {
   return std::cbrt(a);
 }
@@ -85,7 +130,7 @@ inline Lanes cubeRoot(const Lanes& a)
   return Lanes([&](auto lane) { return std::cbrt(Real(a[lane])); });
 }
 
-KOKKOS_INLINE_FUNCTION Real cosine(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real cosine(Real a)
 {
   return std::cos(a);
 }
@@ -94,7 +139,7 @@ inline Lanes cosine(const Lanes& a)
   return Lanes([&](auto lane) { return std::cos(Real(a[lane])); });
 }
 
-KOKKOS_INLINE_FUNCTION Real arcCosine(Real a)
+KOKKOS_FORCEINLINE_FUNCTION Real arcCosine(Real a)
 {
   return std::acos(a);
 }
@@ -105,21 +150,21 @@ inline Lanes arcCosine(const Lanes& a)
 
 /// max(a, 0). A value that is not a number gives 0.
 template <class T>
-KOKKOS_INLINE_FUNCTION T positivePart(const T& a)
+KOKKOS_FORCEINLINE_FUNCTION T positivePart(const T& a)
 {
   return branchFree::choose(a > T(0.0), a, T(0.0));
 }
 
 /// The larger of a and b; b when a is not a number.
 template <class T>
-KOKKOS_INLINE_FUNCTION T larger(const T& a, const T& b)
+KOKKOS_FORCEINLINE_FUNCTION T larger(const T& a, const T& b)
 {
   return branchFree::choose(a > b, a, b);
 }
 
 /// The smaller of a and b; b when a is not a number.
 template <class T>
-KOKKOS_INLINE_FUNCTION T smaller(const T& a, const T& b)
+KOKKOS_FORCEINLINE_FUNCTION T smaller(const T& a, const T& b)
 {
   return branchFree::choose(a < b, a, b);
 }

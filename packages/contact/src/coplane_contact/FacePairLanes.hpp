@@ -1,0 +1,201 @@
+#pragma once
+
+#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_core/Backend.hpp>
+
+// Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
+// the bits of the scalar functions, whichever others share its lanes.
+
+namespace coplane
+{
+/// Faces with the same number of nodes side by side; without motion only what steps B and C need
+/// for the outlines.
+template <bool WithMotion>
+inline void putSideBySide(const HalfStepFace* const (&faces)[laneCount],
+                          HalfStepFaceOf<Lanes>& face)
+{
+  const auto each = [&](const auto& get)
+  { return branchFree::gathered<Lanes>([&](int i) { return get(*faces[i]); }); };
+  const auto vector = [&](const auto& get) -> Vec3Of<Lanes>
+  {
+    return {each([&](const HalfStepFace& f) { return get(f).x; }),
+            each([&](const HalfStepFace& f) { return get(f).y; }),
+            each([&](const HalfStepFace& f) { return get(f).z; })};
+  };
+  face.count = faces[0]->count;
+  face.center = vector([](const HalfStepFace& f) { return f.center; });
+  face.normal = vector([](const HalfStepFace& f) { return f.normal; });
+  for (int k = 0; k < face.count; ++k)
+    face.x[k] = vector([&](const HalfStepFace& f) { return f.x[k]; });
+  if constexpr (WithMotion)
+  {
+    face.area = each([](const HalfStepFace& f) { return f.area; });
+    for (int k = 0; k < face.count; ++k)
+      face.v[k] = vector([&](const HalfStepFace& f) { return f.v[k]; });
+    face.spin = vector([](const HalfStepFace& f) { return f.spin; });
+    face.spinAtStart = vector([](const HalfStepFace& f) { return f.spinAtStart; });
+    face.spinAtEnd = vector([](const HalfStepFace& f) { return f.spinAtEnd; });
+    for (int k = 0; k < face.count; ++k)
+      face.mass[k] = each([&](const HalfStepFace& f) { return f.mass[k]; });
+  }
+}
+
+/// Step A for laneCount faces with the same number of nodes.
+inline void stepA_halfStepFaces(const FaceNodesOf<Lanes>& nodes, Real dt, HalfStepFace* faces)
+{
+  const HalfStepFaceOf<Lanes> all = stepA_halfStepFace<3>(nodes, dt);
+  for (int i = 0; i < laneCount; ++i)
+  {
+    using branchFree::lane;
+    HalfStepFace& face = *new (faces + i) HalfStepFace;
+    face.count = all.count;
+    for (int k = 0; k < all.count; ++k)
+    {
+      face.x[k] = lane(all.x[k], i);
+      face.v[k] = lane(all.v[k], i);
+      face.mass[k] = lane(all.mass[k], i);
+    }
+    face.center = lane(all.center, i);
+    face.normal = lane(all.normal, i);
+    face.area = lane(all.area, i);
+    face.spin = lane(all.spin, i);
+    face.spinAtStart = lane(all.spinAtStart, i);
+    face.spinAtEnd = lane(all.spinAtEnd, i);
+  }
+}
+
+/// Steps B to H for a stretch of the table of planes. Pairs wait until as many of a kind, by the
+/// numbers of nodes of their faces, are there as fit side by side: those without traction first for
+/// the question whether their shadows can meet at all.
+class PairLanes
+{
+public:
+  PairLanes(Plane* planes, const HalfStepFace* faces, const JointLaw* laws,
+            const ContactOptions& options, Real dt)
+      : planes_(planes), faces_(faces), laws_(laws), options_(options), dt_(dt)
+  {
+  }
+
+  void update(int first, int last)
+  {
+    for (int p = first; p < last; ++p)
+    {
+      prefetchAhead(p, last);
+      if (planes_[p].face[0] < 0)
+        continue;
+      const int kind = (face(p, 0).count == 4 ? 1 : 0) + (face(p, 1).count == 4 ? 2 : 0);
+      if (planes_[p].area > 0) // it met in the last cycle
+        put(p, kind);
+      else if (toJudge_[kind].add(p))
+        judge(kind);
+    }
+    for (int kind = 0; kind < kinds; ++kind)
+    {
+      judge(kind);
+      updateMet(kind);
+    }
+  }
+
+private:
+  static constexpr int kinds = 4;
+  struct Queue
+  {
+    int count = 0;
+    int plane[laneCount];
+
+    /// Whether it is full now.
+    bool add(int p)
+    {
+      plane[count++] = p;
+      return count == laneCount;
+    }
+    /// Lanes without a plane of their own repeat the first.
+    int at(int i) const { return plane[i < count ? i : 0]; }
+  };
+
+  /// Planes lie in a row, and so do their lower faces nearly; the higher ones lie anywhere.
+  void prefetchAhead(int p, int last) const
+  {
+    constexpr int planesAhead = 16, facesAhead = 8;
+    if (p + planesAhead < last)
+      prefetch(planes_[p + planesAhead]);
+    if (p + facesAhead < last && planes_[p + facesAhead].face[1] >= 0)
+      prefetch(face(p + facesAhead, 1));
+  }
+  template <class Record>
+  static void prefetch(const Record& record)
+  {
+    const char* line = reinterpret_cast<const char*>(&record);
+    for (std::size_t at = 0; at < sizeof(Record); at += 64)
+      __builtin_prefetch(line + at);
+  }
+
+  const HalfStepFace& face(int p, int side) const { return faces_[planes_[p].face[side]]; }
+
+  template <bool WithMotion>
+  void gatherFaces(const Queue& queue)
+  {
+    const HalfStepFace *a[laneCount], *b[laneCount];
+    for (int i = 0; i < laneCount; ++i)
+    {
+      a[i] = &face(queue.at(i), 0);
+      b[i] = &face(queue.at(i), 1);
+    }
+    putSideBySide<WithMotion>(a, a_);
+    putSideBySide<WithMotion>(b, b_);
+  }
+
+  void judge(int kind)
+  {
+    Queue& queue = toJudge_[kind];
+    if (queue.count == 0)
+      return;
+    gatherFaces<false>(queue);
+    const LaneMask meet = mayMeet<3>(a_, b_);
+    for (int i = 0; i < queue.count; ++i)
+    {
+      const int p = queue.plane[i];
+      if (!meet[i])
+        passBy(planes_[p], face(p, 0), face(p, 1), dt_);
+      else
+        put(p, kind);
+    }
+    queue.count = 0;
+  }
+
+  void put(int p, int kind)
+  {
+    if (toUpdate_[kind].add(p))
+      updateMet(kind);
+  }
+
+  void updateMet(int kind)
+  {
+    Queue& queue = toUpdate_[kind];
+    if (queue.count == 0)
+      return;
+    PlaneBatch<Lanes> batch;
+    batch.count = queue.count;
+    for (int i = 0; i < laneCount; ++i)
+    {
+      batch.plane[i] = &planes_[queue.at(i)];
+      batch.law[i] = &laws_[batch.plane[i]->joint];
+    }
+    gatherFaces<true>(queue);
+    const LaneMask done = updatePlanes<3, Lanes>(batch, a_, b_, options_, dt_);
+    for (int i = 0; i < queue.count; ++i)
+      if (!done[i])
+        updatePlane<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
+                       *batch.law[i], options_, dt_);
+    queue.count = 0;
+  }
+
+  Plane* planes_;
+  const HalfStepFace* faces_;
+  const JointLaw* laws_;
+  const ContactOptions& options_;
+  Real dt_;
+  Queue toJudge_[kinds], toUpdate_[kinds];
+  HalfStepFaceOf<Lanes> a_, b_; // of the pairs in work
+};
+} // namespace coplane

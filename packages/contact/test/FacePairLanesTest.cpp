@@ -1,0 +1,209 @@
+// Pairs side by side get the bits that each would get alone, whatever shares its lanes.
+#include "FacePairs.hpp"
+
+#include <coplane_contact/FacePairLanes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace coplane
+{
+namespace
+{
+using namespace facepairs;
+
+constexpr Real dt = 1e-3;
+
+/// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, apart, touching,
+/// aligned to the last bit, new, old, bonded.
+struct PairTable
+{
+  std::vector<FaceNodes> nodes;
+  std::vector<Plane> planes;
+
+  explicit PairTable(int count, unsigned seed)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<Real> u(-1, 1);
+    for (int p = 0; p < count; ++p)
+    {
+      const Real warps[] = {0, 0, 1e-15, .02, .2, 3};
+      RandomPair pair = randomPair(random, warps[random() % 6], 5);
+      if (random() % 4 == 0) // the same outline
+      {
+        pair.b.count = pair.a.count;
+        for (int i = 0; i < pair.a.count; ++i)
+          pair.b.x[i] = pair.a.x[pair.a.count - 1 - i];
+      }
+      if (random() % 8 == 0) // apart
+        for (int i = 0; i < pair.b.count; ++i)
+          pair.b.x[i] = pair.b.x[i] + Vec3{3, 3, 3};
+      Plane plane;
+      plane.face[0] = random() % 20 == 0 ? -1 : 2 * p;
+      plane.face[1] = 2 * p + 1;
+      plane.born = random() % 3 != 0;
+      plane.fresh = random() % 2 == 0;
+      plane.declared = random() % 5 == 0;
+      plane.history.bonded = random() % 5 == 0;
+      plane.joint = std::uint16_t(random() % 2);
+      plane.offset = .05 * u(random);
+      plane.normal = normalised(Vec3{u(random), u(random), u(random)});
+      plane.depthLimit = 1;
+      plane.fit.normalStiffness = 10;
+      plane.fit.shearStiffness = 5;
+      if (random() % 2 == 0)
+      {
+        plane.area = .5;
+        plane.history.shearTraction = cross(plane.normal, Vec3{u(random), u(random), u(random)});
+      }
+      planes.push_back(plane);
+      nodes.push_back(pair.a);
+      nodes.push_back(pair.b);
+    }
+  }
+
+  std::vector<HalfStepFace> faces() const
+  {
+    std::vector<HalfStepFace> result;
+    for (const FaceNodes& face : nodes)
+      result.push_back(stepA_halfStepFace<3>(face, dt));
+    return result;
+  }
+
+  void move()
+  {
+    for (FaceNodes& face : nodes)
+      for (int i = 0; i < face.count; ++i)
+        face.x[i] += dt * face.v[i];
+  }
+};
+
+std::vector<JointLaw> twoLaws()
+{
+  JointLaw law;
+  law.friction = .3;
+  law.curve.inverseMaximumClosure = .1;
+  JointLaw other = law;
+  other.dynamicFriction = .1;
+  return {law, other};
+}
+
+ContactOptions someOptions(ContactOptions::Area area, ContactOptions::Weights weights)
+{
+  ContactOptions o = options(area, weights);
+  o.dampNormal = .1;
+  o.dampShear = .05;
+  return o;
+}
+
+bool sameBits(const Plane& a, const Plane& b)
+{
+  return std::memcmp(static_cast<const void*>(&a), static_cast<const void*>(&b), sizeof(Plane)) ==
+         0;
+}
+} // namespace
+
+TEST(PairLanes, haveTheBitsOfOnePairAtATime)
+{
+  const std::vector<JointLaw> laws = twoLaws();
+  for (const auto area : allAreas)
+    for (const auto weights : allWeights)
+    {
+      const ContactOptions o = someOptions(area, weights);
+      PairTable table(3000, 17);
+      std::vector<Plane> alone = table.planes, together = table.planes;
+      int carrying = 0, irregular = 0;
+      for (int cycle = 0; cycle < 5; ++cycle, table.move())
+      {
+        const std::vector<HalfStepFace> faces = table.faces();
+        for (Plane& plane : alone)
+          if (plane.face[0] >= 0)
+          {
+            const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
+            updatePlane<3>(plane, a, b, laws[plane.joint], o, dt);
+            carrying += plane.area > 0;
+            const TrialPlane trial = stepB_trialPointOfContact<3>(a, b);
+            irregular +=
+                trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
+          }
+        PairLanes(together.data(), faces.data(), laws.data(), o, dt)
+            .update(0, int(together.size()));
+        for (std::size_t p = 0; p < alone.size(); ++p)
+          ASSERT_TRUE(sameBits(alone[p], together[p])) << p << " in cycle " << cycle;
+      }
+      EXPECT_GT(carrying, 5000);
+      EXPECT_GT(irregular, 100);
+    }
+}
+
+TEST(PairLanes, doNotDependOnTheirNeighbours)
+{
+  const std::vector<JointLaw> laws = twoLaws();
+  const ContactOptions o =
+      someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure);
+  PairTable table(2000, 5);
+  const std::vector<HalfStepFace> faces = table.faces();
+  std::vector<int> order(table.planes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937(3));
+  std::vector<Plane> sorted = table.planes, shuffled;
+  for (const int p : order)
+    shuffled.push_back(table.planes[p]);
+  PairLanes(sorted.data(), faces.data(), laws.data(), o, dt).update(0, int(sorted.size()));
+  for (int first = 0; first < int(shuffled.size()); first += 7) // stretches of another length
+    PairLanes(shuffled.data(), faces.data(), laws.data(), o, dt)
+        .update(first, std::min(first + 7, int(shuffled.size())));
+  for (std::size_t i = 0; i < order.size(); ++i)
+    ASSERT_TRUE(sameBits(sorted[order[i]], shuffled[i])) << order[i];
+}
+
+TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)
+{
+  std::mt19937 random(11);
+  for (int n = 0; n < 500; ++n)
+  {
+    FaceNodes faces[laneCount];
+    for (FaceNodes& face : faces)
+    {
+      do
+        face = randomPair(random, .2).a;
+      while (face.count != 3 + n % 2);
+      if (random() % 10 == 0)
+        face.x[1] = face.x[2] = face.x[0]; // degenerate
+    }
+    FaceNodesOf<Lanes> together;
+    together.count = faces[0].count;
+    const auto vector = [&](const auto& get) -> Vec3Of<Lanes>
+    {
+      const auto each = [&](int k)
+      { return branchFree::gathered<Lanes>([&](int i) { return get(faces[i])[k]; }); };
+      return {each(0), each(1), each(2)};
+    };
+    for (int k = 0; k < together.count; ++k)
+    {
+      together.x[k] = vector([&](const FaceNodes& f) { return f.x[k]; });
+      together.v[k] = vector([&](const FaceNodes& f) { return f.v[k]; });
+      together.mass[k] = branchFree::gathered<Lanes>([&](int i) { return faces[i].mass[k]; });
+    }
+    HalfStepFace result[laneCount];
+    stepA_halfStepFaces(together, dt, result);
+    const auto same = [](const Vec3& a, const Vec3& b)
+    { return a.x == b.x && a.y == b.y && a.z == b.z; };
+    for (int i = 0; i < laneCount; ++i)
+    {
+      const HalfStepFace one = stepA_halfStepFace<3>(faces[i], dt);
+      EXPECT_TRUE(same(one.center, result[i].center) && same(one.normal, result[i].normal) &&
+                  same(one.spin, result[i].spin) && same(one.spinAtStart, result[i].spinAtStart) &&
+                  same(one.spinAtEnd, result[i].spinAtEnd) && one.area == result[i].area);
+      for (int k = 0; k < one.count; ++k)
+        EXPECT_TRUE(same(one.x[k], result[i].x[k]) && same(one.v[k], result[i].v[k]) &&
+                    one.mass[k] == result[i].mass[k]);
+    }
+  }
+}
+} // namespace coplane
