@@ -232,6 +232,9 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       return value;
     };
   conditions.localDamping = deck.localDamping;
+  conditions.dampingFrom = deck.dampingFrom;
+  conditions.relaxation = {deck.kineticDamping, deck.dampingEnergyRatio.value_or(0),
+                           deck.dampingForceRatio.value_or(0)};
   if (deck.dampingUntil)
     conditions.dampingUntil = *deck.dampingUntil;
   for (const ConditionCard& card : deck.conditions)
@@ -262,6 +265,21 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
+      continue;
+    }
+    if (card.type == "rigid_motion")
+    {
+      RigidMotion motion;
+      motion.block = indexOf(mesh.blocks, card.set);
+      for (int c = 0; c < 3 && card.translation; ++c)
+        if (card.components[c])
+        {
+          motion.components[c] = true;
+          motion.velocity[c] = functionOf((*card.translation)[c]);
+        }
+      if (card.spin)
+        motion.spin = vectorOf(*card.spin);
+      conditions.rigidMotions.push_back(std::move(motion));
       continue;
     }
     const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
@@ -392,6 +410,14 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mes
     rigid.insert(rigid.end(), std::size_t(block.elements()),
                  card != deck.blocks.end() && card->rigid ? block.name : "");
   }
+  for (const ConditionCard& card : deck.conditions)
+    for (int c = 0; c < 2 && card.spin && mesh.dimension == 2; ++c)
+      if (const TimeFunction& spin = (*card.spin)[c];
+          spin.constant != 0 || !spin.expression.empty() || !spin.times.empty())
+        problems.push_back(fmt::format(
+            "{}: angular_velocity about {} of the rigid block '{}', but the mesh has two "
+            "dimensions; accepted: 0 there, a spin about z.",
+            card.where, "xy"[c], card.set));
   for (const ConditionCard& card : deck.conditions)
     if (card.type == "absorbing")
       if (const int set = indexOf(mesh.sideSets, card.set); set >= 0)

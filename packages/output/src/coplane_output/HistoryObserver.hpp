@@ -25,6 +25,8 @@ struct HistoryOptions
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<Probe> probes;
   std::vector<std::string> joints; ///< joint cards whose planes are summed up in columns
+  /// Rigid blocks (positions in Mesh::blocks) whose bodies are recorded in columns.
+  std::vector<int> rigidBlocks;
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
 };
 
