@@ -136,8 +136,11 @@ private:
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < M::count; ++k)
         motion.middle[i][k] = x[i][k] - half * dt * v[i][k];
-    motion.radius = radial.position - half * dt * radial.velocity;
-    motion.radialVelocity = radial.velocity;
+    if constexpr (revolved)
+    {
+      motion.radius = radial.position - half * dt * radial.velocity;
+      motion.radialVelocity = radial.velocity;
+    }
     motion.volume = Shape::volumeGradient(motion.middle, motion.radius, b, hoop);
     const Lanes inverseVolume = Lanes(1.0) / motion.volume;
 
