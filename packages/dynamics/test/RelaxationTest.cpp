@@ -90,9 +90,10 @@ TEST(Relaxation, stopsAtPeaksOfTheKineticEnergyFindTheColumnUnderItsWeight)
   EXPECT_GT(solver.relaxation().stops, 3);
   EXPECT_LT(solver.relaxation().stops, 200);
   expectStaticColumn(solver);
-  // Half of the work of gravity is stored, the other half was motion.
+  // Half of the work of gravity is stored, the other half was motion. The first energy is not zero,
+  // by a term of second order in the step.
   const EnergyBalance energy = solver.energy();
-  EXPECT_NEAR(energy.kineticDamping, energy.internal, 1e-3 * energy.internal);
+  EXPECT_NEAR(energy.kineticDamping - energy.initial, energy.internal, 1e-3 * energy.internal);
   EXPECT_EQ(energy.localDamping, 0);
   expectRest(solver, 1e-9);
 }
@@ -107,7 +108,7 @@ TEST(Relaxation, localDampingEndsByTheRatioOfForces)
   relax(solver);
   expectStaticColumn(solver);
   const EnergyBalance energy = solver.energy();
-  EXPECT_NEAR(energy.localDamping, energy.internal, 1e-3 * energy.internal);
+  EXPECT_NEAR(energy.localDamping - energy.initial, energy.internal, 1e-3 * energy.internal);
   EXPECT_EQ(energy.kineticDamping, 0);
   expectRest(solver, 1e-9);
   EXPECT_EQ(solver.energy().localDamping, energy.localDamping); // it has ended

@@ -16,13 +16,13 @@ constexpr std::int64_t checkEvery = 20, checksInARow = 5;
 
 Real Solver::kineticAtHalfStep() const
 {
-  ExactSum sum;
+  std::vector<ExactSum> sums(1);
   for (int n = 0; n < layout_.owned(); ++n)
     if (!followsBody_(n))
-      sum.add(0.5 * state_.mass(n) * dot(at(state_.v, n), at(state_.v, n)));
+      sums[0].add(0.5 * state_.mass(n) * dot(at(state_.v, n), at(state_.v, n)));
   if (comm_->isRoot()) // every rank has all bodies
-    sum.add(rigid_->kineticAtHalfStep());
-  return ExactSum::overRanks({sum}, *comm_)[0];
+    sums[0].add(rigid_->kineticAtHalfStep());
+  return ExactSum::overRanks(sums, *comm_)[0];
 }
 
 bool Solver::isAtRest() const
@@ -130,13 +130,13 @@ void Solver::stopMotion(Real step)
 
 Real Solver::kineticAtFullStep() const
 {
-  ExactSum sum;
+  std::vector<ExactSum> sums(1);
   for (int n = 0; n < layout_.owned(); ++n)
     if (!followsBody_(n))
-      sum.add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
+      sums[0].add(0.5 * state_.mass(n) * dot(at(state_.vPrevious, n), at(state_.v, n)));
   if (comm_->isRoot())
-    sum.add(rigid_->kinetic());
-  return ExactSum::overRanks({sum}, *comm_)[0];
+    sums[0].add(rigid_->kinetic());
+  return ExactSum::overRanks(sums, *comm_)[0];
 }
 
 void Solver::mirrorVelocities()
