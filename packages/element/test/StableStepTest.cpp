@@ -155,7 +155,9 @@ TEST(StableStep, ofARingOnTheAxisIsSafeAndNotFarBelow)
                          mesh.connectivity, f.options);
       const Real exact = 2 / std::sqrt(omegaSquared(block, mesh));
       EXPECT_LE(block.stableStep()(0), exact * (1 + 1e-6));
-      EXPECT_GT(block.stableStep()(0), 0.5 * exact);
+      // Plain full integration has only the bound of its fastest point, that next to the axis.
+      const bool plain = f.options.form == ElementForm::FullIntegrationPlain;
+      EXPECT_GT(block.stableStep()(0), (plain ? 0.4 : 0.55) * exact);
     }
 }
 

@@ -37,10 +37,11 @@ for name, damping in dampings.items():
     case.check(f"{name}: force of the joint [N]", force, weight, 1e-3, relative=True)
     kinetic = numpy.max(numpy.abs(h["kinetic"][after])) / h["internal"][-1]
     case.check(f"{name}: kinetic energy without damping, over the internal one", kinetic, 0, 1e-6)
-    # The loads do twice the work that is stored; damping takes the other half.
+    # The loads do twice the work that is stored; damping takes the other half. The first kinetic energy, of mirrored
+    # velocities, is not zero by a term of second order in the step.
     column, other = f"{name}_damping", "local_damping" if name == "kinetic" else "kinetic_damping"
     stored = h["internal"][-1] + h["contact_stored"][-1]
-    case.check(f"{name}: work of the damping over the energy stored", h[column][-1] / stored, 1, 2e-3)
+    case.check(f"{name}: work of the damping over the energy stored", (h[column][-1] - h["initial"][-1]) / stored, 1, 2e-3)
     case.check(f"{name}: the other column [J]", numpy.max(numpy.abs(h[other])), 0, 0)
     case.check(f"{name}: work of the damping after its end [J]", numpy.ptp(h[column][after]), 0, 0)
     case.same_bits(name, case.load("mesh.yaml"), deck, run)
