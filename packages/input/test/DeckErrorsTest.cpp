@@ -110,14 +110,15 @@ TEST(DeckErrors, anUnknownKeyBringsASuggestion)
 {
   EXPECT_EQ(errorWith("damping: {mas: 1}\n"),
             "wall.yaml:5:11: damping.mas is not known. Did you mean 'mass'? Accepted here: mass, "
-            "local, until.");
+            "local, kinetic, from, until, until_energy_ratio, until_force_ratio.");
 }
 
 TEST(DeckErrors, aKeyInTheWrongPlaceIsToldItsPlace)
 {
   EXPECT_EQ(errorWith("damping: {fixed_step: 1}\n"),
             "wall.yaml:5:11: damping.fixed_step is not known. Its place is time.fixed_step. "
-            "Accepted here: mass, local, until.");
+            "Accepted here: mass, local, kinetic, from, until, until_energy_ratio, "
+            "until_force_ratio.");
 }
 
 TEST(DeckErrors, aKeyGivenTwice)
@@ -129,10 +130,13 @@ TEST(DeckErrors, aKeyGivenTwice)
 
 TEST(DeckErrors, anUnknownKeyGivenTwiceIsStillUnknown)
 {
-  EXPECT_EQ(errorWith("damping: {a: 1, a: 2}\n"),
-            "wall.yaml:5:11: damping.a is not known. Accepted here: mass, local, until.\n"
-            "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
-            "wall.yaml:5:17: damping.a is not known. Accepted here: mass, local, until.");
+  EXPECT_EQ(
+      errorWith("damping: {a: 1, a: 2}\n"),
+      "wall.yaml:5:11: damping.a is not known. Accepted here: mass, local, kinetic, from, until, "
+      "until_energy_ratio, until_force_ratio.\n"
+      "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
+      "wall.yaml:5:17: damping.a is not known. Accepted here: mass, local, kinetic, from, until, "
+      "until_energy_ratio, until_force_ratio.");
 }
 
 TEST(DeckErrors, aNameGivenTwice)
@@ -526,7 +530,7 @@ TEST(DeckErrors, givenMotionsNeedARigidBlockAndSomethingToGive)
       "velocity with a node set.");
   EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, components: [x], "
                          "velocity: [1, 2, 0]}\n"),
-            "wall.yaml:10:74: conditions.0.velocity.1 has no effect because "
+            "wall.yaml:10:70: conditions.0.velocity.1 has no effect because "
             "conditions.0.components does not have y; write 0 or add y to components.");
   EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, components: [x], "
                          "angular_velocity: [1, 2, 0]}\n"),

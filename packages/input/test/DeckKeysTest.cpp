@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <functional>
+#include <sstream>
 
 namespace coplane
 {
@@ -238,7 +239,12 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
   std::vector<Leaf> leaves;
   collect(deckSchema(), "", leaves);
   EXPECT_GT(leaves.size(), 60u); // the walk does find the schema
-  const std::string before = show(parseDeck(deckOfAllModels, "x.yaml"));
+  // Bodies of revolution are not rigid.
+  std::istringstream lines(deckOfAllModels);
+  std::string withoutRigid;
+  for (std::string line; std::getline(lines, line);)
+    if (line.find("rigid") == std::string::npos)
+      withoutRigid += line + "\n";
   for (const auto& [path, key] : leaves)
   {
     // Items of contact.pairs name faces in one way only, and some keys of materials need others.
@@ -260,9 +266,11 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
       if (path == from)
         place = to;
     const std::string assignment = place + "=" + key.example;
+    const std::string& deck = path == "geometry" ? withoutRigid : deckOfAllModels;
     try
     {
-      EXPECT_NE(before, show(parseDeck(deckOfAllModels, "x.yaml", {assignment}))) << assignment;
+      EXPECT_NE(show(parseDeck(deck, "x.yaml")), show(parseDeck(deck, "x.yaml", {assignment})))
+          << assignment;
     }
     catch (const Error& e)
     {
