@@ -323,10 +323,11 @@ ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const M
   const bool simplex = shape.nodes == shape.dimension + 1;
   const bool forSimplices = options.form == ElementForm::NodalPressure;
   if (options.form != ElementForm::OnePoint && simplex != forSimplices)
-    fail(ExitCode::Deck,
-         "{}: blocks.{}.element = '{}' is for {}, but the block has {}; accepted: one_point{}.",
-         card.where, card.name, card.element, forSimplices ? "TRI3 and TETRA4" : "QUAD4 and HEX8",
-         shape.exodusName, simplex ? ", nodal_pressure" : ", assumed_strain, full_integration");
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: blocks.{}.element = '{}' is for {}, but the block has {}; accepted: one_point{}.",
+        card.where, card.name, card.element, forSimplices ? "TRI3 and TETRA4" : "QUAD4 and HEX8",
+        shape.exodusName, simplex ? ", nodal_pressure" : ", assumed_strain, full_integration");
   return options;
 }
 
@@ -334,16 +335,18 @@ ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const M
 void revolve(const Mesh& mesh, const RankMesh& part, const Deck& deck, Conditions& conditions)
 {
   if (mesh.dimension != 2)
-    fail(ExitCode::Deck,
-         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
-         "plane x, y with x >= 0, or leave the key out.",
-         deck.meshWhere);
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
+        "plane x, y with x >= 0, or leave the key out.",
+        deck.meshWhere);
   for (int n = 0; n < mesh.nodes(); ++n)
     if (mesh.coordinates[n].x < 0)
-      fail(ExitCode::Deck,
-           "{}: geometry = 'axisymmetric', but node {} is at x = {} m; accepted: x >= 0, the "
-           "distance from the axis. Move the mesh, or keep the half with x >= 0.",
-           deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
+      failOnAllRanks(
+          ExitCode::Deck,
+          "{}: geometry = 'axisymmetric', but node {} is at x = {:.6g} m; accepted: x >= 0, the "
+          "distance from the axis. Move the mesh, or keep the half with x >= 0.",
+          deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
   conditions.axisymmetric = true;
   SymmetryPlane axis;
   axis.normal = {1, 0, 0};
