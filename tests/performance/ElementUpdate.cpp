@@ -1,5 +1,8 @@
 // Element-cycles per second:
 //   <shape>/<form>/<law>   the update of one block alone: a square or a cube of distorted elements
+//   laws/<shape>/<law>     the update of one block of each law over 50 steps of compression with
+//                          shear far beyond the elastic range; `dissipated` is the part of the
+//                          internal energy that is lost at the end of them
 //   whole_cycle            hexahedra with J2 plasticity, hourglass stiffness and bulk viscosity as
 //   the
 //                          solver computes them: drift, elements, sums at the nodes, kick, ledger
@@ -10,6 +13,7 @@
 
 #include <coplane_dynamics/Solver.hpp>
 
+#include <Laws.hpp>
 #include <cmath>
 #include <vector>
 
@@ -103,6 +107,50 @@ void elementUpdate(benchmark::State& state, Backend backend, ElementType type,
   report(state, block.count());
 }
 
+/// Strains a block to law.strain in `steps` steps, again and again from the start.
+void lawPath(benchmark::State& state, Backend backend, ElementType type,
+             const testing::NamedLaw& law)
+{
+  setBackend(backend);
+  const int steps = 50;
+  const Scene scene = sceneOf(type, int(state.range(0)));
+  const int nodes = int(scene.x.extent(0));
+  const Real dt = 1e-6, rate = law.strain / (steps * dt);
+  const NodeVectors x("x", nodes);
+  for (int n = 0; n < nodes; ++n)
+  {
+    const Vec3 p = at(scene.x, n);
+    set(scene.v, n, rate * Vec3{0.3 * p.x + 0.6 * p.y, -p.y + 0.2 * p.z, 0.3 * p.x + 0.2 * p.z});
+    if (topology(type).dimension == 2)
+      scene.v(n, 2) = 0;
+  }
+  ElementBlock block(type, law.law, {}, {}, scene.connectivity);
+  int step = steps;
+  for (auto _ : state)
+  {
+    state.PauseTiming();
+    if (step == steps)
+    {
+      Kokkos::deep_copy(x, scene.x);
+      block.initialise(x);
+      step = 0;
+    }
+    for (int n = 0; n < nodes; ++n)
+      set(x, n, at(x, n) + dt * at(scene.v, n));
+    ++step;
+    state.ResumeTiming();
+    block.update(x, scene.v, dt);
+  }
+  Real internal = 0, lost = 0;
+  for (int e = 0; e < block.count(); ++e)
+  {
+    internal += block.energy(e, ElementEnergy::Internal);
+    lost += block.energy(e, ElementEnergy::PlasticDissipation);
+  }
+  state.counters["dissipated"] = lost / internal;
+  report(state, block.count());
+}
+
 void wholeCycle(benchmark::State& state, Backend backend)
 {
   setBackend(backend);
@@ -182,6 +230,20 @@ int main(int argc, char** argv)
         addForm(ElementType::Tri3, {F::OnePoint}, "tri3/one_point");
         addForm(ElementType::Tri3, {F::NodalPressure}, "tri3/nodal_pressure");
         addForm(ElementType::Tri3, revolved, "tri3/axisymmetric");
+        std::vector<testing::NamedLaw> laws = testing::allLaws();
+        const EquationOfState eos = testing::steelShock();
+        laws.push_back({"fluid", Fluid{{7850, eos.stiffness, 0}, eos}, 0.05});
+        const auto addLaws = [&](ElementType type, const char* label, int n)
+        {
+          for (const testing::NamedLaw& law : laws)
+            addBenchmark("laws/" + std::string(label) + "/" + law.name, backend,
+                         [=](benchmark::State& state, Backend b) { lawPath(state, b, type, law); })
+                ->Arg(n)
+                ->Iterations(50);
+        };
+        addLaws(ElementType::Hex8, "hex8", 32);
+        addLaws(ElementType::Quad4, "quad4", 180);
+        addLaws(ElementType::Tet4, "tet4", 17);
         addBenchmark("whole_cycle", backend, wholeCycle)->Arg(48);
       });
 }

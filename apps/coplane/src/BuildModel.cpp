@@ -232,6 +232,9 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       return value;
     };
   conditions.localDamping = deck.localDamping;
+  conditions.dampingFrom = deck.dampingFrom;
+  conditions.relaxation = {deck.kineticDamping, deck.dampingEnergyRatio.value_or(0),
+                           deck.dampingForceRatio.value_or(0)};
   if (deck.dampingUntil)
     conditions.dampingUntil = *deck.dampingUntil;
   for (const ConditionCard& card : deck.conditions)
@@ -262,6 +265,21 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
+      continue;
+    }
+    if (card.type == "rigid_motion")
+    {
+      RigidMotion motion;
+      motion.block = indexOf(mesh.blocks, card.set);
+      for (int c = 0; c < 3 && card.translation; ++c)
+        if (card.components[c])
+        {
+          motion.components[c] = true;
+          motion.velocity[c] = functionOf((*card.translation)[c]);
+        }
+      if (card.spin)
+        motion.spin = vectorOf(*card.spin);
+      conditions.rigidMotions.push_back(std::move(motion));
       continue;
     }
     const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
@@ -305,10 +323,11 @@ ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const M
   const bool simplex = shape.nodes == shape.dimension + 1;
   const bool forSimplices = options.form == ElementForm::NodalPressure;
   if (options.form != ElementForm::OnePoint && simplex != forSimplices)
-    fail(ExitCode::Deck,
-         "{}: blocks.{}.element = '{}' is for {}, but the block has {}; accepted: one_point{}.",
-         card.where, card.name, card.element, forSimplices ? "TRI3 and TETRA4" : "QUAD4 and HEX8",
-         shape.exodusName, simplex ? ", nodal_pressure" : ", assumed_strain, full_integration");
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: blocks.{}.element = '{}' is for {}, but the block has {}; accepted: one_point{}.",
+        card.where, card.name, card.element, forSimplices ? "TRI3 and TETRA4" : "QUAD4 and HEX8",
+        shape.exodusName, simplex ? ", nodal_pressure" : ", assumed_strain, full_integration");
   return options;
 }
 
@@ -316,16 +335,18 @@ ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const M
 void revolve(const Mesh& mesh, const RankMesh& part, const Deck& deck, Conditions& conditions)
 {
   if (mesh.dimension != 2)
-    fail(ExitCode::Deck,
-         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
-         "plane x, y with x >= 0, or leave the key out.",
-         deck.meshWhere);
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
+        "plane x, y with x >= 0, or leave the key out.",
+        deck.meshWhere);
   for (int n = 0; n < mesh.nodes(); ++n)
     if (mesh.coordinates[n].x < 0)
-      fail(ExitCode::Deck,
-           "{}: geometry = 'axisymmetric', but node {} is at x = {} m; accepted: x >= 0, the "
-           "distance from the axis. Move the mesh, or keep the half with x >= 0.",
-           deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
+      failOnAllRanks(
+          ExitCode::Deck,
+          "{}: geometry = 'axisymmetric', but node {} is at x = {:.6g} m; accepted: x >= 0, the "
+          "distance from the axis. Move the mesh, or keep the half with x >= 0.",
+          deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
   conditions.axisymmetric = true;
   SymmetryPlane axis;
   axis.normal = {1, 0, 0};
@@ -392,6 +413,14 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mes
     rigid.insert(rigid.end(), std::size_t(block.elements()),
                  card != deck.blocks.end() && card->rigid ? block.name : "");
   }
+  for (const ConditionCard& card : deck.conditions)
+    for (int c = 0; c < 2 && card.spin && mesh.dimension == 2; ++c)
+      if (const TimeFunction& spin = (*card.spin)[c];
+          spin.constant != 0 || !spin.expression.empty() || !spin.times.empty())
+        problems.push_back(fmt::format(
+            "{}: angular_velocity about {} of the rigid block '{}', but the mesh has two "
+            "dimensions; accepted: 0 there, a spin about z.",
+            card.where, "xy"[c], card.set));
   for (const ConditionCard& card : deck.conditions)
     if (card.type == "absorbing")
       if (const int set = indexOf(mesh.sideSets, card.set); set >= 0)

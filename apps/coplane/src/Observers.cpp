@@ -88,6 +88,17 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
     if (std::any_of(deck.history.joints.begin(), deck.history.joints.end(),
                     [&](const std::string& name) { return name == "*" || name == card.name; }))
       history.joints.push_back(card.name);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (const std::string& name : deck.history.rigid)
+    {
+      const BlockCard& card =
+          deck.blocks[std::size_t(positionOf(deck.blocks, mesh.blocks[b].name))];
+      if (card.rigid && (name == "*" || name == card.name))
+      {
+        history.rigidBlocks.push_back(int(b));
+        break;
+      }
+    }
   observers.add(std::make_unique<HistoryObserver>(comm, history));
 
   const auto wants = [&](const char* table)

@@ -47,10 +47,10 @@ void reportEnd(const Solver& solver)
           "{:.3e}",
           energy.contact.stored, energy.contact.friction, energy.contact.hysteresis,
           energy.contact.fracture, energy.contact.damping, energy.contact.remainder());
-  logInfo("  external work {:.3e}, mass damping {:.3e}, local damping {:.3e}; balance off by "
-          "{:.3e} of {:.3e} in play",
-          energy.externalWork, energy.massDamping, energy.localDamping, energy.error(),
-          energy.scale());
+  logInfo("  external work {:.3e}, mass damping {:.3e}, local damping {:.3e}, kinetic damping "
+          "{:.3e}; balance off by {:.3e} of {:.3e} in play",
+          energy.externalWork, energy.massDamping, energy.localDamping, energy.kineticDamping,
+          energy.error(), energy.scale());
   if (const ErosionTotals erosion = solver.erosion(); erosion.elements > 0)
     logInfo("  eroded: {} elements, {:.6g} kg, with {:.3e} J, and {:.3e} J of their planes",
             erosion.elements, erosion.mass, energy.eroded, energy.contact.eroded);

@@ -135,9 +135,14 @@ inline std::vector<Formulation> revolvedFormulations()
 {
   constexpr auto hughesWinget = ObjectiveRate::HughesWinget;
   constexpr auto revolved = Geometry::Axisymmetric;
-  return {{ElementType::Tri3, {ElementForm::OnePoint, hughesWinget, revolved}},
-          {ElementType::Tri3, {ElementForm::NodalPressure, hughesWinget, revolved}},
-          {ElementType::Quad4, {ElementForm::OnePoint, hughesWinget, revolved}}};
+  return {
+      {ElementType::Tri3, {ElementForm::OnePoint, hughesWinget, revolved}},
+      {ElementType::Tri3, {ElementForm::NodalPressure, hughesWinget, revolved}},
+      {ElementType::Quad4, {ElementForm::OnePoint, hughesWinget, revolved}},
+      {ElementType::Quad4, {ElementForm::AssumedStrain, hughesWinget, revolved}},
+      {ElementType::Quad4, {ElementForm::FullIntegration, hughesWinget, revolved}},
+      {ElementType::Quad4, {ElementForm::FullIntegrationPlain, hughesWinget, revolved}},
+      {ElementType::Quad4, {ElementForm::FullIntegration, ObjectiveRate::GreenNaghdi, revolved}}};
 }
 
 inline std::vector<Formulation> allOf(std::vector<Formulation> list,

@@ -110,14 +110,15 @@ TEST(DeckErrors, anUnknownKeyBringsASuggestion)
 {
   EXPECT_EQ(errorWith("damping: {mas: 1}\n"),
             "wall.yaml:5:11: damping.mas is not known. Did you mean 'mass'? Accepted here: mass, "
-            "local, until.");
+            "local, kinetic, from, until, until_energy_ratio, until_force_ratio.");
 }
 
 TEST(DeckErrors, aKeyInTheWrongPlaceIsToldItsPlace)
 {
   EXPECT_EQ(errorWith("damping: {fixed_step: 1}\n"),
             "wall.yaml:5:11: damping.fixed_step is not known. Its place is time.fixed_step. "
-            "Accepted here: mass, local, until.");
+            "Accepted here: mass, local, kinetic, from, until, until_energy_ratio, "
+            "until_force_ratio.");
 }
 
 TEST(DeckErrors, aKeyGivenTwice)
@@ -129,10 +130,13 @@ TEST(DeckErrors, aKeyGivenTwice)
 
 TEST(DeckErrors, anUnknownKeyGivenTwiceIsStillUnknown)
 {
-  EXPECT_EQ(errorWith("damping: {a: 1, a: 2}\n"),
-            "wall.yaml:5:11: damping.a is not known. Accepted here: mass, local, until.\n"
-            "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
-            "wall.yaml:5:17: damping.a is not known. Accepted here: mass, local, until.");
+  EXPECT_EQ(
+      errorWith("damping: {a: 1, a: 2}\n"),
+      "wall.yaml:5:11: damping.a is not known. Accepted here: mass, local, kinetic, from, until, "
+      "until_energy_ratio, until_force_ratio.\n"
+      "wall.yaml:5:17: damping.a is given twice, first at wall.yaml:5:11; keep one of them.\n"
+      "wall.yaml:5:17: damping.a is not known. Accepted here: mass, local, kinetic, from, until, "
+      "until_energy_ratio, until_force_ratio.");
 }
 
 TEST(DeckErrors, aNameGivenTwice)
@@ -492,17 +496,66 @@ TEST(DeckErrors, aDeckThatDoesNotExist)
   }
 }
 
-TEST(DeckErrors, elementsAndContactThatBodiesOfRevolutionDoNotHave)
+TEST(DeckErrors, contactThatBodiesOfRevolutionDoNotHave)
 {
   EXPECT_EQ(errorOf("mesh: wall.e\ngeometry: axisymmetric\n"
                     "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
                     "poisson_ratio: 0}}\n"
                     "blocks: {bar: {material: steel, element: assumed_strain}}\n"
                     "contact: {method: common_plane}\ntime: {end: 1}\n"),
-            "wall.yaml:4:42: blocks.bar.element = 'assumed_strain' is not offered with geometry = "
-            "'axisymmetric'; use one_point or nodal_pressure.\n"
             "wall.yaml:5:19: contact.method = 'common_plane' is not offered with geometry = "
             "'axisymmetric'; use simple_common_plane.");
+}
+
+/// A deck with a rigid block `tool` and a deformable one, and these lines from line 9 on.
+std::string errorOfRigid(const std::string& lines)
+{
+  return errorOf("mesh: wall.e\nmaterials:\n  steel: {model: linear_elastic, density: 1, "
+                 "youngs_modulus: 1, poisson_ratio: 0}\nblocks:\n  tool: {material: steel, rigid: "
+                 "true}\n  bar: {material: steel}\ntime: {end: 1}\n\n" +
+                 lines);
+}
+
+TEST(DeckErrors, givenMotionsNeedARigidBlockAndSomethingToGive)
+{
+  EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, velocity: [1, 0, "
+                         "\"t\"], angular_velocity: [0, 0, 1]}\n"),
+            "no error");
+  EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool}\n"),
+            "wall.yaml:10:5: conditions.0 prescribes nothing; accepted: conditions.0.velocity, "
+            "conditions.0.angular_velocity or both.");
+  EXPECT_EQ(
+      errorOfRigid("conditions:\n  - {type: rigid_motion, block: bar, velocity: [1, 0, 0]}\n"),
+      "wall.yaml:10:33: conditions.0.block = 'bar' is not rigid; set blocks.bar.rigid, or use type "
+      "velocity with a node set.");
+  EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, components: [x], "
+                         "velocity: [1, 2, 0]}\n"),
+            "wall.yaml:10:70: conditions.0.velocity.1 has no effect because "
+            "conditions.0.components does not have y; write 0 or add y to components.");
+  EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, components: [x], "
+                         "angular_velocity: [1, 2, 0]}\n"),
+            "wall.yaml:10:51: conditions.0.components has no effect without "
+            "conditions.0.velocity; remove it or give that.");
+  EXPECT_EQ(errorOfRigid("conditions:\n  - {type: rigid_motion, block: tool, velocity: [1, 0, "
+                         "0]}\n  - {type: rigid_motion, block: tool, angular_velocity: [1, 0, "
+                         "0]}\n"),
+            "wall.yaml:11:33: conditions.1.block = 'tool' is held by conditions.0 already; "
+            "accepted: one item for each block.");
+  EXPECT_EQ(errorOfRigid("history: {rigid: [bar]}\n"),
+            "wall.yaml:9:19: history.rigid.0 = 'bar' is not a rigid block, or \"*\". There is: "
+            "tool.");
+}
+
+TEST(DeckErrors, windowsOfDampingNeedADamping)
+{
+  EXPECT_EQ(errorWith("damping: {kinetic: true, from: 0.5, until: 1.5, until_force_ratio: 1e-4}\n"),
+            "no error");
+  EXPECT_EQ(errorWith("damping: {until_energy_ratio: 1e-4}\n"),
+            "wall.yaml:5:31: damping.until_energy_ratio has no effect without damping.mass, "
+            "damping.local or damping.kinetic; remove it or give one of them.");
+  EXPECT_EQ(errorWith("damping: {local: 0.5, from: 0.5, until: 0.5}\n"),
+            "wall.yaml:5:41: damping.until = 0.5 s is not after damping.from = 0.5 s; accepted: a "
+            "later time.");
 }
 
 TEST(DeckErrors, rigidBodiesOfRevolution)

@@ -342,7 +342,8 @@ TEST_F(Files, energyErrorInTheHistoryIsWhatItsTermsLack)
                          value("contact_remainder[J]");
     const Real total = value("kinetic[J]") + value("internal[J]") + value("hourglass[J]") +
                        value("viscous[J]") + value("eroded[J]") + contact +
-                       value("mass_damping[J]") + value("local_damping[J]");
+                       value("mass_damping[J]") + value("local_damping[J]") +
+                       value("kinetic_damping[J]");
     const Real error = total - value("external_work[J]") - value("initial[J]");
     // A dozen sums of terms up to the initial energy, 625 J.
     EXPECT_NEAR(error, value("error[J]"), 12 * epsilon * value("initial[J]"));

@@ -108,6 +108,36 @@ expect("modulus not a number", DECK, ["youngs_modulus"], changed(["materials", "
 expect("infinite end", DECK, ["time.end"], changed(["time", "end"], math.inf))
 expect("misspelt key", DECK, ["densty", "density"], changed(["materials", "soft", "densty"], 1))
 
+expect(
+    "nodal pressure in quadrilaterals", DECK,
+    ["blocks.left.element = 'nodal_pressure' is for TRI3 and TETRA4, but the block has QUAD4; accepted: one_point"],
+    changed(["blocks", "left", "element"], "nodal_pressure"),
+)
+expect(
+    "points beyond the axis", DECK, ["geometry = 'axisymmetric', but node 1 is at x = -0.1 m; accepted: x >= 0"],
+    changed(["geometry"], "axisymmetric"),
+)
+
+
+def other_mesh(name, texts, path, value, dimension=2, split=None):
+    """The good deck with one value changed, on a mesh of other elements."""
+    parts = []
+    for block, x in (("left", 0), ("right", 1)):
+        part = {"shape": "box", "block": block, "min": [x, 0, 0][:dimension], "size": [1] * dimension, "divisions": [1] * dimension}
+        parts.append({**part, **({"split": split} if split else {})})
+    mesh = {"title": name, "dimension": dimension, "parts": parts, "node_sets": {"end": {"block": "right", "where": {"x": 2}}}}
+    documents.save(mesh, "other.yaml")
+    program.make_mesh("other.yaml", "other.e")
+    expect(name, DECK, texts, changed(path, value), spoil=lambda path: shutil.copy("other.e", path))
+
+
+for dimension, split, shape in ((2, "triangles", "TRI3"), (3, "tetrahedra", "TETRA4")):
+    for element in ("assumed_strain", "full_integration", "full_integration_plain"):
+        text = f"blocks.left.element = '{element}' is for QUAD4 and HEX8, but the block has {shape}"
+        other_mesh(f"{element} in {split}", [text], ["blocks", "left", "element"], element, dimension, split)
+other_mesh("nodal pressure in hexahedra", ["is for TRI3 and TETRA4, but the block has HEX8"], ["blocks", "left", "element"], "nodal_pressure", 3)
+other_mesh("solid of revolution", ["geometry = 'axisymmetric', but the mesh has three dimensions"], ["geometry"], "axisymmetric", 3)
+
 # --- runs that cannot go on -------------------------------------------------------------------------
 unstable = changed(["time"], {"end": 1e-2, "fixed_step": 2e-4})
 expect("step far too large", COMPUTATION, ["cycle", "step"], unstable)

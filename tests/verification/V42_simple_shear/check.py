@@ -1,6 +1,7 @@
-"""V42: stress in simple shear to gamma = 4 under the three objective rates."""
+"""V42: stress in simple shear to gamma = 4 under the three objective rates. `all`: every shape and form."""
 
 import math
+import sys
 
 from coplanetest import Case
 
@@ -25,6 +26,8 @@ shapes = {
     "hexahedron": ("3d", None, ("one_point", "full_integration")),
     "tetrahedra": ("3d", "tetrahedra", ("one_point",)),
 }
+if "all" not in sys.argv:
+    shapes = {"quadrilateral": ("2d", None, ("one_point",)), "hexahedron": ("3d", None, ("full_integration",))}
 for shape, (dimension, split, elements) in shapes.items():
     for element in elements:
         for rate in exact:

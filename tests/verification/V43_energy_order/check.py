@@ -1,6 +1,7 @@
-"""V43: the error of the energy balance falls with the square of the time step, for every form of element."""
+"""V43: the error of the energy balance falls with the square of the time step, for every form of element. `all`: every one."""
 
 import math
+import sys
 
 import numpy
 from coplanetest import Case
@@ -9,9 +10,11 @@ case = Case("V43", __file__)
 forms = {
     "hexahedra": (None, ("one_point", "assumed_strain", "full_integration", "full_integration_plain")),
     "tetrahedra": ("tetrahedra", ("one_point", "nodal_pressure")),
-    "ring": (None, ("one_point",)),
+    "ring": (None, ("one_point", "assumed_strain", "full_integration", "full_integration_plain")),
     "ring_of_triangles": ("triangles", ("one_point", "nodal_pressure")),
 }
+if "all" not in sys.argv:
+    forms = {"hexahedra": (None, ("assumed_strain",)), "tetrahedra": ("tetrahedra", ("nodal_pressure",)), "ring": (None, ("full_integration",))}
 for shape, (split, elements) in forms.items():
     ring = shape.startswith("ring")
     for element in elements:
@@ -26,7 +29,7 @@ for shape, (split, elements) in forms.items():
             deck["blocks"]["cube"]["element"] = element
             deck["time"]["fixed_step"] = step
             run = case.run(f"{shape}_{element}_{step:g}", recipe, deck)
-            if step == 1e-6:
+            if step == 1e-6 and (shape == "hexahedra" or "all" in sys.argv):
                 case.same_bits(f"{shape}_{element}", recipe, deck, run)
             errors.append(numpy.max(numpy.abs(run.history["error"])) / run.history["kinetic"][0])
         name = f"{shape}, {element}"

@@ -1,6 +1,7 @@
-"""V44: limit load of Prandtl's punch with elements that lock and elements that do not."""
+"""V44: limit load of Prandtl's punch with elements that lock and elements that do not. `all`: every form, and elements of half the size."""
 
 import math
+import sys
 
 import numpy
 from coplanetest import Case
@@ -19,8 +20,12 @@ runs = (
     ("triangles", "triangles", "nodal_pressure", None, 0.05),
     ("triangles", "triangles", "one_point", None, "report"),
 )
+if "all" not in sys.argv:
+    runs = [run for run in runs if run[0] == "quadrilaterals" and run[2] != "full_integration"]
+    h *= 2
 for shape, split, element, hourglass, tolerance in runs:
     recipe, deck = case.load("mesh.yaml"), case.load()
+    recipe["parts"][0]["divisions"] = [round(5 / h), round(3 / h)]
     if split:
         recipe["parts"][0]["split"] = split
     deck["blocks"]["ground"]["element"] = element

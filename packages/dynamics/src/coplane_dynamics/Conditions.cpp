@@ -173,6 +173,15 @@ void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
     }
 }
 
+void Conditions::keepPrescribed(const ConstNodeVectors& from, const NodeVectors& to) const
+{
+  for (const PrescribedVelocity& condition : velocities)
+    for (int c = 0; c < 3; ++c)
+      if (condition.components[c])
+        for (const int n : condition.nodes)
+          to(n, c) = from(n, c);
+}
+
 std::vector<int> Conditions::constrainedNodes() const
 {
   std::vector<int> nodes;

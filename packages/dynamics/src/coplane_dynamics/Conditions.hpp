@@ -2,9 +2,11 @@
 
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/NodalState.hpp>
+#include <coplane_dynamics/Relaxation.hpp>
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,15 @@ struct SymmetryPlane
 {
   std::vector<int> nodes;
   Vec3 normal{}; ///< unit
+};
+
+/// Given velocity of the centre and given spin of the bodies of a rigid block.
+struct RigidMotion
+{
+  int block = -1;                   ///< position in the mesh
+  std::array<bool, 3> components{}; ///< axes along which the velocity is given
+  std::array<OfTime, 3> velocity;   ///< of these [m/s]
+  std::optional<VectorOfTime> spin; ///< [rad/s]; not given: free
 };
 
 /// A face of a held element that is loaded; outward normal by the right-hand rule. Each rank adds
@@ -139,21 +150,24 @@ struct Conditions
 
   std::vector<PrescribedVelocity> velocities;
   std::vector<SymmetryPlane> symmetries;
+  std::vector<RigidMotion> rigidMotions;
   std::vector<FacePressure> pressures;
   std::vector<FaceTraction> tractions;
   std::vector<AbsorbingBoundary> absorbing;
-  bool axisymmetric = false;    ///< faces are those of a body of revolution about x = 0
-  VectorOfTime gravity;         ///< [m/s^2]
-  OfTime massDamping;           ///< alpha of the force -alpha m v [1/s]; empty: none
-  Real localDamping = 0;        ///< force -alpha |f_c| sign(v_c) on each component c [-]
-  Real dampingUntil = infinity; ///< end of both dampings [s]
+  bool axisymmetric = false; ///< faces are those of a body of revolution about x = 0
+  VectorOfTime gravity;      ///< [m/s^2]
+  OfTime massDamping;        ///< alpha of the force -alpha m v [1/s]; empty: none
+  Real localDamping = 0;     ///< force -alpha |f_c| sign(v_c) on each component c [-]
+  Real dampingFrom = 0, dampingUntil = infinity; ///< when dampings act [s]
+  RelaxationOptions relaxation;
 
   /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
   /// and of absorbing sides what does not depend on the velocity.
   void applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const;
 
-  Real massDampingAt(Real t) const { return massDamping && t < dampingUntil ? massDamping(t) : 0; }
-  Real localDampingAt(Real t) const { return t < dampingUntil ? localDamping : 0; }
+  bool dampsAt(Real t) const { return t >= dampingFrom && t < dampingUntil; }
+  Real massDampingAt(Real t) const { return massDamping && dampsAt(t) ? massDamping(t) : 0; }
+  Real localDampingAt(Real t) const { return dampsAt(t) ? localDamping : 0; }
 
   /// Takes out of forces what the conditions on velocities will take up in any case.
   void clearConstrained(const std::vector<Projection>& fromSymmetry,
@@ -166,6 +180,9 @@ struct Conditions
   /// @param t in the middle of the step [s]; dt: its length [s]
   void prescribeVelocities(Real t, Real dt, const NodeVectors& v,
                            const std::vector<Projection>& fromSymmetry) const;
+
+  /// Copies the prescribed components of velocities.
+  void keepPrescribed(const ConstNodeVectors& from, const NodeVectors& to) const;
 
   /// What the symmetry planes forbid, node by node: the normals of planes that meet at a node are
   /// made orthogonal (Gram and Schmidt), so that taking them out one after the other satisfies all;

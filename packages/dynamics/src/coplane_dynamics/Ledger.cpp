@@ -9,6 +9,6 @@ Real EnergyBalance::scale() const
 {
   return std::max({std::abs(initial), std::abs(kinetic), std::abs(internal), std::abs(externalWork),
                    std::abs(eroded), std::abs(contact.work), std::abs(massDamping),
-                   std::abs(localDamping)});
+                   std::abs(localDamping), std::abs(kineticDamping)});
 }
 } // namespace coplane

@@ -12,20 +12,21 @@ struct EnergyBalance
   Real internal = 0; ///< of the elements: elastic and plastic work
   Real plastic = 0;  ///< part of internal that is lost
   Real hourglass = 0;
-  Real viscous = 0;      ///< bulk viscosity
-  Real eroded = 0;       ///< of elements that have died, when they died
-  ContactEnergy contact; ///< stored, friction, hysteresis, damping, remainder
-  Real massDamping = 0;  ///< taken out by mass-proportional damping
-  Real localDamping = 0; ///< taken out by local damping
-  Real externalWork = 0; ///< of loads and reactions
-  Real initial = 0;      ///< total at the start
-  Real nodalWork = 0;    ///< of all forces on nodes; kinetic energy minus its initial value, to
-                         ///< round-off at constant dt
+  Real viscous = 0;        ///< bulk viscosity
+  Real eroded = 0;         ///< of elements that have died, when they died
+  ContactEnergy contact;   ///< stored, friction, hysteresis, damping, remainder
+  Real massDamping = 0;    ///< taken out by mass-proportional damping
+  Real localDamping = 0;   ///< taken out by local damping
+  Real kineticDamping = 0; ///< taken out by stops at peaks of the kinetic energy
+  Real externalWork = 0;   ///< of loads and reactions
+  Real initial = 0;        ///< total at the start
+  Real nodalWork = 0;      ///< of all forces on nodes; kinetic energy minus its initial value, to
+                           ///< round-off at constant dt
 
   Real total() const
   {
     return kinetic + internal + hourglass + viscous + eroded + contact.work + massDamping +
-           localDamping;
+           localDamping + kineticDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
   Real error() const { return total() - externalWork - initial; }

@@ -70,8 +70,9 @@ public:
   int count() const { return int(bodies_.size()); }
   bool holds(int ownedNode) const { return !empty() && bodyOfNode_[ownedNode] >= 0; }
 
-  /// Takes their nodes out of the conditions on velocities and keeps these for the bodies. A
-  /// condition has to be on all nodes of a body or on none: throws on all ranks otherwise.
+  /// Takes their nodes out of the conditions on velocities and keeps these for the bodies, with
+  /// their given motions. A condition has to be on all nodes of a body or on none, and a body has
+  /// conditions on nodes or a given motion: throws on all ranks otherwise.
   void takeConditions(Conditions& conditions);
   /// Momenta from the velocities of the nodes at the start, and their velocities from the momenta.
   void start(NodalState& state);
@@ -93,9 +94,18 @@ public:
   /// Work of the forces at n in the half step before them; drift() books the half after them.
   void bookSecondHalf(Real dt);
   void drift(Real dt); ///< to n + 1
+  /// Takes out all motion that is not prescribed, at n after a kick, and books it as an impulse;
+  /// velocities of the nodes follow. A kick from here comes next.
+  void stop(const NodalState& state);
 
   // Sums that every rank has. What loads on nodes do is booked with the nodes.
-  Real kinetic() const; ///< [J]
+  Real kinetic() const; ///< at n [J]
+  Real kinetic(int body) const;
+  Real kineticAtHalfStep() const; ///< at n + 1/2 [J]
+  /// Sums over bodies of |force| + |torque| / radius of gyration of what is out of balance, and of
+  /// the reactions [N].
+  Real unbalancedForce() const;
+  Real reactionForce() const;
   Real reactionWork() const;
   Real dampingWork() const;
   Real localDampingWork() const;
@@ -110,6 +120,16 @@ public:
   // For tests and reports.
   Real mass(int body) const { return bodies_[body].mass; }
   Vec3 center(int body) const { return bodies_[body].center; }
+  struct BodyMotion
+  {
+    Vec3 displacement{}, velocity{}, spin{}; ///< of the centre; at n [m], [m/s], [rad/s]
+    Vec3 force{},
+        moment{}; ///< reactions of what prescribes the motion, about the centre [N], [N m]
+  };
+  BodyMotion motion(int body) const;
+  /// Whether elements of a block belong to the body.
+  bool hasBlock(int body, int block) const { return bodies_[body].blocks[block] != 0; }
+  int bodyOf(int ownedNode) const { return empty() ? -1 : bodyOfNode_[ownedNode]; }
   Vec3 spin(int body) const { return bodies_[body].spin; }
   /// About the centre, at the start [kg m^2].
   const Mat3& inertia(int body) const { return bodies_[body].inertia; }
@@ -129,6 +149,7 @@ private:
     std::vector<int> nodes; ///< owned by this rank
     std::vector<Vec3> arms; ///< from the centre, at the start
     std::int64_t allNodes = 0;
+    std::vector<char> blocks; ///< by block of the mesh: whether elements of it are in the body
     Real mass = 0;
     Mat3 inertia, inverseInertia; ///< at the start; in two dimensions only zz counts
     std::vector<Constraint> constraints;
@@ -136,10 +157,16 @@ private:
     {
       Free,
       AboutAxis,
-      None
+      None,
+      Given
     } turning = Turning::Free;
     Vec3 axis{};
+    VectorOfTime spinOfTime; ///< Given [rad/s]
+    Vec3 givenSpin{};        ///< of the present step [rad/s]
+    bool isHeld() const { return !constraints.empty() || turning == Turning::Given; }
+    Real gyration() const; ///< radius [m]
 
+    Vec3 start{}; ///< the centre at first
     Vec3 center{}, nextCenter{};
     Turn turn, nextTurn;
     Vec3 velocity{}, previousVelocity{};
@@ -154,6 +181,7 @@ private:
 
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
+  void takeMotions(const std::vector<RigidMotion>& motions);
   void constrain(Body& body, const Constraint& constraint);
   void applyConstraints(Body& body, Real t, Real dt) const;
   Vec3 spinOf(const Body& body, Real dt) const;

@@ -222,7 +222,7 @@ void Solver::drift(Real dt)
 
 void Solver::applyLocalDamping()
 {
-  const Real fraction = model_.conditions.localDampingAt(clock_.time);
+  const Real fraction = model_.conditions.localDampingAt(dampingTime());
   const NodeVectors damping = state_.localDamping;
   if (fraction == 0)
   {
@@ -258,7 +258,7 @@ void Solver::kick(Real step)
 
   // Mass damping takes v at n as the mean of both half steps, like dashpots do: second order, and
   // the stable step stays that of the undamped body.
-  const Real alpha = conditions.massDampingAt(clock_.time);
+  const Real alpha = conditions.massDampingAt(dampingTime());
   const Real half = 0.5 * dtKick * alpha;
   const NodeVectors v = state_.v, vPrevious = state_.vPrevious, external = state_.external,
                     damping = state_.damping;
@@ -296,7 +296,7 @@ void Solver::kick(Real step)
             0.5 * dashpots_.drag(n, change));
   }
   dashpots_.book(vPrevious, v, external);
-  rigid_->kick(dtKick, step, clock_.time, alpha, conditions.localDampingAt(clock_.time), state_);
+  rigid_->kick(dtKick, step, clock_.time, alpha, conditions.localDampingAt(dampingTime()), state_);
 
   const auto impulse = state_.impulse, angularImpulse = state_.angularImpulse;
   const auto followsBody = followsBody_;
@@ -372,16 +372,10 @@ void Solver::planNextCycle(bool first)
          "the mesh.");
   kick(step);
   clock_.nextStep = step;
-  if (first)
-  {
-    const auto v = state_.v;
-    const auto vPrevious = state_.vPrevious;
-    // Energies at t = 0 are those of the given velocities: v(-1/2) mirrors v(1/2).
-    parallelFor(
-        "coplane::dynamics::mirrorVelocities", layout_.owned(),
-        KOKKOS_LAMBDA(const int n) { set(vPrevious, n, 2.0 * at(vPrevious, n) - at(v, n)); });
-    rigid_->mirrorVelocities();
-  }
+  if (first) // energies at t = 0 are those of the given velocities
+    mirrorVelocities();
+  else
+    relax(step);
   if (!contact_)
     return;
 

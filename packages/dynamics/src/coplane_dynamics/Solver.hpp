@@ -72,6 +72,7 @@ public:
   const Contact& contact() const { return *contact_; }
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return *rigid_; }
+  const RelaxationState& relaxation() const { return relaxation_; }
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
   bool resultsRequested() const { return resultsRequested_; } ///< by SIGUSR1, in this cycle
 
@@ -115,6 +116,15 @@ private:
   Real nodeStep(int node) const;         ///< of elements and contacts there [s]
   void setInitialStress(int block);
   void applyLocalDamping();
+  /// For the dampings: a time at which none acts when relaxation has ended them.
+  Real dampingTime() const { return relaxation_.ended ? infinity : clock_.time; }
+  // Dynamic relaxation (Relaxation.cpp). Collective.
+  void relax(Real step);
+  void stopMotion(Real step);
+  bool isAtRest() const;
+  Real kineticAtHalfStep() const; ///< sum m v(n+1/2)^2 / 2 [J]
+  Real kineticAtFullStep() const; ///< sum m v(n-1/2).v(n+1/2) / 2 [J]
+  void mirrorVelocities();        ///< v(n-1/2) of a start: mirrors v(n+1/2) about v(n)
   void kick(Real step);
   void drift(Real dt);
   void planNextCycle(bool first);
@@ -150,6 +160,7 @@ private:
   ExactSum erodedMass_;
   std::int64_t erodedElements_ = 0;
   Clock clock_;
+  RelaxationState relaxation_;
   EnergyBalance initialEnergy_;
   Momenta initialMomenta_;
   // When warnOfTrouble() speaks: at this fraction of the error at which the run stops; at these

@@ -67,7 +67,8 @@ EnergyBalance Solver::energy() const
   balance.massDamping = totals[Damping];
   balance.localDamping = totals[LocalDamping];
   balance.externalWork = totals[External];
-  balance.nodalWork = totals[Nodal];
+  balance.kineticDamping = relaxation_.work;
+  balance.nodalWork = totals[Nodal] - relaxation_.work;
   if (contact_)
     balance.contact = contact_->energy();
   balance.initial = initialEnergy_.total();

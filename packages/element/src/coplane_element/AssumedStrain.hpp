@@ -17,6 +17,25 @@ namespace coplane
 //   plane:  E/(1-nu^2) e_i^2 / 2
 //   solid:  E/(1-nu^2) (e_i^2 + e_j^2 + 2 nu e_i e_j) / 2 for the function that varies along k,
 //           E / 3 (q_i[3] / L_i)^2 / 2 for the last mode,  mu (q_i[i] / L_j + q_j[j] / L_i)^2 / 2.
+//
+// A ring bends like a brick whose third direction is the hoop: bending that varies along xi has
+// stress along eta and around, and the other way round. The hoop strain u_r / r has the slopes
+// e_xi, e_eta at the middle, which one point does not see either (the section of a ring that turns
+// has nothing else), and a part along xi eta that is taken as uniaxial:
+//
+//   ring:   E/(1-nu^2) (e_i^2 + e_j^2 + 2 nu e_i e_j) / 2 with e_i = q_i / L_i along eta and the
+//           slope e_j = e_xi; the same with xi and eta changed;  E / 3 (q_r / r)^2 / 2.
+
+/// Hoop slopes of a ring: d(u_r / r)/dxi and d/deta at the middle, from modes of a field along r,
+/// its mean over the corners, and those of the radius.
+template <class T, int count>
+KOKKOS_INLINE_FUNCTION void hoopSlopes(const T (&x)[count], const T& radius, const T (&u)[count],
+                                       const T& mean, T (&slope)[2])
+{
+  const T per = T(1.0) / radius;
+  for (int k = 0; k < 2; ++k)
+    slope[k] = per * (u[k] - mean * per * x[k]);
+}
 
 /// Axes and half lengths of an element.
 template <class T>
@@ -65,6 +84,8 @@ struct AssumedStrainModuli
         young(mu * (3 * lambda + 2 * mu) / (lambda + mu)), shear(mu)
   {
   }
+  /// The same for a ring, without the part over the radius.
+  Real largestOfRing() const { return plane * (1 + std::abs(poisson)); }
   /// Bound of all stiffnesses, over V / 3 and the shortest half length squared (Gershgorin).
   template <int dim>
   Real largest() const
@@ -120,5 +141,31 @@ assumedStrainForces(const BrickFrame<T>& frame, const AssumedStrainModuli& modul
       for (int j = 1; j < dim; ++j)
         force[a][i] += r(i, j) * p[a][j];
     }
+}
+
+/// Increments of the forces of a ring: on the mode of the section, in global axes, and on the two
+/// hoop slopes [N m].
+/// @param increment of the mode, q dt [m]; slope: of the hoop slopes [-]
+template <class T>
+KOKKOS_INLINE_FUNCTION void
+assumedStrainForcesOfRing(const BrickFrame<T>& frame, const AssumedStrainModuli& moduli,
+                          const T& volume, const T& radius, const T (&increment)[1][2],
+                          const T (&slope)[2], T (&force)[1][2], T (&hoopForce)[2])
+{
+  const Mat3Of<T>& r = frame.axes;
+  const T third = T(1.0 / 3.0) * volume;
+  const T plane(moduli.plane), poisson(moduli.poisson);
+  T p[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    const int j = 1 - i; // the mode along axis i is bending that varies along axis j
+    const T along =
+        frame.inverseLength[i] * (r(0, i) * increment[0][0] + r(1, i) * increment[0][1]);
+    p[i] = third * plane * frame.inverseLength[i] * (along + poisson * slope[j]);
+    hoopForce[j] = third * plane * (slope[j] + poisson * along);
+  }
+  for (int i = 0; i < 2; ++i)
+    force[0][i] = r(i, 0) * p[0] + r(i, 1) * p[1];
+  force[0][0] += third * T(moduli.young / 3) * increment[0][0] / (radius * radius);
 }
 } // namespace coplane

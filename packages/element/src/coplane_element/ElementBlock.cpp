@@ -35,8 +35,9 @@ struct Measures
       part = volume / M::nodes;
   }
 
-  /// Of the ring of which the element is a section. r: radii of the corners [m]
-  void revolve(const Real* r)
+  /// Of the ring of which the element is a section; returns the volumes of the points of
+  /// quadrilaterals. r: radii of the corners [m]
+  std::array<Real, 8> revolve(const Real* r)
   {
     if constexpr (type == ElementType::Tri3)
     {
@@ -49,12 +50,13 @@ struct Measures
       Real mean = 0;
       for (int c = 0; c < 4; ++c)
         mean += 0.25 * r[c];
-      atPoints(
+      return atPoints(
           [&](const Real(&p)[3]) {
             return 2 * pi *
                    (mean + modes[0][0] * p[0] + modes[0][1] * p[1] + modes[0][2] * p[0] * p[1]);
           });
     }
+    return {};
   }
 
   /// Shares and volume by Gauss points; calls weight(point) for a factor. Returns the volumes of
@@ -168,9 +170,8 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   if (simplex ? full || options.form == ElementForm::AssumedStrain
               : options.form == ElementForm::NodalPressure)
     fail(ExitCode::Internal, "element block: {} has no such form", topology(type).exodusName);
-  if (revolved && (dim == 3 || full || options.form == ElementForm::AssumedStrain))
-    fail(ExitCode::Internal, "element block: {} of this form is not axisymmetric",
-         topology(type).exodusName);
+  if (revolved && dim == 3)
+    fail(ExitCode::Internal, "element block: {} is not axisymmetric", topology(type).exodusName);
   // Neither the strain nor an assumed strain leaves anything to the options of one point.
   if (options.form != ElementForm::OnePoint)
     hourglass_ = {0, 0};
@@ -198,8 +199,10 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   compression_ = Values("compression", 2, padded);
   energies_ = Values("energies", elementEnergies, padded);
   alive_ = Values("alive", 1, padded);
+  // Rings of assumed strain have two hoop forces besides.
   const int rows =
-      withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; });
+      withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; }) +
+      (revolved && options.form == ElementForm::AssumedStrain ? 2 : 0);
   hourglassForce_ = Values("hourglassForce", full ? 0 : rows, padded);
   hourglassViscousForce_ =
       Values("hourglassViscousForce", hourglass_.viscosity > 0 ? rows : 0, padded);
@@ -246,19 +249,18 @@ Real ElementBlock::measure(int e, const ConstNodeVectors& x)
 {
   const Real rho = coplane::density(law_);
   Measures<type> measures(connectivity_, e, x);
+  std::array<Real, 8> parts{};
   if (options_.geometry == Geometry::Axisymmetric)
   {
     Real radii[Modes<type>::nodes];
     for (int c = 0; c < Modes<type>::nodes; ++c)
       radii[c] = x(connectivity_(e, c), 0);
-    measures.revolve(radii);
+    parts = measures.revolve(radii);
   }
   else if (isFullyIntegrated(options_.form))
-  {
-    const auto parts = measures.atPoints([](const Real(&)[3]) { return 1.0; });
-    for (int q = 0; q < int(pointMass_.extent(0)); ++q)
-      pointMass_(q, e) = rho * parts[q];
-  }
+    parts = measures.atPoints([](const Real(&)[3]) { return 1.0; });
+  for (int q = 0; q < int(pointMass_.extent(0)); ++q)
+    pointMass_(q, e) = rho * parts[std::size_t(q)];
   referenceVolume_(e) = volume_(e) = measures.volume;
   mass_(e) = rho * measures.volume;
   for (int c = 0; c < int(cornerMass_.extent(0)); ++c)
@@ -371,7 +373,10 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
     revolved ? updateRevolvedTri3(data) : updateTri3(data);
     break;
   case ElementType::Quad4:
-    revolved ? updateRevolvedQuad4(data) : full ? updateFullQuad4(data) : updateQuad4(data);
+    if (full)
+      revolved ? updateFullRevolvedQuad4(data) : updateFullQuad4(data);
+    else
+      revolved ? updateRevolvedQuad4(data) : updateQuad4(data);
     break;
   case ElementType::Tet4:
     updateTet4(data);

@@ -22,6 +22,8 @@ struct ElementKernel
   static constexpr int gradients = Shape::gradients;
   /// One vector per hourglass mode; an unused one where the strain sees every deformation.
   using HourglassVectors = Lanes[hasHourglass ? M::hourglass : 1][dim];
+  /// Rings of assumed strain have forces on the two hoop slopes (AssumedStrain.hpp).
+  static constexpr bool hasHoopSlopes = revolved && hasHourglass;
 
   ElementKernelData data;
   Law law;
@@ -39,6 +41,12 @@ struct ElementKernel
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         hourglass[a][i] = load(&data.hourglassForce(a * dim + i, first));
+
+    Lanes hoopForce[2] = {Lanes(0.0), Lanes(0.0)};
+    const bool onSlopes = hasHoopSlopes && data.options.form == ElementForm::AssumedStrain;
+    if (onSlopes)
+      for (int k = 0; k < 2; ++k)
+        hoopForce[k] = load(&data.hourglassForce(dim + k, first));
 
     SymTensorOf<Lanes> stress = loadTensor<dim>(data.stress, 0, first);
     const Lanes oldViscousPressure = load(&data.compression(1, first));
@@ -72,7 +80,7 @@ struct ElementKernel
     {
       addTo(data.energies, ElementEnergy::Viscous, first,
             Lanes(-0.5) * (oldViscousPressure + viscousPressure) * motion.dilatation);
-      advance(first, v, motion, volume, length, point, stress, hourglass);
+      advance(first, v, motion, volume, length, point, stress, hourglass, hoopForce);
     }
 
     if (data.hourglass.viscosity > 0)
@@ -80,16 +88,16 @@ struct ElementKernel
         for (int i = 0; i < dim; ++i)
           hourglass[a][i] += load(&data.hourglassViscousForce(a * dim + i, first));
 
-    const LaneMask finite =
-        storeCornerForces(first, x, b, hoop, stress, viscousPressure, hourglass, inverseVolume);
+    const LaneMask finite = storeCornerForces(first, x, radial.position, b, hoop, stress,
+                                              viscousPressure, hourglass, hoopForce, inverseVolume);
 
     // Tangent of the viscous pressure over the rate of compression, per density.
     const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
     const Lanes stiffening = load(&data.tangent(0, first));
     Lanes step;
     if constexpr (revolved)
-      step = OnePointStep<type, revolved>{data}.ofRing(first, x, b, hoop, volume, viscosity,
-                                                       stiffening);
+      step = OnePointStep<type, revolved>{data}.ofRing(first, x, radial.position, b, hoop, volume,
+                                                       viscosity, stiffening);
     else
       step = OnePointStep<type, revolved>{data}.of(x, b, inverseVolume, rho, viscosity, stiffening);
     const LaneMask good = finite && volume > Lanes(0.0) && step > Lanes(0.0);
@@ -113,9 +121,10 @@ private:
   {
     Lanes middle[dim][M::count]; ///< modes of the positions
     Lanes volume = Lanes(0.0);
-    Lanes dilatation = Lanes(0.0); ///< tr(D) dt V at n + 1/2
-    Lanes traceG = Lanes(0.0);     ///< sum of b_jI^2 over nodes and axes [1/m^2]
-    SymTensorOf<Lanes> strain;     ///< D dt of the element's own motion, on which its forces work
+    Lanes radius = Lanes(0.0), radialVelocity = Lanes(0.0); ///< of rings: means over the corners
+    Lanes dilatation = Lanes(0.0);                          ///< tr(D) dt V at n + 1/2
+    Lanes traceG = Lanes(0.0); ///< sum of b_jI^2 over nodes and axes [1/m^2]
+    SymTensorOf<Lanes> strain; ///< D dt of the element's own motion, on which its forces work
   };
 
   void findMotion(const Lanes (&x)[dim][M::count], const Lanes (&v)[dim][M::count],
@@ -127,8 +136,12 @@ private:
     for (int i = 0; i < dim; ++i)
       for (int k = 0; k < M::count; ++k)
         motion.middle[i][k] = x[i][k] - half * dt * v[i][k];
-    motion.volume = Shape::volumeGradient(motion.middle,
-                                          radial.position - half * dt * radial.velocity, b, hoop);
+    if constexpr (revolved)
+    {
+      motion.radius = radial.position - half * dt * radial.velocity;
+      motion.radialVelocity = radial.velocity;
+    }
+    motion.volume = Shape::volumeGradient(motion.middle, motion.radius, b, hoop);
     const Lanes inverseVolume = Lanes(1.0) / motion.volume;
 
     // L_ij dt = dt sum_I v_iI b_jI
@@ -232,7 +245,7 @@ private:
   /// @param volume at n + 1; `length` of the element
   void advance(int first, const Lanes (&v)[dim][M::count], const Motion& motion,
                const Lanes& volume, const Lanes& length, MaterialPoint<Lanes>& point,
-               SymTensorOf<Lanes>& stress, HourglassVectors& hourglass) const
+               SymTensorOf<Lanes>& stress, HourglassVectors& hourglass, Lanes (&hoopForce)[2]) const
   {
     const Mat3Of<Lanes>& r = point.rotation;
     const bool byDefault = data.options.rate == ObjectiveRate::HughesWinget;
@@ -300,8 +313,10 @@ private:
         for (int a = 0; a < M::hourglass; ++a)
           for (int i = 0; i < dim; ++i)
             hourglass[a][i] *= kept;
+        for (Lanes& force : hoopForce)
+          force *= kept;
       }
-      advanceHourglass(first, motion, point, v, oldHourglass, hourglass);
+      advanceHourglass(first, motion, point, v, oldHourglass, hourglass, hoopForce);
     }
     if (law.changesTangent)
     {
@@ -313,7 +328,7 @@ private:
   /// Hourglass forces, already turned with the element, from n to n + 1, and their work.
   void advanceHourglass(int first, const Motion& motion, const MaterialPoint<Lanes>& point,
                         const Lanes (&v)[dim][M::count], const HourglassVectors& oldHourglass,
-                        HourglassVectors& hourglass) const
+                        HourglassVectors& hourglass, Lanes (&hoopForce)[2]) const
   {
     const Lanes dt(data.dt), half(0.5);
     const Lanes &volume = motion.volume, &traceG = motion.traceG;
@@ -334,17 +349,33 @@ private:
         if (!assumedStrain)
           hourglass[a][i] += stiffness * sum;
       }
-    if constexpr (!revolved)
-      if (assumedStrain)
+    if (assumedStrain)
+    {
+      HourglassVectors forces;
+      const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
+      const BrickFrame<Lanes> frame = brickFrame<dim>(motion.middle);
+      if constexpr (revolved)
       {
-        HourglassVectors forces;
-        assumedStrainForces(brickFrame<dim>(motion.middle),
-                            AssumedStrainModuli(data.lambda, data.shearModulus), volume, increment,
-                            forces);
-        for (int a = 0; a < M::hourglass; ++a)
-          for (int i = 0; i < dim; ++i)
-            hourglass[a][i] += point.integrity * forces[a][i];
+        Lanes slopes[2], onSlopes[2];
+        hoopSlopes(motion.middle[0], motion.radius, v[0], motion.radialVelocity, slopes);
+        for (Lanes& slope : slopes)
+          slope *= dt;
+        assumedStrainForcesOfRing(frame, moduli, volume, motion.radius, increment, slopes, forces,
+                                  onSlopes);
+        for (int k = 0; k < 2; ++k)
+        {
+          Real* const where = &data.hourglassForce(dim + k, first);
+          hoopForce[k] += point.integrity * onSlopes[k];
+          hourglassWork += (load(where) + hoopForce[k]) * slopes[k];
+          store(hoopForce[k], where);
+        }
       }
+      else
+        assumedStrainForces(frame, moduli, volume, increment, forces);
+      for (int a = 0; a < M::hourglass; ++a)
+        for (int i = 0; i < dim; ++i)
+          hourglass[a][i] += point.integrity * forces[a][i];
+    }
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
       {
@@ -378,10 +409,11 @@ private:
 
   /// Force on node I: -(sigma_ij - q delta_ij) B_jI - sum_a Q_ia gamma_aI V^0, the second part with
   /// gamma at x^(n+1).
-  LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count],
+  LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count], const Lanes& radius,
                              const Lanes (&b)[dim][gradients], const Hoop& hoop,
                              const SymTensorOf<Lanes>& stress, const Lanes& viscousPressure,
-                             const HourglassVectors& hourglass, const Lanes& inverseVolume) const
+                             const HourglassVectors& hourglass, const Lanes (&hoopForce)[2],
+                             const Lanes& inverseVolume) const
   {
     Lanes s[dim][dim];
     s[0][0] = stress.xx - viscousPressure;
@@ -422,11 +454,26 @@ private:
           modes[k] -= around * hoop[revolved ? k : 0];
         all += modes[k];
       }
+      Lanes mean(0.0);
+      if constexpr (hasHoopSlopes)
+        if (i == 0 && data.options.form == ElementForm::AssumedStrain)
+        {
+          const Lanes part = Lanes(1.0 / nodes) / radius;
+          for (int k = 0; k < 2; ++k)
+          {
+            modes[k] -= part * hoopForce[k];
+            mean += part * hoopForce[k] * x[0][k] / radius;
+          }
+          all += mean;
+        }
       Lanes corners[nodes];
       M::toCorners(modes, corners);
       if (revolved && i == 0)
+      {
+        mean -= around * hoop[revolved ? gradients : 0];
         for (int c = 0; c < nodes; ++c)
-          corners[c] -= around * hoop[revolved ? gradients : 0];
+          corners[c] += mean;
+      }
 #pragma GCC unroll 8
       for (int c = 0; c < nodes; ++c)
         store(corners[c], force[i][c]);

@@ -35,6 +35,7 @@ void updateTet4(const ElementKernelData& data);
 void updateHex8(const ElementKernelData& data);
 void updateFullQuad4(const ElementKernelData& data);
 void updateFullHex8(const ElementKernelData& data);
+void updateFullRevolvedQuad4(const ElementKernelData& data);
 void updateRevolvedTri3(const ElementKernelData& data);
 void updateRevolvedQuad4(const ElementKernelData& data);
 

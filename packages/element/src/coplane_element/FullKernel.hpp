@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_element/ElementKernel.hpp>
+#include <coplane_element/Revolved.hpp>
 
 namespace coplane
 {
@@ -69,11 +70,18 @@ inline void gaussPoint(int q, Real (&p)[3])
 /// that only the mean of the mean stresses does work on it: forces are those of the deviators at
 /// the points and of that mean on the mean gradient. Forces of an element are written on modes that
 /// have no mean and no rotation of a symmetric stress: no resultant, no moment.
-template <ElementType type, class Law>
+///
+/// revolved: a body of revolution. Points have the weight 2 pi r, and the hoop strain u_r / r of
+/// their own; the mean dilatation is that of the ring, and the mean of hoop forces is one of its
+/// own.
+template <ElementType type, class Law, bool revolved = false>
 struct FullKernel
 {
   using M = Modes<type>;
   using Points = GaussPoints<type>;
+  using Shape = OnePointShape<type, revolved>;
+  using Hoop = typename Shape::Hoop;
+  static constexpr int gradients = Shape::gradients;
   static constexpr int dim = M::dimension;
   static constexpr int nodes = M::nodes;
   static constexpr int components = dim == 3 ? 6 : 4;
@@ -86,31 +94,40 @@ struct FullKernel
     const int first = batch * laneCount;
     const bool bbar = data.options.form == ElementForm::FullIntegration;
     Lanes x[dim][M::count], v[dim][M::count];
-    gatherModes<M>(data.connectivity, data.x, first, x);
-    gatherModes<M>(data.connectivity, data.v, first, v);
+    Lanes radius(0.0), radialVelocity(0.0); // means over the corners
+    gatherModes<M>(data.connectivity, data.x, first, x, revolved ? &radius : nullptr);
+    gatherModes<M>(data.connectivity, data.v, first, v, revolved ? &radialVelocity : nullptr);
 
-    Lanes b[dim][M::gradients];
-    M::volumeGradient(x, b);
-    const Lanes volume = M::volume(x, b);
+    Lanes b[dim][gradients];
+    Hoop hoop;
+    const Lanes volume = Shape::volumeGradient(x, radius, b, hoop);
     const Lanes inverseVolume = Lanes(1.0) / volume;
     const Lanes mass = load(&data.mass(first));
     const Lanes rho = mass * inverseVolume;
-    const Lanes length = characteristicLength<dim>(data, volume, first);
+    const Lanes length =
+        characteristicLength<dim>(data, revolved ? Shape::areaOf(hoop) : volume, first);
     const Lanes oldViscousPressure = load(&data.compression(1, first));
 
-    Lanes middle[dim][M::count];
+    Lanes middle[dim][M::count], middleRadius(0.0);
     Lanes dilatation(0.0), middleVolume(0.0); // of the step, mean over the element
     if (data.dt > 0)
     {
       for (int i = 0; i < dim; ++i)
         for (int k = 0; k < M::count; ++k)
           middle[i][k] = x[i][k] - Lanes(0.5 * data.dt) * v[i][k];
-      Lanes half[dim][M::gradients];
-      M::volumeGradient(middle, half);
-      middleVolume = M::volume(middle, half);
+      middleRadius = radius - Lanes(0.5 * data.dt) * radialVelocity;
+      Lanes half[dim][gradients];
+      Hoop halfHoop;
+      middleVolume = Shape::volumeGradient(middle, middleRadius, half, halfHoop);
       for (int i = 0; i < dim; ++i)
-        for (int k = 0; k < M::gradients; ++k)
+        for (int k = 0; k < gradients; ++k)
           dilatation += v[i][k] * half[i][k];
+      if constexpr (revolved)
+      {
+        dilatation += radialVelocity * halfHoop[gradients];
+        for (int k = 0; k < gradients; ++k)
+          dilatation += v[0][k] * halfHoop[k];
+      }
       dilatation *= Lanes(nodes * data.dt) / middleVolume;
       store(branchFree::positivePart(-dilatation / Lanes(data.dt)), &data.compression(0, first));
     }
@@ -125,17 +142,30 @@ struct FullKernel
       const Lanes viscousWork =
           Lanes(-0.5) * (oldViscousPressure + viscousPressure) * dilatation * middleVolume;
       addTo(ElementEnergy::Viscous, first, viscousWork);
-      advance(first, middle, v, dilatation, middleVolume, volume, length, viscousWork);
+      advance(first, middle, v, {middleRadius, radialVelocity}, dilatation, middleVolume, volume,
+              length, viscousWork);
     }
     const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
-    finish(first, x, b, volume, inverseVolume, viscousPressure, viscosity, bbar);
+    finish(first, x, radius, b, hoop, volume, inverseVolume, viscousPressure, viscosity, bbar);
   }
 
 private:
+  /// Means over the corners, of bodies of revolution.
+  struct Radial
+  {
+    Lanes position, velocity;
+  };
+
   void addTo(ElementEnergy kind, int first, const Lanes& amount) const
   {
     Real* const where = &data.energies(int(kind), first);
     store(load(where) + amount, where);
+  }
+
+  /// A field along x at a point, from its modes and its mean.
+  static Lanes valueAt(const Lanes& mean, const Lanes (&u)[M::count], const Real (&p)[3])
+  {
+    return mean + Lanes(p[0]) * u[0] + Lanes(p[1]) * u[1] + Lanes(p[0] * p[1]) * u[2];
   }
 
   /// Inverse of the map's gradient and its determinant at a point: out[k][j] = dxi_k/dx_j.
@@ -175,8 +205,8 @@ private:
 
   /// Stresses, history and energies at all points from n to n + 1.
   void advance(int first, const Lanes (&middle)[dim][M::count], const Lanes (&v)[dim][M::count],
-               const Lanes& dilatation, const Lanes& middleVolume, const Lanes& volume,
-               const Lanes& length, const Lanes& viscousWork) const
+               const Radial& radial, const Lanes& dilatation, const Lanes& middleVolume,
+               const Lanes& volume, const Lanes& length, const Lanes& viscousWork) const
   {
     const bool bbar = data.options.form == ElementForm::FullIntegration;
     Lanes work(0.0), dissipation(0.0), stiffening(0.0);
@@ -185,9 +215,16 @@ private:
       Real p[3];
       gaussPoint(q, p);
       Lanes inverse[dim][dim];
-      const Lanes weight = inverseMap(middle, p, inverse);
+      Lanes weight = inverseMap(middle, p, inverse);
+      Lanes hoopRate(0.0); // v_r / r
+      if constexpr (revolved)
+      {
+        const Lanes radius = valueAt(radial.position, middle[0], p);
+        hoopRate = valueAt(radial.velocity, v[0], p) / radius;
+        weight *= Lanes(2 * pi) * radius;
+      }
       MaterialPoint<Lanes> point;
-      findStrain(v, p, inverse, dilatation, bbar, point);
+      findStrain(v, p, inverse, hoopRate, dilatation, bbar, point);
       const SymTensorOf<Lanes> strain = point.strainIncrement;
       const SymTensorOf<Lanes> oldStress = loadTensor<dim>(data.pointStress, components * q, first);
       point.dt = data.dt;
@@ -227,8 +264,8 @@ private:
   }
 
   void findStrain(const Lanes (&v)[dim][M::count], const Real (&p)[3],
-                  const Lanes (&inverse)[dim][dim], const Lanes& dilatation, bool bbar,
-                  MaterialPoint<Lanes>& point) const
+                  const Lanes (&inverse)[dim][dim], const Lanes& hoopRate, const Lanes& dilatation,
+                  bool bbar, MaterialPoint<Lanes>& point) const
   {
     const Lanes dt(data.dt), half(0.5), quarter(0.25);
     Mat3Of<Lanes>& l = point.displacementGradient;
@@ -247,6 +284,8 @@ private:
         l(i, j) = dt * sum;
       }
     }
+    if constexpr (revolved)
+      l(2, 2) = dt * hoopRate;
     if (bbar)
     {
       const Lanes change = Lanes(1.0 / 3.0) * (dilatation - (l(0, 0) + l(1, 1) + l(2, 2)));
@@ -288,9 +327,10 @@ private:
   }
 
   /// Forces, means over the points and stable step at n + 1.
-  void finish(int first, const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][M::gradients],
-              const Lanes& volume, const Lanes& inverseVolume, const Lanes& viscousPressure,
-              const Lanes& viscosity, bool bbar) const
+  void finish(int first, const Lanes (&x)[dim][M::count], const Lanes& meanRadius,
+              const Lanes (&b)[dim][gradients], const Hoop& hoop, const Lanes& volume,
+              const Lanes& inverseVolume, const Lanes& viscousPressure, const Lanes& viscosity,
+              bool bbar) const
   {
     Lanes f[dim][M::count];
     for (auto& row : f)
@@ -303,13 +343,22 @@ private:
     const Real lambda = data.lambda > 0 ? data.lambda : 0;
     const Real c = bbar ? 0 : lambda / (2 * data.shearModulus);
     Lanes fastest(0.0);
+    Lanes inPlane(0.0);
+    Lanes around(0.0); // sum of the hoop forces of the points over the corners
+    HoopRates hoopRates;
     LaneMask unfolded = volume > Lanes(0.0);
     for (int q = 0; q < Points::count; ++q)
     {
       Real p[3];
       gaussPoint(q, p);
       Lanes inverse[dim][dim];
-      const Lanes weight = inverseMap(x, p, inverse);
+      Lanes weight = inverseMap(x, p, inverse), perRadius(0.0);
+      if constexpr (revolved)
+      {
+        const Lanes radius = valueAt(meanRadius, x[0], p);
+        weight *= Lanes(2 * pi) * radius;
+        perRadius = Lanes(1.0) / radius;
+      }
       unfolded = unfolded && weight > Lanes(0.0);
       const SymTensorOf<Lanes> s = loadTensor<dim>(data.pointStress, components * q, first);
       mean.xx += weight * s.xx;
@@ -335,9 +384,27 @@ private:
         }
         Points::addForces(flux, p, f[i]);
       }
-      const Lanes density = weight / load(&data.pointMass(q, first));
-      fastest = lanesMax(fastest, density * fastestAtPoint(inverse, c));
+      const Lanes pointMass = load(&data.pointMass(q, first));
+      const Lanes density = weight / pointMass;
+      if constexpr (revolved)
+      {
+        const Lanes force = weight * perRadius * full[2][2];
+        around += force;
+        f[0][0] += Lanes(p[0]) * force;
+        f[0][1] += Lanes(p[1]) * force;
+        f[0][2] += Lanes(p[0] * p[1]) * force;
+        hoopRates.add(p, weight * perRadius * perRadius);
+        const Lanes withHoop = fastestAtRing(inverse, perRadius, c);
+        fastest = lanesMax(fastest, density * withHoop);
+        if (bbar)
+          inPlane = lanesMax(inPlane, density * fastestAtPoint(inverse, c));
+      }
+      else
+        fastest = lanesMax(fastest, density * fastestAtPoint(inverse, c));
     }
+    if constexpr (revolved)
+      if (bbar) // a second bound, the better one at the axis
+        fastest = lanesMin(fastest, inPlane + hoopRates.largest(data, first, x[0], meanRadius));
     storeTensor<dim>(SymTensorOf<Lanes>{mean.xx * inverseVolume, mean.yy * inverseVolume,
                                         mean.zz * inverseVolume, mean.xy * inverseVolume,
                                         mean.yz * inverseVolume, mean.zx * inverseVolume},
@@ -356,12 +423,23 @@ private:
       for (int k = 0; k < M::count; ++k)
       {
         modes[k] = Lanes(-1.0 / nodes) * f[i][k];
-        if (k < M::gradients)
-          modes[k] += pressure * b[i][k < M::gradients ? k : 0];
+        if (k < gradients)
+        {
+          modes[k] += pressure * b[i][k < gradients ? k : 0];
+          if (revolved && i == 0)
+            modes[k] += pressure * hoop[revolved ? k : 0];
+        }
         all += modes[k];
       }
       Lanes corners[nodes];
       M::toCorners(modes, corners);
+      if (revolved && i == 0)
+      {
+        const Lanes mean = pressure * hoop[revolved ? gradients : 0] - Lanes(1.0 / nodes) * around;
+        all += mean;
+        for (Lanes& corner : corners)
+          corner += mean;
+      }
       for (int corner = 0; corner < nodes; ++corner)
         store(corners[corner], force[i][corner]);
     }
@@ -376,8 +454,15 @@ private:
     {
       Lanes modes[M::count], corners[nodes];
       for (int k = 0; k < M::count; ++k)
-        modes[k] = k < M::gradients ? b[i][k < M::gradients ? k : 0] : Lanes(0.0);
+      {
+        modes[k] = k < gradients ? b[i][k < gradients ? k : 0] : Lanes(0.0);
+        if (revolved && i == 0 && k < gradients)
+          modes[k] += hoop[revolved ? k : 0];
+      }
       M::toCorners(modes, corners);
+      if (revolved && i == 0)
+        for (Lanes& corner : corners)
+          corner += hoop[revolved ? gradients : 0];
       for (int corner = 0; corner < nodes; ++corner)
         squares[corner] += corners[corner] * corners[corner];
     }
@@ -392,6 +477,53 @@ private:
     const Lanes step = stableStep(omegaSquared, rho * viscosity * volumetric);
     const LaneMask good = all * Lanes(0.0) == Lanes(0.0) && unfolded && step > Lanes(0.0);
     store(choose(good, step, Lanes(0.0)), &data.stableStep(first));
+  }
+
+  /// The squared frequencies that hoop strains alone would give, over 2 mu: the matrix
+  /// sum_q w_q N_I N_J / r_q^2 over the masses of the corners has no eigenvalue above its largest
+  /// sum of a row. A corner on the axis does not move along r.
+  struct HoopRates
+  {
+    Lanes row[nodes] = {Lanes(0.0), Lanes(0.0), Lanes(0.0), Lanes(0.0)};
+
+    static Real shape(int corner, const Real (&p)[3])
+    {
+      const Real xi = corner == 1 || corner == 2 ? p[0] : -p[0], eta = corner > 1 ? p[1] : -p[1];
+      return 0.25 * (1 + xi) * (1 + eta);
+    }
+    void add(const Real (&p)[3], const Lanes& weight)
+    {
+      for (int corner = 0; corner < 4; ++corner)
+        row[corner] += Lanes(shape(corner, p)) * weight;
+    }
+    Lanes largest(const ElementKernelData& data, int first, const Lanes (&x)[M::count],
+                  const Lanes& meanRadius) const
+    {
+      Lanes corners[nodes], most(0.0);
+      M::toCorners(x, corners);
+      for (int corner = 0; corner < nodes; ++corner)
+      {
+        // rounding of the modes leaves a rest of the radius on the axis
+        const LaneMask moves = meanRadius + corners[corner] > Lanes(1e-9) * meanRadius;
+        const Lanes rate = row[corner] / load(&data.cornerMass(corner, first));
+        most = lanesMax(most, choose(moves, rate, Lanes(0.0)));
+      }
+      return most;
+    }
+  };
+
+  /// fastestAtPoint() of a ring: with masses N_I the hoop strain N_I / r is a third one beside the
+  /// others, because sum_I (dN_I/dxi_k) N_I / (r N_I) = 0 and sum_I N_I^2 / (r^2 N_I) = 1 / r^2.
+  static Lanes fastestAtRing(const Lanes (&inverse)[dim][dim], const Lanes& perRadius, Real c)
+  {
+    Lanes g[2][2];
+    for (int j = 0; j < 2; ++j)
+      for (int k = 0; k <= j; ++k)
+        g[j][k] = g[k][j] =
+            Lanes(1.5) * (inverse[0][j] * inverse[0][k] + inverse[1][j] * inverse[1][k]);
+    const Lanes trace = g[0][0] + g[1][1], det = g[0][0] * g[1][1] - g[0][1] * g[0][1];
+    const Lanes around = perRadius * perRadius;
+    return fastestStrainMode(trace + around, det + trace * around, det * around, c);
   }
 
   /// Largest root y of StableStep.hpp for the point alone, with the part of the mass that the point

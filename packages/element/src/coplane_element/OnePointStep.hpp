@@ -59,9 +59,9 @@ struct OnePointStep
   const ElementKernelData& data;
 
   /// Masses of the corners differ: StableStep.hpp, on the corners themselves.
-  Lanes ofRing(int first, const Lanes (&x)[dim][M::count], const Lanes (&b)[dim][gradients],
-               const Hoop& hoop, const Lanes& volume, const Lanes& viscosity,
-               const Lanes& stiffening) const
+  Lanes ofRing(int first, const Lanes (&x)[dim][M::count], const Lanes& radius,
+               const Lanes (&b)[dim][gradients], const Hoop& hoop, const Lanes& volume,
+               const Lanes& viscosity, const Lanes& stiffening) const
   {
     const Lanes inverseVolume = Lanes(1.0) / volume;
     Lanes corner[2][nodes], around[nodes];
@@ -104,7 +104,30 @@ struct OnePointStep
       if (data.hourglass.viscosity > 0)
         damping += Lanes(2.0 * data.hourglass.viscosity) * rho *
                    stdx::sqrt(Lanes(nodes * data.pWaveModulus) * traceG / rho) * hourglass;
-      hourglass *= stiffness;
+      if (data.options.form == ElementForm::AssumedStrain)
+      {
+        const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
+        const Lanes perRadius = Lanes(1.0) / radius;
+        const Lanes largest(moduli.largestOfRing() / 3);
+        hourglass *= largest / shortestSquared(x) + Lanes(moduli.young / 9) * perRadius * perRadius;
+        Lanes slopes(0.0);
+        for (int k = 0; k < 2; ++k)
+        {
+          // e_kI = (the mode k of corner I) / (n r) - x_k / (n r^2)
+          Lanes one[M::count], shape[nodes];
+          for (int m = 0; m < M::count; ++m)
+            one[m] = Lanes(m == k ? 1.0 / nodes : 0.0);
+          M::toCorners(one, shape);
+          for (int c = 0; c < nodes; ++c)
+          {
+            const Lanes e = perRadius * (shape[c] - Lanes(1.0 / nodes) * perRadius * x[0][k]);
+            slopes += weight[c] * e * e;
+          }
+        }
+        hourglass += largest * slopes;
+      }
+      else
+        hourglass *= stiffness;
     }
     return stableStep(strain + hourglass, damping);
   }
@@ -181,6 +204,13 @@ struct OnePointStep
   /// Bound of the stiffness of the hourglass modes over the volume [Pa/m^2].
   Lanes assumedStrainBound(const Lanes (&x)[dim][M::count]) const
   {
+    const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
+    return Lanes(moduli.template largest<dim>() / 3) / shortestSquared(x);
+  }
+
+  /// Of the half edges [m^2].
+  static Lanes shortestSquared(const Lanes (&x)[dim][M::count])
+  {
     Lanes shortest;
     for (int k = 0; k < dim; ++k)
     {
@@ -189,8 +219,7 @@ struct OnePointStep
         squared += x[i][k] * x[i][k];
       shortest = k == 0 ? squared : lanesMin(shortest, squared);
     }
-    const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
-    return Lanes(moduli.template largest<dim>() / 3) / shortest;
+    return shortest;
   }
 };
 } // namespace coplane

@@ -205,16 +205,20 @@ struct ContactCard
 struct ConditionCard
 {
   std::string where;
-  std::string
-      type;        ///< fixed | velocity | displacement | symmetry | pressure | traction | absorbing
-  std::string set; ///< node set (fixed, velocity, displacement, symmetry) or side set (the others)
-  std::array<bool, 3> components{true, true, true}; ///< fixed, velocity
+  std::string type; ///< fixed | velocity | displacement | symmetry | pressure | traction |
+                    ///< absorbing | rigid_motion
+  /// Node set (fixed, velocity, displacement, symmetry), element block (rigid_motion) or side set
+  /// (the others).
+  std::string set;
+  std::array<bool, 3> components{true, true, true}; ///< fixed, velocity, rigid_motion
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
   std::array<TimeFunction, 3> displacement;         ///< displacement [m]
   Vec3 normal{0, 0, 0};                             ///< symmetry
   TimeFunction pressure;                ///< pressure, follower, positive pushes into the body [Pa]
   std::array<TimeFunction, 3> traction; ///< traction, in fixed axes [Pa]
   std::array<TimeFunction, 3> incident; ///< absorbing, velocity of the wave that enters [m/s]
+  /// rigid_motion: of each body's centre [m/s], and its spin [rad/s]; free where not given
+  std::optional<std::array<TimeFunction, 3>> translation, spin;
 
   bool onSides() const { return type == "pressure" || type == "traction" || type == "absorbing"; }
 };
@@ -268,6 +272,7 @@ struct HistoryCard
   std::vector<ProbeCard> probes;
   std::vector<std::string> joints; ///< names of joint cards; "*": all
   std::vector<std::string> tables; ///< blocks | pairs | materials
+  std::vector<std::string> rigid;  ///< names of rigid blocks; "*": all
 };
 
 struct Deck
@@ -285,12 +290,16 @@ struct Deck
   ContactCard contact;
   std::vector<ConditionCard> conditions;
   std::vector<InitialCard> initial;
-  std::array<TimeFunction, 3> gravity; ///< [m/s^2]
-  Real viscosityLinear = 0.06;         ///< bulk viscosity b1 [-]
-  Real viscosityQuadratic = 1.5;       ///< b2 [-]
-  TimeFunction massDamping;            ///< force -alpha m v [1/s]
-  Real localDamping = 0;               ///< force -alpha |f| sign(v), component by component [-]
-  std::optional<Real> dampingUntil;    ///< [s]
+  std::array<TimeFunction, 3> gravity;    ///< [m/s^2]
+  Real viscosityLinear = 0.06;            ///< bulk viscosity b1 [-]
+  Real viscosityQuadratic = 1.5;          ///< b2 [-]
+  TimeFunction massDamping;               ///< force -alpha m v [1/s]
+  Real localDamping = 0;                  ///< force -alpha |f| sign(v), component by component [-]
+  bool kineticDamping = false;            ///< stops all motion where the kinetic energy has a peak
+  Real dampingFrom = 0;                   ///< [s]
+  std::optional<Real> dampingUntil;       ///< [s]
+  std::optional<Real> dampingEnergyRatio; ///< kinetic over internal energy at which it ends [-]
+  std::optional<Real> dampingForceRatio;  ///< unbalanced over applied force at which it ends [-]
   TimeCard time;
   OutputCard output;
   HistoryCard history;

@@ -104,6 +104,35 @@ void checkPairs(const Deck& deck, const DeckNode& root, const Names& joints, Pro
   }
 }
 
+/// Nothing may be prescribed along axes that are left free.
+void checkComponent(const ConditionCard& card, const DeckNode& node, const std::string& path,
+                    const std::string& key, const TimeFunction& value, int c, Problems& problems)
+{
+  if (!card.components[c] &&
+      (!value.expression.empty() || value.constant != 0 || !value.times.empty()))
+    problems.add(nodeAt(node, {key, std::to_string(c)}),
+                 fmt::format("{0}.{3}.{1} has no effect because {0}.components does not have {2}; "
+                             "write 0 or add {2} to components.",
+                             path, c, "xyz"[c], key));
+}
+
+void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  const DeckNode& node = nodeAt(root, {"damping"});
+  const bool some = node.find("mass") || node.find("local") || node.find("kinetic");
+  for (const char* key : {"from", "until", "until_energy_ratio", "until_force_ratio"})
+    if (const DeckNode* given = node.find(key); given && !some)
+      problems.add(*given, fmt::format("damping.{} has no effect without damping.mass, "
+                                       "damping.local or damping.kinetic; remove it or give one "
+                                       "of them.",
+                                       key));
+  if (deck.dampingUntil && *deck.dampingUntil <= deck.dampingFrom)
+    problems.add(nodeAt(node, {"until"}),
+                 fmt::format("damping.until = {} s is not after damping.from = {} s; accepted: a "
+                             "later time.",
+                             *deck.dampingUntil, deck.dampingFrom));
+}
+
 void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
@@ -111,16 +140,37 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
     const auto& card = deck.conditions[i];
     const std::string path = fmt::format("conditions.{}", i);
     const DeckNode& node = nodeAt(root, {"conditions", std::to_string(i)});
+    if (card.type == "rigid_motion")
+    {
+      if (!card.translation && !card.spin)
+        problems.add(node, fmt::format("{0} prescribes nothing; accepted: {0}.velocity, "
+                                       "{0}.angular_velocity or both.",
+                                       path));
+      const auto block = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                      [&](const auto& b) { return b.name == card.set; });
+      if (block != deck.blocks.end() && !block->rigid)
+        problems.add(nodeAt(node, {"block"}),
+                     fmt::format("{0}.block = '{1}' is not rigid; set blocks.{1}.rigid, or use "
+                                 "type velocity with a node set.",
+                                 path, card.set));
+      for (int c = 0; c < 3 && card.translation; ++c)
+        checkComponent(card, node, path, "velocity", (*card.translation)[c], c, problems);
+      if (const DeckNode* given = node.find("components"); given && !card.translation)
+        problems.add(*given, fmt::format("{0}.components has no effect without {0}.velocity; "
+                                         "remove it or give that.",
+                                         path));
+      for (std::size_t k = 0; k < i; ++k)
+        if (deck.conditions[k].type == "rigid_motion" && deck.conditions[k].set == card.set)
+          problems.add(nodeAt(node, {"block"}),
+                       fmt::format("{}.block = '{}' is held by conditions.{} already; accepted: "
+                                   "one item for each block.",
+                                   path, card.set, k));
+    }
     if (card.type == "velocity" || card.type == "displacement")
       for (int c = 0; c < 3; ++c)
       {
         const auto& value = card.type == "velocity" ? card.velocity[c] : card.displacement[c];
-        if (!card.components[c] &&
-            (!value.expression.empty() || value.constant != 0 || !value.times.empty()))
-          problems.add(nodeAt(node, {"value", std::to_string(c)}),
-                       fmt::format("{0}.value.{1} has no effect because {0}.components does not "
-                                   "have {2}; write 0 or add {2} to components.",
-                                   path, c, "xyz"[c]));
+        checkComponent(card, node, path, "value", value, c, problems);
       }
   }
 }
@@ -167,6 +217,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
         unknown("contact.default_joint", deck.contact.defaultJoint, "a card in joints", joints));
   checkPairs(deck, root, joints, problems);
   checkConditions(deck, root, problems);
+  checkDamping(deck, root, problems);
   if (deck.geometry == "axisymmetric" && deck.contact.method == "common_plane")
     problems.add(nodeAt(root, {"contact", "method"}),
                  "contact.method = 'common_plane' is not offered with geometry = 'axisymmetric'; "
@@ -174,11 +225,6 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   if (deck.geometry == "axisymmetric")
     for (const auto& block : deck.blocks)
     {
-      if (block.element != "one_point" && block.element != "nodal_pressure")
-        problems.add(nodeAt(root, {"blocks", block.name, "element"}),
-                     fmt::format("blocks.{}.element = '{}' is not offered with geometry = "
-                                 "'axisymmetric'; use one_point or nodal_pressure.",
-                                 block.name, block.element));
       if (block.rigid)
         problems.add(nodeAt(root, {"blocks", block.name, "rigid"}),
                      fmt::format("blocks.{}.rigid is not offered with geometry = 'axisymmetric'; "
@@ -236,6 +282,15 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
       problems.add(
           nodeAt(root, {"history", "joints", std::to_string(i)}),
           unknown(fmt::format("history.joints.{}", i), name, "a card in joints, or \"*\"", joints));
+  Names rigid;
+  for (const auto& block : deck.blocks)
+    if (block.rigid)
+      rigid.push_back(block.name);
+  for (std::size_t i = 0; i < deck.history.rigid.size(); ++i)
+    if (const auto& name = deck.history.rigid[i]; name != "*" && !contains(rigid, name))
+      problems.add(
+          nodeAt(root, {"history", "rigid", std::to_string(i)}),
+          unknown(fmt::format("history.rigid.{}", i), name, "a rigid block, or \"*\"", rigid));
 }
 
 std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,
@@ -279,6 +334,11 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
   {
     const auto& card = deck.conditions[i];
     const bool faces = card.onSides();
+    if (card.type == "rigid_motion")
+    {
+      check(card.where, fmt::format("conditions.{}.block", i), card.set, block, blockNames);
+      continue;
+    }
     check(card.where, fmt::format("conditions.{}.{}", i, faces ? "side_set" : "node_set"), card.set,
           faces ? sideSet : nodeSet, faces ? sideSetNames : nodeSetNames);
   }

@@ -128,18 +128,30 @@ Key conditions()
     key.length = 3;
     return KeyBuilder(key);
   };
+  const auto freeVectorOfTime =
+      [](const std::string& name, std::optional<std::array<TimeFunction, 3>> ConditionCard::*member)
+  {
+    Key key = bound<std::vector<TimeFunction>>(
+        name, KeyKind::TimeFunctions, member,
+        [](std::optional<std::array<TimeFunction, 3>>& field, const std::vector<TimeFunction>& v) {
+          field = {v[0], v[1], v[2]};
+        });
+    key.length = 3;
+    return KeyBuilder(key);
+  };
   return list(
              "conditions", &Deck::conditions,
              {
                  text("type", &ConditionCard::type)
                      .needed()
                      .oneOf({"fixed", "velocity", "displacement", "symmetry", "pressure",
-                             "traction", "absorbing"})
+                             "traction", "absorbing", "rigid_motion"})
                      .like("fixed")
                      .means("fixed: no motion; velocity, displacement: prescribed motion; "
                             "symmetry: no motion "
                             "along the normal; pressure: follows the moving faces; traction: in "
-                            "fixed axes; absorbing: waves leave through the faces"),
+                            "fixed axes; absorbing: waves leave through the faces; rigid_motion: "
+                            "prescribed velocity and spin of the bodies of a rigid block"),
                  text("node_set", &ConditionCard::set)
                      .onlyFor({"fixed", "velocity", "displacement", "symmetry"})
                      .needed()
@@ -150,9 +162,14 @@ Key conditions()
                      .needed()
                      .means("side set of the mesh")
                      .like("top"),
+                 text("block", &ConditionCard::set)
+                     .onlyFor({"rigid_motion"})
+                     .needed()
+                     .means("rigid element block; each connected part of it is a body")
+                     .like("tool"),
                  bound<std::vector<std::string>>("components", KeyKind::Texts,
                                                  &ConditionCard::components, takeComponents)
-                     .onlyFor({"fixed", "velocity", "displacement"})
+                     .onlyFor({"fixed", "velocity", "displacement", "rigid_motion"})
                      .oneOf({"x", "y", "z"})
                      .like("[x]")
                      .defaultIs("[x, y, z]")
@@ -173,6 +190,18 @@ Key conditions()
                      .like("[\"0.1*t\", 0, 0]")
                      .means("velocity in x, y, z; 0 for components that are left free; x, y, z: "
                             "place at t = 0"),
+                 freeVectorOfTime("velocity", &ConditionCard::translation)
+                     .onlyFor({"rigid_motion"})
+                     .in("m/s")
+                     .defaultIs("free")
+                     .like("[0, 0, \"-0.1*t\"]")
+                     .means("velocity of the centre of each body, along the axes of components"),
+                 freeVectorOfTime("angular_velocity", &ConditionCard::spin)
+                     .onlyFor({"rigid_motion"})
+                     .in("rad/s")
+                     .defaultIs("free")
+                     .like("[0, 0, {times: [0, 0.1], values: [0, 5]}]")
+                     .means("spin of each body about its centre; in two dimensions about z"),
                  vectorOfTime("value", &ConditionCard::traction)
                      .onlyFor({"traction"})
                      .needed()
@@ -381,6 +410,13 @@ Key history()
                      .means("energies by element block, contact energies by pair of blocks and by "
                             "pair of materials, as CSV files <history>_blocks.csv, "
                             "<history>_pairs.csv and <history>_materials.csv"),
+                 bound<std::vector<std::string>>("rigid", KeyKind::Texts, &HistoryCard::rigid,
+                                                 copyTo)
+                     .defaultIs("[]")
+                     .like("[\"*\"]")
+                     .means("rigid blocks whose bodies are recorded in columns: motion of the "
+                            "centre, spin, reaction force and moment of what prescribes their "
+                            "motion; \"*\": all"),
              })
       .means("energies, momenta and probes over time");
 }
@@ -420,14 +456,38 @@ Key damping()
                          .like("0.7")
                          .means("alpha of the force -alpha |f| sign(v) on each component, f the "
                                 "force that is out of balance"),
+                     flag("kinetic", &Deck::kineticDamping)
+                         .like("true")
+                         .means("all motion that is not prescribed stops wherever the kinetic "
+                                "energy has passed a peak"),
+                     number("from", &Deck::dampingFrom)
+                         .in("s")
+                         .atLeast(0)
+                         .like("0.5")
+                         .means("time before which all dampings are off"),
                      number("until", &Deck::dampingUntil)
                          .in("s")
                          .above(0)
                          .defaultIs("the end")
                          .like("1.5")
-                         .means("time after which both dampings are off"),
+                         .means("time after which all dampings are off"),
+                     number("until_energy_ratio", &Deck::dampingEnergyRatio)
+                         .in("-")
+                         .above(0)
+                         .defaultIs("no limit")
+                         .like("1e-6")
+                         .means("all dampings end for good when the kinetic energy falls below "
+                                "this fraction of the internal one (elements and contact)"),
+                     number("until_force_ratio", &Deck::dampingForceRatio)
+                         .in("-")
+                         .above(0)
+                         .defaultIs("no limit")
+                         .like("1e-4")
+                         .means("the same when the forces that are out of balance fall below this "
+                                "fraction of loads and reactions; with both ratios, when both "
+                                "have"),
                  })
-      .means("damping of all motion, to find states of rest");
+      .means("damping of all motion, to find states of rest (dynamic relaxation)");
 }
 
 Key makeSchema()

@@ -54,6 +54,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("contact_remainder[J]", energy.contact.remainder());
   line.add("mass_damping[J]", energy.massDamping);
   line.add("local_damping[J]", energy.localDamping);
+  line.add("kinetic_damping[J]", energy.kineticDamping);
   line.add("external_work[J]", energy.externalWork);
   line.add("initial[J]", energy.initial);
   line.add("error[J]", energy.error());
@@ -69,6 +70,15 @@ void addMomenta(Line& line, const Momenta& momenta)
   line.add("angular_momentum", "[N*m*s]", momenta.angular);
   line.add("angular_impulse", "[N*m*s]", momenta.angularImpulse);
   line.add("angular_momentum_error", "[N*m*s]", momenta.angularError());
+}
+
+void addBody(Line& line, const std::string& name, const RigidBodies::BodyMotion& motion)
+{
+  line.add(name + "_displacement", "[m]", motion.displacement);
+  line.add(name + "_velocity", "[m/s]", motion.velocity);
+  line.add(name + "_spin", "[rad/s]", motion.spin);
+  line.add(name + "_reaction", "[N]", motion.force);
+  line.add(name + "_reaction_moment", "[N*m]", motion.moment);
 }
 
 void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
@@ -218,6 +228,17 @@ void HistoryObserver::write(const Solver& solver)
       for (std::size_t j = 0; j < joints.size(); ++j)
         if (solver.contact().rules().joints[j].name == name)
           addJoint(line, name, joints[j]);
+  }
+  for (const int block : options_.rigidBlocks)
+  {
+    std::vector<int> bodies;
+    for (int b = 0; b < solver.rigidBodies().count(); ++b)
+      if (solver.rigidBodies().hasBlock(b, block))
+        bodies.push_back(b);
+    const std::string& name = solver.model().blocks[std::size_t(block)].name;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      addBody(line, bodies.size() == 1 ? name : fmt::format("{}_{}", name, i + 1),
+              solver.rigidBodies().motion(bodies[i]));
   }
   if (options_.stateHash)
     line.add("state_hash", fmt::format("{:016x}", solver.stateHash()));

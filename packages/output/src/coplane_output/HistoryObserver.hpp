@@ -26,6 +26,8 @@ struct HistoryOptions
   std::vector<Probe> probes;
   std::vector<std::string> joints; ///< joint cards whose planes are summed up in columns
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
+  /// Rigid blocks (positions in Mesh::blocks) whose bodies are recorded in columns.
+  std::vector<int> rigidBlocks;
 };
 
 /// Writes one line per output time: the whole energy ledger, momenta, counts of planes, probes. All

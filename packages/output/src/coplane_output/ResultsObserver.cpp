@@ -39,7 +39,7 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
       "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
       "contact_hysteresis", "contact_fracture",   "contact_damping", "contact_remainder",
       "mass_damping_work",  "local_damping_work", "external_work",   "energy_error",
-      "eroded_energy",      "contact_eroded",     "eroded_mass"};
+      "eroded_energy",      "contact_eroded",     "eroded_mass",     "kinetic_damping_work"};
   names.side = sideVariableNames();
   return names;
 }
@@ -116,12 +116,13 @@ void ResultsObserver::write(const Solver& solver)
   writeElements(solver);
   if (sides_)
     sides_->write(solver, file_);
-  file_.putGlobals({solver.clock().step, energy.kinetic, energy.internal, energy.plastic,
-                    energy.hourglass, energy.viscous, energy.contact.stored,
-                    energy.contact.friction, energy.contact.hysteresis, energy.contact.fracture,
-                    energy.contact.damping, energy.contact.remainder(), energy.massDamping,
-                    energy.localDamping, energy.externalWork, energy.error(), energy.eroded,
-                    energy.contact.eroded, solver.erosion().mass});
+  file_.putGlobals({solver.clock().step,     energy.kinetic,          energy.internal,
+                    energy.plastic,          energy.hourglass,        energy.viscous,
+                    energy.contact.stored,   energy.contact.friction, energy.contact.hysteresis,
+                    energy.contact.fracture, energy.contact.damping,  energy.contact.remainder(),
+                    energy.massDamping,      energy.localDamping,     energy.externalWork,
+                    energy.error(),          energy.eroded,           energy.contact.eroded,
+                    solver.erosion().mass,   energy.kineticDamping});
   file_.endStep();
   lastCycle_ = solver.clock().cycle;
 }

@@ -136,6 +136,7 @@ Json energiesOf(const EnergyBalance& e)
           {"contact_remainder", e.contact.remainder()},
           {"mass_damping", e.massDamping},
           {"local_damping", e.localDamping},
+          {"kinetic_damping", e.kineticDamping},
           {"external_work", e.externalWork},
           {"initial", e.initial},
           {"error", e.error()},

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace coplane
@@ -78,6 +79,25 @@ void TablesObserver::findShares(const Solver& solver)
       if (mass[n] > 0)
         shares_.back().push_back({n, mass[n]});
   }
+
+  // What each rigid block brings to the mass of each body.
+  const RigidBodies& bodies = solver.rigidBodies();
+  const std::size_t blocks = shares_.size();
+  std::vector<ExactSum> sums(blocks * std::size_t(bodies.count()));
+  for (std::size_t b = 0; b < blocks; ++b)
+    for (const Share& share : shares_[b])
+      if (solver.model().blocks[b].rigid)
+        sums[std::size_t(bodies.bodyOf(share.node)) * blocks + b].add(share.mass);
+  if (sums.empty())
+    return;
+  partOfBody_ = ExactSum::overRanks(sums, solver.comm());
+  for (int body = 0; body < bodies.count(); ++body)
+  {
+    Real* const part = &partOfBody_[std::size_t(body) * blocks];
+    const Real whole = std::accumulate(part, part + blocks, Real(0));
+    for (std::size_t b = 0; b < blocks; ++b)
+      part[b] /= whole;
+  }
 }
 
 std::string TablesObserver::blockLines(const Solver& solver) const
@@ -86,12 +106,23 @@ std::string TablesObserver::blockLines(const Solver& solver) const
   constexpr ElementEnergy kinds[] = {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
                                      ElementEnergy::Hourglass, ElementEnergy::Viscous};
   const NodalState& state = solver.state();
-  std::vector<ExactSum> sums(terms * shares_.size());
-  for (std::size_t b = 0; b < shares_.size(); ++b)
+  const RigidBodies& bodies = solver.rigidBodies();
+  const std::size_t blocks = shares_.size();
+  // Last come, for each body, what the masses of deformable elements at its nodes have: that is
+  // counted with their blocks.
+  std::vector<ExactSum> sums(terms * blocks + std::size_t(bodies.count()));
+  for (std::size_t b = 0; b < blocks; ++b)
   {
     for (const Share& share : shares_[b])
-      sums[terms * b].add(0.5 * share.mass *
-                          dot(at(state.vPrevious, share.node), at(state.v, share.node)));
+    {
+      if (solver.model().blocks[b].rigid)
+        break; // moves with its bodies
+      const Real kinetic =
+          0.5 * share.mass * dot(at(state.vPrevious, share.node), at(state.v, share.node));
+      sums[terms * b].add(kinetic);
+      if (const int body = bodies.bodyOf(share.node); body >= 0)
+        sums[terms * blocks + std::size_t(body)].add(kinetic);
+    }
     const RankMesh::Block& part = solver.mesh().blocks[b];
     for (int e = 0; e < part.elements(); ++e)
       if (part.owned[e])
@@ -101,7 +132,11 @@ std::string TablesObserver::blockLines(const Solver& solver) const
   }
   if (sums.empty())
     return "";
-  const std::vector<Real> totals = ExactSum::overRanks(sums, solver.comm());
+  std::vector<Real> totals = ExactSum::overRanks(sums, solver.comm());
+  for (int body = 0; body < bodies.count(); ++body)
+    for (std::size_t b = 0; b < blocks; ++b)
+      totals[terms * b] += partOfBody_[std::size_t(body) * blocks + b] *
+                           (bodies.kinetic(body) - totals[terms * blocks + std::size_t(body)]);
   std::string text;
   for (std::size_t b = 0; b < shares_.size(); ++b)
   {

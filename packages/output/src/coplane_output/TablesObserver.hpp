@@ -53,5 +53,7 @@ private:
   std::ofstream blocks_, pairs_, materials_; ///< open on rank 0
   std::int64_t lastCycle_ = -1;              ///< that was written
   std::vector<std::vector<Share>> shares_;   ///< per block, owned nodes
+  /// Mass of each block over that of all rigid blocks of a body; [body * blocks + block]
+  std::vector<Real> partOfBody_;
 };
 } // namespace coplane

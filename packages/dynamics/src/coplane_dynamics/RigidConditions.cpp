@@ -1,0 +1,137 @@
+// Conditions on the motion of rigid bodies.
+#include <coplane_dynamics/RigidBodies.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+void RigidBodies::takeConditions(Conditions& conditions)
+{
+  if (empty())
+    return;
+  // Which bodies a condition holds, the same on all ranks.
+  const auto take = [&](std::vector<int>& nodes, const std::string& what)
+  {
+    std::vector<std::int64_t> held(bodies_.size(), 0);
+    for (const int n : nodes)
+      if (bodyOfNode_[n] >= 0)
+        ++held[bodyOfNode_[n]];
+    comm_->sum(held);
+    for (std::size_t b = 0; b < held.size(); ++b)
+      if (held[b] > 0 && held[b] < bodies_[b].allNodes)
+        failOnAllRanks(ExitCode::Deck,
+                       "conditions: {} holds {} of the {} nodes of a rigid body with its centre at "
+                       "({}, {}, {}) m; accepted: all of them or none. Use a node set with the "
+                       "whole block.",
+                       what, held[b], bodies_[b].allNodes, bodies_[b].center.x, bodies_[b].center.y,
+                       bodies_[b].center.z);
+    nodes.erase(
+        std::remove_if(nodes.begin(), nodes.end(), [&](int n) { return bodyOfNode_[n] >= 0; }),
+        nodes.end());
+    return held;
+  };
+  for (SymmetryPlane& plane : conditions.symmetries)
+  {
+    const auto held = take(plane.nodes, "a symmetry plane");
+    for (std::size_t b = 0; b < held.size(); ++b)
+      if (held[b] > 0)
+        constrain(bodies_[b], {plane.normal, {}});
+  }
+  for (PrescribedVelocity& condition : conditions.velocities)
+  {
+    const std::size_t before = condition.nodes.size();
+    const auto held = take(condition.nodes, "a condition of type fixed or velocity");
+    for (std::size_t b = 0; b < held.size(); ++b)
+      for (int c = 0; c < 3 && held[b] > 0; ++c)
+        if (condition.components[c] && c < dimension_)
+        {
+          Vec3 axis{};
+          axis[c] = 1;
+          if (!condition.velocity[c])
+            constrain(bodies_[b], {axis, {}});
+          else
+            constrain(bodies_[b], {axis, [condition, c](Real t, Real dt)
+                                   { return condition.speed(condition.velocity[c], t, dt); }});
+        }
+    const bool lost = condition.hasField() && condition.nodes.size() < before;
+    if (comm_->max(std::int64_t(lost)) > 0)
+      failOnAllRanks(
+          ExitCode::Deck,
+          "conditions: the motion of a rigid body is prescribed by an expression of x, y "
+          "or z; accepted: numbers, tables and expressions of t. Its points cannot move "
+          "apart.");
+  }
+  takeMotions(conditions.rigidMotions);
+}
+
+void RigidBodies::takeMotions(const std::vector<RigidMotion>& motions)
+{
+  for (const RigidMotion& motion : motions)
+    for (Body& body : bodies_)
+    {
+      if (!body.blocks[motion.block])
+        continue;
+      if (body.isHeld())
+        failOnAllRanks(ExitCode::Deck,
+                       "conditions: the rigid body with its centre at ({}, {}, {}) m has a given "
+                       "rigid_motion and another condition on its motion; accepted: one of them. "
+                       "Take its nodes out of the node set, or leave out rigid_motion.",
+                       body.center.x, body.center.y, body.center.z);
+      for (int c = 0; c < dimension_; ++c)
+        if (motion.components[c])
+        {
+          Vec3 axis{};
+          axis[c] = 1;
+          body.constraints.push_back(
+              {axis, [speed = motion.velocity[c]](Real t, Real) { return speed ? speed(t) : 0; }});
+        }
+      if (motion.spin)
+      {
+        body.turning = Body::Turning::Given;
+        body.spinOfTime = *motion.spin;
+      }
+    }
+}
+
+void RigidBodies::constrain(Body& body, const Constraint& constraint)
+{
+  const Vec3& direction = constraint.direction;
+  // A body of which all points keep their speed along a direction turns about that direction only.
+  const Vec3 axis = dimension_ == 2 ? Vec3{0, 0, 1} : body.axis;
+  const bool first = body.turning == Body::Turning::Free && dimension_ == 3;
+  if (first || norm(cross(axis, direction)) < 1e-9)
+  {
+    body.axis = direction;
+    body.turning = body.turning == Body::Turning::None ? body.turning : Body::Turning::AboutAxis;
+  }
+  else
+    body.turning = Body::Turning::None;
+  body.constraints.push_back(constraint);
+}
+
+void RigidBodies::applyConstraints(Body& body, Real t, Real dt) const
+{
+  for (const Constraint& c : body.constraints)
+  {
+    const Real speed = c.speed ? c.speed(t, dt) : 0;
+    body.velocity += (speed - dot(body.velocity, c.direction)) * c.direction;
+  }
+  if (body.turning == Body::Turning::None)
+    body.angularMomentum = {};
+  if (body.turning != Body::Turning::Given)
+    return;
+  body.givenSpin = body.spinOfTime(t);
+  if (dimension_ == 2)
+    body.givenSpin = {0, 0, body.givenSpin.z};
+  // The turn of a step is Cayley's: a slightly larger vector makes its angle exact.
+  const Real angle = dt * norm(body.givenSpin);
+  if (angle > 1)
+    failOnAllRanks(ExitCode::Computation,
+                   "t = {:.6e} s: a rigid body with given angular_velocity would turn by {} rad in "
+                   "one step of {:.3e} s; accepted: 1 rad. Give time.maximum_step.",
+                   t, angle, dt);
+  if (angle > 0)
+    body.givenSpin = (std::tan(0.5 * angle) / (0.5 * angle)) * body.givenSpin;
+}
+} // namespace coplane

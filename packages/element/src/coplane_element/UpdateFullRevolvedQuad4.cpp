@@ -1,0 +1,12 @@
+#include <coplane_element/FullKernel.hpp>
+
+namespace coplane
+{
+template <class Law>
+using FullRevolvedQuad4Kernel = FullKernel<ElementType::Quad4, Law, true>;
+
+void updateFullRevolvedQuad4(const ElementKernelData& data)
+{
+  runWithLaw<FullRevolvedQuad4Kernel>(data);
+}
+} // namespace coplane
