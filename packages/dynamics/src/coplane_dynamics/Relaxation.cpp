@@ -91,11 +91,29 @@ void Solver::relax(Real step)
           clock_.cycle, clock_.time);
 }
 
+/// Works are booked to n + 1/2 in the kick; this motion ends at n.
+void Solver::takeBackWorkAhead(Real step)
+{
+  const NodalState& state = state_;
+  const Real half = 0.5 * step;
+  parallelFor(
+      "coplane::dynamics::takeBackWorkAhead", layout_.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 path = half * at(state.v, n);
+        const Vec3 external = at(state.external, n), damping = at(state.damping, n),
+                   localDamping = at(state.localDamping, n);
+        state.externalWork(n) -= dot(external, path);
+        state.dampingWork(n) += dot(damping, path);
+        state.localDampingWork(n) += dot(localDamping, path);
+        state.totalWork(n) -= dot(at(state.force, n) + external + damping + localDamping, path);
+      });
+}
+
 /// At n, after a kick that has been booked: velocities that nothing prescribes are zero, and the
 /// first half step from there follows. What the motion had is booked as work and as an impulse.
 void Solver::stopMotion(Real step)
 {
   const Real before = kineticAtFullStep();
+  takeBackWorkAhead(step);
   const NodeVectors v = state_.v, vPrevious = state_.vPrevious;
   const NodeVectors impulse = state_.impulse, angularImpulse = state_.angularImpulse;
   const ConstNodeVectors x = state_.x;

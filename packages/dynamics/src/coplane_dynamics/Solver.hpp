@@ -120,6 +120,7 @@ private:
   Real dampingTime() const { return relaxation_.ended ? infinity : clock_.time; }
   // Dynamic relaxation (Relaxation.cpp). Collective.
   void relax(Real step);
+  void takeBackWorkAhead(Real step);
   void stopMotion(Real step);
   bool isAtRest() const;
   Real kineticAtHalfStep() const; ///< sum m v(n+1/2)^2 / 2 [J]
