@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_checkpoint/CheckpointReader.hpp>
+#include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/Conditions.hpp>
@@ -93,6 +95,10 @@ public:
   void bookSecondHalf(Real dt);
   void drift(Real dt); ///< to n + 1
 
+  // The bodies' part of a checkpoint. Collective.
+  void save(CheckpointWriter& out) const;
+  void restore(const CheckpointReader& in);
+
   // Sums that every rank has. What loads on nodes do is booked with the nodes.
   Real kinetic() const; ///< [J]
   Real reactionWork() const;
@@ -151,6 +157,9 @@ private:
     Vec3 impulse{}, angularImpulse{};
   };
 
+  /// Calls f(value&) for every number that changes while the body moves.
+  template <class F>
+  static void forEachNumber(Body& body, F&& f);
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
   void constrain(Body& body, const Constraint& constraint);

@@ -389,11 +389,14 @@ void Solver::planNextCycle(bool first)
   int broken = -1;
   for (std::size_t b = 0; b < blocks_.size() && broken < 0; ++b)
     broken = !isRigid(b) && blocks_[b].invertedElement() >= 0 ? int(b) : -1;
-  std::vector<Real> extremes{-stable, Real(broken >= 0 || !(stable > 0)), Real(int(takeRequest()))};
+  std::vector<Real> extremes{-stable, Real(broken >= 0 || !(stable > 0)), 0, 0, 0};
+  const Requests mine = takeRequests();
+  extremes[2] = mine.results;
+  extremes[3] = mine.checkpoint;
+  extremes[4] = mine.stop;
   comm_->max(extremes);
   failed_ = extremes[1] > 0;
-  resultsRequested_ = extremes[2] == Real(int(Request::WriteResults));
-  stopRequested_ = extremes[2] == Real(int(Request::Stop));
+  requests_ = {extremes[2] > 0, extremes[3] > 0, extremes[4] > 0};
   if (failed_)
     return;
 
@@ -504,16 +507,6 @@ ExitCode Solver::run(Observer& observer)
       observer.finish(*this, "failed");
       failTogether("element");
     }
-    try
-    {
-      observer.endOfCycle(*this);
-    }
-    catch (const Error& error)
-    {
-      if (error.onAllRanks())
-        finishAfter(error, observer);
-      throw;
-    }
     if (clock_.cycle % energyCheckEvery == 0)
     {
       const EnergyBalance balance = energy();
@@ -530,10 +523,20 @@ ExitCode Solver::run(Observer& observer)
       }
       warnOfTrouble(balance);
     }
-    if (stopRequested_)
+    try
     {
-      ending = "interrupted";
-      code = ExitCode::Interrupted;
+      observer.endOfCycle(*this);
+    }
+    catch (const Error& error)
+    {
+      if (error.onAllRanks())
+        finishAfter(error, observer);
+      throw;
+    }
+    if (requests_.stop)
+    {
+      ending = requests_.checkpoint ? "interrupted after a checkpoint" : "interrupted";
+      code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
   }

@@ -25,7 +25,8 @@ struct HistoryOptions
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<Probe> probes;
   std::vector<std::string> joints; ///< joint cards whose planes are summed up in columns
-  bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
+  bool stateHash = false;    ///< one more column: the hash of the whole state, for comparing runs
+  std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
 };
 
 /// Writes one line per output time: the whole energy ledger, momenta, counts of planes, probes. All
@@ -40,6 +41,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const std::string& ending) override;
 
 private:
@@ -56,8 +58,9 @@ private:
 
   HistoryOptions options_;
   OutputSchedule schedule_;
-  std::ofstream stream_;                   ///< open on rank 0
-  std::int64_t lastCycle_ = -1;            ///< that was written
+  std::ofstream stream_;        ///< open on rank 0
+  std::int64_t lastCycle_ = -1; ///< that was written
+  bool hasHeader_ = false;
   Real initialKinetic_ = 0;                ///< [J]
   std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
   std::vector<Real> totalWeight_;          ///< per probe, over all ranks
