@@ -73,7 +73,7 @@ void setNumbers(Numbers& to, const CheckpointReader& in, const std::string& name
         "{}: '{}' has {} numbers and should have {}. Restart with the program that wrote "
         "it ({}).",
         in.file(), name, numbers.size(), sizeof(Numbers) / sizeof(Real), in.head().program);
-  __builtin_memcpy(&to, numbers.data(), sizeof(Numbers));
+  __builtin_memcpy(static_cast<void*>(&to), numbers.data(), sizeof(Numbers));
 }
 
 std::string nameOfBlock(const RankMesh::Block& block)
