@@ -64,7 +64,7 @@ std::string withoutExtension(const std::string& file)
 void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, const Comm& comm,
                   const RunSettings& settings)
 {
-  const auto positionOf = [&](const char* output)
+  const auto lastTime = [&](const char* output)
   {
     const auto found = settings.positions.find(output);
     // What was not written before begins with the restart, but not with a line of its own.
@@ -88,7 +88,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, 
   HistoryOptions history;
   history.file = deck.history.file;
   history.every = deck.history.every;
-  history.position = positionOf("history");
+  history.position = lastTime("history");
   for (const ProbeCard& card : deck.history.probes)
   {
     Probe probe;
@@ -124,11 +124,11 @@ void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, 
     results.infoLines = linesOf(deck.text);
     results.infoLines.insert(results.infoLines.begin(), settings.command);
     results.part = settings.part;
-    results.position = positionOf("results");
+    results.position = lastTime("results");
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{withoutExtension(deck.output.results), when, positionOf("planes")}));
+          comm, PlanesOptions{withoutExtension(deck.output.results), when, lastTime("planes")}));
   }
   observers.add(std::make_unique<ProgressObserver>());
 

@@ -68,7 +68,7 @@ hid_t memoryOf(const Part& part)
   return space;
 }
 
-/// What a data set is created with: groups on the way, nothing that depends on the time of day.
+/// What a data set is created with: nothing that depends on the time of day.
 hid_t creation()
 {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
@@ -77,12 +77,6 @@ hid_t creation()
   return list;
 }
 
-hid_t links()
-{
-  const hid_t list = H5Pcreate(H5P_LINK_CREATE);
-  H5Pset_create_intermediate_group(list, 1);
-  return list;
-}
 } // namespace
 
 File::File(const std::string& file, Mode mode, const Comm& comm) : comm_(&comm)
@@ -97,6 +91,7 @@ File::File(const std::string& file, Mode mode, const Comm& comm) : comm_(&comm)
   {
     const Id list(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "creating the file");
     check(H5Pset_userblock(list, CheckpointHead::headBytes), "creating the file");
+    check(H5Pset_obj_track_times(list, false), "creating the file");
     id_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, list, access);
   }
   else
@@ -118,12 +113,25 @@ void File::close()
   check(H5Fclose(closing), "closing the file");
 }
 
+/// Groups are made one by one, since those that HDF5 makes on the way note the time of day.
+void File::makeGroups(const std::string& name)
+{
+  for (std::size_t at = name.find('/'); at != std::string::npos; at = name.find('/', at + 1))
+    if (groups_.insert(name.substr(0, at)).second)
+    {
+      const Id list(H5Pcreate(H5P_GROUP_CREATE), H5Pclose, "list");
+      check(H5Pset_obj_track_times(list, false), "list");
+      const Id group(H5Gcreate2(id_, name.substr(0, at).c_str(), H5P_DEFAULT, list, H5P_DEFAULT),
+                     H5Gclose, "creating a group");
+    }
+}
+
 void File::writeAny(const std::string& name, const Part& part, std::int64_t type,
                     const void* values)
 {
-  const Id space(spaceOf(part), H5Sclose, "shape of the data"), list(creation(), H5Pclose, "list"),
-      path(links(), H5Pclose, "list");
-  const Id set(H5Dcreate2(id_, name.c_str(), type, space, path, list, H5P_DEFAULT), H5Dclose,
+  makeGroups(name);
+  const Id space(spaceOf(part), H5Sclose, "shape of the data"), list(creation(), H5Pclose, "list");
+  const Id set(H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT), H5Dclose,
                "creating a data set");
   if (part.rows * part.columns == 0)
     return;

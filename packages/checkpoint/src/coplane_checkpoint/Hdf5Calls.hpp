@@ -4,6 +4,7 @@
 #include <coplane_core/Real.hpp>
 
 #include <cstdint>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -52,10 +53,12 @@ public:
   std::string readText(const std::string& name) const;
 
 private:
+  void makeGroups(const std::string& name);
   void writeAny(const std::string& name, const Part& part, std::int64_t type, const void* values);
   void readAny(const std::string& name, const Part& part, std::int64_t type, void* values) const;
 
   const Comm* comm_;
   std::int64_t id_ = -1;
+  std::set<std::string> groups_; ///< that have been made
 };
 } // namespace coplane::hdf5

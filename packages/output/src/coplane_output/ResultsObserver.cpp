@@ -125,7 +125,7 @@ ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOpti
 
 void ResultsObserver::open()
 {
-  file_->emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
+  file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
                  variablesOf(dimension_, history_), options_.infoLines, options_.filePerRank);
 }
 
