@@ -108,6 +108,8 @@ std::string inspectCheckpoint(const std::string& file, CheckpointHead& head)
   head.time = std::strtod(valueOf(lines, "time").c_str(), nullptr);
   head.bytes = std::strtoull(valueOf(lines, "bytes").c_str(), nullptr, 10);
   head.checksum = std::strtoull(valueOf(lines, "checksum").c_str(), nullptr, 16);
+  if (text.rfind(head.text(), 0) != 0)
+    return "its first bytes are damaged";
   if (head.bytes != std::uint64_t(status.st_size))
     return fmt::format("it has {} bytes and should have {}", status.st_size, head.bytes);
   return "";
