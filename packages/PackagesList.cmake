@@ -2,6 +2,7 @@
 # is no cycle. coplane_package() checks it at configure time; docs/developer/packages.svg is drawn from the same files.
 set(COPLANE_PACKAGES
   core
+  checkpoint
   geometry
   material
   joint

@@ -1,6 +1,9 @@
 #include "Observers.hpp"
 
+#include "Restart.hpp"
+
 #include <coplane_input/MaterialCards.hpp>
+#include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ProgressObserver.hpp>
@@ -58,16 +61,25 @@ std::string withoutExtension(const std::string& file)
 }
 } // namespace
 
-MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
-                          const std::string& command)
+void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, const Comm& comm,
+                  const RunSettings& settings)
 {
-  MultiObserver observers;
+  const auto lastTime = [&](const char* output)
+  {
+    const auto found = settings.positions.find(output);
+    // What was not written before begins with the restart, but not with a line of its own.
+    return found != settings.positions.end() ? found->second : settings.part > 1 ? "-1 0 " : "";
+  };
   const OutputTimes when{deck.output.every, deck.output.times};
 
   RunRecordOptions record;
-  record.file = withoutExtension(deck.history.file) + ".run.json";
+  record.file =
+      settings.part == 1
+          ? withoutExtension(deck.history.file) + ".run.json"
+          : fmt::format("{}.run-s{:04}.json", withoutExtension(deck.history.file), settings.part);
+  record.restartedFrom = settings.restartedFrom;
   record.title = deck.title;
-  record.commandLine = command;
+  record.commandLine = settings.command;
   record.deckFile = deck.file;
   record.deckText = deck.text;
   record.meshFile = deck.mesh;
@@ -76,6 +88,7 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
   HistoryOptions history;
   history.file = deck.history.file;
   history.every = deck.history.every;
+  history.position = lastTime("history");
   for (const ProbeCard& card : deck.history.probes)
   {
     Probe probe;
@@ -108,8 +121,9 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
   };
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(
-        comm, TablesOptions{withoutExtension(deck.history.file), deck.history.every,
-                            wants("blocks"), wants("pairs"), wants("materials")}));
+        comm,
+        TablesOptions{withoutExtension(deck.history.file), deck.history.every, wants("blocks"),
+                      wants("pairs"), wants("materials"), settings.positions}));
 
   if (!deck.output.results.empty())
   {
@@ -119,13 +133,26 @@ MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
     results.filePerRank = deck.output.filePerRank;
     results.history = historyVariables(deck, mesh);
     results.infoLines = linesOf(deck.text);
-    results.infoLines.insert(results.infoLines.begin(), command);
+    results.infoLines.insert(results.infoLines.begin(), settings.command);
+    results.part = settings.part;
+    results.position = lastTime("results");
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{withoutExtension(deck.output.results), when}));
+          comm, PlanesOptions{withoutExtension(deck.output.results), when, lastTime("planes")}));
   }
   observers.add(std::make_unique<ProgressObserver>());
-  return observers;
+
+  CheckpointOptions checkpoint;
+  checkpoint.file = deck.checkpoint.file;
+  checkpoint.everyCycles = deck.checkpoint.everyCycles;
+  checkpoint.everySeconds = deck.checkpoint.everySeconds;
+  checkpoint.atEnd = deck.checkpoint.atEnd;
+  checkpoint.maxWall = settings.maxWall;
+  checkpoint.stopFile = withoutExtension(deck.checkpoint.file) + ".stop";
+  checkpoint.restartedFrom = settings.restartedFrom;
+  checkpoint.texts = fingerprintsOf(deck, mesh, settings.part);
+  checkpoint.begin = settings.begin;
+  observers.add(std::make_unique<CheckpointObserver>(comm, checkpoint, observers));
 }
 } // namespace coplane

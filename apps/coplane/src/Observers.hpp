@@ -5,12 +5,26 @@
 #include <coplane_mesh/Mesh.hpp>
 #include <coplane_output/MultiObserver.hpp>
 
+#include <chrono>
+#include <map>
+#include <optional>
 #include <string>
 
 namespace coplane
 {
-/// Everything that a deck asks to be written: results, planes, history, progress, run record.
-/// Collective.
-MultiObserver observersOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
-                          const std::string& command);
+/// How a run begins, and what the command line says of its end.
+struct RunSettings
+{
+  std::string command;
+  std::string restartedFrom;                    ///< checkpoint; empty: a new run
+  std::map<std::string, std::string> positions; ///< of the outputs in that checkpoint
+  int part = 1;                                 ///< of the series of results
+  std::optional<Real> maxWall;                  ///< [s], from `begin` on
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+};
+
+/// Adds everything that a deck asks to be written: results, planes, history, progress, run record,
+/// checkpoints. `observers` and `mesh` have to stay where they are. Collective.
+void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, const Comm& comm,
+                  const RunSettings& settings);
 } // namespace coplane

@@ -2,6 +2,7 @@
 #include "Observers.hpp"
 #include "PartitionPlan.hpp"
 #include "Report.hpp"
+#include "Restart.hpp"
 #include "SofteningReport.hpp"
 
 #include <coplane_core/Backend.hpp>
@@ -14,6 +15,7 @@
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/DeckReference.hpp>
+#include <coplane_output/CheckpointObserver.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -31,6 +33,9 @@ struct CommandLine
   std::vector<std::string> overrides;
   std::string backend = "threads";
   int threads = 0; ///< 0: OMP_NUM_THREADS, else 1
+  bool restart = false;
+  std::string checkpoint; ///< to restart from; empty: the newest
+  double maxWall = 0;     ///< [s]; 0: no limit
   bool check = false, quiet = false, helpDeck = false, helpDeckMarkdown = false, schema = false;
 };
 
@@ -49,6 +54,14 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_option("--threads", line.threads,
                  "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
       ->check(CLI::PositiveNumber);
+  CLI::Option* restart =
+      app.add_option(
+             "--restart", line.checkpoint,
+             "Go on from a checkpoint: from this file, or from the newest one that is whole")
+          ->expected(0, 1);
+  app.add_option("--max-wall", line.maxWall,
+                 "Write a checkpoint and stop after so many seconds (exit code 8)")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--check", line.check,
                "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
@@ -66,6 +79,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   try
   {
     app.parse(argc, argv);
+    line.restart = restart->count() > 0;
     if (!line.helpDeck && !line.helpDeckMarkdown && !line.schema && line.deck.empty())
       throw CLI::RequiredError("deck");
   }
@@ -79,9 +93,28 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   return -1;
 }
 
+void restart(Solver& solver, const Deck& deck, const Mesh& mesh, const std::string& wanted,
+             RunSettings& settings)
+{
+  const Comm& comm = solver.comm();
+  const CheckpointReader checkpoint(
+      wanted.empty() ? newestCheckpoint(deck.checkpoint.file, comm) : wanted, comm);
+  demandSameRun(checkpoint, deck, mesh);
+  solver.restore(checkpoint);
+  settings.restartedFrom = checkpoint.file();
+  settings.positions = positionsIn(checkpoint);
+  settings.part = partIn(checkpoint) + 1;
+  logInfo("restart from {}: cycle {}, t = {:.9e} s, part {} of the results", checkpoint.file(),
+          solver.clock().cycle, solver.clock().time, settings.part);
+}
+
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
   listenToSignals();
+  RunSettings settings;
+  settings.command = command;
+  if (line.maxWall > 0)
+    settings.maxWall = line.maxWall;
   Deck deck;
   Mesh mesh;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
@@ -115,7 +148,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
   Solver solver(buildModel(deck, mesh, partOf(mesh, deck, comm)), comm);
-  solver.prepare();
+  if (line.restart)
+    restart(solver, deck, mesh, line.checkpoint, settings);
+  else
+    solver.prepare();
   reportModel(solver, mesh);
   reportSoftening(deck, mesh, solver, comm);
   if (line.check)
@@ -123,7 +159,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     logInfo("check: deck and mesh are fine; nothing was run");
     return int(ExitCode::Success);
   }
-  MultiObserver observers = observersOf(deck, mesh, comm, command);
+  if (!line.restart && comm.isRoot())
+    putAside(deck.checkpoint.file);
+  MultiObserver observers;
+  addObservers(observers, deck, mesh, comm, settings);
   const ExitCode code = solver.run(observers);
   reportEnd(solver);
   return int(code);

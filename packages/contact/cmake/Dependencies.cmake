@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES mesh geometry joint core)
+coplane_dependencies(PACKAGES mesh geometry joint checkpoint core)

@@ -161,3 +161,45 @@ TEST(ExactSum, notANumberOnOneRankIsSeenOnAll)
   mine[0].add(comm.rank() == comm.size() - 1 ? std::nan("") : 1.0);
   EXPECT_TRUE(std::isnan(ExactSum::overRanks(mine, comm)[0]));
 }
+
+TEST(ExactSumDigits, bringBackTheExactSum)
+{
+  // 1e300 + 1e-300 - 1e300 is 1e-300 only if nothing is lost on the way.
+  for (const std::vector<Real>& values :
+       {std::vector<Real>{1e300, 1e-300}, {-1e300, -1e-300, 3.5}, {-0.1}, {}})
+  {
+    ExactSum sum;
+    Real rest = 0; // exact: at most one term is left but for tiny ones
+    for (const Real value : values)
+    {
+      sum.add(value);
+      rest += std::abs(value) > 1e100 ? 0 : value;
+    }
+    ExactSum again = ExactSum::fromDigits(sum.digits().data());
+    EXPECT_EQ(again.value(), sum.value());
+    for (const Real value : values)
+      if (std::abs(value) > 1e100)
+        again.add(-value);
+    EXPECT_EQ(again.value(), rest);
+  }
+}
+
+TEST(ExactSumDigits, keepThatATermWasNotFinite)
+{
+  ExactSum sum;
+  sum.add(infinity);
+  EXPECT_TRUE(std::isnan(ExactSum::fromDigits(sum.digits().data()).value()));
+}
+
+TEST(ExactSumTotals, areExactOverRanks)
+{
+  // Every rank adds 1e300 and 2^-40; without 1e300 the small terms are there.
+  const Comm comm;
+  std::vector<ExactSum> mine(1);
+  mine[0].add(1e300);
+  mine[0].add(std::ldexp(1.0, -40));
+  ExactSum total = ExactSum::totals(mine, comm)[0];
+  for (int r = 0; r < comm.size(); ++r)
+    total.add(-1e300);
+  EXPECT_EQ(total.value(), comm.size() * std::ldexp(1.0, -40));
+}

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES element contact mesh material joint core)
+coplane_dependencies(PACKAGES element contact mesh material joint checkpoint core)

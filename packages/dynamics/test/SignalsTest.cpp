@@ -36,28 +36,33 @@ Model shortRun(const Comm& comm)
 }
 } // namespace
 
-TEST(TakeRequest, tellsEachSignalOnce)
+TEST(TakeRequests, tellsEachSignalOnce)
 {
   listenToSignals();
-  EXPECT_EQ(takeRequest(), Request::None);
+  const auto all = [](bool results, bool checkpoint, bool stop) {
+    return Requests{results, checkpoint, stop};
+  };
+  EXPECT_EQ(takeRequests(), all(false, false, false));
   std::raise(SIGUSR1);
-  EXPECT_EQ(takeRequest(), Request::WriteResults);
-  EXPECT_EQ(takeRequest(), Request::None);
-  for (const int signal : {SIGINT, SIGTERM, SIGUSR2})
+  EXPECT_EQ(takeRequests(), all(true, true, false));
+  EXPECT_EQ(takeRequests(), all(false, false, false));
+  std::raise(SIGUSR2);
+  EXPECT_EQ(takeRequests(), all(false, true, true));
+  for (const int signal : {SIGINT, SIGTERM})
   {
     std::raise(signal);
-    EXPECT_EQ(takeRequest(), Request::Stop) << "signal " << signal;
-    EXPECT_EQ(takeRequest(), Request::None);
+    EXPECT_EQ(takeRequests(), all(false, false, true)) << "signal " << signal;
+    EXPECT_EQ(takeRequests(), all(false, false, false));
   }
 }
 
-TEST(TakeRequest, stopIsStrongerThanWriteResults)
+TEST(TakeRequests, addsUpWhatSignalsAndObserversAskFor)
 {
   listenToSignals();
   std::raise(SIGTERM);
-  std::raise(SIGUSR1);
-  EXPECT_EQ(takeRequest(), Request::Stop);
-  EXPECT_EQ(takeRequest(), Request::None);
+  request({true, false, false});
+  EXPECT_EQ(takeRequests(), (Requests{true, false, true}));
+  EXPECT_EQ(takeRequests(), Requests{});
 }
 
 TEST(Run, withoutSignalsCompletes)
@@ -83,6 +88,18 @@ TEST(Run, stopsOnAllRanksWhenOneOfThemIsToldTo)
   EXPECT_EQ(solver.run(observer), ExitCode::Interrupted);
   EXPECT_EQ(observer.ends, 4);
   EXPECT_EQ(observer.ending, "interrupted");
+}
+
+TEST(Run, endsOnAllRanksToGoOnLaterWhenOneOfThemIsToldTo)
+{
+  listenToSignals();
+  const Comm comm;
+  Solver solver(shortRun(comm), comm);
+  solver.prepare();
+  Signaller observer(SIGUSR2, comm.rank() == comm.size() - 1);
+  EXPECT_EQ(solver.run(observer), ExitCode::Resumable);
+  EXPECT_TRUE(solver.checkpointRequested());
+  EXPECT_EQ(observer.ends, 4);
 }
 
 TEST(Run, asksAllRanksForResultsInTheSameCycle)

@@ -91,3 +91,28 @@ def differences(first, second):
             if name not in a.ncattrs() or name not in b.ncattrs() or a.getncattr(name) != b.getncattr(name):
                 found.append(f"attribute {name}")
         return sorted(found)
+
+
+def series_differences(whole, parts):
+    """Names of what differs between the steps of one file and the steps of a series of files, one after another, and
+    between the meshes of the files.
+    """
+    found = []
+    with netCDF4.Dataset(whole) as file:
+        file.set_auto_mask(False)
+        steps = {n: v[:] for n, v in file.variables.items() if "time_step" in v.dimensions}
+        fixed = {n: v[:] for n, v in file.variables.items() if n not in steps and n not in _RECORDS}
+    collected = {name: [] for name in steps}
+    for part in parts:
+        with netCDF4.Dataset(part) as file:
+            file.set_auto_mask(False)
+            for name, values in fixed.items():
+                if name not in file.variables or file[name][:].tobytes() != values.tobytes():
+                    found.append(f"{name} of {part}")
+            for name in steps:
+                collected[name].append(file[name][:])
+    for name, values in steps.items():
+        joined = numpy.concatenate(collected[name])
+        if joined.shape != values.shape or joined.tobytes() != values.tobytes():
+            found.append(name)
+    return sorted(found)

@@ -165,15 +165,7 @@ std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pair
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
-  faces_ = localFaces_;
-  elements_ = localElements_;
-  const auto localNode = [&](GlobalId id) { return layout.localNode(id); };
-  for (const GhostFace& ghost : ghosts_.faces)
-  {
-    faces_.push_back(toFace(ghost, localNode));
-    if (classic())
-      elements_.push_back(toFaceElement(ghost, localNode));
-  }
+  listFaces(layout);
 
   const auto findPlane = [&](GlobalId lower, GlobalId higher)
   {
@@ -202,15 +194,6 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   std::vector<std::int64_t> existing(candidateCount, -1);
   std::vector<std::int64_t> source; // of each new slot: a pair, or ~p of a dormant plane
   source.reserve(candidateCount);
-  const auto faceHere = [&](GlobalId id)
-  {
-    const auto less = [](const Face& face, GlobalId wanted) { return face.id < wanted; };
-    const auto ghosts = faces_.begin() + std::ptrdiff_t(localFaces_.size());
-    auto found = std::lower_bound(faces_.begin(), ghosts, id, less);
-    if (found == ghosts || found->id != id)
-      found = std::lower_bound(ghosts, faces_.end(), id, less);
-    return found != faces_.end() && found->id == id ? int(found - faces_.begin()) : -1;
-  };
   const auto keep = [&](std::size_t p)
   {
     const Plane& plane = planes_(p);
@@ -379,12 +362,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
 
   planes_ = next;
-  faceTable_ = Array<Face>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::faces"),
-                           faces_.size());
-  std::copy(faces_.begin(), faces_.end(), faceTable_.data());
-  elementTable_ = Array<FaceElement>(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::elements"), elements_.size());
-  std::copy(elements_.begin(), elements_.end(), elementTable_.data());
+  takeFaceTables();
   buildLists(layout.owned());
   for (Face& face : localFaces_)
     face.young = false;

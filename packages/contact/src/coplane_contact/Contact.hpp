@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_checkpoint/CheckpointReader.hpp>
+#include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_contact/ClassicLeaders.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
@@ -57,6 +59,16 @@ public:
   /// to follow.
   void replaceLocalFaces(std::vector<Face> localFaces, std::vector<FaceElement> localElements = {});
 
+  /// Contact's part of a checkpoint. Collective.
+  void save(CheckpointWriter& out) const;
+  // And back, in two halves like a search; the local faces have to be those of that time.
+  // Collective.
+  /// Returns the ids of the nodes of ghost faces and of the elements that came with them.
+  std::vector<GlobalId> restoreFaces(const CheckpointReader& in,
+                                     const std::vector<GlobalId>& nodeIds);
+  /// Call when the layout knows the ghosts' nodes.
+  void restorePlanes(const CheckpointReader& in, const NodeLayout& layout);
+
   /// Step 6: steps A to H for every slot.
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                 const ConstArray<Real>& mass, Real dt);
@@ -98,6 +110,16 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  /// Planes of a checkpoint that have a face here, sorted by key; fields that only mean something
+  /// on one rank are left as they are in a new plane, but face[0] is 0 where the pair is a
+  /// candidate.
+  std::vector<Plane> planesOfCheckpoint(const CheckpointReader& in) const;
+  std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
+                                     const std::vector<GlobalId>& nodeIds) const;
+  /// Position in the table of faces; -1 when the face is not here.
+  int faceHere(GlobalId id) const;
+  void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
+  void takeFaceTables();
   bool classic() const { return options_.method == ContactOptions::Method::CommonPlane; }
   std::vector<Donor> livingPlanes() const;
   std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,
@@ -137,5 +159,6 @@ private:
   Array<std::int32_t> facesStart_, facesEntry_;
 
   EndedPlanes ended_;
+  std::vector<Plane> restored_; ///< between restoreFaces() and restorePlanes()
 };
 } // namespace coplane

@@ -79,6 +79,11 @@ public:
   }
   const std::map<PlaneKind, PlaneEnergySums>& byKind() const { return byKind_; }
 
+  /// Exact sums over all ranks as a list of numbers, the same on all. Collective.
+  std::vector<Real> numbers(const Comm& comm) const;
+  /// Adds such a list.
+  void addNumbers(const std::vector<Real>& numbers);
+
 private:
   std::map<PlaneKind, PlaneEnergySums> byKind_;
 };

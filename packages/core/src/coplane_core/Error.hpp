@@ -17,6 +17,8 @@ enum class ExitCode : int
   Output = 5,      ///< a file cannot be written
   Computation = 6, ///< the computation failed: not finite, inverted element, energy balance broken
   Interrupted = 7, ///< stopped by a signal after writing a last results step
+  Resumable = 8,   ///< stopped on request after writing a checkpoint, from which it can go on
+  Checkpoint = 9,  ///< the checkpoint is missing, damaged, or of another mesh or deck
   Internal = 70    ///< a defect of the program
 };
 

@@ -91,6 +91,36 @@ Real ExactSum::value() const
 
 std::vector<Real> ExactSum::overRanks(std::vector<ExactSum>& sums, const Comm& comm)
 {
+  std::vector<Real> values;
+  values.reserve(sums.size());
+  for (const ExactSum& total : totals(sums, comm))
+    values.push_back(total.value());
+  return values;
+}
+
+std::array<Real, ExactSum::digitCount> ExactSum::digits() const
+{
+  ExactSum copy = *this;
+  copy.carry();
+  std::array<Real, digitCount> digits{};
+  for (int i = 0; i < limbs; ++i)
+    digits[i] = Real(copy.limb_[i]);
+  digits[limbs] = Real(notFinite_);
+  return digits;
+}
+
+ExactSum ExactSum::fromDigits(const Real* digits)
+{
+  ExactSum sum;
+  for (int i = 0; i < limbs; ++i)
+    sum.limb_[i] = std::int64_t(digits[i]);
+  sum.notFinite_ = std::int64_t(digits[limbs]);
+  sum.additions_ = 1;
+  return sum;
+}
+
+std::vector<ExactSum> ExactSum::totals(std::vector<ExactSum>& sums, const Comm& comm)
+{
   std::vector<std::int64_t> all;
   all.reserve(sums.size() * (limbs + 1));
   for (auto& sum : sums)
@@ -101,16 +131,15 @@ std::vector<Real> ExactSum::overRanks(std::vector<ExactSum>& sums, const Comm& c
   }
   if (!all.empty())
     comm.sum(all);
-  std::vector<Real> values;
-  values.reserve(sums.size());
+  std::vector<ExactSum> totals(sums.size());
   for (std::size_t s = 0; s < sums.size(); ++s)
   {
-    ExactSum total;
+    ExactSum& total = totals[s];
     for (int i = 0; i < limbs; ++i)
       total.limb_[i] = all[s * (limbs + 1) + i];
     total.notFinite_ = all[s * (limbs + 1) + limbs];
-    values.push_back(total.value());
+    total.carry();
   }
-  return values;
+  return totals;
 }
 } // namespace coplane

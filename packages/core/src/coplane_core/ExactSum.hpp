@@ -25,11 +25,18 @@ public:
   /// Sums of all ranks, one value per accumulator, the same bits on every rank. One message for
   /// all.
   static std::vector<Real> overRanks(std::vector<ExactSum>& sums, const Comm& comm);
+  /// The same, exact.
+  static std::vector<ExactSum> totals(std::vector<ExactSum>& sums, const Comm& comm);
+
+  /// The exact sum as whole numbers, each exact in a Real, for checkpoints.
+  static constexpr int digitCount = 69;
+  std::array<Real, digitCount> digits() const;
+  static ExactSum fromDigits(const Real* digits);
 
 private:
   // Limb i holds a signed count of 2^(32 i - 1088). Each add puts at most 2^32 into a limb, so 2^30
   // additions fit before a carry is needed; carries are propagated well before.
-  static constexpr int limbs = 68;
+  static constexpr int limbs = digitCount - 1;
   static constexpr int lowestBit = -1088;
   static constexpr std::int64_t additionsBeforeCarry = std::int64_t(1) << 29;
 

@@ -117,7 +117,29 @@ bool Solver::erode(Real dt)
   for (const auto& [b, e] : dying)
     kill(b, e, dt);
 
-  // Loads end with the element that carried them.
+  endLoadsOn(dead);
+  if (contact_)
+  {
+    contact_->endPlanesOf(dead, state_.x, state_.v, dt);
+    findContactFaces(&contact_->localFaces());
+  }
+  return true;
+}
+
+void Solver::findContactFaces(const std::vector<Face>* known)
+{
+  const std::vector<ExteriorFace> exterior = sides_->exterior(alive_);
+  std::vector<FaceElement> elements;
+  if (model_.contact.method == ContactOptions::Method::CommonPlane)
+    elements = elementsOfFaces(model_.mesh, exterior);
+  contact_->replaceLocalFaces(
+      contactFaces(model_.mesh, blocks_, model_.faceGroups, exterior, state_.x, known),
+      std::move(elements));
+}
+
+/// Loads end with the element that carried them.
+void Solver::endLoadsOn(const std::vector<GlobalId>& dead)
+{
   const auto isDead = [&](const LoadedSide& side)
   { return std::binary_search(dead.begin(), dead.end(), elementOfFace(side.id)); };
   const auto forget = [](auto& sides, const auto& gone)
@@ -128,19 +150,6 @@ bool Solver::erode(Real dt)
     forget(load.sides, isDead);
   for (AbsorbingBoundary& boundary : model_.conditions.absorbing)
     forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
-
-  if (contact_)
-  {
-    contact_->endPlanesOf(dead, state_.x, state_.v, dt);
-    const std::vector<ExteriorFace> exterior = sides_->exterior(alive_);
-    std::vector<FaceElement> elements;
-    if (model_.contact.method == ContactOptions::Method::CommonPlane)
-      elements = elementsOfFaces(model_.mesh, exterior);
-    contact_->replaceLocalFaces(contactFaces(model_.mesh, blocks_, model_.faceGroups, exterior,
-                                             state_.x, &contact_->localFaces()),
-                                std::move(elements));
-  }
-  return true;
 }
 
 void Solver::kill(int b, int e, Real dt)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_checkpoint/CheckpointReader.hpp>
+#include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/Conditions.hpp>
@@ -98,6 +100,10 @@ public:
   /// velocities of the nodes follow. A kick from here comes next.
   void stop(const NodalState& state);
 
+  // The bodies' part of a checkpoint. Collective.
+  void save(CheckpointWriter& out) const;
+  void restore(const CheckpointReader& in);
+
   // Sums that every rank has. What loads on nodes do is booked with the nodes.
   Real kinetic() const; ///< at n [J]
   Real kinetic(int body) const;
@@ -179,6 +185,9 @@ private:
     Vec3 impulse{}, angularImpulse{};
   };
 
+  /// Calls f(value&) for every number that changes while the body moves.
+  template <class F>
+  static void forEachNumber(Body& body, F&& f);
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
   void takeMotions(const std::vector<RigidMotion>& motions);

@@ -7,15 +7,18 @@ namespace coplane
 {
 namespace
 {
-volatile std::sig_atomic_t writeRequested = 0;
+volatile std::sig_atomic_t resultsRequested = 0;
+volatile std::sig_atomic_t checkpointRequested = 0;
 volatile std::sig_atomic_t stopRequested = 0;
 
 void onSignal(int signal)
 {
   if (signal == SIGUSR1)
-    writeRequested = 1;
+    resultsRequested = 1;
   else
     stopRequested = 1;
+  if (signal == SIGUSR1 || signal == SIGUSR2)
+    checkpointRequested = 1;
 }
 } // namespace
 
@@ -25,13 +28,20 @@ void listenToSignals()
     std::signal(signal, onSignal);
 }
 
-Request takeRequest()
+void request(const Requests& wanted)
 {
-  const Request request = stopRequested    ? Request::Stop
-                          : writeRequested ? Request::WriteResults
-                                           : Request::None;
-  writeRequested = 0;
-  stopRequested = 0;
-  return request;
+  if (wanted.results)
+    resultsRequested = 1;
+  if (wanted.checkpoint)
+    checkpointRequested = 1;
+  if (wanted.stop)
+    stopRequested = 1;
+}
+
+Requests takeRequests()
+{
+  const Requests requests{resultsRequested != 0, checkpointRequested != 0, stopRequested != 0};
+  resultsRequested = checkpointRequested = stopRequested = 0;
+  return requests;
 }
 } // namespace coplane

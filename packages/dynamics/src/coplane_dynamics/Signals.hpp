@@ -2,16 +2,24 @@
 
 namespace coplane
 {
-/// What a signal asks for; decided together by all ranks at the end of a cycle.
-enum class Request : int
+/// What signals and observers ask for; decided together by all ranks at the end of a cycle.
+struct Requests
 {
-  None = 0,
-  WriteResults = 1, ///< SIGUSR1: write a results step and go on
-  Stop = 2          ///< SIGINT, SIGTERM, SIGUSR2: write a last results step and stop
+  bool results = false;    ///< a results step
+  bool checkpoint = false; ///< a checkpoint; with `stop`: to go on from later
+  bool stop = false;       ///< a last results step and the end
+
+  bool operator==(const Requests& other) const
+  {
+    return results == other.results && checkpoint == other.checkpoint && stop == other.stop;
+  }
 };
 
-/// Installs the handlers.
+/// Installs the handlers: SIGUSR1 asks for results and a checkpoint, SIGUSR2 for a checkpoint and
+/// the end, SIGINT and SIGTERM for the end.
 void listenToSignals();
-/// The strongest request since the last call on this rank.
-Request takeRequest();
+/// Asks for something on this rank, as a signal would.
+void request(const Requests& wanted);
+/// All that was asked for on this rank since the last call.
+Requests takeRequests();
 } // namespace coplane

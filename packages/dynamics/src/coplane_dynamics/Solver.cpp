@@ -343,11 +343,12 @@ void Solver::planNextCycle(bool first)
   model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
   rigid_->sumForces(state_, contactStiffness_, [this](int n) { return leastElementStep(n); });
   // One reduction decides everything that must not differ between ranks.
-  std::vector<Real> extremes{-stableStep(), Real(int(takeRequest()))};
+  const Requests mine = takeRequests();
+  std::vector<Real> extremes{-stableStep(), Real(mine.results), Real(mine.checkpoint),
+                             Real(mine.stop)};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
-  resultsRequested_ = extremes[1] == Real(int(Request::WriteResults));
-  stopRequested_ = extremes[1] == Real(int(Request::Stop));
+  requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
   if (failed_)
     return;
 
@@ -452,16 +453,6 @@ ExitCode Solver::run(Observer& observer)
       observer.finish(*this, "failed");
       failTogether("element");
     }
-    try
-    {
-      observer.endOfCycle(*this);
-    }
-    catch (const Error& error)
-    {
-      if (error.onAllRanks())
-        finishAfter(error, observer);
-      throw;
-    }
     if (clock_.cycle % energyCheckEvery == 0)
     {
       const EnergyBalance balance = energy();
@@ -478,10 +469,20 @@ ExitCode Solver::run(Observer& observer)
       }
       warnOfTrouble(balance);
     }
-    if (stopRequested_)
+    try
     {
-      ending = "interrupted";
-      code = ExitCode::Interrupted;
+      observer.endOfCycle(*this);
+    }
+    catch (const Error& error)
+    {
+      if (error.onAllRanks())
+        finishAfter(error, observer);
+      throw;
+    }
+    if (requests_.stop)
+    {
+      ending = requests_.checkpoint ? "interrupted after a checkpoint" : "interrupted";
+      code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
   }

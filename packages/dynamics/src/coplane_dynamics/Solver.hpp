@@ -53,6 +53,10 @@ public:
 
   /// First search, census, joints closed, forces at t = 0, first kick. Collective.
   void prepare();
+  /// Everything that the rest of the run depends on. Call between cycles. Collective.
+  void save(CheckpointWriter& out) const;
+  /// Instead of prepare(): goes on from there, with the same bits, on any ranks. Collective.
+  void restore(const CheckpointReader& in);
   /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
   /// Error(ExitCode::Computation) on failure after the observers have finished. Collective.
   ExitCode run(Observer& observer);
@@ -74,10 +78,14 @@ public:
   const RigidBodies& rigidBodies() const { return *rigid_; }
   const RelaxationState& relaxation() const { return relaxation_; }
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
-  bool resultsRequested() const { return resultsRequested_; } ///< by SIGUSR1, in this cycle
+  // By signals or by an observer (Signals.hpp), decided together for the cycle that has ended.
+  bool resultsRequested() const { return requests_.results; }
+  bool checkpointRequested() const { return requests_.checkpoint; }
+  bool stopRequested() const { return requests_.stop; }
 
   // Over all ranks, the same bits on all. Collective.
   EnergyBalance energy() const;
+  const EnergyBalance& initialEnergy() const { return initialEnergy_; } ///< before the first cycle
   ErosionTotals erosion() const;
   Momenta momenta() const;
   StepControl stepControl() const;
@@ -107,6 +115,13 @@ private:
   /// whether there were any on some rank. Collective.
   bool erode(Real dt);
   void kill(int block, int element, Real dt);
+  void endLoadsOn(const std::vector<GlobalId>& deadElements); ///< sorted
+  void findContactFaces(const std::vector<Face>* known);
+  void restoreElements(const CheckpointReader& in);
+  void restoreNodes(const CheckpointReader& in);
+  void restoreErosion(const CheckpointReader& in);
+  template <class F>
+  void forEachNumber(F&& f);
   /// Whether all elements of an owned node have died.
   bool isFree(int node) const { return erodes_ && livingElements_[node] == 0; }
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
@@ -176,7 +191,6 @@ private:
   bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero
   bool searchIsDue_ = false;
   bool failed_ = false;
-  bool stopRequested_ = false;
-  bool resultsRequested_ = false;
+  Requests requests_;
 };
 } // namespace coplane

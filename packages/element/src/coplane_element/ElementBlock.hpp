@@ -116,6 +116,12 @@ public:
   void erode(int element);
   bool isAlive(int element) const { return alive_(0, element) > 0; }
 
+  // For checkpoints, element by element: everything that the next cycle or an output reads and that
+  // initialise() does not give. restoreState() follows initialise(), once for every element.
+  std::vector<std::string> stateColumns() const;
+  void saveState(int element, Real* row) const;
+  void restoreState(int element, const Real* row);
+
   /// The least stable step of the block [s]; infinity when it has no elements, 0 when one has
   /// turned inside out.
   Real smallestStableStep() const;

@@ -76,6 +76,29 @@ void setStepCount(const std::string& file, int steps)
 }
 } // namespace
 
+void cutResults(const std::string& file, int steps)
+{
+  unsigned char bytes[12] = {};
+  std::FILE* header = std::fopen(file.c_str(), "rb");
+  if (!header)
+    return;
+  const bool read = std::fread(bytes, 1, sizeof bytes, header) == sizeof bytes;
+  std::fclose(header);
+  if (!read || std::memcmp(bytes, "CDF\5", 4) != 0)
+    return;
+  std::uint64_t there = 0;
+  for (int i = 0; i < 8; ++i)
+    there = there << 8 | bytes[4 + i];
+  if (there > std::uint64_t(steps))
+    setStepCount(file, steps);
+}
+
+std::string resultsFileOfRank(const std::string& file, int rank, int ranks)
+{
+  const std::string count = std::to_string(ranks);
+  return fmt::format("{}.{}.{:0{}}", file, count, rank, count.size());
+}
+
 ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& mesh,
                          const ResultsVariables& variables,
                          const std::vector<std::string>& infoLines, bool filePerRank)
@@ -103,10 +126,7 @@ ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& 
     mySides_.push_back(std::move(positions));
   }
   if (filePerRank_)
-  {
-    const std::string ranks = std::to_string(comm_.size());
-    file_ = fmt::format("{}.{}.{:0{}}", file, ranks, comm_.rank(), ranks.size());
-  }
+    file_ = resultsFileOfRank(file, comm_.rank(), comm_.size());
   comm_.together(
       [&]
       {

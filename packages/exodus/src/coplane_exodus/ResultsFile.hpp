@@ -18,6 +18,13 @@ struct ResultsVariables
   std::vector<std::string> side; ///< on every side set
 };
 
+/// Takes the steps after the first `steps` out of a results file that is not open; a file with
+/// fewer steps, or without, stays as it is. Not collective.
+void cutResults(const std::string& file, int steps);
+
+/// Name of a rank's file: wall.e.4.0
+std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
+
 /// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
 /// variables by time step.
 ///

@@ -275,6 +275,14 @@ struct HistoryCard
   std::vector<std::string> rigid;  ///< names of rigid blocks; "*": all
 };
 
+struct CheckpointCard
+{
+  std::string file;      ///< <file>.0 and <file>.1; default <deck>.chk
+  int everyCycles = 0;   ///< 0: never
+  Real everySeconds = 0; ///< of wall-clock time [s]; 0: never
+  bool atEnd = false;
+};
+
 struct Deck
 {
   std::string file; ///< as given on the command line
@@ -303,6 +311,7 @@ struct Deck
   TimeCard time;
   OutputCard output;
   HistoryCard history;
+  CheckpointCard checkpoint;
   std::string partitionMethod = "multijagged"; ///< multijagged | rcb | rib | hsfc | hypergraph
   std::string partitionBalance = "cost";       ///< cost | nodes
 };

@@ -529,6 +529,7 @@ Deck parseDeck(const std::string& text, const std::string& file,
   deck.file = file;
   deck.output.results = path.stem().string() + ".e";
   deck.history.file = path.stem().string() + ".csv";
+  deck.checkpoint.file = path.stem().string() + ".chk";
   const DeckNode root = readBySchema(deckSchema(), text, file, overrides, &deck, problems);
   deck.text = overrides.empty() ? text : toYaml(root); // the same deck with or without its sets
   if (const DeckNode* mesh = root.find("mesh"))

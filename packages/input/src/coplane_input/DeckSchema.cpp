@@ -421,6 +421,36 @@ Key history()
       .means("energies, momenta and probes over time");
 }
 
+Key checkpoint()
+{
+  const auto take = [](int& field, int value) { field = value; };
+  return group("checkpoint", &Deck::checkpoint,
+               {
+                   text("file", &CheckpointCard::file)
+                       .defaultIs("<name of the deck>.chk")
+                       .like("wall.chk")
+                       .means("checkpoints are called <file>.0 and <file>.1, written in turn, "
+                              "relative to the working folder"),
+                   KeyBuilder(bound<int>("every_cycles", KeyKind::Integer,
+                                         &CheckpointCard::everyCycles, take))
+                       .atLeast(0)
+                       .in("cycles")
+                       .like("5000")
+                       .defaultIs("0")
+                       .means("cycles between checkpoints; 0: none by count"),
+                   number("every_seconds", &CheckpointCard::everySeconds)
+                       .in("s")
+                       .atLeast(0)
+                       .like("1800")
+                       .means("wall-clock time between checkpoints; 0: none by time"),
+                   flag("at_end", &CheckpointCard::atEnd)
+                       .like("true")
+                       .means("a checkpoint at the end, to go on from with a later time.end"),
+               })
+      .means("state of the run, for --restart; without this group only when asked for (signals, "
+             "--max-wall, a file <name>.stop)");
+}
+
 Key gravity()
 {
   Key key = bound<std::vector<TimeFunction>>(
@@ -529,6 +559,7 @@ Key makeSchema()
               timeGroup(),
               output(),
               history(),
+              checkpoint(),
               section("partition",
                       {
                           text("method", &Deck::partitionMethod)

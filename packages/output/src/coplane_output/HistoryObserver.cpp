@@ -6,6 +6,7 @@
 #include <coplane_output/TextFile.hpp>
 
 #include <cerrno>
+#include <filesystem>
 
 namespace coplane
 {
@@ -115,27 +116,34 @@ HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
   comm.together(
       [&]
       {
-        if (!comm.isRoot())
-          return;
-        errno = 0;
-        stream_.open(options_.file, std::ios::trunc);
-        if (!stream_)
-          failToWrite(options_.file);
+        const TextPosition position = TextPosition::from(options_.position);
+        lastCycle_ = position.cycle;
+        if (comm.isRoot())
+          hasHeader_ = openTable(stream_, options_.file, position);
       });
 }
 
 void HistoryObserver::start(const Solver& solver)
 {
-  initialKinetic_ = solver.energy().kinetic;
+  initialKinetic_ = solver.initialEnergy().kinetic;
   findShares(solver);
   schedule_.startAt(solver.clock().time);
-  write(solver);
+  if (options_.position.empty())
+    write(solver);
 }
 
 void HistoryObserver::endOfCycle(const Solver& solver)
 {
   if (options_.every <= 0 || schedule_.isDue(solver.clock().time))
     write(solver);
+}
+
+void HistoryObserver::savePosition(std::map<std::string, std::string>& positions) const
+{
+  TextPosition position{options_.file, 0, lastCycle_};
+  if (stream_.is_open()) // on rank 0, which speaks
+    position.bytes = std::filesystem::file_size(options_.file);
+  positions["history"] = position.text();
 }
 
 void HistoryObserver::finish(const Solver& solver, const std::string&)
@@ -243,18 +251,18 @@ void HistoryObserver::write(const Solver& solver)
   if (options_.stateHash)
     line.add("state_hash", fmt::format("{:016x}", solver.stateHash()));
 
-  const bool first = lastCycle_ < 0;
   solver.comm().together(
       [&]
       {
         if (!solver.comm().isRoot())
           return;
         errno = 0;
-        if (first)
+        if (!hasHeader_)
           stream_ << line.names << '\n';
         stream_ << line.values << '\n' << std::flush;
         if (!stream_)
           failToWrite(options_.file);
+        hasHeader_ = true;
       });
   lastCycle_ = solver.clock().cycle;
 }

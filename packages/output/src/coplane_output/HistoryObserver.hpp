@@ -28,6 +28,7 @@ struct HistoryOptions
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
   /// Rigid blocks (positions in Mesh::blocks) whose bodies are recorded in columns.
   std::vector<int> rigidBlocks;
+  std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
 };
 
 /// Writes one line per output time: the whole energy ledger, momenta, counts of planes, probes. All
@@ -42,6 +43,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const std::string& ending) override;
 
 private:
@@ -58,8 +60,9 @@ private:
 
   HistoryOptions options_;
   OutputSchedule schedule_;
-  std::ofstream stream_;                   ///< open on rank 0
-  std::int64_t lastCycle_ = -1;            ///< that was written
+  std::ofstream stream_;        ///< open on rank 0
+  std::int64_t lastCycle_ = -1; ///< that was written
+  bool hasHeader_ = false;
   Real initialKinetic_ = 0;                ///< [J]
   std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
   std::vector<Real> totalWeight_;          ///< per probe, over all ranks

@@ -21,14 +21,21 @@ void MultiObserver::endOfCycle(const Solver& solver)
     observer->endOfCycle(solver);
 }
 
+void MultiObserver::savePosition(std::map<std::string, std::string>& positions) const
+{
+  for (const auto& observer : observers_)
+    observer->savePosition(positions);
+}
+
 void MultiObserver::finish(const Solver& solver, const std::string& ending)
 {
   // Errors are thrown on all ranks alike, so all ranks go on with the next observer.
   std::exception_ptr first;
-  for (const auto& observer : observers_)
+  // Backwards: a checkpoint at the end has to know where outputs ended before their last lines.
+  for (auto observer = observers_.rbegin(); observer != observers_.rend(); ++observer)
     try
     {
-      observer->finish(solver, ending);
+      (*observer)->finish(solver, ending);
     }
     catch (...)
     {

@@ -8,7 +8,8 @@
 
 namespace coplane
 {
-/// Forwards every call to its observers in the order in which they were added.
+/// Forwards every call to its observers in the order in which they were added, finish() the other
+/// way round.
 class MultiObserver : public Observer
 {
 public:
@@ -16,6 +17,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Finishes all observers even when one fails, then throws the first error.
   void finish(const Solver& solver, const std::string& ending) override;
 

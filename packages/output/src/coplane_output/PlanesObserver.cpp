@@ -6,7 +6,9 @@
 #include <coplane_output/VtpFile.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 namespace coplane
 {
@@ -156,8 +158,19 @@ std::string pointsOf(const std::vector<Record>& records, const std::vector<std::
 } // namespace
 
 PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
-    : base_(std::move(options.base)), schedule_(std::move(options.when))
+    : base_(std::move(options.base)), continues_(!options.position.empty()),
+      schedule_(std::move(options.when))
 {
+  // The cycle of the last step, the base, then a line for each step: time and file.
+  std::istringstream position(options.position);
+  std::string line;
+  if (std::getline(position, line) && line == base_)
+  {
+    std::getline(position, line);
+    lastCycle_ = std::strtoll(line.c_str(), nullptr, 10);
+    while (std::getline(position, line))
+      steps_.emplace_back(std::strtod(line.c_str(), nullptr), line.substr(line.find(' ') + 1));
+  }
   comm.together(
       [&]
       {
@@ -169,7 +182,16 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
 void PlanesObserver::start(const Solver& solver)
 {
   schedule_.startAt(solver.clock().time);
-  write(solver);
+  if (!continues_)
+    write(solver);
+}
+
+void PlanesObserver::savePosition(std::map<std::string, std::string>& positions) const
+{
+  std::string text = fmt::format("{}\n{}\n", base_, lastCycle_);
+  for (const auto& [time, name] : steps_)
+    text += fmt::format("{:.17g} {}\n", time, name);
+  positions["planes"] = text;
 }
 
 void PlanesObserver::endOfCycle(const Solver& solver)

@@ -12,8 +12,9 @@ namespace coplane
 {
 struct PlanesOptions
 {
-  std::string base; ///< base_planes.pvd and base_planes_0000.vtp, ... are written
-  OutputTimes when; ///< as for the results
+  std::string base;          ///< base_planes.pvd and base_planes_0000.vtp, ... are written
+  OutputTimes when;          ///< as for the results
+  std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
 };
 
 /// Writes the common planes as points for ParaView: the point of contact of every plane that exists
@@ -27,6 +28,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const std::string& ending) override;
 
   /// base + "_planes.pvd"
@@ -37,6 +39,7 @@ private:
   void writeSeries() const;
 
   std::string base_;
+  bool continues_;
   OutputSchedule schedule_;
   std::int64_t lastCycle_ = -1;                     ///< that was written
   std::vector<std::pair<Real, std::string>> steps_; ///< time [s] and file name without folder

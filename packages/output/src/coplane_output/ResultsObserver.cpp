@@ -1,7 +1,13 @@
+#include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/NodalContact.hpp>
 #include <coplane_output/ResultsObserver.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 
 namespace coplane
 {
@@ -53,22 +59,112 @@ std::vector<std::int64_t> firstElements(const Mesh& mesh)
 }
 } // namespace
 
-ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options)
-    : dimension_(mesh.dimension), history_(options.history), firstOfBlock_(firstElements(mesh)),
-      schedule_(std::move(options.when)),
-      file_(options.file, comm, mesh, variablesOf(mesh.dimension, options.history),
-            options.infoLines, options.filePerRank)
+std::string resultsPart(const std::string& file, int part)
 {
+  return part == 1 ? file : fmt::format("{}-s{:04}", file, part);
+}
+
+namespace
+{
+/// Where a series ended when a checkpoint was written.
+struct ResultsPosition
+{
+  std::int64_t cycle = -1; ///< of the last step
+  int part = 1, steps = 0;
+  int ranks = 0; ///< that have a file each; 0: a shared file
+  std::string file;
+
+  std::string text() const
+  {
+    return fmt::format("{} {} {} {} {}", cycle, part, steps, ranks, file);
+  }
+  static ResultsPosition from(const std::string& text)
+  {
+    ResultsPosition position;
+    std::istringstream stream(text);
+    stream >> position.cycle >> position.part >> position.steps >> position.ranks;
+    stream.ignore(1);
+    std::getline(stream, position.file);
+    return position;
+  }
+};
+
+/// Removes the parts of a series from number `first` on, which a run has left that went on from an
+/// earlier checkpoint: ParaView would read them as well.
+void removeParts(const std::string& file, int first)
+{
+  const std::filesystem::path path(file);
+  const std::string stem = path.filename().string() + "-s";
+  std::error_code error;
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind(stem, 0) == 0 && std::atoi(name.c_str() + stem.size()) >= first)
+      old.push_back(entry.path());
+  }
+  for (const auto& one : old)
+    std::filesystem::remove(one, error);
+  if (!old.empty())
+    logInfo("removed {} parts of the series {}-s... from an earlier run", old.size(), file);
+}
+} // namespace
+
+ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options)
+    : comm_(&comm), mesh_(&mesh), options_(std::move(options)), dimension_(mesh.dimension),
+      history_(options_.history), firstOfBlock_(firstElements(mesh)), schedule_(options_.when)
+{
+  if (comm.isRoot())
+    removeParts(options_.file, std::max(2, options_.part));
+  if (options_.part == 1)
+    open();
+  else
+    continueSeries();
+}
+
+void ResultsObserver::open()
+{
+  file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
+                variablesOf(dimension_, history_), options_.infoLines, options_.filePerRank);
+}
+
+void ResultsObserver::continueSeries()
+{
+  const ResultsPosition position = ResultsPosition::from(options_.position);
+  lastCycle_ = position.cycle;
+  if (!comm_->isRoot() || position.file != options_.file || position.steps == 0)
+    return;
+  const std::string part = resultsPart(position.file, position.part);
+  for (int r = 0; r < std::max(1, position.ranks); ++r)
+    cutResults(position.ranks == 0 ? part : resultsFileOfRank(part, r, position.ranks),
+               position.steps);
 }
 
 void ResultsObserver::start(const Solver& solver)
+{
+  schedule_.startAt(solver.clock().time);
+  if (options_.part == 1)
+    write(solver);
+}
+
+void ResultsObserver::savePosition(std::map<std::string, std::string>& positions) const
+{
+  ResultsPosition position = ResultsPosition::from(options_.position);
+  if (steps() > 0)
+    position = {lastCycle_, options_.part, steps(), options_.filePerRank ? comm_->size() : 0,
+                options_.file};
+  positions["results"] = position.text();
+}
+
+void ResultsObserver::prepare(const Solver& solver)
 {
   // Ids of the redistribution are positions in the file.
   const RankMesh& mesh = solver.mesh();
   std::vector<GlobalId> source(mesh.nodePositions.begin(),
                                mesh.nodePositions.begin() + mesh.ownedNodes);
   std::vector<GlobalId> target;
-  const IndexRange nodes = file_.myNodes();
+  const IndexRange nodes = file_->myNodes();
   for (int i = 0; i < nodes.count; ++i)
     target.push_back(nodes.first + i);
   nodesToFile_.emplace(solver.comm(), source, target);
@@ -81,16 +177,13 @@ void ResultsObserver::start(const Solver& solver)
     for (int e = 0; e < block.elements(); ++e)
       if (block.owned[e])
         source.push_back(firstOfBlock_[b] + block.positions[e]);
-    const IndexRange elements = file_.myElements(int(b));
+    const IndexRange elements = file_->myElements(int(b));
     for (int i = 0; i < elements.count; ++i)
       target.push_back(firstOfBlock_[b] + elements.first + i);
   }
   elementsToFile_.emplace(solver.comm(), source, target);
-  if (file_.sideSets() > 0)
-    sides_.emplace(solver, file_);
-
-  schedule_.startAt(solver.clock().time);
-  write(solver);
+  if (file_->sideSets() > 0)
+    sides_.emplace(solver, *file_);
 }
 
 void ResultsObserver::endOfCycle(const Solver& solver)
@@ -104,26 +197,31 @@ void ResultsObserver::finish(const Solver& solver, const std::string&)
 {
   if (solver.clock().cycle != lastCycle_)
     write(solver);
-  file_.close();
+  if (file_)
+    file_->close();
 }
 
 void ResultsObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::results");
+  if (!file_)
+    open();
+  if (!nodesToFile_)
+    prepare(solver);
   const EnergyBalance energy = solver.energy();
-  file_.beginStep(solver.clock().time);
+  file_->beginStep(solver.clock().time);
   writeNodes(solver);
   writeElements(solver);
   if (sides_)
-    sides_->write(solver, file_);
-  file_.putGlobals({solver.clock().step,     energy.kinetic,          energy.internal,
-                    energy.plastic,          energy.hourglass,        energy.viscous,
-                    energy.contact.stored,   energy.contact.friction, energy.contact.hysteresis,
-                    energy.contact.fracture, energy.contact.damping,  energy.contact.remainder(),
-                    energy.massDamping,      energy.localDamping,     energy.externalWork,
-                    energy.error(),          energy.eroded,           energy.contact.eroded,
-                    solver.erosion().mass,   energy.kineticDamping});
-  file_.endStep();
+    sides_->write(solver, *file_);
+  file_->putGlobals({solver.clock().step,     energy.kinetic,          energy.internal,
+                     energy.plastic,          energy.hourglass,        energy.viscous,
+                     energy.contact.stored,   energy.contact.friction, energy.contact.hysteresis,
+                     energy.contact.fracture, energy.contact.damping,  energy.contact.remainder(),
+                     energy.massDamping,      energy.localDamping,     energy.externalWork,
+                     energy.error(),          energy.eroded,           energy.contact.eroded,
+                     solver.erosion().mass,   energy.kineticDamping});
+  file_->endStep();
   lastCycle_ = solver.clock().cycle;
 }
 
@@ -151,7 +249,7 @@ void ResultsObserver::writeNodes(const Solver& solver)
     mine(n, column++) = contact.slip[n];
     mine(n, column++) = contact.state[n];
   }
-  const int rows = file_.myNodes().count;
+  const int rows = file_->myNodes().count;
   Table<Real> inFile("coplane::output::nodesInFile", rows, columns);
   nodesToFile_->move(mine, inFile);
   std::vector<Real> values(rows);
@@ -159,7 +257,7 @@ void ResultsObserver::writeNodes(const Solver& solver)
   {
     for (int i = 0; i < rows; ++i)
       values[i] = inFile(i, column);
-    file_.putNodal(column, values);
+    file_->putNodal(column, values);
   }
 }
 
@@ -173,7 +271,7 @@ void ResultsObserver::writeElements(const Solver& solver)
   {
     for (const char mine : mesh.blocks[b].owned)
       owned += mine != 0;
-    rows += file_.myElements(int(b)).count;
+    rows += file_->myElements(int(b)).count;
   }
   Table<Real> mine("coplane::output::elements", owned, columns);
   int row = 0;
@@ -207,12 +305,12 @@ void ResultsObserver::writeElements(const Solver& solver)
   int first = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
-    std::vector<Real> values(file_.myElements(int(b)).count);
+    std::vector<Real> values(file_->myElements(int(b)).count);
     for (int column = 0; column < columns; ++column)
     {
       for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = inFile(first + i, column);
-      file_.putElement(column, int(b), values);
+      file_->putElement(column, int(b), values);
     }
     first += int(values.size());
   }

@@ -20,7 +20,12 @@ struct ResultsOptions
   bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
+  int part = 1;              ///< of a series: 1 for a new run, one more with every restart
+  std::string position = {}; ///< savePosition() of the run that is continued
 };
+
+/// Name of a part of a series of results: wall.e, wall.e-s0002, ...
+std::string resultsPart(const std::string& file, int part);
 
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
 /// (SIGUSR1) and at the end. Names and their order are those that ParaView's IOSS reader groups
@@ -30,26 +35,35 @@ class ResultsObserver : public Observer
 {
 public:
   /// Creates the file, so that a folder that cannot be written to is found before anything is
-  /// computed. `mesh` is the whole mesh, the same on every rank, and is not kept. Collective.
+  /// computed; a later part of a series is created with its first step. Cuts off steps that the
+  /// run before has written after the position, and removes later parts. `mesh` is the whole mesh,
+  /// the same on every rank, and has to live as long. Collective.
   ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options);
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Writes the last state, unless the last cycle has been written, and closes the file.
   void finish(const Solver& solver, const std::string& ending) override;
 
-  int steps() const { return file_.steps(); }
+  int steps() const { return file_ ? file_->steps() : 0; }
 
 private:
+  void continueSeries();
+  void open();
+  void prepare(const Solver& solver);
   void write(const Solver& solver);
   void writeNodes(const Solver& solver);
   void writeElements(const Solver& solver);
 
+  const Comm* comm_;
+  const Mesh* mesh_;
+  ResultsOptions options_;
   int dimension_;
   std::vector<std::string> history_;
   std::vector<std::int64_t> firstOfBlock_; ///< position of each block's first element in the file
   OutputSchedule schedule_;
-  ResultsFile file_;
+  std::optional<ResultsFile> file_;
   std::int64_t lastCycle_ = -1; ///< that was written
   /// From owned nodes and elements to the contiguous ranges of the file.
   std::optional<Redistribution> nodesToFile_, elementsToFile_;

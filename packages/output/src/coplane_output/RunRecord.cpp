@@ -196,7 +196,8 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
 
 void RunRecord::start(const Solver& solver)
 {
-  if (solver.hasContact())
+  // The census tells of the state before the first step.
+  if (solver.hasContact() && options_.restartedFrom.empty())
     census_ = censusOf(solver.contact()).dump();
   write(solver, "running");
 }
@@ -213,6 +214,8 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   Json json{{"title", options_.title}, {"ending", ending}};
   json["software"] = softwareOf();
+  if (!options_.restartedFrom.empty())
+    json["restarted_from"] = options_.restartedFrom;
   json["command_line"] = options_.commandLine;
   json["backend"] = name(currentBackend());
   json["ranks"] = comm.size();

@@ -17,6 +17,7 @@ struct RunRecordOptions
   std::string deckFile;
   std::string deckText; ///< as it was used, with overrides
   std::string meshFile;
+  std::string restartedFrom = {}; ///< checkpoint; empty: a new run
 };
 
 /// Writes down in JSON what is needed to repeat or judge a run: versions, build, ranks x threads,

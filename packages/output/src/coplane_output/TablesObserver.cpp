@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -15,10 +16,18 @@ namespace coplane
 TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
     : options_(std::move(options)), schedule_(OutputTimes{options_.every, {}})
 {
-  const auto open = [](std::ofstream& stream, const std::string& file, const std::string& header)
+  const auto positionOf = [&](const char* table)
   {
-    errno = 0;
-    stream.open(file, std::ios::trunc);
+    const auto found = options_.positions.find(table);
+    return TextPosition::from(found == options_.positions.end() ? "" : found->second);
+  };
+  for (const char* table : {"blocks", "pairs", "materials"})
+    lastCycle_ = std::max(lastCycle_, positionOf(table).cycle);
+  const auto open = [&](std::ofstream& stream, const char* table, const std::string& header)
+  {
+    const std::string file = fileOf(table);
+    if (openTable(stream, file, positionOf(table)))
+      return;
     stream << header << '\n' << std::flush;
     if (!stream)
       failToWrite(file);
@@ -29,16 +38,15 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
         if (!comm.isRoot())
           return;
         if (options_.blocks)
-          open(blocks_, options_.base + "_blocks.csv",
+          open(blocks_, "blocks",
                "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J],"
                "eroded[J]");
         const std::string terms = "joint,planes,area[m^2],work[J],stored[J],friction[J],"
                                   "hysteresis[J],fracture[J],damping[J],eroded[J],remainder[J]";
         if (options_.pairs)
-          open(pairs_, options_.base + "_pairs.csv", "time[s],cycle,block_a,block_b," + terms);
+          open(pairs_, "pairs", "time[s],cycle,block_a,block_b," + terms);
         if (options_.materials)
-          open(materials_, options_.base + "_materials.csv",
-               "time[s],cycle,material_a,material_b," + terms);
+          open(materials_, "materials", "time[s],cycle,material_a,material_b," + terms);
       });
 }
 
@@ -47,13 +55,36 @@ void TablesObserver::start(const Solver& solver)
   if (options_.blocks)
     findShares(solver);
   schedule_.startAt(solver.clock().time);
-  write(solver);
+  if (options_.positions.empty())
+    write(solver);
 }
 
 void TablesObserver::endOfCycle(const Solver& solver)
 {
   if (options_.every <= 0 || schedule_.isDue(solver.clock().time))
     write(solver);
+}
+
+std::string TablesObserver::fileOf(const char* table) const
+{
+  return fmt::format("{}_{}.csv", options_.base, table);
+}
+
+void TablesObserver::savePosition(std::map<std::string, std::string>& positions) const
+{
+  const auto save = [&](const std::ofstream& stream, const char* table)
+  {
+    TextPosition position{fileOf(table), 0, lastCycle_};
+    if (stream.is_open()) // on rank 0, which speaks
+      position.bytes = std::filesystem::file_size(position.file);
+    positions[table] = position.text();
+  };
+  if (options_.blocks)
+    save(blocks_, "blocks");
+  if (options_.pairs)
+    save(pairs_, "pairs");
+  if (options_.materials)
+    save(materials_, "materials");
 }
 
 void TablesObserver::finish(const Solver& solver, const std::string&)
@@ -224,11 +255,11 @@ void TablesObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::tables");
   if (options_.blocks)
-    append(solver.comm(), blocks_, options_.base + "_blocks.csv", blockLines(solver));
+    append(solver.comm(), blocks_, fileOf("blocks"), blockLines(solver));
   if (options_.pairs)
-    append(solver.comm(), pairs_, options_.base + "_pairs.csv", pairLines(solver));
+    append(solver.comm(), pairs_, fileOf("pairs"), pairLines(solver));
   if (options_.materials)
-    append(solver.comm(), materials_, options_.base + "_materials.csv", materialLines(solver));
+    append(solver.comm(), materials_, fileOf("materials"), materialLines(solver));
   lastCycle_ = solver.clock().cycle;
 }
 } // namespace coplane

@@ -5,6 +5,7 @@
 #include <coplane_output/OutputSchedule.hpp>
 
 #include <fstream>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct TablesOptions
   bool blocks = false;    ///< energies of every element block
   bool pairs = false;     ///< energies of contact between every two blocks
   bool materials = false; ///< the same between every two materials
+  std::map<std::string, std::string> positions = {}; ///< of the run that is continued
 };
 
 /// Writes energies by block, by pair of blocks and by pair of materials as CSV, a line for each of
@@ -30,9 +32,11 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const std::string& ending) override;
 
 private:
+  std::string fileOf(const char* table) const;
   /// A node of a block and the mass that the block's elements bring to it [kg].
   struct Share
   {

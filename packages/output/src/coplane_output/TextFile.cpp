@@ -1,10 +1,12 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_output/TextFile.hpp>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 namespace coplane
 {
@@ -15,6 +17,44 @@ void failToWrite(const std::string& file)
        "{}: the file cannot be written: {}. Check that the folder '{}' exists and can be written "
        "to, and that there is room (disk, quota, file-size limit).",
        file, reason, std::filesystem::absolute(file).parent_path().string());
+}
+
+std::string TextPosition::text() const
+{
+  return fmt::format("{} {} {}", cycle, bytes, file);
+}
+
+TextPosition TextPosition::from(const std::string& text)
+{
+  TextPosition position;
+  std::istringstream stream(text);
+  stream >> position.cycle >> position.bytes;
+  stream.ignore(1);
+  std::getline(stream, position.file);
+  return position;
+}
+
+bool openTable(std::ofstream& stream, const std::string& file, const TextPosition& position)
+{
+  bool goesOn = position.bytes > 0 && position.file == file;
+  if (goesOn)
+  {
+    std::error_code error;
+    const auto bytes = std::filesystem::file_size(file, error);
+    goesOn = !error && bytes >= position.bytes;
+    if (!goesOn)
+      logWarning("history cannot be continued",
+                 fmt::format("{}: lines that were written before the checkpoint are not there; the "
+                             "file begins anew with the restart.",
+                             file));
+    else
+      std::filesystem::resize_file(file, position.bytes, error);
+  }
+  errno = 0;
+  stream.open(file, goesOn ? std::ios::app : std::ios::trunc);
+  if (!stream)
+    failToWrite(file);
+  return goesOn;
 }
 
 void replaceFile(const std::string& file, const std::string& text)

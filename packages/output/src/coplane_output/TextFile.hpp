@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <fstream>
 #include <string>
 
 namespace coplane
@@ -8,6 +10,23 @@ namespace coplane
 /// or the new text and a killed program leaves no half. Throws Error(ExitCode::Output) with file
 /// and reason; call it on one rank, within Comm::together.
 void replaceFile(const std::string& file, const std::string& text);
+
+/// Where a table of text ended when a checkpoint was written.
+struct TextPosition
+{
+  std::string file;
+  std::uint64_t bytes = 0;
+  std::int64_t cycle = -1; ///< of the last line
+
+  std::string text() const; ///< one line
+  /// Empty text: a file that does not exist yet.
+  static TextPosition from(const std::string& text);
+};
+
+/// Opens a table for more lines and cuts off those after the position. Returns whether it has been
+/// continued; otherwise (another name, nothing to continue) it is new and empty, and a warning
+/// says so where lines are missing. On one rank, within Comm::together.
+bool openTable(std::ofstream& stream, const std::string& file, const TextPosition& position);
 
 /// Throws Error(ExitCode::Output): the file, what the system says (errno) and what to check.
 [[noreturn]] void failToWrite(const std::string& file);

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <coplane_checkpoint/CheckpointReader.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_input/Deck.hpp>
+#include <coplane_mesh/Mesh.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace coplane
+{
+/// What a checkpoint says of the run that wrote it, to be compared at a restart: hashes of the
+/// parts of the mesh, the deck, and which part of the series of results it was.
+std::vector<std::pair<std::string, std::string>> fingerprintsOf(const Deck& deck, const Mesh& mesh,
+                                                                int part);
+
+/// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
+/// those of the checkpoint. Warns when another version of the program has written it. Collective.
+void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const Mesh& mesh);
+
+/// Part of the series of results that the checkpoint belongs to. Collective.
+int partIn(const CheckpointReader& checkpoint);
+} // namespace coplane

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/Real.hpp>
+
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace coplane::hdf5
+{
+/// A call of HDF5 did not succeed; the text is the library's reason.
+struct Failure : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+/// Part of a two-dimensional data set: all columns of some rows.
+struct Part
+{
+  std::int64_t rows, columns; ///< of the whole
+  std::int64_t first, count;  ///< rows of this rank
+};
+
+/// A file that all ranks have open. Ids of HDF5 are 64-bit integers; the header stays in
+/// Hdf5Calls.cpp. All calls are collective.
+class File
+{
+public:
+  enum class Mode
+  {
+    Create, ///< with room for the head
+    Read
+  };
+  File(const std::string& file, Mode mode, const Comm& comm);
+  ~File();
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  /// Closes; throws where that fails.
+  void close();
+
+  void write(const std::string& name, const Part& part, const std::vector<Real>& values);
+  void write(const std::string& name, const Part& part, const std::vector<GlobalId>& values);
+  void writeText(const std::string& name, const std::string& text);
+
+  bool has(const std::string& name) const;
+  /// Rows and columns of the whole.
+  Part shape(const std::string& name) const;
+  void read(const std::string& name, const Part& part, std::vector<Real>& values) const;
+  void read(const std::string& name, const Part& part, std::vector<GlobalId>& values) const;
+  std::string readText(const std::string& name) const;
+
+private:
+  void makeGroups(const std::string& name);
+  void writeAny(const std::string& name, const Part& part, std::int64_t type, const void* values);
+  void readAny(const std::string& name, const Part& part, std::int64_t type, void* values) const;
+
+  const Comm* comm_;
+  std::int64_t id_ = -1;
+  std::set<std::string> groups_; ///< that have been made
+};
+} // namespace coplane::hdf5

@@ -1,0 +1,281 @@
+// Contact's part of a checkpoint: faces with what they got at their birth, all slots, planes that
+// have ended.
+#include <coplane_contact/Contact.hpp>
+#include <coplane_contact/PlaneState.hpp>
+#include <coplane_core/StateHash.hpp>
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+
+namespace coplane
+{
+namespace
+{
+std::vector<std::string> planeColumns()
+{
+  std::vector<std::string> names{"candidate"};
+  Plane plane;
+  forEachMember(plane, [&](const char* name, auto&) { names.push_back(name); });
+  return names;
+}
+
+const std::vector<std::string> faceColumns{"thickness", "modulus"};
+
+/// A rank that looks after what belongs to a face while data find their way.
+int rankFor(GlobalId face, const Comm& comm)
+{
+  return int(mix(std::uint64_t(face)) % std::uint64_t(comm.size()));
+}
+
+/// Who has a face.
+struct Holder
+{
+  GlobalId face;
+  int rank;
+  bool owns;
+};
+
+/// A plane under way to the ranks that have one of its faces.
+struct SentPlane
+{
+  GlobalId face;
+  Plane plane;
+};
+
+struct WantedFace
+{
+  GlobalId face;
+  int byRank;
+};
+
+/// Those who have a face of which this rank looks after, sorted by face.
+std::vector<Holder> holders(const std::vector<Face>& localFaces, const Comm& comm)
+{
+  std::vector<std::vector<Holder>> tell(comm.size());
+  for (const Face& face : localFaces)
+    tell[rankFor(face.id, comm)].push_back({face.id, comm.rank(), face.ownedHere});
+  std::vector<Holder> all = comm.exchange(tell);
+  std::sort(all.begin(), all.end(),
+            [](const Holder& a, const Holder& b)
+            { return std::tie(a.face, a.rank) < std::tie(b.face, b.rank); });
+  return all;
+}
+
+template <class F>
+void forEachHolder(const std::vector<Holder>& all, GlobalId face, const F& f)
+{
+  for (auto h = std::lower_bound(all.begin(), all.end(), face,
+                                 [](const Holder&a, GlobalId id) { return a.face < id; });
+       h != all.end() && h->face == face; ++h)
+    f(*h);
+}
+} // namespace
+
+std::vector<Real> EndedPlanes::numbers(const Comm& comm) const
+{
+  std::vector<PlaneKind> kinds;
+  for (const auto& [kind, sums] : byKind_)
+    kinds.push_back(kind);
+  kinds = comm.allGather(kinds);
+  std::sort(kinds.begin(), kinds.end());
+  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  std::vector<ExactSum> sums;
+  for (const PlaneKind& kind : kinds)
+  {
+    const auto mine = byKind_.find(kind);
+    for (int term = 0; term < PlaneEnergySums::Terms; ++term)
+      sums.push_back(mine == byKind_.end() ? ExactSum{} : mine->second.sums[term]);
+  }
+  const std::vector<ExactSum> totals = ExactSum::totals(sums, comm);
+  std::vector<Real> numbers;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+  {
+    numbers.insert(numbers.end(),
+                   {Real(kinds[k].joint), Real(kinds[k].blocks[0]), Real(kinds[k].blocks[1])});
+    for (int term = 0; term < PlaneEnergySums::Terms; ++term)
+    {
+      const auto digits = totals[k * PlaneEnergySums::Terms + std::size_t(term)].digits();
+      numbers.insert(numbers.end(), digits.begin(), digits.end());
+    }
+  }
+  return numbers;
+}
+
+void EndedPlanes::addNumbers(const std::vector<Real>& numbers)
+{
+  constexpr std::size_t size = 3 + PlaneEnergySums::Terms * ExactSum::digitCount;
+  for (std::size_t at = 0; at + size <= numbers.size(); at += size)
+  {
+    PlaneKind kind;
+    kind.joint = std::uint16_t(numbers[at]);
+    kind.blocks[0] = std::uint16_t(numbers[at + 1]);
+    kind.blocks[1] = std::uint16_t(numbers[at + 2]);
+    for (int term = 0; term < PlaneEnergySums::Terms; ++term)
+      byKind_[kind].sums[term].add(
+          ExactSum::fromDigits(&numbers[at + 3 + std::size_t(term) * ExactSum::digitCount]));
+  }
+}
+
+void Contact::save(CheckpointWriter& out) const
+{
+  KeyedRows faces;
+  faces.columns = faceColumns;
+  for (const Face& face : localFaces_)
+    if (face.ownedHere)
+    {
+      Real* row = faces.add({face.id});
+      row[0] = face.thickness;
+      row[1] = face.modulus;
+    }
+  out.rows("contact/faces", faces);
+
+  KeyedRows planes;
+  planes.keySize = 2;
+  planes.columns = planeColumns();
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  {
+    Plane plane = planes_(p);
+    if (!plane.countedHere)
+      continue;
+    Real* row = planes.add({plane.faceId[0], plane.faceId[1]});
+    *row++ = plane.face[0] >= 0;
+    forEachMember(plane, [&](const char*, auto& value) { *row++ = Real(value); });
+  }
+  out.rows("contact/planes", planes);
+  out.numbers("contact/ended", ended_.numbers(*comm_));
+  out.numbers("contact/counts", {Real(searches_), Real(comm_->sum(missed_))});
+}
+
+std::vector<Plane> Contact::planesOfCheckpoint(const CheckpointReader& in) const
+{
+  const KeyedRows rows = in.part("contact/planes", planeColumns());
+  std::vector<std::vector<SentPlane>> send(comm_->size());
+  for (std::size_t i = 0; i < rows.count(); ++i)
+  {
+    Plane plane;
+    const Real* row = rows.row(i);
+    plane.faceId[0] = rows.key(i)[0];
+    plane.faceId[1] = rows.key(i)[1];
+    plane.face[0] = *row++ != 0 ? 0 : -1;
+    forEachMember(plane, [&](const char*, auto& value)
+                  { value = static_cast<std::decay_t<decltype(value)>>(*row++); });
+    for (const GlobalId face : plane.faceId)
+      send[rankFor(face, *comm_)].push_back({face, plane});
+  }
+  const std::vector<Holder> all = holders(localFaces_, *comm_);
+  const std::vector<SentPlane> arrived = comm_->exchange(send);
+  std::vector<std::vector<Plane>> toHolder(comm_->size());
+  for (const SentPlane& sent : arrived)
+    forEachHolder(all, sent.face,
+                  [&](const Holder& holder) { toHolder[holder.rank].push_back(sent.plane); });
+  std::vector<Plane> planes = comm_->exchange(toHolder);
+  std::sort(planes.begin(), planes.end(), keyLess);
+  // Once only where both faces are here.
+  planes.erase(std::unique(planes.begin(), planes.end(),
+                           [](const Plane& a, const Plane& b)
+                           { return !keyLess(a, b) && !keyLess(b, a); }),
+               planes.end());
+  return planes;
+}
+
+std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
+                                            const std::vector<GlobalId>& nodeIds) const
+{
+  std::vector<std::vector<WantedFace>> ask(comm_->size()), toOwner(comm_->size());
+  for (const GlobalId face : wanted)
+    ask[rankFor(face, *comm_)].push_back({face, comm_->rank()});
+  const std::vector<Holder> all = holders(localFaces_, *comm_);
+  const std::vector<WantedFace> asked = comm_->exchange(ask);
+  for (const WantedFace& one : asked)
+    forEachHolder(all, one.face,
+                  [&](const Holder& holder)
+                  {
+                    if (holder.owns)
+                      toOwner[holder.rank].push_back(one);
+                  });
+  const std::vector<WantedFace> mine = comm_->exchange(toOwner);
+  std::vector<std::vector<GhostFace>> answer(comm_->size());
+  for (const WantedFace& one : mine)
+  {
+    const auto found = std::lower_bound(localFaces_.begin(), localFaces_.end(), one.face,
+                                        [](const Face& face, GlobalId id) { return face.id < id; });
+    const std::size_t place = std::size_t(found - localFaces_.begin());
+    answer[one.byRank].push_back(
+        toGhostFace(*found, nodeIds, classic() ? localElements_[place] : FaceElement{}));
+  }
+  std::vector<GhostFace> ghosts = comm_->exchange(answer);
+  std::sort(ghosts.begin(), ghosts.end(),
+            [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
+  if (comm_->max(std::int64_t(ghosts.size() != wanted.size())) > 0)
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "the checkpoint has contact planes on faces that this mesh does not have.");
+  return ghosts;
+}
+
+std::vector<GlobalId> Contact::restoreFaces(const CheckpointReader& in,
+                                            const std::vector<GlobalId>& nodeIds)
+{
+  std::vector<GlobalId> ids;
+  for (const Face& face : localFaces_)
+    ids.push_back(face.id);
+  const KeyedRows rows = in.rowsOf("contact/faces", faceColumns, ids);
+  for (std::size_t f = 0; f < localFaces_.size(); ++f)
+  {
+    localFaces_[f].thickness = rows.row(f)[0];
+    localFaces_[f].modulus = rows.row(f)[1];
+    localFaces_[f].young = false;
+  }
+
+  restored_ = planesOfCheckpoint(in);
+  std::vector<GlobalId> wanted;
+  const auto isLocal = [&](GlobalId id) { return std::binary_search(ids.begin(), ids.end(), id); };
+  for (const Plane& plane : restored_)
+    for (const GlobalId face : plane.faceId)
+      if (plane.face[0] >= 0 && !isLocal(face))
+        wanted.push_back(face);
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  ghosts_ = {};
+  ghosts_.faces = fetchGhosts(wanted, nodeIds);
+  std::vector<GlobalId> nodes;
+  for (const GhostFace& face : ghosts_.faces)
+  {
+    nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
+    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
+  }
+  return nodes;
+}
+
+void Contact::restorePlanes(const CheckpointReader& in, const NodeLayout& layout)
+{
+  listFaces(layout);
+  const Kokkos::View<Plane*, Kokkos::HostSpace> planes(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), restored_.size());
+  for (std::size_t p = 0; p < restored_.size(); ++p)
+  {
+    Plane& plane = *new (&planes(p)) Plane(restored_[p]);
+    const int lower = faceHere(plane.faceId[0]);
+    plane.countedHere = lower >= 0 && faces_[lower].ownedHere;
+    if (plane.face[0] >= 0)
+    {
+      plane.face[0] = lower;
+      plane.face[1] = faceHere(plane.faceId[1]);
+    }
+  }
+  planes_ = planes;
+  restored_.clear();
+  takeFaceTables();
+  facesStart_ = {};
+  buildLists(layout.owned());
+  ended_ = {};
+  const std::vector<Real> counts = in.numbers("contact/counts");
+  searches_ = std::int64_t(counts.at(0));
+  missed_ = comm_->isRoot() ? std::int64_t(counts.at(1)) : 0;
+  if (comm_->isRoot())
+    ended_.addNumbers(in.numbers("contact/ended"));
+  else
+    in.numbers("contact/ended"); // collective
+  searchedSinceUpdate_ = false;
+}
+} // namespace coplane

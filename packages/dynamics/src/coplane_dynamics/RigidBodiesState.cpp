@@ -1,0 +1,60 @@
+// The rigid bodies' part of a checkpoint.
+#include <coplane_dynamics/RigidBodies.hpp>
+
+namespace coplane
+{
+template <class F>
+void RigidBodies::forEachNumber(Body& body, F&& f)
+{
+  const auto vector = [&](Vec3& v)
+  {
+    f(v.x);
+    f(v.y);
+    f(v.z);
+  };
+  for (Turn* turn : {&body.turn, &body.nextTurn})
+  {
+    f(turn->w);
+    vector(turn->v);
+  }
+  for (Vec3* v : {&body.center, &body.nextCenter, &body.velocity, &body.previousVelocity,
+                  &body.angularMomentum, &body.previousAngularMomentum, &body.spin,
+                  &body.previousSpin, &body.givenSpin, &body.impulse, &body.angularImpulse})
+    vector(*v);
+  for (Wrench* wrench : {&body.given, &body.reaction, &body.damping, &body.localDamping})
+  {
+    vector(wrench->force);
+    vector(wrench->torque);
+  }
+  for (Real* number :
+       {&body.frequencySquared, &body.reactionWork, &body.dampingWork, &body.localDampingWork})
+    f(*number);
+}
+
+void RigidBodies::save(CheckpointWriter& out) const
+{
+  std::vector<Real> numbers;
+  for (Body body : bodies_)
+    forEachNumber(body, [&](Real& value) { numbers.push_back(value); });
+  out.numbers("rigid_bodies", numbers);
+}
+
+void RigidBodies::restore(const CheckpointReader& in)
+{
+  const std::vector<Real> numbers = in.numbers("rigid_bodies");
+  std::size_t at = 0;
+  for (Body& body : bodies_)
+    forEachNumber(body,
+                  [&](Real& value)
+                  {
+                    if (at < numbers.size())
+                      value = numbers[at];
+                    ++at;
+                  });
+  if (at != numbers.size())
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "{}: the checkpoint has {} numbers of rigid bodies, this run {}. Restart with "
+                   "the mesh, the deck and the program of then.",
+                   in.file(), numbers.size(), at);
+}
+} // namespace coplane

@@ -1,0 +1,170 @@
+#include "Rig.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace coplane
+{
+namespace
+{
+std::string fileFor(const std::string& name, const Comm& comm)
+{
+  return fmt::format("restart_test_{}.{}", comm.size(), name);
+}
+
+std::string bytesOf(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+void save(const Solver& solver, const std::string& file, const Comm& comm)
+{
+  CheckpointWriter out(comm);
+  solver.save(out);
+  out.write(file, solver.clock().cycle, solver.clock().time);
+}
+
+/// A body that is partly rigid slides over one that loses elements, under loads and damping.
+Model everything(const Comm& comm, const std::string& method = "multijagged")
+{
+  Mesh mesh;
+  addBox(mesh, "lower", {3, 3, 2}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {2, 2, 2}, {0.1, 0.2, 1}, {0.8, 0.8, 0.8});
+  addBox(mesh, "rigid", {2, 1, 1}, {0.3, 0.3, 1.81}, {0.5, 0.4, 0.3});
+  std::vector<int> bodies = rigidBodiesOf(mesh, {0, 0, 1});
+  Model model = rockModel(mesh, comm, 0.25, method);
+  for (const int position : model.mesh.nodePositions)
+    model.rigidBodyOfNode.push_back(bodies[std::size_t(position)]);
+  model.blocks[2].rigid = true;
+  model.blocks[0].erosion.volumeRatio = {0.97, 1.5};
+  model.blocks[1].velocity = {3, 2, -25};
+  model.blocks[2].velocity = {1, 0, -26};
+  model.blocks[2].angularVelocity = {2, 3, 10};
+  model.blocks[2].center = {0.5, 0.5, 2};
+  model.conditions.gravity = VectorOfTime(0, 0, -9.81);
+  model.conditions.massDamping = [](Real t) { return 10 + 1e4 * t; };
+  model.conditions.localDamping = 0.02;
+  model.conditions.pressures = {
+      pressureWhere(model.mesh, 1e5, [](const Vec3& x) { return x.z == 0; })};
+  model.contact.dampNormal = model.contact.dampShear = 0.05;
+  model.searchEvery = 7;
+  model.time.energyTolerance = infinity;
+  return model;
+}
+
+using Maker = std::function<Model(const Comm&, const std::string&)>;
+
+void expectSameBits(const Maker& make, const std::string& name, int total,
+                    const std::vector<int>& stops)
+{
+  const Comm comm;
+  Solver straight(make(comm, "multijagged"), comm);
+  straight.prepare();
+  for (int cycle = 1; cycle <= total; ++cycle)
+  {
+    straight.advance();
+    for (const int stop : stops)
+      if (cycle == stop)
+        save(straight, fileFor(name + std::to_string(stop), comm), comm);
+  }
+  EXPECT_GT(straight.contact().counts().planes, 0);
+  const EnergyBalance expected = straight.energy();
+  for (const int stop : stops)
+  {
+    const std::string file = fileFor(name + std::to_string(stop), comm);
+    const CheckpointReader in(file, comm);
+    Solver again(make(comm, "rcb"), comm);
+    again.restore(in);
+    // What is saved is restored.
+    save(again, file + ".again", comm);
+    EXPECT_TRUE(bytesOf(file) == bytesOf(file + ".again")) << "cycle " << stop;
+    cycles(again, total - stop);
+    EXPECT_EQ(again.stateHash(), straight.stateHash()) << "from cycle " << stop;
+    EXPECT_EQ(again.searches(), straight.searches());
+    const EnergyBalance energy = again.energy();
+    EXPECT_EQ(std::memcmp(&energy, &expected, sizeof energy), 0) << "from cycle " << stop;
+    const Momenta a = again.momenta(), b = straight.momenta();
+    EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << "from cycle " << stop;
+    EXPECT_EQ(again.erosion().elements, straight.erosion().elements);
+    EXPECT_EQ(again.erosion().mass, straight.erosion().mass);
+  }
+}
+} // namespace
+
+TEST(Restart, ofSlidingCubesHasTheBitsOfTheStraightRun)
+{
+  expectSameBits([](const Comm& comm, const std::string& method)
+                 { return slidingCubes(comm, method); },
+                 "cubes", 40, {1, 5, 18, 39});
+}
+
+TEST(Restart, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRun)
+{
+  const Comm comm;
+  Solver solver(everything(comm), comm);
+  solver.prepare();
+  cycles(solver, 60);
+  EXPECT_GT(solver.erosion().elements, 0); // else the claim would be an empty one
+  EXPECT_EQ(solver.rigidBodies().count(), 1);
+  expectSameBits(everything, "everything", 60, {2, 23, 45, 58});
+}
+
+TEST(Restart, underTheClassicCommonPlaneHasTheBitsOfTheStraightRun)
+{
+  expectSameBits(
+      [](const Comm& comm, const std::string& method)
+      {
+        Model model = slidingCubes(comm, method);
+        model.contact.method = ContactOptions::Method::CommonPlane;
+        return model;
+      },
+      "classic", 40, {6, 27});
+}
+
+TEST(Restart, readsACheckpointOfManyRanksOnOne)
+{
+  const Comm comm, alone(MPI_COMM_SELF);
+  const std::string file = fileFor("one", comm);
+  Solver straight(slidingCubes(comm), comm);
+  straight.prepare();
+  cycles(straight, 10);
+  save(straight, file, comm);
+  cycles(straight, 20);
+  const std::uint64_t expected = straight.stateHash();
+  if (!comm.isRoot())
+    return;
+  const CheckpointReader in(file, alone);
+  Solver again(slidingCubes(alone), alone);
+  again.restore(in);
+  cycles(again, 20);
+  EXPECT_EQ(again.stateHash(), expected);
+}
+
+TEST(Restart, refusesACheckpointOfAnotherMesh)
+{
+  const Comm comm;
+  const std::string file = fileFor("other", comm);
+  Solver small(rockModel(unitBox(1, 1, 1), comm), comm);
+  small.prepare();
+  save(small, file, comm);
+  const CheckpointReader in(file, comm);
+  Solver other(slidingCubes(comm), comm);
+  try
+  {
+    other.restore(in);
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Checkpoint);
+    EXPECT_TRUE(error.onAllRanks());
+  }
+}
+} // namespace coplane

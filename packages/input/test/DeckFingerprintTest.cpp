@@ -1,0 +1,73 @@
+#include <coplane_input/DeckFingerprint.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+namespace
+{
+const std::string deck = "title: a\n"
+                         "mesh: a.e\n"
+                         "materials: {steel: {density: 7850, model: j2}}\n"
+                         "conditions:\n"
+                         "  - {type: fixed, node_set: left}\n"
+                         "time: {end: 1, step_factor: 0.8}\n"
+                         "history: {every: 1e-3, joints: [\"*\"]}\n"
+                         "output: {every: 0.1}\n";
+
+std::vector<std::string> changes(const std::string& other)
+{
+  return deckDifferences(deckFingerprint(deck, "a.yaml"), deckFingerprint(other, "b.yaml"));
+}
+
+std::string with(const std::string& old, const std::string& text)
+{
+  std::string changed = deck;
+  return changed.replace(changed.find(old), old.size(), text);
+}
+} // namespace
+
+TEST(DeckFingerprint, listsValuesByTheirPlacesInOrder)
+{
+  EXPECT_EQ(deckFingerprint(deck, "a.yaml"), "conditions.0.node_set = left\n"
+                                             "conditions.0.type = fixed\n"
+                                             "history.joints.0 = *\n"
+                                             "materials.steel.density = 7850\n"
+                                             "materials.steel.model = j2\n"
+                                             "time.step_factor = 0.8\n");
+}
+
+TEST(DeckFingerprint, doesNotDependOnHowThingsAreWritten)
+{
+  EXPECT_TRUE(changes(with("density: 7850, model: j2", "model: j2, density: 7.85e3")).empty());
+}
+
+TEST(DeckFingerprint, leavesOutWhatMayChange)
+{
+  EXPECT_TRUE(changes(with("end: 1,", "end: 2,")).empty());
+  EXPECT_TRUE(changes(with("{every: 0.1}", "{every: 0.2, planes: false}")).empty());
+  EXPECT_TRUE(changes(with("every: 1e-3", "every: 0")).empty());
+  EXPECT_TRUE(changes(with("title: a", "title: b")).empty());
+}
+
+TEST(DeckDifferences, nameWhatChangedWhatIsNewAndWhatIsGone)
+{
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(changes(with("7850", "7800")),
+            Texts{"materials.steel.density was 7850 and is 7800 now"});
+  EXPECT_EQ(changes(with(", step_factor: 0.8", "")),
+            Texts{"time.step_factor was 0.8 and is not there now"});
+  EXPECT_EQ(
+      changes(deck + "gravity: [0, -9.81, 0]\n"),
+      (Texts{"gravity.0 is 0 now and was not there", "gravity.1 is -9.81 now and was not there",
+             "gravity.2 is 0 now and was not there"}));
+}
+
+TEST(DeckDifferences, areCountedWhereThereAreMany)
+{
+  const auto texts =
+      deckDifferences(deckFingerprint(deck, "a.yaml"), deckFingerprint("mesh: a.e\n", "b.yaml"), 2);
+  ASSERT_EQ(texts.size(), 3u);
+  EXPECT_EQ(texts[2], "4 more");
+}
+} // namespace coplane

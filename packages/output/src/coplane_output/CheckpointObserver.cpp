@@ -1,0 +1,174 @@
+#include <coplane_checkpoint/CheckpointWriter.hpp>
+#include <coplane_core/Log.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Signals.hpp>
+#include <coplane_dynamics/Solver.hpp>
+#include <coplane_output/CheckpointObserver.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace coplane
+{
+namespace
+{
+constexpr double lookEvery = 0.5; ///< for the stop file [s]
+
+std::string slotFile(const std::string& file, int slot)
+{
+  return fmt::format("{}.{}", file, slot);
+}
+
+double secondsSince(std::chrono::steady_clock::time_point begin)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+} // namespace
+
+CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions options,
+                                       const Observer& outputs)
+    : comm_(&comm), options_(std::move(options)), outputs_(&outputs), last_(WallClock::now()),
+      looked_(last_)
+{
+  std::int64_t slot = 0;
+  if (comm.isRoot())
+  {
+    // The older one, or one that is no use, goes first; never that of the restart.
+    std::int64_t cycles[2];
+    for (int s = 0; s < 2; ++s)
+    {
+      const std::string file = slotFile(options_.file, s);
+      CheckpointHead head;
+      cycles[s] = inspectCheckpoint(file, head).empty() ? head.cycle : -1;
+      std::error_code error;
+      if (std::filesystem::equivalent(file, options_.restartedFrom, error))
+        cycles[s] = std::numeric_limits<std::int64_t>::max();
+    }
+    slot = cycles[1] < cycles[0];
+    std::error_code error;
+    if (!options_.stopFile.empty() && std::filesystem::remove(options_.stopFile, error))
+      logInfo("removed {} of an earlier run", options_.stopFile);
+  }
+  slot_ = int(comm.max(slot));
+}
+
+void CheckpointObserver::start(const Solver& solver)
+{
+  lastCycle_ = solver.clock().cycle;
+  last_ = WallClock::now();
+}
+
+void CheckpointObserver::endOfCycle(const Solver& solver)
+{
+  askByClockAndFile();
+  const std::int64_t cycle = solver.clock().cycle;
+  if (solver.checkpointRequested() && solver.stopRequested())
+  {
+    write(solver);
+    return;
+  }
+  if (!solver.checkpointRequested() &&
+      !(options_.everyCycles > 0 && cycle % options_.everyCycles == 0))
+    return;
+  try
+  {
+    write(solver);
+  }
+  catch (const Error& error)
+  {
+    // The run is worth more than this checkpoint; those from before are still there.
+    if (error.code() != ExitCode::Output)
+      throw;
+    logWarning("a checkpoint was not written", error.what());
+  }
+}
+
+void CheckpointObserver::finish(const Solver& solver, const std::string& ending)
+{
+  if (options_.atEnd && ending == "completed" && solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
+void CheckpointObserver::askByClockAndFile()
+{
+  // Rank 0's clock; all ranks hear of it at the end of the next cycle.
+  if (!comm_->isRoot())
+    return;
+  if (options_.everySeconds > 0 && secondsSince(last_) >= options_.everySeconds)
+  {
+    last_ = WallClock::now();
+    request({false, true, false});
+  }
+  if (options_.maxWall && secondsSince(options_.begin) >= *options_.maxWall)
+    request({false, true, true});
+  if (options_.stopFile.empty() || secondsSince(looked_) < lookEvery)
+    return;
+  looked_ = WallClock::now();
+  std::error_code error;
+  if (std::filesystem::remove(options_.stopFile, error))
+    request({false, true, true});
+}
+
+void CheckpointObserver::write(const Solver& solver)
+{
+  TimedRegion region("coplane::output::checkpoint");
+  CheckpointWriter out(*comm_);
+  solver.save(out);
+  std::map<std::string, std::string> positions;
+  outputs_->savePosition(positions);
+  out.text("outputs", comm_->broadcast(nlohmann::json(positions).dump()));
+  for (const auto& [name, text] : options_.texts)
+    out.text(name, text);
+  const std::string file = slotFile(options_.file, slot_);
+  out.write(file, solver.clock().cycle, solver.clock().time);
+  slot_ = 1 - slot_;
+  lastCycle_ = solver.clock().cycle;
+  last_ = WallClock::now();
+  logInfo("checkpoint {} at cycle {}, t = {:.5e} s", file, solver.clock().cycle,
+          solver.clock().time);
+}
+
+std::string newestCheckpoint(const std::string& file, const Comm& comm)
+{
+  std::vector<std::pair<std::int64_t, int>> order; // cycle, slot
+  std::string problems;
+  for (int s = 0; s < 2; ++s)
+  {
+    CheckpointHead head;
+    const std::string problem = verifyCheckpoint(slotFile(file, s), comm, head);
+    if (problem.empty())
+      order.emplace_back(head.cycle, s);
+    else
+      problems += fmt::format("{}{}: {}.", problems.empty() ? "" : " ", slotFile(file, s), problem);
+  }
+  if (order.empty())
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "--restart: there is no checkpoint to restart from. {} Name one with --restart "
+                   "FILE, or start without --restart.",
+                   problems);
+  if (!problems.empty() && problems.find("No such file") == std::string::npos)
+    logWarning("a checkpoint is not used", problems);
+  return slotFile(file, std::max_element(order.begin(), order.end())->second);
+}
+
+void putAside(const std::string& file)
+{
+  for (int s = 0; s < 2; ++s)
+  {
+    const std::string old = slotFile(file, s);
+    std::error_code error;
+    if (!std::filesystem::exists(old, error))
+      continue;
+    std::filesystem::rename(old, old + ".old", error);
+    logInfo("{} is of an earlier run; it is called {}.old now", old, old);
+  }
+}
+
+std::map<std::string, std::string> positionsIn(const CheckpointReader& checkpoint)
+{
+  return nlohmann::json::parse(checkpoint.text("outputs"))
+      .get<std::map<std::string, std::string>>();
+}
+} // namespace coplane
