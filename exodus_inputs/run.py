@@ -218,8 +218,9 @@ class ExampleRun:
         (self.folder / "pictures").mkdir(exist_ok=True)
         environment = dict(os.environ, PYTHONPATH=str(common), PYTHONDONTWRITEBYTECODE="1")
         with open(self.folder / "pictures.log", "w") as log:
-            done = subprocess.run(["xvfb-run", "-a", "pvbatch", str(script), ".", "pictures"], cwd=self.folder, env=environment,
-                                  stdout=log, stderr=subprocess.STDOUT)
+            # A display number of its own: two that seek a free one at the same time may find the same.
+            done = subprocess.run(["xvfb-run", "-a", "-n", str(100 + os.getpid() % 30000), "pvbatch", str(script), ".", "pictures"],
+                                  cwd=self.folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
         if done.returncode:
             fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text().splitlines(True)[-20:]))
         (self.folder / "pictures.done").write_text(key)

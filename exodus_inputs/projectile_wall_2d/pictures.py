@@ -4,7 +4,7 @@ import coplane_pictures as cp
 run = cp.Run()
 bricks, steel = run.blocks("bricks"), run.blocks("projectile")
 strength = cp.computed(bricks, "strength", "4*(1-damage)")
-VIEW = {"size": (1100, 800), "box": (-0.1, 0.3, -0.15, 0.15)}
+VIEW = {"size": (1100, 700), "box": (-0.12, 0.35, -0.15, 0.15)}
 # White where nothing is left of the strength.
 WHITE = [(0, 1, 1, 1), (0.04, 1, 1, 1), (0.4, 0.75, 0.86, 0.95), (2, 0.35, 0.6, 0.82), (4, 0.1, 0.25, 0.55)]
 for time in run.nearest(0, 0.2e-3, 0.4e-3, 0.8e-3, 2e-3):
