@@ -56,7 +56,7 @@ def arguments():
     parser.add_argument("name", nargs="?", help="folder of the example")
     parser.add_argument("--list", action="store_true", help="print the examples with their sizes and variants")
     parser.add_argument("--size", help="one of the example's sizes; default: its `default`")
-    parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; a+b: both together")
+    parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; base: none; a+b: both together")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="one more change of the deck")
     parser.add_argument("--ranks", type=int, help="MPI ranks; default: as the example says, else 2")
     parser.add_argument("--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
@@ -102,10 +102,11 @@ class ExampleRun:
 
     def __init__(self, name, example, size, variant, options):
         sizes, variants = example["sizes"], example.get("variants") or {}
-        self.name, self.example, self.size, self.variant = name, example, size, variant
+        self.name, self.example, self.size = name, example, size
         if size not in sizes:
             fail(f"{name} has no size '{size}'; it has {', '.join(sizes)}.")
-        chosen = [item for item in variant.split("+") if item]
+        chosen = [item for item in variant.split("+") if item and item != "base"]
+        self.variant = variant = "+".join(chosen)
         for item in chosen:
             if item not in variants:
                 fail(f"{name} has no variant '{item}'; it has {', '.join(variants) or 'none'}.")

@@ -71,6 +71,12 @@ class Run:
                          ThresholdMethod="Above Upper Threshold")
 
 
+def slipping(run, more_than):
+    """Points of planes that have slipped by more than this [m]."""
+    return Threshold(Input=PVDReader(FileName=run.planes_file), Scalars=["POINTS", "slip"], LowerThreshold=more_than,
+                     UpperThreshold=more_than, ThresholdMethod="Above Upper Threshold")
+
+
 def computed(source, name, expression, kind="Cell Data"):
     """The source with one more variable."""
     return Calculator(Input=source, AttributeType=kind, ResultArrayName=name, Function=expression)
@@ -176,6 +182,15 @@ class Picture:
         shown.PointSize = size
         shown.RenderPointsAsSpheres = 1
         shown.Ambient, shown.Diffuse = 1.0, 0.0
+
+    def points(self, source, color, range, title, size=6, **more):
+        """Points coloured by a variable."""
+        source.UpdatePipeline(self.time)
+        if source.GetDataInformation().GetNumberOfPoints() == 0:
+            return
+        shown = self.surface(source, color, range, title, representation="Points", **more)
+        shown.PointSize = size
+        shown.RenderPointsAsSpheres = 1
 
     def save(self, name):
         file = os.path.join(self.run.pictures, f"{name}_{round(1e6 * self.time):06d}us.png")
