@@ -6,7 +6,7 @@ run = cp.Run()
 rock = run.blocks()
 below = Clip(Input=rock, ClipType="Plane")
 below.ClipType.Origin, below.ClipType.Normal = [0, 0.001, 0], [0, 1, 0]
-times = run.nearest(1e-3, 2e-3, 4e-3)
+times = run.nearest(1e-3, 2.5e-3)
 slip = cp.slipping(run, 1e-5)
 top = 1e3 * cp.percentile(slip, "slip", times[-1:], 99)
 millimetres = cp.computed(slip, "slip_mm", "1000*slip", "Point Data")
