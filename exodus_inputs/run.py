@@ -218,12 +218,17 @@ class ExampleRun:
         self.say("drawing")
         (self.folder / "pictures").mkdir(exist_ok=True)
         environment = dict(os.environ, PYTHONPATH=str(common), PYTHONDONTWRITEBYTECODE="1")
-        with open(self.folder / "pictures.log", "w") as log:
-            # A display number of its own: two that seek a free one at the same time may find the same.
-            done = subprocess.run(["xvfb-run", "-a", "-n", str(100 + os.getpid() % 30000), "pvbatch", str(script), ".", "pictures"],
-                                  cwd=self.folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
+        for attempt in range(3):
+            # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
+            # display may not be there in time; then once more.
+            display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
+            with open(self.folder / "pictures.log", "w") as log:
+                done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), ".", "pictures"],
+                                      cwd=self.folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
+            if not done.returncode or "CreateAWindow" not in (self.folder / "pictures.log").read_text(errors="replace"):
+                break
         if done.returncode:
-            fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text().splitlines(True)[-20:]))
+            fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text(errors="replace").splitlines(True)[-20:]))
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")
 

@@ -67,7 +67,7 @@ class Run:
         series = PVDReader(FileName=self.planes_file)
         if not touching:
             return series
-        return Threshold(Input=series, Scalars=["POINTS", "area"], LowerThreshold=0.0, UpperThreshold=0.0,
+        return Threshold(Input=series, Scalars=["POINTS", "area"], LowerThreshold=1e-15, UpperThreshold=1e-15,
                          ThresholdMethod="Above Upper Threshold")
 
 
