@@ -107,7 +107,7 @@ def readme_commands():
 
 
 def check_readme():
-    """Every command of the README runs. The main job runs for its first 0.3 ms here, without pictures (the test paper.bar_wall runs
+    """Every command of the README runs. The main job runs for its first 0.3 ms here, without pictures (the test paper.bar_wall_3d.S runs
     all of it); the test command is the one that runs this test."""
     folder = pathlib.Path("readme").absolute()
     shutil.rmtree(folder, ignore_errors=True)
@@ -125,7 +125,7 @@ def check_readme():
         done = run(["bash", "-euc", command], cwd=folder, env=environment)
         print(f"$ {command}\n{done.stdout[-1500:]}")
         assert done.returncode == 0, f"exit code {done.returncode}: {command}"
-    for name in ("bars.e", "bars.csv", "bars.run.json", "bars_planes.pvd", "main-job/wall.e", "main-job/wall.csv"):
+    for name in ("bars.e", "bars.csv", "bars.run.json", "bars_planes.pvd", "main-job/run.e", "main-job/run.csv"):
         assert (folder / name).stat().st_size > 0, name
 
 

@@ -115,6 +115,28 @@ TEST(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPa
   EXPECT_NEAR(plane.force.z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
+TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
+{
+  // Sliding on, a pair is born as deep as its neighbours are.
+  const auto born = [](Real depth)
+  {
+    PairPlane plane = touchingPlane(1e3);
+    plane.born = false;
+    plane.fresh = plane.inherited = true;
+    plane.depthLimit = .1;
+    plane.offset = -.05;
+    plane.closure = .06; // the neighbours overlap by .11
+    updatePlane<3>(plane, below(), above(depth), {}, 1);
+    EXPECT_EQ(plane.released, !plane.born);
+    return plane;
+  };
+  EXPECT_NEAR(born(.11).force.z, 60, 1e-10); // 1e3 * (.11 - .05) * 1
+  EXPECT_NEAR(born(.2).force.z, 100, 1e-10); // at most that of the depth limit
+  // The back of a thin body lies far behind the contact on its front, from which it inherits.
+  EXPECT_TRUE(born(.22).released);
+  EXPECT_EQ(norm(born(.22).force), 0.0);
+}
+
 TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
 {
   ContactOptions o;

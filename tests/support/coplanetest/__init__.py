@@ -3,6 +3,9 @@
 from . import documents, program, waves
 from .case import Case
 from .documents import turned, turned_deck
+from .example import Example
 from .results import Results, differences, series_differences
 
-__all__ = ["Case", "Results", "differences", "documents", "program", "series_differences", "turned", "turned_deck", "waves"]
+__all__ = [
+    "Case", "Example", "Results", "differences", "documents", "program", "series_differences", "turned", "turned_deck", "waves"
+]

@@ -98,3 +98,28 @@ def passed(times, values, transfer):
     weight = numpy.exp(-decay * dt * numpy.arange(number))
     frequencies = numpy.fft.fftfreq(number, dt) - 1j * decay / (2 * numpy.pi)
     return numpy.fft.ifft(numpy.fft.fft(values * weight) * transfer(frequencies)).real / weight
+
+
+def row_of_blocks(frequency, places, blocks, stiffness, impedance, speed, spacing=1.0):
+    """Velocity at some places in a row of blocks with equal joints between them, over the velocity that its left end is given, for
+    harmonic waves exp(i w t). The right end absorbs. By the transfer matrices of joints(), from the right end to the left: waves
+    that fade grow that way, so nothing cancels. Places lie inside blocks [m].
+    """
+    w = 2 * numpy.pi * numpy.atleast_1d(frequency)
+    flat = numpy.ones_like(w)
+
+    def back(state, length):
+        a = w * length / speed
+        velocity, stress = state
+        return (velocity * numpy.cos(a) - 1j * stress * numpy.sin(a) / impedance,
+                -1j * velocity * numpy.sin(a) * impedance + stress * numpy.cos(a))
+
+    state, here, found = (flat, -impedance * flat), blocks * spacing, {}  # s = -Z v at the right end
+    for block in range(blocks - 1, -1, -1):
+        for place in sorted((p for p in places if block * spacing <= p < (block + 1) * spacing), reverse=True):
+            state, here = back(state, here - place), place
+            found[place] = state[0]
+        state, here = back(state, here - block * spacing), block * spacing
+        if block > 0:
+            state = (state[0] - 1j * w / stiffness * state[1], state[1])
+    return [found[place] / state[0] for place in places]

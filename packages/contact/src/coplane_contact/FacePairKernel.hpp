@@ -393,7 +393,10 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
     const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
     const Real deepest = plane.fresh ? plane.depthLimit : start;
-    if (!plane.declared && !plane.inherited && motion - gap > deepest)
+    // Where faces slide on, a pair may be born as deep as its neighbours are, and they passed on
+    // their closure. Neighbours of the front and of the back of a thin body explain nothing.
+    const Real explained = plane.inherited ? plane.offset - plane.closure : 0;
+    if (!plane.declared && motion + explained - gap > deepest)
       plane.released = true;
     if (!plane.released)
       stepF_createPlane(plane, normal, gap);
