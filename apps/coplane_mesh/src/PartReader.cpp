@@ -1,5 +1,7 @@
 #include "PartReader.hpp"
 
+#include "Ogive.hpp"
+
 #include <coplane_core/Error.hpp>
 
 #include <algorithm>
@@ -10,8 +12,9 @@ namespace coplane
 {
 namespace
 {
-const std::vector<std::string> shapes{"box",  "quadrilateral", "hexahedron", "wall",   "imbricate",
-                                      "rock", "cylinder",      "projectile", "sector", "half_disc"};
+const std::vector<std::string> shapes{"box",       "quadrilateral", "hexahedron", "wall",
+                                      "imbricate", "rock",          "cylinder",   "projectile",
+                                      "ogive",     "sector",        "half_disc"};
 
 /// "box, wall or rock".
 std::string shapeWords()
@@ -32,6 +35,7 @@ std::vector<std::string> keysOf(const std::string& shape)
       {"wall", {"brick", "courses", "length_in_bricks", "divisions"}},
       {"imbricate", {"brick", "layers", "length_in_bricks", "divisions"}},
       {"projectile", {"width", "length", "across", "along", "section"}},
+      {"ogive", {"width", "length", "caliber", "across", "nose", "along"}},
       {"rock", {"blocks", "size", "divisions"}},
       {"cylinder", {"radius", "across", "length", "along"}},
       {"sector", {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length"}},
@@ -199,6 +203,29 @@ std::vector<Body> readProjectile(const RecipeMap& map, int dimension)
   return {extruded(roundNosed(width, length, across, along), depth)};
 }
 
+std::vector<Body> readOgive(const RecipeMap& map, int dimension)
+{
+  const Real width = map.positive("width"), length = map.positive("length");
+  const Real caliber = map.positive("caliber");
+  if (!(caliber >= 0.5))
+    map.refuse("caliber", fmt::format("= {} must be at least 0.5, half a ball.", caliber));
+  const Real nose = ogiveLength(width, caliber);
+  if (!(length > nose))
+    map.refuse("length", fmt::format("= {} m must be greater than the nose, which is {} m long.",
+                                     length, nose));
+  const int across = map.count("across", 4);
+  requireEven(map, "across", across, "elements");
+  const int least = across / 4 + 1;
+  // Without these keys, elements are about twice as long as wide.
+  const auto divisions = [&](const char* key, Real part, int lowest)
+  {
+    return map.has(key) ? map.count(key, lowest)
+                        : std::max(lowest, int(std::lround(part / (2 * width / across))));
+  };
+  return {ogiveNosed(dimension, width, caliber, length, across, divisions("nose", nose, least),
+                     divisions("along", length - nose, 1))};
+}
+
 std::vector<Body> readRock(const RecipeMap& map, int dimension)
 {
   return jointedRock(dimension, toCounts(map.counts("blocks", dimension)),
@@ -285,6 +312,8 @@ std::vector<Body> readBodies(const std::string& shape, const RecipeMap& map, int
     return readImbricate(map, dimension);
   if (shape == "projectile")
     return readProjectile(map, dimension);
+  if (shape == "ogive")
+    return readOgive(map, dimension);
   if (shape == "rock")
     return readRock(map, dimension);
   return readCylinder(map, dimension);
