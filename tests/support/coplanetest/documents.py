@@ -26,6 +26,11 @@ def load(path):
         return yaml.load(file, _Loader)
 
 
+def value(text):
+    """What a deck would read from this text: a number, a list, a word, ..."""
+    return yaml.load(text, _Loader)
+
+
 def save(document, path):
     """Numbers are written with all digits."""
     with open(path, "w") as file:

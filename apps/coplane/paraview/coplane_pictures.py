@@ -1,0 +1,184 @@
+"""Common parts of picture scripts for ParaView (pvbatch): opening results, views, colours, dots of contact, saving.
+
+    import coplane_pictures as cp
+    run = cp.Run()                       # folders of results and pictures from the command line
+    for time in run.nearest(0, 0.8e-3):
+        picture = cp.Picture(run, time, size=(1200, 800), box=(0, 0.05, -0.15, 0.15))
+        picture.surface(run.blocks("bricks"), color="damage", range=(0, 1))
+        picture.dots()
+        picture.save("damage")           # pictures/damage_000800us.png
+
+The reader moves the mesh by the nodal variable `displacement` by itself: no Warp By Vector, it would move it twice. Dead elements
+(`alive` = 0) are left out. Tested with ParaView 5.11.
+"""
+import os
+import sys
+
+import numpy
+from paraview import servermanager
+from paraview.simple import *  # noqa: F403 (the customary form of ParaView scripts)
+from vtk.util.numpy_support import vtk_to_numpy
+
+import paraview.simple
+
+paraview.simple._DisableFirstRenderCameraReset()
+
+STEEL, BRICK, EDGE, BLACK = [0.45, 0.52, 0.60], [0.85, 0.82, 0.76], [0.35, 0.35, 0.35], [0, 0, 0]
+LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be dark
+
+
+class Run:
+    """Results `run.e` and planes `run_planes.pvd` in a folder."""
+
+    def __init__(self, results=None, pictures=None, stem="run"):
+        self.folder = results or sys.argv[1]
+        self.pictures = pictures or sys.argv[2]
+        os.makedirs(self.pictures, exist_ok=True)
+        self.file = os.path.join(self.folder, stem + ".e")
+        self.reader = self._open()
+        self.names = list(self.reader.ElementBlocks)
+        self.times = list(self.reader.TimestepValues)
+        self.planes_file = os.path.join(self.folder, stem + "_planes.pvd")
+        self._planes = None
+
+    def _open(self):
+        reader = IOSSReader(FileName=[self.file])
+        reader.UpdatePipelineInformation()
+        return reader
+
+    def nearest(self, *wanted):
+        """The times of the file that are nearest to these, each once."""
+        return sorted({min(self.times, key=lambda t: abs(t - time)) for time in wanted})
+
+    def blocks(self, *names):
+        """Living elements of these element blocks as one grid; without names: of all."""
+        names = names or self.names
+        for name in names:
+            if name not in self.names:
+                raise SystemExit(f"{self.file} has no element block '{name}'; it has {', '.join(self.names)}.")
+        reader = self._open()
+        reader.ElementBlocks = list(names)
+        grid = MergeBlocks(Input=reader, MergePoints=0)
+        return Threshold(Input=grid, Scalars=["CELLS", "alive"], LowerThreshold=0.5, ThresholdMethod="Above Upper Threshold",
+                         UpperThreshold=0.5)
+
+    def planes(self, touching=True):
+        """Planes as points; `touching`: only those that carry traction."""
+        series = PVDReader(FileName=self.planes_file)
+        if not touching:
+            return series
+        return Threshold(Input=series, Scalars=["POINTS", "area"], LowerThreshold=0.0, UpperThreshold=0.0,
+                         ThresholdMethod="Above Upper Threshold")
+
+
+def computed(source, name, expression, kind="Cell Data"):
+    """The source with one more variable."""
+    return Calculator(Input=source, AttributeType=kind, ResultArrayName=name, Function=expression)
+
+
+def values(source, variable, time):
+    """Numbers, or lengths of vectors, at one time."""
+    source.UpdatePipeline(time)
+    data = servermanager.Fetch(source)
+    attributes = data.GetPointData() if data.GetPointData().GetArray(variable) else data.GetCellData()
+    array = vtk_to_numpy(attributes.GetArray(variable))
+    return numpy.linalg.norm(array, axis=1) if array.ndim > 1 else array
+
+
+def percentile(source, variable, times, share=98):
+    """Below which this share of all values at all times lies."""
+    return max(numpy.percentile(values(source, variable, time), share) for time in times) or 1.0
+
+
+class Picture:
+    """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up)."""
+
+    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30):
+        self.run, self.time, self.size = run, time, list(size)
+        view = self.view = CreateView("RenderView")
+        view.ViewSize = self.size
+        view.UseColorPaletteForBackground = 0
+        view.Background = [1, 1, 1]
+        view.OrientationAxesVisibility = 0
+        view.ViewTime = time
+        if box:
+            middle = [(box[0] + box[1]) / 2, (box[2] + box[3]) / 2]
+            view.InteractionMode = "2D"
+            view.CameraParallelProjection = 1
+            view.CameraFocalPoint = middle + [0]
+            view.CameraPosition = middle + [10 * (box[3] - box[2])]
+            view.CameraViewUp = [0, 1, 0]
+            view.CameraParallelScale = max((box[3] - box[2]) / 2, (box[1] - box[0]) / 2 * size[1] / size[0])
+        else:
+            view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera
+            view.CameraViewAngle = angle
+        self.flat = bool(box)
+        if label:
+            self.text(f"t = {1e3 * time:.2f} ms")
+
+    def text(self, words, where="Upper Left Corner", size=24):
+        display = Show(Text(Text=words), self.view)
+        display.Color, display.FontSize, display.WindowLocation = BLACK, size, where
+
+    def _show(self, source, representation, opacity=1.0):
+        shown = Show(source, self.view)
+        shown.Representation = representation
+        shown.Opacity = opacity
+        shown.Ambient, shown.Diffuse = (1.0, 0.0) if self.flat else LIGHT
+        return shown
+
+    def solid(self, source, color, edges=True, opacity=1.0, edge=EDGE):
+        """In one colour."""
+        shown = self._show(source, "Surface With Edges" if edges else "Surface", opacity)
+        shown.EdgeColor = edge
+        # ColorBy(shown, None) of ParaView 5.11 fails where nothing was coloured before.
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = color
+        return shown
+
+    def surface(self, source, color, range, title=None, preset="Linear YGB 1211g", edges=True, bar=True, points=None, edge=EDGE,
+                invert=False, where="Lower Right Corner", representation=None):
+        """Coloured by a variable. `points`: colours given as (value, r, g, b), ... instead of a preset."""
+        source.UpdatePipeline(self.time)
+        kind = "POINTS" if source.PointData.GetArray(color) else "CELLS"
+        shown = self._show(source, representation or ("Surface With Edges" if edges else "Surface"))
+        shown.EdgeColor = edge
+        array = source.PointData.GetArray(color) if kind == "POINTS" else source.CellData.GetArray(color)
+        if array is None:
+            raise SystemExit(f"no variable '{color}' in {self.run.file}.")
+        ColorBy(shown, (kind, color, "Magnitude") if array.GetNumberOfComponents() > 1 else (kind, color))
+        colors = GetColorTransferFunction(color)
+        if points:
+            colors.RGBPoints = [number for point in points for number in point]
+            colors.ColorSpace = "RGB"
+        else:
+            colors.ApplyPreset(preset, True)
+            if invert:
+                colors.InvertTransferFunction()
+            colors.RescaleTransferFunction(*range)
+        if bar:
+            shown.SetScalarBarVisibility(self.view, True)
+            scale = GetScalarBar(colors, self.view)
+            scale.Title, scale.ComponentTitle = title or color, ""
+            scale.TitleColor = scale.LabelColor = BLACK
+            scale.WindowLocation = where
+        return shown
+
+    def dots(self, source=None, size=4, color=BLACK):
+        """Points of contact as black dots, as in the pictures of Vorobiev 2006."""
+        source = source or self.run.planes()
+        source.UpdatePipeline(self.time)
+        if source.GetDataInformation().GetNumberOfPoints() == 0:
+            return
+        shown = self._show(source, "Points")
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = color
+        shown.PointSize = size
+        shown.RenderPointsAsSpheres = 1
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+
+    def save(self, name):
+        file = os.path.join(self.run.pictures, f"{name}_{round(1e6 * self.time):06d}us.png")
+        SaveScreenshot(file, self.view, ImageResolution=self.size, CompressionLevel="9")
+        print(f"t = {self.time:.6g} s: {file}", flush=True)
+        Delete(self.view)

@@ -1,0 +1,269 @@
+#!/usr/bin/python3
+"""Runs an example and draws its pictures.
+
+    exodus_inputs/run.py --list
+    exodus_inputs/run.py projectile_wall_2d
+    exodus_inputs/run.py projectile_wall_2d --size M --variant B
+    exodus_inputs/run.py jointed_rock_2d --variant a b c --no-pictures
+
+An example is a folder beside this file with an `example.yaml` that names its sizes and variants: what they change in the mesh recipe
+and in the deck. A run makes, in its folder (default build/examples/NAME/SIZE or SIZE-VARIANT),
+
+    mesh.yaml, mesh.e    the recipe with all changes, and its mesh
+    run.yaml             the deck with all changes
+    run.log, run.e, run_planes.pvd, run.csv, run.run.json     what coplane writes
+    pictures/            what the example's pictures.py draws with ParaView
+    checks.jsonl         what the example's check.py found
+
+What is complete is not done again as long as the deck, the mesh and the program stay the same. `a+b` combines two variants;
+several variants are run one after the other. Needs Python 3 with yaml, numpy and netCDF4, and for pictures ParaView:
+packages/cmake/dependencies.sh --with-paraview installs all of it on Debian 12.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+INPUTS = pathlib.Path(__file__).resolve().parent
+TOP = INPUTS.parent
+sys.path.insert(0, str(TOP / "tests/support"))
+sys.dont_write_bytecode = True
+try:
+    from coplanetest import documents, program
+except ImportError as error:
+    sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
+
+KEYS = {"title", "recipe", "joints", "deck", "ranks", "default", "sizes", "variants", "pictures", "check", "summary"}
+CHANGES = {"title", "recipe", "joints", "deck", "ranks", "mesh", "set"}
+
+
+def fail(message):
+    sys.exit(f"run.py: {message}")
+
+
+def examples():
+    return sorted(path.parent.name for path in INPUTS.glob("*/example.yaml"))
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("name", nargs="?", help="folder of the example")
+    parser.add_argument("--list", action="store_true", help="print the examples with their sizes and variants")
+    parser.add_argument("--size", help="one of the example's sizes; default: its `default`")
+    parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; a+b: both together")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="one more change of the deck")
+    parser.add_argument("--ranks", type=int, help="MPI ranks; default: as the example says, else 2")
+    parser.add_argument("--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
+    parser.add_argument("--no-pictures", action="store_true", help="compute and check only")
+    parser.add_argument("--no-check", action="store_true", help="do not look at the results")
+    return parser.parse_args()
+
+
+def read_example(name):
+    path = INPUTS / name / "example.yaml"
+    if not path.exists():
+        fail(f"there is no example '{name}'; there are {', '.join(examples())}.")
+    example = documents.load(path)
+    for where, allowed, given in [("", KEYS, example)] + [
+        (f"{group}.{key}.", CHANGES, item or {})
+        for group in ("sizes", "variants")
+        for key, item in (example.get(group) or {}).items()
+    ]:
+        for key in given:
+            if key not in allowed:
+                fail(f"{path}: {where}{key} is not known; accepted: {', '.join(sorted(allowed))}.")
+    return example
+
+
+def change(document, path, value):
+    """document.a.1.b = value; null takes the key out."""
+    *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
+    for key in parents:
+        try:
+            document = document.setdefault(key, {}) if isinstance(document, dict) else document[key]
+        except (IndexError, TypeError):
+            fail(f"{path} leads nowhere: there is no '{key}'.")
+    if value is None and isinstance(document, dict):
+        document.pop(last, None)
+    elif isinstance(document, list) and last == len(document):
+        document.append(value)
+    else:
+        document[last] = value
+
+
+class ExampleRun:
+    """One run: an example in one size, with the changes of one variant (or a combination)."""
+
+    def __init__(self, name, example, size, variant, options):
+        sizes, variants = example["sizes"], example.get("variants") or {}
+        self.name, self.example, self.size, self.variant = name, example, size, variant
+        if size not in sizes:
+            fail(f"{name} has no size '{size}'; it has {', '.join(sizes)}.")
+        chosen = [item for item in variant.split("+") if item]
+        for item in chosen:
+            if item not in variants:
+                fail(f"{name} has no variant '{item}'; it has {', '.join(variants) or 'none'}.")
+        self.settings = {"recipe": "mesh.yaml", "deck": "deck.yaml", "ranks": 2}
+        changes = [example, sizes[size] or {}] + [variants[item] or {} for item in chosen]
+        for item in changes:
+            self.settings.update({key: item[key] for key in ("title", "recipe", "joints", "deck", "ranks") if key in item})
+        self.ranks = options.ranks or self.settings["ranks"]
+        source = INPUTS / name
+        self.recipe = documents.load(source / self.settings["recipe"])
+        self.deck = documents.load(source / self.settings["deck"])
+        self.joints = documents.load(source / self.settings["joints"]) if self.settings.get("joints") else None
+        for item in changes[1:]:
+            for path, value in (item.get("mesh") or {}).items():
+                change(self.recipe, path, value)
+            for path, value in (item.get("set") or {}).items():
+                change(self.deck, path, value)
+        for text in options.set:
+            path, equals, value = text.partition("=")
+            if not equals:
+                fail(f"--set {text}: KEY=VALUE is accepted, for instance time.end=1e-3.")
+            change(self.deck, path, documents.value(value))
+        self.deck["mesh"] = "mesh.e"
+        self.deck.setdefault("output", {}).pop("results", None)
+        self.deck.setdefault("history", {}).pop("file", None)
+        label = size + ("-" + variant if variant else "")
+        if options.output is None:
+            self.folder = TOP / "build/examples" / name / label
+        elif len(options.variant) > 1:
+            self.folder = options.output.resolve() / label
+        else:
+            self.folder = options.output.resolve()
+
+    def say(self, message):
+        print(f"{self.name} {self.size}{' ' + self.variant if self.variant else ''}: {message}", flush=True)
+
+    def key(self, *parts):
+        digest = hashlib.sha256()
+        for part in parts:
+            digest.update(part if isinstance(part, bytes) else pathlib.Path(part).read_bytes())
+        return digest.hexdigest()
+
+    def is_done(self, stamp, key):
+        path = self.folder / stamp
+        return path.exists() and path.read_text() == key
+
+    def call(self, command, log, environment=None):
+        """Runs a program in the folder; its output goes to a file too. Returns the exit code."""
+        with open(self.folder / log, "w") as file:
+            process = subprocess.Popen(
+                command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            for line in process.stdout:
+                file.write(line)
+                file.flush()
+                print(line, end="", flush=True)
+            return process.wait()
+
+    def compute(self):
+        """Mesh and run. Returns whether anything was done."""
+        for name in ("coplane", "coplane_mesh"):
+            if not os.path.exists(program.binary(name)):
+                fail(f"{program.binary(name)} is missing. packages/cmake/main-job.sh builds it, or set COPLANE_BIN to its folder.")
+        self.folder.mkdir(parents=True, exist_ok=True)
+        documents.save(self.recipe, self.folder / "mesh.yaml")
+        documents.save(self.deck, self.folder / "run.yaml")
+        inputs = [self.folder / "mesh.yaml", self.folder / "run.yaml", program.binary("coplane"), program.binary("coplane_mesh")]
+        if self.joints is not None:
+            documents.save(self.joints, self.folder / "joints.yaml")
+            inputs.append(self.folder / "joints.yaml")
+        self.run_key = self.key(*inputs)
+        if self.is_done("done", self.run_key):
+            self.say(f"computed already, in {self.folder}")
+            return
+        for path in self.folder.glob("run*"):
+            if path.name != "run.yaml" and path.is_file():
+                path.unlink()
+        for name in ("done", "pictures.done"):
+            (self.folder / name).unlink(missing_ok=True)
+        self.say(f"making the mesh in {self.folder}")
+        whole = "whole.e" if self.joints is not None else "mesh.e"
+        program.make_mesh(str(self.folder / "mesh.yaml"), str(self.folder / whole))
+        if self.joints is not None:
+            program.split_mesh(str(self.folder / whole), str(self.folder / "joints.yaml"), str(self.folder / "mesh.e"))
+        (self.folder / "example.json").write_text(json.dumps(
+            {"example": self.name, "size": self.size, "variant": self.variant, "ranks": self.ranks}))
+        command = [program.binary("coplane"), "run.yaml", "--backend", "serial"]
+        if self.ranks > 1:
+            command = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(self.ranks), "--bind-to", "none"] + command
+        self.say("running: " + " ".join(command))
+        start = time.monotonic()
+        code = self.call(command, "run.log")
+        if code:
+            fail(f"coplane ended with exit code {code}; see {self.folder}/run.log and docs/user/exit-codes.md.")
+        self.say(f"computed in {time.monotonic() - start:.0f} s")
+        (self.folder / "done").write_text(self.run_key)
+
+    def draw(self):
+        script = INPUTS / self.name / self.example.get("pictures", "pictures.py")
+        if not script.exists():
+            return
+        common = TOP / "apps/coplane/paraview"
+        key = self.key(self.run_key.encode(), script, *sorted(common.glob("*.py")))
+        if self.is_done("pictures.done", key):
+            return
+        missing = [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)]
+        if missing:
+            fail(f"{' and '.join(missing)} not found: packages/cmake/dependencies.sh --with-paraview installs ParaView on Debian 12; "
+                 "or leave the pictures out with --no-pictures.")
+        self.say("drawing")
+        (self.folder / "pictures").mkdir(exist_ok=True)
+        environment = dict(os.environ, PYTHONPATH=str(common), PYTHONDONTWRITEBYTECODE="1")
+        with open(self.folder / "pictures.log", "w") as log:
+            done = subprocess.run(["xvfb-run", "-a", "pvbatch", str(script), ".", "pictures"], cwd=self.folder, env=environment,
+                                  stdout=log, stderr=subprocess.STDOUT)
+        if done.returncode:
+            fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text().splitlines(True)[-20:]))
+        (self.folder / "pictures.done").write_text(key)
+        self.say(f"pictures: {self.folder}/pictures")
+
+    def check(self):
+        """The example's own check.py on the results; returns whether all is well."""
+        script = INPUTS / self.name / self.example.get("check", "check.py")
+        return not script.exists() or python(script, [self.folder], self.folder) == 0
+
+
+def python(script, parameters, folder):
+    path = os.pathsep.join([str(TOP / "tests/support"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    environment = dict(os.environ, PYTHONPATH=path, PYTHONDONTWRITEBYTECODE="1", COPLANE_SOURCE=str(TOP))
+    return subprocess.run([sys.executable, str(script), *map(str, parameters)], cwd=folder, env=environment).returncode
+
+
+def main():
+    options = arguments()
+    if options.list or not options.name:
+        for name in examples():
+            example = read_example(name)
+            print(f"{name}: {example['title']}\n    sizes: {', '.join(example['sizes'])}"
+                  + (f"; variants: {', '.join(example['variants'])}" if example.get("variants") else ""))
+        return
+    os.environ.setdefault("COPLANE_BIN", str(TOP / "build/bin"))
+    name = pathlib.Path(options.name).name
+    example = read_example(name)
+    size = options.size or example.get("default", next(iter(example["sizes"])))
+    runs = [ExampleRun(name, example, size, variant, options) for variant in options.variant]
+    well = True
+    for run in runs:
+        run.compute()
+        if not options.no_check:
+            well = run.check() and well
+        if not options.no_pictures:
+            run.draw()
+    summary = INPUTS / name / example.get("summary", "summary.py")
+    if summary.exists() and not options.no_check:
+        well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well
+    for run in runs:
+        run.say(f"results: {run.folder}/run.e (fields), run_planes.pvd (contact planes), run.csv (history)")
+    sys.exit(0 if well else 1)
+
+
+if __name__ == "__main__":
+    main()
