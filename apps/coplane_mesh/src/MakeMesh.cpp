@@ -144,6 +144,7 @@ parts:                           a list; parts of the same block name make one e
     from: degrees, to: degrees   from x towards y
     count: n                     bodies of equal angle, default 1; they touch and do not share nodes
     divisions: [radial, around, along z]  of one body
+    bias: b                      optional: outermost over innermost radial length, those between in geometric progression
     length: l                    3D
   - shape: half_disc             lower half of a disc of centre (0, radius): lowest point at the origin, fine there; 3D: swept from z = 0
     radius: r

@@ -38,7 +38,8 @@ std::vector<std::string> keysOf(const std::string& shape)
       {"ogive", {"width", "length", "caliber", "across", "nose", "along"}},
       {"rock", {"blocks", "size", "divisions"}},
       {"cylinder", {"radius", "across", "length", "along"}},
-      {"sector", {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length"}},
+      {"sector",
+       {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length", "bias"}},
       {"half_disc", {"radius", "fine", "fine_radius", "length", "along"}}};
   std::vector<std::string> keys{"shape", "block", "split", "rotate", "about", "offset"};
   keys.insert(keys.end(), own.at(shape).begin(), own.at(shape).end());
@@ -253,7 +254,8 @@ std::vector<Body> readSector(const RecipeMap& map, int dimension)
   if (dimension == 2 && map.has("length"))
     map.refuse("length", "is for three dimensions only.");
   return sectors(dimension, inner, outer, from, to, count,
-                 dimension == 3 ? map.positive("length") : 0.0, n);
+                 dimension == 3 ? map.positive("length") : 0.0, n,
+                 map.has("bias") ? map.positive("bias") : 1.0);
 }
 
 /// A plane body as it is in two dimensions, swept from z = 0 by `length` and `along` in three.
