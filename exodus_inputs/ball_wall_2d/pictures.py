@@ -5,7 +5,7 @@ run = cp.Run()
 bricks, base, ball = run.blocks("bricks"), run.blocks("base"), run.blocks("ball")
 end = run.times[-1]
 files = []
-for time in run.nearest(0, 0.05 * end, 0.1 * end, 0.25 * end, 0.5 * end, end):
+for time in run.nearest(0, 0.1 * end, 0.2 * end, 0.4 * end, 0.7 * end, end):
     picture = cp.Picture(run, time, size=(560, 300), box=(-0.6, 2.7, -0.15, 1.3))
     picture.solid(base, [0.7, 0.7, 0.7], edges=False)
     picture.solid(bricks, cp.BRICK, edge=[0.6, 0.58, 0.54])
