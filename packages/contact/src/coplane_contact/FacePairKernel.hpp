@@ -301,23 +301,28 @@ KOKKOS_INLINE_FUNCTION void updatePlane(Plane& plane, const HalfStepFace& a, con
   bool inContact = patch.area > smallest;
   const Real approach =
       trial.opposed && patch.overlap > 0 ? 2 * dt * approachSpeed(trial.normal, a, b) : 0;
-  if (inContact && !stepE_planeExists(plane))
+  if (inContact && !(plane.area > 0))
   {
     const Real gap = gapOf(patch, shadowA, shadowB);
     // From the half step to the end of the step.
     const Real motion =
         (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
                                            weighted(patch.centroidWeights[0], a.v, a.count));
-    // A new contact begins at the surface. Faces that share area for the first time while one lies
-    // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
-    // horizontal joint closed by a hair.
-    // So are faces that a search finds deeper in each other than a contact can be.
+    // A contact begins at the surface, and begins there anew after its faces had no area in common.
+    // Faces that share area for the first time, or again, while one lies deep behind the other did
+    // not meet: they are ends of bricks one above the other, say, whose horizontal joint closed by
+    // a hair. So are faces that a search finds deeper in each other than a contact can be.
     const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
     const Real deepest = plane.fresh ? plane.depthLimit : start;
-    if (!plane.declared && !plane.inherited && motion - gap > deepest)
+    // Where faces slide on, a pair may be born as deep as its neighbours are, and they passed on
+    // their closure. Neighbours of the front and of the back of a thin body explain nothing. An
+    // open plane has no closure: its surface is where its offset says.
+    const bool exists = stepE_planeExists(plane);
+    const Real explained = exists || plane.inherited ? plane.offset - plane.closure : 0;
+    if (!plane.declared && motion + explained - gap > deepest)
       plane.released = true;
-    if (!plane.released)
+    if (!plane.released && !exists)
       stepF_createPlane(plane, trial.normal, gap);
   }
   if (!(patch.area > 0))
