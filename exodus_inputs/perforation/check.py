@@ -32,5 +32,5 @@ if not of["slab"]:
 elif impact in MEASURED:
     print(f"{law}, {impact} m/s: residual speed {of['residual']:.0f} m/s, measured {MEASURED[impact]:.0f} m/s")
     # Within 40 m/s from 434 m/s on was aimed at. What is reached is stated on the page; beyond these limits something has changed.
-    example.check_within("residual speed less the measured one [m/s]", of["residual"] - MEASURED[impact], -60, 120)
+    example.check_within("residual speed less the measured one [m/s]", of["residual"] - MEASURED[impact], -60, 160)
 example.finish()

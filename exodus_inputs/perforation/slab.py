@@ -29,6 +29,8 @@ def numbers(run, folder):
     deck, recipe = (documents.load(folder / name) for name in ("run.yaml", "mesh.yaml"))
     slab = recipe["parts"][0]
     thickness = slab["length"] if slab["shape"] == "sector" else -slab["lines"]["y"]["ends"][0]
-    return {"law": deck["blocks"]["slab"]["material"], "impact": round(-float(h["projectile_velocity_y"][0])),
+    law = deck["blocks"]["slab"]["material"]
+    held = any(condition.get("node_set") == "rim" for condition in deck.get("conditions", []))
+    return {"law": law, "curve": law + (", rim held" if held else ""), "impact": round(-float(h["projectile_velocity_y"][0])),
             "residual": -float(h["projectile_velocity_y"][-1]), "depth": -float(h["tip_displacement_y"].min()),
             "slab": thickness < 0.2, "of": 4 if recipe["dimension"] == 3 else 1}
