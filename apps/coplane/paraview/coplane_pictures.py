@@ -62,6 +62,9 @@ class Run:
         return Threshold(Input=grid, Scalars=["CELLS", "alive"], LowerThreshold=0.5, ThresholdMethod="Above Upper Threshold",
                          UpperThreshold=0.5)
 
+    def has_planes(self):
+        return os.path.exists(self.planes_file)
+
     def planes(self, touching=True):
         """Planes as points; `touching`: only those that carry traction."""
         series = PVDReader(FileName=self.planes_file)
@@ -197,3 +200,32 @@ class Picture:
         SaveScreenshot(file, self.view, ImageResolution=self.size, CompressionLevel="9")
         print(f"t = {self.time:.6g} s: {file}", flush=True)
         Delete(self.view)
+        return file
+
+
+def strip(files, file, columns):
+    """Pictures of one size beside each other, in rows of so many; the pictures themselves are removed."""
+    from vtk import vtkImageAppend, vtkPNGReader, vtkPNGWriter
+
+    def beside(images, axis):
+        append = vtkImageAppend()
+        append.SetAppendAxis(axis)
+        for image in images:
+            append.AddInputData(image)
+        append.Update()
+        return append.GetOutput()
+
+    images = []
+    for name in files:
+        reader = vtkPNGReader()
+        reader.SetFileName(name)
+        reader.Update()
+        images.append(reader.GetOutput())
+        os.remove(name)
+    rows = [beside(images[i:i + columns], 0) for i in range(0, len(images), columns)]
+    writer = vtkPNGWriter()
+    writer.SetFileName(file)
+    writer.SetCompressionLevel(9)
+    writer.SetInputData(beside(rows[::-1], 1))  # VTK counts rows from below
+    writer.Write()
+    print(file, flush=True)

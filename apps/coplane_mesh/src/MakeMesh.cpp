@@ -126,6 +126,11 @@ parts:                           a list; parts of the same block name make one e
     across: n                    elements on the width; even, at least 4
     along: n                     elements on the straight part; default: about as long as wide
     section: round | square      3D: round with half a ball (default), or square with half a cylinder across z as nose
+  - shape: ogive                 axis y, tip at the origin, body towards +y; 2D: half section x >= 0 of a body of revolution; 3D: quarter x >= 0, z >= 0
+    width: w, length: l          diameter; length with the nose
+    caliber: c                   radius of the nose's outline over the width (CRH); at least 0.5, half a ball
+    across: n                    elements on the whole width; even, at least 4
+    nose: n, along: n            elements on the axis of the nose (more than across / 4) and on the shank; default: about twice as long as wide
   - shape: rock                  joint sets at right angles: equal blocks from the origin
     blocks: [..]                 numbers of blocks
     size: [..]                   of one block
@@ -139,6 +144,7 @@ parts:                           a list; parts of the same block name make one e
     from: degrees, to: degrees   from x towards y
     count: n                     bodies of equal angle, default 1; they touch and do not share nodes
     divisions: [radial, around, along z]  of one body
+    bias: b                      optional: outermost over innermost radial length, those between in geometric progression
     length: l                    3D
   - shape: half_disc             lower half of a disc of centre (0, radius): lowest point at the origin, fine there; 3D: swept from z = 0
     radius: r

@@ -1,5 +1,7 @@
 #include "PartReader.hpp"
 
+#include "Ogive.hpp"
+
 #include <coplane_core/Error.hpp>
 
 #include <algorithm>
@@ -10,8 +12,9 @@ namespace coplane
 {
 namespace
 {
-const std::vector<std::string> shapes{"box",  "quadrilateral", "hexahedron", "wall",   "imbricate",
-                                      "rock", "cylinder",      "projectile", "sector", "half_disc"};
+const std::vector<std::string> shapes{"box",       "quadrilateral", "hexahedron", "wall",
+                                      "imbricate", "rock",          "cylinder",   "projectile",
+                                      "ogive",     "sector",        "half_disc"};
 
 /// "box, wall or rock".
 std::string shapeWords()
@@ -32,9 +35,11 @@ std::vector<std::string> keysOf(const std::string& shape)
       {"wall", {"brick", "courses", "length_in_bricks", "divisions"}},
       {"imbricate", {"brick", "layers", "length_in_bricks", "divisions"}},
       {"projectile", {"width", "length", "across", "along", "section"}},
+      {"ogive", {"width", "length", "caliber", "across", "nose", "along"}},
       {"rock", {"blocks", "size", "divisions"}},
       {"cylinder", {"radius", "across", "length", "along"}},
-      {"sector", {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length"}},
+      {"sector",
+       {"inner_radius", "outer_radius", "from", "to", "count", "divisions", "length", "bias"}},
       {"half_disc", {"radius", "fine", "fine_radius", "length", "along"}}};
   std::vector<std::string> keys{"shape", "block", "split", "rotate", "about", "offset"};
   keys.insert(keys.end(), own.at(shape).begin(), own.at(shape).end());
@@ -199,6 +204,29 @@ std::vector<Body> readProjectile(const RecipeMap& map, int dimension)
   return {extruded(roundNosed(width, length, across, along), depth)};
 }
 
+std::vector<Body> readOgive(const RecipeMap& map, int dimension)
+{
+  const Real width = map.positive("width"), length = map.positive("length");
+  const Real caliber = map.positive("caliber");
+  if (!(caliber >= 0.5))
+    map.refuse("caliber", fmt::format("= {} must be at least 0.5, half a ball.", caliber));
+  const Real nose = ogiveLength(width, caliber);
+  if (!(length > nose))
+    map.refuse("length", fmt::format("= {} m must be greater than the nose, which is {} m long.",
+                                     length, nose));
+  const int across = map.count("across", 4);
+  requireEven(map, "across", across, "elements");
+  const int least = across / 4 + 1;
+  // Without these keys, elements are about twice as long as wide.
+  const auto divisions = [&](const char* key, Real part, int lowest)
+  {
+    return map.has(key) ? map.count(key, lowest)
+                        : std::max(lowest, int(std::lround(part / (2 * width / across))));
+  };
+  return {ogiveNosed(dimension, width, caliber, length, across, divisions("nose", nose, least),
+                     divisions("along", length - nose, 1))};
+}
+
 std::vector<Body> readRock(const RecipeMap& map, int dimension)
 {
   return jointedRock(dimension, toCounts(map.counts("blocks", dimension)),
@@ -226,7 +254,8 @@ std::vector<Body> readSector(const RecipeMap& map, int dimension)
   if (dimension == 2 && map.has("length"))
     map.refuse("length", "is for three dimensions only.");
   return sectors(dimension, inner, outer, from, to, count,
-                 dimension == 3 ? map.positive("length") : 0.0, n);
+                 dimension == 3 ? map.positive("length") : 0.0, n,
+                 map.has("bias") ? map.positive("bias") : 1.0);
 }
 
 /// A plane body as it is in two dimensions, swept from z = 0 by `length` and `along` in three.
@@ -285,6 +314,8 @@ std::vector<Body> readBodies(const std::string& shape, const RecipeMap& map, int
     return readImbricate(map, dimension);
   if (shape == "projectile")
     return readProjectile(map, dimension);
+  if (shape == "ogive")
+    return readOgive(map, dimension);
   if (shape == "rock")
     return readRock(map, dimension);
   return readCylinder(map, dimension);

@@ -353,15 +353,16 @@ Body disk(Real radius, int across)
 }
 
 std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
-                          Real length, const std::array<int, 3>& n)
+                          Real length, const std::array<int, 3>& n, Real bias)
 {
   std::vector<Body> bodies;
+  const std::vector<Real> radii = gradedLine(inner, outer, n[0], bias);
   const int around = count * n[1];
   for (int sector = 0; sector < count; ++sector)
     bodies.push_back(mappedGrid(dimension, n,
                                 [&](int i, int j, int k)
                                 {
-                                  const Real r = (inner * (n[0] - i) + outer * i) / n[0];
+                                  const Real r = radii[i];
                                   const int step = sector * n[1] + j;
                                   const Real degrees =
                                       (from * (around - step) + to * step) / around;

@@ -68,10 +68,11 @@ std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, c
 Body disk(Real radius, int across);
 
 /// Annular sectors about the origin, `count` of equal angle between two angles [degrees, from x to
-/// y], with nodes of their own; n is radial, around, and along z (3D: from 0 to length). Touching
-/// sectors have the same coordinates to the bit.
+/// y], with nodes of their own; n is radial, around, and along z (3D: from 0 to length); the
+/// outermost elements are `bias` times as thick as the innermost. Touching sectors have the same
+/// coordinates to the bit.
 std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
-                          Real length, const std::array<int, 3>& n);
+                          Real length, const std::array<int, 3>& n, Real bias = 1);
 
 /// Lower half of a disc of centre (0, radius): its lowest point is the origin. Elements have the
 /// length `fine` within `fineRadius` <= radius / 4 of the origin and grow with the distance beyond.

@@ -51,7 +51,7 @@ TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
   EXPECT_EQ(
       errorOf(head + "  - {shape: bax, block: b}\n"),
       "r.yaml:3:13: parts[0].shape = 'bax' is not known; use box, quadrilateral, hexahedron, wall, "
-      "imbricate, rock, cylinder, projectile, sector or half_disc. Did you mean "
+      "imbricate, rock, cylinder, projectile, ogive, sector or half_disc. Did you mean "
       "'box'?");
 }
 
@@ -176,7 +176,8 @@ TEST(Recipe, everyShapeAndKeyOfTheHelpIsThere)
         "layers",     "across",    "along",     "section",      "quadrilateral",
         "hexahedron", "corners",   "sector",    "inner_radius", "outer_radius",
         "count",      "half_disc", "fine",      "fine_radius",  "lines",
-        "ends",       "bias",      "split",     "triangles",    "tetrahedra"})
+        "ends",       "bias",      "split",     "triangles",    "tetrahedra",
+        "ogive",      "caliber",   "nose"})
     EXPECT_NE(help.find(word), std::string::npos) << word;
 }
 } // namespace coplane

@@ -260,6 +260,21 @@ TEST(Shapes, aHexahedronFillsItsCorners)
   EXPECT_TRUE(meshProblems(report).empty());
 }
 
+TEST(Shapes, aSectorMayGrowOutward)
+{
+  // Radial lengths 1, 2 and 4 from 1 to 8: the outermost is four times the innermost.
+  const Body body = sectors(2, 1, 8, 0, 90, 1, 0, {3, 1, 1}, 4).front();
+  std::set<Real> radii;
+  for (const Vec3& x : body.points)
+    if (x.y == 0)
+      radii.insert(x.x);
+  ASSERT_EQ(radii.size(), 4u);
+  const Real expected[] = {1, 2, 4, 8};
+  int i = 0;
+  for (const Real r : radii)
+    EXPECT_NEAR(r, expected[i++], 1e-14);
+}
+
 TEST(Shapes, voussoirsFillTheirPolygonAndTouchToTheBit)
 {
   // 9 stones of 4 elements around over 180 degrees: chords of 5 degrees.

@@ -137,6 +137,32 @@ TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   EXPECT_EQ(norm(born(.22).force), 0.0);
 }
 
+TEST(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
+{
+  // Ends of two bricks, one above the other: the upper brick is lifted off, slides on, and comes
+  // down on the lower one, so that the ends share a hair of area deep behind each other.
+  const auto after = [](Real depth, Real offset)
+  {
+    PairPlane plane = touchingPlane(1e3);
+    plane.depthLimit = .4;
+    plane.offset = offset;
+    updatePlane<3>(plane, below(), above(.01 - offset), {}, 1); // closed by .01
+    EXPECT_NEAR(plane.force.z, 10, 1e-10);
+    updatePlane<3>(plane, below(), above(-.01 - offset), {}, 1); // open
+    EXPECT_EQ(plane.area, 0.0);
+    updatePlane<3>(plane, below(), above(depth - offset), {}, 1);
+    return plane;
+  };
+  for (const Real offset : {0., -.05})
+  {
+    // Up to a quarter of the depth limit it meets the surface; its own offset tells where that is.
+    EXPECT_FALSE(after(.09, offset).released);
+    EXPECT_NEAR(after(.09, offset).force.z, 90, 1e-10); // 1e3 * .09 * 1
+    EXPECT_TRUE(after(.11, offset).released);
+    EXPECT_EQ(norm(after(.11, offset).force), 0.0);
+  }
+}
+
 TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
 {
   ContactOptions o;
@@ -278,6 +304,7 @@ TEST(StepH_UpdatePlaneVariables, depthBeyondTheLimitFreezesTheForce)
 {
   PairPlane plane = touchingPlane(1e3);
   plane.depthLimit = .02;
+  updatePlane<3>(plane, below(), above(.004), {}, 1); // begins at the surface
   updatePlane<3>(plane, below(), above(.02), {}, 1);
   EXPECT_FALSE(plane.tooDeep);
   const Real atTheLimit = plane.force.z;

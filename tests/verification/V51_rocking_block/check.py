@@ -11,7 +11,7 @@ case = Case("V51", __file__)
 width, height, g = 0.3, 1.2, 9.81
 alpha = math.atan(width / height)
 frequency = math.sqrt(3 * g / (2 * math.hypot(width, height)))  # p of Housner: p^2 = 3 g / (4 R) [1/s]
-recipe = case.load("mesh.yaml")
+recipe = case.load("exodus_inputs/rocking_block_2d/mesh.yaml")
 
 
 def quarter_period(start):
@@ -56,7 +56,7 @@ def angles(run, start):
 
 def rock(name, start, end, damping=1.0, feet=False, report=False, rigid=False, **contact):
     """Lets the block go; returns the part of the energy left after the first impact, where the run is long enough."""
-    deck = case.load()
+    deck = case.load("exodus_inputs/rocking_block_2d/deck.yaml")
     deck["time"]["end"] = end
     deck["contact"]["damping"]["normal"] = damping
     deck["contact"].update(contact)
@@ -99,7 +99,7 @@ if "all" in sys.argv[1:]:
     arm = numpy.max(width / 2 - numpy.sqrt(2 * weight / (stiffness * turns)) / 3 - height / 2 * turns) / (width / 2)
     case.check("least acceleration on the bed over g tan(alpha)", arm, 0.897, 1e-3)
     for part, low, high in ((0.87, 0, 0.1), (1.05, 0.3, math.inf)):
-        deck = case.load()
+        deck = case.load("exodus_inputs/rocking_block_2d/deck.yaml")
         deck["contact"]["damping"]["normal"] = 0.5
         a = part * g * math.tan(alpha)
         deck["conditions"] = [{"type": "velocity", "node_set": "floor",
@@ -111,7 +111,7 @@ if "all" in sys.argv[1:]:
 
 # --- V58: other frames, while the block turns about its corner ---------------------------------------
 case.name = "V58"
-deck = case.load()
+deck = case.load("exodus_inputs/rocking_block_2d/deck.yaml")
 deck["time"]["end"] = 0.3
 plain = case.run("plain", tilted(0.5), deck).results
 for frame, angles_of_frame, offset in (("turned", 30, (0, 0, 0)), ("moved by 1 km", 0, (1000, -1000, 0))):

@@ -11,7 +11,7 @@ case = Case("V53", __file__)
 stones = 27
 step = 180 / stones
 long = "all" in sys.argv[1:]
-recipe = case.load("mesh.yaml")
+recipe = case.load("exodus_inputs/arch_2d/mesh.yaml")
 
 
 def least_thickness():
@@ -42,7 +42,7 @@ def least_thickness():
 
 def arch(name, thickness, end, **contact):
     """An arch of mean radius 10 m; returns times, heights that the crown lost, and the results."""
-    changed, deck = copy.deepcopy(recipe), case.load()
+    changed, deck = copy.deepcopy(recipe), case.load("exodus_inputs/arch_2d/deck.yaml")
     for part in changed["parts"]:
         part.update(inner_radius=10 - 5 * thickness, outer_radius=10 + 5 * thickness)
     deck["time"]["end"] = end

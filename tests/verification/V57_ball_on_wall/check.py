@@ -6,7 +6,7 @@ import numpy
 from coplanetest import Case
 
 case = Case("V57", __file__)
-recipe, deck = case.load("mesh.yaml"), case.load()
+recipe, deck = (case.load(f"exodus_inputs/ball_wall_2d/{name}.yaml") for name in ("mesh", "deck"))
 run = case.run("hit", recipe, deck)
 beginning = {**deck, "time": {"end": 5e-4}}
 case.same_bits("beginning", recipe, beginning, case.run("beginning", recipe, beginning))

@@ -384,21 +384,23 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
 KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, Real motion,
                                     Real approach)
 {
-  if (!stepE_planeExists(plane))
+  if (!(plane.area > 0))
   {
-    // A new contact begins at the surface. Faces that share area for the first time while one lies
-    // deep behind the other did not meet: they are ends of bricks one above the other, say, whose
-    // horizontal joint closed by a hair.
-    // So are faces that a search finds deeper in each other than a contact can be.
+    // A contact begins at the surface, and begins there anew after its faces had no area in common.
+    // Faces that share area for the first time, or again, while one lies deep behind the other did
+    // not meet: they are ends of bricks one above the other, say, whose horizontal joint closed by
+    // a hair. So are faces that a search finds deeper in each other than a contact can be.
+    const bool exists = stepE_planeExists(plane);
     const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
     const Real deepest = plane.fresh ? plane.depthLimit : start;
     // Where faces slide on, a pair may be born as deep as its neighbours are, and they passed on
-    // their closure. Neighbours of the front and of the back of a thin body explain nothing.
-    const Real explained = plane.inherited ? plane.offset - plane.closure : 0;
+    // their closure. Neighbours of the front and of the back of a thin body explain nothing. An
+    // open plane has no closure: its surface is where its offset says.
+    const Real explained = exists || plane.inherited ? plane.offset - plane.closure : 0;
     if (!plane.declared && motion + explained - gap > deepest)
       plane.released = true;
-    if (!plane.released)
+    if (!plane.released && !exists)
       stepF_createPlane(plane, normal, gap);
   }
   return !plane.released;
@@ -452,9 +454,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
   const auto large = patch.area > smallest;
   const T gap = gapOf(patch, shadowA, shadowB);
-  const auto born = planes.each([](const Plane& p) { return p.born; }) > 0.0;
+  const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
   T motion{}, approach{};
-  if (!allOf(large && born))
+  if (!allOf(large && carries))
   {
     approach = choose(patch.overlap > 0.0, 2.0 * dt * approachSpeed(trial.normal, a, b), T(0.0));
     // From the half step to the end of the step.

@@ -1,0 +1,22 @@
+"""A column of drums on ground that moves: it falls, or rocks and stays."""
+
+import numpy
+
+from coplanetest import Example
+
+example = Example()
+h = example.history
+# Rigid drums: no element is computed, so there is no hourglass energy; planes hold what is stored.
+example.balances(hourglass=0)
+ground = 9 / (2 * numpy.pi) if not example.variant else 2 / (2 * numpy.pi)
+if example.size == "coarse":
+    example.check_within("drop of the capital [m]", -float(h["capital_displacement_z"].min()), -0.1, 0.1)
+    example.check_within("capital behind the ground [m]", float((h["plate_displacement_x"] - h["capital_displacement_x"]).max()), 0.3, 1.5)
+else:
+    example.check("way of the ground [m]", float(h["plate_displacement_x"][-1]), ground, 1e-3, relative=True)
+    drop = -float(h["capital_displacement_z"][-1])
+    if example.variant:
+        example.check_within("drop of the capital at the end [m]", drop, -0.001, 0.01)
+    else:
+        example.check_within("drop of the capital at the end [m]", drop, 2.5, numpy.inf)
+example.finish()
