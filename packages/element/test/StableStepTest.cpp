@@ -161,6 +161,22 @@ TEST(StableStep, ofARingOnTheAxisIsSafeAndNotFarBelow)
     }
 }
 
+TEST(StableStep, ofAGasIsThatOfItsSound)
+{
+  // Without shear only the volume vibrates: omega^2 = (n/rho) K tr(g), tr(g) = 2/h^2 (square, n =
+  // 4) and 3/(2 h^2) (cube, n = 8), so dt = h/c over sqrt(2) and over sqrt(3).
+  const Material law = makeIdealGas(1.2, 1.4, 1e5);
+  for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
+  {
+    const TestMesh mesh = distorted(type, 1, 0);
+    ElementBlock block(type, law, {0, 0}, noViscosity, mesh.connectivity);
+    block.initialise(mesh.x);
+    block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
+    const Real dimension = isFlat(type) ? 2 : 3;
+    EXPECT_NEAR(block.stableStep()(0) * soundSpeed(law), 1 / std::sqrt(dimension), 1e-5);
+  }
+}
+
 TEST(StableStep, viscosityShortensIt)
 {
   // One cube in pure dilatation: damping = (n/rho) rho l b1 c tr(g), n = 8, tr g = 3 / (2 h^2), l =

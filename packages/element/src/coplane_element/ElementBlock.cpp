@@ -327,7 +327,8 @@ ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const Cons
   data.hourglass = hourglass_;
   data.viscosity = viscosity_;
   data.lambda = lameLambda(elastic);
-  data.shearModulus = elastic.shearModulus;
+  // The bounds of the stable step divide by it; a gas has none.
+  data.shearModulus = std::max(elastic.shearModulus, 1e-6 * pWaveModulus(elastic));
   data.pWaveModulus = pWaveModulus(elastic);
   data.soundSpeed = soundSpeed(law_);
   data.batches = int(mass_.extent(0)) / laneCount;
