@@ -24,7 +24,9 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
                                                   {"nodal_pressure", 1.25},
                                                   {"full_integration", 3.2},
                                                   {"full_integration_plain", 3.2}};
-  static const std::map<std::string, Real> ofLaw{{"pseudo_cap", 3}, {"hjc", 2}};
+  static const std::map<std::string, Real> ofLaw{{"neo_hookean", 1.4}, {"drucker_prager", 1.3},
+                                                 {"mohr_coulomb", 3},  {"johnson_cook", 3.4},
+                                                 {"hjc", 1.8},         {"pseudo_cap", 5.4}};
   PartitionCosts costs;
   for (const Mesh::Block& block : mesh.blocks)
   {
