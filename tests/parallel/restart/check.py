@@ -31,6 +31,8 @@ if scene in ("2d", "3d", "common_plane"):
     happened = ["stick", "slip", "contact_friction", "contact_damping", "contact_hysteresis", "plastic", "open"]
 elif scene == "sliding":
     recipe, deck = of("verification/V64_life_of_planes")
+    deck["time"]["end"] = 0.09
+    deck["output"] = {"every": 0.01}
     happened = ["slip", "contact_friction"]
 elif scene in ("erosion", "erosion_3d"):
     recipe, deck = of("verification/erosion", "mesh_3d.yaml" if scene == "erosion_3d" else "mesh.yaml")
@@ -47,11 +49,11 @@ elif scene == "rigid":
     recipe, deck = of("verification/V51_rocking_block")
     deck["blocks"]["block"]["rigid"] = True
     recipe["parts"][1].update(rotate=-3, about=[0.3, 0])
-    deck["time"] = {"end": 0.35}
+    deck["time"] = {"end": 0.02}
     happened = ["stick", "contact_damping"]
 elif scene == "rings":
     recipe, deck = of("verification/V72_axisymmetric_contact", "mesh_rings.yaml", "deck_rings.yaml")
-    deck["time"]["end"] = 1.5e-3
+    deck["time"]["end"] = 5e-4
     happened = ["contact_stored", "mass_damping"]
 elif scene == "joints":
     recipe, deck = case.load("exodus_inputs/cut_rock_2d/mesh.yaml"), case.load("exodus_inputs/cut_rock_2d/rock.yaml")
