@@ -27,6 +27,8 @@ materials:
     dilation: 0.1}
   mohr_coulomb: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, cohesion: 4e6, friction: 0.5,
     tensile_strength: 1e6}
+  rock: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, plastic_shears: [0, 0.1],
+    cohesions: [3e6, 2e6], frictions: [0.6, 0.3]}
   johnson_cook: {model: johnson_cook, density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1, heat_capacity: 1}
   pseudo_cap: {model: pseudo_cap, density: 1, youngs_modulus: 30e9, poisson_ratio: 0.2, compressive_strength: 45e6,
     tensile_strength: 3e6, fracture_energy: 100, porosity: 0.1, grain_modulus: 45e9, crush_pressure: 90e6,
@@ -35,6 +37,7 @@ materials:
     pressure_factor: 1.5, pressure_exponent: 0.6, largest_strength: 6, least_fracture_strain: 0.02, damage_factor: 0.05,
     crush_pressure: 20e6, crush_compression: 0.002, lock_pressure: 900e6, lock_compression: 0.12,
     lock_moduli: [80e9, -170e9, 200e9]}
+  fluid: {model: fluid, density: 1, eos: linear, sound_speed: 9}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
 blocks:
   a: {material: j2, erosion: {variables: {energy: {above: 1}}}}
@@ -140,11 +143,12 @@ std::string show(const Deck& d)
             m.meltingTemperature, m.roomTemperature, m.heatCapacity, m.heatFraction, m.fracture,
             m.eos, m.soundSpeed, m.shockSlope, m.grueneisen, m.distension, m.crushStart, m.crushEnd,
             m.heatRatio, m.pressure, m.cohesion, m.residualCohesion, m.friction, m.dilation, m.fit,
-            m.compressiveStrength, m.tensileStrength, m.fractureEnergy, m.shearEnergy, m.porosity,
-            m.grainModulus, m.grainSlope, m.crushPressure, m.crushHardening, m.capRatio,
-            m.shearCompaction, m.cohesiveFactor, m.pressureFactor, m.pressureExponent,
-            m.largestStrength, m.leastFractureStrain, m.damageFactor, m.damageExponent,
-            m.crushCompression, m.lockPressure, m.lockCompression, m.lockModuli);
+            m.compressiveStrength, m.tensileStrength, m.fractureEnergy, m.shearEnergy,
+            m.plasticShears, m.cohesions, m.frictions, m.porosity, m.grainModulus, m.grainSlope,
+            m.crushPressure, m.crushHardening, m.capRatio, m.shearCompaction, m.cohesiveFactor,
+            m.pressureFactor, m.pressureExponent, m.largestStrength, m.leastFractureStrain,
+            m.damageFactor, m.damageExponent, m.crushCompression, m.lockPressure, m.lockCompression,
+            m.lockModuli);
   for (const auto& b : d.blocks)
   {
     showAll(out, b.name, b.material, b.element, b.objectiveRate, b.hourglassStiffness,
@@ -251,6 +255,9 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
     std::string place = path;
     const std::pair<const char*, const char*> others[] = {
         {"materials.concrete.set", "materials.pseudo_cap.set"},
+        {"materials.mohr_coulomb.plastic_shears", "materials.rock.plastic_shears"},
+        {"materials.mohr_coulomb.cohesions", "materials.rock.cohesions"},
+        {"materials.mohr_coulomb.frictions", "materials.rock.frictions"},
         {"materials.j2.plastic_strains", "materials.table.plastic_strains"},
         {"materials.j2.yield_stresses", "materials.table.yield_stresses"},
         {"materials.j2.sound_speed", "materials.porous.sound_speed"},

@@ -66,10 +66,21 @@ TEST(DeckJsonSchema, hasTheRangeOfANumber)
 TEST(DeckJsonSchema, givesAModelItsKeysAndTakesThemFromTheOthers)
 {
   const auto rules = schema()["properties"]["materials"]["additionalProperties"]["allOf"];
-  ASSERT_EQ(rules.size(), 9u); // linear_elastic, ..., ideal_gas
+  ASSERT_EQ(rules.size(), 10u); // linear_elastic, ..., ideal_gas
   EXPECT_EQ(rules[0]["then"]["properties"]["yield_stress"], false);
-  EXPECT_EQ(rules[0]["then"]["required"], (nlohmann::json{"youngs_modulus", "poisson_ratio"}));
-  EXPECT_EQ(rules[8]["then"]["required"], (nlohmann::json{"heat_ratio", "pressure"}));
+  const auto needed = [&](int rule) { return rules[rule]["then"]["anyOf"][0]["required"]; };
+  EXPECT_EQ(needed(0), (nlohmann::json{"youngs_modulus", "poisson_ratio"}));
+  EXPECT_EQ(needed(9), (nlohmann::json{"heat_ratio", "pressure"}));
+}
+
+TEST(DeckJsonSchema, demandsNothingOfACardThatNamesASet)
+{
+  const auto card = schema()["properties"]["materials"]["additionalProperties"];
+  EXPECT_FALSE(card.contains("required"));
+  const nlohmann::json accepted{{{"required", {"model", "density"}}}, {{"required", {"set"}}}};
+  EXPECT_EQ(card["anyOf"], accepted);
+  for (const auto& rule : card["allOf"])
+    EXPECT_EQ(rule["then"]["anyOf"][1], accepted[1]);
 }
 } // namespace
 } // namespace coplane

@@ -129,6 +129,32 @@ TEST(MaterialCards, anglesAreGivenByTheirTangents)
   EXPECT_NEAR(law.dilation, 1, 1e-12);
 }
 
+TEST(MaterialCards, tablesOfMohrCoulombReplaceCohesionAndFriction)
+{
+  const std::string table =
+      "plastic_shears: [0, 0.02], cohesions: [5e6, 1e6], frictions: [0.7, 0.5], ";
+  const auto law =
+      std::get<MohrCoulomb>(lawOf("model: mohr_coulomb, " + steel + table + "dilation: 0.1"));
+  EXPECT_EQ(law.points, 2);
+  EXPECT_EQ(law.cohesions[1], 1e6);
+  EXPECT_EQ(law.frictionTangents[1], 0.5);
+  expectPart(problemOf("model: mohr_coulomb, " + steel + table + "cohesion: 1e6"),
+             "materials.m.cohesion has no effect beside a table");
+  expectPart(problemOf("model: mohr_coulomb, " + steel + "cohesions: [5e6, 1e6]"),
+             "materials.m.plastic_shears is missing");
+}
+
+TEST(MaterialCards, aFluidIsAnEquationOfState)
+{
+  const auto law =
+      std::get<Fluid>(lawOf("model: fluid, density: 1000, eos: linear, sound_speed: 1500"));
+  EXPECT_EQ(law.elastic.bulkModulus, 1000 * 1500.0 * 1500.0);
+  EXPECT_EQ(law.elastic.shearModulus, 0);
+  expectPart(problemOf("model: fluid, density: 1000"), "materials.m.eos is missing");
+  expectPart(problemOf("model: fluid, density: 1000, eos: linear"),
+             "sound_speed is 0, but eos: linear needs a positive one [m/s]");
+}
+
 TEST(MaterialCards, largestElementFollowsFromTheFractureEnergy)
 {
   // G_F E / ft^2 = 120 * 33e9 / 16e12.

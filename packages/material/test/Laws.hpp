@@ -105,20 +105,25 @@ inline std::vector<NamedLaw> allLaws()
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
-  return {{"linearElastic", steel, 1e-3},
-          {"j2Plasticity", makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9), 0.01},
-          {"hardeningPlasticity",
-           makeHardeningPlasticity(steel, {}, {0, 0.002, 0.02}, {300e6, 350e6, 420e6}, 2e9), 0.01},
-          {"j2MieGrueneisen", shocked(steelShock()), 0.05},
-          {"j2PAlpha", shocked(porousShock()), 0.05},
-          {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
-          {"druckerPrager", makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression),
-           0.005},
-          {"mohrCoulomb", makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 1e6, 2e6, 500, 100}), 0.005},
-          {"mohrCoulombTresca", makeMohrCoulomb(rock, {0, 0, 5e6, 5e6, 20e6}), 0.005},
-          {"johnsonCook", steel4340(), 0.05},
-          {"johnsonCookMieGrueneisen", checked(hot), 0.05},
-          {"pseudoCap", makePseudoCap(concreteC40()), 0.01},
-          {"hjc", concreteHjc48(), 0.01}};
+  return {
+      {"linearElastic", steel, 1e-3},
+      {"j2Plasticity", makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9), 0.01},
+      {"hardeningPlasticity",
+       makeHardeningPlasticity(steel, {}, {0, 0.002, 0.02}, {300e6, 350e6, 420e6}, 2e9), 0.01},
+      {"j2MieGrueneisen", shocked(steelShock()), 0.05},
+      {"j2PAlpha", shocked(porousShock()), 0.05},
+      {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
+      {"druckerPrager", makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression),
+       0.005},
+      {"mohrCoulomb", makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 1e6, 2e6, 500, 100}), 0.005},
+      {"mohrCoulombTresca", makeMohrCoulomb(rock, {0, 0, 5e6, 5e6, 20e6}), 0.005},
+      {"mohrCoulombTable",
+       makeMohrCoulomb(
+           rock, {0, 0.2, 0, 0, 2e6, 0, 100, {0, 0.002, 0.01}, {5e6, 3e6, 1e6}, {0.7, 0.6, 0.4}}),
+       0.005},
+      {"johnsonCook", steel4340(), 0.05},
+      {"johnsonCookMieGrueneisen", checked(hot), 0.05},
+      {"pseudoCap", makePseudoCap(concreteC40()), 0.01},
+      {"hjc", concreteHjc48(), 0.01}};
 }
 } // namespace coplane::testing

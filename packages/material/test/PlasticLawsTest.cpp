@@ -271,6 +271,77 @@ TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
   }
 }
 
+MohrCoulombParameters softening()
+{
+  MohrCoulombParameters p{0, 0, 0, 0, 2e6};
+  p.shears = {0, 0.01, 0.03};
+  p.cohesions = {5e6, 2e6, 1e6};
+  p.frictions = {0.7, 0.6, 0.4};
+  return p;
+}
+
+TEST(MohrCoulomb, cohesionAndFrictionFollowTheirTable)
+{
+  // Without dilation the plastic shear of uniaxial compression is that between its axes; strengths
+  // are those at the start of a step, so half a step's shear off.
+  const MohrCoulomb table = makeMohrCoulomb(rock, softening());
+  const Material law = table;
+  MaterialProbe probe(law, 0.1);
+  Real before = 0;
+  int checked = 0;
+  uniaxialStress(probe, -0.04, 8000,
+                 [&](const MaterialProbe& at)
+                 {
+                   const Real shear = before;
+                   before = at.history("plastic_shear");
+                   if (before == 0)
+                     return;
+                   const auto line = [&](Real a, Real b, Real c)
+                   {
+                     return shear < 0.01   ? a + (b - a) * shear / 0.01
+                            : shear < 0.03 ? b + (c - b) * (shear - 0.01) / 0.02
+                                           : c;
+                   };
+                   const Real t = line(0.7, 0.6, 0.4), c = line(5e6, 2e6, 1e6);
+                   EXPECT_NEAR(-at.stress().xx, 2 * c * (std::sqrt(1 + t * t) + t), 5);
+                   ++checked;
+                 });
+  EXPECT_GT(checked, 7000);
+  EXPECT_GT(before, 0.05);                // beyond the table
+  EXPECT_GT(probe.dissipation(), 0.04e6); // it is positive and of the order c times shear
+  // It is the same law as without a table, where the table is constant.
+  MohrCoulombParameters constant = softening();
+  constant.cohesions = {5e6, 5e6, 5e6};
+  constant.frictions = {0.7, 0.7, 0.7};
+  const Material flat = makeMohrCoulomb(rock, constant),
+                 plain = makeMohrCoulomb(rock, {std::atan(0.7), 0, 5e6, 5e6, 2e6});
+  for (const Real lateral : {0.0, 5e6})
+  {
+    MaterialProbe a(flat, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0}),
+        b(plain, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0});
+    uniaxialStress(a, -0.01, 400, nobody, -lateral);
+    uniaxialStress(b, -0.01, 400, nobody, -lateral);
+    EXPECT_NEAR(a.stress().xx, b.stress().xx, 1);
+  }
+}
+
+TEST(MohrCoulomb, badTablesAreRefused)
+{
+  const auto refused = [](const auto& change)
+  {
+    MohrCoulombParameters p = softening();
+    change(p);
+    EXPECT_THROW(makeMohrCoulomb(rock, p), Error);
+  };
+  refused([](auto& p) { p.shears = {0}; });
+  refused([](auto& p) { p.shears = {0.1, 0.2, 0.3}; });
+  refused([](auto& p) { p.shears = {0, 0.2, 0.1}; });
+  refused([](auto& p) { p.cohesions = {5e6, 2e6}; });
+  refused([](auto& p) { p.frictions = {0.7, -0.1, 0.2}; });
+  refused([](auto& p) { p.dilationAngle = 0.5; }); // above the last friction
+  refused([](auto& p) { p.shearEnergy = 100; });
+}
+
 TEST(MohrCoulomb, badParametersAreRefused)
 {
   EXPECT_THROW(makeMohrCoulomb(rock, {0.6, 0.7, 5e6, 5e6, 2e6}), Error); // dilation > friction

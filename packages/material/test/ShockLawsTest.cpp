@@ -51,6 +51,17 @@ TEST(EquationOfState, strengthAddsToThePressureOfTheShock)
   EXPECT_NEAR(-probe.stress().xx, p + s, 1e-9 * p);
 }
 
+TEST(EquationOfState, fluidReachesTheShockLineWithoutStrength)
+{
+  // Us = 4570 + 1.49 * 500 = 5315 m/s: p = rho Us up, J = 1 - up/Us.
+  const Material law = makeFluid(7850, steelShock());
+  MaterialProbe probe(law, 1);
+  probe.advance(squeeze(1 - 500 / 5315.0), 1e-6);
+  EXPECT_NEAR(probe.pressure(), 7850 * 5315 * 500.0, 1e-9 * 7850 * 5315 * 500.0);
+  EXPECT_EQ(probe.vonMises(), 0);
+  EXPECT_THROW(makeFluid(7850, {}), Error);
+}
+
 TEST(EquationOfState, idealGasFollowsItsAdiabatToTheSecondOrder)
 {
   const Material law = makeIdealGas(1.2, 1.4, 1e5);

@@ -34,7 +34,7 @@ struct MaterialCard
   std::string name, where;
   std::string set;        ///< of the library, from which keys that are not given come
   std::string model;      ///< linear_elastic | j2 | neo_hookean | drucker_prager | mohr_coulomb |
-                          ///< johnson_cook | pseudo_cap | hjc | ideal_gas
+                          ///< johnson_cook | pseudo_cap | hjc | fluid | ideal_gas
   Real density = 0;       ///< [kg/m^3]
   Real youngsModulus = 0; ///< [Pa]
   Real poissonRatio = 0;  ///< [-]
@@ -76,24 +76,25 @@ struct MaterialCard
   Real tensileStrength = 0;        ///< ft; hjc: T [Pa]
   Real fractureEnergy = 0;         ///< G_F or G_I [J/m^2]
   Real shearEnergy = 0;            ///< mohr_coulomb: G_II [J/m^2]
-  Real porosity = 0;               ///< pseudo_cap [-]
-  Real grainModulus = 0;           ///< pseudo_cap: Ks [Pa]
-  Real grainSlope = 1.5;           ///< pseudo_cap: s [-]
-  Real crushPressure = 0;          ///< pseudo_cap, hjc [Pa]
-  Real crushHardening = 0;         ///< pseudo_cap: Ph [Pa]
-  Real capRatio = 0.5;             ///< pseudo_cap: Rc [-]
-  Real shearCompaction = 2;        ///< pseudo_cap: mu_c [-]
-  Real cohesiveFactor = 0;         ///< hjc: A [-]
-  Real pressureFactor = 0;         ///< hjc: B [-]
-  Real pressureExponent = 0;       ///< hjc: N [-]
-  Real largestStrength = 0;        ///< hjc: Smax [-]
-  Real leastFractureStrain = 0;    ///< hjc: EFmin [-]
-  Real damageFactor = 0;           ///< hjc: D1 [-]
-  Real damageExponent = 1;         ///< hjc: D2 [-]
-  Real crushCompression = 0;       ///< hjc: mucrush [-]
-  Real lockPressure = 0;           ///< hjc: plock [Pa]
-  Real lockCompression = 0;        ///< hjc: mulock [-]
-  std::vector<Real> lockModuli;    ///< hjc: K1, K2, K3 [Pa]
+  std::vector<Real> plasticShears, cohesions, frictions; ///< mohr_coulomb: a table [-], [Pa], [-]
+  Real porosity = 0;                                     ///< pseudo_cap [-]
+  Real grainModulus = 0;                                 ///< pseudo_cap: Ks [Pa]
+  Real grainSlope = 1.5;                                 ///< pseudo_cap: s [-]
+  Real crushPressure = 0;                                ///< pseudo_cap, hjc [Pa]
+  Real crushHardening = 0;                               ///< pseudo_cap: Ph [Pa]
+  Real capRatio = 0.5;                                   ///< pseudo_cap: Rc [-]
+  Real shearCompaction = 2;                              ///< pseudo_cap: mu_c [-]
+  Real cohesiveFactor = 0;                               ///< hjc: A [-]
+  Real pressureFactor = 0;                               ///< hjc: B [-]
+  Real pressureExponent = 0;                             ///< hjc: N [-]
+  Real largestStrength = 0;                              ///< hjc: Smax [-]
+  Real leastFractureStrain = 0;                          ///< hjc: EFmin [-]
+  Real damageFactor = 0;                                 ///< hjc: D1 [-]
+  Real damageExponent = 1;                               ///< hjc: D2 [-]
+  Real crushCompression = 0;                             ///< hjc: mucrush [-]
+  Real lockPressure = 0;                                 ///< hjc: plock [Pa]
+  Real lockCompression = 0;                              ///< hjc: mulock [-]
+  std::vector<Real> lockModuli;                          ///< hjc: K1, K2, K3 [Pa]
 };
 
 /// A limit on a variable of the law, by its name.

@@ -188,6 +188,15 @@ Json described(const Key& key)
   return schema;
 }
 
+/// Demands keys; where another key completes the group, only without that one.
+Json demanding(const Key& group, const Json& required)
+{
+  const Json demand{{"required", required}};
+  if (group.completedBy.empty())
+    return demand;
+  return Json{{"anyOf", {demand, {{"required", Json::array({group.completedBy})}}}}};
+}
+
 /// What holds for one value of the discriminator: the keys of that model, and none of the others.
 Json modelSchema(const Key& group, const Key& discriminator, const std::string& model)
 {
@@ -208,7 +217,9 @@ Json modelSchema(const Key& group, const Key& discriminator, const std::string& 
   Json condition{{"properties", {{discriminator.name, {{"const", model}}}}}};
   if (discriminator.defaultText != model) // without the key, the default's keys hold
     condition["required"] = Json::array({discriminator.name});
-  return Json{{"if", condition}, {"then", {{"properties", properties}, {"required", required}}}};
+  Json then{{"properties", properties}};
+  then.update(demanding(group, required));
+  return Json{{"if", condition}, {"then", then}};
 }
 
 Json groupSchema(const Key& group)
@@ -234,7 +245,7 @@ Json groupSchema(const Key& group)
       rules.push_back({{"anyOf", one}});
   }
   schema["properties"] = properties;
-  schema["required"] = required;
+  schema.update(demanding(group, required));
   if (!rules.empty())
     schema["allOf"] = rules;
   return schema;

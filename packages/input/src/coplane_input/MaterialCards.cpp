@@ -21,7 +21,7 @@ EquationOfState eosOf(const MaterialCard& card)
   EquationOfState eos;
   if (card.eos == "none")
     return eos;
-  if (card.eos == "linear")
+  if (card.eos == "linear" && card.model != "fluid")
   {
     eos.kind = EquationOfState::Kind::Linear;
     eos.stiffness = elasticOf(card).bulkModulus;
@@ -35,7 +35,9 @@ EquationOfState eosOf(const MaterialCard& card)
   };
   demand(card.soundSpeed > 0, "sound_speed", card.soundSpeed, "a positive one [m/s]");
   const bool porous = card.eos == "p_alpha";
-  eos.kind = porous ? EquationOfState::Kind::PAlpha : EquationOfState::Kind::MieGrueneisen;
+  eos.kind = porous                 ? EquationOfState::Kind::PAlpha
+             : card.eos == "linear" ? EquationOfState::Kind::Linear
+                                    : EquationOfState::Kind::MieGrueneisen;
   eos.slope = card.shockSlope;
   eos.gamma = card.grueneisen;
   if (porous)
@@ -128,10 +130,10 @@ Material materialOf(const MaterialCard& card)
         elasticOf(card), std::atan(card.friction), std::atan(card.dilation), card.cohesion,
         card.fit == "plane_strain" ? DruckerPragerFit::PlaneStrain : DruckerPragerFit::Compression);
   if (card.model == "mohr_coulomb")
-    return makeMohrCoulomb(elasticOf(card),
-                           {std::atan(card.friction), std::atan(card.dilation), card.cohesion,
-                            card.residualCohesion, card.tensileStrength, card.shearEnergy,
-                            card.fractureEnergy});
+    return makeMohrCoulomb(
+        elasticOf(card), {std::atan(card.friction), std::atan(card.dilation), card.cohesion,
+                          card.residualCohesion, card.tensileStrength, card.shearEnergy,
+                          card.fractureEnergy, card.plasticShears, card.cohesions, card.frictions});
   if (card.model == "johnson_cook")
     return johnsonCookOf(card);
   if (card.model == "pseudo_cap")
@@ -141,6 +143,8 @@ Material materialOf(const MaterialCard& card)
                           card.crushHardening, card.capRatio, card.shearCompaction});
   if (card.model == "hjc")
     return hjcOf(card);
+  if (card.model == "fluid")
+    return makeFluid(card.density, eosOf(card));
   if (card.model == "ideal_gas")
     return makeIdealGas(card.density, card.heatRatio, card.pressure);
   return elasticOf(card);
@@ -171,9 +175,30 @@ void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& 
             *node.find("hardening_modulus"),
             fmt::format("{}.hardening_modulus has no effect beside a table; remove it.", path));
     }
+    if (card.model == "fluid" && card.eos == "none")
+    {
+      problems.add(node, path +
+                             ".eos is missing; a fluid has nothing else. Accepted: one of linear, "
+                             "mie_grueneisen, p_alpha, with sound_speed.");
+      continue;
+    }
+    if (card.model == "mohr_coulomb")
+    {
+      const bool table =
+          !card.plasticShears.empty() || !card.cohesions.empty() || !card.frictions.empty();
+      for (const char* key : {"cohesion", "friction", "residual_cohesion", "shear_energy"})
+        if (const DeckNode* given = node.find(key); given && table)
+          problems.add(*given, fmt::format("{}.{} has no effect beside a table (plastic_shears, "
+                                           "cohesions, frictions); remove it.",
+                                           path, key));
+      if (table && card.plasticShears.empty())
+        problems.add(node, path + ".plastic_shears is missing; accepted: 2 to 8 numbers that rise "
+                                  "from 0, one for each of cohesions and frictions.");
+    }
     if (card.eos != "mie_grueneisen" && card.eos != "p_alpha")
       for (const char* key : {"sound_speed", "shock_slope", "grueneisen"})
-        if (const DeckNode* given = node.find(key))
+        if (const DeckNode* given = node.find(key);
+            given && !(card.model == "fluid" && std::string(key) == "sound_speed"))
           problems.add(*given, fmt::format("{}.{} has no effect with eos: {}; remove it or choose "
                                            "mie_grueneisen or p_alpha.",
                                            path, key, card.eos));

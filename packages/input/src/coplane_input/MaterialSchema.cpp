@@ -14,10 +14,10 @@ std::vector<Key> materialCardKeys()
       text("model", &MaterialCard::model)
           .needed()
           .oneOf({"linear_elastic", "j2", "neo_hookean", "drucker_prager", "mohr_coulomb",
-                  "johnson_cook", "pseudo_cap", "hjc", "ideal_gas"})
+                  "johnson_cook", "pseudo_cap", "hjc", "fluid", "ideal_gas"})
           .means("law of the continuum: Hooke; von Mises with hardening; rubber; Drucker and "
                  "Prager; Mohr and Coulomb; Johnson and Cook; concrete with a pseudo-cap; concrete "
-                 "of Holmquist, Johnson and Cook; gas")
+                 "of Holmquist, Johnson and Cook; an equation of state without strength; gas")
           .like("j2"),
       text("set", &MaterialCard::set)
           .oneOf(materialSetNames())
@@ -149,43 +149,43 @@ std::vector<Key> materialCardKeys()
           .like("[0.05, 3.44, -2.12, 0.002, 0.61]")
           .means("D1 to D5 of the strain at fracture; none: it does not fracture"),
       text("eos", &MaterialCard::eos)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .oneOf({"none", "linear", "mie_grueneisen", "p_alpha"})
           .like("linear")
           .means("equation of state for the pressure: rate form with the elastic bulk modulus; "
                  "linear in density; about the shock line; the same with pores that close"),
       number("sound_speed", &MaterialCard::soundSpeed)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("m/s")
           .atLeast(0)
           .like("4570")
           .means("c0 of the shock speed c0 + s up of the solid"),
       number("shock_slope", &MaterialCard::shockSlope)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("-")
           .atLeast(0)
           .like("1.49")
           .means("s of the shock speed"),
       number("grueneisen", &MaterialCard::grueneisen)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("-")
           .atLeast(0)
           .like("1.93")
           .means("Grueneisen's Gamma at the reference density"),
       number("distension", &MaterialCard::distension)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("-")
           .atLeast(1)
           .like("1.5")
           .means("p_alpha: density of the solid over that of the porous material"),
       number("crush_start", &MaterialCard::crushStart)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("Pa")
           .atLeast(0)
           .like("0.2e9")
           .means("p_alpha: pressure from which pores close"),
       number("crush_end", &MaterialCard::crushEnd)
-          .onlyFor({"j2", "johnson_cook"})
+          .onlyFor({"j2", "johnson_cook", "fluid"})
           .in("Pa")
           .atLeast(0)
           .like("2e9")
@@ -253,6 +253,25 @@ std::vector<Key> materialCardKeys()
           .atLeast(0)
           .like("100")
           .means("by which tensile strength falls, per area of a crack; 0: it stays"),
+      numbers("plastic_shears", &MaterialCard::plasticShears)
+          .onlyFor({"mohr_coulomb"})
+          .in("-")
+          .atLeast(0)
+          .like("[0, 0.02]")
+          .means("plastic shears of a table of cohesion and friction, rising from 0; 2 to 8; the "
+                 "last values stay beyond it. The softening depends on the size of elements"),
+      numbers("cohesions", &MaterialCard::cohesions)
+          .onlyFor({"mohr_coulomb"})
+          .in("Pa")
+          .atLeast(0)
+          .like("[5e6, 1e6]")
+          .means("c at plastic_shears"),
+      numbers("frictions", &MaterialCard::frictions)
+          .onlyFor({"mohr_coulomb"})
+          .in("-")
+          .atLeast(0)
+          .like("[0.7, 0.5]")
+          .means("tangents of the friction angle at plastic_shears; not below dilation"),
       number("compressive_strength", &MaterialCard::compressiveStrength)
           .onlyFor({"pseudo_cap", "hjc"})
           .needed()
@@ -405,6 +424,7 @@ Key materialKeys()
 {
   return named("materials", &Deck::materials, materialCardKeys())
       .decidedBy("model")
+      .completedBy("set")
       .means("laws of the continuum, by a name of your choice; blocks may name sets of the library "
              "without a card here");
 }

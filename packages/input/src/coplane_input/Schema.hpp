@@ -66,6 +66,7 @@ struct Key
   std::vector<Key> keys;
   std::string discriminator; ///< the key (`model`, `type`) that decides which others there are
   std::vector<Alternatives> alternatives;
+  std::string completedBy; ///< a key (`set`) that gives all required ones that are not given
   /// The place in the Deck that the group's keys fill; lists grow by one item.
   std::function<void*(void* target, const std::string& name, const std::string& where)> enter;
 

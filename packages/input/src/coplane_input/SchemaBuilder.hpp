@@ -51,6 +51,7 @@ public:
   KeyBuilder& notAllZero() { return set(key_.notAllZero, true); }
   KeyBuilder& ofPlaceToo() { return set(key_.ofPlaceToo, true); }
   KeyBuilder& decidedBy(const std::string& name) { return set(key_.discriminator, name); }
+  KeyBuilder& completedBy(const std::string& name) { return set(key_.completedBy, name); }
   KeyBuilder& atMostOneOf(std::vector<std::string> names) { return alternatives(names, false); }
   KeyBuilder& exactlyOneOf(std::vector<std::string> names) { return alternatives(names, true); }
 

@@ -5,7 +5,7 @@
 
 namespace coplane
 {
-/// What only has pressure, such as a gas: no strength.
+/// What only has pressure, such as a gas, or a solid under pressures far above its strength.
 struct Fluid
 {
   LinearElastic elastic; ///< shear modulus 0; the bulk modulus is that of the sound speed
@@ -30,4 +30,7 @@ struct Fluid
 
 /// @param pressure of the initial stress of its blocks, from which the first sound speed comes [Pa]
 Fluid makeIdealGas(Real density, Real ratioOfSpecificHeats, Real pressure);
+
+/// @param eos any but None and IdealGas
+Fluid makeFluid(Real density, const EquationOfState& eos);
 } // namespace coplane

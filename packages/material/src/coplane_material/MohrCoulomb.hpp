@@ -4,6 +4,8 @@
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/Principal.hpp>
 
+#include <vector>
+
 namespace coplane
 {
 /// Mohr and Coulomb's planes with a tension cut-off: N s1 - s3 <= 2 c sqrt(N) and s1 <= ft, for
@@ -11,17 +13,24 @@ namespace coplane
 /// flow with N_psi on the same planes, normal to the cut-off. Returns to planes, edges and corners
 /// as of de Souza Neto et al. (2008), section 8.2. Cohesion falls with the slip that is smeared
 /// over the element, tensile strength with the opening: the dissipated energies per area do not
-/// depend on the size of the element. Strengths are those at the start of the step.
+/// depend on the size of the element. Or cohesion and friction follow a table of the plastic shear,
+/// whatever the size. Strengths are those at the start of the step.
 struct MohrCoulomb
 {
+  static constexpr int capacity = 8; ///< points of the table
+
   LinearElastic elastic;
-  Real friction;         ///< N [-]
-  Real dilation;         ///< N_psi [-]; 1 <= N_psi <= N
-  Real cohesion;         ///< c [Pa]
-  Real residualCohesion; ///< [Pa]
-  Real tensileStrength;  ///< ft [Pa]
-  Real shearEnergy;      ///< G_II, by which c falls [J/m^2]; 0: it does not fall
-  Real fractureEnergy;   ///< G_I, by which ft falls [J/m^2]; 0: it does not fall
+  Real friction;                        ///< N [-]
+  Real dilation;                        ///< N_psi [-]; 1 <= N_psi <= N
+  Real cohesion;                        ///< c [Pa]
+  Real residualCohesion;                ///< [Pa]
+  Real tensileStrength;                 ///< ft [Pa]
+  Real shearEnergy;                     ///< G_II, by which c falls [J/m^2]; 0: it does not fall
+  Real fractureEnergy;                  ///< G_I, by which ft falls [J/m^2]; 0: it does not fall
+  int points = 0;                       ///< of the table; 0: none
+  Real shears[capacity] = {};           ///< plastic shears, rising from 0 [-]
+  Real cohesions[capacity] = {};        ///< at these [Pa]
+  Real frictionTangents[capacity] = {}; ///< tan(phi) at these [-]
 
   static constexpr int historyCount = 3;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain", "plastic_shear",
@@ -36,6 +45,19 @@ struct MohrCoulomb
     const Real fall = cohesion - residualCohesion;
     return T(residualCohesion) +
            T(fall) * branchFree::exponential(T(-fall / shearEnergy) * slip * size);
+  }
+  /// Between the points of the table straight lines, beyond them the last value.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T fromTable(const Real (&values)[capacity], const T& shear) const
+  {
+    T value(values[0]);
+    for (int i = 1; i < points; ++i)
+    {
+      const T way = branchFree::smaller(shear, T(shears[i])) - T(shears[i - 1]);
+      value += branchFree::positivePart(way) *
+               T((values[i] - values[i - 1]) / (shears[i] - shears[i - 1]));
+    }
+    return value;
   }
   template <class T>
   KOKKOS_INLINE_FUNCTION T tensionAfter(const T& opening, const T& size) const
@@ -65,13 +87,23 @@ struct MohrCoulomb
     elastic.addElasticIncrement(point.strainIncrement, point.stress);
     Principal<T> principal = principalOf(point.stress);
     T(&s)[3] = principal.value;
-    const T bond = T(2 * std::sqrt(friction)) * cohesionAfter(h[1], point.size);
+    // N = (sqrt(1 + t^2) + t)^2 with t = tan(phi)
+    T slope(friction), bond;
+    if (points > 0)
+    {
+      const T tangent = fromTable(frictionTangents, h[1]);
+      const T root = branchFree::squareRoot(T(1.0) + tangent * tangent) + tangent;
+      slope = root * root;
+      bond = T(2.0) * root * fromTable(cohesions, h[1]);
+    }
+    else
+      bond = T(2 * std::sqrt(friction)) * cohesionAfter(h[1], point.size);
     T cut = tensionAfter(h[2], point.size);
-    if (friction > 1) // the cut-off lies before the tip
-      cut = branchFree::smaller(cut, bond * T(1 / (friction - 1)));
+    // The cut-off lies before the tip.
+    cut = choose(slope > T(1.0), branchFree::smaller(cut, bond / (slope - T(1.0))), cut);
 
     const T tolerance(1e-9 * (cohesion + tensileStrength));
-    const auto yields = T(friction) * s[0] - s[2] - bond > T(0.0) || s[0] > cut;
+    const auto yields = slope * s[0] - s[2] - bond > T(0.0) || s[0] > cut;
     if (!branchFree::anyOf(yields))
       return;
     const T trial[3] = {s[0], s[1], s[2]};
@@ -89,7 +121,7 @@ struct MohrCoulomb
       while (count < 3 && sets[k][count] >= 0)
         ++count;
       T multiplier[3] = {zero, zero, zero}, result[3];
-      solve(sets[k], count, trial, bond, cut, multiplier);
+      solve(sets[k], count, trial, slope, bond, cut, multiplier);
       for (int i = 0; i < 3; ++i)
         result[i] = trial[i];
       T setFlow[3] = {zero, zero, zero};
@@ -103,7 +135,7 @@ struct MohrCoulomb
           setFlow[i] += T(g[i]) * multiplier[m];
         }
       }
-      auto good = open && T(friction) * result[0] - result[2] - bond < tolerance &&
+      auto good = open && slope * result[0] - result[2] - bond < tolerance &&
                   result[0] - cut < tolerance && result[0] - result[1] > -tolerance &&
                   result[1] - result[2] > -tolerance;
       for (int m = 0; m < count; ++m)
@@ -141,54 +173,51 @@ struct MohrCoulomb
   }
 
 private:
-  /// Normal of a surface in principal stresses.
-  KOKKOS_INLINE_FUNCTION void normalOf(int surface, Real (&n)[3]) const
-  {
-    direction(surface, friction, n);
-  }
   /// Direction of plastic flow, and the stress that it takes away.
   KOKKOS_INLINE_FUNCTION void flowOf(int surface, Real (&g)[3], Real (&dg)[3]) const
   {
-    direction(surface, dilation, g);
+    direction<Real>(surface, dilation, g);
     const Real lambda = elastic.bulkModulus - 2.0 / 3.0 * elastic.shearModulus;
     for (int i = 0; i < 3; ++i)
       dg[i] = lambda * (g[0] + g[1] + g[2]) + 2 * elastic.shearModulus * g[i];
   }
-  KOKKOS_INLINE_FUNCTION static void direction(int surface, Real slope, Real (&n)[3])
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static void direction(int surface, const T& slope, T (&n)[3])
   {
-    n[0] = n[1] = n[2] = 0;
+    n[0] = n[1] = n[2] = T(0.0);
     if (surface >= Cut1)
-      n[surface - Cut1] = 1;
+      n[surface - Cut1] = T(1.0);
     else
     {
       n[surface == Plane23 ? 1 : 0] = slope;
-      n[surface == Plane12 ? 1 : 2] = -1;
+      n[surface == Plane12 ? 1 : 2] = T(-1.0);
     }
   }
 
   /// Multipliers that bring the trial stress onto all surfaces of a set.
   template <class T>
   KOKKOS_INLINE_FUNCTION void solve(const int (&set)[3], int count, const T (&trial)[3],
-                                    const T& bond, const T& cut, T (&multiplier)[3]) const
+                                    const T& slope, const T& bond, const T& cut,
+                                    T (&multiplier)[3]) const
   {
-    Mat3 a{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    const T one(1.0), zero(0.0);
+    Mat3Of<T> a{{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}}};
     T over[3] = {T(0.0), T(0.0), T(0.0)};
     for (int i = 0; i < count; ++i)
     {
-      Real n[3];
-      normalOf(set[i], n);
-      over[i] = T(n[0]) * trial[0] + T(n[1]) * trial[1] + T(n[2]) * trial[2] -
-                (set[i] >= Cut1 ? cut : bond);
+      T n[3]; // normal of the surface in principal stresses
+      direction<T>(set[i], slope, n);
+      over[i] = n[0] * trial[0] + n[1] * trial[1] + n[2] * trial[2] - (set[i] >= Cut1 ? cut : bond);
       for (int j = 0; j < count; ++j)
       {
         Real g[3], dg[3];
         flowOf(set[j], g, dg);
-        a(i, j) = n[0] * dg[0] + n[1] * dg[1] + n[2] * dg[2];
+        a.a[i][j] = n[0] * T(dg[0]) + n[1] * T(dg[1]) + n[2] * T(dg[2]);
       }
     }
-    const Mat3 b = inverse(a);
+    const Mat3Of<T> b = inverse(a);
     for (int i = 0; i < count; ++i)
-      multiplier[i] = T(b(i, 0)) * over[0] + T(b(i, 1)) * over[1] + T(b(i, 2)) * over[2];
+      multiplier[i] = b.a[i][0] * over[0] + b.a[i][1] * over[1] + b.a[i][2] * over[2];
   }
 };
 
@@ -198,6 +227,9 @@ struct MohrCoulombParameters
   Real cohesion, residualCohesion;          // [Pa]
   Real tensileStrength;                     // [Pa]; at most c cot(phi)
   Real shearEnergy = 0, fractureEnergy = 0; // [J/m^2]; 0: no softening
+  /// A table in place of cohesion, friction angle and residual cohesion: plastic shears from 0 [-],
+  /// cohesions [Pa], tangents of friction angles [-]; empty: none.
+  std::vector<Real> shears = {}, cohesions = {}, frictions = {};
 };
 /// Throws Error(ExitCode::Deck) with what is wrong.
 MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParameters& parameters);

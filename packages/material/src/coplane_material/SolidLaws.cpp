@@ -43,8 +43,46 @@ DruckerPrager makeDruckerPrager(const LinearElastic& elastic, Real frictionAngle
   return law;
 }
 
+namespace
+{
+/// The law without its table, of the table's first point, and the table.
+MohrCoulomb withTable(const LinearElastic& elastic, const MohrCoulombParameters& p)
+{
+  const std::size_t points = p.shears.size();
+  demand(points >= 2 && points <= MohrCoulomb::capacity, "number of plastic shears", Real(points),
+         "", fmt::format("2 to {}", MohrCoulomb::capacity));
+  demand(p.cohesions.size() == points, "number of cohesions", Real(p.cohesions.size()), "",
+         fmt::format("that of the plastic shears, {}", points));
+  demand(p.frictions.size() == points, "number of frictions", Real(p.frictions.size()), "",
+         fmt::format("that of the plastic shears, {}", points));
+  demand(p.shears[0] == 0, "first plastic shear", p.shears[0], "", "0");
+  demand(p.shearEnergy == 0, "shear energy", p.shearEnergy, "J/m^2",
+         "left out beside a table, which softens cohesion itself");
+  MohrCoulombParameters first = p;
+  first.shears.clear();
+  first.cohesion = first.residualCohesion = p.cohesions[0];
+  first.frictionAngle = std::atan(p.frictions[0]);
+  MohrCoulomb law = makeMohrCoulomb(elastic, first);
+  law.points = int(points);
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    demand(i == 0 || p.shears[i] > p.shears[i - 1], "plastic shear", p.shears[i], "",
+           "above the one before");
+    demand(p.cohesions[i] >= 0, "cohesion", p.cohesions[i], "Pa", "0 or more");
+    demand(p.frictions[i] >= std::tan(p.dilationAngle), "friction", p.frictions[i], "",
+           fmt::format("at least the dilation ({:.6g})", std::tan(p.dilationAngle)));
+    law.shears[i] = p.shears[i];
+    law.cohesions[i] = p.cohesions[i];
+    law.frictionTangents[i] = p.frictions[i];
+  }
+  return law;
+}
+} // namespace
+
 MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParameters& p)
 {
+  if (!p.shears.empty())
+    return withTable(elastic, p);
   demand(p.frictionAngle >= 0 && p.frictionAngle < 1.5, "friction angle", p.frictionAngle, "rad",
          "0 or more, and below a right angle");
   demand(p.dilationAngle >= 0 && p.dilationAngle <= p.frictionAngle, "dilation angle",
@@ -64,9 +102,16 @@ MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParam
   demand(p.fractureEnergy >= 0, "fracture energy", p.fractureEnergy, "J/m^2",
          "0 (no softening) or more");
   const auto slope = [](Real angle) { return (1 + std::sin(angle)) / (1 - std::sin(angle)); };
-  return {elastic,       slope(p.frictionAngle), slope(p.dilationAngle),
-          p.cohesion,    p.residualCohesion,     p.tensileStrength,
-          p.shearEnergy, p.fractureEnergy};
+  MohrCoulomb law{};
+  law.elastic = elastic;
+  law.friction = slope(p.frictionAngle);
+  law.dilation = slope(p.dilationAngle);
+  law.cohesion = p.cohesion;
+  law.residualCohesion = p.residualCohesion;
+  law.tensileStrength = p.tensileStrength;
+  law.shearEnergy = p.shearEnergy;
+  law.fractureEnergy = p.fractureEnergy;
+  return law;
 }
 
 HardeningPlasticity makeHardeningPlasticity(const LinearElastic& elastic,
@@ -135,6 +180,13 @@ Fluid makeIdealGas(Real density, Real ratio, Real pressure)
   eos.kind = EquationOfState::Kind::IdealGas;
   eos.gamma = ratio;
   return {{density, ratio * pressure, 0}, eos};
+}
+
+Fluid makeFluid(Real density, const EquationOfState& eos)
+{
+  demand(density > 0, "density", density, "kg/m^3", "positive");
+  demand(eos.stiffness > 0, "bulk modulus", eos.stiffness, "Pa", "positive");
+  return {{density, eos.stiffness / eos.distension, 0}, eos};
 }
 
 HolmquistJohnsonCook completed(HolmquistJohnsonCook law)
