@@ -89,13 +89,7 @@ case.check("dry: radius over that on the plane", dry.radius / plane.radius, 1, 0
 case.check_within("dry: the rim lies above the middle of the foot [m]", dry.lift, 5e-5, 5e-4)
 case.check_within("dry: area of the foot that is off, at most", max(run.history["open"]), 1, numpy.inf)
 
-# --- Johnson and Cook against other codes: Ming and Pantale (2018), Abaqus with three implementations of the law.
-_, rod = strike("chromium_steel", "chromium_steel", 287.0, 32.4e-3, 3.2e-3, [10, 100] if full else [6, 60])
-case.check("chromium_steel: final length [m]", rod.length, 26.52e-3, 0.01, relative=True)
-case.check("chromium_steel: radius of the foot [m]", rod.radius, 5.40e-3, 0.05, relative=True)
-case.check("chromium_steel: most plastic strain", rod.strain, 1.78, 0.06, relative=True)
-
-# --- Against measured rods, with the constants from torsion and tension tests (README: why copper is given more room).
+# --- Against measured rods, (README: why copper is given more room).
 measured = {"copper_ofhc": (190.0, 16.2e-3, 13.5e-3, 10.1e-3, 0.08), "iron_armco": (221.0, 19.8e-3, 13.7e-3, 8.6e-3, 0.05)}
 for name, (speed, length, foot, waist, tolerance) in measured.items():
     _, rod = strike(name, name, speed, 25.4e-3, 3.81e-3, [10, 66] if full else [6, 40], again=name == "copper_ofhc")
