@@ -1,5 +1,7 @@
 #include "Rig.hpp"
 
+#include <coplane_material/PseudoCap.hpp>
+
 #include <gtest/gtest.h>
 
 namespace coplane
@@ -103,6 +105,51 @@ TEST(Erosion, loadsEndWithTheElementThatCarriedThem)
   EXPECT_EQ(solver.momenta().impulse.z, impulse.z);
   EXPECT_EQ(largest(solver.state().force, solver.layout().owned(), comm), 0);
   EXPECT_EQ(solver.contact().faces().size(), 0u);
+}
+
+TEST(Erosion, damageIsAGateForTheOtherLimits)
+{
+  // Concrete that is torn: every stretch is beyond the limit of the volume, but only what is broken
+  // dies. The middle of the column cracks, its ends fly on almost whole.
+  const Comm comm;
+  const auto torn = [&](std::optional<Real> damage)
+  {
+    Model model = stretchedColumn(comm);
+    PseudoCapParameters concrete = concreteC40();
+    concrete.fractureEnergy = 1000; // elements of 1 m shall not spring back
+    model.blocks[0].material = makePseudoCap(concrete);
+    model.blocks[0].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.5}; };
+    model.blocks[0].erosion.volumeRatio = {0.5, 1 + 1e-9};
+    model.blocks[0].erosion.damage = damage;
+    model.time.fixedStep.reset();
+    return model;
+  };
+  const auto living = [&](const Solver& solver, auto&& chosen)
+  {
+    std::int64_t count = 0;
+    const ElementBlock& block = solver.blocks()[0];
+    for (int e = 0; e < block.count(); ++e)
+      count += solver.mesh().blocks[0].owned[e] && block.isAlive(e) && chosen(block, e);
+    return comm.sum(count);
+  };
+  Solver open(torn({}), comm), gated(torn(0.3), comm);
+  open.prepare();
+  gated.prepare();
+  cycles(open, 3);
+  EXPECT_EQ(open.erosion().elements, 5);
+
+  int n = 0;
+  while (gated.erosion().elements == 0 && n++ < 2000)
+    gated.advance();
+  ASSERT_GT(gated.erosion().elements, 0);
+  const auto damaged = [](const ElementBlock& block, int e)
+  { return block.history()(block.historyRow("damage"), e) > 0.3; };
+  const auto stretched = [](const ElementBlock& block, int e)
+  { return block.volume()(e) > (1 + 1e-9) * block.referenceVolume()(e); };
+  EXPECT_EQ(living(gated, [&](const ElementBlock& block, int e)
+                   { return damaged(block, e) && stretched(block, e); }),
+            0);
+  EXPECT_GT(living(gated, stretched), 0);
 }
 
 TEST(Erosion, hasTheSameBitsOnAnyRanks)

@@ -138,6 +138,15 @@ for dimension, split, shape in ((2, "triangles", "TRI3"), (3, "tetrahedra", "TET
 other_mesh("nodal pressure in hexahedra", ["is for TRI3 and TETRA4, but the block has HEX8"], ["blocks", "left", "element"], "nodal_pressure", 3)
 other_mesh("solid of revolution", ["geometry = 'axisymmetric', but the mesh has three dimensions"], ["geometry"], "axisymmetric", 3)
 
+# --- not wrong, but worth a warning -------------------------------------------------------------------
+# E G_F / f_t^2 = 33e9 * 120 / 4e6^2 = 0.2475 m; an element of `left` is 1/30 m, so a tenth of the fracture energy is too little.
+for energy, expected in ((120, False), (12, True)):
+    deck = changed(["materials", "soft"], {"set": "concrete_c40", "fracture_energy": energy})
+    documents.save({"mesh": "good.e", **deck}, "softening.yaml")
+    code, output = program.run_program(["softening.yaml", "--check"])
+    case.check_equal(f"fracture energy {energy}: exit code of --check", code, 0)
+    case.check_equal(f"fracture energy {energy}: warning of elements that are too large", "spring back" in output, expected)
+
 # --- runs that cannot go on -------------------------------------------------------------------------
 unstable = changed(["time"], {"end": 1e-2, "fixed_step": 2e-4})
 expect("step far too large", COMPUTATION, ["cycle", "step"], unstable)

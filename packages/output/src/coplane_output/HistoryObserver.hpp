@@ -27,7 +27,7 @@ struct HistoryOptions
   std::vector<std::string> joints; ///< joint cards whose planes are summed up in columns
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
   /// Rigid blocks (positions in Mesh::blocks) whose bodies are recorded in columns.
-  std::vector<int> rigidBlocks;
+  std::vector<int> rigidBlocks = {};
   std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
 };
 

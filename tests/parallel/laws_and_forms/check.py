@@ -1,0 +1,94 @@
+"""V59, V60 for every law and every form of element: one run, bit for bit, on any ranks, threads and back end.
+
+Usage: check.py 3d|2d|rings
+
+A body for each law in one-point elements, and one for each further form, shape and objective rate. Each is stretched, squeezed and sheared fast
+enough to yield, crush or crack, and touches its neighbours.
+"""
+
+import sys
+
+from coplanetest import Case, differences
+
+dimension = sys.argv[1]
+case = Case(f"V59 V60 laws {dimension}", __file__)
+flat = dimension != "3d"
+
+elastic = {"density": 2500, "youngs_modulus": 30e9, "poisson_ratio": 0.2}
+LAWS = {
+    "linear_elastic": {"model": "linear_elastic", **elastic},
+    "neo_hookean": {"model": "neo_hookean", "density": 1100, "youngs_modulus": 30e6, "poisson_ratio": 0.45},
+    "j2": {"model": "j2", **elastic, "yield_stress": 2e7, "hardening_modulus": 1e9, "kinematic_modulus": 5e8},
+    "j2_table": {"model": "j2", **elastic, "plastic_strains": [0, 0.01, 0.1], "yield_stresses": [2e7, 3e7, 4e7]},
+    "drucker_prager": {"model": "drucker_prager", **elastic, "cohesion": 4e6, "friction": 0.5, "dilation": 0.1},
+    "mohr_coulomb": {"set": "clay_brick"},
+    "johnson_cook": {"set": "copper_ofhc"},
+    "pseudo_cap": {"set": "concrete_c40"},
+    "hjc": {"set": "concrete_hjc_48"},
+    "fluid": {"model": "fluid", "density": 1000, "eos": "mie_grueneisen", "sound_speed": 1500, "shock_slope": 1.9, "grueneisen": 0.1},
+}
+RATES = [{"objective_rate": "jaumann"}, {"objective_rate": "green_naghdi"}]
+FORMS = [{"element": name} for name in ("assumed_strain", "full_integration", "full_integration_plain")]
+SIMPLICES = [{}, {"element": "nodal_pressure"}]
+
+# (law, options of the block, whether its elements are triangles or tetrahedra)
+bodies = [(law, {}, False) for law in LAWS]
+bodies += [(law, options, False) for law in ("j2", "pseudo_cap") for options in RATES + FORMS if law == "j2" or "element" in options]
+bodies += [(law, options, True) for law in ("j2", "pseudo_cap") for options in SIMPLICES]
+if dimension == "rings":  # with an edge on the axis, triangles of the mean dilatation collapse there; these rings have a hole
+    bodies = [body for body in bodies if not (body[2] and body[1])]
+
+size, pitch, inner = 0.01, 0.01002, 0.02
+recipe = {"dimension": 2 if flat else 3, "parts": []}
+deck = {
+    "title": "every law and every form",
+    "materials": LAWS,
+    "blocks": {},
+    "initial": [],
+    "joints": {"touch": {"model": "penalty", "friction": 0.3}},
+    "contact": {"default_joint": "touch", "search_every": 4},
+    "history": {"tables": ["blocks"]},
+}
+if dimension == "rings":
+    deck["geometry"] = "axisymmetric"
+for i, (law, options, simplices) in enumerate(bodies):
+    name = "_".join([law, *options.values(), *(["simplices"] if simplices else [])])
+    low = inner if flat else 0
+    part = {"shape": "box", "block": name, "min": [low, i * pitch], "size": [size, size], "divisions": [4, 3 + i % 2]}
+    if not flat:
+        part = {**part, "min": [0, i * pitch, 0], "size": [size] * 3, "divisions": [3, 2 + i % 2, 3]}
+    if simplices:
+        part["split"] = "triangles" if flat else "tetrahedra"
+    recipe["parts"].append(part)
+    deck["blocks"][name] = {"material": law, **options}
+    if law == "fluid":
+        deck["blocks"][name]["hourglass"] = {"stiffness": 0, "viscosity": 0.1}
+    # A different mixture of stretching and shear in every body; the middle stays.
+    speed = 2 if law == "fluid" else 12
+    middle = [low + size / 2, i * pitch + size / 2]
+    u, v = f"{speed}*(x-{middle[0]})/{size}", f"{speed}*(y-{middle[1]})/{size}"
+    sign = "-" if i % 3 == 0 else ""
+    velocity = [f"{sign}{u}+0.5*{v}", f"{v}-0.3*({u})", 0 if flat else f"0.7*{speed}*(z-0.005)/{size}"]
+    deck["initial"].append({"block": name, "velocity": velocity})
+deck["time"] = {"end": 1.2e-5 if flat else 1.5e-5}
+deck["output"] = {"every": deck["time"]["end"] / 2}
+
+reference = case.run("reference", recipe, deck, energy=0.02)
+h = reference.history
+for what in ("plastic", "stick"):
+    case.check_within(f"reference: {what}", max(h[what]), 1e-9, float("inf"))
+for name, (law, _, _) in zip(deck["blocks"], bodies):
+    if law not in ("linear_elastic", "neo_hookean", "fluid"):
+        strain = abs(reference.results.element(name, "equivalent_plastic_strain")).max()
+        case.check_within(f"reference: {name}: plastic strain", strain, 1e-9, float("inf"))
+
+for ranks, threads, backend in ((2, 1, "serial"), (3, 2, "threads"), (1, 2, "threads")):
+    name = f"{ranks}x{threads}_{backend}"
+    run = case.attempt(name, recipe, deck, ranks, threads, backend)
+    if not case.check_equal(f"{name}: exit code", run.code, 0):
+        print(run.output)
+        continue
+    case.check_equal(f"{name}: state hash", run.state_hash, reference.state_hash)
+    case.check_equal(f"{name}: history differs", run.bytes_of("run.csv") != reference.bytes_of("run.csv"), False)
+    case.check_equal(f"{name}: results that differ", differences(run.path("run.e"), reference.path("run.e")), [])
+case.finish()
