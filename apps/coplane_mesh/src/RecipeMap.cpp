@@ -1,6 +1,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/PlainText.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,7 @@ std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
 
 YAML::Node parseRecipe(const std::string& text, const std::string& name)
 {
+  demandPlainText(text, name);
   try
   {
     return YAML::Load(text);

@@ -110,7 +110,7 @@ TEST(Erosion, loadsEndWithTheElementThatCarriedThem)
 TEST(Erosion, damageIsAGateForTheOtherLimits)
 {
   // Concrete that is torn: every stretch is beyond the limit of the volume, but only what is broken
-  // dies. The middle of the column cracks, its ends fly on almost whole.
+  // dies.
   const Comm comm;
   const auto torn = [&](std::optional<Real> damage)
   {
@@ -122,6 +122,7 @@ TEST(Erosion, damageIsAGateForTheOtherLimits)
     model.blocks[0].erosion.volumeRatio = {0.5, 1 + 1e-9};
     model.blocks[0].erosion.damage = damage;
     model.time.fixedStep.reset();
+    model.time.maximumStep = 5e-6;
     return model;
   };
   const auto living = [&](const Solver& solver, auto&& chosen)
@@ -132,24 +133,26 @@ TEST(Erosion, damageIsAGateForTheOtherLimits)
       count += solver.mesh().blocks[0].owned[e] && block.isAlive(e) && chosen(block, e);
     return comm.sum(count);
   };
+  const auto stretched = [](const ElementBlock& block, int e)
+  { return block.volume()(e) > (1 + 1e-9) * block.referenceVolume()(e); };
+  const auto damaged = [](const ElementBlock& block, int e)
+  { return block.history()(block.historyRow("damage"), e) > 0.3; };
   Solver open(torn({}), comm), gated(torn(0.3), comm);
   open.prepare();
   gated.prepare();
   cycles(open, 3);
+  cycles(gated, 3);
   EXPECT_EQ(open.erosion().elements, 5);
+  EXPECT_EQ(gated.erosion().elements, 0);
+  EXPECT_EQ(living(gated, stretched), 5);
 
   int n = 0;
   while (gated.erosion().elements == 0 && n++ < 2000)
     gated.advance();
   ASSERT_GT(gated.erosion().elements, 0);
-  const auto damaged = [](const ElementBlock& block, int e)
-  { return block.history()(block.historyRow("damage"), e) > 0.3; };
-  const auto stretched = [](const ElementBlock& block, int e)
-  { return block.volume()(e) > (1 + 1e-9) * block.referenceVolume()(e); };
   EXPECT_EQ(living(gated, [&](const ElementBlock& block, int e)
                    { return damaged(block, e) && stretched(block, e); }),
             0);
-  EXPECT_GT(living(gated, stretched), 0);
 }
 
 TEST(Erosion, hasTheSameBitsOnAnyRanks)

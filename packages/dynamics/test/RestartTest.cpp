@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -43,7 +44,7 @@ Model everything(const Comm& comm, const std::string& method = "multijagged")
   for (const int position : model.mesh.nodePositions)
     model.rigidBodyOfNode.push_back(bodies[std::size_t(position)]);
   model.blocks[2].rigid = true;
-  model.blocks[0].erosion.volumeRatio = {0.97, 1.5};
+  model.blocks[0].erosion.volumeRatio = {0.9985, 1.5};
   model.blocks[1].velocity = {3, 2, -25};
   model.blocks[2].velocity = {1, 0, -26};
   model.blocks[2].angularVelocity = {2, 3, 10};
@@ -67,14 +68,16 @@ void expectSameBits(const Maker& make, const std::string& name, int total,
   const Comm comm;
   Solver straight(make(comm, "multijagged"), comm);
   straight.prepare();
+  std::int64_t planes = 0;
   for (int cycle = 1; cycle <= total; ++cycle)
   {
     straight.advance();
+    planes = std::max(planes, std::int64_t(straight.contact().counts().planes));
     for (const int stop : stops)
       if (cycle == stop)
         save(straight, fileFor(name + std::to_string(stop), comm), comm);
   }
-  EXPECT_GT(straight.contact().counts().planes, 0);
+  EXPECT_GT(planes, 0);
   const EnergyBalance expected = straight.energy();
   for (const int stop : stops)
   {

@@ -103,7 +103,15 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
             "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-            "time, output, history, partition.");
+            "time, output, history, checkpoint, partition.");
+}
+
+TEST(DeckErrors, controlCharactersAreRefusedWithTheirLine)
+{
+  EXPECT_EQ(
+      errorOf(leastDeck + std::string("title: a\0b\n", 11)),
+      "wall.yaml:5: the text has a control character (byte 0x00) here: the file is damaged, or "
+      "is no text. Write the line again.");
 }
 
 TEST(DeckErrors, anUnknownKeyBringsASuggestion)
@@ -638,7 +646,7 @@ TEST(DeckSetErrors, comeAfterThoseOfTheFile)
             "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-            "time, output, history, partition.\n"
+            "time, output, history, checkpoint, partition.\n"
             "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"
             "--set time.end=-1: time.end = '-1' is out of range; accepted: a number > 0 [s].");
 }

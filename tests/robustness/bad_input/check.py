@@ -143,7 +143,7 @@ other_mesh("solid of revolution", ["geometry = 'axisymmetric', but the mesh has 
 for energy, expected in ((120, False), (12, True)):
     deck = changed(["materials", "soft"], {"set": "concrete_c40", "fracture_energy": energy})
     documents.save({"mesh": "good.e", **deck}, "softening.yaml")
-    code, output = program.run_program(["softening.yaml", "--check"])
+    code, output = program.run_program(["softening.yaml", "--check"], ".")
     case.check_equal(f"fracture energy {energy}: exit code of --check", code, 0)
     case.check_equal(f"fracture energy {energy}: warning of elements that are too large", "spring back" in output, expected)
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_element/HughesWinget.hpp>
 #include <coplane_core/BranchFree.hpp>
+#include <coplane_element/HughesWinget.hpp>
 
 namespace coplane
 {

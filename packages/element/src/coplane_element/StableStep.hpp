@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_core/Real.hpp>
 #include <coplane_core/BranchFree.hpp>
+#include <coplane_core/Real.hpp>
 
 namespace coplane
 {

@@ -1,6 +1,7 @@
 #include "DeckNode.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/PlainText.hpp>
 
 #include <yaml-cpp/yaml.h>
 
@@ -160,6 +161,7 @@ std::string Problems::text() const
 
 DeckNode parseYaml(const std::string& text, const std::string& file)
 {
+  demandPlainText(text, file);
   Source source;
   source.file = file;
   std::vector<YAML::Node> documents;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_core/Vec3.hpp>
 #include <coplane_core/BranchFree.hpp>
+#include <coplane_core/Vec3.hpp>
 
 namespace coplane
 {
