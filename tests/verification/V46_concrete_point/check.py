@@ -5,6 +5,7 @@ import math
 import os
 import pathlib
 import subprocess
+import sys
 
 import numpy
 from coplanetest import Case, program
@@ -57,6 +58,10 @@ for deck in decks:
     case.check_equal(f"{deck}: exit code", code, 0)
     if code:
         print(output)
+    drawn = subprocess.run([sys.executable, str(examples / "plot.py"), deck, "."], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    case.check_equal(f"{deck}: exit code of plot.py", drawn.returncode, 0)
+    picture = pathlib.Path(f"{deck}.svg").read_text() if drawn.returncode == 0 else drawn.stdout
+    case.check_within(f"{deck}: curves in the picture", picture.count("<polyline"), 1, 100)
 
 # --- pseudo-cap concrete: the table of docs/theory/materials.md ------------------------------------------
 
