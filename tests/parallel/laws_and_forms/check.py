@@ -2,8 +2,8 @@
 
 Usage: check.py 3d|2d|rings
 
-A body for each law in one-point elements, and one for each further form, shape and objective rate. Each is stretched, squeezed and sheared fast
-enough to yield, crush or crack, and touches its neighbours.
+A body for each law in one-point elements, and one for each further form, shape and objective rate. They strike each other in pairs, fast enough
+to yield, crush or crack.
 """
 
 import sys
@@ -17,7 +17,7 @@ flat = dimension != "3d"
 elastic = {"density": 2500, "youngs_modulus": 30e9, "poisson_ratio": 0.2}
 LAWS = {
     "linear_elastic": {"model": "linear_elastic", **elastic},
-    "neo_hookean": {"model": "neo_hookean", "density": 1100, "youngs_modulus": 30e6, "poisson_ratio": 0.45},
+    "fluid": {"model": "fluid", "density": 1000, "eos": "mie_grueneisen", "sound_speed": 1500, "shock_slope": 1.9, "grueneisen": 0.1},
     "j2": {"model": "j2", **elastic, "yield_stress": 2e7, "hardening_modulus": 1e9, "kinematic_modulus": 5e8},
     "j2_table": {"model": "j2", **elastic, "plastic_strains": [0, 0.01, 0.1], "yield_stresses": [2e7, 3e7, 4e7]},
     "drucker_prager": {"model": "drucker_prager", **elastic, "cohesion": 4e6, "friction": 0.5, "dilation": 0.1},
@@ -25,16 +25,17 @@ LAWS = {
     "johnson_cook": {"set": "copper_ofhc"},
     "pseudo_cap": {"set": "concrete_c40"},
     "hjc": {"set": "concrete_hjc_48"},
-    "fluid": {"model": "fluid", "density": 1000, "eos": "mie_grueneisen", "sound_speed": 1500, "shock_slope": 1.9, "grueneisen": 0.1},
+    "neo_hookean": {"model": "neo_hookean", "density": 1100, "youngs_modulus": 30e6, "poisson_ratio": 0.45},
 }
 RATES = [{"objective_rate": "jaumann"}, {"objective_rate": "green_naghdi"}]
 FORMS = [{"element": name} for name in ("assumed_strain", "full_integration", "full_integration_plain")]
 SIMPLICES = [{}, {"element": "nodal_pressure"}]
 
 # (law, options of the block, whether its elements are triangles or tetrahedra)
-bodies = [(law, {}, False) for law in LAWS]
+bodies = [("neo_hookean", {}, False)] + [(law, {}, False) for law in LAWS if law != "neo_hookean"]
 bodies += [(law, options, False) for law in ("j2", "pseudo_cap") for options in RATES + FORMS if law == "j2" or "element" in options]
 bodies += [(law, options, True) for law in ("j2", "pseudo_cap") for options in SIMPLICES]
+
 if dimension == "rings":  # with an edge on the axis, triangles of the mean dilatation collapse there; these rings have a hole
     bodies = [body for body in bodies if not (body[2] and body[1])]
 
@@ -63,13 +64,9 @@ for i, (law, options, simplices) in enumerate(bodies):
     deck["blocks"][name] = {"material": law, **options}
     if law == "fluid":
         deck["blocks"][name]["hourglass"] = {"stiffness": 0, "viscosity": 0.1}
-    # A different mixture of stretching and shear in every body; the middle stays.
-    speed = 2 if law == "fluid" else 12
-    middle = [low + size / 2, i * pitch + size / 2]
-    u, v = f"{speed}*(x-{middle[0]})/{size}", f"{speed}*(y-{middle[1]})/{size}"
-    sign = "-" if i % 3 == 0 else ""
-    velocity = [f"{sign}{u}+0.5*{v}", f"{v}-0.3*({u})", 0 if flat else f"0.7*{speed}*(z-0.005)/{size}"]
-    deck["initial"].append({"block": name, "velocity": velocity})
+    # In pairs they strike each other, off the middle: one above the other does not move as fast along x.
+    sign = 1 if i % 2 == 0 else -1
+    deck["initial"].append({"block": name, "velocity": [sign * 4, sign * 20, 0 if flat else sign * 3]})
 deck["time"] = {"end": 1.2e-5 if flat else 1.5e-5}
 deck["output"] = {"every": deck["time"]["end"] / 2}
 

@@ -46,14 +46,17 @@ elif scene == "everything":
     happened = ["eroded_elements", "contact_eroded", "contact_hysteresis", "contact_fracture", "contact_friction", "plastic",
                 "mass_damping", "local_damping", "contact_damping"]
 elif scene == "rigid":
-    recipe, deck = of("verification/V51_rocking_block")
+    recipe, deck = case.load("exodus_inputs/rocking_block_2d/mesh.yaml"), case.load("exodus_inputs/rocking_block_2d/deck.yaml")
+    deck.pop("mesh", None)
     deck["blocks"]["block"]["rigid"] = True
     recipe["parts"][1].update(rotate=-3, about=[0.3, 0])
     deck["time"] = {"end": 0.02}
+    deck["output"] = {"every": 0.02 / 9}
     happened = ["stick", "contact_damping"]
 elif scene == "rings":
     recipe, deck = of("verification/V72_axisymmetric_contact", "mesh_rings.yaml", "deck_rings.yaml")
     deck["time"]["end"] = 5e-4
+    deck["output"] = {"every": 5e-4 / 9}
     happened = ["contact_stored", "mass_damping"]
 elif scene == "joints":
     recipe, deck = case.load("exodus_inputs/cut_rock_2d/mesh.yaml"), case.load("exodus_inputs/cut_rock_2d/rock.yaml")
