@@ -217,6 +217,15 @@ private:
       tokens_.toBytes();
   }
 
+  /// Of a group of an entity; negative where the entity is turned round.
+  int groupNumber()
+  {
+    const int group = tokens_.integer("a group of an entity");
+    if (group == std::numeric_limits<int>::min())
+      tokens_.refuse(fmt::format("a group of an entity is {}", group));
+    return std::abs(group);
+  }
+
   void readEntities()
   {
     begin();
@@ -232,7 +241,7 @@ private:
         std::vector<int>& groups = model_.physicalsOfEntity[{dimension, tag}];
         const GlobalId physicals = tokens_.count("the number of an entity's groups");
         for (GlobalId k = 0; k < physicals; ++k)
-          groups.push_back(std::abs(tokens_.integer("a group of an entity")));
+          groups.push_back(groupNumber());
         const GlobalId bounding = dimension > 0 ? tokens_.count("the size of a boundary") : 0;
         for (GlobalId k = 0; k < bounding; ++k)
           tokens_.integer("an entity of a boundary");

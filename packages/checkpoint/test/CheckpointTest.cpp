@@ -34,7 +34,8 @@ bool sameBits(Real a, Real b)
 TEST(Checkpoint, givesBackEveryBitByKey)
 {
   const Comm comm;
-  const std::string file = freshFolder("bits", comm) + "a.chk.0";
+  const TestFolder folder(comm);
+  const std::string file = folder / "a.chk.0";
   sample(comm).write(file, 17, 1.0 / 3);
   const CheckpointReader in(file, comm);
   EXPECT_EQ(in.head().cycle, 17);
@@ -74,12 +75,12 @@ TEST(Checkpoint, givesBackEveryBitByKey)
 TEST(Checkpoint, hasTheSameBytesOnAnyRanks)
 {
   const Comm comm, alone(MPI_COMM_SELF);
-  const std::string folder = freshFolder("same", comm);
-  sample(comm).write(folder + "all.chk", 5, 0.25);
+  const TestFolder folder(comm);
+  sample(comm).write(folder / "all.chk", 5, 0.25);
   if (comm.isRoot())
   {
-    sample(alone).write(folder + "alone.chk", 5, 0.25);
-    EXPECT_EQ(bytesOf(folder + "all.chk") == bytesOf(folder + "alone.chk"), true);
+    sample(alone).write(folder / "alone.chk", 5, 0.25);
+    EXPECT_EQ(contentOf(folder / "all.chk") == contentOf(folder / "alone.chk"), true);
   }
   comm.barrier();
 }
@@ -87,15 +88,16 @@ TEST(Checkpoint, hasTheSameBytesOnAnyRanks)
 TEST(Checkpoint, leavesNoDraftBehind)
 {
   const Comm comm;
-  const std::string folder = freshFolder("draft", comm);
-  sample(comm).write(folder + "a.chk", 1, 1);
-  EXPECT_FALSE(std::filesystem::exists(folder + "a.chk.part"));
+  const TestFolder folder(comm);
+  sample(comm).write(folder / "a.chk", 1, 1);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.chk.part"));
 }
 
 TEST(Checkpoint, tellsOfARowThatIsNotThere)
 {
   const Comm comm;
-  const std::string file = freshFolder("missing", comm) + "a.chk";
+  const TestFolder folder(comm);
+  const std::string file = folder / "a.chk";
   sample(comm).write(file, 1, 1);
   const CheckpointReader in(file, comm);
   // One rank asks for it, all are told.
@@ -113,7 +115,8 @@ TEST(Checkpoint, tellsOfARowThatIsNotThere)
 TEST(Checkpoint, tellsOfTablesThatAreMissingOrHaveOtherColumns)
 {
   const Comm comm;
-  const std::string file = freshFolder("columns", comm) + "a.chk";
+  const TestFolder folder(comm);
+  const std::string file = folder / "a.chk";
   sample(comm).write(file, 1, 1);
   const CheckpointReader in(file, comm);
   EXPECT_NE(errorOf([&] { in.numbers("rigid"); }, ExitCode::Checkpoint).find("'rigid' is missing"),
@@ -139,9 +142,10 @@ TEST(Checkpoint, thatCannotBeWrittenSaysWhereAndWhy)
 TEST(Checkpoint, onAFullDiskTheOldOneStays)
 {
   const Comm comm;
-  const std::string file = freshFolder("full", comm) + "a.chk";
+  const TestFolder folder(comm);
+  const std::string file = folder / "a.chk";
   sample(comm).write(file, 1, 1);
-  const std::string before = bytesOf(file);
+  const std::string before = contentOf(file);
   comm.barrier();
   // MPI's own files are larger than this limit only where they exist already.
   rlimit old{}, limit{};
@@ -154,7 +158,7 @@ TEST(Checkpoint, onAFullDiskTheOldOneStays)
   text = errorOf([&] { large.write(file, 2, 2); }, ExitCode::Output);
   setrlimit(RLIMIT_FSIZE, &old);
   EXPECT_NE(text.find("File too large"), std::string::npos) << text;
-  EXPECT_EQ(bytesOf(file) == before, true);
+  EXPECT_EQ(contentOf(file) == before, true);
   EXPECT_FALSE(std::filesystem::exists(file + ".part"));
   comm.barrier();
 }

@@ -27,13 +27,14 @@ std::string problemOf(const std::string& file, const Comm& comm)
 struct Damaged : testing::Test
 {
   Comm comm;
-  std::string file = freshFolder("damage", comm) + "a.chk";
+  TestFolder folder{comm};
+  std::string file = folder / "a.chk";
   std::string whole;
 
   void SetUp() override
   {
     sample(comm).write(file, 17, 0.5);
-    whole = bytesOf(file);
+    whole = contentOf(file);
   }
 };
 } // namespace
@@ -93,8 +94,7 @@ TEST_F(Damaged, filesOfOthersAreNamedAsSuch)
   setBytes(file, whole.substr(512), comm); // HDF5, but without the head
   EXPECT_NE(problemOf(file, comm).find("it is not a checkpoint of Coplane"), std::string::npos);
   EXPECT_NE(problemOf(file + ".none", comm).find("No such file or directory"), std::string::npos);
-  EXPECT_NE(problemOf(freshFolder("damage/folder", comm), comm).find("it is not a plain file"),
-            std::string::npos);
+  EXPECT_NE(problemOf(folder.path(), comm).find("it is not a plain file"), std::string::npos);
 }
 
 } // namespace coplane

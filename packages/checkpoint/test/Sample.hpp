@@ -3,28 +3,13 @@
 #include <coplane_checkpoint/CheckpointReader.hpp>
 #include <coplane_checkpoint/CheckpointWriter.hpp>
 
+#include <TestFolder.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace coplane
 {
-/// A folder for one test, the same on all ranks, empty. Collective.
-inline std::string freshFolder(const std::string& name, const Comm& comm)
-{
-  const std::string folder = fmt::format("checkpoint_test.{}/{}", comm.size(), name);
-  if (comm.isRoot())
-  {
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
-  }
-  comm.barrier();
-  return folder + "/";
-}
-
 /// Row i of n belongs to key 7 i - 20; scattered over the ranks.
 inline KeyedRows sampleRows(const Comm& comm, int n)
 {
@@ -68,14 +53,6 @@ inline CheckpointWriter sample(const Comm& comm, int n = 100)
   out.text("deck", "time.end = 1\nmesh = a.e\n");
   out.text("empty", "");
   return out;
-}
-
-inline std::string bytesOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 
 /// On rank 0; all ranks wait for it.

@@ -2,29 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <TestFolder.hpp>
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace coplane
 {
 namespace
 {
-std::string fileFor(const std::string& name, const Comm& comm)
-{
-  return fmt::format("restart_test_{}.{}", comm.size(), name);
-}
-
-std::string bytesOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 void save(const Solver& solver, const std::string& file, const Comm& comm)
 {
   CheckpointWriter out(comm);
@@ -62,10 +47,10 @@ Model everything(const Comm& comm, const std::string& method = "multijagged")
 
 using Maker = std::function<Model(const Comm&, const std::string&)>;
 
-void expectSameBits(const Maker& make, const std::string& name, int total,
-                    const std::vector<int>& stops)
+void expectSameBits(const Maker& make, int total, const std::vector<int>& stops)
 {
   const Comm comm;
+  const TestFolder folder(comm);
   Solver straight(make(comm, "multijagged"), comm);
   straight.prepare();
   std::int64_t planes = 0;
@@ -75,19 +60,19 @@ void expectSameBits(const Maker& make, const std::string& name, int total,
     planes = std::max(planes, std::int64_t(straight.contact().counts().planes));
     for (const int stop : stops)
       if (cycle == stop)
-        save(straight, fileFor(name + std::to_string(stop), comm), comm);
+        save(straight, folder / std::to_string(stop), comm);
   }
   EXPECT_GT(planes, 0);
   const EnergyBalance expected = straight.energy();
   for (const int stop : stops)
   {
-    const std::string file = fileFor(name + std::to_string(stop), comm);
+    const std::string file = folder / std::to_string(stop);
     const CheckpointReader in(file, comm);
     Solver again(make(comm, "rcb"), comm);
     again.restore(in);
     // What is saved is restored.
     save(again, file + ".again", comm);
-    EXPECT_TRUE(bytesOf(file) == bytesOf(file + ".again")) << "cycle " << stop;
+    EXPECT_TRUE(contentOf(file) == contentOf(file + ".again")) << "cycle " << stop;
     cycles(again, total - stop);
     EXPECT_EQ(again.stateHash(), straight.stateHash()) << "from cycle " << stop;
     EXPECT_EQ(again.searches(), straight.searches());
@@ -105,7 +90,7 @@ TEST(Restart, ofSlidingCubesHasTheBitsOfTheStraightRun)
 {
   expectSameBits([](const Comm& comm, const std::string& method)
                  { return slidingCubes(comm, method); },
-                 "cubes", 40, {1, 5, 18, 39});
+                 40, {1, 5, 18, 39});
 }
 
 TEST(Restart, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRun)
@@ -116,7 +101,7 @@ TEST(Restart, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRun)
   cycles(solver, 60);
   EXPECT_GT(solver.erosion().elements, 0); // else the claim would be an empty one
   EXPECT_EQ(solver.rigidBodies().count(), 1);
-  expectSameBits(everything, "everything", 60, {2, 23, 45, 58});
+  expectSameBits(everything, 60, {2, 23, 45, 58});
 }
 
 TEST(Restart, underTheClassicCommonPlaneHasTheBitsOfTheStraightRun)
@@ -128,13 +113,14 @@ TEST(Restart, underTheClassicCommonPlaneHasTheBitsOfTheStraightRun)
         model.contact.method = ContactOptions::Method::CommonPlane;
         return model;
       },
-      "classic", 40, {6, 27});
+      40, {6, 27});
 }
 
 TEST(Restart, readsACheckpointOfManyRanksOnOne)
 {
   const Comm comm, alone(MPI_COMM_SELF);
-  const std::string file = fileFor("one", comm);
+  const TestFolder folder(comm);
+  const std::string file = folder / "one.chk";
   Solver straight(slidingCubes(comm), comm);
   straight.prepare();
   cycles(straight, 10);
@@ -153,7 +139,8 @@ TEST(Restart, readsACheckpointOfManyRanksOnOne)
 TEST(Restart, refusesACheckpointOfAnotherMesh)
 {
   const Comm comm;
-  const std::string file = fileFor("other", comm);
+  const TestFolder folder(comm);
+  const std::string file = folder / "other.chk";
   Solver small(rockModel(unitBox(1, 1, 1), comm), comm);
   small.prepare();
   save(small, file, comm);

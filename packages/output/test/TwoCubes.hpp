@@ -5,10 +5,8 @@
 #include <coplane_mesh/Mesh.hpp>
 #include <coplane_partition/Partition.hpp>
 
-#include <filesystem>
-#include <fstream>
+#include <TestFolder.hpp>
 #include <memory>
-#include <sstream>
 #include <string>
 
 namespace coplane
@@ -91,38 +89,5 @@ inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
   model.contactRules.table.resize(4);
   model.time.end = 5e-3;
   return model;
-}
-
-/// A folder of this test program, the same on all ranks, made fresh; removed at the end.
-class TestFolder
-{
-public:
-  explicit TestFolder(const Comm& comm) : comm_(comm)
-  {
-    std::string pattern = (std::filesystem::temp_directory_path() / "coplane_output_XXXXXX");
-    if (comm.isRoot() && !::mkdtemp(pattern.data()))
-      pattern.clear();
-    path_ = comm.broadcast(pattern);
-  }
-  ~TestFolder()
-  {
-    comm_.barrier();
-    std::error_code ignored;
-    if (comm_.isRoot())
-      std::filesystem::remove_all(path_, ignored);
-  }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-
-private:
-  Comm comm_;
-  std::string path_;
-};
-
-inline std::string contentOf(const std::string& file)
-{
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
 }
 } // namespace coplane

@@ -7,15 +7,18 @@
 #include <exodusII.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <chrono>
 #include <cmath>
 #include <condition_variable>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <thread>
+#include <unistd.h>
 #include <unordered_map>
 
 namespace coplane
@@ -47,12 +50,13 @@ bool looksLikeNetcdf(std::ifstream& file)
   return std::string(magic, 3) == "CDF" || std::string(magic, 4) == "\x89HDF";
 }
 
-/// Ends the program with a message when it lives for longer than a minute. The HDF5 library (1.10)
-/// never comes back from some damaged files: nothing else can be done about it.
-class OpeningDeadline
+/// Ends the program with a message when opening a file goes on for longer than a minute, or runs
+/// into a fault of memory. The HDF5 library (1.10) never comes back from some damaged files, and
+/// frees what it has not allocated in others: nothing else can be done about it.
+class OpeningGuard
 {
 public:
-  explicit OpeningDeadline(const std::string& file)
+  explicit OpeningGuard(const std::string& file)
       : timer_(
             [this, file]
             {
@@ -66,9 +70,18 @@ public:
               std::_Exit(int(ExitCode::Mesh));
             })
   {
+    messageOnFault = fmt::format("ERROR: {}: the file is damaged: the HDF5 library fails while "
+                                 "opening it. Write the mesh again.\n",
+                                 file);
+    struct sigaction action = {};
+    action.sa_handler = endWithMessage;
+    for (std::size_t k = 0; k < faults.size(); ++k)
+      sigaction(faults[k], &action, &before_[k]);
   }
-  ~OpeningDeadline()
+  ~OpeningGuard()
   {
+    for (std::size_t k = 0; k < faults.size(); ++k)
+      sigaction(faults[k], &before_[k], nullptr);
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       isOver_ = true;
@@ -76,8 +89,21 @@ public:
     ended_.notify_one();
     timer_.join();
   }
+  OpeningGuard(const OpeningGuard&) = delete;
+  OpeningGuard& operator=(const OpeningGuard&) = delete;
 
 private:
+  static constexpr std::array<int, 4> faults{SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
+  inline static std::string messageOnFault;
+
+  static void endWithMessage(int)
+  {
+    if (::write(STDERR_FILENO, messageOnFault.data(), messageOnFault.size()) < 0)
+      std::_Exit(int(ExitCode::Internal));
+    std::_Exit(int(ExitCode::Mesh));
+  }
+
+  std::array<struct sigaction, faults.size()> before_;
   std::mutex mutex_;
   std::condition_variable ended_;
   bool isOver_ = false;
@@ -94,7 +120,7 @@ public:
     int memoryWord = 8, fileWord = 0;
     float version = 0;
     {
-      const OpeningDeadline deadline(file);
+      const OpeningGuard guard(file);
       exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
     }
     if (exoid_ < 0)
