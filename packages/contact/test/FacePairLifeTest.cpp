@@ -98,6 +98,22 @@ TEST(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
   EXPECT_NEAR(plane.force.z, 1, 1e-12); // 1e3 * .001
 }
 
+TEST(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
+{
+  // A wedge of overlap: no part of it may push, neither now nor in the next cycle.
+  const FaceNodes b = moved(above(.05), rotation({0, 1, 0}, 5 * pi / 180));
+  PairPlane plane = touchingPlane(1e3);
+  plane.born = false;
+  plane.fresh = true;
+  for (int cycle = 0; cycle < 3; ++cycle)
+  {
+    updatePlane<3>(plane, below(), b, {}, 1);
+    EXPECT_EQ(norm(plane.force), 0.0) << cycle;
+  }
+  EXPECT_TRUE(plane.born);
+  EXPECT_LT(plane.offset, -.05);
+}
+
 TEST(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPart)
 {
   PairPlane plane = touchingPlane(1e3);
@@ -135,6 +151,20 @@ TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   // The back of a thin body lies far behind the contact on its front, from which it inherits.
   EXPECT_TRUE(born(.22).released);
   EXPECT_EQ(norm(born(.22).force), 0.0);
+}
+
+TEST(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)
+{
+  // A rough surface: the next face of it stands higher than the one that was touched.
+  PairPlane plane = touchingPlane(1e3);
+  plane.born = false;
+  plane.inherited = plane.slidesOn = true;
+  plane.fresh = false;
+  plane.depthLimit = .1;
+  plane.closure = .01;
+  updatePlane<3>(plane, below(), above(.08), {}, 1);
+  EXPECT_FALSE(plane.released);
+  EXPECT_NEAR(plane.force.z, 80, 1e-10); // 1e3 * .08 * 1
 }
 
 TEST(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)

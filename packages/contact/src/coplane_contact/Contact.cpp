@@ -99,18 +99,33 @@ FaceNodes Contact::nodesOf(const Face& face, const ConstNodeVectors& x) const
   return nodes;
 }
 
+/// What a living plane has to give, during a search.
+Donor Contact::donor(const Plane& plane) const
+{
+  Donor donor = donorOf(plane);
+  for (int side = 0; side < 2; ++side)
+    if (plane.face[side] >= 0)
+    {
+      const Face& face = faceTable_(plane.face[side]);
+      for (int k = 0; k < face.count; ++k)
+        donor.nodes[side][k] = nodeIds_[face.nodes[k]];
+    }
+  return donor;
+}
+
 std::vector<Donor> Contact::livingPlanes() const
 {
   std::vector<Donor> donors;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     if (isDonor(planes_(p)))
-      donors.push_back(donorOf(planes_(p)));
+      donors.push_back(donor(planes_(p)));
   return donors;
 }
 
 std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
                                           const std::vector<GlobalId>& nodeIds)
 {
+  nodeIds_ = nodeIds;
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
     // Bonds that hold may be open farther than the skin, and contacts deeper than their limit.
@@ -248,7 +263,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       if (searches_ > 0)
         for (std::int32_t i = planesStart_(face); i < planesStart_(face + 1); ++i)
           if (isDonor(planes_(planesEntry_(i) / 2)))
-            donors.push_back(donorOf(planes_(planesEntry_(i) / 2)));
+            donors.push_back(donor(planes_(planesEntry_(i) / 2)));
       return;
     }
     const GlobalId id = faces_[face].id;
@@ -330,12 +345,21 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     if (!options_.inherit)
       return;
+    const auto nodesOfPair = [&]
+    {
+      PairNodes nodes{};
+      for (int k = 0; k < a.count; ++k)
+        nodes[0][k] = layout.ids()[a.nodes[k]];
+      for (int k = 0; k < b.count; ++k)
+        nodes[1][k] = layout.ids()[b.nodes[k]];
+      return nodes;
+    };
     std::vector<Donor> donors;
     if (newLeader)
     {
       const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
       donors.assign(mine.first, mine.second);
-      if (inherit(plane, plane.normal, donors))
+      if (inherit(plane, plane.normal, nodesOfPair(), donors))
         return;
       donors.clear();
     }
@@ -347,7 +371,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     // Slots that have not touched yet look for donors again at every search.
     plane.offset = 0;
     plane.closure = 0;
-    plane.inherited = false;
+    plane.inherited = plane.slidesOn = false;
     plane.history = {};
     addDonors(pair.lower, donors);
     addDonors(pair.higher, donors);
@@ -356,12 +380,13 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
       inherit(plane,
               classic() ? leaders[source[slot]].normal : normalised(planeA.normal - planeB.normal),
-              donors);
+              nodesOfPair(), donors);
     }
   };
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
 
   planes_ = next;
+  nodeIds_ = {};
   takeFaceTables();
   buildLists(layout.owned());
   for (Face& face : localFaces_)

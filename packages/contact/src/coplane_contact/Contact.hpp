@@ -122,6 +122,7 @@ private:
   void takeFaceTables();
   bool classic() const { return options_.method == ContactOptions::Method::CommonPlane; }
   std::vector<Donor> livingPlanes() const;
+  Donor donor(const Plane& plane) const;
   std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,
                                    const ConstNodeVectors& x) const;
   template <class FaceOf>
@@ -141,6 +142,7 @@ private:
   CandidateRules candidates_; ///< of the last search
   Bins bins_;
   Ghosts ghosts_;
+  std::vector<GlobalId> nodeIds_; ///< of the nodes of faceTable_, while a search makes a new one
   std::int64_t searches_ = 0;
   std::int64_t missed_ = 0;
   bool searchedSinceUpdate_ = false;

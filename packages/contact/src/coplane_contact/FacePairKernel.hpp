@@ -335,10 +335,10 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
 
 /// Steps E and F: whether a pair that shares enough area touches, for which it becomes a plane if
 /// it is none yet.
-/// @param gap at the end of the step, motion: its change since the half step, approach: of the
-///        faces in two steps [m]
-KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, Real motion,
-                                    Real approach)
+/// @param gap at the end of the step, deepest: where the faces are deepest in each other, motion:
+///        change of the gap since the half step, approach: of the faces in two steps [m]
+KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, Real deepest,
+                                    Real motion, Real approach)
 {
   if (!(plane.area > 0))
   {
@@ -349,15 +349,17 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
     const bool exists = stepE_planeExists(plane);
     const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
-    const Real deepest = plane.fresh ? plane.depthLimit : start;
-    // Where faces slide on, a pair may be born as deep as its neighbours are, and they passed on
-    // their closure. Neighbours of the front and of the back of a thin body explain nothing. An
-    // open plane has no closure: its surface is where its offset says.
+    const Real limit = plane.fresh ? plane.depthLimit : start;
+    // Where faces slide from one body to the next, a pair may be born as deep as its neighbours
+    // are, and they passed on their closure. Neighbours of the front and of the back of a thin body
+    // explain nothing. An open plane has no closure: its surface is where its offset says.
     const Real explained = exists || plane.inherited ? plane.offset - plane.closure : 0;
-    if (!plane.declared && motion + explained - gap > deepest)
+    // A face that slides on over the same surface meets the next face of it as deep as it lies
+    // there, also where the surface is rough.
+    if (!plane.declared && !plane.slidesOn && motion + explained - gap > limit)
       plane.released = true;
     if (!plane.released && !exists)
-      stepF_createPlane(plane, normal, gap);
+      stepF_createPlane(plane, normal, deepest);
   }
   return !plane.released;
 }
@@ -410,6 +412,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
   const auto large = patch.area > smallest;
   const T gap = gapOf(patch, shadowA, shadowB);
+  const T deepest = options.area == ContactOptions::Area::Full
+                        ? gap
+                        : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
   T motion{}, approach{};
   if (!allOf(large && carries))
@@ -429,8 +434,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
             plane.overlap = lane(patch.overlap, i);
             const bool isLarge = lane(large, i);
             plane.foundLate = plane.fresh && !plane.declared && !plane.born && isLarge;
-            const bool inContact = isLarge && touches(plane, lane(trial.normal, i), lane(gap, i),
-                                                      lane(motion, i), lane(approach, i));
+            const bool inContact =
+                isLarge && touches(plane, lane(trial.normal, i), lane(gap, i), lane(deepest, i),
+                                   lane(motion, i), lane(approach, i));
             if (!(lane(patch.area, i) > 0))
               plane.released = false;
             return inContact;

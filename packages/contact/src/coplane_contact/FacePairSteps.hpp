@@ -86,6 +86,8 @@ KOKKOS_INLINE_FUNCTION bool stepE_planeExists(const Plane& plane)
 
 /// Step F: the slot becomes a plane. A pair that was penetrated already when it was found starts
 /// without force.
+/// @param gap where the faces are deepest in each other; with the area of the whole overlap, at its
+///        centre of gravity [m]
 KOKKOS_INLINE_FUNCTION void stepF_createPlane(Plane& plane, const Vec3& normal, Real gap)
 {
   plane.born = true;

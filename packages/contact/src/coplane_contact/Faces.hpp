@@ -99,6 +99,7 @@ FaceElement toFaceElement(const GhostFace& ghost, const LocalNode& localNode)
 struct Donor
 {
   GlobalId faceId[2] = {0, 0};
+  GlobalId nodes[2][4] = {}; ///< ids of the nodes of its faces; 0: none
   int joint = 0;
   Vec3 normal{};
   Real area = 0;

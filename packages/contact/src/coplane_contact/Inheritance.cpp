@@ -26,12 +26,36 @@ Donor donorOf(const Plane& plane)
   return donor;
 }
 
-bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
+namespace
+{
+bool shareNode(const GlobalId* a, const GlobalId* b)
+{
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j)
+      if (a[i] != 0 && a[i] == b[j])
+        return true;
+  return false;
+}
+
+/// Whether a donor lies on the surface that the plane slides over.
+bool isOnSameSurface(const Donor& donor, const Plane& plane, const PairNodes& nodes)
+{
+  for (int mine = 0; mine < 2; ++mine)
+    for (int its = 0; its < 2; ++its)
+      if (donor.faceId[its] == plane.faceId[mine] &&
+          shareNode(donor.nodes[1 - its], nodes[1 - mine].data()))
+        return true;
+  return false;
+}
+} // namespace
+
+bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors)
 {
   const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
   std::sort(donors.begin(), donors.end(),
             [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
   Real area = 0;
+  bool slidesOn = false;
   Donor mean;
   for (std::size_t i = 0; i < donors.size(); ++i)
   {
@@ -40,6 +64,7 @@ bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
         (i > 0 && key(donors[i - 1]) == key(donor)))
       continue;
     area += donor.area;
+    slidesOn = slidesOn || isOnSameSurface(donor, plane, nodes);
     mean.offset += donor.area * donor.offset;
     mean.maximumClosure += donor.area * donor.maximumClosure;
     mean.closure += donor.area * donor.closure;
@@ -50,6 +75,7 @@ bool inherit(Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
   if (!(area > 0))
     return false;
   plane.inherited = true;
+  plane.slidesOn = slidesOn;
   plane.offset = mean.offset / area;
   plane.history.maximumClosure = mean.maximumClosure / area;
   plane.closure = mean.closure / area;

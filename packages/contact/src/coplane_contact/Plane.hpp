@@ -83,6 +83,7 @@ struct alignas(64) Plane
   bool fresh : 1;                  ///< not evaluated since the slot was made
   bool foundLate : 1;              ///< was penetrated already when the search found it
   bool inherited : 1;              ///< took its history from living neighbours
+  bool slidesOn : 1; ///< inherited, and some neighbour touches the same surface: a face beside
   bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep : 1;  ///< deeper than the limit; force frozen
   bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
@@ -113,7 +114,7 @@ struct alignas(64) Plane
 
   KOKKOS_INLINE_FUNCTION Plane()
       : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
-        inherited(false), released(false), tooDeep(false), leads(false)
+        inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false)
   {
   }
 

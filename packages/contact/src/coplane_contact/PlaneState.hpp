@@ -33,6 +33,7 @@ void forEachMember(Plane& plane, F&& f)
   plane.fresh = flag("fresh", plane.fresh);
   plane.foundLate = flag("found_late", plane.foundLate);
   plane.inherited = flag("inherited", plane.inherited);
+  plane.slidesOn = flag("slides_on", plane.slidesOn);
   plane.released = flag("released", plane.released);
   plane.tooDeep = flag("too_deep", plane.tooDeep);
   plane.leads = flag("leads", plane.leads);
