@@ -1,5 +1,7 @@
 #include "Readers.hpp"
 
+#include <coplane_checkpoint/CheckpointFile.hpp>
+#include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
@@ -13,6 +15,9 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace coplane
 {
@@ -49,6 +54,52 @@ std::string exodusFileInHdf5(const std::string& recipe)
   ex_close(out);
   return to;
 }
+/// MPI from the first use to the end of the process.
+const Comm& comm()
+{
+  static const bool started = MPI_Init(nullptr, nullptr) == MPI_SUCCESS;
+  static const Comm world(started ? MPI_COMM_WORLD : MPI_COMM_NULL);
+  return world;
+}
+
+std::string& goodCheckpoint()
+{
+  static std::string content;
+  return content;
+}
+
+/// A small checkpoint. A child writes it: this process is forked once more, which MPI does not
+/// like.
+std::string checkpointFile(const std::string& name)
+{
+  if (const pid_t child = fork(); child == 0)
+  {
+    CheckpointWriter out(comm());
+    KeyedRows rows;
+    rows.columns = {"x", "y"};
+    for (int i = 0; i < 40; ++i)
+      rows.add({3 * i})[0] = 1.0 / (i + 1);
+    out.rows("nodes", rows);
+    out.numbers("clock", {1, 0.25});
+    out.text("deck", "time.end = 1\n");
+    out.write(name, 17, 0.25);
+    MPI_Finalize();
+    _exit(0);
+  }
+  else
+    waitpid(child, nullptr, 0);
+  return goodCheckpoint() = textOfFile(name);
+}
+
+void readCheckpoint(const std::string& file)
+{
+  CheckpointHead head;
+  const std::string problem = verifyCheckpoint(file, comm(), head);
+  if (!problem.empty())
+    fail(ExitCode::Checkpoint, "{}: {}", file, problem);
+  if (textOfFile(file) != goodCheckpoint())
+    throw std::runtime_error("a spoilt checkpoint is taken for a whole one");
+}
 } // namespace
 
 const std::vector<Reader>& readers()
@@ -62,7 +113,8 @@ const std::vector<Reader>& readers()
        readExodus, false, 1000},
       {"exodus_hdf5", ".e",
        [](const std::string& path) { return textOfFile(exodusFileInHdf5(path)); }, readExodus,
-       true}};
+       true},
+      {"checkpoint", ".chk", checkpointFile, readCheckpoint}};
   return all;
 }
 } // namespace coplane

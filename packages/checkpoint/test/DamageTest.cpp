@@ -41,17 +41,12 @@ struct Damaged : testing::Test
 
 TEST_F(Damaged, isFoundWhereverABitIsTurned)
 {
-  // The same places on all ranks: all of the head that means something, and places everywhere.
+  // The same places on all ranks: many in the head, and places everywhere.
   std::mt19937 random(7);
-  CheckpointHead head;
-  ASSERT_EQ(inspectCheckpoint(file, head), "");
-  const std::size_t lines = head.text().size();
   for (int trial = 0; trial < 400; ++trial)
   {
     const std::size_t place =
-        trial < 150
-            ? random() % lines
-            : CheckpointHead::headBytes + random() % (whole.size() - CheckpointHead::headBytes);
+        trial < 150 ? random() % CheckpointHead::headBytes : random() % whole.size();
     std::string bytes = whole;
     bytes[place] = char(bytes[place] ^ (1 << random() % 8));
     setBytes(file, bytes, comm);

@@ -108,7 +108,9 @@ std::string inspectCheckpoint(const std::string& file, CheckpointHead& head)
   head.time = std::strtod(valueOf(lines, "time").c_str(), nullptr);
   head.bytes = std::strtoull(valueOf(lines, "bytes").c_str(), nullptr, 10);
   head.checksum = std::strtoull(valueOf(lines, "checksum").c_str(), nullptr, 16);
-  if (text.rfind(head.text(), 0) != 0)
+  const std::string asWritten = head.text();
+  if (text.rfind(asWritten, 0) != 0 ||
+      text.find_first_not_of('\0', asWritten.size()) != std::string::npos)
     return "its first bytes are damaged";
   if (head.bytes != std::uint64_t(status.st_size))
     return fmt::format("it has {} bytes and should have {}", status.st_size, head.bytes);
