@@ -485,6 +485,7 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   model.time.maximumStep = deck.time.maximumStep;
   model.time.fixedStep = deck.time.fixedStep;
   model.time.energyTolerance = deck.time.energyTolerance;
+  model.time.contactGainTolerance = deck.time.contactGainTolerance;
   model.mesh = std::move(part);
   return model;
 }

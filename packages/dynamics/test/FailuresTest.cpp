@@ -82,6 +82,31 @@ TEST(InvertedElement, ofTheMeshIsReportedBeforeTheFirstCycle)
   }
 }
 
+TEST(EnergyTolerance, contactThatMakesEnergyEndsTheRun)
+{
+  // A cube is pulled out from between two others under load: the areas change, and with them the
+  // energy that the planes hold. Whatever sign that has, one of the two directions gains.
+  const Comm comm;
+  int ended = 0;
+  for (const Real direction : {1., -1.})
+  {
+    Model model = slidingCubes(comm);
+    model.blocks[1].velocity.x *= direction;
+    model.time.end = 1;
+    model.time.contactGainTolerance = 1e-12;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    Recorder observer;
+    const std::string text = failureOf(solver, observer);
+    if (text.find("contact has made") == std::string::npos)
+      continue;
+    ++ended;
+    expectContains(text, "time.contact_gain_tolerance");
+    expectContains(text, "plane between side 6 of element ");
+  }
+  EXPECT_GT(ended, 0);
+}
+
 TEST(EnergyTolerance, errorNamesTheWorstPlanesAndElements)
 {
   // No balance closes to 1e-15: the check after 100 cycles must fail.

@@ -178,7 +178,7 @@ std::string show(const Deck& d)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
-          d.time.energyTolerance);
+          d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.filePerRank);
   for (const Real t : d.output.times)
     showAll(out, t);

@@ -57,6 +57,7 @@ struct TimeOptions
   Real stepFactor = 0.8;
   std::optional<Real> maximumStep, fixedStep; ///< [s]
   Real energyTolerance = 0.1;                 ///< fraction of the energy in play
+  Real contactGainTolerance = 0.5;            ///< the same, of what contact may gain
 };
 
 /// Everything the solver needs to know, on this rank.

@@ -456,16 +456,11 @@ ExitCode Solver::run(Observer& observer)
     if (clock_.cycle % energyCheckEvery == 0)
     {
       const EnergyBalance balance = energy();
-      if (!(std::abs(balance.error()) <= model_.time.energyTolerance * balance.scale()))
+      const std::string broken = brokenBalance(balance);
+      if (!broken.empty())
       {
         observer.finish(*this, "failed");
-        failOnAllRanks(
-            ExitCode::Computation,
-            "cycle {}, t = {:.6e} s: the energy balance is off by {:.3e} J of {:.3e} J in play "
-            "(accepted: {} of it, "
-            "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
-            clock_.cycle, clock_.time, balance.error(), balance.scale(),
-            model_.time.energyTolerance, worstEntities());
+        failOnAllRanks(ExitCode::Computation, "{}", broken);
       }
       warnOfTrouble(balance);
     }

@@ -148,6 +148,7 @@ private:
   void nameWhatLimits(int node, StepControl& control) const;
   std::string worstByRemainder() const;
   std::string deepestPlanes() const;
+  std::string brokenBalance(const EnergyBalance& balance) const;
   void warnOfTrouble(const EnergyBalance& balance);
   void finishAfter(const Error& error, Observer& observer) const;
   [[noreturn]] void failTogether(const std::string& what);

@@ -97,6 +97,27 @@ std::string Solver::worstEntities() const
   return text;
 }
 
+/// Why the run cannot go on; empty: it can. Collective.
+std::string Solver::brokenBalance(const EnergyBalance& balance) const
+{
+  const std::string now = fmt::format("cycle {}, t = {:.6e} s", clock_.cycle, clock_.time);
+  const Real scale = balance.scale();
+  if (!(std::abs(balance.error()) <= model_.time.energyTolerance * scale))
+    return fmt::format(
+        "{}: the energy balance is off by {:.3e} J of {:.3e} J in play (accepted: {} of it, "
+        "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
+        now, balance.error(), scale, model_.time.energyTolerance, worstEntities());
+  // Areas that grow under load bring energy that no other term shows.
+  const Real gain = -balance.contact.remainder();
+  if (!(gain <= model_.time.contactGainTolerance * scale))
+    return fmt::format(
+        "{}: contact has made {:.3e} J out of nothing, of {:.3e} J in play (accepted: {} of it, "
+        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: bodies that lie deep in "
+        "each other want stiffer joints, smaller elements or a smaller contact.depth_max.",
+        now, gain, scale, model_.time.contactGainTolerance, worstByRemainder());
+  return "";
+}
+
 void Solver::warnOfTrouble(const EnergyBalance& balance)
 {
   // Every warning waits until things are twice as bad as at the last one of its kind.

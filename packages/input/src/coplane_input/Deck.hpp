@@ -247,6 +247,8 @@ struct TimeCard
   std::optional<Real> fixedStep;   ///< [s]; refused above the stable step only by a warning
   Real energyTolerance =
       0.1; ///< stop when the balance is off by this fraction of the energy in play [-]
+  Real contactGainTolerance =
+      0.5; ///< stop when contact has made this fraction of the energy in play [-]
 };
 
 struct OutputCard

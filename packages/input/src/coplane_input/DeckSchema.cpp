@@ -327,6 +327,13 @@ Key timeGroup()
                        .like("0.05")
                        .means("the run stops when the energy balance is off by this fraction of "
                               "the energy in play"),
+                   number("contact_gain_tolerance", &TimeCard::contactGainTolerance)
+                       .in("-")
+                       .above(0)
+                       .like("0.05")
+                       .means("the run stops when contact has gained this fraction of the energy "
+                              "in play out of nothing (the contact remainder, with its sign "
+                              "turned)"),
                })
       .needed()
       .atMostOneOf({"maximum_step", "fixed_step"})

@@ -1,17 +1,50 @@
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+#include <utility>
 
 namespace coplane
 {
-ElementSides::ElementSides(const RankMesh& mesh)
+namespace
 {
-  struct Candidate
+/// A side of an element as a face, its nodes from the outside; for owners of none of its nodes
+/// without meaning.
+ExteriorFace faceOf(const RankMesh& mesh, int b, int e, int s)
+{
+  const RankMesh::Block& block = mesh.blocks[b];
+  const ElementTopology& shape = topology(block.type);
+  ExteriorFace face;
+  face.id = faceId(block.elementIds[e], s);
+  face.block = b;
+  face.element = e;
+  face.side = s;
+  face.nodeCount = shape.nodesPerSide;
+  int lowest = -1;
+  for (int k = 0; k < face.nodeCount; ++k)
   {
-    std::array<int, 4> sortedNodes;
-    ExteriorFace face;
-  };
-  std::vector<Candidate> candidates;
+    const int node = block.connectivity[e * shape.nodes + shape.sideNodes[s][k]];
+    face.nodes[k] = node;
+    if (lowest < 0 || mesh.nodeIds[node] < mesh.nodeIds[lowest])
+      lowest = node;
+  }
+  face.ownedHere = lowest < mesh.ownedNodes;
+  return face;
+}
+
+std::array<int, 4> sortedNodes(const ExteriorFace& face)
+{
+  std::array<int, 4> nodes = face.nodes;
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+/// f(block, element, side) of every side with an owned node.
+template <class F>
+void forEachSide(const RankMesh& mesh, const F& f)
+{
   for (int b = 0; b < int(mesh.blocks.size()); ++b)
   {
     const RankMesh::Block& block = mesh.blocks[b];
@@ -19,41 +52,36 @@ ElementSides::ElementSides(const RankMesh& mesh)
     for (int e = 0; e < block.elements(); ++e)
       for (int s = 0; s < shape.sides; ++s)
       {
-        Candidate candidate;
-        ExteriorFace& face = candidate.face;
-        face.id = faceId(block.elementIds[e], s);
-        face.block = b;
-        face.element = e;
-        face.side = s;
-        face.nodeCount = shape.nodesPerSide;
         bool local = false;
-        int lowest = -1;
-        for (int k = 0; k < face.nodeCount; ++k)
-        {
-          const int node = block.connectivity[e * shape.nodes + shape.sideNodes[s][k]];
-          face.nodes[k] = node;
-          local = local || node < mesh.ownedNodes;
-          if (lowest < 0 || mesh.nodeIds[node] < mesh.nodeIds[lowest])
-            lowest = node;
-        }
-        if (!local)
-          continue;
-        face.ownedHere = lowest < mesh.ownedNodes;
-        candidate.sortedNodes = face.nodes;
-        std::sort(candidate.sortedNodes.begin(), candidate.sortedNodes.end());
-        candidates.push_back(candidate);
+        for (int k = 0; k < shape.nodesPerSide; ++k)
+          local = local ||
+                  block.connectivity[e * shape.nodes + shape.sideNodes[s][k]] < mesh.ownedNodes;
+        if (local)
+          f(b, e, s);
       }
   }
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b)
-            { return std::tie(a.sortedNodes, a.face.id) < std::tie(b.sortedNodes, b.face.id); });
+}
+} // namespace
 
-  sides_.reserve(candidates.size());
-  for (std::size_t i = 0; i < candidates.size(); ++i)
+ElementSides::ElementSides(const RankMesh& mesh)
+{
+  std::vector<std::pair<std::array<int, 4>, ExteriorFace>> all;
+  forEachSide(mesh,
+              [&](int b, int e, int s)
+              {
+                const ExteriorFace face = faceOf(mesh, b, e, s);
+                all.emplace_back(sortedNodes(face), face);
+              });
+  std::sort(all.begin(), all.end(),
+            [](const auto& a, const auto& b)
+            { return std::tie(a.first, a.second.id) < std::tie(b.first, b.second.id); });
+
+  sides_.reserve(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i)
   {
-    if (i == 0 || candidates[i].sortedNodes != candidates[i - 1].sortedNodes)
+    if (i == 0 || all[i].first != all[i - 1].first)
       start_.push_back(int(i));
-    sides_.push_back(candidates[i].face);
+    sides_.push_back(all[i].second);
   }
   start_.push_back(int(sides_.size()));
 }
@@ -81,9 +109,46 @@ std::vector<ExteriorFace> ElementSides::exterior(const std::vector<std::vector<c
 
 std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
 {
-  std::vector<std::vector<char>> alive;
-  for (const RankMesh::Block& block : mesh.blocks)
-    alive.emplace_back(block.elements(), char(1));
-  return ElementSides(mesh).exterior(alive);
+  // Sides in the order of their lowest node, a few bytes for each: only those with the same lowest
+  // node can be the same face.
+  struct Side
+  {
+    int block, element, side;
+  };
+  std::vector<int> start(mesh.nodeIds.size() + 1, 0);
+  const auto lowestNode = [&](int b, int e, int s)
+  {
+    const ElementTopology& shape = topology(mesh.blocks[b].type);
+    int lowest = mesh.blocks[b].connectivity[e * shape.nodes + shape.sideNodes[s][0]];
+    for (int k = 1; k < shape.nodesPerSide; ++k)
+      lowest =
+          std::min(lowest, mesh.blocks[b].connectivity[e * shape.nodes + shape.sideNodes[s][k]]);
+    return lowest;
+  };
+  forEachSide(mesh, [&](int b, int e, int s) { ++start[lowestNode(b, e, s) + 1]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Side> sides(start.back());
+  std::vector<int> next(start.begin(), start.end() - 1);
+  forEachSide(mesh, [&](int b, int e, int s) { sides[next[lowestNode(b, e, s)]++] = {b, e, s}; });
+
+  std::vector<ExteriorFace> faces;
+  std::vector<ExteriorFace> here;
+  std::vector<std::array<int, 4>> nodes;
+  for (std::size_t n = 0; n + 1 < start.size(); ++n)
+  {
+    here.clear();
+    nodes.clear();
+    for (int i = start[n]; i < start[n + 1]; ++i)
+    {
+      here.push_back(faceOf(mesh, sides[i].block, sides[i].element, sides[i].side));
+      nodes.push_back(sortedNodes(here.back()));
+    }
+    for (std::size_t i = 0; i < here.size(); ++i)
+      if (std::count(nodes.begin(), nodes.end(), nodes[i]) == 1)
+        faces.push_back(here[i]);
+  }
+  std::sort(faces.begin(), faces.end(),
+            [](const ExteriorFace& a, const ExteriorFace& b) { return a.id < b.id; });
+  return faces;
 }
 } // namespace coplane
