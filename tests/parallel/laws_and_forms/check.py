@@ -24,6 +24,7 @@ LAWS = {
     "mohr_coulomb": {"set": "clay_brick"},
     "johnson_cook": {"set": "copper_ofhc"},
     "pseudo_cap": {"set": "concrete_c40"},
+    "pseudo_cap_rates": {"set": "concrete_c40", "rate_effects": True},
     "hjc": {"set": "concrete_hjc_48"},
     "neo_hookean": {"model": "neo_hookean", "density": 1100, "youngs_modulus": 30e6, "poisson_ratio": 0.45},
 }
