@@ -36,6 +36,8 @@ SIMPLICES = [{}, {"element": "nodal_pressure"}]
 bodies = [("neo_hookean", {}, False)] + [(law, {}, False) for law in LAWS if law != "neo_hookean"]
 bodies += [(law, options, False) for law in ("j2", "pseudo_cap") for options in RATES + FORMS if law == "j2" or "element" in options]
 bodies += [(law, options, True) for law in ("j2", "pseudo_cap") for options in SIMPLICES]
+bodies += [("pseudo_cap_rates", {"element": "full_integration"}, False)]
+assert len(bodies) % 2 == 0  # pairs
 
 size, pitch, inner = 0.01, 0.01002, 0.02
 recipe = {"dimension": 2 if flat else 3, "parts": []}
