@@ -33,10 +33,21 @@ plot.PANELS = {
         ),
         ("Hydrostat", PRESSURE, (1, MPA), PRESSURE_TEXT, [("hydrostat", ""), ("hydrostat_far", "")]),
     ],
+    "concrete_rates": [
+        (
+            "Tension", AXIAL, (MILLI, MPA), AXIAL_TEXT,
+            [("tension_1e-6", "1e-6/s"), ("tension_1", "1/s"), ("tension_10", "10/s")],
+        ),
+        (
+            "Compression", AXIAL, (MILLI, MPA), AXIAL_TEXT,
+            [("compression_1e-6", "1e-6/s"), ("compression_1", "1/s"), ("compression_100", "100/s")],
+        ),
+        ("Fast, at rest, slow, fast", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("stop", "")]),
+    ],
     "concrete_hjc": [
         (
             "Compression", AXIAL, (MILLI, MPA), AXIAL_TEXT,
-            [("compression", "with damage"), ("compression_intact", "intact")],
+            [("compression", "with damage"), ("compression_intact", "intact"), ("compression_fast", "intact, 1000/s")],
         ),
         ("Hydrostat", PRESSURE, (1, MPA), PRESSURE_TEXT, [("hydrostat", "")]),
     ],

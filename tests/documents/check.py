@@ -68,14 +68,20 @@ def check_verification():
     )
     results = pathlib.Path("results")
     shutil.rmtree(results, ignore_errors=True)
-    results.mkdir()
+    own = results / f"verification.{names[0]}"
+    own.mkdir(parents=True)
+    other = results / "parallel.something"
+    other.mkdir()
     line = dict(folder=names[0], case="V0", quantity="|T| [m]", value=2.5, reference=2.0, error=0.25, tolerance=0.3, passed=True, relative=True)
     balance = dict(line, quantity="run: energy", kept="energy", error=0.1, relative=False)
     worse = dict(balance, quantity="other: energy", error=0.2, value=0.2)
-    (results / "checks.jsonl").write_text("".join(json.dumps(record) + "\n" for record in (line, balance, worse)))
+    (own / "checks.jsonl").write_text("".join(json.dumps(record) + "\n" for record in (line, balance, worse)))
+    (other / "checks.jsonl").write_text(json.dumps(dict(line, quantity="of another test")) + "\n")
     text = maker.page(results, f"## {names[1].replace('_', ' ')}\n\nkept\n")
     assert "| \\|T\\| [m] | 2 | 2.5 | 25 % | 30 % |" in text, text[:2000]
     assert "| energy, worst of 2 runs | 2 | 0.2 | 0.2 | 0.3 |" in text
+    assert "of another test" not in text
+    shutil.rmtree(results)  # the maker would read them as results of this build
     assert f"## {names[1].replace('_', ' ')}\n\nkept\n" in text and text.count("No results yet.") == len(names) - 2
 
 

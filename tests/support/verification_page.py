@@ -2,7 +2,7 @@
 
 Usage: verification_page.py <build folder> [<page>]
 
-Reads every checks.jsonl below the build folder and the READMEs in tests/verification. A case without results there keeps the
+Reads the checks.jsonl of the verification tests below the build folder and the READMEs in tests/verification. A case without results there keeps the
 section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
 """
 
@@ -32,9 +32,16 @@ def cases():
 
 
 def records(build):
-    """Last line for each quantity of each case folder: {folder: {(case, quantity): record}}."""
+    """Last line for each quantity of each case folder: {folder: {(case, quantity): record}}.
+
+    Only lines of the verification tests themselves (verification.<case>/checks.jsonl, or <case>.jsonl in
+    COPLANE_CHECKS_DIR): other tests leave lines about made-up quantities in the build, too.
+    """
     found = {}
+    names = tuple(folder.name for folder in cases())
     for path in sorted(pathlib.Path(build).rglob("*.jsonl")):
+        if not (path.name == "checks.jsonl" and path.parent.name.startswith("verification.")) and not path.name.startswith(names):
+            continue
         for text in path.read_text().splitlines():
             record = json.loads(text)
             found.setdefault(record["folder"], {})[record["case"], record["quantity"]] = record

@@ -162,6 +162,15 @@ inline TestMesh meshOf(const Formulation& f, int n, Real distortion, unsigned se
   return mesh;
 }
 
+/// Those of which `holds`.
+template <class Predicate>
+std::vector<Formulation> those(std::vector<Formulation> list, const Predicate& holds)
+{
+  list.erase(std::remove_if(list.begin(), list.end(), [&](const auto& f) { return !holds(f); }),
+             list.end());
+  return list;
+}
+
 inline std::string nameOf(const Formulation& f)
 {
   const char* forms[] = {"OnePoint", "AssumedStrain", "Full", "FullPlain", "NodalPressure"};
@@ -170,6 +179,9 @@ inline std::string nameOf(const Formulation& f)
          rates[int(f.options.rate)] +
          (f.options.geometry == Geometry::Axisymmetric ? "Revolved" : "");
 }
+
+/// For INSTANTIATE_TEST_SUITE_P.
+inline const auto nameOfParam = [](const auto& info) { return nameOf(info.param); };
 
 constexpr ElementType allTypes[] = {ElementType::Tri3, ElementType::Quad4, ElementType::Tet4,
                                     ElementType::Hex8};

@@ -33,6 +33,7 @@ materials:
   pseudo_cap: {model: pseudo_cap, density: 1, youngs_modulus: 30e9, poisson_ratio: 0.2, compressive_strength: 45e6,
     tensile_strength: 3e6, fracture_energy: 100, porosity: 0.1, grain_modulus: 45e9, crush_pressure: 90e6,
     crush_hardening: 200e6}
+  fast: {set: concrete_c40, rate_effects: true, largest_rate: 200}
   hjc: {model: hjc, density: 1, shear_modulus: 15e9, compressive_strength: 50e6, tensile_strength: 5e6, cohesive_factor: 0.8,
     pressure_factor: 1.5, pressure_exponent: 0.6, largest_strength: 6, least_fracture_strain: 0.02, damage_factor: 0.05,
     crush_pressure: 20e6, crush_compression: 0.002, lock_pressure: 900e6, lock_compression: 0.12,
@@ -146,10 +147,10 @@ std::string show(const Deck& d)
             m.heatRatio, m.pressure, m.cohesion, m.residualCohesion, m.friction, m.dilation, m.fit,
             m.compressiveStrength, m.tensileStrength, m.fractureEnergy, m.shearEnergy,
             m.plasticShears, m.cohesions, m.frictions, m.porosity, m.grainModulus, m.grainSlope,
-            m.crushPressure, m.crushHardening, m.capRatio, m.shearCompaction, m.cohesiveFactor,
-            m.pressureFactor, m.pressureExponent, m.largestStrength, m.leastFractureStrain,
-            m.damageFactor, m.damageExponent, m.crushCompression, m.lockPressure, m.lockCompression,
-            m.lockModuli);
+            m.crushPressure, m.crushHardening, m.capRatio, m.shearCompaction, m.rateEffects,
+            m.largestRate, m.cohesiveFactor, m.pressureFactor, m.pressureExponent,
+            m.largestStrength, m.leastFractureStrain, m.damageFactor, m.damageExponent,
+            m.crushCompression, m.lockPressure, m.lockCompression, m.lockModuli);
   for (const auto& b : d.blocks)
   {
     showAll(out, b.name, b.material, b.element, b.objectiveRate, b.hourglassStiffness,
@@ -259,6 +260,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
         {"materials.mohr_coulomb.plastic_shears", "materials.rock.plastic_shears"},
         {"materials.mohr_coulomb.cohesions", "materials.rock.cohesions"},
         {"materials.mohr_coulomb.frictions", "materials.rock.frictions"},
+        {"materials.pseudo_cap.largest_rate", "materials.fast.largest_rate"},
         {"materials.j2.plastic_strains", "materials.table.plastic_strains"},
         {"materials.j2.yield_stresses", "materials.table.yield_stresses"},
         {"materials.j2.sound_speed", "materials.porous.sound_speed"},

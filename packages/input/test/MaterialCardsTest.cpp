@@ -144,6 +144,20 @@ TEST(MaterialCards, tablesOfMohrCoulombReplaceCohesionAndFriction)
              "materials.m.plastic_shears is missing");
 }
 
+TEST(MaterialCards, ratesCountWhenAsked)
+{
+  const auto rateOf = [](const std::string& keys)
+  { return std::get<PseudoCap>(lawOf("set: concrete_c40" + keys)).rates.largest; };
+  EXPECT_EQ(rateOf(""), 0);
+  EXPECT_EQ(rateOf(", rate_effects: false"), 0);
+  EXPECT_EQ(rateOf(", rate_effects: true"), 300);
+  EXPECT_EQ(rateOf(", rate_effects: true, largest_rate: 50"), 50);
+  expectPart(problemOf("set: concrete_c40, largest_rate: 50"),
+             "materials.m.largest_rate has no effect without rate_effects: true");
+  expectPart(problemOf("set: concrete_c40, rate_effects: true, largest_rate: 0"),
+             "materials.m.largest_rate = '0' is out of range");
+}
+
 TEST(MaterialCards, aFluidIsAnEquationOfState)
 {
   const auto law =

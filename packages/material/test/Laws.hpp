@@ -102,6 +102,8 @@ inline std::vector<NamedLaw> allLaws()
     return makeHardeningPlasticity(withBulkModulus(steel, eos.stiffness / eos.distension), eos, {0},
                                    {400e6}, 0);
   };
+  PseudoCapParameters fast = concreteC40();
+  fast.largestRate = 300;
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
@@ -124,6 +126,7 @@ inline std::vector<NamedLaw> allLaws()
       {"johnsonCook", steel4340(), 0.05},
       {"johnsonCookMieGrueneisen", checked(hot), 0.05},
       {"pseudoCap", makePseudoCap(concreteC40()), 0.01},
+      {"pseudoCapRates", makePseudoCap(fast), 0.01},
       {"hjc", concreteHjc48(), 0.01}};
 }
 } // namespace coplane::testing

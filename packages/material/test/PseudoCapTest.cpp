@@ -312,4 +312,5 @@ TEST(PseudoCap, badParametersAreRefusedWithTheNumber)
   refused([](auto& p) { p.grainModulus = 10e9; }, "bulk modulus of the grains is 10000000000 Pa");
   refused([](auto& p) { p.fractureEnergy = 0; }, "fracture energy is 0 J/m^2");
   refused([](auto& p) { p.crushPressure = 20e6; }, "crush pressure is 20000000 Pa");
+  refused([](auto& p) { p.largestRate = -1; }, "largest rate is -1 1/s");
 }

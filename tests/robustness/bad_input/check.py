@@ -151,6 +151,22 @@ for energy, expected in ((120, False), (12, True)):
 unstable = changed(["time"], {"end": 1e-2, "fixed_step": 2e-4})
 expect("step far too large", COMPUTATION, ["cycle", "step"], unstable)
 
+
+# Functions of the deck are called where the nodes are: some ranks find what others do not.
+root = {"type": "velocity", "node_set": "end", "value": ["sqrt(x - 3)", 0, 0]}
+expect("velocity that is no number at some nodes", COMPUTATION, ["'sqrt(x - 3)' is", "run.yaml:"], changed(["conditions", 0], root))
+late = {"type": "velocity", "node_set": "end", "value": ["sqrt(5e-4 - t)", 0, 0]}
+expect("velocity that is no number later", COMPUTATION, ["'sqrt(5e-4 - t)' is", "finite"], changed(["conditions", 0], late))
+expect("gravity that is no number", COMPUTATION, ["'1/(t > 2e-4 ? 0 : 1)' is inf"], {**good, "gravity": [0, "1/(t > 2e-4 ? 0 : 1)", 0]})
+expect(
+    "initial velocity that is no number in one block", COMPUTATION, ["'sqrt(-0.05 - x)' is"],
+    changed(["initial", 0], {"block": "left", "velocity_field": ["sqrt(-0.05 - x)", 0, 0]}),
+)
+expect(
+    "stress out of the plane", DECK, ["yz = 1000000 Pa", "plane strain"],
+    changed(["initial", 0], {"block": "left", "stress": [0, 0, 0, 0, 1e6, 0]}),
+)
+
 # --- disks ------------------------------------------------------------------------------------------
 expect("results in a folder that is missing", OUTPUT, ["no_such_folder"], changed(["output", "results"], "no_such_folder/run.e"))
 # A full disk, imitated by a limit on the size of files of 10 MB: MPI's own files must stay below it.

@@ -30,7 +30,7 @@ Solver::Solver(Model model, const Comm& comm)
     ElementBlock& block = blocks_.back();
     block.initialise(state_.x);
     if (!setup.rigid)
-      setInitialStress(b);
+      attempt([&] { setInitialStress(b); });
 
     const int corners = topology(part.type).nodes;
     // Node to corners, in the order of element ids, so that sums have the same order on every rank.
@@ -58,7 +58,7 @@ Solver::Solver(Model model, const Comm& comm)
           state_.mass(node) += block.cornerMass(e, k);
         }
         const Vec3 x = at(state_.x, node);
-        set(state_.v, node, setup.velocityAt(x));
+        attempt([&] { set(state_.v, node, setup.velocityAt(x)); });
       }
     gathers_.push_back(gather);
   }
@@ -340,7 +340,10 @@ void Solver::kick(Real step)
 
 void Solver::planNextCycle(bool first)
 {
-  model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
+  attempt(
+      [&] {
+        model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
+      });
   rigid_->sumForces(state_, contactStiffness_, [this](int n) { return leastElementStep(n); });
   // One reduction decides everything that must not differ between ranks.
   const Requests mine = takeRequests();
@@ -367,23 +370,23 @@ void Solver::planNextCycle(bool first)
     step = *model_.time.fixedStep;
   }
   if (!(step < infinity))
-    fail(ExitCode::Computation,
-         "The stable step is not finite: no element or contact limits it. Give "
-         "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
-         "the mesh.");
-  kick(step);
+    failOnAllRanks(
+        ExitCode::Computation,
+        "The stable step is not finite: no element or contact limits it. Give "
+        "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
+        "the mesh.");
+  attempt([&] { kick(step); });
   clock_.nextStep = step;
   if (first) // energies at t = 0 are those of the given velocities
     mirrorVelocities();
   else
     relax(step);
-  if (!contact_)
-    return;
 
   // The next positions are known now: a search falls due when one may be needed by then, from an
   // exact bound on the relative displacement of any two nodes since the last search.
-  std::vector<Real> range(6, -infinity); // max, -min per axis
-  for (int n = 0; n < layout_.owned(); ++n)
+  std::vector<Real> range(7, -infinity); // max, -min per axis; trouble
+  range[6] = trouble_ ? 1 : 0;
+  for (int n = 0; n < layout_.owned() && contact_; ++n)
     for (int c = 0; c < 3 && !isFree(n); ++c)
     {
       const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
@@ -391,6 +394,9 @@ void Solver::planNextCycle(bool first)
       range[3 + c] = std::max(range[3 + c], -moved);
     }
   comm_->max(range);
+  failed_ = range[6] > 0;
+  if (failed_ || !contact_)
+    return;
   const bool forced = range[0] + range[3] > 0.5 * contact_->skin() ||
                       range[1] + range[4] > 0.5 * contact_->skin() ||
                       range[2] + range[5] > 0.5 * contact_->skin();
@@ -400,7 +406,7 @@ void Solver::planNextCycle(bool first)
 
 void Solver::prepare()
 {
-  model_.conditions.prescribeVelocities(0, state_.v);
+  attempt([&] { model_.conditions.prescribeVelocities(0, state_.v); });
   rigid_->start(state_);
   layout_.refresh(state_.x, state_.v);
   if (contact_)
@@ -505,6 +511,8 @@ void Solver::failTogether(const std::string& what)
   comm_->together(
       [&]
       {
+        if (trouble_)
+          throw Error(*trouble_);
         for (std::size_t b = 0; b < blocks_.size(); ++b)
         {
           const int e = isRigid(b) ? -1 : blocks_[b].invertedElement();

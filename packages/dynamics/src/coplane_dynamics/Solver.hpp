@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Comm.hpp>
+#include <coplane_core/Error.hpp>
 #include <coplane_dynamics/Dashpots.hpp>
 #include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Ledger.hpp>
@@ -152,6 +153,21 @@ private:
   void warnOfTrouble(const EnergyBalance& balance);
   void finishAfter(const Error& error, Observer& observer) const;
   [[noreturn]] void failTogether(const std::string& what);
+  /// What only some ranks may find to be wrong with the deck, such as a function that is no number
+  /// at one of their nodes: all hear of it in planNextCycle(), and the run ends with one message.
+  template <class F>
+  void attempt(const F& action)
+  {
+    try
+    {
+      action();
+    }
+    catch (const Error& error)
+    {
+      if (!trouble_)
+        trouble_ = error;
+    }
+  }
 
   Model model_;
   const Comm* comm_;
@@ -192,6 +208,7 @@ private:
   bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero
   bool searchIsDue_ = false;
   bool failed_ = false;
+  std::optional<Error> trouble_; ///< of this rank
   Requests requests_;
 };
 } // namespace coplane

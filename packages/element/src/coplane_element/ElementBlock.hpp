@@ -19,7 +19,7 @@ enum class ElementEnergy : int
 {
   Internal,           ///< work of the stress, recoverable and plastic part together
   PlasticDissipation, ///< part of Internal that is lost for good
-  Hourglass,          ///< work of the hourglass forces
+  Hourglass,          ///< work of the hourglass forces, or of VolumeDrift
   Viscous             ///< work of the bulk viscosity
 };
 constexpr int elementEnergies = 4;

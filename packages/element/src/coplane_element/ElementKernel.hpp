@@ -4,6 +4,7 @@
 #include <coplane_element/ElementKernelData.hpp>
 #include <coplane_element/ObjectiveRate.hpp>
 #include <coplane_element/OnePointStep.hpp>
+#include <coplane_element/VolumeDrift.hpp>
 
 namespace coplane
 {
@@ -58,14 +59,17 @@ struct ElementKernel
     const Lanes rho = mass * inverseVolume;
     const Lanes length =
         characteristicLength<dim>(data, revolved ? Shape::areaOf(hoop) : volume, first);
+    const bool nodal = !hasHourglass && data.options.form == ElementForm::NodalPressure;
+    VolumeDrift drift;
+    if (nodal)
+      drift = driftOf(load(&data.volume(first)), first);
     Motion motion{};
     MaterialPoint<Lanes> point;
     if (data.dt > 0)
     {
       findMotion(x, v, radial, motion, point);
-      if constexpr (!hasHourglass)
-        if (data.options.form == ElementForm::NodalPressure)
-          takeNodalDilatation(first, point);
+      if (nodal)
+        takeNodalDilatation(first, point);
       const SymTensorOf<Lanes>& de = point.strainIncrement;
       store(branchFree::positivePart(-(de.xx + de.yy + de.zz) / Lanes(data.dt)),
             &data.compression(0, first));
@@ -82,6 +86,16 @@ struct ElementKernel
             Lanes(-0.5) * (oldViscousPressure + viscousPressure) * motion.dilatation);
       advance(first, v, motion, volume, length, point, stress, hourglass, hoopForce);
     }
+    Lanes ownPressure = viscousPressure;
+    if (nodal)
+    {
+      const Lanes oldPressure = drift.pressure;
+      drift = driftOf(volume, first);
+      ownPressure += drift.pressure;
+      if (data.dt > 0)
+        addTo(data.energies, ElementEnergy::Hourglass, first,
+              Lanes(-0.5) * (oldPressure + drift.pressure) * motion.dilatation);
+    }
 
     if (data.hourglass.viscosity > 0)
       for (int a = 0; a < M::hourglass; ++a)
@@ -89,11 +103,11 @@ struct ElementKernel
           hourglass[a][i] += load(&data.hourglassViscousForce(a * dim + i, first));
 
     const LaneMask finite = storeCornerForces(first, x, radial.position, b, hoop, stress,
-                                              viscousPressure, hourglass, hoopForce, inverseVolume);
+                                              ownPressure, hourglass, hoopForce, inverseVolume);
 
     // Tangent of the viscous pressure over the rate of compression, per density.
     const Lanes viscosity = length * (b1c + Lanes(2.0) * b2lr);
-    const Lanes stiffening = load(&data.tangent(0, first));
+    const Lanes stiffening = load(&data.tangent(0, first)) + drift.stiffening;
     Lanes step;
     if constexpr (revolved)
       step = OnePointStep<type, revolved>{data}.ofRing(first, x, radial.position, b, hoop, volume,
@@ -198,6 +212,13 @@ private:
     }
     motion.dilatation = (de.xx + de.yy + de.zz) * motion.volume;
     motion.strain = de;
+  }
+
+  VolumeDrift driftOf(const Lanes& volume, int first) const
+  {
+    const Lanes own = volume / load(&data.referenceVolume(first));
+    return volumeDrift(own / load(&data.volumeRatio(0, first)),
+                       data.lambda + 2.0 / 3.0 * data.shearModulus);
   }
 
   /// Replaces the dilatation of the step by the mean of those at the corners.
@@ -411,21 +432,21 @@ private:
   /// gamma at x^(n+1).
   LaneMask storeCornerForces(int first, const Lanes (&x)[dim][M::count], const Lanes& radius,
                              const Lanes (&b)[dim][gradients], const Hoop& hoop,
-                             const SymTensorOf<Lanes>& stress, const Lanes& viscousPressure,
+                             const SymTensorOf<Lanes>& stress, const Lanes& ownPressure,
                              const HourglassVectors& hourglass, const Lanes (&hoopForce)[2],
                              const Lanes& inverseVolume) const
   {
     Lanes s[dim][dim];
-    s[0][0] = stress.xx - viscousPressure;
-    s[1][1] = stress.yy - viscousPressure;
+    s[0][0] = stress.xx - ownPressure;
+    s[1][1] = stress.yy - ownPressure;
     s[0][1] = s[1][0] = stress.xy;
     if constexpr (dim == 3)
     {
-      s[2][2] = stress.zz - viscousPressure;
+      s[2][2] = stress.zz - ownPressure;
       s[1][2] = s[2][1] = stress.yz;
       s[2][0] = s[0][2] = stress.zx;
     }
-    const Lanes around = stress.zz - viscousPressure;
+    const Lanes around = stress.zz - ownPressure;
     Real force[dim][nodes][laneCount];
     Lanes all = revolved ? around : Lanes(0.0);
     for (int i = 0; i < dim; ++i)

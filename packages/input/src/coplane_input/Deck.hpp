@@ -84,6 +84,8 @@ struct MaterialCard
   Real crushHardening = 0;                               ///< pseudo_cap: Ph [Pa]
   Real capRatio = 0.5;                                   ///< pseudo_cap: Rc [-]
   Real shearCompaction = 2;                              ///< pseudo_cap: mu_c [-]
+  bool rateEffects = false;                              ///< pseudo_cap
+  Real largestRate = 300;                                ///< pseudo_cap: of rate effects [1/s]
   Real cohesiveFactor = 0;                               ///< hjc: A [-]
   Real pressureFactor = 0;                               ///< hjc: B [-]
   Real pressureExponent = 0;                             ///< hjc: N [-]

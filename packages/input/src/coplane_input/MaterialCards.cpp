@@ -140,7 +140,8 @@ Material materialOf(const MaterialCard& card)
     return makePseudoCap({card.density, card.youngsModulus, card.poissonRatio,
                           card.compressiveStrength, card.tensileStrength, card.fractureEnergy,
                           card.porosity, card.grainModulus, card.grainSlope, card.crushPressure,
-                          card.crushHardening, card.capRatio, card.shearCompaction});
+                          card.crushHardening, card.capRatio, card.shearCompaction,
+                          card.rateEffects ? card.largestRate : 0});
   if (card.model == "hjc")
     return hjcOf(card);
   if (card.model == "fluid")
@@ -175,6 +176,10 @@ void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& 
             *node.find("hardening_modulus"),
             fmt::format("{}.hardening_modulus has no effect beside a table; remove it.", path));
     }
+    if (const DeckNode* given = node.find("largest_rate");
+        given && card.model == "pseudo_cap" && !card.rateEffects)
+      problems.add(*given, path + ".largest_rate has no effect without rate_effects: true; remove "
+                                  "it or add that.");
     if (card.model == "fluid" && card.eos == "none")
     {
       problems.add(node, path +

@@ -342,6 +342,17 @@ std::vector<Key> materialCardKeys()
           .atLeast(0)
           .like("1.5")
           .means("volume strain per plastic shear strain at the crush pressure"),
+      flag("rate_effects", &MaterialCard::rateEffects)
+          .onlyFor({"pseudo_cap"})
+          .like("true")
+          .means("strengths grow with the strain rate: in tension as Malvar and Ross say, in "
+                 "compression as the CEB does"),
+      number("largest_rate", &MaterialCard::largestRate)
+          .onlyFor({"pseudo_cap"})
+          .in("1/s")
+          .above(0)
+          .like("100")
+          .means("strain rate from which rate_effects grow no more; tests go to about 300"),
       number("cohesive_factor", &MaterialCard::cohesiveFactor)
           .onlyFor({"hjc"})
           .needed()

@@ -5,7 +5,7 @@ namespace coplane
 {
 PseudoCapParameters concreteC40()
 {
-  return {2300, 33e9, 0.2, 40e6, 4e6, 120, 0.08, 40e9, 1.5, 80e6, 300e6, 0.5, 2};
+  return {2300, 33e9, 0.2, 40e6, 4e6, 120, 0.08, 40e9, 1.5, 80e6, 300e6, 0.5, 2, 0};
 }
 
 PseudoCap makePseudoCap(const PseudoCapParameters& p)
@@ -33,6 +33,9 @@ PseudoCap makePseudoCap(const PseudoCapParameters& p)
                      p.strength / 3 / p.capRatio));
   demand(p.crushHardening > 0, "crush hardening", p.crushHardening, "Pa", "positive, e.g. 300e6");
   demand(p.shearCompaction >= 0, "shear compaction", p.shearCompaction, "", "0 or more");
+  demand(p.largestRate >= 0 && std::isfinite(p.largestRate), "largest rate", p.largestRate, "1/s",
+         "0 (no effect of rates) or more, e.g. 300");
+  law.rates = rateEffectOf(p.strength, p.largestRate);
   law.strength = p.strength;
   law.tensileStrength = p.tensileStrength;
   law.fractureEnergy = p.fractureEnergy;

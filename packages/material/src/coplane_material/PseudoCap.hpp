@@ -2,6 +2,7 @@
 
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/RateEffect.hpp>
 
 namespace coplane
 {
@@ -30,6 +31,7 @@ struct PseudoCap
   Real tensileDilation = 1.5; ///< opening per plastic shear strain under tension (mode I) [-]
   Real biaxialRatio = 1.15;   ///< biaxial over uniaxial compressive strength [-]
   Real damageExponent = 1.6;  ///< b1: dilation under pressure does less damage [-]
+  RateEffect rates;           ///< by which fast strain raises the strengths
 
   enum
   {
@@ -183,6 +185,8 @@ struct PseudoCap
     et -= closed;
     T v = ec - ed - et;
 
+    const T inelasticBefore = v;
+
     // Pores close along the crush curve. In y, the logarithm of the pores left, the curve is
     // straight.
     const Real full = fullCompaction();
@@ -217,6 +221,24 @@ struct PseudoCap
         deviatorOf(sumOf(point.stress, T(2.0 * elastic.shearModulus), point.strainIncrement));
     const T q = vonMisesOf(s);
     const T cosTheta = branchFree::cosine(T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(s, q)));
+
+    // Fast strain makes the surface of strength larger about the origin, r Y(p / r): r is that of
+    // tension up to no pressure, that of compression from a third of fc on. The cap stays.
+    T faster(1.0), fasterTension(1.0);
+    if (rates.counts())
+    {
+      const T rate = largestPrincipal(point.strainIncrement) * T(1 / point.dt);
+      fasterTension = rates.tension(rate);
+      const T share = branchFree::smaller(branchFree::positivePart(p) * T(3 / strength), one);
+      faster = fasterTension + share * (rates.compression(rate) - fasterTension);
+    }
+    const auto strengthAt = [&](const T& at, const T& crush)
+    {
+      if (!rates.counts())
+        return shearStrength(at, crush, damage, cosTheta);
+      return faster * shearStrength(at / faster, crush / faster, damage, cosTheta);
+    };
+
     const T threeG(3 * elastic.shearModulus);
     const T start = T(capRatio) * pc, knee(strength / 3);
     const auto pulled = p < zero, compacts = p >= start;
@@ -241,10 +263,9 @@ struct PseudoCap
     const auto excess = [&](const T& dl)
     {
       return q - threeG * dl -
-             shearStrength(pressure(ebar, volumeAt(dl)), crushCurve(compactionAt(dl)), damage,
-                           cosTheta);
+             strengthAt(pressure(ebar, volumeAt(dl)), crushCurve(compactionAt(dl)));
     };
-    const T over = q - shearStrength(p, pc, damage, cosTheta);
+    const T over = q - strengthAt(p, pc);
     T plastic(0.0), dilated(0.0), opened(0.0), scale(1.0);
     if (const auto yields = over > T(tolerance); branchFree::anyOf(yields))
     {
@@ -266,7 +287,7 @@ struct PseudoCap
     }
 
     // No mean tension above the strength: cracks open.
-    const T least = -intact * T(tensileStrength);
+    const T least = -intact * T(tensileStrength) * fasterTension;
     if (const auto cracks = p < least - T(tolerance); branchFree::anyOf(cracks))
     {
       const T most = v - ebar; // then the grains are free of stress
@@ -279,6 +300,16 @@ struct PseudoCap
       opened += cracked;
       p = choose(cracks, pressure(ebar, v), p);
       dissipation -= p * cracked;
+    }
+
+    // A strength that falls with the rate lets the stress go at once, so the work of the inelastic
+    // strain is that at the mean stress of the step, as in the energy of the element.
+    if (rates.counts())
+    {
+      const T shear = choose(plastic > zero,
+                             plastic * (T(1.5) * contract(point.stress, s) / q + scale * q), zero);
+      const T volume = (p - meanOf(point.stress)) * (v - inelasticBefore);
+      dissipation = branchFree::positivePart(T(0.5) * (shear + volume));
     }
 
     // Opening takes strength away: exponentially, by the fracture energy per width of the element.
@@ -313,6 +344,7 @@ struct PseudoCapParameters
   Real porosity, grainModulus, grainSlope;        // [-], [Pa], [-]
   Real crushPressure, crushHardening;             // [Pa]
   Real capRatio = 0.5, shearCompaction = 2;       // [-]
+  Real largestRate = 0;                           // of rate effects [1/s]; 0: none
 };
 
 /// Concrete of 40 MPa, the set C40 of docs/theory/materials.md.

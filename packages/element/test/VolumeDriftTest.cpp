@@ -1,0 +1,122 @@
+#include "TestMeshes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// Average nodal pressure: an element that changes its volume while its nodes are told of none
+// resists by a pressure -K y^3, y = (r - 1/r) / 2, r its volume over the first one.
+
+using namespace coplane;
+using namespace coplane::testMeshes;
+
+namespace
+{
+const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+
+class VolumeDrift : public testing::TestWithParam<Formulation>
+{
+protected:
+  /// One element, off the axis.
+  TestMesh element() const
+  {
+    TestMesh mesh = distorted(GetParam().type, 1, 0);
+    const int corners = mesh.corners();
+    mesh.connectivity.resize(corners);
+    for (int n = 0; n < mesh.nodes(); ++n)
+      mesh.x(n, 0) += 1;
+    return mesh;
+  }
+  /// Power of a scale of all lengths by which the volume grows; that of rings has the radius in it.
+  int power() const
+  {
+    return isFlat(GetParam().type) && GetParam().options.geometry != Geometry::Axisymmetric ? 2 : 3;
+  }
+  /// Scales the element to `scale` in equal steps. `told`: share of its dilatation that its nodes
+  /// are told of.
+  ElementBlock scaled(const TestMesh& mesh, Real scale, int steps, Real told) const
+  {
+    ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                       GetParam().options);
+    block.initialise(mesh.x);
+    const Real dt = 1e-9;
+    for (int i = 0; i < steps; ++i)
+    {
+      const Real before = 1 + (scale - 1) * i / steps, after = 1 + (scale - 1) * (i + 1) / steps;
+      const NodeVectors v = field(mesh.x, [&](const Vec3& p) { return (after - before) / dt * p; });
+      Array<Real> dilatation("dilatation", mesh.nodes());
+      Kokkos::deep_copy(dilatation, told * power() * (after - before) / (0.5 * (after + before)));
+      block.update(field(mesh.x, [&](const Vec3& p) { return after * p; }), v, dt, dilatation);
+    }
+    return block;
+  }
+};
+
+Real hourglassEnergy(const ElementBlock& block)
+{
+  return block.energy(0, ElementEnergy::Hourglass);
+}
+} // namespace
+
+TEST_P(VolumeDrift, takesTheEnergyOfItsPressure)
+{
+  const TestMesh mesh = element();
+  for (const Real scale : {0.8, 1.3})
+  {
+    const ElementBlock block = scaled(mesh, scale, 400, 0);
+    // K V0 int ((s - 1/s) / 2)^3 ds from 1 to r
+    const Real r = std::pow(scale, power());
+    const auto integral = [](Real s)
+    { return (s * s * s * s / 4 - 1.5 * s * s + 3 * std::log(s) + 0.5 / (s * s)) / 8; };
+    const Real exact =
+        elasticity(steel).bulkModulus * block.referenceVolume()(0) * (integral(r) - integral(1));
+    ASSERT_GT(exact, 0);
+    EXPECT_NEAR(hourglassEnergy(block), exact, 1e-4 * exact) << scale;
+  }
+}
+
+TEST_P(VolumeDrift, isNothingWhereTheNodesAgreeAndLittleWhereTheyHardlyDiffer)
+{
+  const TestMesh mesh = element();
+  const ElementBlock agreed = scaled(mesh, 0.8, 400, 1);
+  EXPECT_LT(hourglassEnergy(agreed), 1e-9 * agreed.energy(0, ElementEnergy::Internal));
+  const ElementBlock small = scaled(mesh, 0.999, 10, 0);
+  const Real strain = 1e-3 * power();
+  EXPECT_LT(hourglassEnergy(small),
+            std::pow(strain, 4) * elasticity(steel).bulkModulus * small.referenceVolume()(0));
+}
+
+TEST_P(VolumeDrift, pushesTheNodesApartAndShortensTheStep)
+{
+  const TestMesh mesh = element();
+  const Real scale = 0.9;
+  const ElementBlock with = scaled(mesh, scale, 100, 0);
+  // The same element without drift has the same deviators and no pressure: its nodes know all, and
+  // the pressure of that is taken off as stress.
+  const Real r = std::pow(scale, power()), y = 0.5 * (r - 1 / r);
+  const Real pressure = -elasticity(steel).bulkModulus * y * y * y;
+  EXPECT_GT(pressure, 0);
+  ElementBlock plain(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+                     GetParam().options);
+  plain.initialise(field(mesh.x, [&](const Vec3& p) { return scale * p; }));
+  plain.setInitialStress({with.stress()(0, 0) - pressure, with.stress()(1, 0) - pressure,
+                          with.stress()(2, 0) - pressure, with.stress()(3, 0),
+                          isFlat(mesh.type) ? 0 : with.stress()(4, 0),
+                          isFlat(mesh.type) ? 0 : with.stress()(5, 0)});
+  plain.update(field(mesh.x, [&](const Vec3& p) { return scale * p; }),
+               NodeVectors("v", mesh.nodes()), 0);
+  const NodeVectors f = nodalForces(with, mesh.nodes()), g = nodalForces(plain, mesh.nodes());
+  EXPECT_LT(largest(plus(f, -1, g)), 1e-9 * largest(g));
+  // As bulk modulus K + 3 K y^2 (r + 1/r) / 2 all squared frequencies are at most so much larger.
+  // The mass of `plain` is that of its smaller volume.
+  const Real stiffer = 1 + 1.5 * y * y * (r + 1 / r);
+  EXPECT_NEAR(with.stableStep()(0) * std::sqrt(stiffer * r) / plain.stableStep()(0), 1, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Elements, VolumeDrift,
+                         testing::ValuesIn(those(allOf(allFormulations(), revolvedFormulations()),
+                                                 [](const Formulation& f) {
+                                                   return f.options.form ==
+                                                          ElementForm::NodalPressure;
+                                                 })),
+                         nameOfParam);

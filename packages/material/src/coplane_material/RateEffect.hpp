@@ -1,0 +1,62 @@
+#pragma once
+
+#include <coplane_material/Invariants.hpp>
+
+namespace coplane
+{
+/// Strength of concrete at a strain rate over that of slow tests, in tension by Malvar and Ross
+/// (1998), in compression by the CEB (1990). With x the logarithm of the rate over the slow one
+/// both are exp(d x) up to x = ln 10^6, and grow with the third root of the rate from there:
+/// tension from 1e-6/s, d = 1 / (1 + 0.8 fc/MPa), knee at 1/s; compression from 3e-5/s, d = 1.026 /
+/// (5 + 0.9 fc/MPa), knee at 30/s. The branches meet at the knee. Rates are positive [1/s].
+struct RateEffect
+{
+  Real largest = 0;             ///< rate from which strength grows no more [1/s]; 0: no effect
+  Real tensileExponent = 0;     ///< d [-]
+  Real compressiveExponent = 0; ///< d [-]
+
+  static constexpr Real slowTension = 1e-6, slowCompression = 3e-5; // [1/s]
+
+  KOKKOS_INLINE_FUNCTION bool counts() const { return largest > 0; }
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T tension(const T& rate) const
+  {
+    return factor(rate, slowTension, tensileExponent);
+  }
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T compression(const T& rate) const
+  {
+    return factor(rate, slowCompression, compressiveExponent);
+  }
+
+private:
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T factor(const T& rate, Real slow, Real exponent) const
+  {
+    const Real knee = 6 * std::log(10.0);
+    const T capped = branchFree::smaller(rate, T(largest));
+    const T x = branchFree::logarithm(branchFree::larger(capped * T(1 / slow), T(1.0)));
+    return branchFree::exponential(T(exponent) * branchFree::smaller(x, T(knee)) +
+                                   T(1.0 / 3.0) * branchFree::positivePart(x - T(knee)));
+  }
+};
+
+/// For a compressive strength [Pa], up to a rate [1/s].
+inline RateEffect rateEffectOf(Real strength, Real largest)
+{
+  return {largest, 1 / (1 + 0.8e-6 * strength), 1.026 / (5 + 0.9e-6 * strength)};
+}
+
+/// Largest principal value by its size: of a strain rate, that along the axis of a uniaxial test.
+template <class T>
+KOKKOS_INLINE_FUNCTION T largestPrincipal(const SymTensorOf<T>& d)
+{
+  const SymTensorOf<T> deviator = deviatorOf(d);
+  const T mean = meanOf(d), q = vonMisesOf(deviator);
+  const T angle = T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(deviator, q));
+  const T most = mean + T(2.0 / 3.0) * q * branchFree::cosine(angle);
+  const T least = mean + T(2.0 / 3.0) * q * branchFree::cosine(angle + T(2.0 / 3.0 * pi));
+  return branchFree::larger(branchFree::absolute(most), branchFree::absolute(least));
+}
+} // namespace coplane
