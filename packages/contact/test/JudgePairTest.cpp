@@ -55,6 +55,27 @@ TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)
             Verdict::SharedNode);
 }
 
+TEST(Step5CandidatePairs, frontAndBackOfAThinBodyAreNoPair)
+{
+  // Elements beside each other, whose faces have no node in common.
+  EXPECT_EQ(judgeSquares(0.05, 1,
+                         [](Face& a, Face& b)
+                         {
+                           a.far[1] = 77;
+                           b.far[3] = 77;
+                         }),
+            Verdict::SharedNode);
+  EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { b.far[3] = a.nodes[1]; }),
+            Verdict::SharedNode);
+  EXPECT_EQ(judgeSquares(0.05, 1,
+                         [](Face& a, Face& b)
+                         {
+                           a.far[1] = 77;
+                           b.far[3] = 78;
+                         }),
+            Verdict::Candidate);
+}
+
 TEST(Step5CandidatePairs, facesThatLookTheSameWayAreNotOpposed)
 {
   EXPECT_EQ(judgeSquares(0.05, 1, {}, {0, 0, 1}), Verdict::NotOpposed);

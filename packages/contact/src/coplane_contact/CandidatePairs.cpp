@@ -23,17 +23,27 @@ FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 
 namespace
 {
+/// Whether the elements behind two faces have a node in common.
 bool shareNode(const Face& a, const Face& b)
 {
+  int ofA[8], ofB[8];
+  for (int k = 0; k < 4; ++k)
+  {
+    ofA[k] = a.nodes[k];
+    ofA[4 + k] = a.far[k];
+    ofB[k] = b.nodes[k];
+    ofB[4 + k] = b.far[k];
+  }
   bool any = false;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j)
-      any |= (a.nodes[i] == b.nodes[j]) & (a.nodes[i] >= 0);
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      any |= (ofA[i] == ofB[j]) & (ofA[i] >= 0);
   return any;
 }
 
-/// Faces of one body that share a node are neighbours on its surface, and no pair. But at the tip
-/// of a joint that ends inside a body both faces have the tip's node: they lie on each other.
+/// Faces of elements that share a node are neighbours on the surface of one body, or its front and
+/// its back where it is thin, and no pair. But at the tip of a joint that ends inside a body both
+/// faces have the tip's node: they lie on each other.
 bool mayShareNode(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
                   const CandidateRules& rules)
 {

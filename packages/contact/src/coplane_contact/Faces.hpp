@@ -13,6 +13,7 @@ struct Face
   GlobalId id = 0;
   int count = 0;
   int nodes[4] = {-1, -1, -1, -1}; ///< local nodes, outward normal by the right-hand rule
+  int far[4] = {-1, -1, -1, -1};   ///< other nodes of the element behind it; -1: not known here
   int block = 0;                   ///< element block behind it
   int group = 0;                   ///< row of the table of contact rules
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
@@ -35,6 +36,7 @@ struct GhostFace
 {
   GlobalId id = 0;
   GlobalId nodes[4] = {0, 0, 0, 0}; ///< ids
+  GlobalId far[4] = {0, 0, 0, 0};   ///< ids of the other nodes of the element; 0: none
   int count = 0;
   int block = 0;
   int group = 0;
@@ -60,6 +62,8 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.young = face.young;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
+  for (int k = 0; k < 4; ++k)
+    ghost.far[k] = face.far[k] >= 0 ? nodeIds[face.far[k]] : 0;
   ghost.elementCount = element.count;
   for (int k = 0; k < element.count; ++k)
     ghost.element[k] = nodeIds[element.nodes[k]];
@@ -80,6 +84,10 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.young = ghost.young;
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);
+  // A rank that owns a node of a face knows all nodes of the element: those that the elements of a
+  // pair have in common are known wherever the pair is.
+  for (int k = 0; k < 4; ++k)
+    face.far[k] = ghost.far[k] != 0 ? localNode(ghost.far[k]) : -1;
   return face;
 }
 

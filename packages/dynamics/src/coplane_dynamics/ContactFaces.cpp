@@ -41,6 +41,15 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     }
     const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
                                                : vectorArea<3>(corners, face.count));
+    const RankMesh::Block& part = mesh.blocks[side.block];
+    const int nodesOfElement = topology(part.type).nodes;
+    int others = 0;
+    for (int k = 0; k < nodesOfElement; ++k)
+    {
+      const int node = part.connectivity[side.element * nodesOfElement + k];
+      if (std::find(face.nodes, face.nodes + face.count, node) == face.nodes + face.count)
+        face.far[others++] = node;
+    }
     const ElementBlock& block = blocks[side.block];
     Real volume = block.volume()(side.element);
     if (block.options().geometry == Geometry::Axisymmetric)
