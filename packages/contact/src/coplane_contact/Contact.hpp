@@ -1,7 +1,6 @@
 #pragma once
 
-#include <coplane_checkpoint/CheckpointReader.hpp>
-#include <coplane_checkpoint/CheckpointWriter.hpp>
+#include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_contact/ClassicLeaders.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
@@ -60,14 +59,13 @@ public:
   void replaceLocalFaces(std::vector<Face> localFaces, std::vector<FaceElement> localElements = {});
 
   /// Contact's part of a checkpoint. Collective.
-  void save(CheckpointWriter& out) const;
+  void save(StateTables& out) const;
   // And back, in two halves like a search; the local faces have to be those of that time.
   // Collective.
   /// Returns the ids of the nodes of ghost faces and of the elements that came with them.
-  std::vector<GlobalId> restoreFaces(const CheckpointReader& in,
-                                     const std::vector<GlobalId>& nodeIds);
+  std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
-  void restorePlanes(const CheckpointReader& in, const NodeLayout& layout);
+  void restorePlanes(const StateSource& in, const NodeLayout& layout);
 
   /// Step 6: steps A to H for every slot.
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
@@ -113,7 +111,7 @@ private:
   /// Planes of a checkpoint that have a face here, sorted by key; fields that only mean something
   /// on one rank are left as they are in a new plane, but face[0] is 0 where the pair is a
   /// candidate.
-  std::vector<Plane> planesOfCheckpoint(const CheckpointReader& in) const;
+  std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
   /// Position in the table of faces; -1 when the face is not here.

@@ -1,6 +1,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/ContactFaces.hpp>
+#include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
@@ -11,6 +12,17 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
+
+/// Seconds of the steps of a search in which no rank waits for others.
+double searchSeconds()
+{
+  double sum = 0;
+  for (const char* step : {"step2_sortIntoBins", "step5_candidatePairs"})
+    if (const auto found = timers().find(std::string("coplane::contact::") + step);
+        found != timers().end())
+      sum += found->second;
+  return sum;
+}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -76,6 +88,7 @@ Solver::Solver(Model model, const Comm& comm)
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
 
   prepareErosion();
+  takeWorkTimes();
   if (model_.contactEnabled)
   {
     const std::vector<ExteriorFace> exterior = exteriorFaces(mesh);
@@ -100,6 +113,7 @@ void Solver::setInitialStress(int b)
 void Solver::search(bool again)
 {
   TimedRegion region("coplane::dynamics::search");
+  const double before = searchSeconds();
   const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
   if (layout_.setGhostNodes(ghostNodes))
   {
@@ -108,6 +122,7 @@ void Solver::search(bool again)
     layout_.refresh(state_.mass);
   }
   contact_->pairUp(state_.x, layout_, again);
+  work_.search += searchSeconds() - before;
   const auto x = state_.x;
   const auto atSearch = state_.atSearch;
   parallelFor(
@@ -139,6 +154,7 @@ void gatherBlock(int owned, const Array<int>& start, const Array<int>& entry,
 void Solver::gatherElementForces()
 {
   TimedRegion region("coplane::dynamics::gatherForces");
+  const Stopwatch watch(work_.nodes);
   bool first = true;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
@@ -159,7 +175,10 @@ ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
   ElementBlock& block = blocks_[b];
   if (block.options().form != ElementForm::NodalPressure || dt == 0)
     return {};
-  block.findVolumeChanges(state_.x, state_.v, dt);
+  {
+    const Stopwatch watch(work_.elements[b]);
+    block.findVolumeChanges(state_.x, state_.v, dt);
+  }
   if (int(dilatation_.extent(0)) != layout_.size())
     dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout_.size());
   const auto start = gathers_[b].start;
@@ -189,17 +208,25 @@ void Solver::findForces(Real dt)
     TimedRegion region("coplane::element::update");
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       if (!isRigid(b))
-        blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
+      {
+        const ConstArray<Real> dilatation = nodalDilatation(b, dt);
+        const Stopwatch watch(work_.elements[b]);
+        blocks_[b].update(state_.x, state_.v, dt, dilatation);
+      }
   }
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searchIsDue_ || someDied))
     search();
   if (contact_)
+  {
+    const Stopwatch watch(work_.planes);
     contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
+  }
   gatherElementForces();
   if (contact_)
   {
     TimedRegion region("coplane::contact::addForces");
+    const Stopwatch watch(work_.planes);
     Kokkos::deep_copy(state_.contactForce, 0.0);
     contact_->addForces(state_.x, state_.contactForce, contactStiffness_);
     const auto force = state_.force;
@@ -212,6 +239,7 @@ void Solver::findForces(Real dt)
 
 void Solver::drift(Real dt)
 {
+  const Stopwatch watch(work_.nodes);
   const auto x = state_.x;
   const ConstNodeVectors v = state_.v;
   parallelFor(
@@ -251,6 +279,7 @@ void Solver::applyLocalDamping()
 void Solver::kick(Real step)
 {
   TimedRegion region("coplane::dynamics::kick");
+  const Stopwatch watch(work_.nodes);
   const int owned = layout_.owned();
   const Real dtKick = 0.5 * (clock_.step + step);
   const Conditions& conditions = model_.conditions;
@@ -438,9 +467,18 @@ void Solver::advance()
   clock_.time += dt;
   clock_.step = dt;
   planNextCycle(false);
+  ++work_.cycles;
 }
 
-ExitCode Solver::run(Observer& observer)
+WorkTimes Solver::takeWorkTimes()
+{
+  WorkTimes work;
+  work.elements.assign(blocks_.size(), 0);
+  std::swap(work, work_);
+  return work;
+}
+
+ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   observer.start(*this);
   std::string ending = "completed";
@@ -485,6 +523,8 @@ ExitCode Solver::run(Observer& observer)
       code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
+    if (rebalancer && clock_.time < model_.time.end && rebalancer->look(*this))
+      observer.repartitioned(*this);
   }
   observer.finish(*this, ending);
   return code;
