@@ -38,7 +38,7 @@ void dealElements(const RankMesh::Block& part, const ElementBlock& block, double
 void dealPlanes(const Contact& contact, double work, std::vector<Real>& costs)
 {
   const auto weight = [](const Plane& plane) {
-    return plane.face[0] < 0 ? 0 : plane.area > 0 ? costOfContact : 1;
+    return plane.face[0] < 0 ? 0 : plane.overlap > 0 ? costOfOverlap : 1;
   };
   const auto& planes = contact.planes();
   Real all = 0;

@@ -28,13 +28,14 @@ struct RebalanceOptions
   double firstCost = 0;
 };
 
-/// A pair whose faces met in the last cycle takes about so many times as long as one that passes
-/// by.
-constexpr Real costOfContact = 7;
+/// A pair whose faces lie over each other takes about twice as long as one that passes by: two
+/// plates of 50 x 50 quadrilaterals, shifted against each other and not.
+constexpr Real costOfOverlap = 2;
 
 /// What the owned nodes cost [s]: the measured work of this rank, dealt out within each kind by
 /// counts of what is there now. Elements of a block that live cost the same, as do faces and nodes;
-/// pairs in contact cost more than others. So the costs of all nodes of a rank add up to its work.
+/// pairs that lie over each other cost more than others. So the costs of all nodes of a rank add up
+/// to its work.
 std::vector<Real> costsOfOwnedNodes(const Solver& solver, const WorkTimes& work);
 
 /// Another partition and how good it would be.
