@@ -14,6 +14,7 @@
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace coplane
@@ -85,6 +86,8 @@ public:
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   std::int64_t searches() const { return searches_; }
+  /// What this rank has worked in searches since the last call, without waiting for others [s].
+  double takeSearchSeconds() { return std::exchange(searchSeconds_, 0.0); }
 
   // Over all ranks, the same bits on all; collective.
   ContactEnergy energy() const;
@@ -141,6 +144,7 @@ private:
   Ghosts ghosts_;
   std::int64_t searches_ = 0;
   std::int64_t missed_ = 0;
+  double searchSeconds_ = 0;
   bool searchedSinceUpdate_ = false;
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key

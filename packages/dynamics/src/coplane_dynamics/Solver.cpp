@@ -1,5 +1,6 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
 #include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
@@ -12,17 +13,6 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
-
-/// Seconds of the steps of a search in which no rank waits for others.
-double searchSeconds()
-{
-  double sum = 0;
-  for (const char* step : {"step2_sortIntoBins", "step5_candidatePairs"})
-    if (const auto found = timers().find(std::string("coplane::contact::") + step);
-        found != timers().end())
-      sum += found->second;
-  return sum;
-}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -113,7 +103,6 @@ void Solver::setInitialStress(int b)
 void Solver::search(bool again)
 {
   TimedRegion region("coplane::dynamics::search");
-  const double before = searchSeconds();
   const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
   if (layout_.setGhostNodes(ghostNodes))
   {
@@ -122,7 +111,6 @@ void Solver::search(bool again)
     layout_.refresh(state_.mass);
   }
   contact_->pairUp(state_.x, layout_, again);
-  work_.search += searchSeconds() - before;
   const auto x = state_.x;
   const auto atSearch = state_.atSearch;
   parallelFor(
@@ -154,7 +142,7 @@ void gatherBlock(int owned, const Array<int>& start, const Array<int>& entry,
 void Solver::gatherElementForces()
 {
   TimedRegion region("coplane::dynamics::gatherForces");
-  const Stopwatch watch(work_.nodes);
+  const WorkWatch watch(work_.nodes);
   bool first = true;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
@@ -176,7 +164,7 @@ ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
   if (block.options().form != ElementForm::NodalPressure || dt == 0)
     return {};
   {
-    const Stopwatch watch(work_.elements[b]);
+    const WorkWatch watch(work_.elements[b]);
     block.findVolumeChanges(state_.x, state_.v, dt);
   }
   if (int(dilatation_.extent(0)) != layout_.size())
@@ -210,7 +198,7 @@ void Solver::findForces(Real dt)
       if (!isRigid(b))
       {
         const ConstArray<Real> dilatation = nodalDilatation(b, dt);
-        const Stopwatch watch(work_.elements[b]);
+        const WorkWatch watch(work_.elements[b]);
         blocks_[b].update(state_.x, state_.v, dt, dilatation);
       }
   }
@@ -219,14 +207,14 @@ void Solver::findForces(Real dt)
     search();
   if (contact_)
   {
-    const Stopwatch watch(work_.planes);
+    const WorkWatch watch(work_.planes);
     contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
   }
   gatherElementForces();
   if (contact_)
   {
     TimedRegion region("coplane::contact::addForces");
-    const Stopwatch watch(work_.planes);
+    const WorkWatch watch(work_.planes);
     Kokkos::deep_copy(state_.contactForce, 0.0);
     contact_->addForces(state_.x, state_.contactForce, contactStiffness_);
     const auto force = state_.force;
@@ -239,7 +227,7 @@ void Solver::findForces(Real dt)
 
 void Solver::drift(Real dt)
 {
-  const Stopwatch watch(work_.nodes);
+  const WorkWatch watch(work_.nodes);
   const auto x = state_.x;
   const ConstNodeVectors v = state_.v;
   parallelFor(
@@ -279,7 +267,7 @@ void Solver::applyLocalDamping()
 void Solver::kick(Real step)
 {
   TimedRegion region("coplane::dynamics::kick");
-  const Stopwatch watch(work_.nodes);
+  const WorkWatch watch(work_.nodes);
   const int owned = layout_.owned();
   const Real dtKick = 0.5 * (clock_.step + step);
   const Conditions& conditions = model_.conditions;
@@ -475,6 +463,8 @@ WorkTimes Solver::takeWorkTimes()
   WorkTimes work;
   work.elements.assign(blocks_.size(), 0);
   std::swap(work, work_);
+  if (contact_)
+    work.search = contact_->takeSearchSeconds();
   return work;
 }
 

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <vector>
 
 namespace coplane
 {
-/// Wall-clock seconds that this rank has worked for cycles, by kind of work, without the time in
-/// which it waits for other ranks or writes results. What is dealt out anew when a run is
+/// Seconds that this rank has worked for cycles, by kind of work, without the time in which it
+/// waits for other ranks or writes results (WorkWatch). What is dealt out anew when a run is
 /// rebalanced.
 struct WorkTimes
 {
@@ -24,22 +23,5 @@ struct WorkTimes
       sum += block;
     return sum;
   }
-};
-
-/// Adds the time of its life to a sum.
-class Stopwatch
-{
-public:
-  explicit Stopwatch(double& sum) : sum_(sum), start_(std::chrono::steady_clock::now()) {}
-  ~Stopwatch()
-  {
-    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-  Stopwatch(const Stopwatch&) = delete;
-  Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-  double& sum_;
-  std::chrono::steady_clock::time_point start_;
 };
 } // namespace coplane
