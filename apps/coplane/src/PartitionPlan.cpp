@@ -70,4 +70,19 @@ RankMesh partOf(const Mesh& mesh, const Deck& deck, const Comm& comm)
   }
   return distribute(mesh, owners, comm.rank());
 }
+
+RebalanceOptions rebalanceOptionsOf(const Deck& deck, double secondsToBuild)
+{
+  using When = RebalanceOptions::When;
+  RebalanceOptions options;
+  options.when = deck.rebalance == "never"    ? When::Never
+                 : deck.rebalance == "always" ? When::Always
+                                              : When::Auto;
+  options.every = deck.rebalanceEvery;
+  options.above = deck.rebalanceAbove;
+  options.method = deck.partitionMethod;
+  // The solver is built once more, and its state moves there and back.
+  options.firstCost = 2 * secondsToBuild;
+  return options;
+}
 } // namespace coplane

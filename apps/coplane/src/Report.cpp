@@ -65,6 +65,9 @@ void reportEnd(const Solver& solver)
             counts.planes, counts.open, counts.stick, counts.slip, counts.slots, counts.tooDeep,
             counts.released, counts.missed, solver.searches());
   }
+  if (const Repartitions& done = solver.repartitions(); done.count > 0)
+    logInfo("rebalanced {} times in {:.3g} s; {} times a node changed its rank", done.count,
+            done.seconds, done.nodesMoved);
   logInfo("seconds on rank 0:");
   for (const auto& [label, seconds] : timers())
     logInfo("  {:<46} {:9.3f}", label, seconds);

@@ -9,6 +9,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Memory.hpp>
 #include <coplane_core/Version.hpp>
+#include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
@@ -19,6 +20,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -147,7 +149,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
-  Solver solver(buildModel(deck, mesh, partOf(mesh, deck, comm)), comm);
+  const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part)); };
+  const auto begin = std::chrono::steady_clock::now();
+  Solver solver(modelOf(partOf(mesh, deck, comm)), comm);
+  const std::chrono::duration<double> toBuild = std::chrono::steady_clock::now() - begin;
   if (line.restart)
     restart(solver, deck, mesh, line.checkpoint, settings);
   else
@@ -163,7 +168,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     putAside(deck.checkpoint.file);
   MultiObserver observers;
   addObservers(observers, deck, mesh, comm, settings);
-  const ExitCode code = solver.run(observers);
+  Rebalancer rebalancer(mesh, rebalanceOptionsOf(deck, toBuild.count()), modelOf);
+  const ExitCode code = solver.run(observers, &rebalancer);
   reportEnd(solver);
   return int(code);
 }

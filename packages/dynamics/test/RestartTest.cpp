@@ -1,5 +1,8 @@
 #include "Rig.hpp"
 
+#include <coplane_checkpoint/CheckpointReader.hpp>
+#include <coplane_checkpoint/CheckpointWriter.hpp>
+
 #include <gtest/gtest.h>
 
 #include <TestFolder.hpp>
@@ -15,34 +18,6 @@ void save(const Solver& solver, const std::string& file, const Comm& comm)
   CheckpointWriter out(comm);
   solver.save(out);
   out.write(file, solver.clock().cycle, solver.clock().time);
-}
-
-/// A body that is partly rigid slides over one that loses elements, under loads and damping.
-Model everything(const Comm& comm, const std::string& method = "multijagged")
-{
-  Mesh mesh;
-  addBox(mesh, "lower", {3, 3, 2}, {0, 0, 0}, {1, 1, 1});
-  addBox(mesh, "upper", {2, 2, 2}, {0.1, 0.2, 1}, {0.8, 0.8, 0.8});
-  addBox(mesh, "rigid", {2, 1, 1}, {0.3, 0.3, 1.81}, {0.5, 0.4, 0.3});
-  std::vector<int> bodies = rigidBodiesOf(mesh, {0, 0, 1});
-  Model model = rockModel(mesh, comm, 0.25, method);
-  for (const int position : model.mesh.nodePositions)
-    model.rigidBodyOfNode.push_back(bodies[std::size_t(position)]);
-  model.blocks[2].rigid = true;
-  model.blocks[0].erosion.volumeRatio = {0.9985, 1.5};
-  model.blocks[1].velocity = {3, 2, -25};
-  model.blocks[2].velocity = {1, 0, -26};
-  model.blocks[2].angularVelocity = {2, 3, 10};
-  model.blocks[2].center = {0.5, 0.5, 2};
-  model.conditions.gravity = VectorOfTime(0, 0, -9.81);
-  model.conditions.massDamping = [](Real t) { return 10 + 1e4 * t; };
-  model.conditions.localDamping = 0.02;
-  model.conditions.pressures = {
-      pressureWhere(model.mesh, 1e5, [](const Vec3& x) { return x.z == 0; })};
-  model.contact.dampNormal = model.contact.dampShear = 0.05;
-  model.searchEvery = 7;
-  model.time.energyTolerance = infinity;
-  return model;
 }
 
 using Maker = std::function<Model(const Comm&, const std::string&)>;

@@ -11,13 +11,25 @@
 
 namespace coplane
 {
+/// By a method of nodeOwners(), or with scattered nodes, or all on the last rank.
+inline std::vector<int> ownersBy(const std::string& method, const Mesh& mesh, const Comm& comm)
+{
+  std::vector<int> owners(std::size_t(mesh.nodes()), comm.size() - 1);
+  if (method == "scattered")
+    for (int n = 0; n < mesh.nodes(); ++n)
+      owners[std::size_t(n)] = n % comm.size();
+  else if (method != "last")
+    owners = nodeOwners(mesh, comm, method);
+  return owners;
+}
+
 /// Every block of the same elastic rock (1 GPa, 0.25, 1000 kg/m^3: waves run at 1095 m/s), every
 /// pair of blocks with the same penalty law.
 inline Model rockModel(const Mesh& mesh, const Comm& comm, Real friction = 0,
                        const std::string& method = "multijagged")
 {
   Model model;
-  model.mesh = distribute(mesh, nodeOwners(mesh, comm, method), comm.rank());
+  model.mesh = distribute(mesh, ownersBy(method, mesh, comm), comm.rank());
   model.blocks.resize(mesh.blocks.size());
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
@@ -85,6 +97,34 @@ inline FacePressure pressureWhere(const RankMesh& mesh, Real pressure,
                                   const std::function<bool(const Vec3&)>& chosen)
 {
   return {sidesWhere(mesh, chosen), [pressure](Real) { return pressure; }};
+}
+
+/// A body that is partly rigid slides over one that loses elements, under loads and damping.
+inline Model everything(const Comm& comm, const std::string& method = "multijagged")
+{
+  Mesh mesh;
+  addBox(mesh, "lower", {3, 3, 2}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {2, 2, 2}, {0.1, 0.2, 1}, {0.8, 0.8, 0.8});
+  addBox(mesh, "rigid", {2, 1, 1}, {0.3, 0.3, 1.81}, {0.5, 0.4, 0.3});
+  std::vector<int> bodies = rigidBodiesOf(mesh, {0, 0, 1});
+  Model model = rockModel(mesh, comm, 0.25, method);
+  for (const int position : model.mesh.nodePositions)
+    model.rigidBodyOfNode.push_back(bodies[std::size_t(position)]);
+  model.blocks[2].rigid = true;
+  model.blocks[0].erosion.volumeRatio = {0.9985, 1.5};
+  model.blocks[1].velocity = {3, 2, -25};
+  model.blocks[2].velocity = {1, 0, -26};
+  model.blocks[2].angularVelocity = {2, 3, 10};
+  model.blocks[2].center = {0.5, 0.5, 2};
+  model.conditions.gravity = VectorOfTime(0, 0, -9.81);
+  model.conditions.massDamping = [](Real t) { return 10 + 1e4 * t; };
+  model.conditions.localDamping = 0.02;
+  model.conditions.pressures = {
+      pressureWhere(model.mesh, 1e5, [](const Vec3& x) { return x.z == 0; })};
+  model.contact.dampNormal = model.contact.dampShear = 0.05;
+  model.searchEvery = 7;
+  model.time.energyTolerance = infinity;
+  return model;
 }
 
 /// Sum over the owned nodes of all ranks.

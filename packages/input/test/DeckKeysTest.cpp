@@ -136,8 +136,9 @@ std::string show(const Deck& d)
   std::string out;
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
           d.localDamping, d.kineticDamping, d.dampingFrom, d.dampingUntil, d.dampingEnergyRatio,
-          d.dampingForceRatio, d.partitionMethod, d.partitionBalance, d.geometry, d.checkpoint.file,
-          d.checkpoint.everyCycles, d.checkpoint.everySeconds, d.checkpoint.atEnd);
+          d.dampingForceRatio, d.partitionMethod, d.partitionBalance, d.rebalance, d.rebalanceEvery,
+          d.rebalanceAbove, d.geometry, d.checkpoint.file, d.checkpoint.everyCycles,
+          d.checkpoint.everySeconds, d.checkpoint.atEnd);
   for (const auto& m : d.materials)
     showAll(out, m.name, m.set, m.model, m.density, m.youngsModulus, m.poissonRatio, m.shearModulus,
             m.yieldStress, m.hardeningModulus, m.plasticStrains, m.yieldStresses,

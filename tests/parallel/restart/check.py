@@ -10,68 +10,15 @@ import sys
 
 import numpy
 from coplanetest import Case, program, series_differences
+from coplanetest.scenes import scene_of
 
 scene, full = sys.argv[1], "all" in sys.argv[2:]
 case = Case(f"V61 {scene}", __file__)
-joints, change = None, {}
-
-
-def of(folder, mesh="mesh.yaml", deck="deck.yaml"):
-    return case.load(f"tests/{folder}/{mesh}"), case.load(f"tests/{folder}/{deck}")
-
-
-if scene in ("2d", "3d", "common_plane"):
-    recipe, deck = of("parallel/same_bits", "mesh_3d.yaml" if scene == "3d" else "mesh_2d.yaml")
-    velocity, end = ([5, -40, 90], 5e-4) if scene == "3d" else ([100, 20, 0], 1.2e-4)
-    deck["initial"] = [{"block": "bar", "velocity": velocity}]
-    deck["time"] = {"end": end}
-    deck["output"] = {"every": end / 9}
-    if scene == "common_plane":
-        deck["contact"]["method"] = "common_plane"
-    happened = ["stick", "slip", "contact_friction", "contact_damping", "contact_hysteresis", "plastic", "open"]
-elif scene == "sliding":
-    recipe, deck = of("verification/V64_life_of_planes")
-    deck["time"]["end"] = 0.09
-    deck["output"] = {"every": 0.01}
-    happened = ["slip", "contact_friction"]
-elif scene in ("erosion", "erosion_3d"):
-    recipe, deck = of("verification/erosion", "mesh_3d.yaml" if scene == "erosion_3d" else "mesh.yaml")
-    if scene == "erosion_3d":
-        deck["initial"][0]["velocity"] = [0, 0, -800]
-        deck["time"]["end"] = 4e-5
-    deck["output"]["every"] = deck["time"]["end"] / 9
-    happened = ["eroded_elements", "contact_eroded", "eroded"]
-elif scene == "everything":
-    recipe, deck = case.load("mesh_everything.yaml"), case.load("everything.yaml")
-    happened = ["eroded_elements", "contact_eroded", "contact_hysteresis", "contact_fracture", "contact_friction", "plastic",
-                "mass_damping", "local_damping", "contact_damping"]
-elif scene == "rigid":
-    recipe, deck = case.load("exodus_inputs/rocking_block_2d/mesh.yaml"), case.load("exodus_inputs/rocking_block_2d/deck.yaml")
-    deck.pop("mesh", None)
-    deck["blocks"]["block"]["rigid"] = True
-    recipe["parts"][1].update(rotate=-3, about=[0.3, 0])
-    deck["time"] = {"end": 0.02}
-    deck["output"] = {"every": 0.02 / 9}
-    happened = ["stick", "contact_damping"]
-elif scene == "rings":
-    recipe, deck = of("verification/V72_axisymmetric_contact", "mesh_rings.yaml", "deck_rings.yaml")
-    deck["time"]["end"] = 5e-4
-    deck["output"] = {"every": 5e-4 / 9}
-    happened = ["contact_stored", "mass_damping"]
-elif scene == "joints":
-    recipe, deck = case.load("exodus_inputs/cut_rock_2d/mesh.yaml"), case.load("exodus_inputs/cut_rock_2d/rock.yaml")
-    joints = case.load("exodus_inputs/cut_rock_2d/joints.yaml")
-    del deck["mesh"]
-    happened = ["stick", "contact_stored"]
-deck.setdefault("history", {})["every"] = 0
-if scene != "everything":
-    deck["history"]["tables"] = ["blocks", "pairs"]
-
+recipe, deck, joints, happened = scene_of(case, scene)
 straight = case.attempt("straight", recipe, deck, joints=joints)
 if straight.code:
     sys.exit(straight.output)
 h = straight.history
-# The comparison is worth something only if everything has happened.
 for what in happened:
     case.check_within(f"straight: {what}", float(max(h[what])), 1e-9, float("inf"))
 cycles = len(h["time"]) - 1

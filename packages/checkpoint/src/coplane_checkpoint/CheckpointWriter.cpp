@@ -67,30 +67,6 @@ bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
 }
 } // namespace
 
-void CheckpointWriter::rows(const std::string& name, const KeyedRows& rows)
-{
-  Table table;
-  table.name = name;
-  table.rows = sortedOverRanks(rows, *comm_);
-  const auto counts = comm_->allGather(std::vector<std::int64_t>{std::int64_t(table.rows.count())});
-  for (int r = 0; r < comm_->size(); ++r)
-  {
-    table.first += r < comm_->rank() ? counts[r] : 0;
-    table.total += counts[r];
-  }
-  tables_.push_back(std::move(table));
-}
-
-void CheckpointWriter::numbers(const std::string& name, std::vector<Real> values)
-{
-  numbers_.emplace_back(name, std::move(values));
-}
-
-void CheckpointWriter::text(const std::string& name, std::string value)
-{
-  texts_.emplace_back(name, std::move(value));
-}
-
 std::uint64_t CheckpointWriter::dataBytes() const
 {
   std::uint64_t bytes = 1 << 16;

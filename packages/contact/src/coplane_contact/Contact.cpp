@@ -2,6 +2,7 @@
 #include <coplane_contact/FacePairLanes.hpp>
 #include <coplane_contact/Inheritance.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
 
 #include <algorithm>
 
@@ -143,6 +144,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   SortedFaces sorted;
   {
     TimedRegion region("coplane::contact::step2_sortIntoBins");
+    const WorkWatch watch(searchSeconds_);
     sorted = step2_sortIntoBins(bins_, localFaces_, x, dimension_, candidates_);
   }
   std::vector<InteractingRank> ranks;
@@ -180,6 +182,7 @@ std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pair
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
+  const WorkWatch watch(searchSeconds_);
   listFaces(layout);
 
   const auto findPlane = [&](GlobalId lower, GlobalId higher)

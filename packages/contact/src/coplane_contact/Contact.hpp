@@ -1,7 +1,6 @@
 #pragma once
 
-#include <coplane_checkpoint/CheckpointReader.hpp>
-#include <coplane_checkpoint/CheckpointWriter.hpp>
+#include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_contact/ClassicLeaders.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
@@ -15,6 +14,7 @@
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace coplane
@@ -60,14 +60,13 @@ public:
   void replaceLocalFaces(std::vector<Face> localFaces, std::vector<FaceElement> localElements = {});
 
   /// Contact's part of a checkpoint. Collective.
-  void save(CheckpointWriter& out) const;
+  void save(StateTables& out) const;
   // And back, in two halves like a search; the local faces have to be those of that time.
   // Collective.
   /// Returns the ids of the nodes of ghost faces and of the elements that came with them.
-  std::vector<GlobalId> restoreFaces(const CheckpointReader& in,
-                                     const std::vector<GlobalId>& nodeIds);
+  std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
-  void restorePlanes(const CheckpointReader& in, const NodeLayout& layout);
+  void restorePlanes(const StateSource& in, const NodeLayout& layout);
 
   /// Step 6: steps A to H for every slot.
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
@@ -87,6 +86,8 @@ public:
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   std::int64_t searches() const { return searches_; }
+  /// What this rank has worked in searches since the last call, without waiting for others [s].
+  double takeSearchSeconds() { return std::exchange(searchSeconds_, 0.0); }
 
   // Over all ranks, the same bits on all; collective.
   ContactEnergy energy() const;
@@ -113,7 +114,7 @@ private:
   /// Planes of a checkpoint that have a face here, sorted by key; fields that only mean something
   /// on one rank are left as they are in a new plane, but face[0] is 0 where the pair is a
   /// candidate.
-  std::vector<Plane> planesOfCheckpoint(const CheckpointReader& in) const;
+  std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
   /// Position in the table of faces; -1 when the face is not here.
@@ -145,6 +146,7 @@ private:
   std::vector<GlobalId> nodeIds_; ///< of the nodes of faceTable_, while a search makes a new one
   std::int64_t searches_ = 0;
   std::int64_t missed_ = 0;
+  double searchSeconds_ = 0;
   bool searchedSinceUpdate_ = false;
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key

@@ -117,7 +117,7 @@ void EndedPlanes::addNumbers(const std::vector<Real>& numbers)
   }
 }
 
-void Contact::save(CheckpointWriter& out) const
+void Contact::save(StateTables& out) const
 {
   KeyedRows faces;
   faces.columns = faceColumns;
@@ -147,7 +147,7 @@ void Contact::save(CheckpointWriter& out) const
   out.numbers("contact/counts", {Real(searches_), Real(comm_->sum(missed_))});
 }
 
-std::vector<Plane> Contact::planesOfCheckpoint(const CheckpointReader& in) const
+std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
 {
   const KeyedRows rows = in.part("contact/planes", planeColumns());
   std::vector<std::vector<SentPlane>> send(comm_->size());
@@ -213,7 +213,7 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   return ghosts;
 }
 
-std::vector<GlobalId> Contact::restoreFaces(const CheckpointReader& in,
+std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
                                             const std::vector<GlobalId>& nodeIds)
 {
   std::vector<GlobalId> ids;
@@ -247,7 +247,7 @@ std::vector<GlobalId> Contact::restoreFaces(const CheckpointReader& in,
   return nodes;
 }
 
-void Contact::restorePlanes(const CheckpointReader& in, const NodeLayout& layout)
+void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
 {
   listFaces(layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> planes(

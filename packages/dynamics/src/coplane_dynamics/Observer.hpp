@@ -16,6 +16,8 @@ public:
   /// The state at t = 0, before the first cycle.
   virtual void start(const Solver& solver) = 0;
   virtual void endOfCycle(const Solver& solver) = 0;
+  /// The ranks have other parts of the mesh now: what is kept by local number has to be found anew.
+  virtual void repartitioned(const Solver&) {}
   /// Puts down by name what another run has to know to go on with this output. Collective.
   virtual void savePosition(std::map<std::string, std::string>&) const {}
   /// After the last cycle, also when the run failed or was interrupted; `ending` says why it ended.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <coplane_checkpoint/CheckpointReader.hpp>
-#include <coplane_checkpoint/CheckpointWriter.hpp>
+#include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/Conditions.hpp>
@@ -101,8 +100,8 @@ public:
   void stop(const NodalState& state);
 
   // The bodies' part of a checkpoint. Collective.
-  void save(CheckpointWriter& out) const;
-  void restore(const CheckpointReader& in);
+  void save(StateTables& out) const;
+  void restore(const StateSource& in);
 
   // Sums that every rank has. What loads on nodes do is booked with the nodes.
   Real kinetic() const; ///< at n [J]

@@ -31,7 +31,7 @@ void RigidBodies::forEachNumber(Body& body, F&& f)
     f(*number);
 }
 
-void RigidBodies::save(CheckpointWriter& out) const
+void RigidBodies::save(StateTables& out) const
 {
   std::vector<Real> numbers;
   for (Body body : bodies_)
@@ -39,7 +39,7 @@ void RigidBodies::save(CheckpointWriter& out) const
   out.numbers("rigid_bodies", numbers);
 }
 
-void RigidBodies::restore(const CheckpointReader& in)
+void RigidBodies::restore(const StateSource& in)
 {
   const std::vector<Real> numbers = in.numbers("rigid_bodies");
   std::size_t at = 0;
@@ -55,6 +55,6 @@ void RigidBodies::restore(const CheckpointReader& in)
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: the checkpoint has {} numbers of rigid bodies, this run {}. Restart with "
                    "the mesh, the deck and the program of then.",
-                   in.file(), numbers.size(), at);
+                   in.name(), numbers.size(), at);
 }
 } // namespace coplane

@@ -1,6 +1,8 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
 #include <coplane_dynamics/ContactFaces.hpp>
+#include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
@@ -76,6 +78,7 @@ Solver::Solver(Model model, const Comm& comm)
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
 
   prepareErosion();
+  takeWorkTimes();
   if (model_.contactEnabled)
   {
     const std::vector<ExteriorFace> exterior = exteriorFaces(mesh);
@@ -139,6 +142,7 @@ void gatherBlock(int owned, const Array<int>& start, const Array<int>& entry,
 void Solver::gatherElementForces()
 {
   TimedRegion region("coplane::dynamics::gatherForces");
+  const WorkWatch watch(work_.nodes);
   bool first = true;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
@@ -159,7 +163,10 @@ ConstArray<Real> Solver::nodalDilatation(std::size_t b, Real dt)
   ElementBlock& block = blocks_[b];
   if (block.options().form != ElementForm::NodalPressure || dt == 0)
     return {};
-  block.findVolumeChanges(state_.x, state_.v, dt);
+  {
+    const WorkWatch watch(work_.elements[b]);
+    block.findVolumeChanges(state_.x, state_.v, dt);
+  }
   if (int(dilatation_.extent(0)) != layout_.size())
     dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout_.size());
   const auto start = gathers_[b].start;
@@ -189,17 +196,25 @@ void Solver::findForces(Real dt)
     TimedRegion region("coplane::element::update");
     for (std::size_t b = 0; b < blocks_.size(); ++b)
       if (!isRigid(b))
-        blocks_[b].update(state_.x, state_.v, dt, nodalDilatation(b, dt));
+      {
+        const ConstArray<Real> dilatation = nodalDilatation(b, dt);
+        const WorkWatch watch(work_.elements[b]);
+        blocks_[b].update(state_.x, state_.v, dt, dilatation);
+      }
   }
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searchIsDue_ || someDied))
     search();
   if (contact_)
+  {
+    const WorkWatch watch(work_.planes);
     contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
+  }
   gatherElementForces();
   if (contact_)
   {
     TimedRegion region("coplane::contact::addForces");
+    const WorkWatch watch(work_.planes);
     Kokkos::deep_copy(state_.contactForce, 0.0);
     contact_->addForces(state_.x, state_.contactForce, contactStiffness_);
     const auto force = state_.force;
@@ -212,6 +227,7 @@ void Solver::findForces(Real dt)
 
 void Solver::drift(Real dt)
 {
+  const WorkWatch watch(work_.nodes);
   const auto x = state_.x;
   const ConstNodeVectors v = state_.v;
   parallelFor(
@@ -251,6 +267,7 @@ void Solver::applyLocalDamping()
 void Solver::kick(Real step)
 {
   TimedRegion region("coplane::dynamics::kick");
+  const WorkWatch watch(work_.nodes);
   const int owned = layout_.owned();
   const Real dtKick = 0.5 * (clock_.step + step);
   const Conditions& conditions = model_.conditions;
@@ -444,9 +461,20 @@ void Solver::advance()
   clock_.time += dt;
   clock_.step = dt;
   planNextCycle(false);
+  ++work_.cycles;
 }
 
-ExitCode Solver::run(Observer& observer)
+WorkTimes Solver::takeWorkTimes()
+{
+  WorkTimes work;
+  work.elements.assign(blocks_.size(), 0);
+  std::swap(work, work_);
+  if (contact_)
+    work.search = contact_->takeSearchSeconds();
+  return work;
+}
+
+ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   observer.start(*this);
   std::string ending = "completed";
@@ -486,6 +514,8 @@ ExitCode Solver::run(Observer& observer)
       code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
+    if (rebalancer && clock_.time < model_.time.end && rebalancer->look(*this))
+      observer.repartitioned(*this);
   }
   observer.finish(*this, ending);
   return code;

@@ -11,6 +11,7 @@
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/Signals.hpp>
+#include <coplane_dynamics/WorkTimes.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
@@ -42,6 +43,16 @@ struct StepControl
   std::string text() const;
 };
 
+/// How often and how a run has taken another partition.
+struct Repartitions
+{
+  std::int64_t count = 0;
+  std::int64_t nodesMoved = 0; ///< that changed their rank, each time counted
+  double seconds = 0;          ///< that all this took
+};
+
+class Rebalancer;
+
 /// The equations of motion in time: central differences (kick and drift) with lumped mass.
 ///
 /// A cycle takes positions from n to n + 1 with the velocities at n + 1/2, finds the forces there,
@@ -55,12 +66,17 @@ public:
   /// First search, census, joints closed, forces at t = 0, first kick. Collective.
   void prepare();
   /// Everything that the rest of the run depends on. Call between cycles. Collective.
-  void save(CheckpointWriter& out) const;
+  void save(StateTables& out) const;
   /// Instead of prepare(): goes on from there, with the same bits, on any ranks. Collective.
-  void restore(const CheckpointReader& in);
+  void restore(const StateSource& in);
+  /// Goes on with another part of the mesh on this rank, with the same bits: `model` is that of the
+  /// same run. Call between cycles. What is known of the parts of ranks (local numbers) is void
+  /// afterwards. For a moment the state is there twice. Collective.
+  void repartition(Model model);
   /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
-  /// Error(ExitCode::Computation) on failure after the observers have finished. Collective.
-  ExitCode run(Observer& observer);
+  /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may
+  /// change the partition at the end of cycles. Collective.
+  ExitCode run(Observer& observer, Rebalancer* rebalancer = nullptr);
   /// One cycle. Public for tests and benchmarks.
   void advance();
 
@@ -97,6 +113,10 @@ public:
   /// elements whose volume has changed most.
   std::string worstEntities() const;
 
+  const Repartitions& repartitions() const { return repartitions_; }
+  /// What this rank has worked since the last call, or since the last change of the partition.
+  WorkTimes takeWorkTimes();
+
   /// Energy of a block's elements on this rank that have died [J].
   const ExactSum& erodedEnergy(int block) const { return erodedEnergy_[block]; }
 
@@ -107,6 +127,7 @@ private:
         entry; ///< entries of node n: element * corners + corner, in the order of element ids
   };
 
+  friend class Rebalancer; // books what it does
   void search(bool again = false);
   void findForces(Real dt);
   ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
@@ -118,9 +139,9 @@ private:
   void kill(int block, int element, Real dt);
   void endLoadsOn(const std::vector<GlobalId>& deadElements); ///< sorted
   void findContactFaces(const std::vector<Face>* known);
-  void restoreElements(const CheckpointReader& in);
-  void restoreNodes(const CheckpointReader& in);
-  void restoreErosion(const CheckpointReader& in);
+  void restoreElements(const StateSource& in);
+  void restoreNodes(const StateSource& in);
+  void restoreErosion(const StateSource& in);
   template <class F>
   void forEachNumber(F&& f);
   /// Whether all elements of an owned node have died.
@@ -210,5 +231,7 @@ private:
   bool failed_ = false;
   std::optional<Error> trouble_; ///< of this rank
   Requests requests_;
+  Repartitions repartitions_;
+  WorkTimes work_;
 };
 } // namespace coplane

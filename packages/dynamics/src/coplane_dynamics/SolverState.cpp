@@ -1,4 +1,5 @@
 // The solver's part of a checkpoint, and those of what it is made of.
+#include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
@@ -62,7 +63,7 @@ std::vector<Real> numbersOf(const Numbers& from)
 }
 
 template <class Numbers>
-void setNumbers(Numbers& to, const CheckpointReader& in, const std::string& name)
+void setNumbers(Numbers& to, const StateSource& in, const std::string& name)
 {
   const std::vector<Real> numbers = in.numbers(name);
   if (numbers.size() * sizeof(Real) != sizeof(Numbers))
@@ -70,7 +71,7 @@ void setNumbers(Numbers& to, const CheckpointReader& in, const std::string& name
         ExitCode::Checkpoint,
         "{}: '{}' has {} numbers and should have {}. Restart with the program that wrote "
         "it ({}).",
-        in.file(), name, numbers.size(), sizeof(Numbers) / sizeof(Real), in.head().program);
+        in.name(), name, numbers.size(), sizeof(Numbers) / sizeof(Real), in.program());
   __builtin_memcpy(static_cast<void*>(&to), numbers.data(), sizeof(Numbers));
 }
 
@@ -107,7 +108,7 @@ void Solver::forEachNumber(F&& f)
   number(warned_.tooDeep);
 }
 
-void Solver::save(CheckpointWriter& out) const
+void Solver::save(StateTables& out) const
 {
   const NodeColumns columns = nodeColumns(state_, contactStiffness_);
   KeyedRows nodes;
@@ -151,7 +152,7 @@ void Solver::save(CheckpointWriter& out) const
   out.numbers("solver/initial_momenta", numbersOf(initialMomenta_));
 }
 
-void Solver::restore(const CheckpointReader& in)
+void Solver::restore(const StateSource& in)
 {
   restoreElements(in);
   restoreNodes(in);
@@ -185,12 +186,28 @@ void Solver::restore(const CheckpointReader& in)
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: the clock has {} numbers and should have {}. Restart with the program that "
                    "wrote it ({}).",
-                   in.file(), numbers.size(), at, in.head().program);
+                   in.name(), numbers.size(), at, in.program());
   setNumbers(initialEnergy_, in, "solver/initial_energy");
   setNumbers(initialMomenta_, in, "solver/initial_momenta");
 }
 
-void Solver::restoreElements(const CheckpointReader& in)
+void Solver::repartition(Model model)
+{
+  TimedRegion region("coplane::dynamics::repartition");
+  StateTables state(*comm_);
+  save(state);
+  Repartitions repartitions = repartitions_;
+  ++repartitions.count;
+  // The largest parts of the old state go before the new one comes.
+  contact_.reset();
+  blocks_.clear();
+  gathers_.clear();
+  *this = Solver(std::move(model), *comm_);
+  restore(state);
+  repartitions_ = repartitions;
+}
+
+void Solver::restoreElements(const StateSource& in)
 {
   for (std::size_t b = 0; b < blocks_.size(); ++b)
   {
@@ -201,7 +218,7 @@ void Solver::restoreElements(const CheckpointReader& in)
   }
 }
 
-void Solver::restoreNodes(const CheckpointReader& in)
+void Solver::restoreNodes(const StateSource& in)
 {
   const NodeColumns columns = nodeColumns(state_, contactStiffness_);
   const KeyedRows rows = in.rowsOf(
@@ -219,12 +236,12 @@ void Solver::restoreNodes(const CheckpointReader& in)
 }
 
 /// What follows from the elements that have died, and the sums of what they took with them.
-void Solver::restoreErosion(const CheckpointReader& in)
+void Solver::restoreErosion(const StateSource& in)
 {
   const std::vector<Real> eroded = in.numbers("solver/eroded");
   if (eroded.size() != 1 + (blocks_.size() + 1) * ExactSum::digitCount)
     failOnAllRanks(ExitCode::Checkpoint, "{}: the checkpoint has another number of blocks.",
-                   in.file());
+                   in.name());
   if (comm_->isRoot()) // sums over ranks
   {
     erodedElements_ = std::int64_t(eroded[0]);

@@ -319,5 +319,8 @@ struct Deck
   CheckpointCard checkpoint;
   std::string partitionMethod = "multijagged"; ///< multijagged | rcb | rib | hsfc | hypergraph
   std::string partitionBalance = "cost";       ///< cost | nodes
+  std::string rebalance = "auto";              ///< during the run: never | auto | always
+  int rebalanceEvery = 500;                    ///< cycles from one look to the next
+  Real rebalanceAbove = 1.1;                   ///< largest over mean work of a rank [-]
 };
 } // namespace coplane

@@ -527,6 +527,42 @@ Key damping()
       .means("damping of all motion, to find states of rest (dynamic relaxation)");
 }
 
+Key partition()
+{
+  return section("partition",
+                 {
+                     text("method", &Deck::partitionMethod)
+                         .oneOf({"multijagged", "rcb", "rib", "hsfc", "hypergraph"})
+                         .like("rcb")
+                         .means("method of Zoltan2"),
+                     text("balance", &Deck::partitionBalance)
+                         .oneOf({"cost", "nodes"})
+                         .like("nodes")
+                         .means("what every rank gets as much of: estimated cost of elements, "
+                                "laws and contact, or nodes"),
+                     text("rebalance", &Deck::rebalance)
+                         .oneOf({"never", "auto", "always"})
+                         .like("never")
+                         .means("whether the mesh is dealt out anew during the run, by the "
+                                "measured work of the ranks; auto: when that saves more time than "
+                                "it costs; always: at every look, for tests"),
+                     KeyBuilder(bound<int>("rebalance_every", KeyKind::Integer,
+                                           &Deck::rebalanceEvery, copyTo))
+                         .atLeast(1)
+                         .in("cycles")
+                         .like("2000")
+                         .defaultIs(std::to_string(Deck{}.rebalanceEvery))
+                         .means("cycles from one look at the work of the ranks to the next"),
+                     number("rebalance_above", &Deck::rebalanceAbove)
+                         .in("-")
+                         .atLeast(1)
+                         .like("1.3")
+                         .means("the busiest rank's work over the mean of all ranks from which "
+                                "on auto asks whether a rebalance pays"),
+                 })
+      .means("how elements are dealt out to ranks; the results do not depend on it");
+}
+
 Key makeSchema()
 {
   return section(
@@ -567,19 +603,7 @@ Key makeSchema()
               output(),
               history(),
               checkpoint(),
-              section("partition",
-                      {
-                          text("method", &Deck::partitionMethod)
-                              .oneOf({"multijagged", "rcb", "rib", "hsfc", "hypergraph"})
-                              .like("rcb")
-                              .means("method of Zoltan2"),
-                          text("balance", &Deck::partitionBalance)
-                              .oneOf({"cost", "nodes"})
-                              .like("nodes")
-                              .means("what every rank gets as much of: estimated cost of elements, "
-                                     "laws and contact, or nodes"),
-                      })
-                  .means("how elements are dealt out to ranks; the results do not depend on it"),
+              partition(),
           });
 }
 } // namespace

@@ -138,6 +138,11 @@ void HistoryObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
+void HistoryObserver::repartitioned(const Solver& solver)
+{
+  findShares(solver);
+}
+
 void HistoryObserver::savePosition(std::map<std::string, std::string>& positions) const
 {
   TextPosition position{options_.file, 0, lastCycle_};

@@ -21,6 +21,12 @@ void MultiObserver::endOfCycle(const Solver& solver)
     observer->endOfCycle(solver);
 }
 
+void MultiObserver::repartitioned(const Solver& solver)
+{
+  for (const auto& observer : observers_)
+    observer->repartitioned(solver);
+}
+
 void MultiObserver::savePosition(std::map<std::string, std::string>& positions) const
 {
   for (const auto& observer : observers_)

@@ -193,6 +193,13 @@ void ResultsObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
+void ResultsObserver::repartitioned(const Solver&)
+{
+  nodesToFile_.reset(); // write() finds all of them anew
+  elementsToFile_.reset();
+  sides_.reset();
+}
+
 void ResultsObserver::finish(const Solver& solver, const std::string&)
 {
   if (solver.clock().cycle != lastCycle_)

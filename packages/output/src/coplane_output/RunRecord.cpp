@@ -235,6 +235,10 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
     json["time_s"] = solver.clock().time;
     json["energies_J"] = energiesOf(solver.energy());
     json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
+    const Repartitions& rebalances = solver.repartitions();
+    json["rebalances"] = {{"count", rebalances.count},
+                          {"nodes_moved", rebalances.nodesMoved},
+                          {"wall_seconds", rebalances.seconds}};
     json["peak_memory_bytes"] = {{"largest_rank", comm.max(memory)}, {"sum", comm.sum(memory)}};
     json["timers_s"] = slowestTimers(comm);
   }

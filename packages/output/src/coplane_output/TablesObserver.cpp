@@ -65,6 +65,12 @@ void TablesObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
+void TablesObserver::repartitioned(const Solver& solver)
+{
+  if (options_.blocks)
+    findShares(solver);
+}
+
 std::string TablesObserver::fileOf(const char* table) const
 {
   return fmt::format("{}_{}.csv", options_.base, table);
@@ -97,6 +103,7 @@ void TablesObserver::findShares(const Solver& solver)
 {
   // Elements stand in the order of the file on every rank, so the sums have the same bits.
   const RankMesh& mesh = solver.mesh();
+  shares_.clear();
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
     const RankMesh::Block& block = mesh.blocks[b];

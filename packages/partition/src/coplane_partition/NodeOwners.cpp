@@ -36,24 +36,25 @@ std::vector<int> partsOf(Adapter& adapter, const std::string& algorithm, const C
 }
 
 /// By positions.
-std::vector<int> geometricOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
-                                 const IndexRange& range, const std::vector<Real>& costs)
+std::vector<int> geometricOwners(int dimension, const std::vector<Vec3>& places, const Comm& comm,
+                                 const std::string& method, const IndexRange& range,
+                                 const std::vector<Real>& costs)
 {
   using Adapter = Zoltan2::BasicVectorAdapter<Types>;
   std::vector<long long> ids(range.count);
-  std::vector<std::vector<double>> axes(mesh.dimension, std::vector<double>(range.count));
+  std::vector<std::vector<double>> axes(dimension, std::vector<double>(range.count));
   for (int i = 0; i < range.count; ++i)
   {
     ids[i] = range.first + i;
-    for (int c = 0; c < mesh.dimension; ++c)
-      axes[c][i] = mesh.coordinates[range.first + i][c];
+    for (int c = 0; c < dimension; ++c)
+      axes[c][i] = places[range.first + i][c];
   }
   std::vector<const double*> columns, weights;
   for (const auto& axis : axes)
     columns.push_back(axis.data());
   if (!costs.empty())
     weights.push_back(costs.data() + range.first);
-  std::vector<int> strides(mesh.dimension, 1), weightStrides(weights.size(), 1);
+  std::vector<int> strides(dimension, 1), weightStrides(weights.size(), 1);
   Adapter adapter(int(range.count), ids.data(), columns, strides, weights, weightStrides);
   return partsOf(adapter, method, comm, range.count);
 }
@@ -114,7 +115,7 @@ private:
 } // namespace
 
 std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
-                            const std::vector<Real>& costs)
+                            const std::vector<Real>& costs, const std::vector<Vec3>* places)
 {
   const int nodes = mesh.nodes();
   if (comm.size() == 1)
@@ -128,7 +129,8 @@ std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::strin
   }
   const IndexRange range = contiguousRange(nodes, comm.rank(), comm.size());
   if (method != "hypergraph")
-    return geometricOwners(mesh, comm, method, range, costs);
+    return geometricOwners(mesh.dimension, places ? *places : mesh.coordinates, comm, method, range,
+                           costs);
   NodeGraph graph(mesh, range, costs);
   return partsOf(graph, "phg", comm, range.count);
 }

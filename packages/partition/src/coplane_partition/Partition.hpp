@@ -25,8 +25,10 @@ std::vector<Real> nodeCosts(const Mesh& mesh, const PartitionCosts& costs);
 /// few per rank are dealt out in order, so that ranks without nodes are possible but never an
 /// error. Collective.
 /// @param costs of the nodes; empty: all the same
+/// @param places of the nodes [m]; null: those of the mesh
 std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
-                            const std::vector<Real>& costs = {});
+                            const std::vector<Real>& costs = {},
+                            const std::vector<Vec3>* places = nullptr);
 
 /// How good a partition is.
 struct PartitionQuality
