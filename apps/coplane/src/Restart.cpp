@@ -135,7 +135,8 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
         ExitCode::Checkpoint,
         "{}: the deck {} is not that of the checkpoint: {}. What may change at a restart "
         "are title, mesh (its path), time.end, time.energy_tolerance, "
-        "time.contact_gain_tolerance, output, history.every, history.file, history.tables, checkpoint and partition. Restart "
+        "time.contact_gain_tolerance, output, history.every, history.file, history.tables, "
+        "checkpoint and partition. Restart "
         "with the deck of then, or start without --restart.",
         checkpoint.file(), deck.file, fmt::join(changes, "; "));
   if (checkpoint.head().program != version().number)

@@ -347,7 +347,8 @@ Key contactKeys()
                  text("share_node", &ContactCard::shareNode)
                      .oneOf({"skip", "allow"})
                      .like("allow")
-                     .means("whether faces that share a node may touch; both faces at the tip of a "
+                     .means("whether faces of elements that share a node may touch; both faces at "
+                            "the tip of a "
                             "declared joint do in any case"),
                  number("cos_opposed", &ContactCard::cosOpposed)
                      .in("-")

@@ -12,18 +12,17 @@ namespace coplane
 {
 namespace
 {
-const std::vector<std::string> mayChange{
-    "title",
-    "mesh",
-    "time.end",
-    "time.energy_tolerance",
-    "time.contact_gain_tolerance",
-    "output",
-    "history.every",
-    "history.file",
-    "history.tables",
-    "checkpoint",
-    "partition"};
+const std::vector<std::string> mayChange{"title",
+                                         "mesh",
+                                         "time.end",
+                                         "time.energy_tolerance",
+                                         "time.contact_gain_tolerance",
+                                         "output",
+                                         "history.every",
+                                         "history.file",
+                                         "history.tables",
+                                         "checkpoint",
+                                         "partition"};
 
 bool isFree(const std::string& path)
 {
