@@ -84,8 +84,8 @@ TEST(InvertedElement, ofTheMeshIsReportedBeforeTheFirstCycle)
 
 TEST(EnergyTolerance, contactThatMakesEnergyEndsTheRun)
 {
-  // A cube is pulled out from between two others under load: the areas change, and with them the
-  // energy that the planes hold. Whatever sign that has, one of the two directions gains.
+  // A cube slides on and off another under load: areas change, and with them the energy that the
+  // planes hold. To one side or the other contact gains a little.
   const Comm comm;
   int ended = 0;
   for (const Real direction : {1., -1.})
