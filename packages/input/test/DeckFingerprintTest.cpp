@@ -1,4 +1,5 @@
 #include <coplane_input/DeckFingerprint.hpp>
+#include <coplane_input/DeckReader.hpp>
 
 #include <gtest/gtest.h>
 
@@ -40,6 +41,19 @@ TEST(DeckFingerprint, listsValuesByTheirPlacesInOrder)
 TEST(DeckFingerprint, doesNotDependOnHowThingsAreWritten)
 {
   EXPECT_TRUE(changes(with("density: 7850, model: j2", "model: j2, density: 7.85e3")).empty());
+}
+
+TEST(DeckFingerprint, isTheSameWhenSetChangesWhatMayChange)
+{
+  // Materials of the library, named by a block and by a card: --set writes the deck with all of
+  // their values.
+  const std::string text = "mesh: a.e\n"
+                           "materials: {mine: {set: concrete_c40, tensile_strength: 3e6}}\n"
+                           "blocks: {a: {material: concrete_c40}, b: {material: mine}}\n"
+                           "time: {end: 1}\n";
+  const std::string changed = parseDeck(text, "a.yaml", {"time.end=2"}).text;
+  EXPECT_NE(changed, text);
+  EXPECT_EQ(deckFingerprint(changed, "a.yaml"), deckFingerprint(text, "a.yaml"));
 }
 
 TEST(DeckFingerprint, leavesOutWhatMayChange)

@@ -1,5 +1,6 @@
 #include <coplane_input/DeckFingerprint.hpp>
 #include <coplane_input/DeckNode.hpp>
+#include <coplane_input/MaterialCards.hpp>
 
 #include <fmt/format.h>
 
@@ -81,8 +82,11 @@ std::map<std::string, std::string> valuesIn(const std::string& fingerprint)
 
 std::string deckFingerprint(const std::string& deckText, const std::string& file)
 {
+  // With what comes from the library: a deck that --set has changed is written with it.
+  DeckNode root = parseYaml(deckText, file);
+  insertMaterialSets(root);
   std::vector<std::string> lines;
-  collect(parseYaml(deckText, file), "", lines);
+  collect(root, "", lines);
   std::sort(lines.begin(), lines.end());
   return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
