@@ -75,9 +75,14 @@ def wait_and_kill(folder, process, how):
         time.sleep(2e-4 if how == "checkpoint" else 2e-3)
     if process.poll() is not None:
         return False
-    kill(folder)
-    process.wait(timeout=60)
-    return process.returncode != 0
+    for _ in range(600):  # again and again: on a busy machine a rank may not have put down its process id yet
+        kill(folder)
+        try:
+            process.wait(timeout=0.1)
+            break
+        except subprocess.TimeoutExpired:
+            pass
+    return process.wait(timeout=1) != 0
 
 
 def readable(folder, steps_before):

@@ -34,11 +34,15 @@ bool shareNode(const Face& a, const Face& b)
     ofB[k] = b.nodes[k];
     ofB[4 + k] = b.far[k];
   }
-  bool any = false;
+  // Without branches, so that eight are compared at once.
+  int same[8] = {};
+  for (int j = 0; j < 8; ++j)
+    for (int i = 0; i < 8; ++i)
+      same[i] |= -int((ofA[i] == ofB[j]) & (ofA[i] >= 0));
+  int any = 0;
   for (int i = 0; i < 8; ++i)
-    for (int j = 0; j < 8; ++j)
-      any |= (ofA[i] == ofB[j]) & (ofA[i] >= 0);
-  return any;
+    any |= same[i];
+  return any != 0;
 }
 
 /// Faces of elements that share a node are neighbours on the surface of one body, or its front and

@@ -412,13 +412,13 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
   const auto large = patch.area > smallest;
   const T gap = gapOf(patch, shadowA, shadowB);
-  const T deepest = options.area == ContactOptions::Area::Full
-                        ? gap
-                        : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  T motion{}, approach{};
+  T deepest{}, motion{}, approach{};
   if (!allOf(large && carries))
   {
+    deepest = options.area == ContactOptions::Area::Full
+                  ? gap
+                  : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
     approach = choose(patch.overlap > 0.0, 2.0 * dt * approachSpeed(trial.normal, a, b), T(0.0));
     // From the half step to the end of the step.
     motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -

@@ -1,0 +1,359 @@
+#include <coplane_contact/Contact.hpp>
+#include <coplane_contact/Inheritance.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+namespace
+{
+std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
+{
+  return {plane.faceId[0], plane.faceId[1]};
+}
+
+/// Carries nothing until its faces are candidates again.
+void makeDormant(Plane& plane)
+{
+  plane.face[0] = plane.face[1] = -1;
+  plane.area = plane.overlap = plane.normalTraction = plane.stiffness = 0;
+  plane.force = plane.moment = {};
+  plane.history.shearTraction = {};
+  plane.closure = 0;
+  plane.tooDeep = false;
+  plane.state = PlaneState::Open;
+  plane.leads = false;
+}
+
+/// The slots after a search, sorted by key, and where each comes from.
+struct Slots
+{
+  std::vector<CandidatePair> pairs;   ///< candidates, then pairs that only end their contact
+  std::vector<std::int64_t> existing; ///< by pair: its plane from before the search, or -1
+  std::vector<std::int64_t> source;   ///< by slot: a pair, or ~p of a plane that becomes dormant
+};
+
+/// Candidates and planes are both sorted by key: which pairs have their plane already, and what
+/// becomes of planes that are no candidates. Those that end are booked in `ended`.
+/// @param faceHere place of a face in the table from its id, -1: not here
+template <class FaceHere>
+Slots slotsOf(std::vector<CandidatePair> candidates,
+              const Kokkos::View<Plane*, Kokkos::HostSpace>& planes, const std::vector<Face>& faces,
+              const FaceHere& faceHere, EndedPlanes& ended)
+{
+  const std::size_t old = planes.extent(0), candidateCount = candidates.size();
+  Slots slots;
+  slots.pairs = std::move(candidates);
+  slots.existing.assign(candidateCount, -1);
+  slots.source.reserve(candidateCount);
+  const auto keep = [&](std::size_t p)
+  {
+    const Plane& plane = planes(p);
+    if (!plane.born)
+      return;
+    if (plane.area > 0)
+    {
+      // It carries traction although its faces do not oppose each other any more: the next update
+      // ends that, with the work of the last force.
+      const CandidatePair pair{faceHere(plane.faceId[0]), faceHere(plane.faceId[1])};
+      if (pair.lower >= 0 && pair.higher >= 0)
+      {
+        slots.source.push_back(std::int64_t(slots.pairs.size()));
+        slots.pairs.push_back(pair);
+        slots.existing.push_back(std::int64_t(p));
+        return;
+      }
+    }
+    // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
+    // booked at their end.
+    if (plane.declared || plane.missedSearches == 0)
+      slots.source.push_back(~std::int64_t(p));
+    else if (plane.countedHere)
+      ended.add(plane);
+  };
+  std::size_t p = 0;
+  for (std::size_t i = 0; i < candidateCount; ++i)
+  {
+    const auto key =
+        std::make_pair(faces[slots.pairs[i].lower].id, faces[slots.pairs[i].higher].id);
+    for (; p < old && keyOf(planes(p)) < key; ++p)
+      keep(p);
+    if (p < old && keyOf(planes(p)) == key)
+      slots.existing[i] = std::int64_t(p++);
+    slots.source.push_back(std::int64_t(i));
+  }
+  for (; p < old; ++p)
+    keep(p);
+  return slots;
+}
+
+/// Places in `donors` by the ids of their faces, sorted.
+std::vector<std::pair<GlobalId, std::size_t>> byFace(const std::vector<Donor>& donors)
+{
+  std::vector<std::pair<GlobalId, std::size_t>> places;
+  for (std::size_t d = 0; d < donors.size(); ++d)
+    for (const GlobalId id : donors[d].faceId)
+      places.emplace_back(id, d);
+  std::sort(places.begin(), places.end());
+  return places;
+}
+} // namespace
+
+/// What a living plane has to give, during a search.
+Donor Contact::donor(const Plane& plane) const
+{
+  Donor donor = donorOf(plane);
+  for (int side = 0; side < 2; ++side)
+    if (plane.face[side] >= 0)
+    {
+      const Face& face = faceTable_(plane.face[side]);
+      for (int k = 0; k < face.count; ++k)
+        donor.nodes[side][k] = nodeIds_[face.nodes[k]];
+    }
+  return donor;
+}
+
+std::vector<Donor> Contact::livingPlanes() const
+{
+  std::vector<Donor> donors;
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+    if (isDonor(planes_(p)))
+      donors.push_back(donor(planes_(p)));
+  return donors;
+}
+
+std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
+                                          const std::vector<GlobalId>& nodeIds)
+{
+  nodeIds_ = nodeIds;
+  {
+    TimedRegion region("coplane::contact::step1_globalSpaceLimits");
+    // Bonds that hold may be open farther than the skin, and contacts deeper than their limit.
+    Real apart = 0;
+    for (std::size_t p = 0; p < planes_.extent(0); ++p)
+      if (planes_(p).area > 0)
+        apart = std::max({apart, planes_(p).gap, -planes_(p).gap - planes_(p).depthLimit});
+    candidates_.reach = skin_ + comm_->max(apart);
+    bins_ = step1_globalSpaceLimits(localFaces_, x, candidates_, *comm_);
+  }
+  ghosts_ = {};
+  std::vector<GlobalId> nodes;
+  if (comm_->size() == 1)
+    return nodes;
+  SortedFaces sorted;
+  {
+    TimedRegion region("coplane::contact::step2_sortIntoBins");
+    const WorkWatch watch(searchSeconds_);
+    sorted = step2_sortIntoBins(bins_, localFaces_, x, dimension_, candidates_);
+  }
+  std::vector<InteractingRank> ranks;
+  {
+    TimedRegion region("coplane::contact::step3_interactingRanks");
+    ranks = step3_interactingRanks(sorted, *comm_);
+  }
+  {
+    TimedRegion region("coplane::contact::step4_copyGhostFaces");
+    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_,
+                                   localElements_);
+  }
+  for (const GhostFace& face : ghosts_.faces)
+  {
+    nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
+    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
+  }
+  return nodes;
+}
+
+std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pairs,
+                                          const ConstNodeVectors& x) const
+{
+  std::vector<Leader> leaders(pairs.size());
+  parallelFor("coplane::contact::leaders", int(pairs.size()),
+              [&](const int i)
+              {
+                const int a = pairs[i].lower, b = pairs[i].higher;
+                leaders[i] = leaderOf(faces_[a], faces_[b], elements_[a], elements_[b], x,
+                                      dimension_, options_);
+              });
+  return leaders;
+}
+
+void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again)
+{
+  TimedRegion region("coplane::contact::step5_candidatePairs");
+  const WorkWatch watch(searchSeconds_);
+  listFaces(layout);
+
+  const auto findPlane = [&](GlobalId lower, GlobalId higher)
+  {
+    const Plane* begin = planes_.data();
+    const Plane* end = begin + planes_.extent(0);
+    const auto wanted = std::make_pair(lower, higher);
+    const Plane* found = std::lower_bound(
+        begin, end, wanted, [](const Plane& p, const auto& key) { return keyOf(p) < key; });
+    return found != end && keyOf(*found) == wanted ? found : nullptr;
+  };
+
+  CandidateRules candidates = candidates_;
+  candidates.declared = [&](int a, int b) { return rules_.between(a, b).declared; };
+  candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
+  if (searches_ > 0)
+    candidates.inContact = [&](GlobalId a, GlobalId b)
+    {
+      const Plane* plane = findPlane(std::min(a, b), std::max(a, b));
+      return plane && plane->area > 0;
+    };
+  std::vector<CandidatePair> candidatePairs =
+      step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
+
+  const Slots slots = slotsOf(
+      std::move(candidatePairs), planes_, faces_, [&](GlobalId id) { return faceHere(id); },
+      ended_);
+  const std::vector<CandidatePair>& pairs = slots.pairs;
+  const std::vector<std::int64_t>& existing = slots.existing;
+  const std::vector<std::int64_t>& source = slots.source;
+  // Donors of a face, from before this search: a local face has all its planes here, those of a
+  // ghost have come with it.
+  const std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost = byFace(ghosts_.donors);
+  const auto addDonors = [&](int face, std::vector<Donor>& donors)
+  {
+    if (faces_[face].local)
+    {
+      if (searches_ > 0)
+        for (std::int32_t i = planesStart_(face); i < planesStart_(face + 1); ++i)
+          if (isDonor(planes_(planesEntry_(i) / 2)))
+            donors.push_back(donor(planes_(planesEntry_(i) / 2)));
+      return;
+    }
+    const GlobalId id = faces_[face].id;
+    for (auto d = std::lower_bound(donorsOfGhost.begin(), donorsOfGhost.end(),
+                                   std::make_pair(id, std::size_t(0)));
+         d != donorsOfGhost.end() && d->first == id; ++d)
+      donors.push_back(ghosts_.donors[d->second]);
+  };
+
+  // Method CommonPlane: which pairs lead, and what those that did not lead before take over from
+  // the pair of faces that carried the plane of their elements until now.
+  const auto leadsAlready = [&](std::size_t i)
+  { return existing[i] >= 0 && planes_(existing[i]).leads; };
+  std::vector<Leader> leaders;
+  std::vector<Donor> planesOfOthers;
+  if (classic())
+  {
+    leaders = leadersAmong(pairs, x);
+    std::vector<ElementPair> wanted;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (leaders[i].leads && !leadsAlready(i))
+      {
+        wanted.push_back(
+            {elementOfFace(faces_[pairs[i].lower].id), elementOfFace(faces_[pairs[i].higher].id)});
+      }
+    if (searches_ > 0 && options_.inherit)
+    {
+      std::vector<Donor> counted;
+      for (std::size_t q = 0; q < planes_.extent(0); ++q)
+        if (planes_(q).countedHere && isDonor(planes_(q)))
+          counted.push_back(donorOf(planes_(q)));
+      planesOfOthers = planesOfElements(wanted, counted, *comm_);
+    }
+  }
+
+  const Kokkos::View<Plane*, Kokkos::HostSpace> next(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
+  const auto fillSlot = [&](const int slot)
+  {
+    Plane& plane = next(slot);
+    if (source[slot] < 0)
+    {
+      plane = planes_(~source[slot]);
+      plane.missedSearches = std::uint8_t(std::min(255, plane.missedSearches + 1));
+      makeDormant(plane);
+      return;
+    }
+    const CandidatePair& pair = pairs[source[slot]];
+    const Face& a = faces_[pair.lower];
+    const Face& b = faces_[pair.higher];
+    const std::int64_t known = existing[source[slot]];
+    if (known >= 0)
+      plane = planes_(known);
+    else
+    {
+      plane = Plane{};
+      const ContactRule& rule = rules_.between(a.group, b.group);
+      plane.faceId[0] = a.id;
+      plane.faceId[1] = b.id;
+      plane.joint = std::uint16_t(rule.joint);
+      plane.block[0] = std::uint16_t(a.block);
+      plane.block[1] = std::uint16_t(b.block);
+      plane.countedHere = a.ownedHere;
+      plane.fit =
+          rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
+      plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
+    }
+    plane.face[0] = pair.lower;
+    plane.face[1] = pair.higher;
+    plane.missedSearches = 0;
+    const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
+    if (classic())
+    {
+      plane.leads = leaders[source[slot]].leads;
+      if (newLeader)
+        plane.normal = leaders[source[slot]].normal;
+      else if (!plane.leads)
+        return;
+    }
+    if (!options_.inherit)
+      return;
+    const auto nodesOfPair = [&]
+    {
+      PairNodes nodes{};
+      for (int k = 0; k < a.count; ++k)
+        nodes[0][k] = layout.ids()[a.nodes[k]];
+      for (int k = 0; k < b.count; ++k)
+        nodes[1][k] = layout.ids()[b.nodes[k]];
+      return nodes;
+    };
+    std::vector<Donor> donors;
+    if (newLeader)
+    {
+      const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
+      donors.assign(mine.first, mine.second);
+      if (inherit(plane, plane.normal, nodesOfPair(), donors))
+        return;
+      donors.clear();
+    }
+    if (plane.born)
+      return;
+    // The neighbours of a face that erosion has just laid bare lie on the old surface.
+    if (a.young || b.young)
+      return;
+    // Slots that have not touched yet look for donors again at every search.
+    plane.offset = 0;
+    plane.closure = 0;
+    plane.inherited = plane.slidesOn = false;
+    plane.history = {};
+    addDonors(pair.lower, donors);
+    addDonors(pair.higher, donors);
+    if (!donors.empty())
+    {
+      const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
+      inherit(plane,
+              classic() ? leaders[source[slot]].normal : normalised(planeA.normal - planeB.normal),
+              nodesOfPair(), donors);
+    }
+  };
+  parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
+
+  planes_ = next;
+  nodeIds_ = {};
+  takeFaceTables();
+  buildLists(layout.owned());
+  for (Face& face : localFaces_)
+    face.young = false;
+  if (!again)
+    ++searches_;
+  searchedSinceUpdate_ = true;
+}
+} // namespace coplane
