@@ -76,6 +76,25 @@ TEST(Step5CandidatePairs, frontAndBackOfAThinBodyAreNoPair)
             Verdict::Candidate);
 }
 
+TEST(Step5CandidatePairs, aGhostFaceIsJudgedLikeTheFaceItComesFrom)
+{
+  const auto sendSecond = [](int node)
+  {
+    return [node](Face& a, Face& b)
+    {
+      a.far[1] = 8;
+      b.far[3] = node;
+      std::vector<GlobalId> ids;
+      for (int n = 0; n < 10; ++n)
+        ids.push_back(1000 - n);
+      b = toFace(toGhostFace(b, ids), [](GlobalId id) { return int(1000 - id); });
+      b.local = false;
+    };
+  };
+  EXPECT_EQ(judgeSquares(0.05, 1, sendSecond(8)), Verdict::SharedNode);
+  EXPECT_EQ(judgeSquares(0.05, 1, sendSecond(9)), Verdict::Candidate);
+}
+
 TEST(Step5CandidatePairs, facesThatLookTheSameWayAreNotOpposed)
 {
   EXPECT_EQ(judgeSquares(0.05, 1, {}, {0, 0, 1}), Verdict::NotOpposed);
