@@ -115,8 +115,12 @@ ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOpti
     : comm_(&comm), mesh_(&mesh), options_(std::move(options)), dimension_(mesh.dimension),
       history_(options_.history), firstOfBlock_(firstElements(mesh)), schedule_(options_.when)
 {
+  // Parts of restarts that were left behind. The checkpoint may be of a part that had no step yet:
+  // what that part wrote afterwards has to go, too.
+  const ResultsPosition position = ResultsPosition::from(options_.position);
   if (comm.isRoot())
-    removeParts(options_.file, std::max(2, options_.part));
+    removeParts(options_.file,
+                position.file == options_.file ? position.part + 1 : std::max(2, options_.part));
   if (options_.part == 1)
     open();
   else
