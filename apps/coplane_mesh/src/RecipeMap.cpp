@@ -1,7 +1,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_core/PlainText.hpp>
+#include <coplane_input/YamlText.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -62,7 +62,13 @@ YAML::Node parseRecipe(const std::string& text, const std::string& name)
   demandPlainText(text, name);
   try
   {
-    return YAML::Load(text);
+    const YamlText yaml = readYaml(text);
+    if (yaml.rest)
+      fail(ExitCode::Deck,
+           "{}:{}:{}: here something begins that does not belong to what is above; a recipe is one "
+           "document. Remove the line '---', or mend the indentation.",
+           name, yaml.rest->line + 1, yaml.rest->column + 1);
+    return yaml.document;
   }
   catch (const YAML::ParserException& error)
   {

@@ -480,7 +480,16 @@ TEST(DeckErrors, aDeckThatIsAList)
 TEST(DeckErrors, twoDocuments)
 {
   EXPECT_EQ(errorOf("mesh: a\n---\nmesh: b\n"),
-            "wall.yaml:3:1: the file has 2 documents; a deck is one. Remove the lines '---'.");
+            "wall.yaml:3:1: here something begins that does not belong to what is above; a deck is "
+            "one document. Remove the line '---', or mend the indentation.");
+}
+
+TEST(DeckErrors, aPieceThatAnIndentationHasCutOff)
+{
+  // yaml-cpp 0.7 makes documents without end of it.
+  EXPECT_EQ(errorOf("  probes:\n    - {name: tip}\n, and more\ntitle: b\n"),
+            "wall.yaml:3:1: here something begins that does not belong to what is above; a deck is "
+            "one document. Remove the line '---', or mend the indentation.");
 }
 
 TEST(DeckErrors, anAliasOfItself)

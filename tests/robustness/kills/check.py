@@ -75,14 +75,15 @@ def wait_and_kill(folder, process, how):
         time.sleep(2e-4 if how == "checkpoint" else 2e-3)
     if process.poll() is not None:
         return False
-    for _ in range(600):  # again and again: on a busy machine a rank may not have put down its process id yet
+    for _ in range(100):  # again and again: on a busy machine a rank may not have put down its process id yet
         kill(folder)
         try:
-            process.wait(timeout=0.1)
-            break
+            return process.wait(timeout=0.1) != 0
         except subprocess.TimeoutExpired:
             pass
-    return process.wait(timeout=1) != 0
+    process.kill()  # mpirun 4.1 now and then waits for ever for ranks that are dead (one in some hundred kills)
+    process.wait()
+    return True
 
 
 def readable(folder, steps_before):

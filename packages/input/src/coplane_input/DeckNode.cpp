@@ -1,7 +1,8 @@
 #include "DeckNode.hpp"
 
+#include "YamlText.hpp"
+
 #include <coplane_core/Error.hpp>
-#include <coplane_core/PlainText.hpp>
 
 #include <yaml-cpp/yaml.h>
 
@@ -164,10 +165,10 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
   demandPlainText(text, file);
   Source source;
   source.file = file;
-  std::vector<YAML::Node> documents;
+  YamlText yaml;
   try
   {
-    documents = YAML::LoadAll(text);
+    yaml = readYaml(text);
   }
   catch (const YAML::Exception& e)
   {
@@ -176,15 +177,17 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
          "bracket or quote, or a wrong indentation.",
          source.where(e.mark), e.msg);
   }
-  if (documents.empty() || documents[0].IsNull())
+  if (yaml.rest)
+    fail(ExitCode::Deck,
+         "{}: here something begins that does not belong to what is above; a deck is one document. "
+         "Remove the line '---', or mend the indentation.",
+         source.where(*yaml.rest));
+  if (yaml.document.IsNull())
     fail(ExitCode::Deck,
          "{}: the deck is empty; it needs at least mesh, materials, blocks and time. See "
          "--help-deck.",
          file);
-  if (documents.size() > 1)
-    fail(ExitCode::Deck, "{}: the file has {} documents; a deck is one. Remove the lines '---'.",
-         source.where(documents[1].Mark()), documents.size());
-  DeckNode root = copyNode(documents[0], source, 0);
+  DeckNode root = copyNode(yaml.document, source, 0);
   if (root.kind != DeckNode::Kind::Map)
     fail(ExitCode::Deck,
          "{}: the deck is {}; accepted: keys with values, such as 'mesh: wall.e'. See --help-deck.",
@@ -210,7 +213,11 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
   DeckNode value;
   try
   {
-    value = copyNode(YAML::Load(assignment.substr(equals + 1)), source, 0);
+    const YamlText yaml = readYaml(assignment.substr(equals + 1));
+    if (yaml.rest)
+      return problems.add(place, "the value is followed by something that does not belong to it; "
+                                 "accepted: one number, word, list or map.");
+    value = copyNode(yaml.document, source, 0);
   }
   catch (const YAML::Exception& e)
   {
