@@ -62,6 +62,42 @@ TEST(Inheritance, tellsTheSameSurfaceFromAnotherBody)
   EXPECT_FALSE(plane.slidesOn);
 }
 
+TEST(Inheritance, doesNotDependOnWhichFaceHasTheLowerId)
+{
+  // Face 30 slides over faces 21, where it has the higher id, and 31, where it has the lower one:
+  // their normals and tractions are opposite, and so is what they hand on.
+  const auto handedOn = [](GlobalId lower, GlobalId higher, Real sign)
+  {
+    Donor donor;
+    donor.faceId[0] = lower;
+    donor.faceId[1] = higher;
+    donor.normal = {0, 0, sign};
+    donor.shearTraction = {sign * 5e6, 0, 0};
+    donor.area = 1;
+    donor.closure = .04;
+    Plane plane;
+    plane.faceId[0] = 30;
+    plane.faceId[1] = 32;
+    std::vector<Donor> donors{donor};
+    EXPECT_TRUE(inherit(plane, {0, 0, 1}, {}, donors)) << lower << " " << higher;
+    EXPECT_NEAR(plane.closure, .04, 1e-15);
+    EXPECT_NEAR(norm(plane.history.shearTraction - Vec3{5e6, 0, 0}), 0, 1e-8);
+  };
+  handedOn(30, 31, 1);
+  handedOn(21, 30, -1);
+  // A neighbour that looks the other way counts for neither.
+  Donor front;
+  front.faceId[0] = 21;
+  front.faceId[1] = 30;
+  front.normal = {0, 0, 1};
+  front.area = 1;
+  Plane plane;
+  plane.faceId[0] = 30;
+  plane.faceId[1] = 32;
+  std::vector<Donor> donors{front};
+  EXPECT_FALSE(inherit(plane, {0, 0, 1}, {}, donors));
+}
+
 TEST(Inheritance, facesWithoutNodesAreOnNoSurface)
 {
   Plane plane = pairOf10And22();

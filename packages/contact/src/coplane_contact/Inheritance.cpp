@@ -60,7 +60,12 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
   for (std::size_t i = 0; i < donors.size(); ++i)
   {
     const Donor& donor = donors[i];
-    if (donor.joint != plane.joint || !(dot(donor.normal, normal) > 0.9) ||
+    // Ids of faces say which way a normal points and on which face a traction acts: where the
+    // common face is the lower one of one plane and the higher one of the other, both are turned
+    // round.
+    const bool turned = donor.faceId[0] == plane.faceId[1] || donor.faceId[1] == plane.faceId[0];
+    const Real sign = turned ? -1 : 1;
+    if (donor.joint != plane.joint || !(sign * dot(donor.normal, normal) > 0.9) ||
         (i > 0 && key(donors[i - 1]) == key(donor)))
       continue;
     area += donor.area;
@@ -69,8 +74,8 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
     mean.maximumClosure += donor.area * donor.maximumClosure;
     mean.closure += donor.area * donor.closure;
     mean.slip += donor.area * donor.slip;
-    mean.shearTraction +=
-        donor.area * turnIntoPlane(donor.shearTraction, donor.normal, normal, Vec3{}, 0);
+    mean.shearTraction += donor.area * turnIntoPlane(sign * donor.shearTraction,
+                                                     sign * donor.normal, normal, Vec3{}, 0);
   }
   if (!(area > 0))
     return false;
