@@ -1,5 +1,7 @@
 """Scenes in which much happens, for comparing runs of one of them bit by bit."""
 
+import sys
+
 NAMES = ("2d", "3d", "sliding", "erosion", "erosion_3d", "everything", "rigid", "rings", "joints", "common_plane")
 
 
@@ -61,3 +63,14 @@ def scene_of(case, name):
     if name != "everything":
         deck["history"]["tables"] = ["blocks", "pairs"]
     return recipe, deck, joints, happened
+
+
+def straight_run(case, name):
+    """Recipe, deck, recipe of joints, and the scene's run on one rank from start to end, in which everything has happened."""
+    recipe, deck, joints, happened = scene_of(case, name)
+    straight = case.attempt("straight", recipe, deck, joints=joints)
+    if straight.code:
+        sys.exit(straight.output)
+    for what in happened:
+        case.check_within(f"straight: {what}", float(max(straight.history[what])), 1e-9, float("inf"))
+    return recipe, deck, joints, straight

@@ -1,5 +1,6 @@
 #include "ContactSchema.hpp"
 #include "MaterialCards.hpp"
+#include "OutputSchema.hpp"
 #include "SchemaBuilder.hpp"
 
 #include <algorithm>
@@ -340,124 +341,6 @@ Key timeGroup()
       .means("time and its steps");
 }
 
-Key output()
-{
-  const std::function<void(OutputCard&)> noneIsEmpty = [](OutputCard& card)
-  {
-    if (card.results == "none")
-      card.results.clear();
-  };
-  return group("output", &Deck::output,
-               {
-                   text("results", &OutputCard::results)
-                       .defaultIs("<name of the deck>.e")
-                       .andThen(noneIsEmpty)
-                       .like("wall.e")
-                       .means("Exodus file, relative to the working folder; none: no results"),
-                   number("every", &OutputCard::every)
-                       .in("s")
-                       .atLeast(0)
-                       .like("1e-3")
-                       .means("interval between results; 0: only at `times`, start and end"),
-                   numbers("times", &OutputCard::times)
-                       .in("s")
-                       .atLeast(0)
-                       .like("[0.0013, 0.002]")
-                       .means("times at which results are written besides"),
-                   flag("planes", &OutputCard::planes)
-                       .like("false")
-                       .means("contact planes as .pvd and .vtp beside the results"),
-                   flag("file_per_rank", &OutputCard::filePerRank)
-                       .like("true")
-                       .means("one results file for each rank instead of a shared one"),
-               })
-      .means("fields for ParaView");
-}
-
-Key history()
-{
-  return group(
-             "history", &Deck::history,
-             {
-                 text("file", &HistoryCard::file)
-                     .defaultIs("<name of the deck>.csv")
-                     .like("wall.csv")
-                     .means("CSV file, relative to the working folder"),
-                 number("every", &HistoryCard::every)
-                     .in("s")
-                     .atLeast(0)
-                     .like("1e-4")
-                     .means("interval between lines; 0: every cycle"),
-                 list("probes", &HistoryCard::probes,
-                      {
-                          text("name", &ProbeCard::name)
-                              .needed()
-                              .like("tip")
-                              .means("start of the column names; each once"),
-                          text("node_set", &ProbeCard::nodeSet)
-                              .like("tip")
-                              .means("mean motion of a node set of the mesh"),
-                          text("block", &ProbeCard::block)
-                              .like("bar")
-                              .means("mass-weighted mean motion of an element block"),
-                      })
-                     .exactlyOneOf({"node_set", "block"})
-                     .means("motions to be recorded"),
-                 bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
-                                                 copyTo)
-                     .defaultIs("[]")
-                     .like("[\"*\"]")
-                     .means("joint cards whose planes are summed up in columns: areas that are "
-                            "open, stick and slip, closure, slip, force, energies; \"*\": all"),
-                 bound<std::vector<std::string>>("tables", KeyKind::Texts, &HistoryCard::tables,
-                                                 copyTo)
-                     .oneOf({"blocks", "pairs", "materials"})
-                     .defaultIs("[]")
-                     .like("[blocks, pairs]")
-                     .means("energies by element block, contact energies by pair of blocks and by "
-                            "pair of materials, as CSV files <history>_blocks.csv, "
-                            "<history>_pairs.csv and <history>_materials.csv"),
-                 bound<std::vector<std::string>>("rigid", KeyKind::Texts, &HistoryCard::rigid,
-                                                 copyTo)
-                     .defaultIs("[]")
-                     .like("[\"*\"]")
-                     .means("rigid blocks whose bodies are recorded in columns: motion of the "
-                            "centre, spin, reaction force and moment of what prescribes their "
-                            "motion; \"*\": all"),
-             })
-      .means("energies, momenta and probes over time");
-}
-
-Key checkpoint()
-{
-  const auto take = [](int& field, int value) { field = value; };
-  return group("checkpoint", &Deck::checkpoint,
-               {
-                   text("file", &CheckpointCard::file)
-                       .defaultIs("<name of the deck>.chk")
-                       .like("wall.chk")
-                       .means("checkpoints are called <file>.0 and <file>.1, written in turn, "
-                              "relative to the working folder"),
-                   KeyBuilder(bound<int>("every_cycles", KeyKind::Integer,
-                                         &CheckpointCard::everyCycles, take))
-                       .atLeast(0)
-                       .in("cycles")
-                       .like("5000")
-                       .defaultIs("0")
-                       .means("cycles between checkpoints; 0: none by count"),
-                   number("every_seconds", &CheckpointCard::everySeconds)
-                       .in("s")
-                       .atLeast(0)
-                       .like("1800")
-                       .means("wall-clock time between checkpoints; 0: none by time"),
-                   flag("at_end", &CheckpointCard::atEnd)
-                       .like("true")
-                       .means("a checkpoint at the end, to go on from with a later time.end"),
-               })
-      .means("state of the run, for --restart; without this group only when asked for (signals, "
-             "--max-wall, a file <name>.stop)");
-}
-
 Key gravity()
 {
   Key key = bound<std::vector<TimeFunction>>(
@@ -527,42 +410,6 @@ Key damping()
       .means("damping of all motion, to find states of rest (dynamic relaxation)");
 }
 
-Key partition()
-{
-  return section("partition",
-                 {
-                     text("method", &Deck::partitionMethod)
-                         .oneOf({"multijagged", "rcb", "rib", "hsfc", "hypergraph"})
-                         .like("rcb")
-                         .means("method of Zoltan2"),
-                     text("balance", &Deck::partitionBalance)
-                         .oneOf({"cost", "nodes"})
-                         .like("nodes")
-                         .means("what every rank gets as much of: estimated cost of elements, "
-                                "laws and contact, or nodes"),
-                     text("rebalance", &Deck::rebalance)
-                         .oneOf({"never", "auto", "always"})
-                         .like("never")
-                         .means("whether the mesh is dealt out anew during the run, by the "
-                                "measured work of the ranks; auto: when that saves more time than "
-                                "it costs; always: at every look, for tests"),
-                     KeyBuilder(bound<int>("rebalance_every", KeyKind::Integer,
-                                           &Deck::rebalanceEvery, copyTo))
-                         .atLeast(1)
-                         .in("cycles")
-                         .like("2000")
-                         .defaultIs(std::to_string(Deck{}.rebalanceEvery))
-                         .means("cycles from one look at the work of the ranks to the next"),
-                     number("rebalance_above", &Deck::rebalanceAbove)
-                         .in("-")
-                         .atLeast(1)
-                         .like("1.3")
-                         .means("the busiest rank's work over the mean of all ranks from which "
-                                "on auto asks whether a rebalance pays"),
-                 })
-      .means("how elements are dealt out to ranks; the results do not depend on it");
-}
-
 Key makeSchema()
 {
   return section(
@@ -600,10 +447,10 @@ Key makeSchema()
                       })
                   .means("bulk viscosity, which spreads shocks over a few elements"),
               timeGroup(),
-              output(),
-              history(),
-              checkpoint(),
-              partition(),
+              outputKeys(),
+              historyKeys(),
+              checkpointKeys(),
+              partitionKeys(),
           });
 }
 } // namespace
