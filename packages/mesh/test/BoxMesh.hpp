@@ -2,6 +2,7 @@
 
 #include <coplane_mesh/Mesh.hpp>
 
+#include "WholeMesh.hpp"
 #include <array>
 #include <string>
 #include <vector>

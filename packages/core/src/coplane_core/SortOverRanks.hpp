@@ -25,18 +25,18 @@ public:
     lowest_ = comm.min(lowest);
     highest = comm.max(highest);
     // Unsigned: the difference of two keys may be too large for a sign.
-    if (highest >= lowest_)
+    if (highest >= lowest_ && comm.size() > 1)
       width_ = (std::uint64_t(highest) - std::uint64_t(lowest_)) / std::uint64_t(comm.size()) + 1;
   }
   std::int64_t lowest() const { return lowest_; } ///< of all keys
   int rankOf(std::int64_t key) const
   {
-    return int((std::uint64_t(key) - std::uint64_t(lowest_)) / width_);
+    return width_ == 0 ? 0 : int((std::uint64_t(key) - std::uint64_t(lowest_)) / width_);
   }
 
 private:
   std::int64_t lowest_ = 0;
-  std::uint64_t width_ = 1;
+  std::uint64_t width_ = 0; ///< 0: all on one rank
 };
 
 /// Items of all ranks sorted by an integer key: every rank gets those of its range. Items with one
