@@ -62,8 +62,7 @@ std::string withoutExtension(const std::string& file)
 } // namespace
 
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
-                  const Comm& comm,
-                  const RunSettings& settings)
+                  const Comm& comm, const RunSettings& settings)
 {
   const auto lastTime = [&](const char* output)
   {

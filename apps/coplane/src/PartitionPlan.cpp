@@ -57,9 +57,8 @@ RankMesh partOf(const MeshSlice& mesh, RankMesh home, const Deck& deck, const Co
     return home;
   const PartitionCosts costs = costsOf(mesh.mine, deck);
   const bool byCost = deck.partitionBalance == "cost";
-  const std::vector<int> owners =
-      nodeOwners(home, comm, deck.partitionMethod,
-                 byCost ? nodeCosts(home, costs) : std::vector<Real>{});
+  const std::vector<int> owners = nodeOwners(home, comm, deck.partitionMethod,
+                                             byCost ? nodeCosts(home, costs) : std::vector<Real>{});
   home = RankMesh(); // makes room
   RankMesh part = distribute(mesh, owners, comm);
   const PartitionQuality quality = qualityOf(part, nodeCosts(part, costs), comm);

@@ -103,9 +103,8 @@ std::vector<std::string> meshDifferences(const std::string& before, const std::s
 }
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> fingerprintsOf(const Deck& deck,
-                                                                const MeshSlice& mesh, int part,
-                                                                const Comm& comm)
+std::vector<std::pair<std::string, std::string>>
+fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm)
 {
   return {{"mesh", meshFingerprint(mesh, comm)},
           {"deck", deckFingerprint(deck.text, deck.file)},

@@ -13,8 +13,8 @@ namespace coplane
 {
 /// What a checkpoint says of the run that wrote it, to be compared at a restart: hashes of the
 /// parts of the mesh, the deck, and which part of the series of results it was.
-std::vector<std::pair<std::string, std::string>> fingerprintsOf(const Deck& deck, const MeshSlice& mesh,
-                                                                int part, const Comm& comm);
+std::vector<std::pair<std::string, std::string>>
+fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm);
 
 /// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
 /// those of the checkpoint. Warns when another version of the program has written it. Collective.

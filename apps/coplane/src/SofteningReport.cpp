@@ -8,7 +8,8 @@
 
 namespace coplane
 {
-void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver, const Comm& comm)
+void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver,
+                     const Comm& comm)
 {
   for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
   {

@@ -9,5 +9,6 @@ namespace coplane
 /// Warns of blocks with elements that are too large for the fracture energy of their material. The
 /// run goes on: such elements break by themselves, with more energy than they should take.
 /// Collective.
-void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver, const Comm& comm);
+void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver,
+                     const Comm& comm);
 } // namespace coplane

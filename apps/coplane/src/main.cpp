@@ -96,8 +96,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   return -1;
 }
 
-void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh,
-             const std::string& wanted,
+void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std::string& wanted,
              RunSettings& settings)
 {
   const Comm& comm = solver.comm();

@@ -1,8 +1,8 @@
+#include "BoxMesh.hpp"
+
 #include <coplane_mesh/Bodies.hpp>
 
 #include <gtest/gtest.h>
-
-#include "BoxMesh.hpp"
 
 namespace coplane
 {
@@ -27,8 +27,8 @@ TEST(BodyLabels, areTheFirstNodesOfConnectedPartsHoweverTheMeshIsDealtOut)
   const Comm comm;
   const Mesh mesh = sample();
   const std::vector<int> last(mesh.nodes(), comm.size() - 1);
-  for (const std::vector<int>& owners : {scatteredOwners(mesh, comm.size()), last,
-                                         nodeOwners(mesh, comm, "rcb")})
+  for (const std::vector<int>& owners :
+       {scatteredOwners(mesh, comm.size()), last, nodeOwners(mesh, comm, "rcb")})
   {
     const RankMesh part = distribute(mesh, owners, comm.rank());
     const std::vector<int> labels = bodyLabels(part, {1, 1, 1}, comm);

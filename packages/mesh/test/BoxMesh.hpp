@@ -1,8 +1,9 @@
 #pragma once
 
+#include "WholeMesh.hpp"
+
 #include <coplane_mesh/Mesh.hpp>
 
-#include "WholeMesh.hpp"
 #include <array>
 #include <string>
 #include <vector>

@@ -1,8 +1,9 @@
+#include "BoxMesh.hpp"
+
 #include <coplane_mesh/Distribute.hpp>
 
 #include <gtest/gtest.h>
 
-#include "BoxMesh.hpp"
 #include <algorithm>
 #include <map>
 #include <set>
@@ -257,8 +258,8 @@ TEST(Distribute, bringsFromSlicesWhatIsCutOutOfTheWholeMesh)
   std::vector<int> inOrder(mesh.nodes());
   for (int n = 0; n < mesh.nodes(); ++n)
     inOrder[n] = n * comm.size() / mesh.nodes();
-  for (const std::vector<int>& owners : {scatteredOwners(mesh, comm.size()), last, inOrder,
-                                         nodeOwners(mesh, comm, "rcb")})
+  for (const std::vector<int>& owners :
+       {scatteredOwners(mesh, comm.size()), last, inOrder, nodeOwners(mesh, comm, "rcb")})
   {
     const auto first = owners.begin() + slice.nodeRange().first;
     const std::vector<int> ofSlice(first, first + slice.nodeRange().count);

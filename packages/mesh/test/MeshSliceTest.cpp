@@ -1,8 +1,8 @@
+#include "BoxMesh.hpp"
+
 #include <coplane_mesh/MeshSlice.hpp>
 
 #include <gtest/gtest.h>
-
-#include "BoxMesh.hpp"
 
 namespace coplane
 {

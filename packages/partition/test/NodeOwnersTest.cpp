@@ -179,8 +179,7 @@ TEST(PartitionQuality, countsWhatRanksNeedOfEachOther)
   std::vector<int> owners(mesh.nodes());
   for (int n = 0; n < mesh.nodes(); ++n)
     owners[n] = mesh.coordinates[n].x > 1.5 ? comm.size() - 1 : 0;
-  const PartitionQuality quality =
-      qualityOf(distribute(mesh, owners, comm.rank()), {}, comm);
+  const PartitionQuality quality = qualityOf(distribute(mesh, owners, comm.rank()), {}, comm);
   EXPECT_EQ(quality.cutElements, 1);
   EXPECT_EQ(quality.fewest, comm.size() == 2 ? 4 : 0);
   EXPECT_EQ(quality.most, 8);

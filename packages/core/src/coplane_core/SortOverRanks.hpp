@@ -40,7 +40,8 @@ private:
 };
 
 /// Items of all ranks sorted by an integer key: every rank gets those of its range. Items with one
-/// key stand in the order of the ranks that had them. Shares are as even as the keys are. Collective.
+/// key stand in the order of the ranks that had them. Shares are as even as the keys are.
+/// Collective.
 template <class T, class Key>
 std::vector<T> sortOverRanks(const std::vector<T>& items, const Key& key, const KeyRanges& ranges,
                              const Comm& comm)

@@ -110,7 +110,8 @@ RebalancePlan planRebalance(const Solver& solver, const MeshSlice& mesh, const s
   }
   // A node whose work was too short to be seen still is something to be looked after.
   const Real total =
-      comm.size() * largestAndMean(std::accumulate(costs.begin(), costs.end(), Real(0)), comm).second;
+      comm.size() *
+      largestAndMean(std::accumulate(costs.begin(), costs.end(), Real(0)), comm).second;
   for (Real& cost : costs)
     cost = std::max(cost, total > 0 ? 0.01 * total / mesh.nodes : 1);
 

@@ -63,8 +63,14 @@ std::vector<Face> facesOf(const RankMesh& home)
       if (!block.owned[side.element])
         continue;
       const ElementTopology& shape = topology(block.type);
-      Face face{int(s), side.position,      block.elementIds[side.element],
-                side.side, shape.nodesPerSide, {}, {}, {}};
+      Face face{int(s),
+                side.position,
+                block.elementIds[side.element],
+                side.side,
+                shape.nodesPerSide,
+                {},
+                {},
+                {}};
       for (int k = 0; k < face.count; ++k)
       {
         face.corners[k] = home.coordinates[block.connectivity[side.element * shape.nodes +
@@ -72,9 +78,8 @@ std::vector<Face> facesOf(const RankMesh& home)
         face.centre += (1.0 / face.count) * face.corners[k];
       }
       const auto& x = face.corners;
-      face.normal = face.count == 2
-                        ? Vec3{x[1].y - x[0].y, x[0].x - x[1].x, 0}
-                        : cross(x[2] - x[0], (face.count == 3 ? x[0] : x[3]) - x[1]);
+      face.normal = face.count == 2 ? Vec3{x[1].y - x[0].y, x[0].x - x[1].x, 0}
+                                    : cross(x[2] - x[0], (face.count == 3 ? x[0] : x[3]) - x[1]);
       faces.push_back(face);
     }
   return faces;
@@ -118,7 +123,8 @@ std::vector<char> facesWithPartner(const std::vector<Face>& faces, const Boxes& 
       const auto there = atHome.find({visit.face.set, visit.cell});
       answers[r].push_back(
           there != atHome.end() &&
-          std::any_of(there->second.begin(), there->second.end(), [&](std::size_t other)
+          std::any_of(there->second.begin(), there->second.end(),
+                      [&](std::size_t other)
                       { return arePartners(visit.face, visits[other].face, tolerance); }));
     }
   const std::vector<char> found = comm.exchange(answers);
@@ -158,8 +164,8 @@ std::vector<MeshReport::Joint> findJoints(const MeshSlice& slice, const RankMesh
       if (faces[i].set == int(s) && !withPartner[i])
         alone.push_back({faces[i].position, {faces[i].element, faces[i].side + 1}});
     const Findings<Side> found = findingsOf(alone, comm);
-    MeshReport::Joint joint{slice.mine.sideSets[s].id, slice.mine.sideSets[s].name, counts[s] / 2,
-                            {found.count, {}}};
+    MeshReport::Joint joint{
+        slice.mine.sideSets[s].id, slice.mine.sideSets[s].name, counts[s] / 2, {found.count, {}}};
     for (const Side& side : found.first)
       joint.alone.first.emplace_back(side.element, side.side);
     joints.push_back(std::move(joint));

@@ -101,9 +101,8 @@ void putIds(int exoid, const MeshSlice& slice)
                 "node ids");
   for (std::size_t b = 0; b < slice.mine.blocks.size(); ++b)
     if (const IndexRange mine = slice.elementRange(int(b)); mine.count > 0)
-      checkExodus(ex_put_partial_id_map(exoid, EX_ELEM_MAP,
-                                        slice.firstElements[b] + mine.first + 1, mine.count,
-                                        slice.mine.blocks[b].elementIds.data()),
+      checkExodus(ex_put_partial_id_map(exoid, EX_ELEM_MAP, slice.firstElements[b] + mine.first + 1,
+                                        mine.count, slice.mine.blocks[b].elementIds.data()),
                   "element ids");
 }
 

@@ -24,8 +24,8 @@ GlobalId largestId(const MeshSlice& slice);
 int creationMode(GlobalId largestId);
 
 /// Defines everything in a new, serially opened Exodus file: sizes, blocks, sets, names,
-/// attributes, QA and info records, id maps, variables; and writes the ids of this slice, which must
-/// be that of the first rank. Afterwards the header is complete, so the file needs no further
+/// attributes, QA and info records, id maps, variables; and writes the ids of this slice, which
+/// must be that of the first rank. Afterwards the header is complete, so the file needs no further
 /// redefinition.
 void defineMesh(int exoid, const MeshSlice& slice, const FileExtras& extras);
 

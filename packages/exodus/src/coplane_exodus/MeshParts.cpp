@@ -229,9 +229,9 @@ private:
   /// Blocks without elements tell nothing of their shape.
   void unite(const Entity& entity, std::vector<Entity>& all)
   {
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const Entity& other)
-                     { return other.kind == entity.kind && other.id == entity.id; });
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Entity& other)
+                                    { return other.kind == entity.kind && other.id == entity.id; });
     if (found == all.end())
       all.push_back(entity);
     else if (!found->isThere || (!found->isFilled && entity.isFilled))
@@ -307,8 +307,8 @@ private:
           }
       const auto idOf = [](const Element& element) { return element.id; };
       int total = 0;
-      const std::vector<Element> mine = inRanges(
-          sortOverRanks(all, idOf, KeyRanges(all, idOf, comm_), comm_), total, comm_);
+      const std::vector<Element> mine =
+          inRanges(sortOverRanks(all, idOf, KeyRanges(all, idOf, comm_), comm_), total, comm_);
       const int first = slice_.elements() + slice_.rangeOf(total).first;
       slice_.firstElements.push_back(slice_.elements() + total);
       for (const Element& element : mine)
@@ -323,9 +323,8 @@ private:
     const auto idOf = [](const Place& place) { return place.id; };
     const KeyRanges ranges(places, idOf, comm_);
     const std::vector<Place> sorted = sortOverRanks(places, idOf, ranges, comm_);
-    const auto twice =
-        std::adjacent_find(sorted.begin(), sorted.end(),
-                           [](const Place& a, const Place& b) { return a.id == b.id; });
+    const auto twice = std::adjacent_find(
+        sorted.begin(), sorted.end(), [](const Place& a, const Place& b) { return a.id == b.id; });
     if (const std::int64_t id =
             comm_.min(twice == sorted.end() ? INT64_MAX : std::int64_t(twice->id));
         id < INT64_MAX)

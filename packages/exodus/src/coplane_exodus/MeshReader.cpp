@@ -322,9 +322,8 @@ private:
   {
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
       if (const IndexRange range = slice_.elementRange(int(b)); range.count > 0)
-        check(ex_get_partial_id_map(exoid_, EX_ELEM_MAP,
-                                    slice_.firstElements[b] + range.first + 1, range.count,
-                                    mesh_.blocks[b].elementIds.data()),
+        check(ex_get_partial_id_map(exoid_, EX_ELEM_MAP, slice_.firstElements[b] + range.first + 1,
+                                    range.count, mesh_.blocks[b].elementIds.data()),
               "element ids");
   }
 

@@ -48,8 +48,8 @@ struct PlacedNode
 };
 
 /// Nodes of one body in one cell of a grid of two millionths of the shortest edge. Cells are
-/// centred on multiples, so that round coordinates with round-off stay in one cell. The two sides of
-/// a joint that ends inside a body are meant: their nodes are no finding.
+/// centred on multiples, so that round coordinates with round-off stay in one cell. The two sides
+/// of a joint that ends inside a body are meant: their nodes are no finding.
 /// @param bodies of the owned nodes; negative: of no element
 Findings<MeshReport::NodePair> findCoincident(const RankMesh& home,
                                               const std::vector<std::int64_t>& bodies,
@@ -76,7 +76,7 @@ Findings<MeshReport::NodePair> findCoincident(const RankMesh& home,
             { return std::tuple(key(a), a.position) < std::tuple(key(b), b.position); });
   std::vector<Ordered<MeshReport::NodePair>> pairs;
   for (std::size_t i = 1; i < nodes.size(); ++i)
-    if (const PlacedNode &a = nodes[i - 1], &b = nodes[i];
+    if (const PlacedNode& a = nodes[i - 1], &b = nodes[i];
         key(a) == key(b) && !(a.onJoint && b.onJoint))
       pairs.push_back({a.position, {a.id, b.id}});
   return findingsOf(pairs, comm);
@@ -302,8 +302,7 @@ void reportNodes(MeshReport& report, const MeshSlice& slice, const RankMesh& hom
   report.highest = {highest[0], highest[1], highest[2]};
   const Boxes boxes(report.lowest, report.highest, comm.size());
 
-  const std::vector<int> labels =
-      bodyLabels(home, std::vector<char>(home.blocks.size(), 1), comm);
+  const std::vector<int> labels = bodyLabels(home, std::vector<char>(home.blocks.size(), 1), comm);
   countBodies(report, slice, home, labels, comm);
   std::vector<std::int64_t> bodies(home.nodes(), -1);
   for (const RankMesh::Block& block : home.blocks)
@@ -324,8 +323,8 @@ void reportNodes(MeshReport& report, const MeshSlice& slice, const RankMesh& hom
     return;
   const Real tolerance = 1e-6 * report.shortestEdge;
   report.joints = findJoints(slice, home, boxes, tolerance, comm);
-  report.coincident = findCoincident(
-      home, bodies, nodesOfJoints(slice, home, report.joints), boxes, tolerance, comm);
+  report.coincident = findCoincident(home, bodies, nodesOfJoints(slice, home, report.joints), boxes,
+                                     tolerance, comm);
 }
 } // namespace
 

@@ -42,8 +42,8 @@ struct MeshReport
     std::string type;
     int elements = 0;
     std::int64_t bodies = 0; ///< parts that share no node with each other
-    Real volume = 0;       ///< [m^3], or [m^2] times one metre
-    Real worstQuality = 1; ///< least elementQuality [-]
+    Real volume = 0;         ///< [m^3], or [m^2] times one metre
+    Real worstQuality = 1;   ///< least elementQuality [-]
     GlobalId worstElement = 0;
   };
   /// A side set in which faces lie on each other pairwise.
@@ -67,7 +67,7 @@ struct MeshReport
   Findings<GlobalId> unusedNodes;     ///< of no element
   Findings<BadElement> folded;        ///< volume positive, but a corner turned inside out
   Findings<NodePair> coincident;      ///< two nodes of one body at one place, not of joints
-  std::vector<Joint> joints;             ///< side sets that hold both sides of a joint
+  std::vector<Joint> joints;          ///< side sets that hold both sides of a joint
 
   /// No computation can start with inverted elements or repeated nodes; the other findings are for
   /// the eye.

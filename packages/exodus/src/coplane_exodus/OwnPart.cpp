@@ -103,9 +103,7 @@ OwnPart ownPartOf(const MeshSlice& slice, const Comm& comm)
   const std::vector<int> positions = nodesOfPart(slice, comm);
   OwnPart part{slice.mine, NodesFromHome(slice, comm, positions), {}};
   const auto partNode = [&](int node)
-  {
-    return int(std::lower_bound(positions.begin(), positions.end(), node) - positions.begin());
-  };
+  { return int(std::lower_bound(positions.begin(), positions.end(), node) - positions.begin()); };
   Mesh& mesh = part.mesh;
   std::vector<Node> here;
   for (int i = 0; i < slice.mine.nodes(); ++i)

@@ -15,7 +15,7 @@ struct OwnPart
 };
 
 /// The elements of a rank's slice, the nodes that they touch, and nodes of its slice that no
-/// element of the mesh touches: they still need a place in the joined mesh. Node sets name a node in
-/// every part that has it. Collective.
+/// element of the mesh touches: they still need a place in the joined mesh. Node sets name a node
+/// in every part that has it. Collective.
 OwnPart ownPartOf(const MeshSlice& slice, const Comm& comm);
 } // namespace coplane

@@ -209,8 +209,9 @@ private:
     for (int e = 0; e < block.elements(); ++e)
     {
       const int* nodes = &block.connectivity[std::size_t(e) * corners];
-      const int lowest = *std::min_element(nodes, nodes + corners, [&](int a, int b)
-                                           { return part_.nodeIds[a] < part_.nodeIds[b]; });
+      const int lowest =
+          *std::min_element(nodes, nodes + corners,
+                            [&](int a, int b) { return part_.nodeIds[a] < part_.nodeIds[b]; });
       block.owned.push_back(lowest < part_.ownedNodes);
     }
   }

@@ -36,8 +36,8 @@ class ResultsObserver : public Observer
 public:
   /// Creates the file, so that a folder that cannot be written to is found before anything is
   /// computed; a later part of a series is created with its first step. Cuts off steps that the
-  /// run before has written after the position, and removes later parts. `mesh` has to live as long.
-  /// Collective.
+  /// run before has written after the position, and removes later parts. `mesh` has to live as
+  /// long. Collective.
   ResultsObserver(const Comm& comm, const MeshSlice& mesh, ResultsOptions options);
 
   void start(const Solver& solver) override;

@@ -32,10 +32,8 @@ std::pair<Real, Real> largestAndMean(Real mine, const Comm& comm)
 PartitionQuality qualityOf(const RankMesh& part, const std::vector<Real>& costs, const Comm& comm)
 {
   PartitionQuality quality;
-  const auto [largest, mean] =
-      largestAndMean(costs.empty() ? part.ownedNodes
-                                   : std::accumulate(costs.begin(), costs.end(), Real(0)),
-                     comm);
+  const auto [largest, mean] = largestAndMean(
+      costs.empty() ? part.ownedNodes : std::accumulate(costs.begin(), costs.end(), Real(0)), comm);
   if (mean > 0)
     quality.imbalance = largest / mean;
   quality.fewest = int(comm.min(std::int64_t(part.ownedNodes)));
