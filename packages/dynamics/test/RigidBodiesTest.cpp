@@ -64,9 +64,11 @@ TEST(RigidBodies, connectedPartsOfRigidBlocksAreBodies)
   addBox(mesh, "bricks", {1, 1, 1}, {2, 0, 0}, {1, 1, 1});
   addBox(mesh, "more", {2, 1, 1}, {4, 0, 0}, {2, 1, 1});
   // The second brick into the block of the first.
-  mesh.blocks[1].connectivity.insert(mesh.blocks[1].connectivity.end(),
-                                     mesh.blocks[2].connectivity.begin(),
-                                     mesh.blocks[2].connectivity.end());
+  const auto append = [](auto& to, const auto& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  append(mesh.blocks[1].connectivity, mesh.blocks[2].connectivity);
+  append(mesh.blocks[1].elementIds, mesh.blocks[2].elementIds);
+  append(mesh.blocks[1].bodyIds, mesh.blocks[2].bodyIds);
   mesh.blocks.resize(2);
   const Comm comm;
   const RankMesh part = rockModel(mesh, comm, 0, "scattered").mesh;
