@@ -1,16 +1,15 @@
 #include "BuildModel.hpp"
 
+#include "ContactRulesOfDeck.hpp"
+
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
-#include <coplane_input/JointCards.hpp>
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_input/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <set>
 
 namespace coplane
 {
@@ -55,95 +54,6 @@ ContactOptions optionsOf(const ContactCard& card)
   options.dampNormal = card.dampNormal;
   options.dampShear = card.dampShear;
   return options;
-}
-
-/// Fills the table of rules and the groups of faces. Side sets that contact.pairs names split the
-/// faces of a block into groups; all ranks find the same ones, because they look at the whole mesh.
-/// A declared pair as messages name it.
-std::string nameOf(const ContactPairCard& card, std::size_t item)
-{
-  const std::string sides =
-      !card.jointSet.empty() ? "joint set " + card.jointSet
-      : !card.sideSets[0].empty()
-          ? fmt::format("side sets {} and {}", card.sideSets[0], card.sideSets[1])
-      : !card.materials[0].empty()
-          ? fmt::format("materials {} and {}", card.materials[0], card.materials[1])
-          : fmt::format("blocks {} and {}", card.blocks[0], card.blocks[1]);
-  return fmt::format("contact.pairs.{} ({})", item, sides);
-}
-
-void addContactRules(const Deck& deck, const Mesh& mesh, Model& model)
-{
-  ContactRules& rules = model.contactRules;
-  JointRecipe builtIn;
-  builtIn.name = "penalty (built in)";
-  rules.joints.push_back(builtIn);
-  const auto jointIndex = [&](const std::string& name)
-  {
-    const auto found = std::find_if(rules.joints.begin(), rules.joints.end(),
-                                    [&](const JointRecipe& recipe) { return recipe.name == name; });
-    return int(found - rules.joints.begin());
-  };
-  for (const JointCard& card : deck.joints)
-    rules.joints.push_back({card.name, jointLawOf(card)});
-
-  std::vector<ContactTraits> groups;
-  for (const Mesh::Block& block : mesh.blocks)
-  {
-    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
-                                   [&](const BlockCard& b) { return b.name == block.name; });
-    groups.push_back({block.name, card->material, {}});
-  }
-  std::set<std::string> named;
-  for (const ContactPairCard& pair : deck.contact.pairs)
-    named.insert({pair.sideSets[0], pair.sideSets[1], pair.jointSet});
-  std::map<GlobalId, std::pair<int, std::vector<std::string>>> setsOfFace; // block, side sets
-  for (const Mesh::SideSet& set : mesh.sideSets)
-  {
-    if (named.count(set.name) == 0)
-      continue;
-    for (std::size_t i = 0; i < set.elements.size(); ++i)
-    {
-      int block = 0, element = set.elements[i];
-      for (; element >= mesh.blocks[block].elements(); ++block)
-        element -= mesh.blocks[block].elements();
-      auto& face = setsOfFace[faceId(mesh.blocks[block].elementIds[element], set.sides[i])];
-      face.first = block;
-      face.second.push_back(set.name);
-    }
-  }
-  std::map<std::pair<int, std::vector<std::string>>, int> groupOf;
-  for (const auto& [id, sets] : setsOfFace)
-  {
-    const auto [place, isNew] = groupOf.emplace(sets, int(groups.size()));
-    if (isNew)
-    {
-      ContactTraits traits = groups[sets.first];
-      traits.sideSets = sets.second;
-      groups.push_back(traits);
-    }
-    model.faceGroups.emplace_back(id, place->second);
-  }
-
-  for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
-    if (deck.contact.pairs[i].declared)
-      rules.declaredItems.emplace_back(int(i), nameOf(deck.contact.pairs[i], i));
-
-  rules.groups = int(groups.size());
-  ContactRule general;
-  general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
-  rules.table.assign(std::size_t(rules.groups) * rules.groups, general);
-  for (int a = 0; a < rules.groups; ++a)
-    for (int b = 0; b < rules.groups; ++b)
-      if (const ContactPairCard* card = contactPairFor(deck.contact, groups[a], groups[b]))
-      {
-        ContactRule& rule = rules.table[a * rules.groups + b];
-        if (!card->joint.empty())
-          rule.joint = jointIndex(card->joint);
-        rule.declared = card->declared;
-        rule.excluded = card->excluded;
-        rule.item = int(card - deck.contact.pairs.data());
-      }
 }
 
 OfTime functionOf(const TimeFunction& card)
@@ -332,21 +242,25 @@ ElementOptions elementOptionsOf(const Deck& deck, const BlockCard& card, const M
 }
 
 /// A body of revolution: x is the radius. Points on the axis stay there.
-void revolve(const Mesh& mesh, const RankMesh& part, const Deck& deck, Conditions& conditions)
+void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
 {
-  if (mesh.dimension != 2)
+  if (part.dimension != 2)
     failOnAllRanks(
         ExitCode::Deck,
         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
         "plane x, y with x >= 0, or leave the key out.",
         deck.meshWhere);
-  for (int n = 0; n < mesh.nodes(); ++n)
-    if (mesh.coordinates[n].x < 0)
-      failOnAllRanks(
-          ExitCode::Deck,
-          "{}: geometry = 'axisymmetric', but node {} is at x = {:.6g} m; accepted: x >= 0, the "
-          "distance from the axis. Move the mesh, or keep the half with x >= 0.",
-          deck.meshWhere, mesh.nodeIds[n], mesh.coordinates[n].x);
+  int wrong = 0; // first owned node beyond the axis
+  while (wrong < part.ownedNodes && !(part.coordinates[wrong].x < 0))
+    ++wrong;
+  const std::int64_t mine = wrong < part.ownedNodes ? part.nodePositions[wrong] : INT64_MAX;
+  if (const std::int64_t first = comm.min(mine); first < INT64_MAX)
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: geometry = 'axisymmetric', but node {} is at x = {:.6g} m; accepted: x >= 0, the "
+        "distance from the axis. Move the mesh, or keep the half with x >= 0.",
+        deck.meshWhere, comm.max(mine == first ? part.nodeIds[wrong] : 0),
+        comm.min(mine == first ? part.coordinates[wrong].x : 0));
   conditions.axisymmetric = true;
   SymmetryPlane axis;
   axis.normal = {1, 0, 0};
@@ -402,16 +316,17 @@ std::vector<std::string> problemsOfLaws(const Deck& deck)
   return problems;
 }
 
-std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mesh)
+std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice& slice,
+                                               const Comm& comm)
 {
   std::vector<std::string> problems;
-  std::vector<std::string> rigid; // by element, in the order of the file; empty: deformable
+  const Mesh& mesh = slice.mine;
+  std::vector<char> rigid; // by block
   for (const Mesh::Block& block : mesh.blocks)
   {
     const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
                                    [&](const BlockCard& b) { return b.name == block.name; });
-    rigid.insert(rigid.end(), std::size_t(block.elements()),
-                 card != deck.blocks.end() && card->rigid ? block.name : "");
+    rigid.push_back(card != deck.blocks.end() && card->rigid);
   }
   for (const ConditionCard& card : deck.conditions)
     for (int c = 0; c < 2 && card.spin && mesh.dimension == 2; ++c)
@@ -424,20 +339,24 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mes
   for (const ConditionCard& card : deck.conditions)
     if (card.type == "absorbing")
       if (const int set = indexOf(mesh.sideSets, card.set); set >= 0)
+      {
+        std::int64_t block = std::int64_t(rigid.size()); // lowest rigid one with a side in the set
         for (const int element : mesh.sideSets[set].elements)
-          if (!rigid[element].empty())
-          {
-            problems.push_back(fmt::format(
-                "{}: absorbing side set '{}' has a side of the rigid block '{}', through which no "
-                "waves run; take it out of the set, or remove rigid.",
-                card.where, card.set, rigid[element]));
-            break;
-          }
+          if (const int other = slice.placeOf(element).first; rigid[other])
+            block = std::min(block, std::int64_t(other));
+        block = comm.min(block);
+        if (block < std::int64_t(rigid.size()))
+          problems.push_back(fmt::format(
+              "{}: absorbing side set '{}' has a side of the rigid block '{}', through which no "
+              "waves run; take it out of the set, or remove rigid.",
+              card.where, card.set, mesh.blocks[block].name));
+      }
   return problems;
 }
 
-Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
+Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const Comm& comm)
 {
+  const Mesh& mesh = slice.mine; // names and shapes of blocks and sets
   Model model;
   for (const Mesh::Block& block : mesh.blocks)
   {
@@ -463,21 +382,18 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   for (const BlockSetup& setup : model.blocks)
     rigidBlocks.push_back(setup.rigid);
   if (std::count(rigidBlocks.begin(), rigidBlocks.end(), 1) > 0)
-  {
-    const std::vector<int> bodies = rigidBodiesOf(mesh, rigidBlocks);
-    for (const int position : part.nodePositions)
-      model.rigidBodyOfNode.push_back(bodies[position]);
-  }
+    model.rigidBodyOfNode = rigidBodiesOf(part, rigidBlocks, comm);
   model.conditions = conditionsOf(deck, mesh, part, model.blocks);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
   model.contact = optionsOf(deck.contact);
   if (deck.geometry == "axisymmetric")
   {
-    revolve(mesh, part, deck, model.conditions);
+    revolve(part, deck, comm, model.conditions);
     model.contact.axisymmetric = true;
   }
-  addContactRules(deck, mesh, model);
+  model.mesh = std::move(part);
+  addContactRules(deck, mesh, comm, model);
   model.skin = deck.contact.skin;
   model.searchEvery = deck.contact.searchEvery;
   model.time.end = deck.time.end;
@@ -486,7 +402,6 @@ Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part)
   model.time.fixedStep = deck.time.fixedStep;
   model.time.energyTolerance = deck.time.energyTolerance;
   model.time.contactGainTolerance = deck.time.contactGainTolerance;
-  model.mesh = std::move(part);
   return model;
 }
 } // namespace coplane

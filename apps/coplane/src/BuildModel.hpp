@@ -3,7 +3,7 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_input/Deck.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 
 namespace coplane
 {
@@ -11,8 +11,9 @@ namespace coplane
 std::vector<std::string> problemsOfLaws(const Deck& deck);
 
 /// What a deck asks of rigid blocks that they cannot do. Names have been checked before.
-std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const Mesh& mesh);
+std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice& mesh,
+                                               const Comm& comm);
 
 /// Joins the deck to this rank's part of the mesh. Names have been checked before.
-Model buildModel(const Deck& deck, const Mesh& mesh, RankMesh part);
+Model buildModel(const Deck& deck, const MeshSlice& mesh, RankMesh part, const Comm& comm);
 } // namespace coplane

@@ -39,10 +39,10 @@ int positionOf(const Items& items, const std::string& name)
 
 /// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
 /// are written anyway are left out.
-std::vector<std::string> historyVariables(const Deck& deck, const Mesh& mesh)
+std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
 {
   std::vector<std::string> names;
-  for (const Mesh::Block& block : mesh.blocks)
+  for (const Mesh::Block& block : mesh.mine.blocks)
   {
     const BlockCard& card = deck.blocks[std::size_t(positionOf(deck.blocks, block.name))];
     const MaterialCard& material =
@@ -61,8 +61,8 @@ std::string withoutExtension(const std::string& file)
 }
 } // namespace
 
-void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, const Comm& comm,
-                  const RunSettings& settings)
+void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
+                  const Comm& comm, const RunSettings& settings)
 {
   const auto lastTime = [&](const char* output)
   {
@@ -93,19 +93,19 @@ void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, 
   {
     Probe probe;
     probe.name = card.name;
-    probe.nodeSet = positionOf(mesh.nodeSets, card.nodeSet);
-    probe.block = positionOf(mesh.blocks, card.block);
+    probe.nodeSet = positionOf(mesh.mine.nodeSets, card.nodeSet);
+    probe.block = positionOf(mesh.mine.blocks, card.block);
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)
     if (std::any_of(deck.history.joints.begin(), deck.history.joints.end(),
                     [&](const std::string& name) { return name == "*" || name == card.name; }))
       history.joints.push_back(card.name);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
     for (const std::string& name : deck.history.rigid)
     {
       const BlockCard& card =
-          deck.blocks[std::size_t(positionOf(deck.blocks, mesh.blocks[b].name))];
+          deck.blocks[std::size_t(positionOf(deck.blocks, mesh.mine.blocks[b].name))];
       if (card.rigid && (name == "*" || name == card.name))
       {
         history.rigidBlocks.push_back(int(b));
@@ -151,7 +151,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, 
   checkpoint.maxWall = settings.maxWall;
   checkpoint.stopFile = withoutExtension(deck.checkpoint.file) + ".stop";
   checkpoint.restartedFrom = settings.restartedFrom;
-  checkpoint.texts = fingerprintsOf(deck, mesh, settings.part);
+  checkpoint.texts = fingerprintsOf(deck, mesh, settings.part, comm);
   checkpoint.begin = settings.begin;
   observers.add(std::make_unique<CheckpointObserver>(comm, checkpoint, observers));
 }

@@ -2,7 +2,7 @@
 
 #include <coplane_core/Comm.hpp>
 #include <coplane_input/Deck.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 #include <coplane_output/MultiObserver.hpp>
 
 #include <chrono>
@@ -25,6 +25,6 @@ struct RunSettings
 
 /// Adds everything that a deck asks to be written: results, planes, history, progress, run record,
 /// checkpoints. `observers` and `mesh` have to stay where they are. Collective.
-void addObservers(MultiObserver& observers, const Deck& deck, const Mesh& mesh, const Comm& comm,
-                  const RunSettings& settings);
+void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
+                  const Comm& comm, const RunSettings& settings);
 } // namespace coplane

@@ -1,6 +1,7 @@
 #include "PartitionPlan.hpp"
 
 #include <coplane_core/Log.hpp>
+#include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <algorithm>
@@ -50,25 +51,22 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
 }
 } // namespace
 
-RankMesh partOf(const Mesh& mesh, const Deck& deck, const Comm& comm)
+RankMesh partOf(const MeshSlice& mesh, RankMesh home, const Deck& deck, const Comm& comm)
 {
   if (comm.size() == 1)
-    return distribute(mesh, std::vector<int>(mesh.nodes(), 0), 0);
-  const std::vector<Real> costs = nodeCosts(mesh, costsOf(mesh, deck));
-  const std::vector<int> owners =
-      nodeOwners(mesh, comm, deck.partitionMethod,
-                 deck.partitionBalance == "cost" ? costs : std::vector<Real>{});
-  if (comm.isRoot())
-  {
-    const PartitionQuality quality = qualityOf(mesh, owners, comm.size(), costs);
-    const auto [fewest, most] = std::minmax_element(quality.owned.begin(), quality.owned.end());
-    logInfo("partition by {}: the dearest rank has {:.3f} times the mean cost; {} to {} nodes a "
-            "rank, and up to {} of others; {} of {} elements on several ranks",
-            deck.partitionMethod, quality.imbalance, *fewest, *most,
-            *std::max_element(quality.neighbors.begin(), quality.neighbors.end()),
-            quality.cutElements, mesh.elements());
-  }
-  return distribute(mesh, owners, comm.rank());
+    return home;
+  const PartitionCosts costs = costsOf(mesh.mine, deck);
+  const bool byCost = deck.partitionBalance == "cost";
+  const std::vector<int> owners = nodeOwners(home, comm, deck.partitionMethod,
+                                             byCost ? nodeCosts(home, costs) : std::vector<Real>{});
+  home = RankMesh(); // makes room
+  RankMesh part = distribute(mesh, owners, comm);
+  const PartitionQuality quality = qualityOf(part, nodeCosts(part, costs), comm);
+  logInfo("partition by {}: the dearest rank has {:.3f} times the mean cost; {} to {} nodes a "
+          "rank, and up to {} of others; {} of {} elements on several ranks",
+          deck.partitionMethod, quality.imbalance, quality.fewest, quality.most,
+          quality.mostOfOthers, quality.cutElements, mesh.elements());
+  return part;
 }
 
 RebalanceOptions rebalanceOptionsOf(const Deck& deck, double secondsToBuild)

@@ -7,20 +7,20 @@
 
 namespace coplane
 {
-void reportModel(const Solver& solver, const Mesh& mesh)
+void reportModel(const Solver& solver, const MeshSlice& mesh)
 {
   const Comm& comm = solver.comm();
-  std::vector<ExactSum> masses(mesh.blocks.size());
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  std::vector<ExactSum> masses(solver.blocks().size());
+  for (std::size_t b = 0; b < masses.size(); ++b)
     for (int e = 0; e < solver.blocks()[b].count(); ++e)
       if (solver.mesh().blocks[b].owned[e])
         masses[b].add(solver.blocks()[b].mass(e));
   const std::vector<Real> totals = ExactSum::overRanks(masses, comm);
-  logInfo("mesh: {} nodes, {} elements, dimension {}", mesh.nodes(), mesh.elements(),
-          mesh.dimension);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-    logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.blocks[b].name,
-            mesh.blocks[b].id, mesh.blocks[b].elements(), totals[b]);
+  logInfo("mesh: {} nodes, {} elements, dimension {}", mesh.nodes, mesh.elements(),
+          mesh.mine.dimension);
+  for (std::size_t b = 0; b < masses.size(); ++b)
+    logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.mine.blocks[b].name,
+            mesh.mine.blocks[b].id, mesh.elementsOf(int(b)), totals[b]);
 
   const StepControl control = solver.stepControl();
   logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",

@@ -13,71 +13,62 @@ namespace coplane
 {
 namespace
 {
-/// A hash of values in their order.
-class OrderedHash
+/// A line for each part of the mesh, in words that a message can use. Every value is hashed with
+/// its place in the file, and the hashes are summed: that is the same for any number of ranks.
+std::string meshFingerprint(const MeshSlice& slice, const Comm& comm)
 {
-public:
-  void add(std::uint64_t bits) { hash_ = mix(hash_ ^ bits); }
-  void add(Real value)
+  const Mesh& mesh = slice.mine;
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> hashes;
+  const auto close = [&](const std::string& name, const StateHash& hash)
   {
-    std::uint64_t bits;
-    std::memcpy(&bits, &value, sizeof bits);
-    add(bits);
-  }
-  void add(const std::string& text)
+    names.push_back(name);
+    hashes.push_back(hash.part());
+  };
+  const auto add = [](StateHash& hash, int what, int first, int perItem, const auto& values)
   {
-    add(std::uint64_t(text.size()));
-    for (const char c : text)
-      add(std::uint64_t(static_cast<unsigned char>(c)));
-  }
-  template <class T>
-  void add(const std::vector<T>& values)
-  {
-    add(std::uint64_t(values.size()));
-    for (const T& value : values)
-      add(std::uint64_t(value));
-  }
-  std::string text() const { return fmt::format("{:016x}", hash_); }
-
-private:
-  std::uint64_t hash_ = 0;
-};
-
-/// A line for each part of the mesh, in words that a message can use.
-std::string meshFingerprint(const Mesh& mesh)
-{
-  std::string text =
-      fmt::format("numbers of nodes and elements = {} and {}\n", mesh.nodes(), mesh.elements());
-  OrderedHash nodes;
-  nodes.add(mesh.nodeIds);
-  text += fmt::format("ids of nodes = {}\n", nodes.text());
-  OrderedHash places;
-  for (const Vec3& x : mesh.coordinates)
+    for (std::size_t i = 0; i < values.size(); ++i)
+      hash.add(std::uint64_t(what), first + GlobalId(i) / perItem, i % std::size_t(perItem),
+               std::uint64_t(values[i]));
+  };
+  const int firstNode = slice.nodeRange().first;
+  StateHash ids, places;
+  add(ids, 0, firstNode, 1, mesh.nodeIds);
+  close("ids of nodes", ids);
+  for (int n = 0; n < mesh.nodes(); ++n)
     for (int c = 0; c < 3; ++c)
-      places.add(x[c]);
-  text += fmt::format("coordinates = {}\n", places.text());
-  for (const Mesh::Block& block : mesh.blocks)
+      places.add(0, firstNode + n, std::uint64_t(c), mesh.coordinates[n][c]);
+  close("coordinates", places);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
-    OrderedHash hash;
-    hash.add(std::uint64_t(block.id));
-    hash.add(std::uint64_t(block.type));
-    hash.add(block.elementIds);
-    hash.add(block.connectivity);
-    text += fmt::format("block '{}' = {}\n", block.name, hash.text());
+    const Mesh::Block& block = mesh.blocks[b];
+    const int first = slice.elementRange(int(b)).first;
+    StateHash hash;
+    if (slice.rank == 0)
+      hash.add(0, block.id, 0, std::uint64_t(block.type));
+    add(hash, 1, first, 1, block.elementIds);
+    add(hash, 2, first, topology(block.type).nodes, block.connectivity);
+    close(fmt::format("block '{}'", block.name), hash);
   }
-  for (const Mesh::NodeSet& set : mesh.nodeSets)
+  for (std::size_t s = 0; s < mesh.nodeSets.size(); ++s)
   {
-    OrderedHash hash;
-    hash.add(set.nodes);
-    text += fmt::format("node set '{}' = {}\n", set.name, hash.text());
+    StateHash hash;
+    add(hash, 0, slice.rangeOf(slice.nodeSetSizes[s]).first, 1, mesh.nodeSets[s].nodes);
+    close(fmt::format("node set '{}'", mesh.nodeSets[s].name), hash);
   }
-  for (const Mesh::SideSet& set : mesh.sideSets)
+  for (std::size_t s = 0; s < mesh.sideSets.size(); ++s)
   {
-    OrderedHash hash;
-    hash.add(set.elements);
-    hash.add(set.sides);
-    text += fmt::format("side set '{}' = {}\n", set.name, hash.text());
+    const int first = slice.rangeOf(slice.sideSetSizes[s]).first;
+    StateHash hash;
+    add(hash, 0, first, 1, mesh.sideSets[s].elements);
+    add(hash, 1, first, 1, mesh.sideSets[s].sides);
+    close(fmt::format("side set '{}'", mesh.sideSets[s].name), hash);
   }
+  comm.sum(hashes);
+  std::string text =
+      fmt::format("numbers of nodes and elements = {} and {}\n", slice.nodes, slice.elements());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{} = {:016x}\n", names[i], hashes[i]);
   return text;
 }
 
@@ -112,17 +103,18 @@ std::vector<std::string> meshDifferences(const std::string& before, const std::s
 }
 } // namespace
 
-std::vector<std::pair<std::string, std::string>> fingerprintsOf(const Deck& deck, const Mesh& mesh,
-                                                                int part)
+std::vector<std::pair<std::string, std::string>>
+fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm)
 {
-  return {{"mesh", meshFingerprint(mesh)},
+  return {{"mesh", meshFingerprint(mesh, comm)},
           {"deck", deckFingerprint(deck.text, deck.file)},
           {"part", std::to_string(part)}};
 }
 
-void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const Mesh& mesh)
+void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
+                   const Comm& comm)
 {
-  const auto texts = meshDifferences(checkpoint.text("mesh"), meshFingerprint(mesh));
+  const auto texts = meshDifferences(checkpoint.text("mesh"), meshFingerprint(mesh, comm));
   if (!texts.empty())
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: the mesh {} is not that of the checkpoint: {}. Restart with the mesh of "

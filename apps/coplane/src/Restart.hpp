@@ -3,7 +3,7 @@
 #include <coplane_checkpoint/CheckpointReader.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_input/Deck.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 
 #include <string>
 #include <utility>
@@ -13,12 +13,13 @@ namespace coplane
 {
 /// What a checkpoint says of the run that wrote it, to be compared at a restart: hashes of the
 /// parts of the mesh, the deck, and which part of the series of results it was.
-std::vector<std::pair<std::string, std::string>> fingerprintsOf(const Deck& deck, const Mesh& mesh,
-                                                                int part);
+std::vector<std::pair<std::string, std::string>>
+fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm);
 
 /// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
 /// those of the checkpoint. Warns when another version of the program has written it. Collective.
-void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const Mesh& mesh);
+void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
+                   const Comm& comm);
 
 /// Part of the series of results that the checkpoint belongs to. Collective.
 int partIn(const CheckpointReader& checkpoint);

@@ -8,12 +8,13 @@
 
 namespace coplane
 {
-void reportSoftening(const Deck& deck, const Mesh& whole, const Solver& solver, const Comm& comm)
+void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver,
+                     const Comm& comm)
 {
-  for (std::size_t b = 0; b < whole.blocks.size(); ++b)
+  for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
   {
     const ElementBlock& block = solver.blocks()[b];
-    const std::string& name = whole.blocks[b].name;
+    const std::string& name = mesh.mine.blocks[b].name;
     const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
                                    [&](const BlockCard& c) { return c.name == name; });
     const auto material =

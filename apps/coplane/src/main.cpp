@@ -16,6 +16,7 @@
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/DeckReference.hpp>
+#include <coplane_mesh/Distribute.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
 
 #include <CLI/CLI.hpp>
@@ -95,13 +96,13 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   return -1;
 }
 
-void restart(Solver& solver, const Deck& deck, const Mesh& mesh, const std::string& wanted,
+void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std::string& wanted,
              RunSettings& settings)
 {
   const Comm& comm = solver.comm();
   const CheckpointReader checkpoint(
       wanted.empty() ? newestCheckpoint(deck.checkpoint.file, comm) : wanted, comm);
-  demandSameRun(checkpoint, deck, mesh);
+  demandSameRun(checkpoint, deck, mesh, comm);
   solver.restore(checkpoint);
   settings.restartedFrom = checkpoint.file();
   settings.positions = positionsIn(checkpoint);
@@ -118,27 +119,28 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   if (line.maxWall > 0)
     settings.maxWall = line.maxWall;
   Deck deck;
-  Mesh mesh;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
-  comm.together([&] { mesh = readMesh(deck.mesh); });
+  const MeshSlice mesh = readMesh(deck.mesh, comm);
+  RankMesh home = partAtHome(mesh, comm);
+  const MeshReport report = reportMesh(mesh, home, comm);
+  const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
   comm.together(
       [&]
       {
         std::vector<std::string> blocks, nodeSets, sideSets;
-        for (const auto& block : mesh.blocks)
+        for (const auto& block : mesh.mine.blocks)
           blocks.push_back(block.name);
-        for (const auto& set : mesh.nodeSets)
+        for (const auto& set : mesh.mine.nodeSets)
           nodeSets.push_back(set.name);
-        for (const auto& set : mesh.sideSets)
+        for (const auto& set : mesh.mine.sideSets)
           sideSets.push_back(set.name);
         auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
         for (const std::string& problem : problemsOfLaws(deck))
           problems.push_back(problem);
-        for (const std::string& problem : problemsOfRigidBlocks(deck, mesh))
+        for (const std::string& problem : ofRigidBlocks)
           problems.push_back(problem);
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
-        const MeshReport report = reportMesh(mesh);
         if (!report.usable())
           fail(ExitCode::Mesh, "{}: {}", deck.mesh, fmt::join(meshProblems(report), "\n"));
         for (const std::string& note : meshProblems(report))
@@ -149,9 +151,9 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
-  const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part)); };
+  const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part), comm); };
   const auto begin = std::chrono::steady_clock::now();
-  Solver solver(modelOf(partOf(mesh, deck, comm)), comm);
+  Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
   const std::chrono::duration<double> toBuild = std::chrono::steady_clock::now() - begin;
   if (line.restart)
     restart(solver, deck, mesh, line.checkpoint, settings);

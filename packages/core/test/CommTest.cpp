@@ -143,3 +143,31 @@ TEST(Comm_Together, otherExceptionsBecomeInternalErrors)
     EXPECT_STREQ(error.what(), "beyond the end");
   }
 }
+
+TEST(Comm, aRankAloneNeedsNobody)
+{
+  const Comm alone = Comm::alone();
+  EXPECT_EQ(alone.rank(), 0);
+  EXPECT_EQ(alone.size(), 1);
+  EXPECT_EQ(alone.min(3.5), 3.5);
+  EXPECT_EQ(alone.sum(std::int64_t(7)), 7);
+  std::vector<std::int64_t> values{1, 2};
+  alone.sum(values);
+  EXPECT_EQ(values, (std::vector<std::int64_t>{1, 2}));
+  EXPECT_EQ(alone.broadcast("text"), "text");
+  EXPECT_EQ(alone.allGather(std::vector<int>{4, 5}), (std::vector<int>{4, 5}));
+  std::vector<int> counts;
+  EXPECT_EQ(alone.exchange<int>({{6, 7, 8}}, &counts), (std::vector<int>{6, 7, 8}));
+  EXPECT_EQ(counts, std::vector<int>{3});
+  alone.barrier();
+  try
+  {
+    alone.together([] { fail(ExitCode::Mesh, "no"); });
+    ADD_FAILURE() << "no error";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Mesh);
+    EXPECT_TRUE(error.onAllRanks());
+  }
+}

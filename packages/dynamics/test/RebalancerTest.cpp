@@ -152,7 +152,7 @@ TEST(PlanRebalance, sharesOutContactThatIsInOneHalf)
   const Comm comm;
   if (comm.size() == 1)
     GTEST_SKIP() << "needs 2 ranks";
-  const Mesh mesh = contactOnTheLeft();
+  const MeshSlice mesh = sliceOf(contactOnTheLeft(), comm);
   const Maker make = [&](const Comm&, const std::string&) { return contactOnTheLeftModel(comm); };
   Solver solver(make(comm, ""), comm);
   solver.prepare();
@@ -165,7 +165,7 @@ TEST(PlanRebalance, sharesOutContactThatIsInOneHalf)
   EXPECT_GT(plan.moved, 0);
 
   Model model = contactOnTheLeftModel(comm);
-  model.mesh = distribute(mesh, plan.owners, comm.rank());
+  model.mesh = distribute(mesh, plan.owners, comm);
   solver.repartition(std::move(model));
   const Real after = imbalanceOf(countedWork(solver).total(), comm);
   // Elements and pairs between two ranks are counted on both now.
@@ -200,7 +200,7 @@ TEST(Rebalancer, looksEverySoManyCyclesAndTellsTheObserver)
     void repartitioned(const Solver&) override { ++repartitions; }
   };
   const Comm comm;
-  const Mesh mesh = contactOnTheLeft();
+  const MeshSlice mesh = sliceOf(contactOnTheLeft(), comm);
   std::uint64_t hashes[3];
   for (const auto when : {RebalanceOptions::When::Never, RebalanceOptions::When::Auto,
                           RebalanceOptions::When::Always})

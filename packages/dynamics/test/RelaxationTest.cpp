@@ -181,9 +181,7 @@ Model resting(const Comm& comm, bool rigid)
   Model model = rockModel(mesh, comm, 0.5);
   if (rigid)
   {
-    const std::vector<int> bodies = rigidBodiesOf(mesh, {0, 1});
-    for (const int position : model.mesh.nodePositions)
-      model.rigidBodyOfNode.push_back(bodies[position]);
+    model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1}, comm);
     model.blocks[1].rigid = true;
   }
   model.conditions.gravity = VectorOfTime(0, 0, -10);

@@ -106,10 +106,8 @@ inline Model everything(const Comm& comm, const std::string& method = "multijagg
   addBox(mesh, "lower", {3, 3, 2}, {0, 0, 0}, {1, 1, 1});
   addBox(mesh, "upper", {2, 2, 2}, {0.1, 0.2, 1}, {0.8, 0.8, 0.8});
   addBox(mesh, "rigid", {2, 1, 1}, {0.3, 0.3, 1.81}, {0.5, 0.4, 0.3});
-  std::vector<int> bodies = rigidBodiesOf(mesh, {0, 0, 1});
   Model model = rockModel(mesh, comm, 0.25, method);
-  for (const int position : model.mesh.nodePositions)
-    model.rigidBodyOfNode.push_back(bodies[std::size_t(position)]);
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 0, 1}, comm);
   model.blocks[2].rigid = true;
   model.blocks[0].erosion.volumeRatio = {0.9985, 1.5};
   model.blocks[1].velocity = {3, 2, -25};

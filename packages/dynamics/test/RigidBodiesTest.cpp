@@ -6,12 +6,9 @@ namespace coplane
 {
 namespace
 {
-void makeRigid(Model& model, const Mesh& mesh, const std::vector<char>& rigid)
+void makeRigid(Model& model, const Comm& comm, const std::vector<char>& rigid)
 {
-  const std::vector<int> bodies = rigidBodiesOf(mesh, rigid);
-  model.rigidBodyOfNode.clear();
-  for (const int position : model.mesh.nodePositions)
-    model.rigidBodyOfNode.push_back(bodies[position]);
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, rigid, comm);
   for (std::size_t b = 0; b < rigid.size(); ++b)
     model.blocks[b].rigid = rigid[b];
 }
@@ -28,7 +25,7 @@ Model tumbling(const Comm& comm, Real step)
 {
   const Mesh mesh = brick();
   Model model = rockModel(mesh, comm);
-  makeRigid(model, mesh, {1});
+  makeRigid(model, comm, {1});
   model.blocks[0].velocity = {3, -2, 1};
   model.blocks[0].angularVelocity = {4, 7, 2};
   model.blocks[0].center = {5.5, 1, 2};
@@ -41,7 +38,7 @@ Model falling(const Comm& comm, bool bothRigid)
 {
   const Mesh mesh = twoCubes();
   Model model = rockModel(mesh, comm, 0.25);
-  makeRigid(model, mesh, {char(bothRigid), 1});
+  makeRigid(model, comm, {char(bothRigid), 1});
   model.blocks[1].velocity = {0.5, 0.25, -1};
   model.blocks[1].angularVelocity = {0.1, 0.2, 0.3};
   model.blocks[1].center = {0.625, 0.5625, 1.5};
@@ -67,13 +64,20 @@ TEST(RigidBodies, connectedPartsOfRigidBlocksAreBodies)
   addBox(mesh, "bricks", {1, 1, 1}, {2, 0, 0}, {1, 1, 1});
   addBox(mesh, "more", {2, 1, 1}, {4, 0, 0}, {2, 1, 1});
   // The second brick into the block of the first.
-  mesh.blocks[1].connectivity.insert(mesh.blocks[1].connectivity.end(),
-                                     mesh.blocks[2].connectivity.begin(),
-                                     mesh.blocks[2].connectivity.end());
+  const auto append = [](auto& to, const auto& from)
+  { to.insert(to.end(), from.begin(), from.end()); };
+  append(mesh.blocks[1].connectivity, mesh.blocks[2].connectivity);
+  append(mesh.blocks[1].elementIds, mesh.blocks[2].elementIds);
+  append(mesh.blocks[1].bodyIds, mesh.blocks[2].bodyIds);
   mesh.blocks.resize(2);
-  const std::vector<int> bodies = rigidBodiesOf(mesh, {0, 1});
-  for (int n = 0; n < mesh.nodes(); ++n)
-    EXPECT_EQ(bodies[n], n < 8 ? -1 : n < 16 ? 0 : 1);
+  const Comm comm;
+  const RankMesh part = rockModel(mesh, comm, 0, "scattered").mesh;
+  const std::vector<int> bodies = rigidBodiesOf(part, {0, 1}, comm);
+  for (int i = 0; i < part.nodes(); ++i)
+  {
+    const int n = part.nodePositions[std::size_t(i)];
+    EXPECT_EQ(bodies[std::size_t(i)], n < 8 ? -1 : n < 16 ? 0 : 1);
+  }
 }
 
 TEST(RigidBodies, inertiaIsThatOfTheSolidWhateverTheMesh)
@@ -104,7 +108,7 @@ TEST(RigidBodies, inertiaIsThatOfTheSolidWhateverTheMesh)
   block.connectivity = {0, 1, 2, 3};
   mesh.blocks = {block};
   Model model = rockModel(mesh, comm);
-  makeRigid(model, mesh, {1});
+  makeRigid(model, comm, {1});
   model.contactEnabled = false;
   Solver corner(std::move(model), comm);
   EXPECT_NEAR(corner.rigidBodies().inertia(0)(0, 0), 1000.0 / 80, 1e-12);
@@ -193,7 +197,7 @@ TEST(RigidBodies, stepIsThatOfTheWholeBodyOnItsSprings)
   addBox(mesh, "lower", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
   addBox(mesh, "upper", {1, 1, 1}, {0, 0, 1 - 1e-6}, {1, 1, 1});
   Model model = rockModel(mesh, comm);
-  makeRigid(model, mesh, {1, 1});
+  makeRigid(model, comm, {1, 1});
   Solver solver(std::move(model), comm);
   solver.prepare();
   const StepControl control = solver.stepControl();

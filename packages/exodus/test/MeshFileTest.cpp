@@ -1,7 +1,6 @@
 #include "SampleMeshes.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_exodus/MeshParts.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
 
@@ -10,6 +9,8 @@
 
 #include <cmath>
 #include <fstream>
+#include <numeric>
+#include <tuple>
 
 namespace coplane
 {
@@ -313,15 +314,152 @@ void writeParts(const Mesh& mesh, const std::string& file, int parts)
   }
 }
 
-/// The mesh with nodes, and elements within blocks, in the order of their ids.
+/// Positions in the order of ids, and the reverse.
+std::pair<std::vector<int>, std::vector<int>> orderOf(const std::vector<GlobalId>& ids)
+{
+  std::vector<int> order(ids.size()), place(ids.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return ids[a] < ids[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    place[order[i]] = int(i);
+  return {order, place};
+}
+
+/// The mesh with nodes, elements within blocks and entries of sets in the order of their ids.
 Mesh inOrderOfIds(const Mesh& mesh)
 {
-  std::vector<GlobalId> blocks;
-  for (const Mesh::Block& block : mesh.blocks)
-    blocks.push_back(block.id);
-  return mergedParts({mesh}, blocks, "order");
+  Mesh sorted = mesh;
+  const auto [order, place] = orderOf(mesh.nodeIds);
+  for (int n = 0; n < mesh.nodes(); ++n)
+  {
+    sorted.nodeIds[n] = mesh.nodeIds[order[n]];
+    sorted.coordinates[n] = mesh.coordinates[order[n]];
+  }
+  std::vector<int> elementPlace;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  {
+    const Mesh::Block& block = mesh.blocks[b];
+    const int corners = topology(block.type).nodes, first = int(elementPlace.size());
+    const auto [elements, places] = orderOf(block.elementIds);
+    for (int e = 0; e < block.elements(); ++e)
+    {
+      sorted.blocks[b].elementIds[e] = block.elementIds[elements[e]];
+      sorted.blocks[b].bodyIds[e] = block.bodyIds[elements[e]];
+      for (int k = 0; k < corners; ++k)
+        sorted.blocks[b].connectivity[e * corners + k] =
+            place[block.connectivity[elements[e] * corners + k]];
+    }
+    for (const int e : places)
+      elementPlace.push_back(first + e);
+  }
+  for (Mesh::NodeSet& set : sorted.nodeSets)
+  {
+    for (int& node : set.nodes)
+      node = place[node];
+    std::sort(set.nodes.begin(), set.nodes.end());
+  }
+  for (Mesh::SideSet& set : sorted.sideSets)
+  {
+    std::vector<std::pair<int, int>> sides;
+    for (std::size_t i = 0; i < set.elements.size(); ++i)
+      sides.emplace_back(elementPlace[set.elements[i]], set.sides[i]);
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      std::tie(set.elements[i], set.sides[i]) = sides[i];
+  }
+  return sorted;
 }
 } // namespace
+
+TEST(MeshFile, everyRankReadsItsSlice)
+{
+  const Comm comm;
+  for (const Mesh& mesh : {sampleMesh2d(), sampleMesh3d()})
+  {
+    const std::string file = temporaryFile("slices.e");
+    if (comm.isRoot())
+      writeMesh(mesh, file);
+    comm.barrier();
+    const MeshSlice read = readMesh(file, comm), expected = sliceOf(mesh, comm.rank(), comm.size());
+    expectSame(read.mine, expected.mine);
+    EXPECT_EQ(read.nodes, expected.nodes);
+    EXPECT_EQ(read.firstElements, expected.firstElements);
+    EXPECT_EQ(read.nodeSetSizes, expected.nodeSetSizes);
+    EXPECT_EQ(read.sideSetSizes, expected.sideSetSizes);
+    comm.barrier();
+    if (comm.isRoot())
+      std::filesystem::remove(file);
+  }
+}
+
+TEST(MeshFile, partsAreDealtOutToRanksAndGiveTheSameSlices)
+{
+  const Comm comm;
+  for (const Mesh& mesh : {sampleMesh2d(), sampleMesh3d()})
+    for (const int parts : {2, 3, 5})
+    {
+      const std::string file = temporaryFile("dealt.e");
+      if (comm.isRoot())
+        writeParts(mesh, file, parts);
+      comm.barrier();
+      const MeshSlice read = readMesh(file, comm);
+      const MeshSlice expected = sliceOf(inOrderOfIds(mesh), comm.rank(), comm.size());
+      expectSame(read.mine, expected.mine);
+      EXPECT_EQ(read.nodes, expected.nodes);
+      EXPECT_EQ(read.firstElements, expected.firstElements);
+      EXPECT_EQ(read.nodeSetSizes, expected.nodeSetSizes);
+      EXPECT_EQ(read.sideSetSizes, expected.sideSetSizes);
+      comm.barrier();
+      for (int p = 0; comm.isRoot() && p < parts; ++p)
+        std::filesystem::remove(fmt::format("{}.{}.{}", file, parts, p));
+    }
+}
+
+namespace
+{
+/// What all ranks say of a mesh in a file.
+std::string errorOnAllRanks(const Mesh& mesh, const std::string& name, const Comm& comm)
+{
+  const std::string file = temporaryFile(name);
+  if (comm.isRoot())
+    writeMesh(mesh, file);
+  comm.barrier();
+  std::string text = "no error";
+  try
+  {
+    readMesh(file, comm);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Mesh);
+    EXPECT_TRUE(error.onAllRanks());
+    text = error.what();
+  }
+  EXPECT_EQ(text, comm.broadcast(text));
+  comm.barrier();
+  if (comm.isRoot())
+    std::filesystem::remove(file);
+  return text;
+}
+} // namespace
+
+TEST(MeshFile, whatOneRankFindsAllRanksSay)
+{
+  const Comm comm;
+  Mesh mesh = sampleMesh2d();
+  mesh.coordinates.back().y = std::nan(""); // in the slice of the last rank
+  EXPECT_TRUE(contains(errorOnAllRanks(mesh, "nan.e", comm), "coordinates must be finite"));
+  mesh = sampleMesh2d();
+  mesh.blocks[1].elementIds[0] = mesh.blocks[0].elementIds[0]; // of two slices
+  EXPECT_TRUE(contains(errorOnAllRanks(mesh, "elements.e", comm),
+                       "element id 7 occurs more than once; ids must be unique"));
+  mesh = sampleMesh2d();
+  mesh.nodeIds.back() = mesh.nodeIds.front();
+  EXPECT_TRUE(contains(errorOnAllRanks(mesh, "nodes.e", comm), "occurs more than once"));
+  mesh = sampleMesh2d();
+  mesh.nodeIds.back() = -3;
+  EXPECT_TRUE(contains(errorOnAllRanks(mesh, "minus.e", comm), "node id -3 is not positive"));
+}
 
 TEST(MeshFile, partsForSeveralRanksAreOneMesh)
 {

@@ -1,6 +1,7 @@
 #include "SampleMeshes.hpp"
 
 #include <coplane_exodus/MeshReport.hpp>
+#include <coplane_mesh/Distribute.hpp>
 
 #include <gtest/gtest.h>
 
@@ -71,8 +72,8 @@ TEST(MeshReport, aNodeTwiceInAnElementIsFound)
   Mesh mesh = sampleMesh2d();
   mesh.blocks[1].connectivity = {6, 7, 9, 9};
   const MeshReport report = reportMesh(mesh);
-  ASSERT_EQ(report.repeatedNodes.size(), 1u);
-  EXPECT_EQ(report.repeatedNodes[0].element, 8);
+  ASSERT_EQ(report.repeatedNodes.count, 1);
+  EXPECT_EQ(report.repeatedNodes.first[0].element, 8);
   EXPECT_FALSE(report.usable());
 }
 
@@ -82,7 +83,7 @@ TEST(MeshReport, aNodeOfNoElementIsFound)
   mesh.nodeIds.push_back(99);
   mesh.coordinates.push_back({9, 9, 0});
   const MeshReport report = reportMesh(mesh);
-  EXPECT_EQ(report.unusedNodes, std::vector<GlobalId>{99});
+  EXPECT_EQ(report.unusedNodes.first, std::vector<GlobalId>{99});
   EXPECT_TRUE(report.usable());
 }
 
@@ -94,7 +95,7 @@ TEST(MeshReport, coincidentNodesAreReportedWithinABodyButNotBetweenBodies)
     mesh.coordinates[node].x -= 1;
   EXPECT_TRUE(reportMesh(mesh).coincident.empty());
   mesh.blocks[1].bodyIds = {1};
-  EXPECT_EQ(reportMesh(mesh).coincident.size(), 2u);
+  EXPECT_EQ(reportMesh(mesh).coincident.count, 2);
 }
 
 TEST(ElementQuality, idealShapesHaveOne)
@@ -124,8 +125,8 @@ TEST(MeshReport, aFoldedQuadrilateralIsNamed)
   Mesh mesh = sampleMesh2d();
   mesh.coordinates[9] = {3.1, 0.1, 0};
   const MeshReport report = reportMesh(mesh);
-  ASSERT_EQ(report.folded.size(), 1u);
-  EXPECT_EQ(report.folded[0].element, 8);
+  ASSERT_EQ(report.folded.count, 1);
+  EXPECT_EQ(report.folded.first[0].element, 8);
   EXPECT_TRUE(report.usable());
   EXPECT_EQ(report.blocks[1].worstElement, 8);
   EXPECT_LT(report.blocks[1].worstQuality, 0);
@@ -162,5 +163,101 @@ TEST(MeshReport, aJointHasPairsOfFacesAndTellsThoseAlone)
   for (int node = 6; node < 10; ++node)
     mesh.coordinates[node].y += 0.5;
   EXPECT_TRUE(reportMesh(mesh).joints.empty());
+}
+
+namespace
+{
+/// Two rows of squares on each other with a joint between, and one of every fault: some inside out
+/// (more than are named), one folded, nodes of no element, coincident nodes.
+Mesh faultyRows()
+{
+  Mesh mesh;
+  mesh.dimension = 2;
+  Mesh::SideSet joint{1, "joint", {}, {}}, top{2, "top", {}, {}};
+  for (int row = 0; row < 2; ++row)
+  {
+    const int first = mesh.nodes(), count = 20;
+    Mesh::Block block{row + 1, row ? "upper" : "lower", ElementType::Quad4, {}, {}, {}};
+    for (int i = 0; i <= count; ++i)
+      for (int j = 0; j < 2; ++j)
+      {
+        mesh.nodeIds.push_back(1000 - mesh.nodes());
+        mesh.coordinates.push_back({Real(i), Real(row + j), 0});
+      }
+    for (int e = 0; e < count; ++e)
+    {
+      const int n = first + 2 * e;
+      block.elementIds.push_back(100 * row + e + 1);
+      block.bodyIds.push_back(0);
+      for (const int k : {0, 2, 3, 1})
+        block.connectivity.push_back(n + k);
+      joint.elements.push_back(count * row + e);
+      joint.sides.push_back(row ? 0 : 2);
+    }
+    mesh.blocks.push_back(block);
+  }
+  joint.elements.erase(joint.elements.begin() + 3); // its partner is alone
+  joint.sides.erase(joint.sides.begin() + 3);
+  top.elements = {20, 30};
+  top.sides = {2, 2};
+  mesh.sideSets = {joint, top};
+  for (const int e : {2, 5, 7, 11, 13, 17, 19})
+    std::swap(mesh.blocks[1].connectivity[4 * e + 1], mesh.blocks[1].connectivity[4 * e + 3]);
+  mesh.coordinates[1].y = -0.5; // folds the first square, or turns it
+  for (int i = 0; i < 7; ++i)
+  {
+    mesh.nodeIds.push_back(2000 + i);
+    mesh.coordinates.push_back({Real(i), -1, 0});
+  }
+  // The lower nodes of the lower row a second time, in squares below: one body with coincident
+  // nodes, since one corner is shared.
+  mesh.blocks[0].elementIds.push_back(50);
+  mesh.blocks[0].bodyIds.push_back(0);
+  mesh.nodeIds.insert(mesh.nodeIds.end(), {3000, 3001, 3002});
+  mesh.coordinates.insert(mesh.coordinates.end(), {{18, -1, 0}, {19, -1, 0}, {19, 0, 0}});
+  for (const int n : {mesh.nodes() - 3, mesh.nodes() - 2, mesh.nodes() - 1, 36})
+    mesh.blocks[0].connectivity.push_back(n);
+  for (Mesh::SideSet& set : mesh.sideSets)
+    for (int& element : set.elements)
+      element += element >= 20; // the added element stands before the upper row
+  return mesh;
+}
+} // namespace
+
+TEST(MeshReport, isTheSameForAnyNumberOfRanks)
+{
+  const Comm comm;
+  const Mesh mesh = faultyRows();
+  const MeshReport whole = reportMesh(mesh);
+  EXPECT_EQ(whole.bodies, 2);
+  EXPECT_GE(whole.inverted.count, 7);
+  EXPECT_EQ(whole.inverted.first.size(), 5u);
+  EXPECT_EQ(whole.unusedNodes.count, 7);
+  EXPECT_EQ(whole.coincident.count, 1);
+  ASSERT_EQ(whole.joints.size(), 1u);
+  // One whose partner is not in the set; both where the upper square is inside out, so that other
+  // nodes are its lower side, or the corner has moved: 1 + 2 * 7 + 2.
+  EXPECT_EQ(whole.joints[0].alone.count, 17);
+
+  const MeshSlice slice = sliceOf(mesh, comm.rank(), comm.size());
+  const MeshReport report = reportMesh(slice, partAtHome(slice, comm), comm);
+  EXPECT_EQ(meshProblems(report), meshProblems(whole));
+  EXPECT_EQ(report.nodes, whole.nodes);
+  EXPECT_EQ(report.elements, whole.elements);
+  EXPECT_EQ(report.bodies, whole.bodies);
+  EXPECT_EQ(norm(report.lowest - whole.lowest) + norm(report.highest - whole.highest), 0);
+  EXPECT_EQ(report.shortestEdge, whole.shortestEdge);
+  EXPECT_EQ(report.longestEdge, whole.longestEdge);
+  ASSERT_EQ(report.blocks.size(), whole.blocks.size());
+  for (std::size_t b = 0; b < whole.blocks.size(); ++b)
+  {
+    EXPECT_EQ(report.blocks[b].elements, whole.blocks[b].elements);
+    EXPECT_EQ(report.blocks[b].bodies, whole.blocks[b].bodies);
+    EXPECT_EQ(report.blocks[b].volume, whole.blocks[b].volume);
+    EXPECT_EQ(report.blocks[b].worstQuality, whole.blocks[b].worstQuality);
+    EXPECT_EQ(report.blocks[b].worstElement, whole.blocks[b].worstElement);
+  }
+  ASSERT_EQ(report.joints.size(), whole.joints.size());
+  EXPECT_EQ(report.joints[0].pairs, whole.joints[0].pairs);
 }
 } // namespace coplane

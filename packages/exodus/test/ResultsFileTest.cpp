@@ -63,8 +63,8 @@ void writeStep(ResultsFile& results, int step, int blocks)
 void writeSample(const std::string& file, const Comm& comm, bool filePerRank = false)
 {
   const Mesh mesh = sampleMesh2d();
-  ResultsFile results(file, comm, mesh, sampleVariables, {"backend: serial", std::string(100, 'x')},
-                      filePerRank);
+  ResultsFile results(file, comm, sliceOf(mesh, comm.rank(), comm.size()), sampleVariables,
+                      {"backend: serial", std::string(100, 'x')}, filePerRank);
   for (int step = 0; step < 3; ++step)
     writeStep(results, step, int(mesh.blocks.size()));
   results.close();
@@ -202,7 +202,7 @@ TEST(ResultsFile, hexahedraAndIdsBeyond32BitsAreWritten)
   Mesh mesh = sampleMesh3d();
   mesh.nodeIds[3] = 5000000000;
   {
-    ResultsFile results(file, comm, mesh, sampleVariables, {});
+    ResultsFile results(file, comm, sliceOf(mesh, comm.rank(), comm.size()), sampleVariables, {});
     writeStep(results, 0, 1);
   }
   if (comm.isRoot())
@@ -272,7 +272,8 @@ TEST(ResultsFile, aMissingFolderIsAnOutputErrorOnAllRanks)
   const Comm comm;
   try
   {
-    ResultsFile("/no/such/folder/results.e", comm, sampleMesh2d(), sampleVariables, {});
+    ResultsFile("/no/such/folder/results.e", comm,
+                sliceOf(sampleMesh2d(), comm.rank(), comm.size()), sampleVariables, {});
     FAIL() << "no error";
   }
   catch (const Error& error)
@@ -298,7 +299,8 @@ std::string errorOfFullDisk(const std::string& base, const Comm& comm, bool file
   int finished = 0;
   {
     const Mesh mesh = sampleMesh2d();
-    ResultsFile results(base, comm, mesh, sampleVariables, {}, filePerRank);
+    ResultsFile results(base, comm, sliceOf(mesh, comm.rank(), comm.size()), sampleVariables, {},
+                        filePerRank);
     file = results.file();
     for (; finished < 3; ++finished)
       writeStep(results, finished, 2);

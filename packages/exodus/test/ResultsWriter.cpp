@@ -45,7 +45,8 @@ void write(const std::string& file)
   const Comm comm;
   std::printf("pid %d\n", int(getpid()));
   std::fflush(stdout);
-  ResultsFile results(file, comm, rowOfSquares(), {{"a", "b"}, {"c"}, {"d"}, {}}, {});
+  ResultsFile results(file, comm, sliceOf(rowOfSquares(), comm.rank(), comm.size()),
+                      {{"a", "b"}, {"c"}, {"d"}, {}}, {});
   for (int step = 0; step < 2000; ++step)
   {
     results.beginStep(step);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "WholeMesh.hpp"
+
 #include <coplane_mesh/Mesh.hpp>
 
 #include <array>

@@ -53,7 +53,8 @@ TEST(MissingFolder, ofResultsIsAnErrorOnAllRanks)
 {
   const Comm comm;
   const ResultsOptions options{nowhere + "a.e", {}, false, {}};
-  expectOutputError([&] { ResultsObserver(comm, twoCubes(), options); }, nowhere + "a.e");
+  const MeshSlice slice = sliceOf(twoCubes(), comm.rank(), comm.size());
+  expectOutputError([&] { ResultsObserver(comm, slice, options); }, nowhere + "a.e");
 }
 
 TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)

@@ -24,11 +24,12 @@ constexpr int cycles = 20;
 void run(const Comm& comm, const std::string& base)
 {
   const Mesh mesh = twoCubes();
+  const MeshSlice slice = sliceOf(mesh, comm.rank(), comm.size());
   Solver solver(cubesInContact(mesh, comm), comm);
   const OutputTimes when{1e-3, {}};
   MultiObserver observers;
   observers.add(std::make_unique<ResultsObserver>(
-      comm, mesh, ResultsOptions{base + ".e", when, false, {"command: test"}}));
+      comm, slice, ResultsOptions{base + ".e", when, false, {"command: test"}}));
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
   HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));

@@ -2,7 +2,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <TestFolder.hpp>
@@ -72,7 +72,8 @@ inline Mesh twoCubes()
 inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
 {
   Model model;
-  model.mesh = distribute(mesh, nodeOwners(mesh, comm, "multijagged"), comm.rank());
+  const MeshSlice slice = sliceOf(mesh, comm.rank(), comm.size());
+  model.mesh = distribute(slice, nodeOwners(partAtHome(slice, comm), comm, "multijagged"), comm);
   model.blocks.resize(2);
   for (int b = 0; b < 2; ++b)
   {

@@ -130,47 +130,69 @@ TEST_P(NodeOwners, balanceCostsRatherThanNodes)
   }
   ASSERT_EQ(3 * dear.elements(), cheap.elements());
   mesh.blocks = {cheap, dear};
-  const std::vector<Real> costs = nodeCosts(mesh, {{1, 9}, 0});
+  // Costs of all nodes, from what every rank knows of its own.
+  const RankMesh home = partAtHome(sliceOf(mesh, comm), comm);
+  const PartitionCosts prices{{1, 9}, 0};
+  const std::vector<Real> costs = comm.allGather(nodeCosts(home, prices));
   const Real total = std::accumulate(costs.begin(), costs.end(), Real(0));
   EXPECT_NEAR(total, 12 * 12 * (9 + 3 * 9), 1e-9 * total);
-  const PartitionQuality even =
-      qualityOf(mesh, nodeOwners(mesh, comm, GetParam(), costs), comm.size(), costs);
+  const auto quality = [&](const std::vector<int>& owners)
+  {
+    const RankMesh part = distribute(mesh, owners, comm.rank());
+    return std::pair(qualityOf(part, nodeCosts(part, prices), comm), part.ownedNodes);
+  };
+  const auto [even, owned] = quality(nodeOwners(mesh, comm, GetParam(), costs));
   EXPECT_LT(even.imbalance, 1.2);
-  EXPECT_EQ(std::accumulate(even.owned.begin(), even.owned.end(), 0), mesh.nodes());
+  EXPECT_LE(even.fewest, owned);
+  EXPECT_GE(even.most, owned);
   if (comm.size() > 1)
   {
-    const PartitionQuality uneven =
-        qualityOf(mesh, nodeOwners(mesh, comm, GetParam()), comm.size(), costs);
-    EXPECT_GT(uneven.imbalance, even.imbalance);
+    EXPECT_GT(quality(nodeOwners(mesh, comm, GetParam())).first.imbalance, even.imbalance);
   }
 }
 
 TEST(PartitionCosts, countExteriorFacesOnce)
 {
   // A box of 2 x 2 x 2 cells has 24 faces outside.
+  const Comm comm;
   const Mesh mesh = unitBox(2, 2, 2);
-  const std::vector<Real> costs = nodeCosts(mesh, {{0}, 4});
-  EXPECT_EQ(std::accumulate(costs.begin(), costs.end(), Real(0)), 24 * 4);
-  for (int n = 0; n < mesh.nodes(); ++n)
+  const RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
+  const std::vector<Real> costs = nodeCosts(part, {{0}, 4});
+  const std::vector<Real> all = comm.allGather(costs);
+  EXPECT_EQ(std::accumulate(all.begin(), all.end(), Real(0)), 24 * 4);
+  ASSERT_EQ(int(costs.size()), part.ownedNodes);
+  for (int n = 0; n < part.ownedNodes; ++n)
   {
-    const Vec3& x = mesh.coordinates[n];
+    const Vec3& x = part.coordinates[n];
     const bool inside = x.x == 1 && x.y == 1 && x.z == 1;
-    EXPECT_EQ(costs[n] == 0, inside) << "node " << n;
+    EXPECT_EQ(costs[n] == 0, inside) << "node " << part.nodeIds[n];
   }
 }
 
 TEST(PartitionQuality, countsWhatRanksNeedOfEachOther)
 {
-  // Two cells side by side; the nodes of one end belong to rank 1, the others to rank 0.
+  // Two cells side by side; the nodes of one end belong to the last rank, the others to the first.
+  const Comm comm;
+  if (comm.size() == 1)
+    GTEST_SKIP() << "needs 2 ranks";
   const Mesh mesh = unitBox(2, 1, 1);
   std::vector<int> owners(mesh.nodes());
   for (int n = 0; n < mesh.nodes(); ++n)
-    owners[n] = mesh.coordinates[n].x > 1.5;
-  const PartitionQuality quality = qualityOf(mesh, owners, 2, {});
+    owners[n] = mesh.coordinates[n].x > 1.5 ? comm.size() - 1 : 0;
+  const PartitionQuality quality = qualityOf(distribute(mesh, owners, comm.rank()), {}, comm);
   EXPECT_EQ(quality.cutElements, 1);
-  EXPECT_EQ(quality.owned, (std::vector<int>{8, 4}));
-  EXPECT_EQ(quality.neighbors, (std::vector<int>{4, 4}));
-  EXPECT_NEAR(quality.imbalance, 8.0 / 6, 1e-15);
+  EXPECT_EQ(quality.fewest, comm.size() == 2 ? 4 : 0);
+  EXPECT_EQ(quality.most, 8);
+  EXPECT_EQ(quality.mostOfOthers, 4);
+  EXPECT_NEAR(quality.imbalance, 8.0 * comm.size() / 12, 1e-15);
+}
+
+TEST(LargestAndMean, ofOneNumberPerRank)
+{
+  const Comm comm;
+  const auto [largest, mean] = largestAndMean(comm.rank() + 1, comm);
+  EXPECT_EQ(largest, comm.size());
+  EXPECT_EQ(mean, 0.5 * (comm.size() + 1));
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, NodeOwners,

@@ -1,13 +1,18 @@
 #include <coplane_core/Comm.hpp>
 
-#include <numeric>
-
 namespace coplane
 {
 Comm::Comm(MPI_Comm comm) : comm_(comm)
 {
+  if (comm_ == MPI_COMM_NULL)
+    return;
   MPI_Comm_rank(comm_, &rank_);
   MPI_Comm_size(comm_, &size_);
+}
+
+Comm Comm::alone()
+{
+  return Comm(MPI_COMM_NULL);
 }
 
 namespace
@@ -15,14 +20,16 @@ namespace
 template <class T>
 T reduced(T value, MPI_Datatype type, MPI_Op operation, MPI_Comm comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, comm);
+  if (comm != MPI_COMM_NULL)
+    MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, comm);
   return value;
 }
 
 template <class T>
 void reduceAll(std::vector<T>& values, MPI_Datatype type, MPI_Op operation, MPI_Comm comm)
 {
-  MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), type, operation, comm);
+  if (comm != MPI_COMM_NULL)
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), type, operation, comm);
 }
 
 std::vector<int> offsetsOf(const std::vector<int>& counts)
@@ -72,11 +79,14 @@ void Comm::sum(std::vector<std::uint64_t>& values) const
 }
 void Comm::barrier() const
 {
-  MPI_Barrier(comm_);
+  if (comm_ != MPI_COMM_NULL)
+    MPI_Barrier(comm_);
 }
 
 std::string Comm::broadcast(const std::string& text, int root) const
 {
+  if (comm_ == MPI_COMM_NULL)
+    return text;
   std::int64_t length = std::int64_t(text.size());
   MPI_Bcast(&length, 1, MPI_INT64_T, root, comm_);
   std::string result = rank_ == root ? text : std::string(std::size_t(length), ' ');
@@ -86,6 +96,11 @@ std::string Comm::broadcast(const std::string& text, int root) const
 
 std::vector<std::byte> Comm::allGatherBytes(const void* data, std::size_t size) const
 {
+  if (comm_ == MPI_COMM_NULL)
+  {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    return std::vector<std::byte>(bytes, bytes + size);
+  }
   const int mine = int(size);
   std::vector<int> counts(size_);
   MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
@@ -95,24 +110,25 @@ std::vector<std::byte> Comm::allGatherBytes(const void* data, std::size_t size) 
   return all;
 }
 
-std::vector<std::byte> Comm::exchangeBytes(const std::vector<std::vector<std::byte>>& toRank,
-                                           std::vector<int>& counts) const
+std::vector<int> Comm::exchangeCounts(const std::vector<int>& toRank) const
 {
-  std::vector<int> sendCounts(size_);
-  std::vector<std::byte> send;
-  for (int r = 0; r < size_; ++r)
-  {
-    sendCounts[r] = int(toRank[r].size());
-    send.insert(send.end(), toRank[r].begin(), toRank[r].end());
-  }
-  counts.assign(size_, 0);
-  MPI_Alltoall(sendCounts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  std::vector<int> counts(size_, 0);
+  MPI_Alltoall(toRank.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  return counts;
+}
+
+void Comm::exchangeItems(const void* send, const std::vector<int>& sendCounts, void* received,
+                         const std::vector<int>& counts, std::size_t itemSize) const
+{
+  // Counted in items, not in bytes: numbers of bytes may exceed an int.
+  MPI_Datatype item;
+  MPI_Type_contiguous(int(itemSize), MPI_BYTE, &item);
+  MPI_Type_commit(&item);
   const std::vector<int> sendOffsets = offsetsOf(sendCounts);
   const std::vector<int> offsets = offsetsOf(counts);
-  std::vector<std::byte> received(std::size_t(offsets.back()) + counts.back());
-  MPI_Alltoallv(send.data(), sendCounts.data(), sendOffsets.data(), MPI_BYTE, received.data(),
-                counts.data(), offsets.data(), MPI_BYTE, comm_);
-  return received;
+  MPI_Alltoallv(send, sendCounts.data(), sendOffsets.data(), item, received, counts.data(),
+                offsets.data(), item, comm_);
+  MPI_Type_free(&item);
 }
 
 void Comm::together(const std::function<void()>& action) const
@@ -137,7 +153,8 @@ void Comm::together(const std::function<void()>& action) const
   if (lowest == size_)
     return;
   text = broadcast(text, int(lowest));
-  MPI_Bcast(&code, 1, MPI_INT, int(lowest), comm_);
+  if (comm_ != MPI_COMM_NULL)
+    MPI_Bcast(&code, 1, MPI_INT, int(lowest), comm_);
   throw Error(ExitCode(code), text, true);
 }
 } // namespace coplane

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -19,6 +20,8 @@ class Comm
 {
 public:
   explicit Comm(MPI_Comm comm = MPI_COMM_WORLD);
+  /// One rank, in a program that needs no MPI.
+  static Comm alone();
   int rank() const { return rank_; }
   int size() const { return size_; }
   bool isRoot() const { return rank_ == 0; }
@@ -56,24 +59,24 @@ public:
                           std::vector<int>* counts = nullptr) const
   {
     static_assert(std::is_trivially_copyable_v<T>);
-    std::vector<std::vector<std::byte>> bytes(size_);
-    for (int r = 0; r < size_; ++r)
+    if (size_ == 1)
     {
-      bytes[r].resize(toRank[r].size() * sizeof(T));
-      if (!bytes[r].empty())
-        __builtin_memcpy(bytes[r].data(), toRank[r].data(), bytes[r].size());
+      if (counts)
+        counts->assign(1, int(toRank[0].size()));
+      return toRank[0];
     }
-    std::vector<int> byteCounts;
-    const std::vector<std::byte> received = exchangeBytes(bytes, byteCounts);
-    std::vector<T> items(received.size() / sizeof(T));
-    if (!items.empty())
-      __builtin_memcpy(items.data(), received.data(), received.size());
+    std::vector<int> sendCounts;
+    std::vector<T> send;
+    for (const std::vector<T>& items : toRank)
+    {
+      sendCounts.push_back(int(items.size()));
+      send.insert(send.end(), items.begin(), items.end());
+    }
+    const std::vector<int> received = exchangeCounts(sendCounts);
+    std::vector<T> items(std::accumulate(received.begin(), received.end(), std::size_t(0)));
+    exchangeItems(send.data(), sendCounts, items.data(), received, sizeof(T));
     if (counts)
-    {
-      counts->assign(size_, 0);
-      for (int r = 0; r < size_; ++r)
-        (*counts)[r] = byteCounts[r] / int(sizeof(T));
-    }
+      *counts = received;
     return items;
   }
 
@@ -83,10 +86,11 @@ public:
 
 private:
   std::vector<std::byte> allGatherBytes(const void* data, std::size_t size) const;
-  std::vector<std::byte> exchangeBytes(const std::vector<std::vector<std::byte>>& toRank,
-                                       std::vector<int>& counts) const;
+  std::vector<int> exchangeCounts(const std::vector<int>& toRank) const;
+  void exchangeItems(const void* send, const std::vector<int>& sendCounts, void* received,
+                     const std::vector<int>& counts, std::size_t itemSize) const;
 
-  MPI_Comm comm_;
+  MPI_Comm comm_; ///< MPI_COMM_NULL: a rank alone
   int rank_ = 0;
   int size_ = 1;
 };

@@ -1,6 +1,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <algorithm>
@@ -60,10 +61,11 @@ void dealPlanes(const Contact& contact, double work, std::vector<Real>& costs)
   }
 }
 
-/// A node on its way to all ranks.
+/// A node on its way to its home.
 struct PlacedNode
 {
   int position; ///< in the file
+  int owner;
   Vec3 x;
   Real cost;
 };
@@ -86,37 +88,49 @@ std::vector<Real> costsOfOwnedNodes(const Solver& solver, const WorkTimes& work)
   return costs;
 }
 
-RebalancePlan planRebalance(const Solver& solver, const Mesh& mesh, const std::string& method,
+RebalancePlan planRebalance(const Solver& solver, const MeshSlice& mesh, const std::string& method,
                             const WorkTimes& work)
 {
   const Comm& comm = solver.comm();
   const RankMesh& part = solver.mesh();
   const std::vector<Real> mine = costsOfOwnedNodes(solver, work);
-  std::vector<PlacedNode> nodes;
+  std::vector<std::vector<PlacedNode>> toHomes(comm.size());
   for (int n = 0; n < part.ownedNodes; ++n)
-    nodes.push_back({part.nodePositions[n], at(solver.state().x, n), mine[n]});
-  std::vector<Vec3> places(mesh.nodes());
-  std::vector<Real> costs(mesh.nodes());
-  for (const PlacedNode& node : comm.allGather(nodes))
+    toHomes[mesh.homeOfNode(part.nodePositions[n])].push_back(
+        {part.nodePositions[n], comm.rank(), at(solver.state().x, n), mine[n]});
+  const int first = mesh.nodeRange().first;
+  std::vector<Vec3> places(mesh.nodeRange().count);
+  std::vector<Real> costs(places.size());
+  std::vector<int> owners(places.size());
+  for (const PlacedNode& node : comm.exchange(toHomes))
   {
-    places[node.position] = node.x;
-    costs[node.position] = node.cost;
+    places[node.position - first] = node.x;
+    costs[node.position - first] = node.cost;
+    owners[node.position - first] = node.owner;
   }
   // A node whose work was too short to be seen still is something to be looked after.
-  const Real total = std::accumulate(costs.begin(), costs.end(), Real(0));
+  const Real total =
+      comm.size() *
+      largestAndMean(std::accumulate(costs.begin(), costs.end(), Real(0)), comm).second;
   for (Real& cost : costs)
-    cost = std::max(cost, total > 0 ? 0.01 * total / Real(costs.size()) : 1);
+    cost = std::max(cost, total > 0 ? 0.01 * total / mesh.nodes : 1);
 
   RebalancePlan plan;
-  plan.owners = nodeOwners(mesh, comm, method, costs, &places);
-  std::vector<double> sums(comm.size(), 0);
-  for (int n = 0; n < mesh.nodes(); ++n)
-    sums[plan.owners[n]] += costs[n];
-  plan.busiest = *std::max_element(sums.begin(), sums.end());
-  plan.imbalance = plan.busiest * comm.size() / std::accumulate(sums.begin(), sums.end(), 0.0);
+  plan.owners = nodeOwners(partAtHome(mesh, comm), comm, method, costs, &places);
+  std::vector<std::vector<double>> sums(comm.size());
   std::int64_t moved = 0;
-  for (int n = 0; n < part.ownedNodes; ++n)
-    moved += plan.owners[part.nodePositions[n]] != comm.rank();
+  for (std::size_t n = 0; n < costs.size(); ++n)
+  {
+    std::vector<double>& sum = sums[plan.owners[n]];
+    sum.resize(1, 0);
+    sum[0] += costs[n];
+    moved += plan.owners[n] != owners[n];
+  }
+  const std::vector<double> shares = comm.exchange(sums);
+  const auto [busiest, mean] =
+      largestAndMean(std::accumulate(shares.begin(), shares.end(), 0.0), comm);
+  plan.busiest = busiest;
+  plan.imbalance = busiest / mean;
   plan.moved = comm.sum(moved);
   return plan;
 }
@@ -133,7 +147,7 @@ void RebalanceLedger::done(double cost)
   lost_ = 0;
 }
 
-Rebalancer::Rebalancer(const Mesh& mesh, RebalanceOptions options,
+Rebalancer::Rebalancer(const MeshSlice& mesh, RebalanceOptions options,
                        std::function<Model(RankMesh)> modelOf)
     : mesh_(&mesh), options_(std::move(options)), modelOf_(std::move(modelOf)),
       ledger_(options_.firstCost)
@@ -159,9 +173,7 @@ bool Rebalancer::look(Solver& solver)
 
   // From here on every rank has the same numbers, hence decides alike.
   const WorkTimes work = solver.takeWorkTimes();
-  const std::vector<double> totals = comm.allGather(std::vector<double>{work.total()});
-  const double busiest = *std::max_element(totals.begin(), totals.end());
-  const double mean = std::accumulate(totals.begin(), totals.end(), 0.0) / comm.size();
+  const auto [busiest, mean] = largestAndMean(work.total(), comm);
   const double imbalance = mean > 0 ? busiest / mean : 1;
   const bool always = options_.when == RebalanceOptions::When::Always;
   if (!always && imbalance < options_.above)
@@ -176,7 +188,7 @@ bool Rebalancer::look(Solver& solver)
   logInfo("rebalanced at cycle {}: in {} cycles the busiest rank had {:.3f} times the mean work; "
           "{:.3f} predicted now; {} of {} nodes changed their rank, which took {:.3g} s; saves "
           "{:.3g} s in 1000 cycles",
-          clock.cycle, work.cycles, imbalance, plan.imbalance, plan.moved, mesh_->nodes(),
+          clock.cycle, work.cycles, imbalance, plan.imbalance, plan.moved, mesh_->nodes,
           ledger_.cost(), 1000 * perCycle);
   return true;
 }
@@ -185,7 +197,7 @@ void Rebalancer::rebalance(Solver& solver, const RebalancePlan& plan)
 {
   const Comm& comm = solver.comm();
   const auto begin = std::chrono::steady_clock::now();
-  solver.repartition(modelOf_(distribute(*mesh_, plan.owners, comm.rank())));
+  solver.repartition(modelOf_(distribute(*mesh_, plan.owners, comm)));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   ledger_.done(comm.max(took.count()));
   solver.repartitions_.seconds += ledger_.cost();

@@ -2,7 +2,7 @@
 
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -41,13 +41,13 @@ std::vector<Real> costsOfOwnedNodes(const Solver& solver, const WorkTimes& work)
 /// Another partition and how good it would be.
 struct RebalancePlan
 {
-  std::vector<int> owners; ///< of all nodes, in the order of the file
+  std::vector<int> owners; ///< of the nodes of this rank's slice of the mesh
   double busiest = 0;      ///< work of the busiest rank, in the time in which `work` was done [s]
   Real imbalance = 1;      ///< that over the mean
   std::int64_t moved = 0;  ///< nodes that would change their rank
 };
 /// A partition on the present positions, by the costs of work done. Collective.
-RebalancePlan planRebalance(const Solver& solver, const Mesh& mesh, const std::string& method,
+RebalancePlan planRebalance(const Solver& solver, const MeshSlice& mesh, const std::string& method,
                             const WorkTimes& work);
 
 /// Decides whether a rebalance pays. What it would have saved is summed up; once that exceeds its
@@ -73,9 +73,10 @@ private:
 class Rebalancer
 {
 public:
-  /// `mesh` is the whole mesh, the same on every rank, and has to live as long.
+  /// `mesh` has to live as long.
   /// @param modelOf the model of the run for another part of the mesh
-  Rebalancer(const Mesh& mesh, RebalanceOptions options, std::function<Model(RankMesh)> modelOf);
+  Rebalancer(const MeshSlice& mesh, RebalanceOptions options,
+             std::function<Model(RankMesh)> modelOf);
 
   /// At the end of a cycle: looks if it is time to, and gives the solver another part when that
   /// pays; with the same bits. Returns whether it did. All ranks decide alike. Collective.
@@ -85,7 +86,7 @@ private:
   bool isTime(std::int64_t cycle);
   void rebalance(Solver& solver, const RebalancePlan& plan);
 
-  const Mesh* mesh_;
+  const MeshSlice* mesh_;
   RebalanceOptions options_;
   std::function<Model(RankMesh)> modelOf_;
   RebalanceLedger ledger_;

@@ -6,8 +6,8 @@
 #include <coplane_dynamics/Conditions.hpp>
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_element/ElementBlock.hpp>
-#include <coplane_mesh/Mesh.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
+#include <coplane_mesh/RankMesh.hpp>
 
 #include <functional>
 #include <vector>
@@ -41,10 +41,12 @@ struct Turn
   Turn half() const { return Turn{w + 1, v}.normalised(); }
 };
 
-/// Number of the rigid body of every node of the mesh; -1: none. Elements of rigid blocks that
+/// Number of the rigid body of every node of a rank's part; -1: none. Elements of rigid blocks that
 /// share nodes belong to one body. Bodies are counted in the order of their first node in the file.
+/// Collective.
 /// @param rigidBlocks by block of the mesh
-std::vector<int> rigidBodiesOf(const Mesh& mesh, const std::vector<char>& rigidBlocks);
+std::vector<int> rigidBodiesOf(const RankMesh& part, const std::vector<char>& rigidBlocks,
+                               const Comm& comm);
 
 /// The rigid bodies of a run. Every rank has all of them with the same bits: forces of nodes come
 /// together by exact sums. Their nodes follow, and get forces from loads, contact and neighbouring

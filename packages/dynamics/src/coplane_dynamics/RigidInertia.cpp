@@ -1,9 +1,9 @@
 // Which nodes are whose, and the moments of inertia of the solid.
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/RigidInertia.hpp>
+#include <coplane_mesh/Bodies.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace coplane
 {
@@ -83,39 +83,19 @@ void integrate(ElementType type, const Vec3* x, F&& f)
 }
 } // namespace
 
-std::vector<int> rigidBodiesOf(const Mesh& mesh, const std::vector<char>& rigidBlocks)
+std::vector<int> rigidBodiesOf(const RankMesh& part, const std::vector<char>& rigidBlocks,
+                               const Comm& comm)
 {
-  std::vector<int> root(mesh.nodes());
-  std::iota(root.begin(), root.end(), 0);
-  const auto find = [&](int n)
-  {
-    while (root[n] != n)
-      n = root[n] = root[root[n]];
-    return n;
-  };
-  std::vector<char> rigid(mesh.nodes(), 0);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-  {
-    if (!rigidBlocks[b])
-      continue;
-    const Mesh::Block& block = mesh.blocks[b];
-    const int corners = topology(block.type).nodes;
-    for (std::size_t i = 0; i < block.connectivity.size(); ++i)
-    {
-      const int node = block.connectivity[i];
-      rigid[node] = 1;
-      const int p = find(node), q = find(block.connectivity[i / corners * corners]);
-      root[std::max(p, q)] = std::min(p, q);
-    }
-  }
-  std::vector<int> bodies(mesh.nodes(), -1);
-  int count = 0;
-  for (int n = 0; n < mesh.nodes(); ++n)
-    if (rigid[n])
-    {
-      const int first = find(n); // the least of its body
-      bodies[n] = first == n ? count++ : bodies[first];
-    }
+  std::vector<int> bodies = bodyLabels(part, rigidBlocks, comm);
+  std::vector<int> first; // nodes of the bodies, of each the first
+  for (int n = 0; n < part.ownedNodes; ++n)
+    if (bodies[n] == part.nodePositions[n])
+      first.push_back(bodies[n]);
+  first = comm.allGather(first);
+  std::sort(first.begin(), first.end());
+  for (int& body : bodies)
+    if (body >= 0)
+      body = int(std::lower_bound(first.begin(), first.end(), body) - first.begin());
   return bodies;
 }
 

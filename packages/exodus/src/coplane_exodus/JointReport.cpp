@@ -1,4 +1,4 @@
-#include <coplane_exodus/MeshReport.hpp>
+#include <coplane_exodus/FindingsOverRanks.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -8,126 +8,167 @@ namespace coplane
 {
 namespace
 {
+using Cell = std::array<std::int64_t, 3>;
+
 struct Face
 {
-  int element = 0, side = 0;
-  Vec3 centre{}, normal{};
-  std::vector<Vec3> corners;
+  int set, position; ///< in the set
+  GlobalId element;
+  int side, count;
+  Vec3 centre, normal;
+  std::array<Vec3, 4> corners;
 };
 
-/// Faces by the cells of a grid that hold their centres.
-class FaceGrid
+/// A face in one of the cells of a grid near its centre.
+struct Visit
 {
-public:
-  explicit FaceGrid(Real tolerance) : tolerance_(tolerance), cell_(4 * tolerance) {}
-
-  void add(const Face& face, int position)
-  {
-    faces_[key(face.centre, {0, 0, 0})].push_back(position);
-  }
-
-  /// Calls with every face whose centre may lie within the tolerance.
-  template <class Action>
-  void forEachNear(const Vec3& centre, const Action& action) const
-  {
-    std::vector<Key> seen;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-      const Key near =
-          key(centre, {corner & 1 ? tolerance_ : -tolerance_, corner & 2 ? tolerance_ : -tolerance_,
-                       corner & 4 ? tolerance_ : -tolerance_});
-      if (std::find(seen.begin(), seen.end(), near) != seen.end())
-        continue;
-      seen.push_back(near);
-      const auto found = faces_.find(near);
-      if (found != faces_.end())
-        for (const int position : found->second)
-          action(position);
-    }
-  }
-
-private:
-  using Key = std::array<std::int64_t, 3>;
-  Key key(const Vec3& centre, const Vec3& shift) const
-  {
-    Key cells;
-    for (int axis = 0; axis < 3; ++axis)
-      cells[axis] = std::int64_t(std::floor((centre[axis] + shift[axis]) / cell_));
-    return cells;
-  }
-
-  Real tolerance_, cell_;
-  std::map<Key, std::vector<int>> faces_;
+  Face face;
+  Cell cell;
+  bool isHome; ///< the cell holds the centre
+  int number;  ///< of the face, on its rank
 };
+
+Cell cellOf(const Vec3& x, Real edge)
+{
+  Cell cell;
+  for (int c = 0; c < 3; ++c)
+    cell[c] = std::int64_t(std::floor(x[c] / edge));
+  return cell;
+}
 
 bool sameCorners(const Face& a, const Face& b, Real tolerance)
 {
-  return a.corners.size() == b.corners.size() &&
-         std::all_of(a.corners.begin(), a.corners.end(),
-                     [&](const Vec3& x)
-                     {
-                       return std::any_of(b.corners.begin(), b.corners.end(),
-                                          [&](const Vec3& y) { return norm(x - y) <= tolerance; });
-                     });
+  const auto isOf = [&](const Face& face, const Vec3& x)
+  {
+    return std::any_of(face.corners.begin(), face.corners.begin() + face.count,
+                       [&](const Vec3& y) { return norm(x - y) <= tolerance; });
+  };
+  return a.count == b.count && std::all_of(a.corners.begin(), a.corners.begin() + a.count,
+                                           [&](const Vec3& x) { return isOf(b, x); });
+}
+
+bool arePartners(const Face& a, const Face& b, Real tolerance)
+{
+  return a.element != b.element && dot(a.normal, b.normal) < 0 && sameCorners(a, b, tolerance);
+}
+
+/// Faces of all side sets, each on one rank.
+std::vector<Face> facesOf(const RankMesh& home)
+{
+  std::vector<Face> faces;
+  for (std::size_t s = 0; s < home.sideSets.size(); ++s)
+    for (const RankMesh::Side& side : home.sideSets[s])
+    {
+      const RankMesh::Block& block = home.blocks[side.block];
+      if (!block.owned[side.element])
+        continue;
+      const ElementTopology& shape = topology(block.type);
+      Face face{int(s),
+                side.position,
+                block.elementIds[side.element],
+                side.side,
+                shape.nodesPerSide,
+                {},
+                {},
+                {}};
+      for (int k = 0; k < face.count; ++k)
+      {
+        face.corners[k] = home.coordinates[block.connectivity[side.element * shape.nodes +
+                                                              shape.sideNodes[side.side][k]]];
+        face.centre += (1.0 / face.count) * face.corners[k];
+      }
+      const auto& x = face.corners;
+      face.normal = face.count == 2 ? Vec3{x[1].y - x[0].y, x[0].x - x[1].x, 0}
+                                    : cross(x[2] - x[0], (face.count == 3 ? x[0] : x[3]) - x[1]);
+      faces.push_back(face);
+    }
+  return faces;
+}
+
+/// Which faces have a partner. Faces meet in the cells of a grid, and cells are dealt out to ranks.
+std::vector<char> facesWithPartner(const std::vector<Face>& faces, const Boxes& boxes,
+                                   Real tolerance, const Comm& comm)
+{
+  const Real edge = 4 * tolerance;
+  std::vector<std::vector<Visit>> toRank(comm.size());
+  for (std::size_t i = 0; i < faces.size(); ++i)
+  {
+    const Vec3& centre = faces[i].centre;
+    std::vector<Cell> cells; // that hold centres within the tolerance
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      const Cell cell = cellOf(centre + Vec3{corner & 1 ? tolerance : -tolerance,
+                                             corner & 2 ? tolerance : -tolerance,
+                                             corner & 4 ? tolerance : -tolerance},
+                               edge);
+      if (std::find(cells.begin(), cells.end(), cell) == cells.end())
+        cells.push_back(cell);
+    }
+    for (const Cell& cell : cells)
+      toRank[boxes.rankOf({edge * Real(cell[0]), edge * Real(cell[1]), edge * Real(cell[2])})]
+          .push_back({faces[i], cell, cell == cellOf(centre, edge), int(i)});
+  }
+  std::vector<int> counts;
+  const std::vector<Visit> visits = comm.exchange(toRank, &counts);
+  std::map<std::pair<int, Cell>, std::vector<std::size_t>> atHome; // by set and cell
+  for (std::size_t i = 0; i < visits.size(); ++i)
+    if (visits[i].isHome)
+      atHome[{visits[i].face.set, visits[i].cell}].push_back(i);
+  std::vector<std::vector<char>> answers(comm.size());
+  std::size_t next = 0;
+  for (int r = 0; r < comm.size(); ++r)
+    for (int i = 0; i < counts[r]; ++i, ++next)
+    {
+      const Visit& visit = visits[next];
+      const auto there = atHome.find({visit.face.set, visit.cell});
+      answers[r].push_back(
+          there != atHome.end() &&
+          std::any_of(there->second.begin(), there->second.end(),
+                      [&](std::size_t other)
+                      { return arePartners(visit.face, visits[other].face, tolerance); }));
+    }
+  const std::vector<char> found = comm.exchange(answers);
+  std::vector<char> withPartner(faces.size(), 0);
+  next = 0;
+  for (const std::vector<Visit>& sent : toRank)
+    for (const Visit& visit : sent)
+      if (found[next++])
+        withPartner[visit.number] = 1;
+  return withPartner;
 }
 } // namespace
 
-std::vector<MeshReport::Joint> findJoints(const Mesh& mesh, Real tolerance)
+std::vector<MeshReport::Joint> findJoints(const MeshSlice& slice, const RankMesh& home,
+                                          const Boxes& boxes, Real tolerance, const Comm& comm)
 {
   std::vector<MeshReport::Joint> joints;
-  if (!(tolerance > 0) || mesh.sideSets.empty())
+  if (!(tolerance > 0) || slice.mine.sideSets.empty())
     return joints;
-  std::vector<std::pair<int, int>> places; // block and index of each element
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-    for (int e = 0; e < mesh.blocks[b].elements(); ++e)
-      places.emplace_back(int(b), e);
-  for (const Mesh::SideSet& set : mesh.sideSets)
+  const std::vector<Face> faces = facesOf(home);
+  const std::vector<char> withPartner = facesWithPartner(faces, boxes, tolerance, comm);
+  std::vector<std::int64_t> counts(slice.mine.sideSets.size(), 0);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    counts[faces[i].set] += withPartner[i];
+  comm.sum(counts);
+  for (std::size_t s = 0; s < counts.size(); ++s)
   {
-    std::vector<Face> faces;
-    FaceGrid grid(tolerance);
-    for (std::size_t i = 0; i < set.elements.size(); ++i)
+    if (counts[s] < 2)
+      continue;
+    struct Side
     {
-      const auto [b, e] = places[set.elements[i]];
-      const Mesh::Block& block = mesh.blocks[b];
-      const ElementTopology& shape = topology(block.type);
-      Face face{set.elements[i], set.sides[i], {}, {}, {}};
-      for (int k = 0; k < shape.nodesPerSide; ++k)
-      {
-        face.corners.push_back(
-            mesh.coordinates[block.connectivity[e * shape.nodes +
-                                                shape.sideNodes[set.sides[i]][k]]]);
-        face.centre += (1.0 / shape.nodesPerSide) * face.corners.back();
-      }
-      const std::vector<Vec3>& x = face.corners;
-      face.normal = x.size() == 2 ? Vec3{x[1].y - x[0].y, x[0].x - x[1].x, 0}
-                                  : cross(x[2] - x[0], (x.size() == 3 ? x[0] : x[3]) - x[1]);
-      grid.add(face, int(faces.size()));
-      faces.push_back(std::move(face));
-    }
-    MeshReport::Joint joint{set.id, set.name, 0, {}};
-    int withPartner = 0;
-    for (const Face& face : faces)
-    {
-      bool found = false;
-      grid.forEachNear(face.centre,
-                       [&](int position)
-                       {
-                         const Face& other = faces[position];
-                         found = found || (other.element != face.element &&
-                                           dot(other.normal, face.normal) < 0 &&
-                                           sameCorners(face, other, tolerance));
-                       });
-      if (found)
-        ++withPartner;
-      else
-      {
-        const auto [b, e] = places[face.element];
-        joint.alone.emplace_back(mesh.blocks[b].elementIds[e], face.side + 1);
-      }
-    }
-    joint.pairs = withPartner / 2;
-    if (joint.pairs > 0)
-      joints.push_back(std::move(joint));
+      GlobalId element;
+      int side;
+    };
+    std::vector<Ordered<Side>> alone;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      if (faces[i].set == int(s) && !withPartner[i])
+        alone.push_back({faces[i].position, {faces[i].element, faces[i].side + 1}});
+    const Findings<Side> found = findingsOf(alone, comm);
+    MeshReport::Joint joint{
+        slice.mine.sideSets[s].id, slice.mine.sideSets[s].name, counts[s] / 2, {found.count, {}}};
+    for (const Side& side : found.first)
+      joint.alone.first.emplace_back(side.element, side.side);
+    joints.push_back(std::move(joint));
   }
   return joints;
 }

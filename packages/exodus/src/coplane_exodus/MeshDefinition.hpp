@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 
 #include <string>
 #include <vector>
@@ -17,16 +17,21 @@ struct FileExtras
   std::vector<std::string> infoLines; ///< at most 80 characters each: see splitInfoLines
 };
 
-/// The flags of ex_create for this mesh: CDF-5, with 64-bit ids only when an id needs them.
-int creationMode(const Mesh& mesh);
+/// Largest id of what is in this rank's slice.
+GlobalId largestId(const MeshSlice& slice);
+
+/// The flags of ex_create: CDF-5, with 64-bit ids only when the largest id of the mesh needs them.
+int creationMode(GlobalId largestId);
 
 /// Defines everything in a new, serially opened Exodus file: sizes, blocks, sets, names,
-/// attributes, QA and info records, id maps, variables. Afterwards the header is complete, so the
-/// file needs no further redefinition.
-void defineMesh(int exoid, const Mesh& mesh, const FileExtras& extras);
+/// attributes, QA and info records, id maps, variables; and writes the ids of this slice, which
+/// must be that of the first rank. Afterwards the header is complete, so the file needs no further
+/// redefinition.
+void defineMesh(int exoid, const MeshSlice& slice, const FileExtras& extras);
 
-/// Writes this rank's contiguous ranges of coordinates, connectivity, attributes and sets.
-void writeMeshRanges(int exoid, const Mesh& mesh, int rank, int ranks);
+/// Writes this rank's ranges of coordinates, connectivity, attributes and sets, and ids but on the
+/// first rank.
+void writeMeshRanges(int exoid, const MeshSlice& slice);
 
 /// Info records of Exodus have 80 characters: longer lines continue on the next with a "> " in
 /// front.

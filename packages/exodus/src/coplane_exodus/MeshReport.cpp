@@ -1,40 +1,26 @@
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_exodus/FindingsOverRanks.hpp>
 #include <coplane_exodus/MeshReport.hpp>
+#include <coplane_mesh/Bodies.hpp>
+#include <coplane_mesh/Distribute.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 #include <set>
+#include <tuple>
 
 namespace coplane
 {
 namespace
 {
-/// Parts of a mesh that share no node.
-class Components
-{
-public:
-  explicit Components(int nodes) : parent_(nodes) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int node)
-  {
-    while (parent_[node] != node)
-      node = parent_[node] = parent_[parent_[node]];
-    return node;
-  }
-  void join(int a, int b) { parent_[of(a)] = of(b); }
-
-private:
-  std::vector<int> parent_;
-};
-
-std::array<Vec3, 8> cornersOf(const Mesh& mesh, const Mesh::Block& block, int element)
+std::array<Vec3, 8> cornersOf(const RankMesh& mesh, const RankMesh::Block& block, int element)
 {
   std::array<Vec3, 8> corners{};
   const int perElement = topology(block.type).nodes;
   for (int k = 0; k < perElement; ++k)
-    corners[k] = mesh.coordinates[block.connectivity[element * perElement + k]];
+    corners[k] = mesh.coordinates[block.connectivity[std::size_t(element) * perElement + k]];
   return corners;
 }
 
@@ -52,62 +38,111 @@ void measureEdges(MeshReport& report, const ElementTopology& shape,
     }
 }
 
-/// Nodes of one body in one cell of a grid of two millionths of the shortest edge. Cells are
-/// centred on multiples, so that round coordinates with round-off stay in one cell.
-void findCoincident(MeshReport& report, const Mesh& mesh,
-                    const std::vector<std::int64_t>& bodyOfNode)
+struct PlacedNode
 {
-  const Real tolerance = 1e-6 * report.shortestEdge;
-  std::vector<int> order;
-  for (int node = 0; node < mesh.nodes(); ++node)
-    if (bodyOfNode[node] >= 0)
-      order.push_back(node);
-  const auto& x = mesh.coordinates;
+  std::int64_t body;
+  Vec3 cell;
+  int position; ///< in the file
+  GlobalId id;
+  bool onJoint;
+};
+
+/// Nodes of one body in one cell of a grid of two millionths of the shortest edge. Cells are
+/// centred on multiples, so that round coordinates with round-off stay in one cell. The two sides
+/// of a joint that ends inside a body are meant: their nodes are no finding.
+/// @param bodies of the owned nodes; negative: of no element
+Findings<MeshReport::NodePair> findCoincident(const RankMesh& home,
+                                              const std::vector<std::int64_t>& bodies,
+                                              const std::vector<char>& onJoint, const Boxes& boxes,
+                                              Real tolerance, const Comm& comm)
+{
   const auto cell = [&](Real value)
   { return tolerance > 0 ? std::floor(value / (2 * tolerance) + 0.5) : value; };
-  const auto key = [&](int node)
-  { return std::tuple(bodyOfNode[node], cell(x[node].x), cell(x[node].y), cell(x[node].z)); };
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
-  for (std::size_t i = 1; i < order.size(); ++i)
-    if (key(order[i - 1]) == key(order[i]))
-      report.coincident.push_back({mesh.nodeIds[order[i - 1]], mesh.nodeIds[order[i]]});
+  std::vector<std::vector<PlacedNode>> toRank(comm.size());
+  for (int n = 0; n < home.ownedNodes; ++n)
+  {
+    if (bodies[n] < 0)
+      continue;
+    const Vec3& x = home.coordinates[n];
+    const Vec3 place{cell(x.x), cell(x.y), cell(x.z)};
+    toRank[boxes.rankOf(tolerance > 0 ? 2 * tolerance * place : place)].push_back(
+        {bodies[n], place, home.nodePositions[n], home.nodeIds[n], onJoint[n] != 0});
+  }
+  std::vector<PlacedNode> nodes = comm.exchange(toRank);
+  const auto key = [](const PlacedNode& node)
+  { return std::tuple(node.body, node.cell.x, node.cell.y, node.cell.z); };
+  std::sort(nodes.begin(), nodes.end(),
+            [&](const PlacedNode& a, const PlacedNode& b)
+            { return std::tuple(key(a), a.position) < std::tuple(key(b), b.position); });
+  std::vector<Ordered<MeshReport::NodePair>> pairs;
+  for (std::size_t i = 1; i < nodes.size(); ++i)
+    if (const PlacedNode& a = nodes[i - 1], &b = nodes[i];
+        key(a) == key(b) && !(a.onJoint && b.onJoint))
+      pairs.push_back({a.position, {a.id, b.id}});
+  return findingsOf(pairs, comm);
 }
 
-/// The two sides of a joint that ends inside a body are meant: their nodes are no finding.
-void forgetJoints(MeshReport& report, const Mesh& mesh)
+/// Which owned nodes lie on joints.
+std::vector<char> nodesOfJoints(const MeshSlice& slice, const RankMesh& home,
+                                const std::vector<MeshReport::Joint>& joints)
 {
-  std::set<GlobalId> onJoints;
-  std::vector<std::pair<int, int>> places; // block and index of each element
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-    for (int e = 0; e < mesh.blocks[b].elements(); ++e)
-      places.emplace_back(int(b), e);
-  for (const MeshReport::Joint& joint : report.joints)
-    for (const Mesh::SideSet& set : mesh.sideSets)
-      for (std::size_t i = 0; set.id == joint.id && i < set.elements.size(); ++i)
-      {
-        const auto [b, e] = places[set.elements[i]];
-        const ElementTopology& shape = topology(mesh.blocks[b].type);
-        for (int k = 0; k < shape.nodesPerSide; ++k)
-          onJoints.insert(
-              mesh.nodeIds[mesh.blocks[b]
-                               .connectivity[e * shape.nodes + shape.sideNodes[set.sides[i]][k]]]);
-      }
-  auto& pairs = report.coincident;
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
-                             [&](const MeshReport::NodePair& pair)
-                             { return onJoints.count(pair.first) && onJoints.count(pair.second); }),
-              pairs.end());
+  std::vector<char> onJoint(home.nodes(), 0);
+  for (const MeshReport::Joint& joint : joints)
+    for (std::size_t s = 0; s < home.sideSets.size(); ++s)
+      if (slice.mine.sideSets[s].id == joint.id)
+        for (const RankMesh::Side& side : home.sideSets[s])
+        {
+          const RankMesh::Block& block = home.blocks[side.block];
+          const ElementTopology& shape = topology(block.type);
+          for (int k = 0; k < shape.nodesPerSide; ++k)
+            onJoint[block.connectivity[std::size_t(side.element) * shape.nodes +
+                                       shape.sideNodes[side.side][k]]] = 1;
+        }
+  return onJoint;
 }
 
-template <class Items, class Text>
-std::string firstOf(const Items& items, const Text& text)
+/// Counts bodies, of the mesh and of each block.
+/// @param labels of the nodes
+void countBodies(MeshReport& report, const MeshSlice& slice, const RankMesh& home,
+                 const std::vector<int>& labels, const Comm& comm)
 {
-  constexpr std::size_t shown = 5;
+  std::int64_t first = 0;
+  for (int n = 0; n < home.ownedNodes; ++n)
+    first += labels[n] == home.nodePositions[n];
+  report.bodies = comm.sum(first);
+  std::set<std::pair<int, int>> mine; // body and block
+  for (std::size_t b = 0; b < home.blocks.size(); ++b)
+  {
+    const RankMesh::Block& block = home.blocks[b];
+    for (int e = 0; e < block.elements(); ++e)
+      mine.emplace(labels[block.connectivity[std::size_t(e) * topology(block.type).nodes]], int(b));
+  }
+  struct BodyInBlock
+  {
+    int body, block;
+  };
+  std::vector<std::vector<BodyInBlock>> toHomes(comm.size());
+  for (const auto& [body, block] : mine)
+    toHomes[slice.homeOfNode(body)].push_back({body, block});
+  mine.clear();
+  for (const BodyInBlock& item : comm.exchange(toHomes))
+    mine.emplace(item.body, item.block);
+  std::vector<std::int64_t> counts(home.blocks.size(), 0);
+  for (const auto& [body, block] : mine)
+    ++counts[block];
+  comm.sum(counts);
+  for (std::size_t b = 0; b < counts.size(); ++b)
+    report.blocks[b].bodies = counts[b];
+}
+
+template <class T, class Text>
+std::string firstOf(const Findings<T>& items, const Text& text)
+{
   std::string list;
-  for (std::size_t i = 0; i < std::min(items.size(), shown); ++i)
-    list += (i ? ", " : "") + text(items[i]);
-  if (items.size() > shown)
-    list += fmt::format(" and {} more", items.size() - shown);
+  for (std::size_t i = 0; i < items.first.size(); ++i)
+    list += (i ? ", " : "") + text(items.first[i]);
+  if (const std::int64_t more = items.count - std::int64_t(items.first.size()); more > 0)
+    list += fmt::format(" and {} more", more);
   return list;
 }
 } // namespace
@@ -170,81 +205,146 @@ Real elementQuality(ElementType type, const std::array<Vec3, 8>& c)
   return least / ideal[row];
 }
 
-MeshReport reportMesh(const Mesh& mesh)
+namespace
 {
-  MeshReport report;
-  report.dimension = mesh.dimension;
-  report.nodes = mesh.nodes();
-  report.elements = mesh.elements();
-  report.shortestEdge = infinity;
-  report.lowest = {infinity, infinity, infinity};
-  report.highest = {-infinity, -infinity, -infinity};
-  for (const Vec3& x : mesh.coordinates)
-    for (int k = 0; k < 3; ++k)
-    {
-      report.lowest[k] = std::min(report.lowest[k], x[k]);
-      report.highest[k] = std::max(report.highest[k], x[k]);
-    }
+struct FoundElement
+{
+  int block;
+  GlobalId id;
+  Real volume;
+};
 
-  Components components(mesh.nodes());
-  std::vector<std::int64_t> bodyOfNode(mesh.nodes(), -1);
-  for (const Mesh::Block& block : mesh.blocks)
+Findings<MeshReport::BadElement> badElements(const MeshSlice& slice,
+                                             const std::vector<Ordered<FoundElement>>& mine,
+                                             const Comm& comm)
+{
+  const Findings<FoundElement> found = findingsOf(mine, comm);
+  Findings<MeshReport::BadElement> bad{found.count, {}};
+  for (const FoundElement& element : found.first)
+    bad.first.push_back({element.id, slice.mine.blocks[element.block].name, element.volume});
+  return bad;
+}
+
+void reportElements(MeshReport& report, const MeshSlice& slice, const RankMesh& home,
+                    const Comm& comm)
+{
+  std::vector<Ordered<FoundElement>> inverted, repeated, folded;
+  const std::size_t blocks = home.blocks.size();
+  std::vector<ExactSum> volumes(blocks);
+  std::vector<Real> worst(blocks, infinity);
+  std::vector<std::int64_t> worstPosition(blocks, INT64_MAX);
+  for (std::size_t b = 0; b < blocks; ++b)
   {
+    const RankMesh::Block& block = home.blocks[b];
     const ElementTopology& shape = topology(block.type);
-    Real volume = 0, worst = 1;
-    GlobalId worstElement = 0;
     for (int e = 0; e < block.elements(); ++e)
     {
-      const int* nodes = &block.connectivity[e * shape.nodes];
-      const auto corners = cornersOf(mesh, block, e);
+      if (!block.owned[e])
+        continue;
+      const int* nodes = &block.connectivity[std::size_t(e) * shape.nodes];
+      const auto corners = cornersOf(home, block, e);
       const Real v = elementVolume(block.type, corners);
-      volume += v;
+      const Ordered<FoundElement> here{slice.firstElements[b] + block.positions[e],
+                                       {int(b), block.elementIds[e], v}};
+      volumes[b].add(v);
       if (!(v > 0))
-        report.inverted.push_back({block.elementIds[e], block.name, v});
+        inverted.push_back(here);
       if (std::set<int>(nodes, nodes + shape.nodes).size() < std::size_t(shape.nodes))
-        report.repeatedNodes.push_back({block.elementIds[e], block.name, v});
+        repeated.push_back(here);
       const Real quality = elementQuality(block.type, corners);
       if (v > 0 && !(quality > 0))
-        report.folded.push_back({block.elementIds[e], block.name, v});
-      if (e == 0 || quality < worst)
+        folded.push_back(here);
+      if (quality < worst[b])
       {
-        worst = quality;
-        worstElement = block.elementIds[e];
+        worst[b] = quality;
+        worstPosition[b] = block.positions[e];
       }
       measureEdges(report, shape, corners);
-      for (int k = 0; k < shape.nodes; ++k)
-      {
-        components.join(nodes[k], nodes[0]);
-        bodyOfNode[nodes[k]] = block.bodyIds.empty() ? 0 : block.bodyIds[e];
-      }
     }
-    report.blocks.push_back(
-        {block.id, block.name, shape.exodusName, block.elements(), 0, volume, worst, worstElement});
   }
-  std::set<int> all;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  report.inverted = badElements(slice, inverted, comm);
+  report.repeatedNodes = badElements(slice, repeated, comm);
+  report.folded = badElements(slice, folded, comm);
+  report.shortestEdge = comm.min(report.shortestEdge);
+  report.longestEdge = comm.max(report.longestEdge);
+
+  const std::vector<Real> sums = ExactSum::overRanks(volumes, comm);
+  for (std::size_t b = 0; b < blocks; ++b)
   {
-    std::set<int> mine;
-    const int perElement = topology(mesh.blocks[b].type).nodes;
-    for (int e = 0; e < mesh.blocks[b].elements(); ++e)
-      mine.insert(components.of(mesh.blocks[b].connectivity[e * perElement]));
-    report.blocks[b].bodies = int(mine.size());
-    all.insert(mine.begin(), mine.end());
+    const Mesh::Block& block = slice.mine.blocks[b];
+    const Real least = comm.min(worst[b]);
+    const std::int64_t position = comm.min(worst[b] == least ? worstPosition[b] : INT64_MAX);
+    GlobalId id = 0; // of the worst element
+    if (worst[b] == least && worstPosition[b] == position && position < INT64_MAX)
+    {
+      const std::vector<int>& positions = home.blocks[b].positions;
+      const auto place = std::lower_bound(positions.begin(), positions.end(), int(position));
+      id = home.blocks[b].elementIds[std::size_t(place - positions.begin())];
+    }
+    report.blocks.push_back({block.id, block.name, topology(block.type).exodusName,
+                             slice.elementsOf(int(b)), 0, sums[b], std::min(least, Real(1)),
+                             comm.max(std::int64_t(id))});
   }
-  report.bodies = int(all.size());
-  for (int node = 0; node < mesh.nodes(); ++node)
-    if (bodyOfNode[node] < 0)
-      report.unusedNodes.push_back(mesh.nodeIds[node]);
-    else if (bodyOfNode[node] ==
-             0) // no body ids in the file: parts that share nodes count as bodies
-      bodyOfNode[node] = (std::int64_t(1) << 32) + components.of(node);
-  if (report.elements > 0)
+}
+
+void reportNodes(MeshReport& report, const MeshSlice& slice, const RankMesh& home, const Comm& comm)
+{
+  std::vector<Real> lowest(3, infinity), highest(3, -infinity);
+  for (int n = 0; n < home.ownedNodes; ++n)
+    for (int k = 0; k < 3; ++k)
+    {
+      lowest[k] = std::min(lowest[k], home.coordinates[n][k]);
+      highest[k] = std::max(highest[k], home.coordinates[n][k]);
+    }
+  comm.min(lowest);
+  comm.max(highest);
+  report.lowest = {lowest[0], lowest[1], lowest[2]};
+  report.highest = {highest[0], highest[1], highest[2]};
+  const Boxes boxes(report.lowest, report.highest, comm.size());
+
+  const std::vector<int> labels = bodyLabels(home, std::vector<char>(home.blocks.size(), 1), comm);
+  countBodies(report, slice, home, labels, comm);
+  std::vector<std::int64_t> bodies(home.nodes(), -1);
+  for (const RankMesh::Block& block : home.blocks)
   {
-    findCoincident(report, mesh, bodyOfNode);
-    report.joints = findJoints(mesh, 1e-6 * report.shortestEdge);
-    forgetJoints(report, mesh);
+    const int perElement = topology(block.type).nodes;
+    for (int e = 0; e < block.elements(); ++e)
+      for (int k = 0; k < perElement; ++k)
+        bodies[block.connectivity[std::size_t(e) * perElement + k]] = block.bodyIds[e];
   }
+  std::vector<Ordered<GlobalId>> unused;
+  for (int n = 0; n < home.ownedNodes; ++n)
+    if (bodies[n] < 0)
+      unused.push_back({home.nodePositions[n], home.nodeIds[n]});
+    else if (bodies[n] == 0) // no body ids in the file: parts that share nodes count as bodies
+      bodies[n] = (std::int64_t(1) << 32) + labels[n];
+  report.unusedNodes = findingsOf(unused, comm);
+  if (report.elements == 0)
+    return;
+  const Real tolerance = 1e-6 * report.shortestEdge;
+  report.joints = findJoints(slice, home, boxes, tolerance, comm);
+  report.coincident = findCoincident(home, bodies, nodesOfJoints(slice, home, report.joints), boxes,
+                                     tolerance, comm);
+}
+} // namespace
+
+MeshReport reportMesh(const MeshSlice& slice, const RankMesh& home, const Comm& comm)
+{
+  MeshReport report;
+  report.dimension = slice.mine.dimension;
+  report.nodes = slice.nodes;
+  report.elements = slice.elements();
+  report.shortestEdge = infinity;
+  reportElements(report, slice, home, comm);
+  reportNodes(report, slice, home, comm);
   return report;
+}
+
+MeshReport reportMesh(const Mesh& mesh)
+{
+  const Comm alone = Comm::alone();
+  const MeshSlice slice = sliceOf(mesh);
+  return reportMesh(slice, partAtHome(slice, alone), alone);
 }
 
 std::vector<std::string> meshProblems(const MeshReport& report)
@@ -256,7 +356,7 @@ std::vector<std::string> meshProblems(const MeshReport& report)
     problems.push_back(fmt::format("{} elements are inside out or flat ({} zero or negative): {}. "
                                    "Correct the order of their nodes, or mesh "
                                    "there again.",
-                                   report.inverted.size(), measure,
+                                   report.inverted.count, measure,
                                    firstOf(report.inverted,
                                            [&](const MeshReport::BadElement& e)
                                            {
@@ -268,7 +368,7 @@ std::vector<std::string> meshProblems(const MeshReport& report)
     problems.push_back(fmt::format(
         "{} elements use a node twice: {}. Quadrilaterals and hexahedra may not be collapsed to "
         "other shapes; mesh there again.",
-        report.repeatedNodes.size(),
+        report.repeatedNodes.count,
         firstOf(report.repeatedNodes, [](const MeshReport::BadElement& e)
                 { return fmt::format("element {} of block '{}'", e.element, e.block); })));
   if (!report.folded.empty())
@@ -276,7 +376,7 @@ std::vector<std::string> meshProblems(const MeshReport& report)
         "{} elements are folded at a corner: {}. Their {} is positive, but they are not convex; "
         "mesh "
         "there again.",
-        report.folded.size(),
+        report.folded.count,
         firstOf(report.folded, [](const MeshReport::BadElement& e)
                 { return fmt::format("element {} of block '{}'", e.element, e.block); }),
         measure));
@@ -286,19 +386,19 @@ std::vector<std::string> meshProblems(const MeshReport& report)
           "side set '{}' is a joint of {} pairs of faces, but {} of its faces have no partner in "
           "it: "
           "{}. Add the faces that they touch, or take them out.",
-          joint.name, joint.pairs, joint.alone.size(),
+          joint.name, joint.pairs, joint.alone.count,
           firstOf(joint.alone, [](const std::pair<GlobalId, int>& side)
                   { return fmt::format("side {} of element {}", side.second, side.first); })));
   if (!report.unusedNodes.empty())
     problems.push_back(fmt::format(
         "{} nodes belong to no element: {}. They have no mass; remove them from the mesh.",
-        report.unusedNodes.size(),
+        report.unusedNodes.count,
         firstOf(report.unusedNodes, [](GlobalId id) { return fmt::format("node {}", id); })));
   if (!report.coincident.empty())
     problems.push_back(
         fmt::format("{} pairs of nodes of one body lie at one place: {}. If no crack is meant "
                     "there, merge them.",
-                    report.coincident.size(),
+                    report.coincident.count,
                     firstOf(report.coincident, [](const MeshReport::NodePair& p)
                             { return fmt::format("nodes {} and {}", p.first, p.second); })));
   return problems;

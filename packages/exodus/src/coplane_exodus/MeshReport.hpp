@@ -1,14 +1,27 @@
 #pragma once
 
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
+#include <coplane_mesh/RankMesh.hpp>
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace coplane
 {
+/// Findings of one kind: how many there are, and the first few in the order of the file.
+template <class T>
+struct Findings
+{
+  static constexpr std::size_t kept = 5;
+  std::int64_t count = 0;
+  std::vector<T> first;
+
+  bool empty() const { return count == 0; }
+};
+
 /// Sizes of a mesh and everything about it that a computation would stumble over.
 struct MeshReport
 {
@@ -28,9 +41,9 @@ struct MeshReport
     std::string name;
     std::string type;
     int elements = 0;
-    int bodies = 0;        ///< parts that share no node with each other
-    Real volume = 0;       ///< [m^3], or [m^2] times one metre
-    Real worstQuality = 1; ///< least elementQuality [-]
+    std::int64_t bodies = 0; ///< parts that share no node with each other
+    Real volume = 0;         ///< [m^3], or [m^2] times one metre
+    Real worstQuality = 1;   ///< least elementQuality [-]
     GlobalId worstElement = 0;
   };
   /// A side set in which faces lie on each other pairwise.
@@ -38,39 +51,39 @@ struct MeshReport
   {
     GlobalId id = 0;
     std::string name;
-    int pairs = 0;
-    std::vector<std::pair<GlobalId, int>> alone; ///< elements and sides (from 1) without partner
+    std::int64_t pairs = 0;
+    Findings<std::pair<GlobalId, int>> alone; ///< elements and sides (from 1) without partner
   };
 
   int dimension = 3;
   int nodes = 0;
   int elements = 0;
-  int bodies = 0;                         ///< parts that share no node with each other
+  std::int64_t bodies = 0;                ///< parts that share no node with each other
   Vec3 lowest{}, highest{};               ///< bounding box [m]
   Real shortestEdge = 0, longestEdge = 0; ///< [m]
   std::vector<BlockSummary> blocks;
-  std::vector<BadElement> inverted;      ///< volume zero or negative
-  std::vector<BadElement> repeatedNodes; ///< a node occurs twice in the element
-  std::vector<GlobalId> unusedNodes;     ///< of no element
-  std::vector<BadElement> folded;        ///< volume positive, but a corner turned inside out
-  std::vector<NodePair> coincident;      ///< two nodes of one body at one place, not of joints
-  std::vector<Joint> joints;             ///< side sets that hold both sides of a joint
+  Findings<BadElement> inverted;      ///< volume zero or negative
+  Findings<BadElement> repeatedNodes; ///< a node occurs twice in the element
+  Findings<GlobalId> unusedNodes;     ///< of no element
+  Findings<BadElement> folded;        ///< volume positive, but a corner turned inside out
+  Findings<NodePair> coincident;      ///< two nodes of one body at one place, not of joints
+  std::vector<Joint> joints;          ///< side sets that hold both sides of a joint
 
   /// No computation can start with inverted elements or repeated nodes; the other findings are for
   /// the eye.
   bool usable() const { return inverted.empty() && repeatedNodes.empty(); }
 };
 
+/// Of a mesh of which every rank has a slice; the same on all ranks, and for any number of them.
+/// Collective.
+/// @param home the part that this rank has at home: partAtHome()
+MeshReport reportMesh(const MeshSlice& slice, const RankMesh& home, const Comm& comm);
 MeshReport reportMesh(const Mesh& mesh);
 
 /// One sentence per kind of finding, with ids (the first few of many) and advice; empty for a
 /// faultless mesh.
 std::vector<std::string> meshProblems(const MeshReport& report);
 std::vector<std::string> meshProblems(const Mesh& mesh);
-
-/// The side sets of a mesh that hold pairs of faces in one place, of different elements, with
-/// opposite normals and equal corners within the tolerance [m].
-std::vector<MeshReport::Joint> findJoints(const Mesh& mesh, Real tolerance);
 
 /// Shape of an element: the least over its corners of the volume of the edges there over the
 /// product of their lengths, divided by that of the ideal shape (equilateral or cube) [-]. 1 is

@@ -1,5 +1,6 @@
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
+#include <coplane_exodus/OwnPart.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
 
 #include <exodusII.h>
@@ -99,28 +100,29 @@ std::string resultsFileOfRank(const std::string& file, int rank, int ranks)
   return fmt::format("{}.{}.{:0{}}", file, count, rank, count.size());
 }
 
-ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& mesh,
+ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const MeshSlice& mesh,
                          const ResultsVariables& variables,
                          const std::vector<std::string>& infoLines, bool filePerRank)
-    : file_(file), comm_(comm), filePerRank_(filePerRank), nodeCount_(mesh.nodes())
+    : file_(file), comm_(comm), filePerRank_(filePerRank), nodeCount_(mesh.nodes)
 {
   quietExodus();
   // Going beyond a file-size limit shall be an error of the call, like a full disk, not the death
   // of the program.
   std::signal(SIGXFSZ, SIG_IGN);
-  for (const Mesh::Block& block : mesh.blocks)
+  for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
   {
-    blockSizes_.push_back(block.elements());
-    blockIds_.push_back(block.id);
+    blockSizes_.push_back(mesh.elementsOf(int(b)));
+    blockIds_.push_back(mesh.mine.blocks[b].id);
   }
   stepBytes_ = sizeof(Real) *
-               (1 + variables.global.size() + variables.nodal.size() * std::uint64_t(mesh.nodes()) +
+               (1 + variables.global.size() + variables.nodal.size() * std::uint64_t(mesh.nodes) +
                 variables.element.size() * std::uint64_t(mesh.elements()));
-  for (const Mesh::SideSet& set : mesh.sideSets)
+  for (std::size_t s = 0; s < mesh.mine.sideSets.size(); ++s)
   {
-    stepBytes_ += sizeof(Real) * variables.side.size() * set.sides.size();
-    sideSetIds_.push_back(set.id);
-    const IndexRange mine = contiguousRange(int(set.sides.size()), comm_.rank(), comm_.size());
+    const int sides = mesh.sideSetSizes[s];
+    stepBytes_ += sizeof(Real) * variables.side.size() * std::uint64_t(sides);
+    sideSetIds_.push_back(mesh.mine.sideSets[s].id);
+    const IndexRange mine = mesh.rangeOf(sides);
     std::vector<int> positions(mine.count);
     std::iota(positions.begin(), positions.end(), mine.first);
     mySides_.push_back(std::move(positions));
@@ -133,28 +135,29 @@ ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const Mesh& 
         if (filePerRank_ || comm_.isRoot())
           probeWritable(file_);
       });
-  Mesh part = filePerRank_ ? partOfThisRank(mesh) : mesh;
-  part.qaRecords.push_back(ownQaRecord(comm_));
+  MeshSlice part = filePerRank_ ? meshOfThisRank(mesh) : mesh;
+  part.mine.qaRecords.push_back(ownQaRecord(comm_));
   create(part, variables, infoLines);
 }
 
-void ResultsFile::create(const Mesh& mesh, const ResultsVariables& variables,
+void ResultsFile::create(const MeshSlice& slice, const ResultsVariables& variables,
                          const std::vector<std::string>& infoLines)
 {
   const FileExtras extras{variables.nodal, variables.element, variables.global, variables.side,
                           splitInfoLines(infoLines)};
+  const GlobalId largest = comm_.max(std::int64_t(largestId(slice)));
   int memoryWord = 8, fileWord = 8;
   if (filePerRank_ || comm_.isRoot())
     attempt(
         [&]
         {
-          exoid_ = ex_create(file_.c_str(), creationMode(mesh), &memoryWord, &fileWord);
+          exoid_ = ex_create(file_.c_str(), creationMode(largest), &memoryWord, &fileWord);
           checkExodus(exoid_, "creating the file");
-          defineMesh(exoid_, mesh, extras);
+          defineMesh(exoid_, slice, extras);
         });
   failTogether("defining the mesh");
   if (filePerRank_)
-    attempt([&] { writeMeshRanges(exoid_, mesh, 0, 1); });
+    attempt([&] { writeMeshRanges(exoid_, slice); });
   else
   {
     // Rank 0 defines the file, then all open it. (ex_create_par of Exodus 8.12 passes a flag that
@@ -187,7 +190,7 @@ void ResultsFile::create(const Mesh& mesh, const ResultsVariables& variables,
             throw ExodusFailure("opening the file on all ranks: independent access was refused");
         });
     failTogether("opening the file");
-    attempt([&] { writeMeshRanges(exoid_, mesh, comm_.rank(), comm_.size()); });
+    attempt([&] { writeMeshRanges(exoid_, slice); });
   }
   failTogether("writing the mesh");
   attempt([&] { checkExodus(ex_update(exoid_), "writing the mesh"); });
@@ -257,7 +260,7 @@ void ResultsFile::beginStep(Real time)
 
 void ResultsFile::putNodal(int variable, const std::vector<Real>& myRange)
 {
-  const std::vector<Real> values = filePerRank_ ? valuesOfPart(myRange) : myRange;
+  const std::vector<Real> values = filePerRank_ ? nodesOfPart_->values(myRange) : myRange;
   const int first = filePerRank_ ? 0 : myNodes().first;
   if (!values.empty())
     attempt(
@@ -329,106 +332,11 @@ void ResultsFile::close()
   failTogether("closing the file");
 }
 
-Mesh ResultsFile::partOfThisRank(const Mesh& mesh)
+MeshSlice ResultsFile::meshOfThisRank(const MeshSlice& slice)
 {
-  Mesh part;
-  part.title = mesh.title;
-  part.dimension = mesh.dimension;
-  part.qaRecords = mesh.qaRecords;
-  std::vector<int> partNode(mesh.nodes(), -1);
-  std::vector<int> partElement(mesh.elements(), -1);
-  int firstOfBlock = 0, elements = 0;
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-  {
-    const Mesh::Block& whole = mesh.blocks[b];
-    const IndexRange mine = myElements(int(b));
-    const int perElement = topology(whole.type).nodes;
-    Mesh::Block block{whole.id, whole.name, whole.type, {}, {}, {}};
-    for (int e = mine.first; e < mine.first + mine.count; ++e)
-    {
-      block.elementIds.push_back(whole.elementIds[e]);
-      block.bodyIds.push_back(whole.bodyIds.empty() ? 0 : whole.bodyIds[e]);
-      partElement[firstOfBlock + e] = elements++;
-      for (int k = 0; k < perElement; ++k)
-        partNode[whole.connectivity[e * perElement + k]] = 0;
-    }
-    firstOfBlock += whole.elements();
-    part.blocks.push_back(std::move(block));
-  }
-  // A node that no element touches still has a place in the joined file: it goes with its own
-  // range.
-  std::vector<char> touched(mesh.nodes(), 0);
-  for (const Mesh::Block& block : mesh.blocks)
-    for (const int node : block.connectivity)
-      touched[node] = 1;
-  const IndexRange range = myNodes();
-  for (int node = range.first; node < range.first + range.count; ++node)
-    if (!touched[node])
-      partNode[node] = 0;
-  for (int node = 0; node < mesh.nodes(); ++node)
-    if (partNode[node] == 0)
-    {
-      partNode[node] = int(partNodes_.size());
-      partNodes_.push_back(node);
-      part.nodeIds.push_back(mesh.nodeIds[node]);
-      part.coordinates.push_back(mesh.coordinates[node]);
-    }
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-  {
-    const int perElement = topology(mesh.blocks[b].type).nodes;
-    const IndexRange mine = myElements(int(b));
-    for (int i = mine.first * perElement; i < (mine.first + mine.count) * perElement; ++i)
-      part.blocks[b].connectivity.push_back(partNode[mesh.blocks[b].connectivity[i]]);
-  }
-  for (const Mesh::NodeSet& whole : mesh.nodeSets)
-  {
-    Mesh::NodeSet set{whole.id, whole.name, {}};
-    for (const int node : whole.nodes)
-      if (partNode[node] >= 0)
-        set.nodes.push_back(partNode[node]);
-    part.nodeSets.push_back(std::move(set));
-  }
-  mySides_.clear();
-  for (const Mesh::SideSet& whole : mesh.sideSets)
-  {
-    Mesh::SideSet set{whole.id, whole.name, {}, {}};
-    mySides_.emplace_back();
-    for (std::size_t i = 0; i < whole.elements.size(); ++i)
-      if (partElement[whole.elements[i]] >= 0)
-      {
-        set.elements.push_back(partElement[whole.elements[i]]);
-        set.sides.push_back(whole.sides[i]);
-        mySides_.back().push_back(int(i));
-      }
-    part.sideSets.push_back(std::move(set));
-  }
-
-  std::vector<std::vector<int>> wanted(comm_.size());
-  for (const int node : partNodes_)
-  {
-    const int owner = rankOfItem(node, mesh.nodes(), comm_.size());
-    wanted[owner].push_back(node - contiguousRange(mesh.nodes(), owner, comm_.size()).first);
-  }
-  std::vector<int> counts;
-  const std::vector<int> asked = comm_.exchange(wanted, &counts);
-  nodesToSend_.resize(comm_.size());
-  std::size_t next = 0;
-  for (int r = 0; r < comm_.size(); ++r)
-  {
-    nodesToSend_[r].assign(asked.begin() + next, asked.begin() + next + counts[r]);
-    next += counts[r];
-  }
-  return part;
-}
-
-std::vector<Real> ResultsFile::valuesOfPart(const std::vector<Real>& myRange) const
-{
-  // Ranges ascend with the rank and so do partNodes_: what arrives in rank order is already in the
-  // order of partNodes_.
-  std::vector<std::vector<Real>> send(comm_.size());
-  for (int r = 0; r < comm_.size(); ++r)
-    for (const int i : nodesToSend_[r])
-      send[r].push_back(myRange[i]);
-  return comm_.exchange(send);
+  OwnPart own = ownPartOf(slice, comm_);
+  nodesOfPart_ = std::move(own.nodes);
+  mySides_ = std::move(own.sides);
+  return sliceOf(own.mesh);
 }
 } // namespace coplane

@@ -2,8 +2,9 @@
 
 #include <coplane_core/Comm.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,9 @@ std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
 class ResultsFile
 {
 public:
-  /// `mesh` is the whole mesh, the same on every rank. QA records of the mesh are kept and
-  /// Coplane's is appended. Lines of more than 80 characters are split.
-  ResultsFile(const std::string& file, const Comm& comm, const Mesh& mesh,
+  /// QA records of the mesh are kept and Coplane's is appended. Lines of more than 80 characters
+  /// are split.
+  ResultsFile(const std::string& file, const Comm& comm, const MeshSlice& mesh,
               const ResultsVariables& variables, const std::vector<std::string>& infoLines,
               bool filePerRank = false);
   /// Closes; errors are lost here, so call close() first where they matter.
@@ -80,10 +81,9 @@ public:
   const std::string& file() const { return file_; }
 
 private:
-  void create(const Mesh& mesh, const ResultsVariables& variables,
+  void create(const MeshSlice& slice, const ResultsVariables& variables,
               const std::vector<std::string>& infoLines);
-  Mesh partOfThisRank(const Mesh& mesh);
-  std::vector<Real> valuesOfPart(const std::vector<Real>& myRange) const;
+  MeshSlice meshOfThisRank(const MeshSlice& slice);
   template <class Action>
   void attempt(const Action& action);
   void failTogether(const std::string& doing);
@@ -105,9 +105,7 @@ private:
   std::uint64_t stepBytes_ =
       0; ///< of one time step: all variables are 8-byte reals, one after another
 
-  // File per rank: the nodes that this rank's elements touch come from the ranks in whose ranges
-  // they lie.
-  std::vector<int> partNodes_;                ///< node indices, ascending
-  std::vector<std::vector<int>> nodesToSend_; ///< by rank: positions in this rank's range
+  /// File per rank: the nodes of this rank's file come from the ranks in whose ranges they lie.
+  std::optional<NodesFromHome> nodesOfPart_;
 };
 } // namespace coplane

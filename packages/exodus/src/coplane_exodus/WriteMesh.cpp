@@ -16,14 +16,15 @@ void writeMesh(const Mesh& mesh, const std::string& file)
   // Going beyond a file-size limit shall be an error of the call, like a full disk, not the death
   // of the program.
   std::signal(SIGXFSZ, SIG_IGN);
+  const MeshSlice all = sliceOf(mesh);
   int exoid = -1;
   try
   {
     int memoryWord = 8, fileWord = 8;
-    exoid = ex_create(file.c_str(), creationMode(mesh), &memoryWord, &fileWord);
+    exoid = ex_create(file.c_str(), creationMode(largestId(all)), &memoryWord, &fileWord);
     checkExodus(exoid, "creating the file");
-    defineMesh(exoid, mesh, {});
-    writeMeshRanges(exoid, mesh, 0, 1);
+    defineMesh(exoid, all, {});
+    writeMeshRanges(exoid, all);
     const int closing = exoid;
     exoid = -1;
     checkExodus(ex_close(closing), "closing the file");

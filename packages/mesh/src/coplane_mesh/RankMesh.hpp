@@ -38,9 +38,10 @@ struct RankMesh
   int dimension = 3;
   int ownedNodes = 0;
   std::vector<GlobalId> nodeIds;
-  std::vector<int> nodePositions; ///< of the nodes in the file
-  std::vector<Vec3> coordinates;  ///< [m]
-  std::vector<Block> blocks;      ///< all blocks of the file, some perhaps without elements here
+  std::vector<int> nodePositions;  ///< of the nodes in the file
+  std::vector<Vec3> coordinates;   ///< [m]
+  std::vector<int> ownersOfOthers; ///< ranks of the nodes after the owned ones
+  std::vector<Block> blocks;       ///< all blocks of the file, some perhaps without elements here
   std::vector<std::vector<int>> nodeSets;  ///< owned local nodes of each node set of the file
   std::vector<std::vector<Side>> sideSets; ///< sides of held elements of each side set of the file
 

@@ -50,13 +50,6 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
   return names;
 }
 
-std::vector<std::int64_t> firstElements(const Mesh& mesh)
-{
-  std::vector<std::int64_t> first{0};
-  for (const Mesh::Block& block : mesh.blocks)
-    first.push_back(first.back() + block.elements());
-  return first;
-}
 } // namespace
 
 std::string resultsPart(const std::string& file, int part)
@@ -111,9 +104,9 @@ void removeParts(const std::string& file, int first)
 }
 } // namespace
 
-ResultsObserver::ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options)
-    : comm_(&comm), mesh_(&mesh), options_(std::move(options)), dimension_(mesh.dimension),
-      history_(options_.history), firstOfBlock_(firstElements(mesh)), schedule_(options_.when)
+ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, ResultsOptions options)
+    : comm_(&comm), mesh_(&mesh), options_(std::move(options)), dimension_(mesh.mine.dimension),
+      history_(options_.history), schedule_(options_.when)
 {
   // Parts of restarts that were left behind. The checkpoint may be of a part that had no step yet:
   // what that part wrote afterwards has to go, too.
@@ -180,10 +173,10 @@ void ResultsObserver::prepare(const Solver& solver)
     const RankMesh::Block& block = mesh.blocks[b];
     for (int e = 0; e < block.elements(); ++e)
       if (block.owned[e])
-        source.push_back(firstOfBlock_[b] + block.positions[e]);
+        source.push_back(mesh_->firstElements[b] + block.positions[e]);
     const IndexRange elements = file_->myElements(int(b));
     for (int i = 0; i < elements.count; ++i)
-      target.push_back(firstOfBlock_[b] + elements.first + i);
+      target.push_back(mesh_->firstElements[b] + elements.first + i);
   }
   elementsToFile_.emplace(solver.comm(), source, target);
   if (file_->sideSets() > 0)

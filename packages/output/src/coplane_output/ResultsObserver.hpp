@@ -2,7 +2,7 @@
 
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
-#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 #include <coplane_mesh/Redistribution.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 #include <coplane_output/SideSetResults.hpp>
@@ -36,9 +36,9 @@ class ResultsObserver : public Observer
 public:
   /// Creates the file, so that a folder that cannot be written to is found before anything is
   /// computed; a later part of a series is created with its first step. Cuts off steps that the
-  /// run before has written after the position, and removes later parts. `mesh` is the whole mesh,
-  /// the same on every rank, and has to live as long. Collective.
-  ResultsObserver(const Comm& comm, const Mesh& mesh, ResultsOptions options);
+  /// run before has written after the position, and removes later parts. `mesh` has to live as
+  /// long. Collective.
+  ResultsObserver(const Comm& comm, const MeshSlice& mesh, ResultsOptions options);
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
@@ -58,11 +58,10 @@ private:
   void writeElements(const Solver& solver);
 
   const Comm* comm_;
-  const Mesh* mesh_;
+  const MeshSlice* mesh_;
   ResultsOptions options_;
   int dimension_;
   std::vector<std::string> history_;
-  std::vector<std::int64_t> firstOfBlock_; ///< position of each block's first element in the file
   OutputSchedule schedule_;
   std::optional<ResultsFile> file_;
   std::int64_t lastCycle_ = -1; ///< that was written

@@ -1,69 +1,57 @@
 #include <coplane_partition/Partition.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace coplane
 {
-std::vector<Real> nodeCosts(const Mesh& mesh, const PartitionCosts& costs)
+std::vector<Real> nodeCosts(const RankMesh& part, const PartitionCosts& costs)
 {
-  std::vector<Real> ofNode(mesh.nodes(), 0);
-  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  std::vector<Real> ofNode(part.nodes(), 0);
+  for (std::size_t b = 0; b < part.blocks.size(); ++b)
   {
-    const Real corner = costs.ofElement[b] / topology(mesh.blocks[b].type).nodes;
-    for (const int node : mesh.blocks[b].connectivity)
+    const Real corner = costs.ofElement[b] / topology(part.blocks[b].type).nodes;
+    for (const int node : part.blocks[b].connectivity)
       ofNode[node] += corner;
   }
   if (costs.ofFace > 0)
-  {
-    // As one rank would have it: local nodes are those of the file.
-    const RankMesh whole = distribute(mesh, std::vector<int>(mesh.nodes(), 0), 0);
-    for (const ExteriorFace& face : exteriorFaces(whole))
+    for (const ExteriorFace& face : exteriorFaces(part))
       for (int k = 0; k < face.nodeCount; ++k)
         ofNode[face.nodes[k]] += costs.ofFace / face.nodeCount;
-  }
+  ofNode.resize(part.ownedNodes);
   return ofNode;
 }
 
-PartitionQuality qualityOf(const Mesh& mesh, const std::vector<int>& owners, int ranks,
-                           const std::vector<Real>& costs)
+std::pair<Real, Real> largestAndMean(Real mine, const Comm& comm)
+{
+  const std::vector<Real> all = comm.allGather(std::vector<Real>{mine});
+  return {*std::max_element(all.begin(), all.end()),
+          std::accumulate(all.begin(), all.end(), Real(0)) / comm.size()};
+}
+
+PartitionQuality qualityOf(const RankMesh& part, const std::vector<Real>& costs, const Comm& comm)
 {
   PartitionQuality quality;
-  quality.owned.assign(ranks, 0);
-  quality.neighbors.assign(ranks, 0);
-  std::vector<Real> sum(ranks, 0);
-  Real total = 0;
-  for (int n = 0; n < mesh.nodes(); ++n)
-  {
-    const Real cost = costs.empty() ? 1 : costs[n];
-    ++quality.owned[owners[n]];
-    sum[owners[n]] += cost;
-    total += cost;
-  }
-  if (total > 0)
-    quality.imbalance = *std::max_element(sum.begin(), sum.end()) * ranks / total;
+  const auto [largest, mean] = largestAndMean(
+      costs.empty() ? part.ownedNodes : std::accumulate(costs.begin(), costs.end(), Real(0)), comm);
+  if (mean > 0)
+    quality.imbalance = largest / mean;
+  quality.fewest = int(comm.min(std::int64_t(part.ownedNodes)));
+  quality.most = int(comm.max(std::int64_t(part.ownedNodes)));
+  quality.mostOfOthers = int(comm.max(std::int64_t(part.nodes() - part.ownedNodes)));
 
-  std::vector<std::pair<int, int>> needed; // rank and node of another rank
-  for (const Mesh::Block& block : mesh.blocks)
+  std::int64_t cut = 0;
+  for (const RankMesh::Block& block : part.blocks)
   {
-    const int nodes = topology(block.type).nodes;
+    const std::size_t corners = std::size_t(topology(block.type).nodes);
     for (int e = 0; e < block.elements(); ++e)
     {
-      const int* const corners = &block.connectivity[e * nodes];
-      bool cut = false;
-      for (int k = 0; k < nodes; ++k)
-        for (int l = 0; l < nodes; ++l)
-          if (owners[corners[l]] != owners[corners[k]])
-          {
-            needed.emplace_back(owners[corners[k]], corners[l]);
-            cut = true;
-          }
-      quality.cutElements += cut;
+      const auto first = block.connectivity.begin() + std::ptrdiff_t(e * corners);
+      cut += block.owned[e] && std::any_of(first, first + std::ptrdiff_t(corners),
+                                           [&](int n) { return n >= part.ownedNodes; });
     }
   }
-  std::sort(needed.begin(), needed.end());
-  needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-  for (const auto& [rank, node] : needed)
-    ++quality.neighbors[rank];
+  quality.cutElements = comm.sum(cut);
   return quality;
 }
 } // namespace coplane

@@ -1,4 +1,3 @@
-#include <coplane_mesh/ContiguousRange.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <Teuchos_DefaultMpiComm.hpp>
@@ -8,7 +7,6 @@
 #include <Zoltan2_PartitioningProblem.hpp>
 
 #include <algorithm>
-#include <numeric>
 
 namespace coplane
 {
@@ -17,7 +15,7 @@ namespace
 constexpr int fewestNodesPerRank = 8;
 using Types = Zoltan2::BasicUserTypes<double, int, long long>;
 
-/// Solves a problem of Zoltan2 and gives everybody the parts of all.
+/// Solves a problem of Zoltan2.
 template <class Adapter>
 std::vector<int> partsOf(Adapter& adapter, const std::string& algorithm, const Comm& comm,
                          std::int64_t count)
@@ -32,55 +30,51 @@ std::vector<int> partsOf(Adapter& adapter, const std::string& algorithm, const C
       &adapter, &parameters, Teuchos::rcp(new Teuchos::MpiComm<int>(comm.mpi())));
   problem.solve();
   const auto* parts = problem.getSolution().getPartListView();
-  return comm.allGather(std::vector<int>(parts, parts + count));
+  return std::vector<int>(parts, parts + count);
+}
+
+std::vector<long long> idsOf(const RankMesh& part)
+{
+  return std::vector<long long>(part.nodePositions.begin(),
+                                part.nodePositions.begin() + part.ownedNodes);
 }
 
 /// By positions.
-std::vector<int> geometricOwners(int dimension, const std::vector<Vec3>& places, const Comm& comm,
-                                 const std::string& method, const IndexRange& range,
-                                 const std::vector<Real>& costs)
+std::vector<int> geometricOwners(const RankMesh& part, const Vec3* places, const Comm& comm,
+                                 const std::string& method, const std::vector<Real>& costs)
 {
   using Adapter = Zoltan2::BasicVectorAdapter<Types>;
-  std::vector<long long> ids(range.count);
-  std::vector<std::vector<double>> axes(dimension, std::vector<double>(range.count));
-  for (int i = 0; i < range.count; ++i)
-  {
-    ids[i] = range.first + i;
-    for (int c = 0; c < dimension; ++c)
-      axes[c][i] = places[range.first + i][c];
-  }
+  const std::vector<long long> ids = idsOf(part);
+  std::vector<std::vector<double>> axes(part.dimension, std::vector<double>(part.ownedNodes));
+  for (int i = 0; i < part.ownedNodes; ++i)
+    for (int c = 0; c < part.dimension; ++c)
+      axes[c][i] = places[i][c];
   std::vector<const double*> columns, weights;
   for (const auto& axis : axes)
     columns.push_back(axis.data());
   if (!costs.empty())
-    weights.push_back(costs.data() + range.first);
-  std::vector<int> strides(dimension, 1), weightStrides(weights.size(), 1);
-  Adapter adapter(int(range.count), ids.data(), columns, strides, weights, weightStrides);
-  return partsOf(adapter, method, comm, range.count);
+    weights.push_back(costs.data());
+  std::vector<int> strides(part.dimension, 1), weightStrides(weights.size(), 1);
+  Adapter adapter(part.ownedNodes, ids.data(), columns, strides, weights, weightStrides);
+  return partsOf(adapter, method, comm, part.ownedNodes);
 }
 
-/// The nodes of a rank's range, and with each all nodes that share an element with it.
+/// The nodes that a part owns, and with each all nodes that share an element with it.
 class NodeGraph : public Zoltan2::GraphAdapter<Types>
 {
 public:
-  NodeGraph(const Mesh& mesh, const IndexRange& range, const std::vector<Real>& costs)
-      : ids_(range.count), starts_(1, 0)
+  NodeGraph(const RankMesh& part, const std::vector<Real>& costs) : ids_(idsOf(part)), starts_(1, 0)
   {
-    std::iota(ids_.begin(), ids_.end(), gno_t(range.first));
     if (!costs.empty())
-      costs_ = costs.data() + range.first;
-    std::vector<std::vector<gno_t>> lists(range.count);
-    for (const Mesh::Block& block : mesh.blocks)
+      costs_ = costs.data();
+    std::vector<std::vector<gno_t>> lists(part.ownedNodes);
+    for (const RankMesh::Block& block : part.blocks)
     {
-      const int nodes = topology(block.type).nodes;
+      const std::size_t nodes = std::size_t(topology(block.type).nodes);
       for (std::size_t i = 0; i < block.connectivity.size(); ++i)
-      {
-        const int own = block.connectivity[i] - range.first;
-        if (own < 0 || own >= range.count)
-          continue;
-        const auto element = block.connectivity.begin() + std::ptrdiff_t(i / nodes * nodes);
-        lists[own].insert(lists[own].end(), element, element + nodes);
-      }
+        if (const int own = block.connectivity[i]; own < part.ownedNodes)
+          for (std::size_t k = i / nodes * nodes; k < (i / nodes + 1) * nodes; ++k)
+            lists[own].push_back(part.nodePositions[block.connectivity[k]]);
     }
     for (std::vector<gno_t>& list : lists)
     {
@@ -114,24 +108,23 @@ private:
 };
 } // namespace
 
-std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
+std::vector<int> nodeOwners(const RankMesh& part, const Comm& comm, const std::string& method,
                             const std::vector<Real>& costs, const std::vector<Vec3>* places)
 {
-  const int nodes = mesh.nodes();
   if (comm.size() == 1)
-    return std::vector<int>(nodes, 0);
-  if (nodes < fewestNodesPerRank * comm.size())
+    return std::vector<int>(part.ownedNodes, 0);
+  const std::int64_t nodes = comm.sum(std::int64_t(part.ownedNodes));
+  if (nodes < std::int64_t(fewestNodesPerRank) * comm.size())
   {
-    std::vector<int> owners(nodes);
-    for (int n = 0; n < nodes; ++n)
-      owners[n] = int(std::int64_t(n) * comm.size() / nodes);
+    std::vector<int> owners;
+    for (int n = 0; n < part.ownedNodes; ++n)
+      owners.push_back(int(part.nodePositions[n] * std::int64_t(comm.size()) / nodes));
     return owners;
   }
-  const IndexRange range = contiguousRange(nodes, comm.rank(), comm.size());
   if (method != "hypergraph")
-    return geometricOwners(mesh.dimension, places ? *places : mesh.coordinates, comm, method, range,
+    return geometricOwners(part, places ? places->data() : part.coordinates.data(), comm, method,
                            costs);
-  NodeGraph graph(mesh, range, costs);
-  return partsOf(graph, "phg", comm, range.count);
+  NodeGraph graph(part, costs);
+  return partsOf(graph, "phg", comm, part.ownedNodes);
 }
 } // namespace coplane

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <coplane_core/Comm.hpp>
-#include <coplane_mesh/Mesh.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <string>
@@ -16,32 +15,33 @@ struct PartitionCosts
   Real ofFace = 0;             ///< of one exterior face, for contact
 };
 
-/// Cost of every node: a corner's part of each element and each exterior face there.
-std::vector<Real> nodeCosts(const Mesh& mesh, const PartitionCosts& costs);
+/// Cost of every node that a part owns: a corner's part of each element and each exterior face
+/// there.
+std::vector<Real> nodeCosts(const RankMesh& part, const PartitionCosts& costs);
 
-/// The rank that owns each node of the mesh, by a method of Zoltan2: "multijagged", "rcb", "rib" or
-/// "hsfc" on the positions of the nodes, or "hypergraph" on who shares elements with whom. Every
-/// rank gives its share of the nodes and learns the whole answer. Meshes with fewer nodes than a
-/// few per rank are dealt out in order, so that ranks without nodes are possible but never an
-/// error. Collective.
-/// @param costs of the nodes; empty: all the same
-/// @param places of the nodes [m]; null: those of the mesh
-std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
+/// The rank that shall own each node that this rank's part owns now, by a method of Zoltan2:
+/// "multijagged", "rcb", "rib" or "hsfc" on the positions of the nodes, or "hypergraph" on who
+/// shares elements with whom. Meshes with fewer nodes than a few per rank are dealt out in order,
+/// so that ranks without nodes are possible but never an error; in larger ones every rank's part
+/// must own a node. Collective.
+/// @param costs of the owned nodes; empty: all the same
+/// @param places of the owned nodes [m]; null: those of the mesh
+std::vector<int> nodeOwners(const RankMesh& part, const Comm& comm, const std::string& method,
                             const std::vector<Real>& costs = {},
                             const std::vector<Vec3>* places = nullptr);
 
 /// How good a partition is.
 struct PartitionQuality
 {
-  Real imbalance = 1;         ///< largest cost of a rank over the mean
-  int cutElements = 0;        ///< elements that several ranks compute
-  std::vector<int> owned;     ///< nodes of each rank
-  std::vector<int> neighbors; ///< nodes of others that each rank needs for its elements
+  Real imbalance = 1;           ///< largest cost of a rank over the mean
+  std::int64_t cutElements = 0; ///< elements that several ranks compute
+  int fewest = 0, most = 0;     ///< nodes that a rank owns
+  int mostOfOthers = 0;         ///< nodes of others that a rank needs for its elements
 };
-PartitionQuality qualityOf(const Mesh& mesh, const std::vector<int>& owners, int ranks,
-                           const std::vector<Real>& costs);
+/// Of a partition of which every rank has its part. Collective.
+/// @param costs of the owned nodes; empty: all the same
+PartitionQuality qualityOf(const RankMesh& part, const std::vector<Real>& costs, const Comm& comm);
 
-/// This rank's part: the nodes it owns, every element that touches one of them, and those elements'
-/// other nodes, all in the order of the file.
-RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank);
+/// Largest over ranks and mean of a cost that every rank has. Collective.
+std::pair<Real, Real> largestAndMean(Real mine, const Comm& comm);
 } // namespace coplane

@@ -1,8 +1,9 @@
-#include <coplane_partition/Partition.hpp>
+#include "BoxMesh.hpp"
+
+#include <coplane_mesh/Distribute.hpp>
 
 #include <gtest/gtest.h>
 
-#include <BoxMesh.hpp>
 #include <algorithm>
 #include <map>
 #include <set>
@@ -33,8 +34,8 @@ Mesh sample()
   return mesh;
 }
 
-/// Calls check(part, owners, rank) for every rank of 1 to 5. distribute() is a pure function, so
-/// this program can play them all.
+/// Calls check(part, owners, rank) for every rank of 1 to 5, of parts cut out of the whole mesh:
+/// this program can play all ranks.
 template <class Check>
 void forEachRank(const Mesh& mesh, const Check& check)
 {
@@ -47,7 +48,7 @@ void forEachRank(const Mesh& mesh, const Check& check)
 }
 } // namespace
 
-TEST(Distribute, aRankHoldsTheElementsThatTouchItsNodesAndNoOthers)
+TEST(PartOfWholeMesh, aRankHoldsTheElementsThatTouchItsNodesAndNoOthers)
 {
   const Mesh mesh = sample();
   forEachRank(mesh,
@@ -66,7 +67,7 @@ TEST(Distribute, aRankHoldsTheElementsThatTouchItsNodesAndNoOthers)
               });
 }
 
-TEST(Distribute, everyElementIsOwnedByTheOwnerOfItsLowestNodeId)
+TEST(PartOfWholeMesh, everyElementIsOwnedByTheOwnerOfItsLowestNodeId)
 {
   const Mesh mesh = sample();
   for (int ranks = 1; ranks <= 5; ++ranks)
@@ -95,7 +96,7 @@ TEST(Distribute, everyElementIsOwnedByTheOwnerOfItsLowestNodeId)
   }
 }
 
-TEST(Distribute, ownedNodesComeFirstInTheOrderOfTheFile)
+TEST(PartOfWholeMesh, ownedNodesComeFirstInTheOrderOfTheFile)
 {
   const Mesh mesh = sample();
   forEachRank(
@@ -113,7 +114,7 @@ TEST(Distribute, ownedNodesComeFirstInTheOrderOfTheFile)
       });
 }
 
-TEST(Distribute, elementsKeepTheirNodesPositionsAndBodies)
+TEST(PartOfWholeMesh, elementsKeepTheirNodesPositionsAndBodies)
 {
   const Mesh mesh = sample();
   forEachRank(mesh,
@@ -139,7 +140,7 @@ TEST(Distribute, elementsKeepTheirNodesPositionsAndBodies)
               });
 }
 
-TEST(Distribute, nodeSetsCoverEachNodeOnceOverAllRanks)
+TEST(PartOfWholeMesh, nodeSetsCoverEachNodeOnceOverAllRanks)
 {
   const Mesh mesh = sample();
   for (int ranks = 1; ranks <= 5; ++ranks)
@@ -161,7 +162,7 @@ TEST(Distribute, nodeSetsCoverEachNodeOnceOverAllRanks)
   }
 }
 
-TEST(Distribute, sideSetsListTheSidesOfAllHeldElements)
+TEST(PartOfWholeMesh, sideSetsListTheSidesOfAllHeldElements)
 {
   const Mesh mesh = sample();
   forEachRank(mesh,
@@ -179,7 +180,7 @@ TEST(Distribute, sideSetsListTheSidesOfAllHeldElements)
               });
 }
 
-TEST(Distribute, aRankWithoutNodesHasAllBlocksAndSetsButNothingInThem)
+TEST(PartOfWholeMesh, aRankWithoutNodesHasAllBlocksAndSetsButNothingInThem)
 {
   const Mesh mesh = sample();
   const RankMesh part = distribute(mesh, std::vector<int>(mesh.nodes(), 0), 1);
@@ -190,5 +191,95 @@ TEST(Distribute, aRankWithoutNodesHasAllBlocksAndSetsButNothingInThem)
   EXPECT_TRUE(part.nodeSets[0].empty());
   ASSERT_EQ(part.sideSets.size(), 1u);
   EXPECT_TRUE(part.sideSets[0].empty());
+}
+
+namespace
+{
+void expectSame(const RankMesh& a, const RankMesh& b)
+{
+  EXPECT_EQ(a.dimension, b.dimension);
+  EXPECT_EQ(a.ownedNodes, b.ownedNodes);
+  EXPECT_EQ(a.nodeIds, b.nodeIds);
+  EXPECT_EQ(a.nodePositions, b.nodePositions);
+  EXPECT_EQ(a.ownersOfOthers, b.ownersOfOthers);
+  ASSERT_EQ(a.coordinates.size(), b.coordinates.size());
+  for (std::size_t n = 0; n < a.coordinates.size(); ++n)
+    EXPECT_EQ(norm(a.coordinates[n] - b.coordinates[n]), 0);
+  ASSERT_EQ(a.blocks.size(), b.blocks.size());
+  for (std::size_t k = 0; k < a.blocks.size(); ++k)
+  {
+    EXPECT_EQ(a.blocks[k].meshBlock, b.blocks[k].meshBlock);
+    EXPECT_EQ(a.blocks[k].id, b.blocks[k].id);
+    EXPECT_EQ(a.blocks[k].type, b.blocks[k].type);
+    EXPECT_EQ(a.blocks[k].elementIds, b.blocks[k].elementIds);
+    EXPECT_EQ(a.blocks[k].positions, b.blocks[k].positions);
+    EXPECT_EQ(a.blocks[k].connectivity, b.blocks[k].connectivity);
+    EXPECT_EQ(a.blocks[k].bodyIds, b.blocks[k].bodyIds);
+    EXPECT_EQ(a.blocks[k].owned, b.blocks[k].owned);
+  }
+  EXPECT_EQ(a.nodeSets, b.nodeSets);
+  ASSERT_EQ(a.sideSets.size(), b.sideSets.size());
+  for (std::size_t s = 0; s < a.sideSets.size(); ++s)
+  {
+    ASSERT_EQ(a.sideSets[s].size(), b.sideSets[s].size());
+    for (std::size_t i = 0; i < a.sideSets[s].size(); ++i)
+    {
+      EXPECT_EQ(a.sideSets[s][i].block, b.sideSets[s][i].block);
+      EXPECT_EQ(a.sideSets[s][i].element, b.sideSets[s][i].element);
+      EXPECT_EQ(a.sideSets[s][i].side, b.sideSets[s][i].side);
+      EXPECT_EQ(a.sideSets[s][i].position, b.sideSets[s][i].position);
+    }
+  }
+}
+
+/// A set whose entries stand in no order, over both blocks.
+Mesh shuffledSample()
+{
+  Mesh mesh = sample();
+  Mesh::SideSet mixed{2, "mixed", {}, {}};
+  for (int i = 0; i < mesh.elements(); ++i)
+  {
+    mixed.elements.push_back(i * 5 % mesh.elements()); // 16 elements: each once
+    mixed.sides.push_back(i % 6);
+  }
+  mesh.sideSets.push_back(mixed);
+  std::reverse(mesh.nodeSets[0].nodes.begin(), mesh.nodeSets[0].nodes.end());
+  return mesh;
+}
+} // namespace
+
+TEST(Distribute, bringsFromSlicesWhatIsCutOutOfTheWholeMesh)
+{
+  const Comm comm;
+  const Mesh mesh = shuffledSample();
+  ASSERT_EQ(mesh.elements(), 16);
+  const MeshSlice slice = sliceOf(mesh, comm);
+  const std::vector<int> last(mesh.nodes(), comm.size() - 1); // the others have nothing
+  std::vector<int> inOrder(mesh.nodes());
+  for (int n = 0; n < mesh.nodes(); ++n)
+    inOrder[n] = n * comm.size() / mesh.nodes();
+  for (const std::vector<int>& owners :
+       {scatteredOwners(mesh, comm.size()), last, inOrder, nodeOwners(mesh, comm, "rcb")})
+  {
+    const auto first = owners.begin() + slice.nodeRange().first;
+    const std::vector<int> ofSlice(first, first + slice.nodeRange().count);
+    expectSame(distribute(slice, ofSlice, comm), distribute(mesh, owners, comm.rank()));
+  }
+}
+
+TEST(Distribute, atHomeARankOwnsItsSlice)
+{
+  const Comm comm;
+  const Mesh mesh = shuffledSample();
+  std::vector<int> owners(mesh.nodes());
+  for (int n = 0; n < mesh.nodes(); ++n)
+    owners[n] = rankOfItem(n, mesh.nodes(), comm.size());
+  expectSame(partAtHome(sliceOf(mesh, comm), comm), distribute(mesh, owners, comm.rank()));
+}
+
+TEST(Distribute, ofAMeshWithoutAnythingIsNothing)
+{
+  const Comm comm;
+  EXPECT_EQ(partAtHome(sliceOf(Mesh{}, comm), comm).nodes(), 0);
 }
 } // namespace coplane

@@ -1,10 +1,33 @@
+#pragma once
+
+#include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 namespace coplane
 {
-RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank)
+inline MeshSlice sliceOf(const Mesh& mesh, const Comm& comm)
+{
+  return sliceOf(mesh, comm.rank(), comm.size());
+}
+
+/// Owners of all nodes, on every rank. Collective.
+inline std::vector<int> nodeOwners(const Mesh& mesh, const Comm& comm, const std::string& method,
+                                   const std::vector<Real>& costs = {})
+{
+  const MeshSlice slice = sliceOf(mesh, comm);
+  const auto first = costs.begin() + (costs.empty() ? 0 : slice.nodeRange().first);
+  const auto end = costs.empty() ? first : first + slice.nodeRange().count;
+  return comm.allGather(
+      nodeOwners(partAtHome(slice, comm), comm, method, std::vector<Real>(first, end)));
+}
+
+/// What any rank of any number has to get, cut out of a whole mesh in one process by the rules'
+/// words: what distribute() is compared with, and a way to make parts without other ranks.
+inline RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank)
 {
   RankMesh part;
   part.dimension = mesh.dimension;
@@ -57,6 +80,9 @@ RankMesh distribute(const Mesh& mesh, const std::vector<int>& owners, int rank)
     }
     part.blocks.push_back(std::move(mine));
   }
+
+  for (int n = part.ownedNodes; n < part.nodes(); ++n)
+    part.ownersOfOthers.push_back(owners[part.nodePositions[n]]);
 
   for (const Mesh::NodeSet& set : mesh.nodeSets)
   {

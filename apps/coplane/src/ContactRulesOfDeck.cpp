@@ -1,0 +1,151 @@
+#include "ContactRulesOfDeck.hpp"
+
+#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/JointCards.hpp>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace coplane
+{
+namespace
+{
+/// A declared pair as messages name it.
+std::string nameOf(const ContactPairCard& card, std::size_t item)
+{
+  const std::string sides =
+      !card.jointSet.empty() ? "joint set " + card.jointSet
+      : !card.sideSets[0].empty()
+          ? fmt::format("side sets {} and {}", card.sideSets[0], card.sideSets[1])
+      : !card.materials[0].empty()
+          ? fmt::format("materials {} and {}", card.materials[0], card.materials[1])
+          : fmt::format("blocks {} and {}", card.blocks[0], card.blocks[1]);
+  return fmt::format("contact.pairs.{} ({})", item, sides);
+}
+
+/// What the rules of contact may ask of a face: its block, and the side sets that hold it.
+struct FaceTraits
+{
+  int block = 0;
+  std::vector<int> sets;
+  bool operator<(const FaceTraits& other) const
+  {
+    return std::tie(block, sets) < std::tie(other.block, other.sets);
+  }
+};
+using FacesOfSets = std::map<GlobalId, FaceTraits>; ///< by face id
+
+/// The faces of this rank's elements in side sets that contact.pairs names.
+FacesOfSets facesOfNamedSets(const Deck& deck, const Mesh& mesh, const RankMesh& part)
+{
+  std::set<std::string> named;
+  for (const ContactPairCard& pair : deck.contact.pairs)
+    named.insert({pair.sideSets[0], pair.sideSets[1], pair.jointSet});
+  FacesOfSets faces;
+  for (std::size_t s = 0; s < mesh.sideSets.size(); ++s)
+    if (named.count(mesh.sideSets[s].name) > 0)
+      for (const RankMesh::Side& side : part.sideSets[s])
+      {
+        FaceTraits& face =
+            faces[faceId(part.blocks[side.block].elementIds[side.element], side.side)];
+        face.block = side.block;
+        face.sets.push_back(int(s));
+      }
+  return faces;
+}
+
+/// The traits that the faces of all ranks have, in the order of the lowest face id with each.
+/// Collective.
+std::vector<FaceTraits> kindsOfFaces(const FacesOfSets& faces, const Comm& comm)
+{
+  std::map<FaceTraits, GlobalId> lowest;
+  for (const auto& [id, face] : faces)
+    lowest.emplace(face, id);    // ids ascend
+  std::vector<GlobalId> numbers; // face id, block, number of sets, sets
+  for (const auto& [face, id] : lowest)
+  {
+    numbers.insert(numbers.end(), {id, face.block, GlobalId(face.sets.size())});
+    numbers.insert(numbers.end(), face.sets.begin(), face.sets.end());
+  }
+  numbers = comm.allGather(numbers);
+  for (auto next = numbers.begin(); next != numbers.end();)
+  {
+    const GlobalId id = *next++;
+    FaceTraits face{int(*next++), {}};
+    const auto end = next + 1 + *next;
+    face.sets.assign(next + 1, end);
+    next = end;
+    const auto found = lowest.emplace(face, id).first;
+    found->second = std::min(found->second, id);
+  }
+  std::vector<std::pair<GlobalId, FaceTraits>> order;
+  for (const auto& [face, id] : lowest)
+    order.emplace_back(id, face);
+  std::sort(order.begin(), order.end(),
+            [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<FaceTraits> kinds;
+  for (const auto& [id, face] : order)
+    kinds.push_back(face);
+  return kinds;
+}
+
+} // namespace
+
+void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model& model)
+{
+  ContactRules& rules = model.contactRules;
+  JointRecipe builtIn;
+  builtIn.name = "penalty (built in)";
+  rules.joints.push_back(builtIn);
+  const auto jointIndex = [&](const std::string& name)
+  {
+    const auto found = std::find_if(rules.joints.begin(), rules.joints.end(),
+                                    [&](const JointRecipe& recipe) { return recipe.name == name; });
+    return int(found - rules.joints.begin());
+  };
+  for (const JointCard& card : deck.joints)
+    rules.joints.push_back({card.name, jointLawOf(card)});
+
+  std::vector<ContactTraits> groups;
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                   [&](const BlockCard& b) { return b.name == block.name; });
+    groups.push_back({block.name, card->material, {}});
+  }
+  const FacesOfSets faces = facesOfNamedSets(deck, mesh, model.mesh);
+  std::map<FaceTraits, int> groupOf;
+  for (const FaceTraits& face : kindsOfFaces(faces, comm))
+  {
+    groupOf.emplace(face, int(groups.size()));
+    ContactTraits traits = groups[face.block];
+    for (const int set : face.sets)
+      traits.sideSets.push_back(mesh.sideSets[set].name);
+    groups.push_back(traits);
+  }
+  for (const auto& [id, face] : faces)
+    model.faceGroups.emplace_back(id, groupOf.at(face));
+
+  for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
+    if (deck.contact.pairs[i].declared)
+      rules.declaredItems.emplace_back(int(i), nameOf(deck.contact.pairs[i], i));
+
+  rules.groups = int(groups.size());
+  ContactRule general;
+  general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
+  rules.table.assign(std::size_t(rules.groups) * rules.groups, general);
+  for (int a = 0; a < rules.groups; ++a)
+    for (int b = 0; b < rules.groups; ++b)
+      if (const ContactPairCard* card = contactPairFor(deck.contact, groups[a], groups[b]))
+      {
+        ContactRule& rule = rules.table[a * rules.groups + b];
+        if (!card->joint.empty())
+          rule.joint = jointIndex(card->joint);
+        rule.declared = card->declared;
+        rule.excluded = card->excluded;
+        rule.item = int(card - deck.contact.pairs.data());
+      }
+}
+} // namespace coplane
