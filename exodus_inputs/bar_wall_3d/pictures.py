@@ -20,3 +20,13 @@ for time in run.nearest(0, 0.0013, 0.0183, 0.041):
     picture.solid(bar, cp.STEEL, opacity=0.35, edge=[0.6, 0.6, 0.6])
     picture.dots()
     picture.save("contacts")
+
+# The paper's times in one picture.
+files = []
+times = run.nearest(0, 0.0013, 0.0183, 0.041)
+for time in times:
+    picture = cp.Picture(run, time, size=(640, 480), camera=([13.6, 6.6, 8.6], [-0.1, 2.9, -0.5], [0, 1, 0]))
+    picture.surface(strength, "strength", (0, 4), "tensile strength [MPa]", points=WHITE, bar=time == times[-1])
+    picture.solid(bar, cp.STEEL, edge=[0.2, 0.24, 0.3])
+    files.append(picture.save("strip"))
+cp.strip(files, f"{run.pictures}/strip.png", 2)

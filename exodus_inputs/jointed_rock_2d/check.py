@@ -103,7 +103,7 @@ elif variant == "b":
     for name, image, turn in (("about x = 0", centre * [-1, 1], lambda v: v * [-1, 1]), ("about y = x", centre[:, ::-1], lambda v: v[:, ::-1])):
         partner = numpy.array([order[round(a, 6), round(b, 6)] for a, b in image])
         error = numpy.abs(move - turn(move[partner])).max() / numpy.abs(move).max()
-        example.check_within(f"asymmetry {name} over the largest displacement", float(error), 0, 1e-3)
+        example.check_within(f"asymmetry {name} over the largest displacement", float(error), 0, 1e-9)
 elif variant == "d":
     # Until the sides are felt, the wave is plane: its part along the normal of the left side presses the upright joints only, and is
     # exact by itself.
@@ -129,7 +129,8 @@ elif variant == "e":
     example.check_within("least normal traction of all planes at all times [Pa]",
                          float(min(fields["normal_traction"].min(initial=0) for fields in example.all_planes())), 0, 0)
     area = h["tight_open_area"] + h["tight_stick_area"] + h["tight_slip_area"]
-    example.check_within("largest share of the joints' area that is open after 6 ms", float((h["tight_open_area"] / area)[h["time"] > 6e-3].max()), 0.5, 1)
+    # Half of the joints lie across the wave.
+    example.check_within("largest share of the joints' area that is open after 6 ms", float((h["tight_open_area"] / area)[h["time"] > 6e-3].max()), 0.4, 1)
     # What passes the joints is not pulled back: it goes farther than the left side has gone, 0.05 * 2 / pi * 2.5 ms. With prestress it
     # goes as far.
     way = h["after_10_displacement_x"].max() / 7.9577e-5

@@ -42,12 +42,17 @@ step = int(numpy.argmin(numpy.abs(results.times - exit_time)))
 damage, centre = results.element("bricks", "damage", step), results.centres("bricks")
 track = numpy.abs(centre[:, 1]) < 0.0125
 far = numpy.abs(centre[:, 1]) > 0.2
-example.check_within("mean damage in front of the projectile", float(damage[track].mean()), 0.8, 1)
+# Cracks are bands of one element's width, so mean damage falls as elements get smaller; that every quarter of a brick is broken does not.
+example.check_within("mean damage in front of the projectile", float(damage[track].mean()), 0.3, 1)
+cells = numpy.unique(numpy.floor(centre[track] / 0.0125).astype(int), axis=0, return_inverse=True)[1].ravel()
+broken = [damage[track][cells == cell].max() > 0.99 for cell in range(cells.max() + 1)]
+example.check_within("squares of 12.5 mm in front of the projectile with a fully damaged element, share", float(numpy.mean(broken)), 0.95, 1)
 example.check_within("share of elements more than 0.2 m away that are fully damaged (D > 0.99)", float((damage[far] > 0.99).mean()), 0, 0.02)
 corners = (results.coordinates + results.nodal("displacement", step))[results.connectivity("bricks")]
 edges = numpy.linalg.norm(corners - numpy.roll(corners, 1, axis=1), axis=2)
 stretch = edges.max(axis=1) / size
-example.check_within("longest edge of a damaged element over h", float(stretch[damage > 0.99].max()), 1.3, 20)
+alive = results.element("bricks", "alive", step) > 0.5
+example.check_within("longest edge of a damaged living element over h", float(stretch[alive & (damage > 0.99)].max()), 1.3, 20)
 back = (centre[:, 0] > 0.05 - size) & (numpy.abs(centre[:, 1]) < 0.05)
 moved = results.nodal("displacement_x", step)[results.connectivity("bricks")[back]].max()
 example.check_within("largest motion of the back near the axis [m]", float(moved), 0.01, 1)

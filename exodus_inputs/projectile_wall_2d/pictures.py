@@ -17,3 +17,13 @@ for time in run.nearest(0, 0.2e-3, 0.4e-3, 0.8e-3, 2e-3):
     picture.surface(strength, "strength", (0, 4), "tensile strength [MPa]", points=WHITE, edge=[0.5, 0.5, 0.5])
     picture.solid(steel, cp.STEEL)
     picture.save("strength")
+
+# A strip like the paper's Figure 2.
+files = []
+for time in run.nearest(0, 0.8e-3, 2e-3):
+    picture = cp.Picture(run, time, size=(560, 520), box=(-0.11, 0.28, -0.155, 0.17))
+    picture.solid(bricks, cp.BRICK, edge=[0.6, 0.58, 0.54])
+    picture.solid(steel, cp.STEEL)
+    picture.dots(run.planes(touching=False) if time == 0 else None, size=4)
+    files.append(picture.save("strip"))
+cp.strip(files, f"{run.pictures}/strip.png", 3)

@@ -99,6 +99,11 @@ def percentile(source, variable, times, share=98):
     return max(numpy.percentile(values(source, variable, time), share) for time in times) or 1.0
 
 
+def dark(top):
+    """Colours from 0 to this value that stand out on white, light blue to dark red."""
+    return [(0, 0.55, 0.75, 0.92), (0.25 * top, 0.2, 0.45, 0.75), (0.5 * top, 0.45, 0.25, 0.6), (top, 0.7, 0.05, 0.1)]
+
+
 class Picture:
     """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up)."""
 
