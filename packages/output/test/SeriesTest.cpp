@@ -14,6 +14,7 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
   const Comm comm;
   const TestFolder folder(comm);
   const Mesh mesh = twoCubes();
+  const MeshSlice slice = sliceOf(mesh, comm.rank(), comm.size());
   Solver solver(cubesInContact(mesh, comm), comm);
   solver.prepare();
   const std::string file = folder / "a.e";
@@ -21,7 +22,7 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
   options.file = file;
   std::map<std::string, std::string> positions;
   {
-    ResultsObserver first(comm, mesh, options);
+    ResultsObserver first(comm, slice, options);
     first.start(solver);
     first.savePosition(positions);
     first.finish(solver, "completed");
@@ -32,7 +33,7 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
   comm.barrier();
   options.part = 3;
   options.position = positions.at("results");
-  const ResultsObserver third(comm, mesh, options);
+  const ResultsObserver third(comm, slice, options);
   comm.barrier();
   EXPECT_TRUE(std::filesystem::exists(file));
   for (const int part : {2, 3, 4})
