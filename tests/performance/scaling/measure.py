@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Counts messages, bytes and memory of whole runs, for the model in docs/developer/scaling.md.
 
-    tests/performance/scaling/measure.py [--bin build/bin]
+    tests/performance/scaling/measure.py [--bin build/bin] [--memory]
 
 Boxes of n^3 hexahedra (one elastic block; or two halves that press on each other across a joint) run for two numbers of cycles; the
 difference is what a cycle costs. MPI calls are counted by traffic.c, which is preloaded; memory is what the operating system says.
@@ -91,6 +91,7 @@ class Counter:
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, default=TOP / "build/bin", help="folder with coplane and coplane_mesh")
+    parser.add_argument("--memory", action="store_true", help="measure memory only")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -98,9 +99,11 @@ def main():
         subprocess.run(["mpicc", "-O2", "-shared", "-fPIC", "-o", library, HERE / "traffic.c"], check=True)
         counter = Counter(folder, options.bin.resolve(), library)
 
-        print("| run | n | ranks | elements a rank | calls and bytes a cycle, of the rank with most |")
-        print("|---|---|---|---|---|")
-        for kind, sizes, all_ranks, search in [("block", (12, 24), (2, 4, 8), 4), ("contact", (12, 24), (2, 4, 8), "once"), ("contact", (12, 24), (2, 4, 8), 4)]:
+        traffic = [("block", (12, 24), (2, 4, 8), 4), ("contact", (12, 24), (2, 4, 8), "once"), ("contact", (12, 24), (2, 4, 8), 4)]
+        if not options.memory:
+            print("| run | n | ranks | elements a rank | calls and bytes a cycle, of the rank with most |")
+            print("|---|---|---|---|---|")
+        for kind, sizes, all_ranks, search in [] if options.memory else traffic:
             for n in sizes:
                 counter.mesh(kind, n)
                 for ranks in all_ranks:
