@@ -6,13 +6,15 @@ import sys
 from coplanetest.program import Run
 from slab import MEASURED, forrestal, numbers
 
+found = [(folder, numbers(Run(folder, 0, ""), folder)) for folder in map(pathlib.Path, sys.argv[1:])]
+several = len({of["size"] for _, of in found}) > 1
 curves = {}
-for folder in map(pathlib.Path, sys.argv[1:]):
-    of = numbers(Run(folder, 0, ""), folder)
+for folder, of in found:
     if of["slab"]:
         known = f"measured {MEASURED[of['impact']]:.0f} m/s" if of["impact"] in MEASURED else "not measured"
         print(f"{folder.name}: {of['impact']} m/s, residual {of['residual']:.0f} m/s, {known}")
-        curves.setdefault(of["curve"], []).append((of["impact"], of["residual"]))
+        label = of["curve"] + (f", {1e3 * of['size']:.0f} mm" if several else "")
+        curves.setdefault(label, []).append((of["impact"], of["residual"]))
     else:
         expected = forrestal(of["impact"])
         print(f"{folder.name}: {of['impact']} m/s, depth {1e3 * of['depth']:.0f} mm, Forrestal {1e3 * expected:.0f} mm, "
@@ -28,7 +30,7 @@ if max(map(len, curves.values()), default=0) > 1:
 
     figure, axes = pyplot.subplots(figsize=(5.6, 4), layout="constrained")
     axes.plot(*zip(*sorted(MEASURED.items())), "ks", label="Hanchak et al. 1992")
-    for marker, curve in zip(("o-", "^-", "v--", "d--"), sorted(curves, reverse=True)):
+    for marker, curve in zip(("o-", "^-", "s-", "v--", "d--", "x--"), sorted(curves, reverse=True)):
         axes.plot(*zip(*sorted(curves[curve])), marker, label=curve, markersize=5)
     axes.plot([0, 1100], [0, 1100], ":", color="0.6")
     axes.set(xlabel="impact speed [m/s]", ylabel="residual speed [m/s]", xlim=(250, 1100), ylim=(-20, 1050))
