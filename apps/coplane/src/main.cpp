@@ -170,7 +170,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     putAside(deck.checkpoint.file);
   MultiObserver observers;
   addObservers(observers, deck, mesh, comm, settings);
-  Rebalancer rebalancer(mesh, rebalanceOptionsOf(deck, toBuild.count()), modelOf);
+  Rebalancer rebalancer(comm, mesh, rebalanceOptionsOf(deck, toBuild.count()), modelOf);
   const ExitCode code = solver.run(observers, &rebalancer);
   reportEnd(solver);
   return int(code);

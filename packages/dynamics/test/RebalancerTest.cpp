@@ -209,11 +209,12 @@ TEST(Rebalancer, looksEverySoManyCyclesAndTellsTheObserver)
     options.when = when;
     options.every = 5;
     options.above = 1;
-    options.firstCost = 1e9; // never pays
+    // Never pays; ranks that measure different costs still decide alike.
+    options.firstCost = comm.isRoot() && comm.size() > 1 ? 0 : 1e9;
     Model model = contactOnTheLeftModel(comm);
     model.time.fixedStep = 1e-5;
     model.time.end = 21.5e-5; // 22 cycles
-    Rebalancer rebalancer(mesh, options,
+    Rebalancer rebalancer(comm, mesh, options,
                           [&](RankMesh part)
                           {
                             Model again = contactOnTheLeftModel(comm);

@@ -147,10 +147,10 @@ void RebalanceLedger::done(double cost)
   lost_ = 0;
 }
 
-Rebalancer::Rebalancer(const MeshSlice& mesh, RebalanceOptions options,
+Rebalancer::Rebalancer(const Comm& comm, const MeshSlice& mesh, RebalanceOptions options,
                        std::function<Model(RankMesh)> modelOf)
     : mesh_(&mesh), options_(std::move(options)), modelOf_(std::move(modelOf)),
-      ledger_(options_.firstCost)
+      ledger_(comm.max(options_.firstCost))
 {
 }
 

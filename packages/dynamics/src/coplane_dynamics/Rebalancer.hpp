@@ -24,7 +24,7 @@ struct RebalanceOptions
   std::int64_t every = 500; ///< cycles from one look to the next
   Real above = 1.1;         ///< the busiest rank's work over the mean above which it may pay
   std::string method = "multijagged"; ///< as nodeOwners() has it
-  /// What a rebalance costs, until one has been measured [s].
+  /// What a rebalance costs, until one has been measured, as far as this rank knows [s].
   double firstCost = 0;
 };
 
@@ -73,9 +73,9 @@ private:
 class Rebalancer
 {
 public:
-  /// `mesh` has to live as long.
+  /// `mesh` has to live as long. Collective: the first cost is the largest that a rank names.
   /// @param modelOf the model of the run for another part of the mesh
-  Rebalancer(const MeshSlice& mesh, RebalanceOptions options,
+  Rebalancer(const Comm& comm, const MeshSlice& mesh, RebalanceOptions options,
              std::function<Model(RankMesh)> modelOf);
 
   /// At the end of a cycle: looks if it is time to, and gives the solver another part when that
