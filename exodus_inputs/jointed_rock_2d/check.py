@@ -130,7 +130,8 @@ elif variant == "e":
                          float(min(fields["normal_traction"].min(initial=0) for fields in example.all_planes())), 0, 0)
     area = h["tight_open_area"] + h["tight_stick_area"] + h["tight_slip_area"]
     # Half of the joints lie across the wave.
-    example.check_within("largest share of the joints' area that is open after 6 ms", float((h["tight_open_area"] / area)[h["time"] > 6e-3].max()), 0.4, 1)
+    example.check_within("largest share of the joints' area that is open after 6 ms", float((h["tight_open_area"] / area)[h["time"] > 6e-3].max()),
+                         0.5 if example.size == "coarse" else 0.4, 1)
     # What passes the joints is not pulled back: it goes farther than the left side has gone, 0.05 * 2 / pi * 2.5 ms. With prestress it
     # goes as far.
     way = h["after_10_displacement_x"].max() / 7.9577e-5

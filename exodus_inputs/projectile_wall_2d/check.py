@@ -43,7 +43,8 @@ damage, centre = results.element("bricks", "damage", step), results.centres("bri
 track = numpy.abs(centre[:, 1]) < 0.0125
 far = numpy.abs(centre[:, 1]) > 0.2
 # Cracks are bands of one element's width, so mean damage falls as elements get smaller; that every quarter of a brick is broken does not.
-example.check_within("mean damage in front of the projectile", float(damage[track].mean()), 0.3, 1)
+example.check_within("mean damage in front of the projectile", float(damage[track].mean()),
+                     0.8 if example.size in ("coarse", "S") else 0.3, 1)
 cells = numpy.unique(numpy.floor(centre[track] / 0.0125).astype(int), axis=0, return_inverse=True)[1].ravel()
 broken = [damage[track][cells == cell].max() > 0.99 for cell in range(cells.max() + 1)]
 example.check_within("squares of 12.5 mm in front of the projectile with a fully damaged element, share", float(numpy.mean(broken)), 0.95, 1)

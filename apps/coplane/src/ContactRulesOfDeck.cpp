@@ -90,7 +90,6 @@ std::vector<FaceTraits> kindsOfFaces(const FacesOfSets& faces, const Comm& comm)
     kinds.push_back(face);
   return kinds;
 }
-
 } // namespace
 
 void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model& model)

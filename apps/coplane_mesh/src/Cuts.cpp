@@ -3,6 +3,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_input/Suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -268,9 +269,8 @@ private:
         return int(b);
       names.push_back(mesh_.blocks[b].name);
     }
-    const auto near = nearestWord(name, names);
     joint.refuse("blocks", fmt::format("names '{}', which is no block of the mesh.{}", name,
-                                       near ? fmt::format(" Did you mean '{}'?", *near) : ""));
+                                       didYouMean(name, names)));
   }
 
   void selectBorders(const RecipeMap& joint, std::vector<bool>& wanted) const
@@ -338,10 +338,8 @@ private:
       }
       if (!set)
       {
-        const auto near = nearestWord(name, names);
-        joint.refuse("side_sets",
-                     fmt::format("names '{}', which is no side set of the mesh.{}", name,
-                                 near ? fmt::format(" Did you mean '{}'?", *near) : ""));
+        joint.refuse("side_sets", fmt::format("names '{}', which is no side set of the mesh.{}",
+                                              name, didYouMean(name, names)));
       }
       int interior = 0;
       for (std::size_t i = 0; i < set->elements.size(); ++i)

@@ -3,6 +3,7 @@
 #include "Ogive.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_input/Suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -387,10 +388,8 @@ Part readPart(const YAML::Node& node, const std::string& file, const std::string
   const std::string shape = node["shape"].IsScalar() ? node["shape"].Scalar() : "";
   if (std::find(shapes.begin(), shapes.end(), shape) == shapes.end())
   {
-    const auto near = nearestWord(shape, shapes);
     fail(ExitCode::Deck, "{}: {}.shape = '{}' is not known; use {}.{}",
-         placeOf(file, node["shape"]), path, shape, shapeWords(),
-         near ? fmt::format(" Did you mean '{}'?", *near) : "");
+         placeOf(file, node["shape"]), path, shape, shapeWords(), didYouMean(shape, shapes));
   }
   const RecipeMap map(node, file, path, keysOf(shape));
   Part part;

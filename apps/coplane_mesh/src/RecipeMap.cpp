@@ -1,12 +1,12 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_input/Suggestion.hpp>
 #include <coplane_input/YamlText.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -20,30 +20,6 @@ std::string joined(const std::vector<std::string>& words)
   for (const std::string& word : words)
     text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-int editDistance(const std::string& a, const std::string& b)
-{
-  std::vector<int> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0);
-  for (std::size_t i = 1; i <= a.size(); ++i)
-  {
-    int diagonal = row[0];
-    row[0] = int(i);
-    for (std::size_t j = 1; j <= b.size(); ++j)
-    {
-      const int above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
-std::string suggestion(const std::string& word, const std::vector<std::string>& words)
-{
-  const auto near = nearestWord(word, words);
-  return near ? fmt::format(" Did you mean '{}'?", *near) : "";
 }
 } // namespace
 
@@ -83,20 +59,6 @@ std::string placeOf(const std::string& file, const YAML::Node& node)
   return mark.is_null() ? file : fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1);
 }
 
-std::optional<std::string> nearestWord(const std::string& word,
-                                       const std::vector<std::string>& words)
-{
-  std::optional<std::string> nearest;
-  int least = 3; // two letters wrong at most
-  for (const std::string& candidate : words)
-    if (const int distance = editDistance(word, candidate); distance < least)
-    {
-      least = distance;
-      nearest = candidate;
-    }
-  return nearest;
-}
-
 RecipeMap::RecipeMap(YAML::Node node, std::string file, std::string path,
                      std::vector<std::string> accepted)
     : node_(std::move(node)), file_(std::move(file)), path_(std::move(path))
@@ -111,7 +73,7 @@ RecipeMap::RecipeMap(YAML::Node node, std::string file, std::string path,
     const std::string key = entry.first.as<std::string>();
     if (std::find(accepted.begin(), accepted.end(), key) == accepted.end())
       fail(ExitCode::Deck, "{}: {} is not known; {} accepts {}.{}", placeOf(file_, entry.first),
-           pathOf(key), name, joined(accepted), suggestion(key, accepted));
+           pathOf(key), name, joined(accepted), didYouMean(key, accepted));
     if (!seen.insert(key).second)
       fail(ExitCode::Deck, "{}: {} is given twice; keep one.", placeOf(file_, entry.first),
            pathOf(key));
@@ -151,7 +113,7 @@ std::string RecipeMap::choice(const std::string& key, const std::vector<std::str
   const std::string word = text(key);
   if (std::find(words.begin(), words.end(), word) == words.end())
     refuse(key, fmt::format("= '{}' is not known; use {}.{}", word, joined(words),
-                            suggestion(word, words)));
+                            didYouMean(word, words)));
   return word;
 }
 

@@ -5,7 +5,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <array>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -70,8 +69,4 @@ YAML::Node parseRecipe(const std::string& text, const std::string& name);
 
 /// "file:line:column", counted from 1.
 std::string placeOf(const std::string& file, const YAML::Node& node);
-
-/// The word of a list that is nearest to a misspelt one, when near enough to be meant.
-std::optional<std::string> nearestWord(const std::string& word,
-                                       const std::vector<std::string>& words);
 } // namespace coplane

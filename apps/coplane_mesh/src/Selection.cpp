@@ -2,6 +2,8 @@
 
 #include "MeshFaces.hpp"
 
+#include <coplane_input/Suggestion.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -82,9 +84,8 @@ Filter readFilter(const Mesh& mesh, const RecipeMap& map, Real tolerance)
       }
       if (!found)
       {
-        const auto near = nearestWord(name, names);
         map.refuse("block", fmt::format("= '{}' is no block of the parts.{}", name,
-                                        near ? fmt::format(" Did you mean '{}'?", *near) : ""));
+                                        didYouMean(name, names)));
       }
     }
   filter.where = readRanges(map, "where", mesh.dimension, tolerance);

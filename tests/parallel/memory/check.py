@@ -30,6 +30,6 @@ def elements_alone(ranks):
 
 four, eight = elements_alone(4), elements_alone(8)
 case.check_within("bytes for each own element on 4 ranks", four / ELEMENTS, 200, 3000)
-# A rank that held the whole mesh took 190 bytes for each element of others; ranks of one run differ by 10 to 40.
-case.check_within("bytes for each element of others", (eight - four) / (4 * ELEMENTS), -80, 80)
+# Ranks that held the whole mesh while they read it took 80 here, where the peak comes later.
+case.check_within("bytes for each element of others", (eight - four) / (4 * ELEMENTS), -40, 40)
 case.finish()

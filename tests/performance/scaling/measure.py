@@ -30,14 +30,16 @@ def box(name, low, high, divisions):
 
 
 def recipe_of(kind, n):
-    """n x n x n elements in all; in contact the upper half has one element more along both sides of the joint."""
+    """n x n x n elements in all; in contact the upper half has one element more along both sides of the joint. A bar: 16 x 16 x n."""
+    if kind == "bar":
+        return {"dimension": 3, "parts": [box("lower", [0, 0, 0], [16, 16, n], [16, 16, n])]}
     if kind == "block":
         return {"dimension": 3, "parts": [box("lower", [0, 0, 0], [1, 1, 1], [n, n, n])]}
     return {"dimension": 3, "parts": [box("lower", [0, 0, 0], [1, 1, 0.5], [n, n, n // 2]), box("upper", [0, 0, 0.5], [1, 1, 1], [n + 1, n + 1, n // 2])]}
 
 
 def deck_of(kind, cycles, search):
-    blocks = ["lower"] if kind == "block" else ["lower", "upper"]
+    blocks = ["lower", "upper"] if kind == "contact" else ["lower"]
     deck = {
         "mesh": "mesh.e",
         "materials": {"stone": {"model": "linear_elastic", "density": 2500, "youngs_modulus": 1e9, "poisson_ratio": 0.25}},
@@ -46,7 +48,9 @@ def deck_of(kind, cycles, search):
         "output": {"results": "none", "planes": False},
         "history": {"every": 1},
     }
-    if kind == "block":
+    if kind == "bar":
+        deck["partition"] = {"method": "rcb"}
+    if kind != "contact":
         deck["contact"] = {"enabled": False}
     else:
         deck["joints"] = {"dry": {"model": "closure_curve", "initial_stiffness": 1e10, "maximum_closure": 1e-3, "shear_stiffness": 5e9, "friction": 0.5}}
@@ -56,8 +60,8 @@ def deck_of(kind, cycles, search):
 
 
 class Counter:
-    def __init__(self, folder, binaries, library):
-        self.folder, self.bin, self.library = folder, binaries, library
+    def __init__(self, folder, binaries, counting):
+        self.folder, self.bin, self.counting = folder, binaries, counting
 
     def mesh(self, kind, n):
         documents.save({"title": "counts", **recipe_of(kind, n)}, self.folder / "mesh.yaml")
@@ -67,7 +71,7 @@ class Counter:
         """What each rank did: a list of counts; and the record of the run."""
         documents.save(deck_of(kind, cycles, search), self.folder / "run.yaml")
         command = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(ranks), "-x", "LD_PRELOAD", "-x", "TRAFFIC", self.bin / "coplane", "run.yaml", "--backend", "serial", "--quiet"]
-        environment = {**os.environ, "LD_PRELOAD": str(self.library), "TRAFFIC": str(self.folder / "traffic"),
+        environment = {**os.environ, "LD_PRELOAD": str(self.counting), "TRAFFIC": str(self.folder / "traffic"),
                        "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
         done = subprocess.run(command, cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:
@@ -95,9 +99,9 @@ def main():
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        library = folder / "libtraffic.so"
-        subprocess.run(["mpicc", "-O2", "-shared", "-fPIC", "-o", library, HERE / "traffic.c"], check=True)
-        counter = Counter(folder, options.bin.resolve(), library)
+        counting = folder / "libtraffic.so"
+        subprocess.run(["mpicc", "-O2", "-shared", "-fPIC", "-o", counting, HERE / "traffic.c"], check=True)
+        counter = Counter(folder, options.bin.resolve(), counting)
 
         traffic = [("block", (12, 24), (2, 4, 8), 4), ("contact", (12, 24), (2, 4, 8), "once"), ("contact", (12, 24), (2, 4, 8), 4)]
         if not options.memory:
@@ -112,15 +116,18 @@ def main():
                     label = kind if kind == "block" else f"{kind}, search {search}"
                     print(f"| {label} | {n} | {ranks} | {n**3 // ranks} | {text} |", flush=True)
 
-        print("\n| run | n | elements | planes | ranks | peak memory of a rank [MB] |\n|---|---|---|---|---|---|")
-        for kind in ("block", "contact"):
-            for n in (32, 48, 64):
-                counter.mesh(kind, n)
-                for ranks in (1, 2, 4):
-                    counts, record = counter.run(kind, ranks, 5)
-                    size = record["sizes"]
-                    largest = max(count["largest"] for count in counts) / 1e6
-                    print(f"| {kind} | {n} | {size['elements']} | {size.get('planes', 0)} | {ranks} | {largest:.1f} |", flush=True)
+        print("\n| run | n | elements | planes | ranks | peak memory of the ranks [MB] |\n|---|---|---|---|---|---|")
+        some, many = (1, 2, 4), (1, 2, 4, 8, 16)
+        memory = [("block", 32, some), ("block", 48, many), ("block", 64, many), ("contact", 32, some), ("contact", 48, some), ("contact", 64, some)]
+        # Bars of 64 layers for each rank, cut across; and of so few elements that only what a run takes anyway is seen.
+        memory += [("bar", layers, (ranks,)) for ranks in (4, 8, 16) for layers in (64 * ranks, ranks)]
+        for kind, n, all_ranks in memory:
+            counter.mesh(kind, n)
+            for ranks in all_ranks:
+                counts, record = counter.run(kind, ranks, 5)
+                size = record["sizes"]
+                peaks = sorted(count["largest"] / 1e6 for count in counts)
+                print(f"| {kind} | {n} | {size['elements']} | {size.get('planes', 0)} | {ranks} | {peaks[0]:.1f} to {peaks[-1]:.1f} |", flush=True)
 
 
 main()
