@@ -30,13 +30,17 @@ ErosionCriteria erosionOf(const ErosionCard& card)
   return erosion;
 }
 
-ContactOptions optionsOf(const ContactCard& card)
+ContactOptions optionsOf(const Deck& deck)
 {
+  const ContactCard& card = deck.contact;
   ContactOptions options;
   options.method = card.method == "common_plane" ? ContactOptions::Method::CommonPlane
                                                  : ContactOptions::Method::SimpleCommonPlane;
   options.planeSearch = card.planeSearch == "rotations" ? ContactOptions::PlaneSearch::Rotations
                                                         : ContactOptions::PlaneSearch::Candidates;
+  options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
+                       ? ContactOptions::Forces::Potential
+                       : ContactOptions::Forces::CommonNormal;
   options.area =
       card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
@@ -386,7 +390,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.conditions = conditionsOf(deck, mesh, part, model.blocks);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;
-  model.contact = optionsOf(deck.contact);
+  model.contact = optionsOf(deck);
   if (deck.geometry == "axisymmetric")
   {
     revolve(part, deck, comm, model.conditions);

@@ -106,7 +106,7 @@ Push simplePush(const ConvexBlock& a, int faceA, const ConvexBlock& b, int nodeO
       continue;
     PairPlane plane = touchingPlane();
     updatePlane<Dim>(plane, nodesA, nodesB, o, 1);
-    push.force += plane.force;
+    push.force += plane.forceOn(1);
     push.area += plane.area;
     push.planes += plane.area > 0;
   }

@@ -96,7 +96,7 @@ Total pushed(const std::vector<FaceNodes>& lower, const std::vector<FaceNodes>& 
         continue; // step 5 makes no candidate of it
       PairPlane plane = touchingPlane();
       updatePlane<Dim>(plane, a, b, o, dt);
-      total.force += plane.force;
+      total.force += plane.forceOn(1);
       total.planes += plane.area > 1e-12;
     }
   return total;

@@ -346,7 +346,7 @@ TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
           << "no tilt may open the classic gap further";
     EXPECT_LT(norm(plane.normal - classic.normal), 1e-12);
     EXPECT_NEAR(plane.area, classic.area, 1e-12);
-    EXPECT_NEAR(norm(plane.force), -1e5 * classic.area * classic.gap, 1e-12 * 1e5);
+    EXPECT_NEAR(norm(plane.forceOn(1)), -1e5 * classic.area * classic.gap, 1e-12 * 1e5);
   }
 }
 
@@ -379,7 +379,7 @@ TEST(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
   PairPlane plane = touchingPlane();
   updatePlane<3>(plane, a, b, ContactOptions{}, 1);
   EXPECT_EQ(plane.area, 0.0);
-  EXPECT_EQ(norm(plane.force), 0.0);
+  EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
 }
 
 TEST(FacePair_FaceToFace, segmentsEndToEndDoNotTouch)
@@ -410,5 +410,5 @@ TEST(FacePair_FaceToFace, pressureOnATiltedFaceActsAtTheCentreOfPressure)
   const Real near = norm(plane.cornerForce[0][0]) + norm(plane.cornerForce[0][3]);
   const Real far = norm(plane.cornerForce[0][1]) + norm(plane.cornerForce[0][2]);
   EXPECT_NEAR(far / (near + far), 2.0 / 3, 1e-4); // both faces are seen at .005 rad
-  EXPECT_NEAR(norm(plane.force), .005, 1e-6);
+  EXPECT_NEAR(norm(plane.forceOn(1)), .005, 1e-6);
 }

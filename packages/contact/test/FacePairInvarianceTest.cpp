@@ -28,8 +28,8 @@ PairPlane history(FaceNodes a, FaceNodes b, const ContactOptions& o, int steps =
 /// Largest relative difference of force and shear traction. `sign` is -1 after a swap of labels.
 Real difference(const PairPlane& p, const PairPlane& q, const Mat3& r, Real sign)
 {
-  const Real size = norm(p.force);
-  Real d = norm(r * p.force - sign * q.force) / size;
+  const Real size = norm(p.forceOn(1));
+  Real d = norm(r * p.forceOn(1) - sign * q.forceOn(1)) / size;
   d = std::max(d,
                norm(r * p.history.shearTraction - sign * q.history.shearTraction) * p.area / size);
   d = std::max(d, std::abs(p.area - q.area) / p.area);
@@ -47,7 +47,7 @@ Real worstOver(int pairs, Real warp, const ContactOptions& o, const Change& chan
   {
     const auto [a, b] = randomPair(random, warp);
     const PairPlane reference = history(a, b, o);
-    if (!(norm(reference.force) > .01))
+    if (!(norm(reference.forceOn(1)) > .01))
       continue;
     ++n;
     worst = std::max(worst, change(a, b, reference));
@@ -66,7 +66,7 @@ Real worstSwap(Real warp, const ContactOptions& o)
                        worst = std::max(
                            worst, (norm(reference.cornerForce[0][i] - swapped.cornerForce[1][i]) +
                                    norm(reference.cornerForce[1][i] - swapped.cornerForce[0][i])) /
-                                      norm(reference.force));
+                                      norm(reference.forceOn(1)));
                      return worst;
                    });
 }
@@ -86,7 +86,7 @@ Real worstStart(Real warp, const ContactOptions& o)
                            worst =
                                std::max(worst, norm(reference.cornerForce[0][(k + i) % a.count] -
                                                     turned.cornerForce[0][k]) /
-                                                   norm(reference.force));
+                                                   norm(reference.forceOn(1)));
                        }
                      return worst;
                    });
@@ -196,14 +196,14 @@ TEST(FacePair_Dimensions, segmentsAndTheirExtrusionAgreeAlongAPath)
             }
           updatePlane<2>(flat, a, b, o, .01);
           updatePlane<3>(solid, extruded(a), extruded(b), o, .01);
-          const Real size = 1 + norm(flat.force);
+          const Real size = 1 + norm(flat.forceOn(1));
           ASSERT_NEAR(flat.area, solid.area, 1e-12);
           ASSERT_NEAR(flat.closure, solid.closure, 1e-12);
-          ASSERT_LT(norm(flat.force - solid.force), 1e-10 * size);
+          ASSERT_LT(norm(flat.forceOn(1) - solid.forceOn(1)), 1e-10 * size);
           ASSERT_LT(norm(flat.history.shearTraction - solid.history.shearTraction), 1e-9);
           ASSERT_NEAR(flat.work, solid.work, 1e-10 * size);
           ASSERT_NEAR(flat.frictionWork, solid.frictionWork, 1e-10 * size);
-          loaded += norm(flat.force) > 0;
+          loaded += norm(flat.forceOn(1)) > 0;
         }
       }
   EXPECT_GT(loaded, 1000);

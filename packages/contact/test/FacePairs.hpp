@@ -2,6 +2,7 @@
 
 #include <coplane_contact/FacePairKernel.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -75,7 +76,6 @@ struct PairPlane : coplane::Plane
 {
   JointLaw law;
   Vec3 cornerForce[2][4] = {};
-  Real storedNow() const { return stored(law); }
 };
 
 /// A plane that exists already and whose joint is just closed at zero gap.
@@ -91,22 +91,6 @@ inline PairPlane touchingPlane(Real stiffness = 1, Real friction = 0)
   return plane;
 }
 
-/// Forces of a plane on the corners of its faces.
-template <int Dim>
-void cornerForces(const coplane::Plane& plane, const FaceNodes& a, const FaceNodes& b,
-                  Vec3 (&forces)[2][4])
-{
-  const FaceNodes* faces[2] = {&a, &b};
-  for (int f = 0; f < 2; ++f)
-  {
-    FaceLoad load;
-    load.add(plane, f, faces[f]->count);
-    load.balanceMoment<Dim>(faces[f]->x, faces[f]->count);
-    for (int i = 0; i < 4; ++i)
-      forces[f][i] = load.force(i);
-  }
-}
-
 /// Steps A to H.
 template <int Dim>
 void updatePlane(PairPlane& plane, const FaceNodes& a, const FaceNodes& b, const ContactOptions& o,
@@ -114,7 +98,7 @@ void updatePlane(PairPlane& plane, const FaceNodes& a, const FaceNodes& b, const
 {
   updatePlane<Dim>(plane, stepA_halfStepFace<Dim>(a, dt), stepA_halfStepFace<Dim>(b, dt), plane.law,
                    o, dt);
-  cornerForces<Dim>(plane, a, b, plane.cornerForce);
+  std::copy(&plane.nodal[0][0], &plane.nodal[0][0] + 8, &plane.cornerForce[0][0]);
 }
 
 inline ContactOptions options(ContactOptions::Area area, ContactOptions::Weights weights)

@@ -71,7 +71,7 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
                                                const ContactOptions& options, Real dt)
 {
   plane.overlap = 0;
-  plane.stiffness = 0;
+  plane.nodeStiffness = 0;
   plane.foundLate = false;
   if (!plane.leads)
   {
@@ -126,8 +126,8 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
     PlaneBatch<Real> one;
     one.plane[0] = &plane;
     one.law[0] = &law;
-    stepH_updatePlaneVariables<Real>(one, true, patch, gap, trial, a, b, shadowA, shadowB, options,
-                                     dt);
+    stepH_updatePlaneVariables<Dim, Real>(one, true, patch, gap, trial, a, b, shadowA, shadowB,
+                                          options, dt);
   }
   else
   {
@@ -137,6 +137,8 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
   plane.fresh = false;
   const Real approach = 2 * dt * approachSpeed(classic.normal, elementA, elementB);
   const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
-  plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
+  plane.nodeStiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) *
+                                     areaOfNode(patch, a.count, b.count))
+                             : 0;
 }
 } // namespace coplane

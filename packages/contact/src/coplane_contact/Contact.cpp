@@ -107,7 +107,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
     if (!plane.born || !plane.countedHere)
       continue;
     // What the last force still does in this step belongs to what is lost.
-    Real eroded = plane.stored(lawOf(plane)) - plane.work;
+    Real eroded = plane.stored - plane.work;
     if (plane.area > 0)
       bookOldForce(plane, halfStep(plane.face[0]), halfStep(plane.face[1]), dt);
     eroded += plane.work;
@@ -220,10 +220,13 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
       return;
     FaceNodes nodes;
     gatherNodes(&faces(f), x, v, mass, nodes);
+    const bool atEnd = options.forces == ContactOptions::Forces::Potential;
     if (dimension == 2)
-      new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<2>(nodes, dt));
+      new (&halfStep(f))
+          HalfStepFace(atEnd ? stepA_faceAtEnd<2>(nodes) : stepA_halfStepFace<2>(nodes, dt));
     else
-      new (&halfStep(f)) HalfStepFace(stepA_halfStepFace<3>(nodes, dt));
+      new (&halfStep(f))
+          HalfStepFace(atEnd ? stepA_faceAtEnd<3>(nodes) : stepA_halfStepFace<3>(nodes, dt));
   };
   const int faceCount = int(faces.extent(0));
   parallelFor(
@@ -242,7 +245,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
         }
         FaceNodesOf<Lanes> nodes;
         gatherNodes(&faces(first), x, v, mass, nodes);
-        stepA_halfStepFaces(nodes, dt, &halfStep(first));
+        stepA_faces(nodes, options.forces, dt, &halfStep(first));
       });
   const int planeCount = int(planes.extent(0));
   if (dimension == 3 && !classic)
@@ -266,7 +269,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
           const HalfStepFace& b = halfStep(plane.face[1]);
           if (!classic)
           {
-            updatePlane<2>(plane, a, b, laws(plane.joint), options, dt);
+            updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
             return;
           }
           const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
@@ -300,36 +303,25 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
 }
 
-void Contact::addForces(const ConstNodeVectors& x, const NodeVectors& f,
-                        const Array<Real>& stiffness) const
+void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
 {
   const auto planes = planes_;
-  const auto faces = faceTable_;
   const auto loads = faceLoads_;
   const auto planesStart = planesStart_, planesEntry = planesEntry_;
   const auto facesStart = facesStart_, facesEntry = facesEntry_;
-  const int dimension = dimension_;
   const std::int32_t entries = std::int32_t(planesEntry.extent(0));
   constexpr std::int32_t ahead = 6;
   parallelFor(
       "coplane::contact::faceLoads", int(loads.extent(0)), KOKKOS_LAMBDA(const int n) {
-        const Face& face = faces(n);
         FaceLoad& load = *new (&loads(n)) FaceLoad;
         for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
         {
           if (i + ahead < entries)
             prefetch(planes(planesEntry(i + ahead) / 2));
           const Plane& plane = planes(planesEntry(i) / 2);
-          if (plane.area > 0 || plane.stiffness > 0)
-            load.add(plane, planesEntry(i) % 2, face.count);
+          if (plane.area > 0 || plane.nodeStiffness > 0)
+            load.add(plane, planesEntry(i) % 2);
         }
-        Vec3 corners[4];
-        for (int k = 0; k < face.count; ++k)
-          corners[k] = at(x, face.nodes[k]);
-        if (dimension == 2)
-          load.balanceMoment<2>(corners, face.count);
-        else
-          load.balanceMoment<3>(corners, face.count);
       });
   parallelFor(
       "coplane::contact::addForces", int(facesStart.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
@@ -338,8 +330,8 @@ void Contact::addForces(const ConstNodeVectors& x, const NodeVectors& f,
         for (std::int32_t i = facesStart(node); i < facesStart(node + 1); ++i)
         {
           const FaceLoad& load = loads(facesEntry(i) / 4);
-          force += load.force(facesEntry(i) % 4);
-          sum += load.stiffness(facesEntry(i) % 4);
+          force += load.force[facesEntry(i) % 4];
+          sum += load.stiffness;
         }
         set(f, node, force);
         stiffness(node) = sum;
@@ -353,7 +345,7 @@ ContactEnergy Contact::energy() const
     mine.add(sums);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     if (planes_(p).countedHere && planes_(p).born)
-      mine.add(planes_(p), planes_(p).stored(lawOf(planes_(p))));
+      mine.add(planes_(p), planes_(p).stored);
   std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
   return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
 }

@@ -74,8 +74,7 @@ public:
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
-  void addForces(const ConstNodeVectors& x, const NodeVectors& f,
-                 const Array<Real>& stiffness) const;
+  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const;
 
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Face>& localFaces() const { return localFaces_; }

@@ -1,5 +1,6 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/Inheritance.hpp>
+#include <coplane_contact/WaysOut.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
 
@@ -18,8 +19,9 @@ std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
 void makeDormant(Plane& plane)
 {
   plane.face[0] = plane.face[1] = -1;
-  plane.area = plane.overlap = plane.normalTraction = plane.stiffness = 0;
-  plane.force = plane.moment = {};
+  plane.area = plane.overlap = plane.normalTraction = plane.nodeStiffness = 0;
+  plane.dropForces();
+  plane.stored = 0;
   plane.history.shearTraction = {};
   plane.closure = 0;
   plane.tooDeep = false;
@@ -260,6 +262,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
   }
 
+  const ConstNodeVectors normals = nodeNormals(localFaces_, x, dimension_, layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -295,6 +298,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
     plane.missedSearches = 0;
+    const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
+    plane.exits = waysOut(a, b, planeA, planeB, x, normals, dimension_);
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
     if (classic())
     {
@@ -337,12 +342,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     addDonors(pair.lower, donors);
     addDonors(pair.higher, donors);
     if (!donors.empty())
-    {
-      const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
       inherit(plane,
               classic() ? leaders[source[slot]].normal : normalised(planeA.normal - planeB.normal),
               nodesOfPair(), donors);
-    }
   };
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
 

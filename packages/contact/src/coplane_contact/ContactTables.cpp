@@ -37,7 +37,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact)
     }
     mine[Force].add(plane.area * plane.normalTraction);
     largestSlip[plane.joint] = std::max(largestSlip[plane.joint], plane.history.slip);
-    energies[plane.joint].add(plane, plane.stored(contact.lawOf(plane)));
+    energies[plane.joint].add(plane, plane.stored);
   }
   for (std::size_t j = 0; j < joints; ++j)
     std::copy(energies[j].sums.begin(), energies[j].sums.end(), &sums[PerJoint * j + Energies]);
@@ -78,7 +78,7 @@ std::vector<ContactTableRow> contactTable(const Contact& contact)
     if (!plane.countedHere || !plane.born)
       continue;
     Row& row = mine[PlaneKind(plane)];
-    row.energies.add(plane, plane.stored(contact.lawOf(plane)));
+    row.energies.add(plane, plane.stored);
     row.area.add(plane.area);
     ++row.planes;
   }

@@ -1,4 +1,5 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/PotentialKernel.hpp>
 
 #include <algorithm>
 
@@ -10,6 +11,26 @@ Vec3 traction(const SymTensor& s, const Vec3& n)
 {
   return {s.xx * n.x + s.xy * n.y + s.zx * n.z, s.xy * n.x + s.yy * n.y + s.yz * n.z,
           s.zx * n.x + s.yz * n.y + s.zz * n.z};
+}
+
+/// The whole overlap of two faces as the potential sees it; returns the mean gap [m].
+template <int Dim>
+Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options,
+                  Patch& patch)
+{
+  ContactPotentialScale scale;
+  scale.opposedFrom = options.cosOpposed;
+  PairPotential<Dim, Real> pair(a, b, scale);
+  if (!pair.plane.opposed)
+    return 0;
+  pair.meet(0, true, [](int) { return 0.0; });
+  patch.overlap = pair.overlap;
+  patch.area = pair.opposedness * pair.moments.area;
+  if (!(patch.area > 0))
+    return 0;
+  patch.centroid = (1 / pair.moments.area) * pair.moments.areaMoment;
+  pair.weightsAt(patch.centroid, patch.centroidWeights);
+  return -pair.moments.volume / pair.moments.area;
 }
 } // namespace
 
@@ -51,7 +72,13 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
           planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
       trial = trialPlaneOf(between);
     }
-    const Patch patch = patchOf(trial, a, b);
+    Patch patch;
+    Real meanGap = 0;
+    if (options_.forces == ContactOptions::Forces::Potential)
+      meanGap = dimension_ == 2 ? wholeOverlap<2>(a, b, options_, patch)
+                                : wholeOverlap<3>(a, b, options_, patch);
+    else
+      patch = patchOf(trial, a, b);
     if (!(patch.area > options_.areaMin * std::min(a.area, b.area) *
                            depthOf(trial, options_).at(patch.centroid.x)))
       continue;
@@ -62,8 +89,10 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     plane.overlap = patch.overlap;
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
     plane.gap = classic() ? between.gap
-                          : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
-                                                  weighted(patch.centroidWeights[0], a.x, a.count));
+                : options_.forces == ContactOptions::Forces::Potential
+                    ? meanGap
+                    : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
+                                            weighted(patch.centroidWeights[0], a.x, a.count));
     // The joint is in equilibrium with the initial stress: closure and shear traction that carry
     // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
     SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
@@ -88,7 +117,8 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     }
     // The energy that the initial stress has put into the joint.
     plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
-    plane.work = plane.stored(law) + plane.hysteresisWork;
+    plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
+    plane.work = plane.stored + plane.hysteresisWork;
   }
 }
 } // namespace coplane

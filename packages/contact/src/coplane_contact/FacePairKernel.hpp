@@ -98,13 +98,17 @@ KOKKOS_INLINE_FUNCTION Vec3Of<T> turnIntoPlane(const Vec3Of<T>& traction, const 
   return branchFree::choose(length > 0.0, size / length, T(0.0)) * turned;
 }
 
-/// Power of the plane's forces on the nodes with the velocities at hand; `spins` is the sum of the
-/// spins of both faces at the time of the force [W].
+/// Work of forces of the nodes in half a step, by which the work of a step is their mean [J].
 template <class T>
-KOKKOS_INLINE_FUNCTION T powerOf(const Vec3Of<T>& force, const Vec3Of<T>& moment,
-                                 const Vec3Of<T>& drift, const Vec3Of<T>& spins)
+KOKKOS_INLINE_FUNCTION T halfStepWork(const Vec3Of<T> (&nodal)[2][4], const HalfStepFaceOf<T>& a,
+                                      const HalfStepFaceOf<T>& b, Real dt)
 {
-  return dot(force, drift) - 0.5 * dot(moment, spins);
+  T power{};
+  for (int i = 0; i < a.count; ++i)
+    power += dot(nodal[0][i], a.v[i]);
+  for (int i = 0; i < b.count; ++i)
+    power += dot(nodal[1][i], b.v[i]);
+  return (0.5 * dt) * power;
 }
 
 /// Work of the old force on the nodes in this step, by the trapezoid rule [J]; of the planes that
@@ -117,15 +121,12 @@ bookOldForce(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& mine,
   const auto carried = mine && planes.each([](const Plane& p) { return p.area; }) > 0.0;
   if (!branchFree::anyOf(carried))
     return;
-  T weights[2][4];
+  Vec3Of<T> nodal[2][4];
   const int count[2] = {a.count, b.count};
   for (int f = 0; f < 2; ++f)
     for (int i = 0; i < count[f]; ++i)
-      weights[f][i] = planes.each([&](const Plane& p) { return p.weights[f][i]; });
-  const Vec3Of<T> drift = weighted(weights[1], b.v, b.count) - weighted(weights[0], a.v, a.count);
-  const T work = (0.5 * dt) * powerOf(planes.eachVector([](const Plane& p) { return p.force; }),
-                                      planes.eachVector([](const Plane& p) { return p.moment; }),
-                                      drift, a.spinAtStart + b.spinAtStart);
+      nodal[f][i] = planes.eachVector([&](const Plane& p) { return p.nodal[f][i]; });
+  const T work = halfStepWork(nodal, a, b, dt);
   for (int i = 0; i < planes.count; ++i)
     if (branchFree::lane(carried, i))
       planes.plane[i]->work -= branchFree::lane(work, i);
@@ -139,11 +140,33 @@ KOKKOS_INLINE_FUNCTION void bookOldForce(Plane& plane, const HalfStepFace& a, co
   bookOldForce(one, true, a, b, dt);
 }
 
+/// Forces of the nodes, and their work in the second half of the step.
+template <class T>
+KOKKOS_INLINE_FUNCTION void putForces(const PlaneBatch<T>& planes,
+                                      const branchFree::MaskOf<T>& touching,
+                                      const Vec3Of<T> (&nodal)[2][4], const HalfStepFaceOf<T>& a,
+                                      const HalfStepFaceOf<T>& b, Real dt)
+{
+  using branchFree::lane;
+  const T work = halfStepWork(nodal, a, b, dt);
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(touching, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        plane.nodal[f][k] = lane(nodal[f][k], i);
+    plane.work -= lane(work, i);
+  }
+}
+
 /// No traction in this cycle; history stays. The work of the last force has been booked.
 KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
 {
-  plane.force = plane.moment = {};
+  plane.dropForces();
   plane.area = 0;
+  plane.stored = 0;
   plane.normalTraction = 0;
   plane.tooDeep = false;
   if (plane.born)
@@ -161,6 +184,20 @@ KOKKOS_INLINE_FUNCTION void openUp(Plane& plane, const HalfStepFace& a, const Ha
   carryNothing(plane);
 }
 
+/// The forces on a face's corners at the end of the step that balance half of a moment.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void addCouple(const HalfStepFaceOf<T>& face, const Vec3Of<T>& moment,
+                                      Real dt, Vec3Of<T> (&nodal)[4])
+{
+  Vec3Of<T> x[4];
+  for (int i = 0; i < face.count; ++i)
+    x[i] = face.x[i] + (0.5 * dt) * face.v[i];
+  const FaceInertia<Dim, T> inertia(x, face.count);
+  const Vec3Of<T> turn = -0.5 * inertia.solve(moment);
+  for (int i = 0; i < face.count; ++i)
+    nodal[i] += cross(turn, inertia.r[i]);
+}
+
 /// Gap at the time of the heights at the centre of gravity [m].
 template <class T>
 KOKKOS_INLINE_FUNCTION T gapOf(const PatchOf<T>& patch, const ShadowOf<T>& a, const ShadowOf<T>& b)
@@ -176,7 +213,7 @@ KOKKOS_INLINE_FUNCTION T gapOf(const PatchOf<T>& patch, const ShadowOf<T>& a, co
 /// Step H: plane variables. Cundall's update in tractions: closure, shear increment, joint law,
 /// force, energies; for the lanes of `touching`. The work of the old force has been booked.
 /// @param gap at the end of the step [m]
-template <class T>
+template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void
 stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& touching,
                            const PatchOf<T>& patch, const T& gap, const TrialPlaneOf<T>& trial,
@@ -230,6 +267,8 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
                                                                         : PlaneState::Stick;
     plane.offset += response.dilation;
     plane.closure += response.dilation;
+    plane.stored =
+        plane.area * planes.law[i]->stored(plane.fit, plane.limitedClosure(), plane.history);
     plane.frictionWork += plane.area * response.frictionWork;
     plane.hysteresisWork += plane.area * response.hysteresisWork;
     plane.fractureWork += plane.area * response.fractureWork;
@@ -265,45 +304,24 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
     force += damping;
   }
 
-  const Vec3Of<T> moment =
-      options.couple ? cross(arm + (0.5 * dt) * motion.drift, force) : Vec3Of<T>{};
-  const T work = (0.5 * dt) * powerOf(force, moment, motion.drift, a.spinAtEnd + b.spinAtEnd);
   for (int i = 0; i < planes.count; ++i)
-  {
-    if (!lane(touching, i))
-      continue;
-    Plane& plane = *planes.plane[i];
-    plane.dampingWork -= lane(dampingWork, i);
-    plane.force = lane(force, i);
-    plane.moment = lane(moment, i);
-    for (int f = 0; f < 2; ++f)
-      for (int k = 0; k < 4; ++k)
-        plane.weights[f][k] = lane(patch.weights[f][k], i);
-    plane.work -= lane(work, i);
-  }
-}
+    if (lane(touching, i))
+      planes.plane[i]->dampingWork -= lane(dampingWork, i);
 
-/// Whether the bounding boxes of two shadows share no area: most candidates are neighbours that
-/// only touch along an edge.
-template <class T>
-KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
-                                                          const ShadowOf<T>& b)
-{
-  using namespace branchFree;
-  Vec2Of<T> low[2], high[2];
-  const ShadowOf<T>* shadows[2] = {&a, &b};
-  for (int f = 0; f < 2; ++f)
+  Vec3Of<T> nodal[2][4];
+  for (int i = 0; i < a.count; ++i)
+    nodal[0][i] = -patch.weights[0][i] * force;
+  for (int i = 0; i < b.count; ++i)
+    nodal[1][i] = patch.weights[1][i] * force;
+  if (options.couple)
   {
-    low[f] = high[f] = shadows[f]->p[0];
-    for (int i = 1; i < shadows[f]->count; ++i)
-    {
-      const Vec2Of<T>& p = shadows[f]->p[i];
-      low[f] = {smaller(p.x, low[f].x), smaller(p.y, low[f].y)};
-      high[f] = {larger(p.x, high[f].x), larger(p.y, high[f].y)};
-    }
+    // The moment of both forces, at the end of the step, where they act: half of it is balanced by
+    // each face.
+    const Vec3Of<T> moment = cross(arm + (0.5 * dt) * motion.drift, force);
+    addCouple<Dim>(a, moment, dt, nodal[0]);
+    addCouple<Dim>(b, moment, dt, nodal[1]);
   }
-  const auto alongX = low[0].x >= high[1].x || low[1].x >= high[0].x;
-  return a.count > 2 ? alongX || low[0].y >= high[1].y || low[1].y >= high[0].y : alongX;
+  putForces(planes, touching, nodal, a, b, dt);
 }
 
 /// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
@@ -364,13 +382,28 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
   return !plane.released;
 }
 
+/// By which a stiffness per area bounds what a node of the pair feels, by Gershgorin's circles,
+/// rounded up: 2 A |w|. The overlap's part of a node is at most all of it; 1.5/n covers uniform and
+/// mildly uneven patches, and the weights of the area in contact cover the uneven ones [m^2].
+template <class T>
+KOKKOS_INLINE_FUNCTION T areaOfNode(const PatchOf<T>& patch, int countA, int countB)
+{
+  const int fewer = countA < countB ? countA : countB;
+  T most{};
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < (f == 0 ? countA : countB); ++i)
+      most = branchFree::larger(branchFree::absolute(patch.weights[f][i]), most);
+  return 2.000002 * branchFree::larger(patch.overlap * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0),
+                                       patch.area * most);
+}
+
 /// A pair whose shadows share nothing in this cycle.
 KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
                                    Real dt)
 {
   openUp(plane, a, b, dt);
   plane.overlap = 0;
-  plane.stiffness = 0;
+  plane.nodeStiffness = 0;
   plane.fresh = plane.foundLate = plane.released = false;
 }
 
@@ -447,12 +480,13 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
     for (int i = 0; i < planes.count; ++i)
       if (lane(touching, i))
         planes.plane[i]->pointOfContact = lane(point, i);
-    stepH_updatePlaneVariables(planes, touching, patch, gap, trial, a, b, shadowA, shadowB, options,
-                               dt);
+    stepH_updatePlaneVariables<Dim>(planes, touching, patch, gap, trial, a, b, shadowA, shadowB,
+                                    options, dt);
   }
   // The overlap counts for the stable step as soon as the faces could touch within the next two
   // steps, so that the step does not drop suddenly.
   const auto near = patch.leastGap <= approach + 1e-8 * squareRoot(patch.overlap);
+  const T share = areaOfNode(patch, a.count, b.count);
   for (int i = 0; i < planes.count; ++i)
   {
     if (!lane(done, i))
@@ -465,9 +499,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
         plane.gap = lane(patch.leastGap, i) + plane.offset;
     }
     plane.fresh = false;
-    plane.stiffness =
+    plane.nodeStiffness =
         plane.area > 0 || lane(near, i)
-            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * 1.000001)
+            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * lane(share, i))
             : 0;
   }
   return done;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PotentialKernel.hpp>
 #include <coplane_core/Backend.hpp>
 
 // Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
@@ -33,17 +33,18 @@ inline void putSideBySide(const HalfStepFace* const (&faces)[laneCount],
     for (int k = 0; k < face.count; ++k)
       face.v[k] = vector([&](const HalfStepFace& f) { return f.v[k]; });
     face.spin = vector([](const HalfStepFace& f) { return f.spin; });
-    face.spinAtStart = vector([](const HalfStepFace& f) { return f.spinAtStart; });
-    face.spinAtEnd = vector([](const HalfStepFace& f) { return f.spinAtEnd; });
     for (int k = 0; k < face.count; ++k)
       face.mass[k] = each([&](const HalfStepFace& f) { return f.mass[k]; });
   }
 }
 
 /// Step A for laneCount faces with the same number of nodes.
-inline void stepA_halfStepFaces(const FaceNodesOf<Lanes>& nodes, Real dt, HalfStepFace* faces)
+inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces forces, Real dt,
+                        HalfStepFace* faces)
 {
-  const HalfStepFaceOf<Lanes> all = stepA_halfStepFace<3>(nodes, dt);
+  const HalfStepFaceOf<Lanes> all = forces == ContactOptions::Forces::Potential
+                                        ? stepA_faceAtEnd<3>(nodes)
+                                        : stepA_halfStepFace<3>(nodes, dt);
   for (int i = 0; i < laneCount; ++i)
   {
     using branchFree::lane;
@@ -59,8 +60,6 @@ inline void stepA_halfStepFaces(const FaceNodesOf<Lanes>& nodes, Real dt, HalfSt
     face.normal = lane(all.normal, i);
     face.area = lane(all.area, i);
     face.spin = lane(all.spin, i);
-    face.spinAtStart = lane(all.spinAtStart, i);
-    face.spinAtEnd = lane(all.spinAtEnd, i);
   }
 }
 
@@ -182,11 +181,11 @@ private:
       batch.law[i] = &laws_[batch.plane[i]->joint];
     }
     gatherFaces<true>(queue);
-    const LaneMask done = updatePlanes<3, Lanes>(batch, a_, b_, options_, dt_);
+    const LaneMask done = updateByForces<3, Lanes>(batch, a_, b_, options_, dt_);
     for (int i = 0; i < queue.count; ++i)
       if (!done[i])
-        updatePlane<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
-                       *batch.law[i], options_, dt_);
+        updateByForces<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
+                          *batch.law[i], options_, dt_);
     queue.count = 0;
   }
 

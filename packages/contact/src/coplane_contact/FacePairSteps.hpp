@@ -77,6 +77,29 @@ KOKKOS_INLINE_FUNCTION ShadowOf<T> stepC_projectOntoPlane(const TrialPlaneOf<T>&
   return shadow;
 }
 
+/// Whether the bounding boxes of two shadows share no area: most candidates are neighbours that
+/// only touch along an edge.
+template <class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
+                                                          const ShadowOf<T>& b)
+{
+  using namespace branchFree;
+  Vec2Of<T> low[2], high[2];
+  const ShadowOf<T>* shadows[2] = {&a, &b};
+  for (int f = 0; f < 2; ++f)
+  {
+    low[f] = high[f] = shadows[f]->p[0];
+    for (int i = 1; i < shadows[f]->count; ++i)
+    {
+      const Vec2Of<T>& p = shadows[f]->p[i];
+      low[f] = {smaller(p.x, low[f].x), smaller(p.y, low[f].y)};
+      high[f] = {larger(p.x, high[f].x), larger(p.y, high[f].y)};
+    }
+  }
+  const auto alongX = low[0].x >= high[1].x || low[1].x >= high[0].x;
+  return a.count > 2 ? alongX || low[0].y >= high[1].y || low[1].y >= high[0].y : alongX;
+}
+
 /// Step E: whether the pair has its plane already. Every candidate pair has a slot, so this is a
 /// flag and not a lookup.
 KOKKOS_INLINE_FUNCTION bool stepE_planeExists(const Plane& plane)

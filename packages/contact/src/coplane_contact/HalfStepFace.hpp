@@ -84,15 +84,12 @@ template <class T>
 struct HalfStepFaceOf
 {
   int count = 0;
-  Vec3Of<T> x[4]; ///< x(n+1/2) [m]
+  Vec3Of<T> x[4]; ///< x(n+1/2); x(n+1) for forces that come from a potential [m]
   Vec3Of<T> v[4]; ///< v(n+1/2) [m/s]
   Vec3Of<T> center{};
   Vec3Of<T> normal{}; ///< outward unit normal; zero for a degenerate face
   T area{};           ///< [m^2]
   Vec3Of<T> spin{};   ///< of the rigid motion nearest to the corner velocities [1/s]
-  /// The same by the corners at x(n) and at x(n+1), on which the forces of the old and the new time
-  /// act: what a couple works on.
-  Vec3Of<T> spinAtStart{}, spinAtEnd{};
   T mass[4] = {T(1.0), T(1.0), T(1.0), T(1.0)}; ///< [kg]; used by contact damping only
 };
 using HalfStepFace = HalfStepFaceOf<Real>;
@@ -108,6 +105,32 @@ KOKKOS_INLINE_FUNCTION Vec3Of<T> vectorArea(const Vec3Of<T>* x, int count)
                       : 0.5 * cross(x[2] - x[0], x[3] - x[1]);
 }
 
+namespace detail
+{
+/// Centre, area and normal of a face from its corners. A degenerate one gets no normal; returns
+/// where there is one.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> measureFace(HalfStepFaceOf<T>& face)
+{
+  using namespace branchFree;
+  for (int i = 0; i < face.count; ++i)
+    face.center += face.x[i];
+  face.center = (1.0 / face.count) * face.center;
+  const Vec3Of<T> area = vectorArea<Dim>(face.x, face.count);
+  face.area = norm(area);
+  T longest{};
+  for (int i = 0; i < face.count; ++i)
+  {
+    const Vec3Of<T> edge = face.x[i + 1 == face.count ? 0 : i + 1] - face.x[i];
+    longest = larger(dot(edge, edge), longest);
+  }
+  const auto proper = Dim == 2 ? face.area > 0.0 : face.area > 1e-12 * longest;
+  const T inverse = choose(proper, 1.0 / face.area, T(0.0));
+  face.normal = inverse * area;
+  return proper;
+}
+} // namespace detail
+
 /// Step A: the face half a step ahead of the last known positions, x(n+1/2) = x(n+1) - dt/2
 /// v(n+1/2).
 template <int Dim, class T>
@@ -120,35 +143,30 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_halfStepFace(const FaceNodesOf<T>
   {
     face.x[i] = nodes.x[i] - (0.5 * dt) * nodes.v[i];
     face.v[i] = nodes.v[i];
-    face.center += face.x[i];
     face.mass[i] = nodes.mass[i];
   }
-  face.center = (1.0 / nodes.count) * face.center;
-  const Vec3Of<T> area = vectorArea<Dim>(face.x, face.count);
-  face.area = norm(area);
-  T longest{};
-  for (int i = 0; i < face.count; ++i)
-  {
-    const Vec3Of<T> edge = face.x[i + 1 == face.count ? 0 : i + 1] - face.x[i];
-    longest = larger(dot(edge, edge), longest);
-  }
-  // A face that is degenerate gets neither normal nor spin.
-  const auto proper = Dim == 2 ? face.area > 0.0 : face.area > 1e-12 * longest;
-  const auto onlyProper = [&](const Vec3Of<T>& a) -> Vec3Of<T>
-  {
-    const T none(0.0);
-    return {choose(proper, a.x, none), choose(proper, a.y, none), choose(proper, a.z, none)};
-  };
-  face.normal = onlyProper((1.0 / face.area) * area);
-
+  const auto proper = detail::measureFace<Dim>(face);
   const FaceInertia<Dim, T> inertia(face.x, face.count);
-  const Vec3Of<T> moment = inertia.momentOf(face.v); // the same at all three times: v x v = 0
-  face.spin = onlyProper(inertia.solve(moment));
-  Vec3Of<T> start[4];
-  for (int i = 0; i < face.count; ++i)
-    start[i] = nodes.x[i] - dt * nodes.v[i];
-  face.spinAtStart = onlyProper(FaceInertia<Dim, T>(start, face.count).solve(moment));
-  face.spinAtEnd = onlyProper(FaceInertia<Dim, T>(nodes.x, face.count).solve(moment));
+  const Vec3Of<T> spin = inertia.solve(inertia.momentOf(face.v));
+  const T none(0.0);
+  face.spin = {choose(proper, spin.x, none), choose(proper, spin.y, none),
+               choose(proper, spin.z, none)};
+  return face;
+}
+
+/// Step A for forces that come from a potential: the face at the end of the step, without spin.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_faceAtEnd(const FaceNodesOf<T>& nodes)
+{
+  HalfStepFaceOf<T> face;
+  face.count = nodes.count;
+  for (int i = 0; i < nodes.count; ++i)
+  {
+    face.x[i] = nodes.x[i];
+    face.v[i] = nodes.v[i];
+    face.mass[i] = nodes.mass[i];
+  }
+  detail::measureFace<Dim>(face);
   return face;
 }
 } // namespace coplane

@@ -37,8 +37,14 @@ struct ContactOptions
     Total,      ///< from the geometry at the end of the step
     Incremental ///< sum of its increments (Cundall 1988)
   };
+  enum class Forces : std::uint8_t
+  {
+    Potential,   ///< minus the gradient of one energy per pair
+    CommonNormal ///< along the normal of the common plane, as in the paper
+  };
   bool axisymmetric = false; ///< two dimensions: areas are those of the whole turn about x = 0
   Method method = Method::SimpleCommonPlane;
+  Forces forces = Forces::CommonNormal;
   PlaneSearch planeSearch = PlaneSearch::Candidates;
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
@@ -72,7 +78,7 @@ struct alignas(64) Plane
   GlobalId faceId[2] = {0, 0};
   int face[2] = {
       -1, -1}; ///< positions in this rank's table of faces; -1 while the pair is not a candidate
-  float stiffness = 0;             ///< bound for the stable step, rounded up [Pa/m]
+  float nodeStiffness = 0;         ///< bound on what a node of its faces feels [N/m]
   std::uint16_t joint = 0;         ///< index of the joint card
   std::uint16_t block[2] = {0, 0}; ///< element blocks behind the faces, in the order of the mesh
   PlaneState state = PlaneState::Slot;
@@ -83,18 +89,16 @@ struct alignas(64) Plane
   bool fresh : 1;                  ///< not evaluated since the slot was made
   bool foundLate : 1;              ///< was penetrated already when the search found it
   bool inherited : 1;              ///< took its history from living neighbours
-  bool slidesOn : 1; ///< inherited, and some neighbour touches the same surface: a face beside
-  bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep : 1;  ///< deeper than the limit; force frozen
-  bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
-  JointFit fit;      ///< stiffnesses of the law for this pair
+  bool slidesOn : 1;      ///< inherited, and some neighbour touches the same surface: a face beside
+  bool released : 1;      ///< came into overlap deep inside: carries nothing until its faces part
+  bool tooDeep : 1;       ///< deeper than the limit; force frozen
+  std::uint8_t exits = 0; ///< bit 4 f + e: bodies can part over edge e of the outline of face f
+  bool leads : 1;         ///< CommonPlane: the plane of its two elements acts on these faces
+  JointFit fit;           ///< stiffnesses of the law for this pair
 
-  // What the nodes of the faces get, together in the cache.
-  Vec3 force{};            ///< on face 1 [N]
-  Vec3 moment{};           ///< of the two forces, which couples on the faces balance [N m]
-  Real area = 0;           ///< that carries traction [m^2]
-  Real overlap = 0;        ///< whole overlap of the projections [m^2]
-  Real weights[2][4] = {}; ///< by which the nodes of the faces share the force
+  Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
+  Real area = 0;         ///< that carries traction [m^2]
+  Real overlap = 0;      ///< whole overlap of the projections [m^2]
 
   Vec3 normal{};         ///< at the half step
   Vec3 pointOfContact{}; ///< [m]
@@ -104,6 +108,13 @@ struct alignas(64) Plane
   Real closure = 0;           ///< [m]
   Real normalTraction = 0;    ///< compression positive [Pa]
   Real depthLimit = infinity; ///< [m]
+
+  Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
+  Real stored = 0;            ///< recoverable energy now [J]
+  // Of a closure curve, potential only: the maximum closure of the cycle before, and half of what
+  // the rise since then costs with the area of that cycle.
+  Real maximumBefore = 0;  ///< [m]
+  Real halfHysteresis = 0; ///< [J]
 
   // Energies since the plane was made [J].
   Real work = 0; ///< done on the plane by the nodes
@@ -123,18 +134,30 @@ struct alignas(64) Plane
   {
     return closure < depthLimit ? closure : depthLimit;
   }
-  /// Recoverable energy now [J].
-  KOKKOS_INLINE_FUNCTION Real stored(const JointLaw& law) const
+  /// Of all nodes of a face [N].
+  KOKKOS_INLINE_FUNCTION Vec3 forceOn(int side) const
   {
-    return area > 0 ? area * law.stored(fit, limitedClosure(), history) : 0;
+    return nodal[side][0] + nodal[side][1] + (nodal[side][2] + nodal[side][3]);
   }
-  /// What the work is not accounted for by the other terms, given stored() [J].
-  KOKKOS_INLINE_FUNCTION Real remainder(Real storedNow) const
+  KOKKOS_INLINE_FUNCTION void dropForces()
   {
-    return work - storedNow - frictionWork - hysteresisWork - fractureWork - dampingWork;
+    for (int side = 0; side < 2; ++side)
+      for (int k = 0; k < 4; ++k)
+        nodal[side][k] = {};
+  }
+  /// Recoverable energy of the shear traction [J].
+  KOKKOS_INLINE_FUNCTION Real shearEnergy() const
+  {
+    const Vec3& t = history.shearTraction;
+    return fit.shearStiffness > 0 ? 0.5 * area * dot(t, t) / fit.shearStiffness : 0;
+  }
+  /// What the work is not accounted for by the other terms [J].
+  KOKKOS_INLINE_FUNCTION Real remainder() const
+  {
+    return work - stored - frictionWork - hysteresisWork - fractureWork - dampingWork;
   }
 };
-static_assert(sizeof(Plane) == 6 * 64, "planes fill the memory bandwidth: whole cache lines");
+static_assert(sizeof(Plane) == 8 * 64, "planes fill the memory bandwidth: whole cache lines");
 
 /// Key of a plane: permanent, independent of the partition.
 inline bool keyLess(const Plane& a, const Plane& b)

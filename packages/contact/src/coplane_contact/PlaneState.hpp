@@ -22,7 +22,7 @@ void forEachMember(Plane& plane, F&& f)
     f(y, v.y);
     f(z, v.z);
   };
-  f("stiffness", plane.stiffness);
+  f("node_stiffness", plane.nodeStiffness);
   f("joint", plane.joint);
   f("block_0", plane.block[0]);
   f("block_1", plane.block[1]);
@@ -37,19 +37,23 @@ void forEachMember(Plane& plane, F&& f)
   plane.released = flag("released", plane.released);
   plane.tooDeep = flag("too_deep", plane.tooDeep);
   plane.leads = flag("leads", plane.leads);
+  f("exits", plane.exits);
   f("fit_normal_stiffness", plane.fit.normalStiffness);
   f("fit_stiffness_cap", plane.fit.stiffnessCap);
   f("fit_shear_stiffness", plane.fit.shearStiffness);
-  vector("force_x", "force_y", "force_z", plane.force);
-  vector("moment_x", "moment_y", "moment_z", plane.moment);
   f("area", plane.area);
   f("overlap", plane.overlap);
-  static constexpr const char* weights[2][4] = {
-      {"weight_00", "weight_01", "weight_02", "weight_03"},
-      {"weight_10", "weight_11", "weight_12", "weight_13"}};
+  static constexpr const char* forces[2][4][3] = {{{"force_00_x", "force_00_y", "force_00_z"},
+                                                   {"force_01_x", "force_01_y", "force_01_z"},
+                                                   {"force_02_x", "force_02_y", "force_02_z"},
+                                                   {"force_03_x", "force_03_y", "force_03_z"}},
+                                                  {{"force_10_x", "force_10_y", "force_10_z"},
+                                                   {"force_11_x", "force_11_y", "force_11_z"},
+                                                   {"force_12_x", "force_12_y", "force_12_z"},
+                                                   {"force_13_x", "force_13_y", "force_13_z"}}};
   for (int side = 0; side < 2; ++side)
     for (int k = 0; k < 4; ++k)
-      f(weights[side][k], plane.weights[side][k]);
+      vector(forces[side][k][0], forces[side][k][1], forces[side][k][2], plane.nodal[side][k]);
   vector("normal_x", "normal_y", "normal_z", plane.normal);
   vector("point_x", "point_y", "point_z", plane.pointOfContact);
   f("gap", plane.gap);
@@ -63,6 +67,11 @@ void forEachMember(Plane& plane, F&& f)
   f("closure", plane.closure);
   f("normal_traction", plane.normalTraction);
   f("depth_limit", plane.depthLimit);
+  f("birth_area_0", plane.birthArea[0]);
+  f("birth_area_1", plane.birthArea[1]);
+  f("stored", plane.stored);
+  f("maximum_before", plane.maximumBefore);
+  f("half_hysteresis", plane.halfHysteresis);
   f("work", plane.work);
   f("friction_work", plane.frictionWork);
   f("hysteresis_work", plane.hysteresisWork);
@@ -70,6 +79,6 @@ void forEachMember(Plane& plane, F&& f)
   f("damping_work", plane.dampingWork);
 }
 // A new member changes one of these sizes: it belongs into the list above.
-static_assert(sizeof(Plane) == 6 * 64 && sizeof(JointState) == 8 * sizeof(Real) &&
+static_assert(sizeof(Plane) == 8 * 64 && sizeof(JointState) == 8 * sizeof(Real) &&
               sizeof(JointFit) == 3 * sizeof(Real));
 } // namespace coplane

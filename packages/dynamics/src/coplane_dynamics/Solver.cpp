@@ -216,7 +216,7 @@ void Solver::findForces(Real dt)
     TimedRegion region("coplane::contact::addForces");
     const WorkWatch watch(work_.planes);
     Kokkos::deep_copy(state_.contactForce, 0.0);
-    contact_->addForces(state_.x, state_.contactForce, contactStiffness_);
+    contact_->addForces(state_.contactForce, contactStiffness_);
     const auto force = state_.force;
     const auto contactForce = state_.contactForce;
     parallelFor(

@@ -132,17 +132,15 @@ void Solver::nameWhatLimits(int node, StepControl& control) const
   for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
   {
     const Plane& plane = contact_->planes()(p);
-    if (plane.face[0] < 0 || !(plane.stiffness > 0))
+    if (plane.face[0] < 0 || !(plane.nodeStiffness > most))
       continue;
     for (int side = 0; side < 2; ++side)
     {
       const Face& face = contact_->faces()[plane.face[side]];
-      FaceLoad load;
-      load.add(plane, side, face.count);
       for (int k = 0; k < face.count; ++k)
-        if (face.nodes[k] == node && load.stiffness(k) > most)
+        if (face.nodes[k] == node)
         {
-          most = load.stiffness(k);
+          most = plane.nodeStiffness;
           control.faceId[0] = plane.faceId[0];
           control.faceId[1] = plane.faceId[1];
         }

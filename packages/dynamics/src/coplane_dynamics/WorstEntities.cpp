@@ -55,7 +55,7 @@ std::string Solver::worstByRemainder() const
     const Plane& plane = contact_->planes()(p);
     if (!plane.countedHere || !plane.born)
       continue;
-    const Real rest = plane.remainder(plane.stored(contact_->lawOf(plane)));
+    const Real rest = plane.remainder();
     planes.push_back({std::abs(rest), rest, plane.faceId[0], plane.faceId[1]});
   }
   std::string text;

@@ -323,6 +323,14 @@ Key contactKeys()
                      .like("0.02")
                      .defaultIs("0.1 (search_every once: 0.5) of the smallest face size")
                      .means("distance within which a search takes pairs of faces"),
+                 text("forces", &ContactCard::forces)
+                     .oneOf({"auto", "potential", "common_normal"})
+                     .like("common_normal")
+                     .means("forces of a pair of faces: minus the gradient of one energy, or along "
+                            "the normal of the common plane as in the paper of 2006; auto: "
+                            "potential, but common_normal with preset seed, method common_plane, "
+                            "axisymmetric geometry, or where area, weights, closure, couple or "
+                            "area_rule are not the defaults"),
                  text("area", &ContactCard::area)
                      .oneOf({"penetrating", "full"})
                      .like("full")

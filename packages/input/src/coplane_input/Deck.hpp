@@ -187,6 +187,7 @@ struct ContactCard
   std::string preset = "default";             ///< default | seed
   std::string method = "simple_common_plane"; ///< simple_common_plane | common_plane
   std::string planeSearch = "candidates";     ///< candidates | rotations; method common_plane
+  std::string forces = "auto";                ///< auto | potential | common_normal
   std::string area = "penetrating";           ///< penetrating | full
   std::string weights = "pressure";           ///< pressure | average | centroid
   std::string closure = "total";              ///< total | incremental

@@ -222,6 +222,12 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
     problems.add(nodeAt(root, {"contact", "method"}),
                  "contact.method = 'common_plane' is not offered with geometry = 'axisymmetric'; "
                  "use simple_common_plane.");
+  if (const std::string reason = commonNormalBecauseOf(deck);
+      deck.contact.forces == "potential" && !reason.empty())
+    problems.add(nodeAt(root, {"contact", "forces"}),
+                 fmt::format("contact.forces = 'potential' does not go with {}; leave that out, or "
+                             "use common_normal.",
+                             reason));
   if (deck.geometry == "axisymmetric")
     for (const auto& block : deck.blocks)
     {
@@ -353,6 +359,29 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
     check(probe.where, fmt::format("history.probes.{}.block", i), probe.block, block, blockNames);
   }
   return messages;
+}
+
+std::string commonNormalBecauseOf(const Deck& deck)
+{
+  const ContactCard& card = deck.contact;
+  const ContactCard usual;
+  if (deck.geometry == "axisymmetric")
+    return "geometry = 'axisymmetric'";
+  if (card.preset != usual.preset)
+    return fmt::format("contact.preset = '{}'", card.preset);
+  if (card.method != usual.method)
+    return fmt::format("contact.method = '{}'", card.method);
+  if (card.area != usual.area)
+    return fmt::format("contact.area = '{}'", card.area);
+  if (card.weights != usual.weights)
+    return fmt::format("contact.weights = '{}'", card.weights);
+  if (card.closure != usual.closure)
+    return fmt::format("contact.closure = '{}'", card.closure);
+  if (card.couple != usual.couple)
+    return "contact.couple = false";
+  if (card.areaRule != usual.areaRule)
+    return "contact.area_rule = false";
+  return {};
 }
 
 const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactTraits& a,

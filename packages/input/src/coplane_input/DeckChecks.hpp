@@ -26,6 +26,9 @@ struct ContactTraits
   std::vector<std::string> sideSets; ///< that hold the face
 };
 
+/// What keeps a deck from forces that come from a potential: the key and its value, or nothing.
+std::string commonNormalBecauseOf(const Deck& deck);
+
 /// The item of contact.pairs that acts between two faces: the first that fits in either order;
 /// nullptr: contact.default_joint.
 const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactTraits& a,

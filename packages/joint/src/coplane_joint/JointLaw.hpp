@@ -97,21 +97,25 @@ struct JointLaw
     return response;
   }
 
-  /// Recoverable energy of the normal and the shear traction [J/m^2]; the closure after dilation.
-  KOKKOS_INLINE_FUNCTION Real stored(const JointFit& fit, Real closure,
-                                     const JointState& state) const
+  /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.
+  KOKKOS_INLINE_FUNCTION Real storedNormally(const JointFit& fit, Real closure,
+                                             const JointState& state) const
   {
-    Real energy = 0;
     const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
     const Real c = closure + bond.permanentOpening(state);
     const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
     if (sigma > 0)
-      energy = 0.5 * sigma * sigma / top.stiffness;
-    else if (state.bonded)
-    {
-      const Real opened = -sigma / top.stiffness;
-      energy = 0.5 * bond.tensionStiffness(fit.normalStiffness, state) * opened * opened;
-    }
+      return 0.5 * sigma * sigma / top.stiffness;
+    if (!state.bonded)
+      return 0;
+    const Real opened = -sigma / top.stiffness;
+    return 0.5 * bond.tensionStiffness(fit.normalStiffness, state) * opened * opened;
+  }
+  /// Recoverable energy of the normal and the shear traction [J/m^2]; the closure after dilation.
+  KOKKOS_INLINE_FUNCTION Real stored(const JointFit& fit, Real closure,
+                                     const JointState& state) const
+  {
+    Real energy = storedNormally(fit, closure, state);
     if (fit.shearStiffness > 0)
       energy += 0.5 * dot(state.shearTraction, state.shearTraction) / fit.shearStiffness;
     return energy;

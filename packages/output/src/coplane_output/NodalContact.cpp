@@ -40,7 +40,7 @@ NodalContact nodalContact(const Solver& solver)
         nodal.state[node] = std::max(nodal.state[node], Real(int(plane.state)));
         nodal.pressure[node] += plane.area * plane.normalTraction;
         area[node] += plane.area;
-        nodal.traction[node] += (side == 0 ? -1.0 : 1.0) * plane.force;
+        nodal.traction[node] += plane.forceOn(side);
         if (plane.state != PlaneState::Open)
         {
           closed[node] += plane.area;

@@ -19,7 +19,7 @@ struct Record
 {
   Plane plane;
   GlobalId block[2];
-  Real stored, damage;
+  Real damage;
 };
 
 /// This rank's planes, sent to rank 0 and sorted by key there.
@@ -38,7 +38,6 @@ std::vector<Record> gatherRecords(const Solver& solver)
       const JointLaw& law = contact.lawOf(plane);
       toRank[0].push_back({plane,
                            {blocks[plane.block[0]].id, blocks[plane.block[1]].id},
-                           plane.stored(law),
                            law.damage(plane.history)});
     }
   }
@@ -90,7 +89,7 @@ private:
 void addTractions(Columns& columns)
 {
   columns.vector("normal", [](const Record& r) { return r.plane.normal; });
-  columns.vector("force", [](const Record& r) { return r.plane.force; });
+  columns.vector("force", [](const Record& r) { return r.plane.forceOn(1); });
   columns.scalar("normal_traction", [](const Record& r) { return r.plane.normalTraction; });
   columns.vector("shear_traction", [](const Record& r) { return r.plane.history.shearTraction; });
   columns.scalar("area", [](const Record& r) { return r.plane.area; });
@@ -112,12 +111,12 @@ void addHistory(Columns& columns)
 void addEnergies(Columns& columns)
 {
   columns.scalar("work", [](const Record& r) { return r.plane.work; });
-  columns.scalar("stored", [](const Record& r) { return r.stored; });
+  columns.scalar("stored", [](const Record& r) { return r.plane.stored; });
   columns.scalar("friction", [](const Record& r) { return r.plane.frictionWork; });
   columns.scalar("hysteresis", [](const Record& r) { return r.plane.hysteresisWork; });
   columns.scalar("fracture", [](const Record& r) { return r.plane.fractureWork; });
   columns.scalar("damping", [](const Record& r) { return r.plane.dampingWork; });
-  columns.scalar("remainder", [](const Record& r) { return r.plane.remainder(r.stored); });
+  columns.scalar("remainder", [](const Record& r) { return r.plane.remainder(); });
 }
 
 void addStates(Columns& columns)

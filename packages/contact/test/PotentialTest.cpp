@@ -1,0 +1,255 @@
+// The energy of a pair of faces and its gradient.
+#include "FacePairs.hpp"
+
+#include <coplane_contact/PotentialKernel.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace coplane
+{
+namespace
+{
+using namespace facepairs;
+
+/// Energy and gradient of one pair with the linear law; the faces were born with given areas.
+template <int Dim>
+struct Evaluation
+{
+  Real energy = 0, force = 0, area = 0, xi = 0, phi = 0, ratio = 0, share = 1;
+  Vec3 gradient[2][4];
+
+  Evaluation(const FaceNodes& a, const FaceNodes& b, Real stiffness, Real offset,
+             const std::array<Real, 2>& birth = {0, 0}, unsigned exits = 0, Real oneEdge = 1e-3)
+  {
+    const HalfStepFace faceA = stepA_faceAtEnd<Dim>(a), faceB = stepA_faceAtEnd<Dim>(b);
+    ContactPotentialScale scale;
+    scale.oneEdge = oneEdge;
+    PairPotential<Dim, Real> pair(faceA, faceB, scale);
+    xi = -dot(faceA.normal, faceB.normal);
+    if (!pair.plane.opposed)
+      return;
+    pair.meet(offset, false, [&](int owner) { return Real(exits >> owner & 1); });
+    if (!(pair.moments.volume > 0))
+      return;
+    EnergyDensity<Real> density;
+    share = pair.shareOfWayOut(stiffness, density);
+    energy = .5 * share * stiffness * pair.moments.squares;
+    force = pair.differentiate(energy, density, birth[0] > 0 ? birth[0] : faceA.area,
+                               birth[1] > 0 ? birth[1] : faceB.area);
+    area = pair.moments.area;
+    phi = pair.opposedness;
+    ratio = pair.moments.squares / pair.moments.volume;
+    energy *= pair.materialArea * phi;
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < 4; ++i)
+        gradient[f][i] = pair.gradient[f][i];
+  }
+};
+
+template <int Dim>
+Real areaOf(const FaceNodes& face)
+{
+  return norm(vectorArea<Dim>(face.x, face.count));
+}
+
+/// The force of the potential without the factor of material area, whose part is that of the
+/// energy over the areas of the faces.
+template <int Dim>
+Vec3 forceWithoutMaterialArea(const Evaluation<Dim>& e, const FaceNodes (&faces)[2], int f, int i)
+{
+  Vec3 change;
+  for (int c = 0; c < 3; ++c)
+  {
+    const auto at = [&](Real h)
+    {
+      FaceNodes moved = faces[f];
+      moved.x[i][c] += h;
+      return areaOf<Dim>(moved);
+    };
+    const Real h = 1e-3;
+    change[c] = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+  }
+  return -e.gradient[f][i] - (.5 * e.energy / areaOf<Dim>(faces[f])) * change;
+}
+
+template <int Dim>
+void expectForce(const Evaluation<Dim>& e, const FaceNodes (&faces)[2], int f, int i,
+                 const Vec3& expected)
+{
+  const Vec3 got = forceWithoutMaterialArea<Dim>(e, faces, f, i);
+  EXPECT_LT(norm(got - expected), 3e-9 * norm(expected))
+      << f << i << ": " << got.x << " " << got.y << " " << got.z;
+}
+
+/// Largest difference between the gradient and central differences, over the largest entry.
+template <int Dim>
+Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsigned exits = 0)
+{
+  const std::array<Real, 2> birth = {1.3 * areaOf<Dim>(a), .8 * areaOf<Dim>(b)};
+  const Evaluation<Dim> e(a, b, 1, offset, birth, exits, 0);
+  Real largest = 0, worst = 0;
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < (f == 0 ? a : b).count; ++i)
+      for (int c = 0; c < Dim; ++c)
+      {
+        largest = std::max(largest, std::abs(e.gradient[f][i][c]));
+        const auto at = [&](Real h)
+        {
+          FaceNodes faces[2] = {a, b};
+          faces[f].x[i][c] += h;
+          return Evaluation<Dim>(faces[0], faces[1], 1, offset, birth, exits, 0).energy;
+        };
+        const Real h = 3e-5;
+        const Real slope = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
+        worst = std::max(worst, std::abs(slope - e.gradient[f][i][c]));
+      }
+  return largest > 0 ? worst / largest : 0;
+}
+} // namespace
+
+TEST(ContactPotential, twoSquares)
+{
+  const FaceNodes faces[2] = {
+      face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+      face({{.3, .2, -.01}, {.3, 1.2, -.01}, {1.3, 1.2, -.01}, {1.3, .2, -.01}})};
+  const Evaluation<3> e(faces[0], faces[1], 1e6, 0);
+  EXPECT_NEAR(e.energy, 28, 1e-11);
+  EXPECT_NEAR(e.force, 5600, 1e-9);
+  expectForce<3>(e, faces, 0, 0, {0, 0, -699.8125});
+  expectForce<3>(e, faces, 0, 1, {-16, 0, -1540.0125});
+  expectForce<3>(e, faces, 0, 2, {-24, -22.75, -2100.1875});
+  expectForce<3>(e, faces, 1, 0, {24, 22.75, 2100.1875});
+}
+
+TEST(ContactPotential, triangleOnWarpedQuadrilateral)
+{
+  const FaceNodes faces[2] = {face({{0, 0, 0}, {1, .1, 0}, {.2, .9, .1}}),
+                              face({{.1, .8, -.02}, {.9, .9, .05}, {1, 0, -.06}, {0, -.1, -.03}})};
+  const Evaluation<3> e(faces[0], faces[1], 1e6, .004);
+  EXPECT_NEAR(e.xi, .998575564269, 1e-12);
+  EXPECT_NEAR(e.area, .436827020001, 1e-12);
+  EXPECT_NEAR(e.force, 25259.2594462, 1e-6);
+  EXPECT_NEAR(e.energy, 760.345049264, 1e-9);
+  EXPECT_NEAR(e.ratio, .0602032732497, 1e-13);
+  expectForce<3>(e, faces, 0, 0, {667.6727599, 1277.037996, -8264.131775});
+  expectForce<3>(e, faces, 1, 2, {-77.7103033, -321.1029818, 4805.753151});
+}
+
+TEST(ContactPotential, facesThatHardlyOpposeEachOther)
+{
+  FaceNodes quadrilateral = face({{.1, .8, -.02}, {.9, .9, .05}, {1, 0, -.06}, {0, -.1, -.03}});
+  const Vec3 about{.5, .4, -.02};
+  const Real c = std::cos(1.35), s = std::sin(1.35);
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vec3 r = quadrilateral.x[i] - about;
+    quadrilateral.x[i] = about + Vec3{r.x, c * r.y - s * r.z, s * r.y + c * r.z};
+  }
+  const FaceNodes faces[2] = {face({{0, 0, 0}, {1, .1, 0}, {.2, .9, .1}}), quadrilateral};
+  const Evaluation<3> e(faces[0], faces[1], 1e6, .03);
+  EXPECT_NEAR(e.xi, .263992046729, 1e-12);
+  EXPECT_NEAR(e.phi, .956266664512, 1e-12);
+  EXPECT_NEAR(e.energy, 9569.83127908, 1e-7);
+  EXPECT_LT(errorOfGradient<3>(faces[0], faces[1], .03), 1e-10);
+  expectForce<3>(e, faces, 0, 0, {-844.7521808, 40048.98632, 24797.93831});
+  expectForce<3>(e, faces, 1, 3, {8350.193097, -6880.239478, 158.990773});
+}
+
+TEST(ContactPotential, segments)
+{
+  const FaceNodes faces[2] = {face({{1, 0, 0}, {0, 0, 0}}), face({{.3, -.02, 0}, {1.2, .03, 0}})};
+  const Evaluation<2> e(faces[0], faces[1], 1e6, .004);
+  EXPECT_NEAR(e.energy, 41.5439496616, 1e-9);
+  expectForce<2>(e, faces, 0, 0, {0, -2305.500804, 0});
+  expectForce<2>(e, faces, 0, 1, {0, -2887.82613, 0});
+  expectForce<2>(e, faces, 1, 0, {46.00016763, 4365.323916, 0});
+}
+
+TEST(ContactPotential, gradientIsThatOfTheEnergy)
+{
+  std::mt19937 random(5);
+  for (const Real warp : {0., .02, .2, .4})
+  {
+    int pairs = 0;
+    while (pairs < 200)
+    {
+      const RandomPair pair = randomPair(random, warp);
+      if (!(Evaluation<3>(pair.a, pair.b, 1, 0).energy > 1e-4))
+        continue;
+      ++pairs;
+      const Real error = errorOfGradient<3>(pair.a, pair.b, 0);
+      EXPECT_LT(error, 3e-5) << "warp " << warp << " pair " << pairs;
+    }
+  }
+}
+
+TEST(ContactPotential, gradientInTwoDimensionsAlsoWhereAWayOutIsNear)
+{
+  std::mt19937 random(6);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  int pairs = 0, part = 0;
+  while (pairs < 500)
+  {
+    // A strip of the width of the closure between an end of each.
+    const Real turn = .2 * u(random), depth = .05, width = .05 + .15 * std::abs(u(random));
+    FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
+    FaceNodes b = face({{1 - width, -depth, 0}, {2, -depth + turn * .2, 0}});
+    const unsigned exits = 1u << 0 | 1u << 4;
+    const Evaluation<2> e(a, b, 1, 0, {0, 0}, exits);
+    if (!(e.energy > 0))
+      continue;
+    ++pairs;
+    part += e.share > .01 && e.share < .99;
+    const Real error = errorOfGradient<2>(a, b, 0, exits);
+    EXPECT_LT(error, 1e-5) << pairs;
+  }
+  EXPECT_GT(part, 100);
+}
+
+TEST(ContactPotential, forcesAndMomentsSumToZero)
+{
+  std::mt19937 random(7);
+  for (int n = 0; n < 2000; ++n)
+  {
+    const RandomPair pair = randomPair(random, .3);
+    const Evaluation<3> e(pair.a, pair.b, 1, .02, {1, 1}, random() & 255);
+    Vec3 force, moment;
+    Real size = 0;
+    const FaceNodes* faces[2] = {&pair.a, &pair.b};
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < faces[f]->count; ++i)
+      {
+        force += e.gradient[f][i];
+        moment += cross(faces[f]->x[i], e.gradient[f][i]);
+        size = std::max(size, norm(e.gradient[f][i]));
+      }
+    EXPECT_LE(norm(force), 1e-12 * size);
+    EXPECT_LE(norm(moment), 1e-11 * size);
+  }
+}
+
+TEST(ContactPotential, matchedFacesUnderEvenClosureAreNotSqueezed)
+{
+  // Rims are shared, and material area takes back what stretching would cost.
+  const FaceNodes a = face({{0, 0, 0}, {1, .1, 0}, {1.2, 1, 0}, {-.1, .9, 0}});
+  FaceNodes b = a;
+  for (int i = 0; i < 4; ++i)
+    b.x[i] = a.x[3 - i] + Vec3{1e-6, -2e-6, -.01};
+  const Evaluation<3> e(a, b, 1e6, 0);
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < 4; ++i)
+    {
+      EXPECT_NEAR(e.gradient[f][i].x, 0, 1e-3);
+      EXPECT_NEAR(e.gradient[f][i].y, 0, 1e-3);
+    }
+  // Exactly on each other: to round-off.
+  for (int i = 0; i < 4; ++i)
+    b.x[i] = a.x[3 - i] + Vec3{0, 0, -.01};
+  const Evaluation<3> matched(a, b, 1e6, 0);
+  for (int f = 0; f < 2; ++f)
+    for (int i = 0; i < 4; ++i)
+      EXPECT_NEAR(std::hypot(matched.gradient[f][i].x, matched.gradient[f][i].y), 0, 1e-11);
+}
+} // namespace coplane
