@@ -647,12 +647,14 @@ private:
           const T squared = dot(edge, edge);
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
-          const auto close = near * near < oneEdge_ * oneEdge_ * squared && there;
+          const T along = dot(edge, d);
+          const auto close = near * near < oneEdge_ * oneEdge_ * squared &&
+                             along * along > 0.5 * squared * dot(d, d) && there;
           if (!anyOf(close))
             continue;
           const T given = choose(close, 0.5 - 0.5 * apartness(near / squareRoot(squared)), T(0.0));
           kept = kept - given;
-          addRim(g, o, there, from, to, total, second, given, rim);
+          addRim(g, o, close, from, to, total, second, given, rim);
         }
         addRim(f, e, there, from, to, total, second, kept, rim);
       }
@@ -670,7 +672,10 @@ private:
     const int i0 = nodeOfEdge(f, e, 0), i1 = nodeOfEdge(f, e, 1);
     const Vec2Of<T>& start = shadow[f].p[i0];
     const Vec2Of<T> edge = shadow[f].p[i1] - start, outward{to.y - from.y, from.x - to.x};
-    const T inverse = 1.0 / cross(edge, outward);
+    // A side of the length of round-off has any direction.
+    const T crossing = cross(edge, outward);
+    const auto beside = crossing * crossing > 0.25 * dot(edge, edge) * dot(outward, outward);
+    const T inverse = choose(beside, 1.0 / crossing, T(0.0));
     const T la = inverse * cross(from - start, outward), lb = inverse * cross(to - start, outward);
     const T none(0.0);
     const T atEnd = choose(there, part * ((total - second) * la + second * lb), none);
