@@ -62,9 +62,12 @@ struct ContactPotentialScale
 {
   /// The energy falls to zero between these values of -n0.n1, so that pairs come and go smoothly.
   Real opposedFrom = 0.1, opposedTo = 0.3;
-  /// Edges of both faces nearer than this fraction of a face count as one, and share what belongs
-  /// to them.
+  /// Edges of both faces nearer than this fraction of a face across them count as one, and share
+  /// what belongs to them.
   Real oneEdge = 1e-3;
+  /// The same for the borders of two bodies that lie beside each other: a block that is set a
+  /// little off another one, or slides a little, keeps the area it has.
+  Real oneBorder = 0.25;
   /// Where the area in contact is narrower than this many closures between edges over which the
   /// bodies can leave each other, sideways is the shorter way out: between these nothing is left.
   Real wayOutFrom = 0.5, wayOutTo = 2;
@@ -178,14 +181,16 @@ public:
     opposedness = opposed.value;
     opposednessSlope_ = opposed.slope * (1.0 / (scale_.opposedTo - scale_.opposedFrom));
     const T least = smaller(a.area, b.area);
-    oneEdge_ = scale_.oneEdge * (Dim == 2 ? least : squareRoot(least));
+    size_ = least;
+    for (int owner = 0; owner < 8; ++owner)
+      exit_[owner] = exits(owner);
     findOverlap();
-    pressAll(whole, exits);
+    pressAll(whole);
     if constexpr (Dim == 3 && widthOf<T> == 1)
       if (!regular)
       {
         findPieces();
-        pressAll(whole, exits);
+        pressAll(whole);
       }
   }
 
@@ -490,18 +495,16 @@ private:
     return 0; // folded: carries nothing
   }
 
-  template <class Exits>
-  KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole, const Exits& exits)
+  KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole)
   {
     moments = {};
     ways = T(0.0);
     for (int i = 0; i < pieces_; ++i)
-      press(piece_[i], whole, exits);
+      press(piece_[i], whole);
   }
 
   /// Cuts off what is not closed, and integrates.
-  template <class Exits>
-  KOKKOS_INLINE_FUNCTION void press(Owned& q, const Mask& whole, const Exits& exits)
+  KOKKOS_INLINE_FUNCTION void press(Owned& q, const Mask& whole)
   {
     using namespace branchFree;
     if constexpr (Dim == 2)
@@ -533,7 +536,7 @@ private:
       moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
       for (int k = 0; k < 2; ++k)
         if (q.owner[k] >= 0)
-          ways += exits(q.owner[k]);
+          ways += exit_[q.owner[k]];
     }
     else
     {
@@ -570,7 +573,7 @@ private:
         sum.add(apex, p, r, atApex, closureAt(p), closureAt(r));
         if (q.owner[k] >= 0)
         {
-          const T exit = exits(q.owner[k]);
+          const T& exit = exit_[q.owner[k]];
           if (anyOf(exit > 0.0))
             border += exit * squareRoot(dot(r - p, r - p));
         }
@@ -613,9 +616,13 @@ private:
         for (int other = 0; other < 2; ++other)
         {
           const T near = absolute(shadow[1 - f].p[other].x - x);
-          if (!(near < oneEdge_))
+          const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
+          const bool borders =
+              exit_[q.owner[end]] > 0 && exit_[4 * (1 - f) + other] > 0 && upper == (end == 1);
+          const T width = (borders ? scale_.oneBorder : scale_.oneEdge) * size_;
+          if (!(near < width))
             continue;
-          const T given = 0.5 - 0.5 * apartness(near);
+          const T given = 0.5 - 0.5 * apartness(near / width);
           kept -= given;
           rim[1 - f][other].x += given * whole;
         }
@@ -644,15 +651,17 @@ private:
         {
           const Vec2Of<T>& start = shadow[g].p[nodeOfEdge(g, o, 0)];
           const Vec2Of<T> edge = shadow[g].p[nodeOfEdge(g, o, 1)] - start;
-          const T squared = dot(edge, edge);
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
           const T along = dot(edge, d);
-          const auto close = near * near < oneEdge_ * oneEdge_ * squared &&
-                             along * along > 0.5 * squared * dot(d, d) && there;
+          const auto borders = exit_[q.owner[k]] > 0.0 && exit_[4 * g + o] > 0.0 && along > 0.0;
+          // Both times the length of the edge: the size of a face across it is its area over that.
+          const T width = choose(borders, T(scale_.oneBorder), T(scale_.oneEdge)) * size_;
+          const auto close =
+              near < width && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
           if (!anyOf(close))
             continue;
-          const T given = choose(close, 0.5 - 0.5 * apartness(near / squareRoot(squared)), T(0.0));
+          const T given = choose(close, 0.5 - 0.5 * apartness(near / width), T(0.0));
           kept = kept - given;
           addRim(g, o, close, from, to, total, second, given, rim);
         }
@@ -687,7 +696,7 @@ private:
   /// 0 for edges that count as one, 1 for edges that do not.
   KOKKOS_FORCEINLINE_FUNCTION T apartness(const T& distance) const
   {
-    return SmoothStep<T>(2.0 * distance / oneEdge_ - 1.0).value;
+    return SmoothStep<T>(2.0 * distance - 1.0).value;
   }
 
   /// Adds h.dN to the gradient, for the change dN of a face's vector area.
@@ -720,7 +729,8 @@ private:
 
   const HalfStepFaceOf<T>* face_[2];
   const ContactPotentialScale& scale_;
-  T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, oneEdge_{};
+  T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
+  T exit_[8];
   Vec2Of<T> tilt_, apart_;
   bool inOrder_ = false;
   int pieces_ = 0;

@@ -95,7 +95,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   bookOldForce(planes, done, a, b, dt);
 
   const T overlap = choose(opposed, pair.overlap, T(0.0));
-  const auto overlaps = overlap > 1e-14 * smaller(a.area, b.area);
+  const auto overlaps = overlap > options.areaMin * smaller(a.area, b.area);
   const T deepest = pair.mostClosure + permanent; // negative: nearest
   const T approach = choose(overlaps, 2.0 * dt * approachSpeed(pair.plane.normal, a, b), T(0.0));
   const auto inContact =
@@ -309,7 +309,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   if (anyOf(near))
   {
     const int fewer = a.count < b.count ? a.count : b.count;
-    const T deep = positivePart(deepest) / detail::shortestEdge(a, b);
+    // Rims make a contact stiffer that is deep for its width.
+    const T deep = positivePart(deepest / detail::shortestEdge(a, b) - 0.02);
     nodeArea = overlap * (1.0 + 3.0 * deep) * (2.000002 * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0));
   }
   for (int i = 0; i < planes.count; ++i)
