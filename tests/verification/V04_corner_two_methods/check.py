@@ -1,4 +1,4 @@
-"""A corner is pushed into a fixed face, by Simple Common Planes and by Cundall's common plane."""
+"""A corner is pushed into a fixed face, by Simple Common Planes with both kinds of forces and by Cundall's common plane."""
 
 import math
 
@@ -39,7 +39,11 @@ def push(name, theta, **contact):
 for angle in (120, 90, 60):
     theta = math.radians(angle) / 2
     delta = (math.pi / 2 - theta) / 2
-    depth, simple = push(f"simple_{angle}", theta)
+    # Two faces, the closure of each falls from d / cos(delta) to zero over d / (2 sin(delta)): energy and its slope.
+    depth, potential = push(f"potential_{angle}", theta)
+    expected = stiffness * depth**2 / (2 * math.cos(delta) ** 2 * math.sin(delta))
+    case.check(f"{angle}: Simple Common Planes, forces of the potential [N]", potential, expected, 1e-10, relative=True)
+    depth, simple = push(f"simple_{angle}", theta, forces="common_normal")
     expected = stiffness * depth**2 * math.cos(delta) / math.cos(theta)
     case.check(f"{angle}: Simple Common Planes [N]", simple, expected, 1e-10, relative=True)
     for search in ("candidates", "rotations"):
@@ -100,7 +104,7 @@ for dimension, across in ((2, [5]), (3, [2, 2])):
     ]
     runs = {
         method: case.run(
-            f"bars_{dimension}d_{method}", {"dimension": dimension, "parts": parts}, {**bars, "contact": {"method": method}}
+            f"bars_{dimension}d_{method}", {"dimension": dimension, "parts": parts}, {**bars, "contact": {"method": method, "forces": "common_normal"}}
         )
         for method in ("simple_common_plane", "common_plane")
     }

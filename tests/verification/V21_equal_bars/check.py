@@ -76,8 +76,10 @@ for name, angles in (("2d", 30), ("3d", [30, 20, 50])):
 # --- V65: one layer of hexahedra between rollers is the plane problem -------------------------------
 case.name = "V65"
 rollers = [{"type": "symmetry", "node_set": side, "normal": [0, 0, 1]} for side in ("back", "front")]
-plain = runs["2d"].results
-results = case.run("slice", case.load("mesh_slice.yaml"), {**deck, "conditions": rollers}).results
+# Hourglass stiffness depends on the thickness, and faces that do not match push their nodes unevenly by (closure / size)^2.
+flat = {**deck, "blocks": {name: {**block, "hourglass": {"stiffness": 0}} for name, block in deck["blocks"].items()}}
+plain = case.run("plane", case.load("mesh_2d.yaml"), flat).results
+results = case.run("slice", case.load("mesh_slice.yaml"), {**flat, "conditions": rollers}).results
 # Nodes of both bars stand at the joint: tell them apart by their block.
 match = []
 for block in plain.blocks:
