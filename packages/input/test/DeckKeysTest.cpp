@@ -169,8 +169,8 @@ std::string show(const Deck& d)
             j.wallStrength, j.rockStrength, j.residualFriction, j.peakSlip);
   const auto& c = d.contact;
   showAll(out, c.enabled, c.preset, c.method, c.planeSearch, c.area, c.weights, c.closure, c.couple,
-          c.areaRule, c.inherit, c.shareNode, c.cosOpposed, c.depthMax, c.areaMin, c.skin,
-          c.searchEvery, c.dampNormal, c.dampShear, c.defaultJoint);
+          c.areaRule, c.inherit, c.shareNode, c.initialOverlap, c.cosOpposed, c.depthMax, c.areaMin,
+          c.skin, c.searchEvery, c.dampNormal, c.dampShear, c.defaultJoint);
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
