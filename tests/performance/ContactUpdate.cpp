@@ -86,8 +86,7 @@ void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
   joint.law.curve.inverseMaximumClosure = 1 / (0.05 * side);
   joint.law.friction = 0.6;
   rules.joints = {joint};
-  rules.groups = 1;
-  rules.table.resize(1);
+  rules.tellApart(1);
   ContactOptions options;
   options.inherit = false;
   const Real skin = 0.1 * side;

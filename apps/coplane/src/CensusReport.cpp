@@ -1,13 +1,16 @@
 #include "CensusReport.hpp"
 
 #include <coplane_contact/Census.hpp>
+#include <coplane_contact/InitialOverlaps.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_mesh/Bodies.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace coplane
 {
@@ -66,5 +69,45 @@ void reportCensus(const Contact& contact)
   printLengths(c.overlaps, "depths of overlaps, which carry no force at the start", "overlap",
                contact.skin());
   printLengths(c.gaps, "gaps of pairs that face each other", "gap", contact.skin());
+}
+
+void reportInitialOverlaps(const Solver& solver, bool allowed)
+{
+  const RankMesh& mesh = solver.mesh();
+  std::vector<InitialOverlap> overlaps =
+      initialOverlaps(solver.contact(), solver.state().x,
+                      bodyLabels(mesh, std::vector<char>(mesh.blocks.size(), 1), solver.comm()));
+  if (overlaps.empty())
+    return;
+  std::sort(overlaps.begin(), overlaps.end(),
+            [](const InitialOverlap& a, const InitialOverlap& b) {
+              return std::tie(b.depth, a.block[0], a.block[1]) <
+                     std::tie(a.depth, b.block[0], b.block[1]);
+            });
+  constexpr std::size_t named = 10;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(named, overlaps.size()); ++i)
+  {
+    const InitialOverlap& overlap = overlaps[i];
+    const auto name = [&](int side) { return solver.model().blocks[overlap.block[side]].name; };
+    lines.push_back(fmt::format(
+        "  {}: {} faces up to {:.3g} m deep ({} behind {}), about {:.3g} {}",
+        overlap.block[0] == overlap.block[1]
+            ? fmt::format("bodies of block '{}' in each other", name(0))
+            : fmt::format("blocks '{}' and '{}' in each other", name(0), name(1)),
+        overlap.faces, overlap.depth, faceName(overlap.faceId[0]), faceName(overlap.faceId[1]),
+        overlap.volume, mesh.dimension == 2 && !solver.model().axisymmetric() ? "m^2" : "m^3"));
+  }
+  if (overlaps.size() > named)
+    lines.push_back(fmt::format("  and {} more pairs of blocks", overlaps.size() - named));
+  const std::string found =
+      fmt::format("bodies overlap before the first step:\n{}", fmt::join(lines, "\n"));
+  if (!allowed)
+    failOnAllRanks(ExitCode::Mesh,
+                   "{}\nRepair the mesh, or declare the joint where faces lie on each other "
+                   "(contact.pairs, declared: true), or exclude the pair; contact.initial_overlap: "
+                   "allow starts all the same, without force between them until they press deeper.",
+                   found);
+  logWarning("overlaps at the start", found);
 }
 } // namespace coplane

@@ -1,9 +1,12 @@
 #pragma once
 
-#include <coplane_contact/Contact.hpp>
+#include <coplane_dynamics/Solver.hpp>
 
 namespace coplane
 {
 /// Prints the census of contact before the first step. Collective.
 void reportCensus(const Contact& contact);
+/// Prints which bodies lie in each other before the first step; an error unless that is allowed.
+/// Collective.
+void reportInitialOverlaps(const Solver& solver, bool allowed);
 } // namespace coplane

@@ -131,15 +131,25 @@ void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model
     if (deck.contact.pairs[i].declared)
       rules.declaredItems.emplace_back(int(i), nameOf(deck.contact.pairs[i], i));
 
-  rules.groups = int(groups.size());
+  std::map<std::vector<bool>, int> kindWith;
+  std::vector<const ContactTraits*> kinds; // a face of each
+  for (const ContactTraits& group : groups)
+  {
+    const auto [kind, isNew] =
+        kindWith.emplace(contactRoles(deck.contact, group), int(kinds.size()));
+    if (isNew)
+      kinds.push_back(&group);
+    rules.kindOf.push_back(kind->second);
+  }
+  rules.kinds = int(kinds.size());
   ContactRule general;
   general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
-  rules.table.assign(std::size_t(rules.groups) * rules.groups, general);
-  for (int a = 0; a < rules.groups; ++a)
-    for (int b = 0; b < rules.groups; ++b)
-      if (const ContactPairCard* card = contactPairFor(deck.contact, groups[a], groups[b]))
+  rules.table.assign(kinds.size() * kinds.size(), general);
+  for (std::size_t a = 0; a < kinds.size(); ++a)
+    for (std::size_t b = 0; b < kinds.size(); ++b)
+      if (const ContactPairCard* card = contactPairFor(deck.contact, *kinds[a], *kinds[b]))
       {
-        ContactRule& rule = rules.table[a * rules.groups + b];
+        ContactRule& rule = rules.table[a * kinds.size() + b];
         if (!card->joint.empty())
           rule.joint = jointIndex(card->joint);
         rule.declared = card->declared;

@@ -7,7 +7,7 @@
 
 namespace coplane
 {
-void reportModel(const Solver& solver, const MeshSlice& mesh)
+void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
 {
   const Comm& comm = solver.comm();
   std::vector<ExactSum> masses(solver.blocks().size());
@@ -33,6 +33,8 @@ void reportModel(const Solver& solver, const MeshSlice& mesh)
     return;
   }
   reportCensus(solver.contact());
+  if (solver.clock().cycle == 0)
+    reportInitialOverlaps(solver, deck.contact.initialOverlap == "allow");
 }
 
 void reportEnd(const Solver& solver)

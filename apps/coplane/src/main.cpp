@@ -159,7 +159,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     restart(solver, deck, mesh, line.checkpoint, settings);
   else
     solver.prepare();
-  reportModel(solver, mesh);
+  reportModel(solver, mesh, deck);
   reportSoftening(deck, mesh, solver, comm);
   if (line.check)
   {

@@ -64,8 +64,7 @@ ContactRules rules()
     rules.joints.push_back(joint);
   }
   // Group 3 is the left side of block 1: a joint with nothing on its other side.
-  rules.groups = 4;
-  rules.table.resize(16);
+  rules.tellApart(4);
   rules.table[15].declared = true;
   rules.table[15].item = 0;
   rules.declaredItems = {{0, "nowhere"}, {1, "first"}, {2, "second"}};
@@ -140,7 +139,7 @@ protected:
 
 TEST_F(Tables, jointsAreSummedUpByCard)
 {
-  const std::vector<JointSummary> joints = jointSummaries(*contact_);
+  const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
   ASSERT_EQ(joints.size(), 2u);
   // Closure is pressure over stiffness; stored is 1/2 pressure closure area.
   const Real areas[] = {left, right}, stiffness[] = {soft, hard};
@@ -161,7 +160,7 @@ TEST_F(Tables, jointsAreSummedUpByCard)
 TEST_F(Tables, whatOpensIsOpenArea)
 {
   move({0, 2e-3, 0}); // twice the closure of the soft joint
-  const std::vector<JointSummary> joints = jointSummaries(*contact_);
+  const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
   EXPECT_NEAR(joints[0].openArea, left, 1e-12);
   EXPECT_NEAR(joints[1].openArea, right, 1e-12);
   EXPECT_EQ(joints[0].stickArea + joints[0].slipArea + joints[1].stickArea, 0);
@@ -174,12 +173,31 @@ TEST_F(Tables, slipBooksFriction)
   // Shear stiffness is half of the normal one: the soft joint slips beyond mu p / (k / 2) = 1 mm of
   // 10 mm, the hard one beyond half a millimetre.
   move({-0.01, 0, 0});
-  const std::vector<JointSummary> joints = jointSummaries(*contact_);
+  const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
   EXPECT_GT(joints[0].slipArea, 0.98);
   EXPECT_EQ(joints[0].stickArea, 0);
   EXPECT_NEAR(joints[0].largestSlip, 0.009, 1e-9);
   EXPECT_NEAR(joints[1].largestSlip, 0.0095, 1e-9);
   EXPECT_GT(joints[0].energy.friction, 0);
+}
+
+TEST_F(Tables, sliversAndFacesThatOverlapNoMoreAreNoJoint)
+{
+  // Under slip, until 0.05 % of the left block lies on the other one; then none of it.
+  move({-0.01, 0, 0});
+  EXPECT_GT(jointSummaries(*contact_, x_)[0].largestSlip, 0);
+  move({-0.9895, 0, 0});
+  const Real frictionAtTheEnd = jointSummaries(*contact_, x_)[0].energy.friction;
+  EXPECT_GT(frictionAtTheEnd, 0);
+  for (const Real way : {0.0, -0.1})
+  {
+    move({way, 0, 0});
+    const JointSummary left = jointSummaries(*contact_, x_)[0];
+    EXPECT_EQ(left.openArea + left.stickArea + left.slipArea, 0);
+    EXPECT_EQ(left.largestSlip, 0);
+    EXPECT_NEAR(left.energy.friction, frictionAtTheEnd, 1e-3 * frictionAtTheEnd);
+  }
+  EXPECT_GT(jointSummaries(*contact_, x_)[1].largestSlip, 0);
 }
 
 TEST_F(Tables, rowsOfPairsAddUpToTheEnergyOfContact)
@@ -266,5 +284,29 @@ TEST_F(Tables, censusKnowsTheGapsThatJointsAbsorb)
   EXPECT_EQ(found.joints.extreme[0].faceId[1], faceId(3, 0));
   EXPECT_EQ(found.leastStiffness, soft);
   EXPECT_EQ(found.largestStiffness, hard);
+}
+
+TEST(Contact, refusesMoreBlocksOrJointsThanPlanesCanName)
+{
+  const Comm comm(MPI_COMM_SELF);
+  const auto messageWith = [&](int blocks, int joints) -> std::string
+  {
+    Face face;
+    face.block = blocks - 1;
+    ContactRules rules;
+    rules.joints.resize(std::size_t(joints));
+    try
+    {
+      Contact(comm, 2, {face}, {}, rules, 1, 1);
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(messageWith(65535, 65535), "");
+  EXPECT_NE(messageWith(65536, 1).find("65536 element blocks"), std::string::npos);
+  EXPECT_NE(messageWith(1, 70000).find("70000 joint laws"), std::string::npos);
 }
 } // namespace coplane

@@ -105,4 +105,156 @@ TEST(Inheritance, facesWithoutNodesAreOnNoSurface)
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, {{{101, 102, 0, 0}, {2, 5, 0, 0}}}, donors));
   EXPECT_FALSE(plane.slidesOn);
 }
+
+namespace
+{
+/// In the plane z = 0 (two dimensions: y = 0): face 10, wide, faces upwards; face 21 lies on it
+/// from x = 0 to 1 and carries a plane. Face 22 looks down on it from x0 on, 1 m wide, `gap` above
+/// it, and shares a node with face 21, or none.
+struct Scene
+{
+  int dimension = 3;
+  Real x0 = 1, gap = 0;
+  bool sameSurface = true;
+  Real donorOffset = 0;
+  bool wideIsLower = true;
+
+  static void put(int dimension, bool up, Real from, Real to, Real height, Vec3* corners)
+  {
+    if (dimension == 2)
+    {
+      // The outward normal lies on the right of the direction.
+      corners[0] = {up ? to : from, height, 0};
+      corners[1] = {up ? from : to, height, 0};
+      return;
+    }
+    const Vec3 square[4] = {{from, 0, height}, {to, 0, height}, {to, 1, height}, {from, 1, height}};
+    for (int k = 0; k < 4; ++k)
+      corners[k] = square[up ? k : 3 - k];
+  }
+
+  bool continued(Real reach = 0.1) const
+  {
+    const int count = dimension == 2 ? 2 : 4;
+    const int wide = wideIsLower ? 0 : 1;
+    const GlobalId wideId = wideIsLower ? 10 : 30;
+    NewPair pair;
+    Donor donor;
+    pair.faceId[wide] = donor.faceId[wide] = wideId;
+    pair.faceId[1 - wide] = 22;
+    donor.faceId[1 - wide] = 21;
+    for (int side = 0; side < 2; ++side)
+      pair.count[side] = donor.count[side] = count;
+    put(dimension, true, -5, 5, 0, pair.corners[wide]);
+    put(dimension, true, -5, 5, 0, donor.corners[wide]);
+    put(dimension, false, x0, x0 + 1, gap, pair.corners[1 - wide]);
+    put(dimension, false, 0, 1, -1e-5, donor.corners[1 - wide]);
+    for (int k = 0; k < count; ++k)
+    {
+      pair.nodes[wide][k] = donor.nodes[wide][k] = 101 + k;
+      donor.nodes[1 - wide][k] = 1 + k;
+      pair.nodes[1 - wide][k] = (sameSurface ? 2 : 51) + k;
+    }
+    const Real up = wideIsLower ? 1 : -1;
+    pair.normal = donor.normal = dimension == 2 ? Vec3{0, up, 0} : Vec3{0, 0, up};
+    donor.offset = donorOffset;
+    return continues(pair, donor, dimension, reach);
+  }
+};
+
+/// The scene in two and three dimensions, whichever face has the lower id, all alike.
+bool continued(Scene scene)
+{
+  std::vector<bool> answers;
+  for (const int dimension : {2, 3})
+    for (const bool lower : {false, true})
+    {
+      scene.dimension = dimension;
+      scene.wideIsLower = lower;
+      answers.push_back(scene.continued());
+    }
+  for (const bool answer : answers)
+    EXPECT_EQ(answer, answers[0]);
+  return answers[0];
+}
+
+Scene at(Real x0, Real gap = 0, bool sameSurface = true, Real donorOffset = 0)
+{
+  Scene scene;
+  scene.x0 = x0;
+  scene.gap = gap;
+  scene.sameSurface = sameSurface;
+  scene.donorOffset = donorOffset;
+  return scene;
+}
+} // namespace
+
+TEST(Continuation, ofAnAreaOnTheSameSurface)
+{
+  EXPECT_TRUE(continued(at(1.0, -1e-5)));
+  EXPECT_TRUE(continued(at(1.09, -1e-5))) << "within reach";
+  EXPECT_FALSE(continued(at(1.2, -1e-5))) << "beside";
+  EXPECT_FALSE(continued(at(2.5, -1e-5)));
+  EXPECT_FALSE(continued(at(-2.5, -1e-5)));
+}
+
+TEST(Continuation, isNoneWhereTheFacesAreApart)
+{
+  EXPECT_FALSE(continued(at(1.0, 1e-5)));
+  EXPECT_TRUE(continued(at(1.0, 1e-5, true, 2e-5))) << "closed where the donor is closed";
+}
+
+TEST(Continuation, isNoneForAnotherBodyThatHasComeDownBesideTheDonor)
+{
+  EXPECT_FALSE(continued(at(1.0, -1e-5, false)));
+  EXPECT_FALSE(continued(at(1.0, 0.01, false, 0.02))) << "below the gap that a joint has absorbed";
+}
+
+TEST(Continuation, overASeamBetweenTwoBodies)
+{
+  // A face of 1 m slides from face 21 to face 22 of another body, which begins where 21 ends. Until
+  // it gets there it shares no area with it.
+  for (const int dimension : {2, 3})
+    for (const Real way : {-0.05, 0.0, 0.5})
+    {
+      SCOPED_TRACE(way);
+      NewPair pair;
+      Donor donor;
+      pair.faceId[0] = donor.faceId[0] = 10;
+      pair.faceId[1] = 22;
+      donor.faceId[1] = 21;
+      for (int side = 0; side < 2; ++side)
+        pair.count[side] = donor.count[side] = dimension == 2 ? 2 : 4;
+      Scene::put(dimension, true, way, 1 + way, 0, pair.corners[0]);
+      Scene::put(dimension, true, way, 1 + way, 0, donor.corners[0]);
+      Scene::put(dimension, false, 1, 2, -1e-5, pair.corners[1]);
+      Scene::put(dimension, false, 0, 1, -1e-5, donor.corners[1]);
+      for (int k = 0; k < 4; ++k)
+      {
+        donor.nodes[1][k] = 1 + k;
+        pair.nodes[1][k] = 51 + k;
+      }
+      pair.normal = donor.normal = dimension == 2 ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+      // Once there is area it would have been born: a pair that is new then has come from
+      // elsewhere.
+      EXPECT_EQ(continues(pair, donor, dimension, 0.1), way <= 0);
+    }
+}
+
+TEST(Inheritance, bondsGoOnWhereMostOfTheAreaIsBonded)
+{
+  for (const Real bondedArea : {1.0, 3.0})
+  {
+    Plane plane = pairOf10And22();
+    std::vector<Donor> donors{planeOf10And(21, {1, 2, 3, 4}, bondedArea, .04),
+                              planeOf10And(23, {7, 8, 9, 10}, 2, .04)};
+    donors[0].bonded = true;
+    donors[0].opening = 3e-4;
+    donors[0].shearing = 2e-4;
+    EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, donors));
+    EXPECT_EQ(plane.history.bonded, bondedArea > 2);
+    EXPECT_EQ(plane.history.opening, bondedArea > 2 ? 3e-4 : 0);
+    EXPECT_EQ(plane.history.shearing, bondedArea > 2 ? 2e-4 : 0);
+  }
+}
 } // namespace coplane

@@ -117,12 +117,28 @@ TEST(Step5CandidatePairs, excludedGroupsAreNotPaired)
   EXPECT_EQ(judgeSquares(0.05, 1, {}, {0, 0, -1}, rules), Verdict::Excluded);
 }
 
-TEST(Step5CandidatePairs, pairsInContactStayWhileTheirFacesOpposeEachOther)
+TEST(Step5CandidatePairs, facesThatMeetBeforeTheNextSearchAreACandidate)
 {
-  CandidateRules rules;
-  rules.inContact = [](GlobalId, GlobalId) { return true; };
-  EXPECT_EQ(judgeSquares(-0.1, 0.05, {}, {0, 0, -1}, rules), Verdict::Candidate); // deep
-  EXPECT_EQ(judgeSquares(0.05, 1, {}, {1, 0, -0.05}, rules), Verdict::Candidate); // nearly upright
-  EXPECT_EQ(judgeSquares(0.05, 1, {}, {1, 0, 0.05}, rules), Verdict::NotOpposed);
+  // 0.5 m apart, with a skin of 0.1 m; the next search comes after 0.1 s. They close at 3, 4.1 and
+  // 6 m/s, a common motion of any size aside.
+  const auto closingAt = [](Real speed, Real common, Real gap = 0.5)
+  {
+    const NodeVectors v("v", 8);
+    for (int n = 0; n < 8; ++n)
+      set(v, n, {common, 0, n < 4 ? common + 0.25 * speed : common - 0.75 * speed});
+    CandidateRules rules;
+    rules.motion.v = v;
+    rules.motion.ahead = 0.1;
+    rules.motion.frame = {common, 0, common};
+    return judgeSquares(gap, 1, {}, {0, 0, -1}, rules);
+  };
+  for (const Real common : {0.0, 100.0})
+  {
+    EXPECT_EQ(closingAt(3, common), Verdict::TooFarApart);
+    EXPECT_EQ(closingAt(4.1, common), Verdict::Candidate);
+    EXPECT_EQ(closingAt(6, common), Verdict::Candidate);
+    EXPECT_EQ(closingAt(-6, common), Verdict::TooFarApart);
+    EXPECT_EQ(closingAt(-6, common, 0.05), Verdict::Candidate); // within the skin now
+  }
 }
 } // namespace coplane::testing

@@ -142,8 +142,8 @@ TEST(SearchCompleteness, reachLargerThanTheFaces)
 
 TEST(SearchCompleteness, thousandSmallCloudsOfAllKinds)
 {
-  // Size, shape, spread, directions, groups and pairs in contact at random; some faces have no
-  // extent, some share a node.
+  // Size, shape, spread, directions and groups at random; some faces have no extent, some share a
+  // node.
   const Comm comm;
   Random random(6);
   std::size_t pairs = 0;
@@ -177,8 +177,6 @@ TEST(SearchCompleteness, thousandSmallCloudsOfAllKinds)
     rules.reach *= 1 + std::floor(2 * unit(random));
     if (c % 2)
       rules.excluded = [](int a, int b) { return (a + b) % 3 == 0; };
-    if (c % 3)
-      rules.inContact = [](GlobalId a, GlobalId b) { return mix(a) % 3 == 0 && mix(b) % 3 == 0; };
     const RankPart part(scene, comm);
     const Pairs expected = concerning(bruteForce(scene, rules), part);
     const Real binScale = std::pow(2.0, std::floor(3 * unit(random)) - 1);

@@ -39,8 +39,7 @@ inline Model rockModel(const Mesh& mesh, const Comm& comm, Real friction = 0,
   JointRecipe joint;
   joint.law.friction = friction;
   model.contactRules.joints = {joint};
-  model.contactRules.groups = int(mesh.blocks.size());
-  model.contactRules.table.resize(mesh.blocks.size() * mesh.blocks.size());
+  model.contactRules.tellApart(int(mesh.blocks.size()));
   return model;
 }
 

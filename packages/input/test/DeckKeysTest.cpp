@@ -168,9 +168,9 @@ std::string show(const Deck& d)
             j.dilationSlip, j.tensileStrength, j.tensionEnergy, j.shearEnergy, j.roughness,
             j.wallStrength, j.rockStrength, j.residualFriction, j.peakSlip);
   const auto& c = d.contact;
-  showAll(out, c.enabled, c.preset, c.method, c.planeSearch, c.forces, c.area, c.weights, c.closure, c.couple,
-          c.areaRule, c.inherit, c.shareNode, c.cosOpposed, c.depthMax, c.areaMin, c.skin,
-          c.searchEvery, c.dampNormal, c.dampShear, c.defaultJoint);
+  showAll(out, c.enabled, c.preset, c.method, c.planeSearch, c.forces, c.area, c.weights, c.closure,
+          c.couple, c.areaRule, c.inherit, c.shareNode, c.initialOverlap, c.cosOpposed, c.depthMax,
+          c.areaMin, c.skin, c.searchEvery, c.dampNormal, c.dampShear, c.defaultJoint);
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)

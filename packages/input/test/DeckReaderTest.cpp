@@ -225,4 +225,36 @@ TEST(DeckPairs, canNameMaterialsSideSetsAndJointSets)
   EXPECT_EQ(item(free, other), 2);
   EXPECT_EQ(item(other, other), -1);
 }
+
+TEST(DeckPairs, facesWithEqualRolesHaveTheSameItems)
+{
+  const Deck deck = parseDeck(leastDeck + "contact:\n"
+                                          "  pairs:\n"
+                                          "    - {joint_set: bedding, declared: true}\n"
+                                          "    - {side_sets: [nose, \"*\"], excluded: true}\n"
+                                          "    - {blocks: [a, c], excluded: true}\n"
+                                          "    - {blocks: [b, b], excluded: true}\n"
+                                          "    - {materials: [steel, steel], declared: true}\n",
+                              "wall.yaml");
+  std::vector<ContactTraits> faces;
+  for (const char* block : {"a", "b", "c", "d"})
+    for (const char* material : {"steel", "rock", "ice", "air"})
+      for (const std::vector<std::string>& sets :
+           {std::vector<std::string>{}, {"bedding"}, {"nose"}, {"bedding", "nose"}, {"other"}})
+        faces.push_back({block, material, sets});
+  std::size_t alike = 0;
+  for (const ContactTraits& one : faces)
+    for (const ContactTraits& same : faces)
+    {
+      if (contactRoles(deck.contact, one) != contactRoles(deck.contact, same))
+        continue;
+      ++alike;
+      for (const ContactTraits& other : faces)
+        EXPECT_EQ(contactPairFor(deck.contact, one, other),
+                  contactPairFor(deck.contact, same, other));
+    }
+  // Nothing tells rock, ice and air from each other, nor a face in `other` from one in no side set:
+  // 1 + 3^2 pairs of materials and 1 + 1 + 1 + 2^2 of side sets are alike, in each of 4 blocks.
+  EXPECT_EQ(alike, std::size_t(4 * 10 * 7));
+}
 } // namespace coplane

@@ -86,8 +86,7 @@ inline Model cubesInContact(const Mesh& mesh, const Comm& comm)
   joint.name = "rough";
   joint.law.friction = 0.25;
   model.contactRules.joints = {joint};
-  model.contactRules.groups = 2;
-  model.contactRules.table.resize(4);
+  model.contactRules.tellApart(2);
   model.time.end = 5e-3;
   return model;
 }

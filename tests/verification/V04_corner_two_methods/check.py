@@ -81,7 +81,7 @@ for n, (at, way) in enumerate(zip((start - [0, sunk]).tolist(), (end - start).to
     conditions.append({"type": "velocity", "node_set": f"n{n}", "value": value})
 rocks = {k: v for k, v in deck.items() if k != "initial"}
 rocks |= {"conditions": conditions, "time": {"end": 0.031, "fixed_step": 2e-5}, "output": {"every": 1e-3}}
-rocks["contact"] = {**deck["contact"], "method": "common_plane"}
+rocks["contact"] = {**deck["contact"], "method": "common_plane", "initial_overlap": "allow"}
 run = case.run("rocking", rocking, rocks)
 nodes = run.results.nodes_of("corner")
 forces = [run.results.nodal("contact_force", step)[nodes, 1].sum() for step in range(len(run.results.times))]

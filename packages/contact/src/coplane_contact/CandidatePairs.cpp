@@ -61,6 +61,24 @@ bool mayShareNode(const Face& a, const Face& b, const FacePlane& planeA, const F
 }
 } // namespace
 
+namespace
+{
+/// How far nodes of two faces come towards each other along the normal before the next search [m].
+Real approach(const Face& a, const Face& b, const Vec3& normal, const CandidateRules& rules)
+{
+  if (!(rules.motion.ahead > 0))
+    return 0;
+  const auto most = [&](const Face& face, Real sign)
+  {
+    Real way = -infinity;
+    for (int k = 0; k < face.count; ++k)
+      way = std::max(way, sign * dot(normal, rules.way(face.nodes[k], infinity)));
+    return way;
+  };
+  return std::max(0.0, most(a, 1) + most(b, -1));
+}
+} // namespace
+
 Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB,
                   const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
                   const CandidateRules& rules)
@@ -78,29 +96,22 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
     return Verdict::SharedNode;
   if (rules.excluded && rules.excluded(a.group, b.group))
     return Verdict::Excluded;
-  Verdict verdict = Verdict::Candidate;
   if (!(cosine < -rules.cosOpposed))
-    verdict = Verdict::NotOpposed;
-  else
+    return Verdict::NotOpposed;
+  const Vec3 n = normalised(planeA.normal - planeB.normal);
+  const auto halfExtent = [&](const Face& face, const Vec3& center)
   {
-    const Vec3 n = normalised(planeA.normal - planeB.normal);
-    const auto halfExtent = [&](const Face& face, const Vec3& center)
-    {
-      Real extent = 0;
-      for (int k = 0; k < face.count; ++k)
-        extent = std::max(extent, std::abs(dot(n, at(x, face.nodes[k]) - center)));
-      return extent;
-    };
-    const Real gap = dot(n, planeB.center - planeA.center);
-    const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
-    if (gap > rules.skin + extents ||
-        gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
-      verdict = Verdict::TooFarApart;
-  }
-  // Planes that carry traction stay candidates while their faces oppose each other at all.
-  if (verdict != Verdict::Candidate && rules.inContact && rules.inContact(a.id, b.id))
-    verdict = Verdict::Candidate;
-  return verdict;
+    Real extent = 0;
+    for (int k = 0; k < face.count; ++k)
+      extent = std::max(extent, std::abs(dot(n, at(x, face.nodes[k]) - center)));
+    return extent;
+  };
+  const Real gap = dot(n, planeB.center - planeA.center);
+  const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
+  if (gap > rules.skin + extents + approach(a, b, n, rules) ||
+      gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
+    return Verdict::TooFarApart;
+  return Verdict::Candidate;
 }
 
 namespace

@@ -53,16 +53,21 @@ CensusLengths lengthsOf(std::vector<Entry> mine, const Comm& comm)
 std::vector<char> groupsOfDeclaredSets(const Contact& contact)
 {
   const ContactRules& rules = contact.rules();
-  std::vector<Real> ofSideSets(rules.groups, 0);
+  std::vector<Real> ofSideSets(rules.groups(), 0), kinds(rules.kinds, 0);
   for (const Face& face : contact.faces())
     if (face.group != face.block) // the first groups are the blocks
       ofSideSets[face.group] = 1;
   contact.comm().max(ofSideSets);
-  std::vector<char> declared(rules.groups, 0);
-  for (int a = 0; a < rules.groups; ++a)
-    for (int b = 0; b < rules.groups; ++b)
-      if (ofSideSets[a] > 0 && ofSideSets[b] > 0 && rules.between(a, b).declared)
-        declared[a] = 1;
+  for (int a = 0; a < rules.groups(); ++a)
+    if (ofSideSets[a] > 0)
+      kinds[rules.kindOf[a]] = 1;
+  std::vector<char> declaredKind(rules.kinds, 0), declared(rules.groups(), 0);
+  for (int a = 0; a < rules.kinds; ++a)
+    for (int b = 0; b < rules.kinds; ++b)
+      if (kinds[b] > 0 && rules.table[std::size_t(a) * std::size_t(rules.kinds) + b].declared)
+        declaredKind[a] = 1;
+  for (int a = 0; a < rules.groups(); ++a)
+    declared[a] = ofSideSets[a] > 0 && declaredKind[rules.kindOf[a]];
   return declared;
 }
 

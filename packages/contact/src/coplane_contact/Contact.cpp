@@ -3,6 +3,7 @@
 #include <coplane_core/Timers.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace coplane
 {
@@ -37,6 +38,26 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
     nodes.mass[k] = each([&](int node) { return mass(node); });
   }
 }
+
+/// Planes keep the numbers of joint cards and blocks in 16 bits.
+void demandFewKinds(const Comm& comm, const std::vector<Face>& faces, const ContactRules& rules)
+{
+  constexpr std::int64_t most = std::numeric_limits<std::uint16_t>::max();
+  std::int64_t blocks = 0;
+  for (const Face& face : faces)
+    blocks = std::max(blocks, std::int64_t(face.block) + 1);
+  blocks = comm.max(blocks);
+  const auto demand = [&](std::int64_t count, const char* what, const char* instead)
+  {
+    if (count > most)
+      failOnAllRanks(ExitCode::Deck, "contact of {} {}: at most {} are possible. {}", count, what,
+                     most, instead);
+  };
+  demand(blocks, "element blocks",
+         "Put bodies of one material into one block of the mesh: contact tells bodies apart by "
+         "their faces, not by their blocks.");
+  demand(std::int64_t(rules.joints.size()), "joint laws", "Remove cards that are equal to others.");
+}
 } // namespace
 
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
@@ -47,6 +68,7 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
       rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
       laws_("coplane::contact::laws", rules_.joints.size())
 {
+  demandFewKinds(comm, localFaces_, rules_);
   candidates_.skin = candidates_.reach = skin_;
   candidates_.cosOpposed = options_.cosOpposed;
   candidates_.depthMax = options_.depthMax;

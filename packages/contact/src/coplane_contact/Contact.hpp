@@ -40,12 +40,15 @@ public:
           ContactRules rules, Real skin, Real smallestFace,
           std::vector<FaceElement> localElements = {});
 
-  /// Steps 1 to 4. Returns the ids of the nodes of ghost faces and of the elements that came with
+  /// Steps 1 to 4, for faces at x that go on with v for the time `ahead`: the pairs that meet by
+  /// then are found. Returns the ids of the nodes of ghost faces and of the elements that came with
   /// them. Collective.
-  std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds);
+  std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds,
+                                   const ConstNodeVectors& v = {}, Real ahead = 0);
   /// Step 5, and slots for all pairs. `again`: repeats the last search, and is not counted. Call
-  /// when the layout knows the ghosts' nodes and x holds their positions. Collective.
-  void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false);
+  /// when the layout knows the ghosts' nodes, and x and v hold what they are there. Collective.
+  void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
+              const ConstNodeVectors& v = {});
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive].
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
@@ -114,8 +117,13 @@ private:
   /// on one rank are left as they are in a new plane, but face[0] is 0 where the pair is a
   /// candidate.
   std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
+  /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
+  /// Copies of faces far away to whom living planes hold on. Collective.
+  void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
+  /// Of their faces and elements.
+  std::vector<GlobalId> nodesOfGhosts() const;
   /// Position in the table of faces; -1 when the face is not here.
   int faceHere(GlobalId id) const;
   void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
@@ -142,7 +150,9 @@ private:
   CandidateRules candidates_; ///< of the last search
   Bins bins_;
   Ghosts ghosts_;
-  std::vector<GlobalId> nodeIds_; ///< of the nodes of faceTable_, while a search makes a new one
+  // While a search makes a new faceTable_: of the nodes of the old one.
+  std::vector<GlobalId> nodeIds_;
+  ConstNodeVectors oldX_;
   std::int64_t searches_ = 0;
   std::int64_t missed_ = 0;
   double searchSeconds_ = 0;

@@ -728,7 +728,7 @@ private:
   }
 
   const HalfStepFaceOf<T>* face_[2];
-  const ContactPotentialScale& scale_;
+  ContactPotentialScale scale_;
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
   T exit_[8];
   Vec2Of<T> tilt_, apart_;

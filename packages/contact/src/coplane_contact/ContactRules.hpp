@@ -2,6 +2,7 @@
 
 #include <coplane_joint/JointLaw.hpp>
 
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,15 +26,29 @@ struct ContactRule
 };
 
 /// Rules for faces by their group: faces of one block and, where the deck tells side sets apart, of
-/// the same side sets. The first groups are the blocks.
+/// the same side sets. The first groups are the blocks. There may be tens of thousands of them, but
+/// few kinds that rules tell apart.
 struct ContactRules
 {
   std::vector<JointRecipe> joints;
   /// Items of the list of rules that declare joints closed, and what they are called in messages.
   std::vector<std::pair<int, std::string>> declaredItems;
-  int groups = 0;
-  std::vector<ContactRule> table; ///< [group a * groups + group b], symmetric
+  int kinds = 0;
+  std::vector<int> kindOf;        ///< by group
+  std::vector<ContactRule> table; ///< [kind a * kinds + kind b], symmetric
 
-  const ContactRule& between(int a, int b) const { return table[a * groups + b]; }
+  int groups() const { return int(kindOf.size()); }
+  /// Rules between every two of so many groups.
+  void tellApart(int groups)
+  {
+    kinds = groups;
+    kindOf.resize(std::size_t(groups));
+    std::iota(kindOf.begin(), kindOf.end(), 0);
+    table.assign(std::size_t(groups) * std::size_t(groups), {});
+  }
+  const ContactRule& between(int a, int b) const
+  {
+    return table[std::size_t(kindOf[a]) * std::size_t(kinds) + std::size_t(kindOf[b])];
+  }
 };
 } // namespace coplane

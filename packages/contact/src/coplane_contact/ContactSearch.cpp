@@ -32,7 +32,7 @@ void makeDormant(Plane& plane)
 /// The slots after a search, sorted by key, and where each comes from.
 struct Slots
 {
-  std::vector<CandidatePair> pairs;   ///< candidates, then pairs that only end their contact
+  std::vector<CandidatePair> pairs;   ///< candidates, then other pairs that carry traction
   std::vector<std::int64_t> existing; ///< by pair: its plane from before the search, or -1
   std::vector<std::int64_t> source;   ///< by slot: a pair, or ~p of a plane that becomes dormant
 };
@@ -57,16 +57,13 @@ Slots slotsOf(std::vector<CandidatePair> candidates,
       return;
     if (plane.area > 0)
     {
-      // It carries traction although its faces do not oppose each other any more: the next update
-      // ends that, with the work of the last force.
-      const CandidatePair pair{faceHere(plane.faceId[0]), faceHere(plane.faceId[1])};
-      if (pair.lower >= 0 && pair.higher >= 0)
-      {
-        slots.source.push_back(std::int64_t(slots.pairs.size()));
-        slots.pairs.push_back(pair);
-        slots.existing.push_back(std::int64_t(p));
-        return;
-      }
+      // A bond may hold while it is open farther than the skin, a contact be deeper than its limit,
+      // and faces that do not oppose each other any more need one more update, which books the work
+      // of the last force.
+      slots.source.push_back(std::int64_t(slots.pairs.size()));
+      slots.pairs.push_back({faceHere(plane.faceId[0]), faceHere(plane.faceId[1])});
+      slots.existing.push_back(std::int64_t(p));
+      return;
     }
     // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
     // booked at their end.
@@ -111,8 +108,12 @@ Donor Contact::donor(const Plane& plane) const
     if (plane.face[side] >= 0)
     {
       const Face& face = faceTable_(plane.face[side]);
+      donor.count[side] = face.count;
       for (int k = 0; k < face.count; ++k)
+      {
         donor.nodes[side][k] = nodeIds_[face.nodes[k]];
+        donor.corners[side][k] = at(oldX_, face.nodes[k]);
+      }
     }
   return donor;
 }
@@ -127,17 +128,16 @@ std::vector<Donor> Contact::livingPlanes() const
 }
 
 std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
-                                          const std::vector<GlobalId>& nodeIds)
+                                          const std::vector<GlobalId>& nodeIds,
+                                          const ConstNodeVectors& v, Real ahead)
 {
   nodeIds_ = nodeIds;
+  oldX_ = x;
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
-    // Bonds that hold may be open farther than the skin, and contacts deeper than their limit.
-    Real apart = 0;
-    for (std::size_t p = 0; p < planes_.extent(0); ++p)
-      if (planes_(p).area > 0)
-        apart = std::max({apart, planes_(p).gap, -planes_(p).gap - planes_(p).depthLimit});
-    candidates_.reach = skin_ + comm_->max(apart);
+    candidates_.motion = {};
+    if (ahead > 0)
+      candidates_.motion = {v, ahead, commonVelocity(localFaces_, v, *comm_)};
     bins_ = step1_globalSpaceLimits(localFaces_, x, candidates_, *comm_);
   }
   ghosts_ = {};
@@ -160,12 +160,47 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
     ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_,
                                    localElements_);
   }
+  addGhostsOfLivingPlanes(nodeIds);
+  return nodesOfGhosts();
+}
+
+std::vector<GlobalId> Contact::nodesOfGhosts() const
+{
+  std::vector<GlobalId> nodes;
   for (const GhostFace& face : ghosts_.faces)
   {
     nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
     nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
   }
   return nodes;
+}
+
+void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
+{
+  const auto less = [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; };
+  std::vector<GlobalId> wanted;
+  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+    if (planes_(p).area > 0)
+      for (const GlobalId id : planes_(p).faceId)
+      {
+        GhostFace face;
+        face.id = id;
+        const auto local =
+            std::lower_bound(localFaces_.begin(), localFaces_.end(), id,
+                             [](const Face& f, GlobalId wantedId) { return f.id < wantedId; });
+        if ((local == localFaces_.end() || local->id != id) &&
+            !std::binary_search(ghosts_.faces.begin(), ghosts_.faces.end(), face, less))
+          wanted.push_back(id);
+      }
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  if (comm_->max(std::int64_t(wanted.size())) == 0)
+    return;
+  const std::vector<GhostFace> fetched = fetchGhosts(wanted, nodeIds);
+  if (comm_->max(std::int64_t(fetched.size() != wanted.size())) > 0)
+    failOnAllRanks(ExitCode::Internal, "A contact plane has lost one of its faces.");
+  const auto middle = ghosts_.faces.insert(ghosts_.faces.end(), fetched.begin(), fetched.end());
+  std::inplace_merge(ghosts_.faces.begin(), middle, ghosts_.faces.end(), less);
 }
 
 std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pairs,
@@ -182,31 +217,17 @@ std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pair
   return leaders;
 }
 
-void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again)
+void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again,
+                     const ConstNodeVectors& v)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   const WorkWatch watch(searchSeconds_);
   listFaces(layout);
 
-  const auto findPlane = [&](GlobalId lower, GlobalId higher)
-  {
-    const Plane* begin = planes_.data();
-    const Plane* end = begin + planes_.extent(0);
-    const auto wanted = std::make_pair(lower, higher);
-    const Plane* found = std::lower_bound(
-        begin, end, wanted, [](const Plane& p, const auto& key) { return keyOf(p) < key; });
-    return found != end && keyOf(*found) == wanted ? found : nullptr;
-  };
-
+  candidates_.motion.v = v;
   CandidateRules candidates = candidates_;
   candidates.declared = [&](int a, int b) { return rules_.between(a, b).declared; };
   candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
-  if (searches_ > 0)
-    candidates.inContact = [&](GlobalId a, GlobalId b)
-    {
-      const Plane* plane = findPlane(std::min(a, b), std::max(a, b));
-      return plane && plane->area > 0;
-    };
   std::vector<CandidatePair> candidatePairs =
       step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
 
@@ -311,21 +332,31 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     if (!options_.inherit)
       return;
-    const auto nodesOfPair = [&]
+    const auto newPair = [&](const Vec3& normal)
     {
-      PairNodes nodes{};
-      for (int k = 0; k < a.count; ++k)
-        nodes[0][k] = layout.ids()[a.nodes[k]];
-      for (int k = 0; k < b.count; ++k)
-        nodes[1][k] = layout.ids()[b.nodes[k]];
-      return nodes;
+      NewPair now;
+      now.normal = normal;
+      if (known >= 0 && !plane.fresh)
+        now.sharedBefore = plane.overlap;
+      const Face* const both[2] = {&a, &b};
+      for (int side = 0; side < 2; ++side)
+      {
+        now.faceId[side] = both[side]->id;
+        now.count[side] = both[side]->count;
+        for (int k = 0; k < now.count[side]; ++k)
+        {
+          now.nodes[side][k] = layout.ids()[both[side]->nodes[k]];
+          now.corners[side][k] = at(x, both[side]->nodes[k]);
+        }
+      }
+      return now;
     };
     std::vector<Donor> donors;
     if (newLeader)
     {
       const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
       donors.assign(mine.first, mine.second);
-      if (inherit(plane, plane.normal, nodesOfPair(), donors))
+      if (inherit(plane, plane.normal, newPair(plane.normal).nodes, donors))
         return;
       donors.clear();
     }
@@ -342,14 +373,22 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     addDonors(pair.lower, donors);
     addDonors(pair.higher, donors);
     if (!donors.empty())
-      inherit(plane,
-              classic() ? leaders[source[slot]].normal : normalised(planeA.normal - planeB.normal),
-              nodesOfPair(), donors);
+    {
+      const NewPair now = newPair(classic() ? leaders[source[slot]].normal
+                                            : normalised(planeA.normal - planeB.normal));
+      donors.erase(std::remove_if(donors.begin(), donors.end(),
+                                  [&](const Donor& donor)
+                                  { return !continues(now, donor, dimension_, skin_); }),
+                   donors.end());
+      inherit(plane, now.normal, now.nodes, donors);
+    }
   };
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
 
   planes_ = next;
   nodeIds_ = {};
+  oldX_ = {};
+  candidates_.motion = {};
   takeFaceTables();
   buildLists(layout.owned());
   for (Face& face : localFaces_)

@@ -207,9 +207,6 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
-  if (comm_->max(std::int64_t(ghosts.size() != wanted.size())) > 0)
-    failOnAllRanks(ExitCode::Checkpoint,
-                   "the checkpoint has contact planes on faces that this mesh does not have.");
   return ghosts;
 }
 
@@ -238,13 +235,10 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   ghosts_ = {};
   ghosts_.faces = fetchGhosts(wanted, nodeIds);
-  std::vector<GlobalId> nodes;
-  for (const GhostFace& face : ghosts_.faces)
-  {
-    nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
-    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
-  }
-  return nodes;
+  if (comm_->max(std::int64_t(ghosts_.faces.size() != wanted.size())) > 0)
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "the checkpoint has contact planes on faces that this mesh does not have.");
+  return nodesOfGhosts();
 }
 
 void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)

@@ -1,10 +1,39 @@
 #include <coplane_contact/ContactTables.hpp>
+#include <coplane_contact/DeclaredJoints.hpp>
 
 #include <algorithm>
 
 namespace coplane
 {
-std::vector<JointSummary> jointSummaries(const Contact& contact)
+namespace
+{
+/// Whether the faces of a plane lie over each other, now.
+bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
+{
+  if (plane.face[0] < 0 || !(plane.overlap > 0))
+    return false;
+  Vec3 area[2];
+  Real least = infinity;
+  for (int side = 0; side < 2; ++side)
+  {
+    const Face& face = contact.faces()[plane.face[side]];
+    Vec3 corners[4], center{};
+    for (int k = 0; k < face.count; ++k)
+    {
+      corners[k] = at(x, face.nodes[k]);
+      center += (1.0 / face.count) * corners[k];
+    }
+    area[side] = contact.dimension() == 2 ? vectorArea<2>(corners, face.count)
+                                          : vectorArea<3>(corners, face.count);
+    least = std::min(least,
+                     norm(area[side]) * (contact.options().axisymmetric ? 2 * pi * center.x : 1));
+  }
+  return plane.overlap > sliverOfJoint * least &&
+         dot(normalised(area[0]), normalised(area[1])) < -opposedAcrossJoint;
+}
+} // namespace
+
+std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x)
 {
   enum Sum
   {
@@ -27,7 +56,11 @@ std::vector<JointSummary> jointSummaries(const Contact& contact)
     const Plane& plane = contact.planes()(p);
     if (!plane.countedHere || !plane.born)
       continue;
+    energies[plane.joint].add(plane, plane.stored);
     ExactSum* mine = &sums[PerJoint * plane.joint];
+    mine[Force].add(plane.area * plane.normalTraction);
+    if (!isPartOfJoint(contact, plane, x))
+      continue;
     mine[Open].add(plane.overlap);
     if (plane.state != PlaneState::Open)
     {
@@ -35,9 +68,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact)
       mine[plane.state == PlaneState::Slip ? Slip : Stick].add(plane.area);
       mine[Closure].add(plane.area * plane.closure);
     }
-    mine[Force].add(plane.area * plane.normalTraction);
     largestSlip[plane.joint] = std::max(largestSlip[plane.joint], plane.history.slip);
-    energies[plane.joint].add(plane, plane.stored);
   }
   for (std::size_t j = 0; j < joints; ++j)
     std::copy(energies[j].sums.begin(), energies[j].sums.end(), &sums[PerJoint * j + Energies]);

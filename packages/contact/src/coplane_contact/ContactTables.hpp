@@ -8,21 +8,26 @@ namespace coplane
 {
 // Sums over the planes of all ranks, the same bits on all for any number of them. Collective.
 
-/// The planes with one joint card. Of the area in which the two sides of its planes face each other
-/// a part is open, a part sticks and a part slips.
+/// The planes with one joint card whose faces lie over each other: opposed, and with a shadow in
+/// common that is no sliver, as neighbours have at the corners of blocks. Of the area in which they
+/// face each other a part is open, a part sticks and a part slips. Energies are those of all
+/// planes.
 struct JointSummary
 {
   Real openArea = 0;    ///< faced, but carries no traction [m^2]
   Real stickArea = 0;   ///< [m^2]
   Real slipArea = 0;    ///< [m^2]
   Real meanClosure = 0; ///< of the area that carries traction; 0 without such area [m]
-  Real largestSlip = 0; ///< longest slip path of the planes that exist [m]
+  Real largestSlip = 0; ///< longest slip path of these planes [m]
   Real normalForce = 0; ///< sum of area times normal traction, compression positive [N]
   ContactEnergy energy; ///< with the planes that have ended
 };
 
-/// One for each joint card of the rules, in their order.
-std::vector<JointSummary> jointSummaries(const Contact& contact);
+/// Shadows in common below this part of the smaller face are slivers.
+constexpr Real sliverOfJoint = 1e-3;
+
+/// One for each joint card of the rules, in their order. x: positions of the nodes now.
+std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x);
 
 /// Energy of the planes of one joint card between two blocks.
 struct ContactTableRow

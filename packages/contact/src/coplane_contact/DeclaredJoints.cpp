@@ -1,4 +1,5 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/DeclaredJoints.hpp>
 #include <coplane_contact/PotentialKernel.hpp>
 
 #include <algorithm>
@@ -82,17 +83,21 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     if (!(patch.area > options_.areaMin * std::min(a.area, b.area) *
                            depthOf(trial, options_).at(patch.centroid.x)))
       continue;
+    const Real gap = classic() ? between.gap
+                     : options_.forces == ContactOptions::Forces::Potential
+                         ? meanGap
+                         : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
+                                                 weighted(patch.centroidWeights[0], a.x, a.count));
+    if (!lieOnEachOther(dot(a.normal, b.normal), gap,
+                        faceSize(std::min(a.area, b.area), dimension_)))
+      continue;
     plane.declared = true;
     plane.born = true;
     plane.state = PlaneState::Open;
     plane.normal = trial.normal;
     plane.overlap = patch.overlap;
     plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    plane.gap = classic() ? between.gap
-                : options_.forces == ContactOptions::Forces::Potential
-                    ? meanGap
-                    : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
-                                            weighted(patch.centroidWeights[0], a.x, a.count));
+    plane.gap = gap;
     // The joint is in equilibrium with the initial stress: closure and shear traction that carry
     // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
     SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
@@ -107,7 +112,7 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
                          : plane.history.bonded ? compression / plane.fit.normalStiffness
                                                 : 0;
-    plane.history.maximumClosure = std::max(closure, 0.0);
+    plane.history.maximumClosure = plane.maximumBefore = std::max(closure, 0.0);
     plane.offset = plane.gap + closure;
     plane.closure = closure;
     if (compression > 0 || plane.history.bonded)

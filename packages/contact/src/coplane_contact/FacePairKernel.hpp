@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/FaceLoad.hpp>
 #include <coplane_contact/FacePairSteps.hpp>
 
@@ -397,6 +398,34 @@ KOKKOS_INLINE_FUNCTION T areaOfNode(const PatchOf<T>& patch, int countA, int cou
                                        patch.area * most);
 }
 
+/// Whether what the faces in lane i share is so narrow between edges over which their bodies can
+/// part that the least way out leads along the plane: the front of a slider behind the hidden side
+/// of the next block. Then it is no contact.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFaceOf<T>& a,
+                                           const HalfStepFaceOf<T>& b, int i)
+{
+  if (plane.exits == 0)
+    return false;
+  HalfStepFace faces[2];
+  for (int f = 0; f < 2; ++f)
+  {
+    const HalfStepFaceOf<T>& from = f == 0 ? a : b;
+    faces[f].count = from.count;
+    for (int k = 0; k < from.count; ++k)
+      faces[f].x[k] = branchFree::lane(from.x[k], i);
+    faces[f].center = branchFree::lane(from.center, i);
+    faces[f].normal = branchFree::lane(from.normal, i);
+    faces[f].area = branchFree::lane(from.area, i);
+  }
+  PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale{0, 0.3});
+  if (!pair.plane.opposed)
+    return false;
+  pair.meet(plane.offset, false, [&](int owner) { return Real(plane.exits >> owner & 1); });
+  EnergyDensity<Real> density;
+  return pair.shareOfWayOut(1, density) < 0.5;
+}
+
 /// A pair whose shadows share nothing in this cycle.
 KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const HalfStepFace& b,
                                    Real dt)
@@ -467,9 +496,10 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
             plane.overlap = lane(patch.overlap, i);
             const bool isLarge = lane(large, i);
             plane.foundLate = plane.fresh && !plane.declared && !plane.born && isLarge;
-            const bool inContact =
-                isLarge && touches(plane, lane(trial.normal, i), lane(gap, i), lane(deepest, i),
-                                   lane(motion, i), lane(approach, i));
+            const bool inContact = isLarge &&
+                                   (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
+                                   touches(plane, lane(trial.normal, i), lane(gap, i),
+                                           lane(deepest, i), lane(motion, i), lane(approach, i));
             if (!(lane(patch.area, i) > 0))
               plane.released = false;
             return inContact;

@@ -108,7 +108,10 @@ struct Donor
 {
   GlobalId faceId[2] = {0, 0};
   GlobalId nodes[2][4] = {}; ///< ids of the nodes of its faces; 0: none
+  int count[2] = {0, 0};     ///< nodes of its faces; 0: not known, it hands on by its elements only
+  Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
+  bool bonded = false;
   Vec3 normal{};
   Real area = 0;
   Real offset = 0;
@@ -116,5 +119,7 @@ struct Donor
   Real closure = 0;
   Vec3 shearTraction{};
   Real slip = 0;
+  Real opening = 0;  ///< of a bond that softens [m]
+  Real shearing = 0; ///< the same in shear [m]
 };
 } // namespace coplane

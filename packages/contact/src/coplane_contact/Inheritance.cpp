@@ -1,7 +1,9 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Inheritance.hpp>
+#include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coplane
 {
@@ -23,6 +25,9 @@ Donor donorOf(const Plane& plane)
   donor.closure = plane.closure;
   donor.shearTraction = plane.history.shearTraction;
   donor.slip = plane.history.slip;
+  donor.bonded = plane.history.bonded;
+  donor.opening = plane.history.opening;
+  donor.shearing = plane.history.shearing;
   return donor;
 }
 
@@ -37,24 +42,145 @@ bool shareNode(const GlobalId* a, const GlobalId* b)
   return false;
 }
 
-/// Whether a donor lies on the surface that the plane slides over.
-bool isOnSameSurface(const Donor& donor, const Plane& plane, const PairNodes& nodes)
+/// Calls visit(mine, its) for every face that the pair and the donor have in common, until it
+/// returns true; whether it did.
+template <class Visit>
+bool anyCommonFace(const GlobalId* faceId, const Donor& donor, const Visit& visit)
 {
   for (int mine = 0; mine < 2; ++mine)
     for (int its = 0; its < 2; ++its)
-      if (donor.faceId[its] == plane.faceId[mine] &&
-          shareNode(donor.nodes[1 - its], nodes[1 - mine].data()))
+      if (donor.faceId[its] == faceId[mine] && visit(mine, its))
         return true;
   return false;
 }
+
+/// Whether a donor lies on the surface that the pair slides over.
+bool isOnSameSurface(const Donor& donor, const GlobalId* faceId, const PairNodes& nodes)
+{
+  return anyCommonFace(faceId, donor,
+                       [&](int mine, int its)
+                       { return shareNode(donor.nodes[1 - its], nodes[1 - mine].data()); });
+}
+
+/// Shares of area below this fraction of the smaller face are round-off of edges on each other.
+constexpr Real sliver = 1e-6;
+/// Of heights, as a fraction of the size of a face.
+constexpr Real roundOff = 1e-9;
+
+/// The common plane as seen by an observer who looks against its normal.
+class View
+{
+public:
+  View(const Vec3& normal, const Vec3& origin, int dimension)
+      : normal_(normal), origin_(origin), dimension_(dimension)
+  {
+    const Vec3 any = dimension == 2             ? Vec3{0, 0, 1}
+                     : std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0}
+                                                : Vec3{0, 1, 0};
+    e1_ = normalised(cross(any, normal));
+    e2_ = cross(normal, e1_);
+  }
+
+  /// Shadow of a face, counter-clockwise; a segment of two dimensions has a width of 1 m.
+  ConvexPolygon shadow(const Vec3* corners, int count) const
+  {
+    ConvexPolygon polygon;
+    if (dimension_ == 2)
+    {
+      const Real a = at(corners[0]).x, b = at(corners[1]).x;
+      for (const Vec2& p : {Vec2{std::min(a, b), 0}, Vec2{std::max(a, b), 0},
+                            Vec2{std::max(a, b), 1}, Vec2{std::min(a, b), 1}})
+        polygon.add(p);
+      return polygon;
+    }
+    for (int k = 0; k < count; ++k)
+      polygon.add(at(corners[k]));
+    Real twice = 0;
+    for (int k = 0; k < count; ++k)
+      twice += cross(polygon.vertex[k], polygon.vertex[(k + 1) % count]);
+    if (twice < 0)
+      std::reverse(polygon.vertex, polygon.vertex + count);
+    return polygon;
+  }
+
+  /// Height of a face over the plane at a point of it: that of the flat face through its middle.
+  Real height(const Vec3* corners, int count, const Vec2& p) const
+  {
+    Vec3 center{};
+    for (int k = 0; k < count; ++k)
+      center += (1.0 / count) * corners[k];
+    const Vec3 area =
+        dimension_ == 2 ? vectorArea<2>(corners, count) : vectorArea<3>(corners, count);
+    const Vec3 foot = origin_ + p.x * e1_ + (dimension_ == 2 ? 0 : p.y) * e2_;
+    return dot(center - foot, area) / dot(normal_, area);
+  }
+
+private:
+  Vec2 at(const Vec3& x) const
+  {
+    const Vec3 r = x - origin_;
+    return {dot(e1_, r), dimension_ == 2 ? 0 : dot(e2_, r)};
+  }
+
+  Vec3 normal_, origin_, e1_, e2_;
+  int dimension_;
+};
+
+Real toSegment(const Vec2& p, const Vec2& a, const Vec2& b)
+{
+  const Vec2 along = b - a, off = p - a;
+  const Real square = along.x * along.x + along.y * along.y;
+  const Real t = square > 0 ? (off.x * along.x + off.y * along.y) / square : 0;
+  const Vec2 apart = off - std::max(0.0, std::min(1.0, t)) * along;
+  return std::hypot(apart.x, apart.y);
+}
+
+/// Distance of two convex polygons [m].
+Real distance(const ConvexPolygon& a, const ConvexPolygon& b)
+{
+  if (intersection(a, b).size > 0)
+    return 0;
+  Real least = infinity;
+  const auto fromCorners = [&](const ConvexPolygon& from, const ConvexPolygon& to)
+  {
+    for (int i = 0; i < from.size; ++i)
+      for (int j = 0; j < to.size; ++j)
+        least =
+            std::min(least, toSegment(from.vertex[i], to.vertex[j], to.vertex[(j + 1) % to.size]));
+  };
+  fromCorners(a, b);
+  fromCorners(b, a);
+  return least;
+}
 } // namespace
+
+bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach)
+{
+  const View view(pair.normal, pair.corners[0][0], dimension);
+  const ConvexPolygon shadows[2] = {view.shadow(pair.corners[0], pair.count[0]),
+                                    view.shadow(pair.corners[1], pair.count[1])};
+  const ConvexPolygon carried = intersection(view.shadow(donor.corners[0], donor.count[0]),
+                                             view.shadow(donor.corners[1], donor.count[1]));
+  if (!anyCommonFace(pair.faceId, donor,
+                     [&](int mine, int) { return distance(carried, shadows[1 - mine]) <= reach; }))
+    return false;
+
+  const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
+  const AreaAndCentroid shared = areaAndCentroid(intersection(shadows[0], shadows[1]));
+  if (!((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliver * smaller))
+    return true; // it comes in from the side
+  const Real gap = view.height(pair.corners[1], pair.count[1], shared.centroid) -
+                   view.height(pair.corners[0], pair.count[0], shared.centroid);
+  return gap <= donor.offset + roundOff * std::sqrt(smaller) &&
+         isOnSameSurface(donor, pair.faceId, pair.nodes);
+}
 
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors)
 {
   const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
   std::sort(donors.begin(), donors.end(),
             [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
-  Real area = 0;
+  Real area = 0, bondedArea = 0;
   bool slidesOn = false;
   Donor mean;
   for (std::size_t i = 0; i < donors.size(); ++i)
@@ -69,11 +195,17 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
         (i > 0 && key(donors[i - 1]) == key(donor)))
       continue;
     area += donor.area;
-    slidesOn = slidesOn || isOnSameSurface(donor, plane, nodes);
+    slidesOn = slidesOn || isOnSameSurface(donor, plane.faceId, nodes);
     mean.offset += donor.area * donor.offset;
     mean.maximumClosure += donor.area * donor.maximumClosure;
     mean.closure += donor.area * donor.closure;
     mean.slip += donor.area * donor.slip;
+    if (donor.bonded)
+    {
+      bondedArea += donor.area;
+      mean.opening += donor.area * donor.opening;
+      mean.shearing += donor.area * donor.shearing;
+    }
     mean.shearTraction += donor.area * turnIntoPlane(sign * donor.shearTraction,
                                                      sign * donor.normal, normal, Vec3{}, 0);
   }
@@ -86,6 +218,12 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
   plane.closure = mean.closure / area;
   plane.history.slip = mean.slip / area;
   plane.history.shearTraction = (1 / area) * mean.shearTraction;
+  plane.history.bonded = bondedArea > 0.5 * area;
+  if (plane.history.bonded)
+  {
+    plane.history.opening = mean.opening / bondedArea;
+    plane.history.shearing = mean.shearing / bondedArea;
+  }
   plane.normal = normal;
   return true;
 }

@@ -19,9 +19,29 @@ Donor donorOf(const Plane& plane);
 /// The nodes of a new plane's faces, in its order; 0: none.
 using PairNodes = std::array<std::array<GlobalId, 4>, 2>;
 
+/// A pair of faces that has not touched yet, as it lies now.
+struct NewPair
+{
+  GlobalId faceId[2] = {0, 0};
+  PairNodes nodes{};
+  int count[2] = {0, 0};
+  Vec3 corners[2][4] = {}; ///< [m]
+  Vec3 normal{};           ///< from face 0 to face 1
+  /// Area that they shared when the pair was last looked at; negative: it is new [m^2].
+  Real sharedBefore = -1;
+};
+
+/// Whether the area of a new plane goes on where that of a donor ends. The donor shares a face with
+/// the pair, and its area, which the faces have carried along, lies within `reach` of the pair's
+/// other face on the common plane. Where the pair shared area already, it has to be closed at the
+/// donor's offset and go on over the same surface: then it has not come down beside the donor.
+/// @param reach how far faces move between two searches [m]
+bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach);
+
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
 /// their keys. Returns whether there were any that fit: of the same joint, with nearly the same
 /// normal. A donor that has one face in common with the plane, and whose other face shares a node
-/// with the plane's other one, shows that the plane only slides on over the same surface.
+/// with the plane's other one, shows that the plane only slides on over the same surface. The plane
+/// is bonded if most of the area is.
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors);
 } // namespace coplane

@@ -16,6 +16,12 @@ Box boxOf(const Face& face, const ConstNodeVectors& x)
   return box;
 }
 
+/// How far a face may move in the time that a search looks ahead [m].
+Real farthest(const Box& box, const Face& face)
+{
+  return 4 * (box.longestSide() + face.thickness);
+}
+
 /// Keys of bins in few bits: each index counts from the least one here. The order stays.
 class ShortKeys
 {
@@ -60,11 +66,35 @@ Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors&
                const CandidateRules& rules)
 {
   Box box = boxOf(face, x);
+  if (rules.motion.ahead > 0)
+  {
+    const Real longest = farthest(box, face);
+    for (int k = 0; k < face.count; ++k)
+      box.include(at(x, face.nodes[k]) + rules.way(face.nodes[k], longest));
+  }
   const Vec3 inside = -rules.depthInto(face) * plane.normal;
   for (int c = 0; c < 3; ++c)
     (inside[c] < 0 ? box.low : box.high)[c] += inside[c];
   box.grow(0.5 * rules.reach);
   return box;
+}
+
+Vec3 commonVelocity(const std::vector<Face>& faces, const ConstNodeVectors& v, const Comm& comm)
+{
+  std::vector<Real> extremes(6, -infinity); // -least, largest
+  for (const Face& face : faces)
+    for (int k = 0; k < face.count; ++k)
+      for (int c = 0; c < 3; ++c)
+      {
+        extremes[c] = std::max(extremes[c], -v(face.nodes[k], c));
+        extremes[3 + c] = std::max(extremes[3 + c], v(face.nodes[k], c));
+      }
+  comm.max(extremes);
+  Vec3 frame{};
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(extremes[c]) < infinity && std::abs(extremes[3 + c]) < infinity)
+      frame[c] = 0.5 * extremes[3 + c] - 0.5 * extremes[c];
+  return frame;
 }
 
 Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x,

@@ -24,6 +24,14 @@ struct FacePlane
 };
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
 
+/// How faces move until the next search can come.
+struct Motion
+{
+  ConstNodeVectors v;
+  Real ahead = 0; ///< for how long [s]
+  Vec3 frame{};   ///< velocity that all bodies may share: it brings nobody together [m/s]
+};
+
 struct CandidateRules
 {
   Real skin = 0;  ///< largest gap of a candidate [m]
@@ -33,20 +41,31 @@ struct CandidateRules
   bool sharedNodes = false; ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
-  std::function<bool(GlobalId, GlobalId)>
-      inContact; ///< pair keys that carry traction now: they stay candidates
+  Motion motion;
 
+  /// Way of a node of a face ahead. Steps are bound so that no face moves by a body's thickness:
+  /// what is far beyond is none of this face's business, and would only fill the bins.
+  Vec3 way(int node, Real longest) const
+  {
+    const Vec3 way = motion.ahead * (at(motion.v, node) - motion.frame);
+    const Real size = norm(way);
+    return size > longest ? (longest / size) * way : size >= 0 ? way : Vec3{};
+  }
   /// How far the box of a face goes on into the body [m]. Points of two faces that lie at depth d
   /// in each other are apart by d (n0 - n1) / |n0 - n1|, and |n0 - n1| > sqrt(2) for opposed
   /// normals: moved inwards by d / sqrt(2) the faces meet.
   Real depthInto(const Face& face) const { return std::sqrt(0.5) * depthMax * face.thickness; }
 };
 
-/// Where the face may be in contact: the face, the same at the largest depth of a contact inside
-/// its body, and half the reach around. Two faces within that depth of each other, or within the
-/// reach, have boxes that overlap.
+/// Where the face may be in contact before the next search: the face, the same at the largest depth
+/// of a contact inside its body, both where its motion takes it, and half the reach around. Two
+/// faces within that depth of each other, or within the reach, have boxes that overlap.
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules);
+
+/// The velocity half way between the least and the largest of the faces' nodes, by axis.
+/// Collective.
+Vec3 commonVelocity(const std::vector<Face>& faces, const ConstNodeVectors& v, const Comm& comm);
 
 /// Faces in the bins that their grown boxes touch: those of their own level and of all coarser
 /// levels, so that two faces that are near each other share a bin of the level of the larger one.

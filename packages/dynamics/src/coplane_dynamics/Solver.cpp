@@ -100,17 +100,20 @@ void Solver::setInitialStress(int b)
     blocks_[b].setInitialStress(e, model_.blocks[b].stressOfElement(model_.mesh, b, e));
 }
 
-void Solver::search(bool again)
+void Solver::search(Real step, bool again)
 {
   TimedRegion region("coplane::dynamics::search");
-  const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
+  // After each cycle the next one looks whether the skin still covers its motion. So this search
+  // has to cover the motion of a step, which may be longer than the last one.
+  const std::vector<GlobalId> ghostNodes =
+      contact_->findGhosts(state_.x, layout_.ids(), state_.v, 2 * step);
   if (layout_.setGhostNodes(ghostNodes))
   {
     state_.resize(layout_);
     layout_.refresh(state_.x, state_.v);
     layout_.refresh(state_.mass);
   }
-  contact_->pairUp(state_.x, layout_, again);
+  contact_->pairUp(state_.x, layout_, again, state_.v);
   const auto x = state_.x;
   const auto atSearch = state_.atSearch;
   parallelFor(
@@ -204,7 +207,7 @@ void Solver::findForces(Real dt)
   }
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searchIsDue_ || someDied))
-    search();
+    search(dt);
   if (contact_)
   {
     const WorkWatch watch(work_.planes);
@@ -421,6 +424,21 @@ void Solver::planNextCycle(bool first)
   searchIsDue_ = forced || regular;
 }
 
+Real Solver::firstStep()
+{
+  if (model_.time.fixedStep)
+    return *model_.time.fixedStep;
+  Real least = model_.time.maximumStep.value_or(infinity);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!isRigid(b))
+    {
+      blocks_[b].update(state_.x, state_.v, 0, nodalDilatation(b, 0));
+      least = std::min(least, blocks_[b].smallestStableStep());
+    }
+  least = comm_->min(least);
+  return least < infinity ? least : 0;
+}
+
 void Solver::prepare()
 {
   attempt([&] { model_.conditions.prescribeVelocities(0, state_.v); });
@@ -428,13 +446,14 @@ void Solver::prepare()
   layout_.refresh(state_.x, state_.v);
   if (contact_)
   {
-    search();
+    const Real step = firstStep();
+    search(step);
     contact_->closeDeclaredJoints(state_.x, [this](int block, const Vec3& x)
                                   { return model_.blocks[block].stressAt(x); });
     // Once more, so that their neighbours know the offsets of joints that are closed now.
     if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
                     [](const ContactRule& rule) { return rule.declared; }))
-      search(true);
+      search(step, true);
   }
   findForces(0);
   planNextCycle(true);

@@ -128,7 +128,10 @@ private:
   };
 
   friend class Rebalancer; // books what it does
-  void search(bool again = false);
+  /// `step`: the last one, or an estimate of the first one [s].
+  void search(Real step, bool again = false);
+  /// What the elements allow at the start; 0 without any [s]. Collective.
+  Real firstStep();
   void findForces(Real dt);
   ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
   void gatherElementForces();

@@ -41,7 +41,7 @@ Key contactPairs()
                   flag("declared", &ContactPairCard::declared)
                       .like("true")
                       .means("closed and free of stress at t = 0 as built: initial gaps and "
-                             "overlaps are absorbed"),
+                             "overlaps are absorbed where faces lie on each other"),
                   flag("excluded", &ContactPairCard::excluded)
                       .like("true")
                       .means("no contact between these faces"),
@@ -358,6 +358,12 @@ Key contactKeys()
                      .means("whether faces of elements that share a node may touch; both faces at "
                             "the tip of a "
                             "declared joint do in any case"),
+                 text("initial_overlap", &ContactCard::initialOverlap)
+                     .oneOf({"error", "allow"})
+                     .like("allow")
+                     .means("bodies that lie in each other at the start, by more than a thousandth "
+                            "of an element and not in a declared joint: an error, or left as they "
+                            "are, without force until they press deeper"),
                  number("cos_opposed", &ContactCard::cosOpposed)
                      .in("-")
                      .atLeast(0)

@@ -194,7 +194,8 @@ struct ContactCard
   bool couple = true;
   bool areaRule = true;
   bool inherit = true;
-  std::string shareNode = "skip"; ///< skip | allow
+  std::string shareNode = "skip";       ///< skip | allow
+  std::string initialOverlap = "error"; ///< error | allow
   Real cosOpposed = 0.1;
   Real depthMax = 0.6;
   Real areaMin = 1e-8;

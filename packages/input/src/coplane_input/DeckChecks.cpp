@@ -392,4 +392,19 @@ const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactT
       return &pair;
   return nullptr;
 }
+
+std::vector<bool> contactRoles(const ContactCard& contact, const ContactTraits& face)
+{
+  std::vector<bool> roles;
+  for (const ContactPairCard& pair : contact.pairs)
+    for (int side = 0; side < 2; ++side)
+    {
+      const std::string &block = pair.blocks[side], &material = pair.materials[side],
+                        &set = pair.jointSet.empty() ? pair.sideSets[side] : pair.jointSet;
+      roles.push_back(!block.empty()      ? fits(block, face.block)
+                      : !material.empty() ? fits(material, face.material)
+                                          : !set.empty() && belongs(face, set));
+    }
+  return roles;
+}
 } // namespace coplane

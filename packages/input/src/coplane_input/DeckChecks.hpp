@@ -33,4 +33,8 @@ std::string commonNormalBecauseOf(const Deck& deck);
 /// nullptr: contact.default_joint.
 const ContactPairCard* contactPairFor(const ContactCard& contact, const ContactTraits& a,
                                       const ContactTraits& b);
+
+/// Which sides of which items a face fits, two for each item. Faces with equal roles have the same
+/// items with every other face, and with each other.
+std::vector<bool> contactRoles(const ContactCard& contact, const ContactTraits& face);
 } // namespace coplane

@@ -236,7 +236,7 @@ void HistoryObserver::write(const Solver& solver)
   }
   if (!options_.joints.empty() && solver.hasContact())
   {
-    const std::vector<JointSummary> joints = jointSummaries(solver.contact());
+    const std::vector<JointSummary> joints = jointSummaries(solver.contact(), solver.state().x);
     for (const std::string& name : options_.joints)
       for (std::size_t j = 0; j < joints.size(); ++j)
         if (solver.contact().rules().joints[j].name == name)
