@@ -135,8 +135,8 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
     plane.gap = classic.gap;
   }
   plane.fresh = false;
-  const Real approach = 2 * dt * approachSpeed(classic.normal, elementA, elementB);
-  const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
+  const Real ahead = options.lookAhead * approachSpeed(classic.normal, elementA, elementB);
+  const bool near = plane.area > 0 || patch.leastGap <= ahead + 1e-8 * std::sqrt(patch.overlap);
   plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
 }
 } // namespace coplane

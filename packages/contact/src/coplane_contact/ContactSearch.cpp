@@ -135,7 +135,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).area > 0)
         apart = std::max({apart, planes_(p).gap, -planes_(p).gap - planes_(p).depthLimit});
-    candidates_.reach = skin_ + comm_->max(apart);
+    candidates_.reach = candidates_.skin + comm_->max(apart);
     bins_ = step1_globalSpaceLimits(localFaces_, x, candidates_, *comm_);
   }
   ghosts_ = {};

@@ -53,6 +53,8 @@ struct ContactOptions
   Real areaMin = 1e-8; ///< smallest area of a new plane, as a fraction of the smaller face
   Real dampNormal = 0; ///< fraction of critical damping
   Real dampShear = 0;
+  /// Of this cycle: faces that may come together within this time count for the stable step [s].
+  Real lookAhead = 0;
 };
 
 enum class PlaneState : std::uint8_t

@@ -103,6 +103,8 @@ void Solver::setInitialStress(int b)
 void Solver::search(bool again)
 {
   TimedRegion region("coplane::dynamics::search");
+  contact_->coverMotion(relativeSpeed_ * largestNextStep_);
+  searchSkin_ = contact_->skin();
   const std::vector<GlobalId> ghostNodes = contact_->findGhosts(state_.x, layout_.ids());
   if (layout_.setGhostNodes(ghostNodes))
   {
@@ -208,7 +210,8 @@ void Solver::findForces(Real dt)
   if (contact_)
   {
     const WorkWatch watch(work_.planes);
-    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
+    // The speed of approach may grow by the kick that lies between: twice the step.
+    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt, 2 * largestNextStep_);
   }
   gatherElementForces();
   if (contact_)
@@ -355,6 +358,17 @@ void Solver::kick(Real step)
   rigid_->bookSecondHalf(clock_.step);
 }
 
+namespace
+{
+/// Largest speed of two nodes relative to each other, from the extremes of velocity: three largest
+/// and three negated least ones [m/s].
+Real speedOf(const Real* extremes)
+{
+  const Vec3 range{extremes[0] + extremes[3], extremes[1] + extremes[4], extremes[2] + extremes[5]};
+  return std::isfinite(dot(range, range)) ? norm(range) : 0;
+}
+} // namespace
+
 void Solver::planNextCycle(bool first)
 {
   attempt(
@@ -365,7 +379,7 @@ void Solver::planNextCycle(bool first)
   // One reduction decides everything that must not differ between ranks.
   const Requests mine = takeRequests();
   std::vector<Real> extremes{-stableStep(), Real(mine.results), Real(mine.checkpoint),
-                             Real(mine.stop)};
+                             Real(mine.stop), contact_ ? -contact_->thinnestElement() : -infinity};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
@@ -375,6 +389,7 @@ void Solver::planNextCycle(bool first)
   Real step = model_.time.stepFactor * -extremes[0];
   const Real zeta = std::max(model_.contact.dampNormal, model_.contact.dampShear);
   step *= std::sqrt(1 + zeta * zeta) - zeta;
+  step = std::min(step, motionStep(-extremes[4]));
   if (model_.time.maximumStep)
     step = std::min(step, *model_.time.maximumStep);
   if (model_.time.fixedStep)
@@ -392,6 +407,9 @@ void Solver::planNextCycle(bool first)
         "The stable step is not finite: no element or contact limits it. Give "
         "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
         "the mesh.");
+  if (!model_.time.fixedStep)
+    step = growth_.next(step, clock_.nextStep);
+  largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
   attempt([&] { kick(step); });
   clock_.nextStep = step;
   if (first) // energies at t = 0 are those of the given velocities
@@ -401,19 +419,22 @@ void Solver::planNextCycle(bool first)
 
   // The next positions are known now: a search falls due when one may be needed by then, from an
   // exact bound on the relative displacement of any two nodes since the last search.
-  std::vector<Real> range(7, -infinity); // max, -min per axis; trouble
-  range[6] = trouble_ ? 1 : 0;
+  std::vector<Real> range(13, -infinity); // max, -min per axis of way and velocity; trouble
+  range[12] = trouble_ ? 1 : 0;
   for (int n = 0; n < layout_.owned() && contact_; ++n)
     for (int c = 0; c < 3 && !isFree(n); ++c)
     {
       const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
       range[c] = std::max(range[c], moved);
       range[3 + c] = std::max(range[3 + c], -moved);
+      range[6 + c] = std::max(range[6 + c], state_.v(n, c));
+      range[9 + c] = std::max(range[9 + c], -state_.v(n, c));
     }
   comm_->max(range);
-  failed_ = range[6] > 0;
+  failed_ = range[12] > 0;
   if (failed_ || !contact_)
     return;
+  relativeSpeed_ = speedOf(&range[6]);
   const bool forced = range[0] + range[3] > 0.5 * contact_->skin() ||
                       range[1] + range[4] > 0.5 * contact_->skin() ||
                       range[2] + range[5] > 0.5 * contact_->skin();
@@ -421,11 +442,47 @@ void Solver::planNextCycle(bool first)
   searchIsDue_ = forced || regular;
 }
 
+Real Solver::relativeSpeed() const
+{
+  std::vector<Real> range(6, -infinity);
+  for (int n = 0; n < layout_.owned(); ++n)
+    for (int c = 0; c < 3 && !isFree(n); ++c)
+    {
+      range[c] = std::max(range[c], state_.v(n, c));
+      range[3 + c] = std::max(range[3 + c], -state_.v(n, c));
+    }
+  comm_->max(range);
+  return speedOf(range.data());
+}
+
+/// A bound of the first step, for what looks ahead before it is known [s]. Collective.
+Real Solver::boundOfFirstStep()
+{
+  Real least = infinity;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!isRigid(b))
+    {
+      blocks_[b].update(state_.x, state_.v, 0);
+      least = std::min(least, blocks_[b].smallestStableStep());
+    }
+  const TimeOptions& time = model_.time;
+  least = std::min(time.stepFactor * comm_->min(least),
+                   motionStep(comm_->min(contact_->thinnestElement())));
+  least = std::min(least, time.maximumStep.value_or(infinity));
+  least = time.fixedStep.value_or(least);
+  return least < infinity ? least : 0; // else nothing moves relative to anything
+}
+
 void Solver::prepare()
 {
   attempt([&] { model_.conditions.prescribeVelocities(0, state_.v); });
   rigid_->start(state_);
   layout_.refresh(state_.x, state_.v);
+  if (contact_)
+  {
+    relativeSpeed_ = relativeSpeed();
+    largestNextStep_ = boundOfFirstStep();
+  }
   if (contact_)
   {
     search();

@@ -11,6 +11,7 @@
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/Signals.hpp>
+#include <coplane_dynamics/StepGrowth.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
@@ -35,7 +36,9 @@ struct StepControl
 {
   Real stableStep = infinity;  ///< without the safety factor [s]
   GlobalId node = 0;           ///< the node with it (the lowest id when several have)
-  bool rigid = false;          ///< a rigid body, which has the node, is what limits it
+  bool motion = false;         ///< the motion of faces limits it, see Solver::motionStep
+  Real relativeSpeed = 0, thinnest = 0; ///< with motion [m/s], [m]
+  bool rigid = false; ///< a rigid body, which has the node, is what limits it
   bool contact = false;        ///< whether contact adds more than elements to its frequency
   GlobalId element = 0;        ///< of those around the node the one with the smallest step
   GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
@@ -149,6 +152,16 @@ private:
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stableStep() const;
+  /// In which faces move by a fraction of the thinnest element behind one, relative to each other:
+  /// no face may jump over an element, nor deep into it, between two looks at their closure.
+  /// `thinnest`: over all ranks [m]
+  Real motionStep(Real thinnest) const
+  {
+    return relativeSpeed_ > 0 ? motionPerStep * thinnest / relativeSpeed_ : infinity;
+  }
+  /// Bound on the speed of any two nodes relative to each other [m/s]. Collective.
+  Real relativeSpeed() const;
+  Real boundOfFirstStep();
   Real leastElementStep(int node) const; ///< of the elements around an owned node [s]
   Real nodeStep(int node) const;         ///< of elements and contacts there [s]
   void setInitialStress(int block);
@@ -214,6 +227,11 @@ private:
   ExactSum erodedMass_;
   std::int64_t erodedElements_ = 0;
   Clock clock_;
+  StepGrowth growth_;
+  static constexpr Real motionPerStep = 0.2; ///< of the thickness of an element
+  Real largestNextStep_ = 0; ///< bound for the step after the one in progress [s]
+  Real relativeSpeed_ = 0;   ///< at the last half step [m/s]
+  Real searchSkin_ = 0;      ///< of the last search [m]
   RelaxationState relaxation_;
   EnergyBalance initialEnergy_;
   Momenta initialMomenta_;

@@ -95,6 +95,10 @@ void Solver::forEachNumber(F&& f)
   number(clock_.time);
   number(clock_.step);
   number(clock_.nextStep);
+  number(growth_.calm);
+  number(largestNextStep_);
+  number(relativeSpeed_);
+  number(searchSkin_);
   number(searchIsDue_);
   number(massDampingActs_);
   number(localDampingActs_);
@@ -187,6 +191,8 @@ void Solver::restore(const StateSource& in)
                    "{}: the clock has {} numbers and should have {}. Restart with the program that "
                    "wrote it ({}).",
                    in.name(), numbers.size(), at, in.program());
+  if (contact_)
+    contact_->setSkin(searchSkin_);
   setNumbers(initialEnergy_, in, "solver/initial_energy");
   setNumbers(initialMomenta_, in, "solver/initial_momenta");
 }

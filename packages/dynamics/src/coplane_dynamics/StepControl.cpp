@@ -10,6 +10,11 @@ namespace coplane
 {
 std::string StepControl::text() const
 {
+  if (motion)
+    return fmt::format("the motion of faces: at {:.4g} m/s relative to each other they may not pass "
+                       "more than a fraction of the thinnest element behind one, {:.4g} m, in a "
+                       "step",
+                       relativeSpeed, thinnest);
   if (rigid)
     return fmt::format("contact of the rigid body with node {}", node);
   if (!contact)
@@ -80,6 +85,13 @@ StepControl Solver::stepControl() const
     }
   }
   const Real least = comm_->min(control.stableStep);
+  if (contact_)
+  {
+    control.relativeSpeed = relativeSpeed_;
+    control.thinnest = comm_->min(contact_->thinnestElement());
+    control.motion = motionStep(control.thinnest) <
+                     model_.time.stepFactor * std::min(least, rigid_->stableStep());
+  }
   if (rigid_->stableStep() < least)
   {
     control.stableStep = rigid_->stableStep();
