@@ -137,6 +137,8 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
   plane.fresh = false;
   const Real ahead = options.lookAhead * approachSpeed(classic.normal, elementA, elementB);
   const bool near = plane.area > 0 || patch.leastGap <= ahead + 1e-8 * std::sqrt(patch.overlap);
-  plane.stiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) * 1.000001) : 0;
+  plane.stiffness =
+      near ? float(plane.weightInStep() * 1.000001 * law.stiffnessBound(plane.fit, plane.history))
+           : 0;
 }
 } // namespace coplane

@@ -467,10 +467,10 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
         plane.gap = lane(patch.leastGap, i) + plane.offset;
     }
     plane.fresh = false;
-    plane.stiffness =
-        plane.area > 0 || lane(near, i)
-            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * 1.000001)
-            : 0;
+    plane.stiffness = plane.area > 0 || lane(near, i)
+                          ? float(plane.weightInStep() * 1.000001 *
+                                  planes.law[i]->stiffnessBound(plane.fit, plane.history))
+                          : 0;
   }
   return done;
 }

@@ -89,6 +89,7 @@ struct alignas(64) Plane
   bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep : 1;  ///< deeper than the limit; force frozen
   bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
+  bool stiff : 1;    ///< stiffer than the elements behind its faces: they chatter on it
   JointFit fit;      ///< stiffnesses of the law for this pair
 
   // What the nodes of the faces get, together in the cache.
@@ -116,9 +117,17 @@ struct alignas(64) Plane
 
   KOKKOS_INLINE_FUNCTION Plane()
       : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
-        inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false)
+        inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false),
+        stiff(false)
   {
   }
+
+  /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a
+  /// spring k, or leaves it, up to k (v dt)^2 / 8 of energy is made or lost. Nodes meet a soft
+  /// spring once; on a stiff one they bounce many times, so it has to be resolved: omega dt is
+  /// halved, also while it carries, since a step that rises under load costs energy as well. A
+  /// declared joint is closed from the start.
+  KOKKOS_INLINE_FUNCTION Real weightInStep() const { return stiff && !declared ? 4 : 1; }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].
   KOKKOS_INLINE_FUNCTION Real limitedClosure() const

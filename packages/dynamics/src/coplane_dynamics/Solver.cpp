@@ -13,6 +13,8 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
+/// Step by the motion of faces over that by elements when faces are about as fast as waves.
+constexpr Real fasterThanWaves = 0.35;
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -387,8 +389,6 @@ void Solver::planNextCycle(bool first)
     return;
 
   Real step = model_.time.stepFactor * -extremes[0];
-  const Real zeta = std::max(model_.contact.dampNormal, model_.contact.dampShear);
-  step *= std::sqrt(1 + zeta * zeta) - zeta;
   step = std::min(step, motionStep(-extremes[4]));
   if (model_.time.maximumStep)
     step = std::min(step, *model_.time.maximumStep);
@@ -533,6 +533,17 @@ WorkTimes Solver::takeWorkTimes()
 
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
+  // Faster than waves, bodies meet with more pressure than contact can give at its depth limit: they
+  // would pass through each other. The skin tells at no cost whether anything is fast at all.
+  const auto cannotStop = [this]
+  {
+    if (!contact_ || 10 * relativeSpeed_ * clock_.nextStep < contact_->skin())
+      return false;
+    const StepControl control = stepControl();
+    return motionStep(control.thinnest) <
+               fasterThanWaves * model_.time.stepFactor * control.stableStep &&
+           contact_->counts().tooDeep > 0;
+  };
   observer.start(*this);
   std::string ending = "completed";
   ExitCode code = ExitCode::Success;
@@ -543,6 +554,17 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     {
       observer.finish(*this, "failed");
       failTogether("element");
+    }
+    if (cannotStop())
+    {
+      observer.finish(*this, "failed");
+      failOnAllRanks(
+          ExitCode::Computation,
+          "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, faster than "
+          "waves run in them, and faces lie deeper in them than contact.depth_max: contact cannot "
+          "stop them. Raise joints.stiffness_fraction, or use a material that stiffens under "
+          "pressure. {}",
+          clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
     }
     if (clock_.cycle % energyCheckEvery == 0)
     {

@@ -110,6 +110,7 @@ void Solver::forEachNumber(F&& f)
   number(warned_.error);
   number(warned_.remainder);
   number(warned_.tooDeep);
+  number(warned_.capped);
 }
 
 void Solver::save(StateTables& out) const
