@@ -18,7 +18,6 @@ Model rows(const Comm& comm, Real gap, Real speed, int n = 10)
   Model model = rockModel(mesh, comm);
   model.blocks[0].velocity = {speed, 0, 0};
   model.blocks[1].velocity = {-speed, 0, 0};
-  model.viscosity = {0, 0};
   model.time.energyTolerance = infinity;
   return model;
 }
@@ -47,9 +46,9 @@ TEST(StepGrowth, fallsAtOnceAndRisesLateAndSlowly)
   for (int cycle = 0; cycle < StepGrowth::patience; ++cycle)
     EXPECT_EQ(growth.next(4, 1), 1) << cycle;
   EXPECT_EQ(growth.next(4, 1), StepGrowth::perCycle);
-  EXPECT_EQ(growth.next(1.01, 1), 1.01); // never above what is safe
+  EXPECT_EQ(growth.next(1.01, 1), 1); // not for so little, and then it waits anew
   EXPECT_EQ(growth.next(.5, 1), .5);
-  EXPECT_EQ(growth.next(4, .5), .5); // and then it waits anew
+  EXPECT_EQ(growth.next(4, .5), .5);
 }
 
 TEST(StepGrowth, isNotMovedByPlanesThatChatter)
@@ -85,7 +84,7 @@ TEST(StableStep, stiffJointsMakeNoEnergy)
   for (const Real stiffness : {1e10, 1e11, 1e12})
     for (const Real gap : {0.0, 1e-6})
     {
-      Model model = rows(comm, gap, .1);
+      Model model = rows(comm, gap, .1, 20);
       makeStiff(model, stiffness);
       Solver solver(std::move(model), comm);
       solver.prepare();
@@ -96,7 +95,7 @@ TEST(StableStep, stiffJointsMakeNoEnergy)
         const EnergyBalance energy = solver.energy();
         ASSERT_LT(std::abs(energy.error()), 3e-3 * start) << stiffness << ", " << gap;
       }
-      // Of an end node's energy, 2.5 % of all, some is lost or made by each of its bounces.
+      // Of an end node's energy, 1.3 % of all, some is lost or made by each of its bounces.
       EXPECT_LT(std::abs(solver.energy().contact.remainder()), 1e-2 * start)
           << stiffness << ", " << gap;
     }
@@ -104,12 +103,21 @@ TEST(StableStep, stiffJointsMakeNoEnergy)
 
 TEST(StableStep, isConstantWhileBodiesChatterOnTheirContact)
 {
-  // Two rows that touch, each in free vibration: contact opens and closes many times. With a
-  // constant step the work of all nodal forces is the change of the kinetic energy to rounding.
+  // Two rows that touch, held at their far ends, in free vibration: contact opens and closes many
+  // times. With a constant step the work of all nodal forces is the change of the kinetic energy to
+  // rounding.
   const Comm comm;
   Model model = rows(comm, 0, 0);
+  model.viscosity = {0, 0};
+  PrescribedVelocity ends;
+  ends.nodes =
+      ownedNodesWhere(model.mesh, [](const Vec3& x) { return std::abs(std::abs(x.x) - 10) < .1; });
+  ends.components = {true, false, false};
+  model.conditions.velocities = {ends};
   for (int b = 0; b < 2; ++b)
-    model.blocks[b].velocityField = [](const Vec3& x) { return Vec3{1e-3 * x.x, 0, 0}; };
+    model.blocks[b].velocityField = [b](const Vec3& x) {
+      return Vec3{(b == 0 ? 1e-4 : -1e-4) * (10 - std::abs(x.x)), 0, 0};
+    };
   Solver solver(std::move(model), comm);
   solver.prepare();
   const Real start = solver.energy().kinetic, step = solver.clock().nextStep;

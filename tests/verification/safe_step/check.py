@@ -128,7 +128,7 @@ case.check("Hertz: rebound", v[-1] / speed, 1, 0.01)
 
 # --- The default in a fast impact on a coarse mesh --------------------------------------------------------
 # Steel, 800 m/s; a ball of 30 mm radius with 3 elements in it, a plate of 2. Reference: 9 in the radius, 27 times
-# the elements, half an hour of processor time by `check.py fine`.
+# the elements; `check.py fine` computes it anew.
 times, reference = [30e-6, 50e-6, 100e-6], [195.4, 311.0, 477.4]  # momentum of the plate [N s]
 
 
@@ -193,7 +193,8 @@ run = case.run("cubes", recipe, deck, energy=1e-3)
 h = run.history
 # Without Poisson's ratio the cubes are bars: they exchange their velocities, but for the ringing of their ends.
 case.check("cubes: velocity of the one that was struck", h["right_velocity_x"][-1] / 10, 1, 0.03)
-case.check("cubes: contact remainder over the energy", h["contact_remainder"][-1] / h["kinetic"][0], 0, 2e-3)
+# All faces meet in one step: at most k (v dt)^2 / 8 is lost there, 5e-3.
+case.check("cubes: contact remainder over the energy", h["contact_remainder"][-1] / h["kinetic"][0], 0, 5e-3)
 
 # --- Faster than sound, and a plate of one element --------------------------------------------------------
 # Caught, with the momentum of the mass that is struck, or stopped with the name of an element that is crushed.
@@ -226,11 +227,12 @@ for name, thick, speed in (
     case.check_equal(f"{name}: no pair missed", int(h["missed"][-1]), 0)
     if run.code:
         case.check_equal(f"{name}: ends with code 6", run.code, 6)
-        case.check_equal(f"{name}: and says why", "inside out" in run.output or "energy balance" in run.output, True)
+        case.check_equal(f"{name}: and says why", "inside out" in run.output or "contact cannot stop them" in run.output.replace("\n", " "), True)
         continue
-    # Never slower than the momentum of a plastic impact on all of it, and at most a little more than an elastic one
-    # with all of it gives: rims of the target are struck later, when the block spreads.
     target, block = 0.4 * 0.01 * thick, 0.08**2
     passed = -h["target_velocity_y"][-1] * target / (speed * block)  # fraction of the block's momentum
-    case.check_within(f"{name}: fraction of the momentum that the target has", passed, LOW[name], 1)
+    # From a plastic impact on what the block covers to an elastic one on all of the target.
+    covered = 0.08 * 0.01 * thick
+    least, most = covered / (covered + block), 2 * target / (target + block)
+    case.check_within(f"{name}: fraction of the momentum that the target has", passed, least, most)
 case.finish()

@@ -18,17 +18,15 @@ struct StepGrowth
   static constexpr Real perCycle = 1.02;        ///< largest rise
   static constexpr std::int64_t patience = 200; ///< cycles before the step rises
 
-  std::int64_t calm = 0; ///< cycles in which the safe step has been above the step
+  std::int64_t calm = 0; ///< cycles in a row in which the step could have risen
 
   /// The next step. last: the present one; 0 at the start [s]
   Real next(Real safe, Real last)
   {
-    if (last == 0 || safe <= last)
-    {
-      calm = 0;
-      return safe;
-    }
-    return ++calm > patience ? std::min(safe, perCycle * last) : last;
+    if (last > 0 && safe > perCycle * last)
+      return ++calm > patience ? perCycle * last : last;
+    calm = 0;
+    return last > 0 ? std::min(safe, last) : safe;
   }
 };
 } // namespace coplane
