@@ -78,10 +78,10 @@ TEST(StableStep, looksAheadInTheFirstCycle)
 
 TEST(StableStep, stiffJointsMakeNoEnergy)
 {
-  // Joints 17 and 1700 times as stiff as two elements, and a gap that closes within a step. With a
+  // Joints 17 and 170 times as stiff as two elements, and a gap that closes within a step. With a
   // look-ahead by the last step this gave many times the energy of the impact.
   const Comm comm;
-  for (const Real stiffness : {1e10, 1e12})
+  for (const Real stiffness : {1e10, 1e11})
     for (const Real gap : {0.0, 1e-6})
     {
       Model model = rows(comm, gap, .1, 20);
@@ -95,9 +95,8 @@ TEST(StableStep, stiffJointsMakeNoEnergy)
         ASSERT_LT(std::abs(solver.energy().error()), 3e-3 * start) << stiffness << ", " << gap;
       }
       // Each bounce of an end node, 1.3 % of all energy, loses or makes some of that.
-      const Real lost = solver.energy().contact.remainder();
-      EXPECT_GT(lost, -1e-2 * start) << stiffness << ", " << gap;
-      EXPECT_LT(lost, 2.5e-2 * start) << stiffness << ", " << gap;
+      EXPECT_LT(std::abs(solver.energy().contact.remainder()), 1e-2 * start)
+          << stiffness << ", " << gap;
     }
 }
 
