@@ -29,7 +29,7 @@ Model tumbling(const Comm& comm, Real step)
   model.blocks[0].velocity = {3, -2, 1};
   model.blocks[0].angularVelocity = {4, 7, 2};
   model.blocks[0].center = {5.5, 1, 2};
-  model.time.maximumStep = step;
+  model.time.fixedStep = step;
   return model;
 }
 

@@ -374,11 +374,11 @@ TEST(JointLaw_Energies, storedIsWhatUnloadingGivesBack)
 
 TEST(JointLaw_Fit, penaltyTakesItsStiffnessFromTheElementsInSeries)
 {
-  // .5 / (.1/1e10 + .3/2e10) = .5 / 2.5e-11 = 2e10.
+  // 2 / (.1/1e10 + .3/2e10) = 2 / 2.5e-11 = 8e10.
   JointLaw law;
   const JointFit fit = law.fittedTo(.1, 1e10, .3, 2e10);
-  EXPECT_NEAR(fit.normalStiffness, 2e10, 2e-5);
-  EXPECT_NEAR(fit.shearStiffness, 1e10, 1e-5);
+  EXPECT_NEAR(fit.normalStiffness, 8e10, 8e-5);
+  EXPECT_NEAR(fit.shearStiffness, 4e10, 4e-5);
   EXPECT_EQ(fit.stiffnessCap, infinity);
 }
 

@@ -109,7 +109,7 @@ for dimension, across in ((2, [5]), (3, [2, 2])):
         for method in ("simple_common_plane", "common_plane")
     }
     simple, classic = runs["simple_common_plane"], runs["common_plane"]
-    case.check_within(f"bars {dimension}d: largest stored energy [J]", max(simple.history["contact_stored"]), 1, numpy.inf)
+    case.check_within(f"bars {dimension}d: largest stored energy [J]", max(simple.history["contact_stored"]), 0.1, numpy.inf)  # they did meet
     for field in ("displacement", "velocity"):
         expected = simple.results.nodal(field)
         error = numpy.max(numpy.abs(classic.results.nodal(field) - expected)) / numpy.max(numpy.abs(expected))

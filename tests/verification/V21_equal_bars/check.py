@@ -53,7 +53,7 @@ for name, split, step in (
 
 # --- V58: other frames ------------------------------------------------------------------------------
 case.name = "V58"
-closure = stress / (0.5 * modulus / 0.02)  # of the penalty contact: 8 micrometres
+closure = stress / (2 * modulus / 0.02)  # of the penalty contact: 2 micrometres
 for name, angles in (("2d", 30), ("3d", [30, 20, 50])):
     plain = runs[name].results
     time = plain.times[-1]

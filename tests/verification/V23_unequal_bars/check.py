@@ -21,7 +21,8 @@ for name, area in (("2d", 0.03), ("3d", 0.03**2)):
     # Until the wave comes back from the free ends, after 2 L / c = 400 microseconds.
     steps = [i for i, t in enumerate(results.times) if 50e-6 <= t <= 350e-6]
     force = numpy.mean([results.nodal("contact_force", i)[nodes, 0].sum() for i in steps])
-    case.check(f"{name}: stress while they touch [Pa]", force / area, stress, 0.01, relative=True)
+    # Thirty samples of a force that rings with the end nodes on the contact, more so the stiffer it is.
+    case.check(f"{name}: stress while they touch [Pa]", force / area, stress, 0.02, relative=True)
     window = (h["time"] >= 50e-6) & (h["time"] <= 350e-6)
     case.check(f"{name}: velocity of the interface [m/s]", numpy.mean(h["interface_velocity_x"][window]), common, 0.01, relative=True)
     # Momentum goes over at the rate of stress times area.

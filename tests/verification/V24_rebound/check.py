@@ -38,6 +38,8 @@ def restitution(zeta):
 # the two nodes under the one-element block has weight 1/2 and a quarter of the block's mass, so m_n is half of it and
 # the block as a whole feels zeta / sqrt(2). The anvil is made so heavy that its nodes do not count.
 deck["materials"]["anvil"]["density"] = 2.3e9
+# A dashpot takes the velocity half a step before its force: an error of first order, 1.4 % at 0.8 and zeta 0.6.
+deck["time"]["step_factor"] = 0.4
 for zeta in (0.05, 0.21545, 0.6):
     deck["contact"]["damping"] = {"normal": zeta * math.sqrt(2)}
     run = case.run(f"damped_{zeta}", case.load("mesh_element.yaml"), deck)

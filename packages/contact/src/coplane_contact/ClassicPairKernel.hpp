@@ -135,10 +135,11 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
     plane.gap = classic.gap;
   }
   plane.fresh = false;
-  const Real approach = 2 * dt * approachSpeed(classic.normal, elementA, elementB);
-  const bool near = plane.area > 0 || patch.leastGap <= approach + 1e-8 * std::sqrt(patch.overlap);
-  plane.nodeStiffness = near ? float(law.stiffnessBound(plane.fit, plane.history) *
-                                     areaOfNode(patch, a.count, b.count))
-                             : 0;
+  const Real ahead = options.lookAhead * approachSpeed(classic.normal, elementA, elementB);
+  const bool near = plane.area > 0 || patch.leastGap <= ahead + 1e-8 * std::sqrt(patch.overlap);
+  plane.nodeStiffness =
+      near ? float(plane.weightInStep() * law.stiffnessBound(plane.fit, plane.history) *
+                   areaOfNode(patch, a.count, b.count))
+           : 0;
 }
 } // namespace coplane

@@ -223,8 +223,16 @@ void Contact::buildLists(int ownedNodes)
   forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
 }
 
+Real Contact::thinnestElement() const
+{
+  Real least = infinity;
+  for (const Face& face : localFaces_)
+    least = std::min(least, face.thickness);
+  return least;
+}
+
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                       const ConstArray<Real>& mass, Real dt)
+                                       const ConstArray<Real>& mass, Real dt, Real lookAhead)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   const auto planes = planes_;
@@ -234,7 +242,8 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const auto laws = laws_;
   const auto elements = elementTable_;
   const bool classic = this->classic();
-  const ContactOptions options = options_;
+  ContactOptions options = options_;
+  options.lookAhead = lookAhead;
   const int dimension = dimension_;
   const auto halfStepOf = KOKKOS_LAMBDA(const int f)
   {

@@ -13,6 +13,7 @@
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -71,9 +72,10 @@ public:
   /// Call when the layout knows the ghosts' nodes.
   void restorePlanes(const StateSource& in, const NodeLayout& layout);
 
-  /// Step 6: steps A to H for every slot.
+  /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
+  /// stable step; at least the two largest steps that may follow [s]
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                const ConstArray<Real>& mass, Real dt);
+                                const ConstArray<Real>& mass, Real dt, Real lookAhead);
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
@@ -84,7 +86,14 @@ public:
   const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
   const ContactOptions& options() const { return options_; }
   const ContactRules& rules() const { return rules_; }
-  Real skin() const { return skin_; }
+  /// Largest gap of the pairs that the last search took [m].
+  Real skin() const { return candidates_.skin; }
+  /// For the searches from now on: at least the given skin, more where faces move by more than a
+  /// fraction of it in one step. `motion` as a step may carry faces relative to each other [m].
+  void coverMotion(Real motion) { setSkin(std::max(skin_, skinOverMotion * motion)); }
+  void setSkin(Real skin) { candidates_.skin = skin; } ///< [m]
+  /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
+  Real thinnestElement() const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   std::int64_t searches() const { return searches_; }
@@ -138,6 +147,10 @@ private:
   void buildLists(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
+
+  /// A search is forced when the next step takes nodes farther than half a skin along an axis,
+  /// which is less than 0.87 skins in space. The step to that search may add an eighth.
+  static constexpr Real skinOverMotion = 8;
 
   const Comm* comm_;
   int dimension_;

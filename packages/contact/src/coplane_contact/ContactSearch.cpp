@@ -314,6 +314,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       plane.countedHere = a.ownedHere;
       plane.fit =
           rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
+      plane.stiff =
+          plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) > 2.5;
       plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
     }
     plane.face[0] = pair.lower;

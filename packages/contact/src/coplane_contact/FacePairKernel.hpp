@@ -475,13 +475,15 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   const auto large = patch.area > smallest;
   const T gap = gapOf(patch, shadowA, shadowB);
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  T deepest{}, motion{}, approach{};
+  T deepest{}, motion{}, approach{}, ahead{};
   if (!allOf(large && carries))
   {
     deepest = options.area == ContactOptions::Area::Full
                   ? gap
                   : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
-    approach = choose(patch.overlap > 0.0, 2.0 * dt * approachSpeed(trial.normal, a, b), T(0.0));
+    const T speed = choose(patch.overlap > 0.0, approachSpeed(trial.normal, a, b), T(0.0));
+    approach = 2.0 * dt * speed;
+    ahead = options.lookAhead * speed;
     // From the half step to the end of the step.
     motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
                                                 weighted(patch.centroidWeights[0], a.v, a.count));
@@ -513,9 +515,9 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
     stepH_updatePlaneVariables<Dim>(planes, touching, patch, gap, trial, a, b, shadowA, shadowB,
                                     options, dt);
   }
-  // The overlap counts for the stable step as soon as the faces could touch within the next two
-  // steps, so that the step does not drop suddenly.
-  const auto near = patch.leastGap <= approach + 1e-8 * squareRoot(patch.overlap);
+  // The overlap counts for the stable step as soon as the faces could touch within the look-ahead:
+  // the step has to be short enough before it takes them into each other.
+  const auto near = patch.leastGap <= ahead + 1e-8 * squareRoot(patch.overlap);
   const T share = areaOfNode(patch, a.count, b.count);
   for (int i = 0; i < planes.count; ++i)
   {
@@ -529,10 +531,10 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
         plane.gap = lane(patch.leastGap, i) + plane.offset;
     }
     plane.fresh = false;
-    plane.nodeStiffness =
-        plane.area > 0 || lane(near, i)
-            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * lane(share, i))
-            : 0;
+    plane.nodeStiffness = plane.area > 0 || lane(near, i)
+                              ? float(plane.weightInStep() * lane(share, i) *
+                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
+                              : 0;
   }
   return done;
 }

@@ -97,7 +97,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   const T overlap = choose(opposed, pair.overlap, T(0.0));
   const auto overlaps = overlap > options.areaMin * smaller(a.area, b.area);
   const T deepest = pair.mostClosure + permanent; // negative: nearest
-  const T approach = choose(overlaps, 2.0 * dt * approachSpeed(pair.plane.normal, a, b), T(0.0));
+  const T ahead =
+      choose(overlaps, options.lookAhead * approachSpeed(pair.plane.normal, a, b), T(0.0));
   const auto inContact =
       done && overlaps && pair.moments.area > 0.0 && (bonded || pair.moments.volume > 0.0);
 
@@ -302,9 +303,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       }
   }
 
-  // The overlap counts for the stable step as soon as the faces could touch within the next two
-  // steps, so that the step does not drop suddenly.
-  const auto near = overlaps && -pair.mostClosure <= approach + 1e-8 * squareRoot(overlap);
+  // The overlap counts for the stable step as soon as the faces could touch within the look-ahead.
+  const auto near = overlaps && -pair.mostClosure <= ahead + 1e-8 * squareRoot(overlap);
   T nodeArea{};
   if (anyOf(near))
   {
@@ -329,7 +329,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
     plane.fresh = false;
     plane.nodeStiffness =
         lane(near, i)
-            ? float(planes.law[i]->stiffnessBound(plane.fit, plane.history) * lane(nodeArea, i))
+            ? float(plane.weightInStep() * planes.law[i]->stiffnessBound(plane.fit, plane.history) *
+                    lane(nodeArea, i))
             : 0;
   }
   return done;

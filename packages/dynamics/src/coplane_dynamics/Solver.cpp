@@ -13,6 +13,8 @@ namespace coplane
 namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles
+/// Step by the motion of faces over that by elements when faces are about as fast as waves.
+constexpr Real fasterThanWaves = 0.35;
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -100,13 +102,13 @@ void Solver::setInitialStress(int b)
     blocks_[b].setInitialStress(e, model_.blocks[b].stressOfElement(model_.mesh, b, e));
 }
 
-void Solver::search(Real step, bool again)
+void Solver::search(bool again)
 {
   TimedRegion region("coplane::dynamics::search");
-  // After each cycle the next one looks whether the skin still covers its motion. So this search
-  // has to cover the motion of a step, which may be longer than the last one.
+  contact_->coverMotion(relativeSpeed_ * largestNextStep_);
+  searchSkin_ = contact_->skin();
   const std::vector<GlobalId> ghostNodes =
-      contact_->findGhosts(state_.x, layout_.ids(), state_.v, 2 * step);
+      contact_->findGhosts(state_.x, layout_.ids(), state_.v, largestNextStep_);
   if (layout_.setGhostNodes(ghostNodes))
   {
     state_.resize(layout_);
@@ -207,11 +209,12 @@ void Solver::findForces(Real dt)
   }
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searchIsDue_ || someDied))
-    search(dt);
+    search();
   if (contact_)
   {
     const WorkWatch watch(work_.planes);
-    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt);
+    // The speed of approach may grow by the kick that lies between: twice the step.
+    contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt, 2 * largestNextStep_);
   }
   gatherElementForces();
   if (contact_)
@@ -358,6 +361,17 @@ void Solver::kick(Real step)
   rigid_->bookSecondHalf(clock_.step);
 }
 
+namespace
+{
+/// Largest speed of two nodes relative to each other, from the extremes of velocity: three largest
+/// and three negated least ones [m/s].
+Real speedOf(const Real* extremes)
+{
+  const Vec3 range{extremes[0] + extremes[3], extremes[1] + extremes[4], extremes[2] + extremes[5]};
+  return std::isfinite(dot(range, range)) ? norm(range) : 0;
+}
+} // namespace
+
 void Solver::planNextCycle(bool first)
 {
   attempt(
@@ -368,7 +382,7 @@ void Solver::planNextCycle(bool first)
   // One reduction decides everything that must not differ between ranks.
   const Requests mine = takeRequests();
   std::vector<Real> extremes{-stableStep(), Real(mine.results), Real(mine.checkpoint),
-                             Real(mine.stop)};
+                             Real(mine.stop), contact_ ? -contact_->thinnestElement() : -infinity};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
@@ -376,8 +390,7 @@ void Solver::planNextCycle(bool first)
     return;
 
   Real step = model_.time.stepFactor * -extremes[0];
-  const Real zeta = std::max(model_.contact.dampNormal, model_.contact.dampShear);
-  step *= std::sqrt(1 + zeta * zeta) - zeta;
+  step = std::min(step, motionStep(-extremes[4]));
   if (model_.time.maximumStep)
     step = std::min(step, *model_.time.maximumStep);
   if (model_.time.fixedStep)
@@ -395,6 +408,9 @@ void Solver::planNextCycle(bool first)
         "The stable step is not finite: no element or contact limits it. Give "
         "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
         "the mesh.");
+  if (!model_.time.fixedStep)
+    step = growth_.next(step, clock_.nextStep);
+  largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
   attempt([&] { kick(step); });
   clock_.nextStep = step;
   if (first) // energies at t = 0 are those of the given velocities
@@ -404,19 +420,22 @@ void Solver::planNextCycle(bool first)
 
   // The next positions are known now: a search falls due when one may be needed by then, from an
   // exact bound on the relative displacement of any two nodes since the last search.
-  std::vector<Real> range(7, -infinity); // max, -min per axis; trouble
-  range[6] = trouble_ ? 1 : 0;
+  std::vector<Real> range(13, -infinity); // max, -min per axis of way and velocity; trouble
+  range[12] = trouble_ ? 1 : 0;
   for (int n = 0; n < layout_.owned() && contact_; ++n)
     for (int c = 0; c < 3 && !isFree(n); ++c)
     {
       const Real moved = state_.x(n, c) + step * state_.v(n, c) - state_.atSearch(n, c);
       range[c] = std::max(range[c], moved);
       range[3 + c] = std::max(range[3 + c], -moved);
+      range[6 + c] = std::max(range[6 + c], state_.v(n, c));
+      range[9 + c] = std::max(range[9 + c], -state_.v(n, c));
     }
   comm_->max(range);
-  failed_ = range[6] > 0;
+  failed_ = range[12] > 0;
   if (failed_ || !contact_)
     return;
+  relativeSpeed_ = speedOf(&range[6]);
   const bool forced = range[0] + range[3] > 0.5 * contact_->skin() ||
                       range[1] + range[4] > 0.5 * contact_->skin() ||
                       range[2] + range[5] > 0.5 * contact_->skin();
@@ -424,19 +443,35 @@ void Solver::planNextCycle(bool first)
   searchIsDue_ = forced || regular;
 }
 
-Real Solver::firstStep()
+Real Solver::relativeSpeed() const
 {
-  if (model_.time.fixedStep)
-    return *model_.time.fixedStep;
-  Real least = model_.time.maximumStep.value_or(infinity);
+  std::vector<Real> range(6, -infinity);
+  for (int n = 0; n < layout_.owned(); ++n)
+    for (int c = 0; c < 3 && !isFree(n); ++c)
+    {
+      range[c] = std::max(range[c], state_.v(n, c));
+      range[3 + c] = std::max(range[3 + c], -state_.v(n, c));
+    }
+  comm_->max(range);
+  return speedOf(range.data());
+}
+
+/// A bound of the first step, for what looks ahead before it is known [s]. Collective.
+Real Solver::boundOfFirstStep()
+{
+  Real least = infinity;
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     if (!isRigid(b))
     {
-      blocks_[b].update(state_.x, state_.v, 0, nodalDilatation(b, 0));
+      blocks_[b].update(state_.x, state_.v, 0);
       least = std::min(least, blocks_[b].smallestStableStep());
     }
-  least = comm_->min(least);
-  return least < infinity ? least : 0;
+  const TimeOptions& time = model_.time;
+  least = std::min(time.stepFactor * comm_->min(least),
+                   motionStep(comm_->min(contact_->thinnestElement())));
+  least = std::min(least, time.maximumStep.value_or(infinity));
+  least = time.fixedStep.value_or(least);
+  return least < infinity ? least : 0; // else nothing moves relative to anything
 }
 
 void Solver::prepare()
@@ -446,14 +481,15 @@ void Solver::prepare()
   layout_.refresh(state_.x, state_.v);
   if (contact_)
   {
-    const Real step = firstStep();
-    search(step);
+    relativeSpeed_ = relativeSpeed();
+    largestNextStep_ = boundOfFirstStep();
+    search();
     contact_->closeDeclaredJoints(state_.x, [this](int block, const Vec3& x)
                                   { return model_.blocks[block].stressAt(x); });
     // Once more, so that their neighbours know the offsets of joints that are closed now.
     if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
                     [](const ContactRule& rule) { return rule.declared; }))
-      search(step, true);
+      search(true);
   }
   findForces(0);
   planNextCycle(true);
@@ -495,6 +531,17 @@ WorkTimes Solver::takeWorkTimes()
 
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
+  // Faster than waves, bodies meet with more pressure than contact can give at its depth limit:
+  // they would pass through each other. The skin tells at no cost whether anything is fast at all.
+  const auto cannotStop = [this]
+  {
+    if (!contact_ || 10 * relativeSpeed_ * clock_.nextStep < contact_->skin())
+      return false;
+    const StepControl control = stepControl();
+    return motionStep(control.thinnest) <
+               fasterThanWaves * model_.time.stepFactor * control.stableStep &&
+           contact_->counts().tooDeep > 0;
+  };
   observer.start(*this);
   std::string ending = "completed";
   ExitCode code = ExitCode::Success;
@@ -505,6 +552,17 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     {
       observer.finish(*this, "failed");
       failTogether("element");
+    }
+    if (cannotStop())
+    {
+      observer.finish(*this, "failed");
+      failOnAllRanks(
+          ExitCode::Computation,
+          "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, faster than "
+          "waves run in them, and faces lie deeper in them than contact.depth_max: contact cannot "
+          "stop them. Raise joints.stiffness_fraction, or use a material that stiffens under "
+          "pressure. {}",
+          clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
     }
     if (clock_.cycle % energyCheckEvery == 0)
     {

@@ -11,6 +11,7 @@
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/Signals.hpp>
+#include <coplane_dynamics/StepGrowth.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
@@ -33,9 +34,11 @@ struct Clock
 /// What limits the time step.
 struct StepControl
 {
-  Real stableStep = infinity;  ///< without the safety factor [s]
-  GlobalId node = 0;           ///< the node with it (the lowest id when several have)
-  bool rigid = false;          ///< a rigid body, which has the node, is what limits it
+  Real stableStep = infinity;           ///< without the safety factor [s]
+  GlobalId node = 0;                    ///< the node with it (the lowest id when several have)
+  bool motion = false;                  ///< the motion of faces limits it, see Solver::motionStep
+  Real relativeSpeed = 0, thinnest = 0; ///< with motion [m/s], [m]
+  bool rigid = false;                   ///< a rigid body, which has the node, is what limits it
   bool contact = false;        ///< whether contact adds more than elements to its frequency
   GlobalId element = 0;        ///< of those around the node the one with the smallest step
   GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
@@ -128,10 +131,7 @@ private:
   };
 
   friend class Rebalancer; // books what it does
-  /// `step`: the last one, or an estimate of the first one [s].
-  void search(Real step, bool again = false);
-  /// What the elements allow at the start; 0 without any [s]. Collective.
-  Real firstStep();
+  void search(bool again = false);
   void findForces(Real dt);
   ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
   void gatherElementForces();
@@ -152,8 +152,23 @@ private:
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stableStep() const;
+  /// In which faces move by a fraction of the thinnest element behind one, relative to each other:
+  /// no face may jump over an element, nor deep into it, between two looks at their closure.
+  /// `thinnest`: over all ranks [m]
+  Real motionStep(Real thinnest) const
+  {
+    return relativeSpeed_ > 0 ? motionPerStep * thinnest / relativeSpeed_ : infinity;
+  }
+  /// Bound on the speed of any two nodes relative to each other [m/s]. Collective.
+  Real relativeSpeed() const;
+  Real boundOfFirstStep();
   Real leastElementStep(int node) const; ///< of the elements around an owned node [s]
   Real nodeStep(int node) const;         ///< of elements and contacts there [s]
+  Real rigidStep() const;                ///< of rigid bodies [s]
+  /// Bound on the rate by which contact damping acts, from a bound on the frequency of contact. A
+  /// plane's dashpot is 2 zeta K / omega with its own frequency omega; that of the planes of a node
+  /// together is up to twice as high where faces match [1/s].
+  Real contactDamping(Real frequency) const;
   void setInitialStress(int block);
   void applyLocalDamping();
   /// For the dampings: a time at which none acts when relaxation has ended them.
@@ -173,6 +188,7 @@ private:
   void nameWhatLimits(int node, StepControl& control) const;
   std::string worstByRemainder() const;
   std::string deepestPlanes() const;
+  void warnOfCaps(const std::string& now);
   std::string brokenBalance(const EnergyBalance& balance) const;
   void warnOfTrouble(const EnergyBalance& balance);
   void finishAfter(const Error& error, Observer& observer) const;
@@ -217,6 +233,11 @@ private:
   ExactSum erodedMass_;
   std::int64_t erodedElements_ = 0;
   Clock clock_;
+  StepGrowth growth_;
+  static constexpr Real motionPerStep = 0.2; ///< of the thickness of an element
+  Real largestNextStep_ = 0;                 ///< bound for the step after the one in progress [s]
+  Real relativeSpeed_ = 0;                   ///< at the last half step [m/s]
+  Real searchSkin_ = 0;                      ///< of the last search [m]
   RelaxationState relaxation_;
   EnergyBalance initialEnergy_;
   Momenta initialMomenta_;
@@ -226,7 +247,7 @@ private:
   /// What was warned of last.
   struct Warned
   {
-    Real error = 0, remainder = 0, tooDeep = 0;
+    Real error = 0, remainder = 0, tooDeep = 0, capped = 0;
   };
   Warned warned_;
   bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero

@@ -95,6 +95,10 @@ void Solver::forEachNumber(F&& f)
   number(clock_.time);
   number(clock_.step);
   number(clock_.nextStep);
+  number(growth_.calm);
+  number(largestNextStep_);
+  number(relativeSpeed_);
+  number(searchSkin_);
   number(searchIsDue_);
   number(massDampingActs_);
   number(localDampingActs_);
@@ -106,6 +110,7 @@ void Solver::forEachNumber(F&& f)
   number(warned_.error);
   number(warned_.remainder);
   number(warned_.tooDeep);
+  number(warned_.capped);
 }
 
 void Solver::save(StateTables& out) const
@@ -187,6 +192,8 @@ void Solver::restore(const StateSource& in)
                    "{}: the clock has {} numbers and should have {}. Restart with the program that "
                    "wrote it ({}).",
                    in.name(), numbers.size(), at, in.program());
+  if (contact_)
+    contact_->setSkin(searchSkin_);
   setNumbers(initialEnergy_, in, "solver/initial_energy");
   setNumbers(initialMomenta_, in, "solver/initial_momenta");
 }

@@ -1,5 +1,6 @@
 // What limits the time step, by name.
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_element/StableStep.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
 #include <algorithm>
@@ -10,6 +11,12 @@ namespace coplane
 {
 std::string StepControl::text() const
 {
+  if (motion)
+    return fmt::format(
+        "the motion of faces: at {:.4g} m/s relative to each other they may not pass "
+        "more than a fraction of the thinnest element behind one, {:.4g} m, in a "
+        "step",
+        relativeSpeed, thinnest);
   if (rigid)
     return fmt::format("contact of the rigid body with node {}", node);
   if (!contact)
@@ -37,14 +44,26 @@ Real Solver::nodeStep(int node) const
   const Real stiffness = contactStiffness_(node), elements = leastElementStep(node);
   if (stiffness == 0)
     return elements;
-  const Real omega = 2 / elements;
-  const Real squared = omega * omega + stiffness / state_.mass(node);
-  return squared > 0 ? 2 / std::sqrt(squared) : 0;
+  const Real omega = 2 / elements, contact = stiffness / state_.mass(node);
+  const Real squared = omega * omega + contact;
+  return squared > 0 ? coplane::stableStep(squared, contactDamping(std::sqrt(contact))) : 0;
+}
+
+Real Solver::contactDamping(Real frequency) const
+{
+  return 4 * std::max(model_.contact.dampNormal, model_.contact.dampShear) * frequency;
+}
+
+Real Solver::rigidStep() const
+{
+  const Real frequency = 2 / rigid_->stableStep();
+  return frequency > 0 ? coplane::stableStep(frequency * frequency, contactDamping(frequency))
+                       : infinity;
 }
 
 Real Solver::stableStep() const
 {
-  Real least = rigid_->stableStep();
+  Real least = rigidStep();
   for (std::size_t b = 0; b < blocks_.size(); ++b)
     if (!isRigid(b))
       least = std::min(least, blocks_[b].smallestStableStep());
@@ -80,9 +99,16 @@ StepControl Solver::stepControl() const
     }
   }
   const Real least = comm_->min(control.stableStep);
-  if (rigid_->stableStep() < least)
+  if (contact_)
   {
-    control.stableStep = rigid_->stableStep();
+    control.relativeSpeed = relativeSpeed_;
+    control.thinnest = comm_->min(contact_->thinnestElement());
+    control.motion =
+        motionStep(control.thinnest) < model_.time.stepFactor * std::min(least, rigidStep());
+  }
+  if (rigidStep() < least)
+  {
+    control.stableStep = rigidStep();
     control.rigid = control.contact = true;
     control.node = rigid_->nodeThatLimits(layout_);
     return control;

@@ -118,6 +118,32 @@ std::string Solver::brokenBalance(const EnergyBalance& balance) const
   return "";
 }
 
+void Solver::warnOfCaps(const std::string& now)
+{
+  std::vector<Entry> planes;
+  for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
+  {
+    const Plane& plane = contact_->planes()(p);
+    if (plane.countedHere && plane.area > 0 &&
+        contact_->lawOf(plane).capped(plane.fit, plane.history))
+      planes.push_back(
+          {plane.history.maximumClosure, plane.fit.stiffnessCap, plane.faceId[0], plane.faceId[1]});
+  }
+  const Real count = Real(comm_->sum(std::int64_t(planes.size())));
+  if (!(count >= std::max(Real(1), 2 * warned_.capped)))
+    return;
+  warned_.capped = count;
+  std::string text;
+  for (const Entry& e : worst(planes, *comm_))
+    text +=
+        fmt::format("\n  {}: closed by {:.3e} m, cap {:.3e} Pa/m", pairName(e), e.badness, e.value);
+  logWarning("stiffness cap",
+             fmt::format("{}: {} planes have reached joints.stiffness_cap: beyond it they are "
+                         "softer than their closure curve. Give a larger one where that matters; "
+                         "the step gets shorter. First:{}",
+                         now, count, text));
+}
+
 void Solver::warnOfTrouble(const EnergyBalance& balance)
 {
   // Every warning waits until things are twice as bad as at the last one of its kind.
@@ -151,6 +177,7 @@ void Solver::warnOfTrouble(const EnergyBalance& balance)
   }
   if (!contact_)
     return;
+  warnOfCaps(now);
   const std::int64_t tooDeep = contact_->counts().tooDeep;
   if (isWorse(Real(tooDeep), 1, warned_.tooDeep))
     logWarning("planes too deep",

@@ -141,12 +141,12 @@ struct JointCard
   std::string name, where;
   std::string model =
       "penalty"; ///< penalty | linear | closure_curve | table | barton_bandis | mortar | bilinear
-  Real stiffnessFraction = 0.5; ///< penalty: alpha of k_n = alpha / (h1/M1 + h2/M2) [-]
-  Real normalStiffness = 0;     ///< linear, mortar, bilinear [Pa/m]
-  Real initialStiffness = 0;    ///< slope of a hyperbola at zero closure [Pa/m]; 0: estimated
-  Real maximumClosure = 0;      ///< asymptote of a hyperbola [m]; 0: straight, or estimated
-  std::vector<Real> closures;   ///< table [m]
-  std::vector<Real> tractions;  ///< table [Pa]
+  Real stiffnessFraction = 2;  ///< penalty: alpha of k_n = alpha / (h1/M1 + h2/M2) [-]
+  Real normalStiffness = 0;    ///< linear, mortar, bilinear [Pa/m]
+  Real initialStiffness = 0;   ///< slope of a hyperbola at zero closure [Pa/m]; 0: estimated
+  Real maximumClosure = 0;     ///< asymptote of a hyperbola [m]; 0: straight, or estimated
+  std::vector<Real> closures;  ///< table [m]
+  std::vector<Real> tractions; ///< table [Pa]
   std::optional<Real>
       stiffnessCap; ///< curves: largest slope [Pa/m]; default 0.5 M/h of the softer element
   std::optional<Real> shearStiffness;  ///< [Pa/m]; default: shear_ratio times the normal stiffness
