@@ -1,4 +1,5 @@
 #include "BuildModel.hpp"
+#include "FilesOfRun.hpp"
 #include "Observers.hpp"
 #include "PartitionPlan.hpp"
 #include "Report.hpp"
@@ -120,6 +121,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     settings.maxWall = line.maxWall;
   Deck deck;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
+  demandDistinctFiles(deck, line.checkpoint, comm);
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
   const MeshReport report = reportMesh(mesh, home, comm);

@@ -4,6 +4,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -67,8 +68,21 @@ void judge(const MeshReport& report, const std::string& file)
     fail(ExitCode::Mesh, "{}: the mesh cannot be used: {}", file, problems.front());
 }
 
+/// Throws unless the output is a file of its own. @param inputs with what messages call them
+void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inputs,
+                    const std::string& output)
+{
+  FileRoles roles;
+  for (const auto& [file, what] : inputs)
+    roles.reads(file, what);
+  roles.writes(output, "the new mesh (-o)");
+  if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
+    fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
+}
+
 void make(const std::string& recipe, const std::string& output)
 {
+  demandDistinct({{recipe, "the recipe"}}, output);
   const Mesh mesh = makeMesh(recipe);
   const MeshReport report = reportMesh(mesh);
   printReport(mesh, report);
@@ -79,6 +93,7 @@ void make(const std::string& recipe, const std::string& output)
 
 void split(const std::string& file, const std::string& recipe, const std::string& output)
 {
+  demandDistinct({{file, "the mesh"}, {recipe, "the recipe of joints"}}, output);
   const Mesh mesh = readMesh(file);
   const std::vector<MeshFace> faces = facesOf(mesh);
   const CutSelection selection =
@@ -110,6 +125,7 @@ void split(const std::string& file, const std::string& recipe, const std::string
 
 void convert(const std::string& file, const std::string& output)
 {
+  demandDistinct({{file, "the file of Gmsh"}}, output);
   ConvertedMesh converted = convertGmsh(readGmshFile(file), file);
   for (const std::string& note : converted.notes)
     print("note: " + note);

@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/MeshReader.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
@@ -478,8 +479,8 @@ private:
 /// Whether the file may be given to the library; throws where it may not.
 void probeFile(const std::string& file)
 {
-  if (std::filesystem::is_directory(file))
-    fail(ExitCode::Mesh, "{}: this is a folder; name an Exodus II file.", file);
+  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
+    fail(ExitCode::Mesh, "{}: this is {}; name an Exodus II file.", file, kind);
   std::ifstream probe(file, std::ios::binary);
   if (!probe)
     fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",

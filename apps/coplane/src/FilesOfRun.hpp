@@ -1,0 +1,20 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_input/Deck.hpp>
+
+#include <string>
+
+namespace coplane
+{
+/// Names that follow from those of the deck.
+std::string recordFile(const Deck& deck, int part);
+std::string planesBase(const Deck& deck);
+std::string tablesBase(const Deck& deck);
+std::string stopFile(const Deck& deck);
+
+/// Throws Error(ExitCode::Deck) on all ranks when an output of the run is an input of it, another
+/// output, or not a plain file. Before anything is written. Collective.
+/// @param restartedFrom checkpoint that is read; empty: none, or the newest of the run
+void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm);
+} // namespace coplane
