@@ -1,8 +1,10 @@
 #include "FilesOfRun.hpp"
 
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Log.hpp>
 
 #include <filesystem>
+#include <set>
 
 namespace coplane
 {
@@ -11,6 +13,16 @@ namespace
 std::string withoutExtension(const std::string& file)
 {
   return std::filesystem::path(file).replace_extension().string();
+}
+
+/// One for each stem of the outputs: runs of other names may share the folder.
+std::set<std::string> lockFiles(const Deck& deck)
+{
+  std::set<std::string> files{withoutExtension(deck.history.file) + ".lock",
+                              withoutExtension(deck.checkpoint.file) + ".lock"};
+  if (!deck.output.results.empty())
+    files.insert(withoutExtension(deck.output.results) + ".lock");
+  return files;
 }
 
 void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedFrom)
@@ -67,6 +79,8 @@ void addOutputs(FileRoles& roles, const Deck& deck)
   for (const char* slot : {".0", ".1"})
     for (const std::string& end : {std::string(), draft})
       roles.writes(deck.checkpoint.file + slot + end, checkpoint);
+  for (const std::string& file : lockFiles(deck))
+    roles.writes(file, "the lock of the run");
   roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");
 }
 } // namespace
@@ -90,6 +104,26 @@ std::string tablesBase(const Deck& deck)
 std::string stopFile(const Deck& deck)
 {
   return withoutExtension(deck.checkpoint.file) + ".stop";
+}
+
+std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
+{
+  std::vector<FileLock> locks;
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        for (const std::string& file : lockFiles(deck))
+        {
+          locks.emplace_back(file, "the outputs of " + deck.file);
+          if (!locks.back().isHeld())
+            logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
+                                            "second run from writing the same files",
+                                            file));
+        }
+      });
+  return locks;
 }
 
 void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm)

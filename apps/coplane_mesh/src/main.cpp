@@ -5,6 +5,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -75,7 +76,8 @@ void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inpu
   FileRoles roles;
   for (const auto& [file, what] : inputs)
     roles.reads(file, what);
-  roles.writes(output, "the new mesh (-o)");
+  for (const char* end : {"", ".part"})
+    roles.writes(output + end, "the new mesh (-o)");
   if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
     fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
 }
@@ -204,5 +206,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

@@ -4,6 +4,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckReference.hpp>
@@ -113,5 +114,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

@@ -11,7 +11,7 @@ from coplanetest import Case, documents, program
 
 case = Case("own_files", __file__)
 recipe = {"dimension": 2, "parts": [{"shape": "box", "block": "bar", "min": [0, 0], "size": [1, 1], "divisions": [2, 2]}]}
-deck = {"materials": {"steel": {"model": "elastic", "density": 7800, "youngs_modulus": 200e9, "poissons_ratio": 0.3}},
+deck = {"materials": {"steel": {"model": "linear_elastic", "density": 7800, "youngs_modulus": 200e9, "poisson_ratio": 0.3}},
         "blocks": {"bar": {"material": "steel"}}, "time": {"end": 1e-6}}
 USAGE, DECK, MESH = 2, 3, 4
 documents.save({"title": "own files", **recipe}, "mesh.yaml")

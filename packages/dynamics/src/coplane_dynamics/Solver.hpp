@@ -106,6 +106,7 @@ public:
   ErosionTotals erosion() const;
   Momenta momenta() const;
   StepControl stepControl() const;
+  bool isOver() const;
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;
@@ -149,6 +150,7 @@ private:
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stableStep() const;
+  Real stepOfFreeBodies() const;
   Real leastElementStep(int node) const; ///< of the elements around an owned node [s]
   Real nodeStep(int node) const;         ///< of elements and contacts there [s]
   void setInitialStress(int block);

@@ -1,5 +1,6 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Text.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/MeshReader.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
@@ -436,7 +437,7 @@ private:
     std::string name(ex_inquire_int(exoid_, EX_INQ_MAX_READ_NAME_LENGTH) + 1, '\0');
     check(ex_get_name(exoid_, type, id, name.data()), "names");
     name.resize(std::char_traits<char>::length(name.c_str()));
-    return name.empty() ? fmt::format("{}_{}", kind, id) : name;
+    return name.empty() ? fmt::format("{}_{}", kind, id) : asUtf8(name);
   }
 
   void checkIds(const char* what, const std::vector<GlobalId>& ids) const
