@@ -97,7 +97,8 @@ shutil.copy("mesh.yaml", folder / "r.yaml")
 tool("make", "coplane_mesh", ["make", "r.yaml", "-o", "./r.yaml"], folder, USAGE)
 tool("split", "coplane_mesh", ["split", "mesh.e", "r.yaml", "-o", "mesh.e"], folder, USAGE)
 tool("convert", "coplane_mesh", ["convert", "mesh.e", "-o", "mesh.e"], folder, USAGE)
-path = {"joints": {"dry": {"model": "linear", "normal_stiffness": 1e10, "shear_stiffness": 1e10, "friction": 0.5}},
+path = {"joints": {"dry": {"model": "mortar", "normal_stiffness": 8.2e10, "shear_stiffness": 3.6e10, "friction": 0.75, "cohesion": 0.35e6,
+                           "tensile_strength": 0.25e6, "tension_energy": 18, "shear_energy": 125}},
         "joint_paths": {"test": {"joint": "dry", "type": "closing", "closures": [1e-4], "output": "point.yaml"}}}
 documents.save(path, folder / "point.yaml")
 tool("point", "coplane_point", ["point.yaml"], folder, DECK)

@@ -53,14 +53,15 @@ Vec3 agreedPlace(const Vec3& mine, bool isMine, const Comm& comm)
 }
 
 /// The same bits for the same corners in any order.
-Vec3 centreOf(std::array<Vec3, 8> corners, int count)
+Vec3 centreOf(const std::array<Vec3, 8>& corners, int count)
 {
-  std::sort(corners.begin(), corners.begin() + count,
+  std::vector<Vec3> sorted(corners.begin(), corners.begin() + count);
+  std::sort(sorted.begin(), sorted.end(),
             [](const Vec3& a, const Vec3& b)
             { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
   Vec3 sum{};
-  for (int k = 0; k < count; ++k)
-    sum += corners[std::size_t(k)];
+  for (const Vec3& corner : sorted)
+    sum += corner;
   return (1.0 / count) * sum;
 }
 
