@@ -26,10 +26,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -99,7 +99,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
           ->expected(0, 1);
   app.add_option("--max-wall", line.maxWall,
                  "Write a checkpoint and stop after so many seconds (exit code 8)")
-      ->check(CLI::PositiveNumber & CLI::Range(0.0, std::numeric_limits<double>::max()));
+      ->check(CLI::PositiveNumber);
   app.add_flag("--check", line.check,
                "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
@@ -113,6 +113,8 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   {
     app.parse(argc, argv);
     line.restart = restart->count() > 0;
+    if (!std::isfinite(line.maxWall))
+      throw CLI::ValidationError("--max-wall", "accepted: a number of seconds above 0");
     if (!asksForHelp(line) && line.deck.empty())
       throw CLI::RequiredError("deck");
   }
@@ -244,7 +246,9 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
     const int parsed = parse(argc, argv, comm.isRoot(), line);
     logSetup(comm.isRoot(), line.quiet);
     comm.demandSame("the program", build(), ExitCode::Usage);
-    comm.demandSame("the command line", optionsOf(line), ExitCode::Usage);
+    comm.demandSame("the command line",
+                    optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""),
+                    ExitCode::Usage);
     if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
       return int(comm.max(std::int64_t(parsed)));
     Kokkos::InitArguments arguments;

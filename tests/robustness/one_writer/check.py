@@ -134,7 +134,7 @@ finally:
         library.sem_unlink(name)
 
 # --- a file that goes away while the run goes on ------------------------------------------------------------
-folder = folder_for("history is removed", time={"end": 10.0}, checkpoint={"every_cycles": 200})
+folder = folder_for("history is removed", time={"end": 10.0}, checkpoint={"every_cycles": 50})
 with open(folder / "run.log", "w") as log:
     process = subprocess.Popen([os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none", program.binary("coplane"), "run.yaml"],
                                cwd=folder, stdout=log, stderr=subprocess.STDOUT)
