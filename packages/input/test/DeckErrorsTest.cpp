@@ -494,9 +494,10 @@ TEST(DeckErrors, aPieceThatAnIndentationHasCutOff)
 
 TEST(DeckErrors, anAliasOfItself)
 {
-  EXPECT_EQ(errorWith("initial: &a [*a]\n"),
-            "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
-            "accepted: 50 levels and a million values. Write the values out.");
+  EXPECT_EQ(
+      errorWith("initial: &a [*a]\n"),
+      "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
+      "accepted: 50 levels and a million values more than are written. Write the values out.");
 }
 
 TEST(DeckErrors, aDeckThatDoesNotExist)

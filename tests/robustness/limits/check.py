@@ -12,6 +12,7 @@ import time
 import xml.etree.ElementTree
 
 import netCDF4
+import numpy
 from coplanetest import Case, documents, program
 
 case = Case("limits", __file__)
@@ -61,7 +62,7 @@ def history(folder, name="run.csv"):
 up = [{"block": "high", "velocity": [0, -1e150, 0]}]
 for ranks in (1, 2, 3):
     attempt(f"velocity 1e150 on {ranks} ranks", COMPUTATION, ["far too large"], {"initial": up}, ranks)
-    attempt(f"gravity 1e300 on {ranks} ranks", COMPUTATION, ["far too large"], {"gravity": [0, -1e300, 0]}, ranks)
+    attempt(f"gravity 1e300 on {ranks} ranks", COMPUTATION, ["not finite"], {"gravity": [0, -1e300, 0]}, ranks)
 attempt("fixed step 1e-300", COMPUTATION, ["time.fixed_step"], {"time.fixed_step": 1e-300})
 documents.save({"dimension": 3, "parts": [{**box, "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [10000, 10000, 10000]}]}, "huge.yaml")
 done = subprocess.run([program.binary("coplane_mesh"), "make", "huge.yaml", "-o", "huge.e"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -111,10 +112,10 @@ folder, output = attempt("odd names", 0, recipe=names_recipe, changes={
     "blocks": {odd: {"material": "steel"}, "high": {"material": "steel"}}, "output": {"results": "x & y <z>.e"}, "time.end": 1e-6,
     "history": {"file": "run.csv", "tables": ["blocks", "pairs"], "probes": [{"name": odd, "block": odd}]}})
 header, lines = history(folder)
-case.check_equal("odd names: every line has the columns of the header", {len(line) for line in lines}, {len(header)})
+case.check_equal("odd names: every line has the columns of the header", sorted({len(line) for line in lines}), [len(header)])
 case.check_equal("odd names: a column has the name", odd + "_displacement_x[m]" in header, True)
 _, lines = history(folder, "run_blocks.csv")
-case.check_equal("odd names: the block of a table", {line[2] for line in lines}, {odd, "high"})
+case.check_equal("odd names: the block of a table", sorted({line[2] for line in lines}), sorted([odd, "high"]))
 series = xml.etree.ElementTree.parse(folder / "x & y <z>_planes.pvd")
 files = [item.get("file") for item in series.iter("DataSet")]
 case.check_equal("odd names: the files of the series are there", [name for name in files if not (folder / name).exists()], [])
@@ -128,7 +129,8 @@ else:
 # A mesh whose names are Latin-1 is read as such; a deck is UTF-8.
 folder, _ = attempt("Latin-1 in the mesh", 0, changes={"time.end": 1e-6})
 with netCDF4.Dataset(folder / "mesh.e", "a") as file:
-    file["eb_names"][0] = netCDF4.stringtochar(__import__("numpy").array([b"M\xf6rtel"], dtype=f"S{file['eb_names'].shape[1]}"))[0]
+    file.set_auto_mask(False)
+    file["eb_names"][0] = numpy.frombuffer(b"M\xf6rtel".ljust(file["eb_names"].shape[1], b"\0"), "S1")
 text = documents.load(folder / "run.yaml")
 text["blocks"] = {"Mörtel": {"material": "steel"}, "high": {"material": "steel"}}
 documents.save(text, folder / "run.yaml")
@@ -141,8 +143,8 @@ code, output = program.run_program(["run.yaml"], folder, timeout=60)
 case.check_equal("a deck in Latin-1", (code, "UTF-8" in output), (DECK, True))
 strange = folder / os.fsdecode(b"M\xf6rtel.yaml")
 documents.save(text, strange)
-code, output = program.run_program([os.fsdecode(b"M\xf6rtel.yaml"), "--set", "checkpoint.at_end=true"], folder, timeout=60)
-case.check_equal("a deck whose name is Latin-1 runs", code, 0)
+done = subprocess.run([program.binary("coplane"), b"M\xf6rtel.yaml", "--set", "checkpoint.at_end=true"], cwd=folder, stdout=subprocess.DEVNULL, timeout=60)
+case.check_equal("a deck whose name is Latin-1 runs", done.returncode, 0)
 
 # --- a table that is cut off while the run goes on ----------------------------------------------------------
 folder, _ = attempt("a table is cut off", 0, changes={"time.end": 1e-6})
