@@ -24,7 +24,6 @@ private:
   std::vector<std::uint64_t> makeFile(const std::string& name) const;
   template <class Action>
   void forOwnRows(const std::vector<std::uint64_t>& places, const Action& action) const;
-  std::string compareRest(const std::string& name) const;
   std::uint64_t dataBytes() const;
 };
 } // namespace coplane

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
+#include <filesystem>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -33,6 +34,13 @@ std::string ownerIn(int descriptor)
   return owner.empty() ? "an unknown process" : owner.substr(0, owner.find('\n'));
 }
 
+std::string folderOf(const std::string& file)
+{
+  std::error_code error;
+  const auto path = std::filesystem::absolute(file, error);
+  return error ? "." : path.parent_path().string();
+}
+
 /// Whether the path still leads to the file that is open: its owner may just have removed it.
 bool isStillThere(const std::string& file, int descriptor)
 {
@@ -53,10 +61,13 @@ FileLock::FileLock(const std::string& file, const std::string& what) : file_(fil
   {
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0)
+    {
+      const std::string reason = std::strerror(errno);
       fail(ExitCode::Output,
-           "{}: the file that says who writes {} cannot be made: {}. Check that the folder exists "
-           "and can be written to.",
-           file, what, std::strerror(errno));
+           "{}: the file that says who writes {} cannot be made: {}. Check that the folder '{}' "
+           "exists and can be written to.",
+           file, what, reason, folderOf(file));
+    }
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     {
       const int reason = errno;

@@ -76,6 +76,8 @@ public:
   void endStep();
   void close();
 
+  /// Not after close(), nor after a failure.
+  bool isOpen() const { return data_.has_value(); }
   int steps() const { return steps_; }
   /// The file that this rank writes.
   const std::string& file() const { return file_; }

@@ -209,6 +209,8 @@ void ResultsObserver::repartitioned(const Solver&)
 
 void ResultsObserver::finish(const Solver& solver, const std::string&)
 {
+  if (file_ && !file_->isOpen())
+    return; // it is what failed
   if (solver.clock().cycle != lastCycle_)
     write(solver);
   if (file_)
