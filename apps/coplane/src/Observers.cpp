@@ -113,9 +113,8 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   };
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(
-        comm,
-        TablesOptions{tablesBase(deck), deck.history.every, wants("blocks"),
-                      wants("pairs"), wants("materials"), settings.positions}));
+        comm, TablesOptions{tablesBase(deck), deck.history.every, wants("blocks"), wants("pairs"),
+                            wants("materials"), settings.positions}));
 
   if (!deck.output.results.empty())
   {

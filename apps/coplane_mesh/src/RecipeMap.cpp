@@ -27,7 +27,8 @@ std::string joined(const std::vector<std::string>& words)
 std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
 {
   if (const std::string kind = kindOfSpecialFile(recipeFile); !kind.empty())
-    fail(ExitCode::Deck, "{}: this is {}; accepted: a recipe, which is a YAML file.", recipeFile, kind);
+    fail(ExitCode::Deck, "{}: this is {}; accepted: a recipe, which is a YAML file.", recipeFile,
+         kind);
   std::ifstream file(recipeFile);
   std::stringstream text;
   if (!file || !(text << file.rdbuf()))

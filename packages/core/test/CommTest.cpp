@@ -170,7 +170,8 @@ TEST(Comm_Together, whatTheMachineDoesNotGiveIsNoDefect)
   };
   EXPECT_EQ(codeOn([] { throw std::bad_alloc(); }), ExitCode::Machine);
   EXPECT_EQ(codeOn([] { std::vector<int>().reserve(std::size_t(-1)); }), ExitCode::Machine);
-  EXPECT_EQ(codeOn([] { std::filesystem::file_size("/no/such/file"); }), ExitCode::Output);
+  EXPECT_EQ(codeOn([] { std::filesystem::directory_iterator("/no/such/folder"); }),
+            ExitCode::Output);
 }
 
 TEST(Comm_DemandSame, namesTheFirstRankThatDiffers)

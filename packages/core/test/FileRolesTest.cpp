@@ -1,7 +1,8 @@
 #include <coplane_core/FileRoles.hpp>
-#include <TestFolder.hpp>
 
 #include <gtest/gtest.h>
+
+#include <TestFolder.hpp>
 #include <sys/stat.h>
 
 namespace coplane

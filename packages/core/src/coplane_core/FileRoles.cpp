@@ -1,11 +1,11 @@
 #include <coplane_core/FileRoles.hpp>
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <sys/stat.h>
 #include <utility>
 
 namespace coplane
@@ -137,12 +137,17 @@ std::string kindOfSpecialFile(const std::string& file)
   std::error_code error;
   switch (fs::status(file, error).type())
   {
-  case fs::file_type::directory: return "a folder";
+  case fs::file_type::directory:
+    return "a folder";
   case fs::file_type::character:
-  case fs::file_type::block: return "a device";
-  case fs::file_type::fifo: return "a pipe";
-  case fs::file_type::socket: return "a socket";
-  default: return "";
+  case fs::file_type::block:
+    return "a device";
+  case fs::file_type::fifo:
+    return "a pipe";
+  case fs::file_type::socket:
+    return "a socket";
+  default:
+    return "";
   }
 }
 
