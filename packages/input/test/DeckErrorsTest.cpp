@@ -474,7 +474,7 @@ TEST(DeckErrors, aDeckThatIsAList)
 {
   EXPECT_EQ(errorOf("- mesh: wall.e\n"),
             "wall.yaml:1:1: the deck is a list; accepted: keys with values, such as 'mesh: "
-            "wall.e'. See --help-deck.");
+            "bricks.e'. See --help-deck.");
 }
 
 TEST(DeckErrors, twoDocuments)
