@@ -14,6 +14,7 @@ and in the deck. A run makes, in its folder (default build/examples/NAME/SIZE or
     run.log, run.e, run_planes.pvd, run.csv, run.run.json     what coplane writes
     pictures/            what the example's pictures.py draws with ParaView
     checks.jsonl         what the example's check.py found
+    written.json         the list of all these: nothing else in the folder is ever removed or overwritten
 
 What is complete is not done again as long as the deck, the mesh and the program stay the same. `a+b` combines two variants;
 several variants are run one after the other. Needs Python 3 with yaml, numpy and netCDF4, and for pictures ParaView:
@@ -25,6 +26,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -60,6 +62,8 @@ def arguments():
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="one more change of the deck")
     parser.add_argument("--ranks", type=int, help="MPI ranks; default: as the example says, else 2")
     parser.add_argument("--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
+    parser.add_argument("--overwrite", action="store_true",
+                        help="also files of the same names in the folder that this program has not written")
     parser.add_argument("--no-pictures", action="store_true", help="compute and check only")
     parser.add_argument("--no-check", action="store_true", help="do not look at the results")
     return parser.parse_args()
@@ -97,6 +101,53 @@ def change(document, path, value):
         document[last] = value
 
 
+class OwnFiles:
+    """The files in a folder that this program and those that it starts have written, as the list written.json in it says. Only
+    these are removed or overwritten, whatever their names."""
+
+    LIST = "written.json"
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.names = set()
+        try:
+            self.names = {str(name) for name in json.loads((folder / self.LIST).read_text())}
+        except FileNotFoundError:
+            pass
+        except (ValueError, TypeError):
+            fail(f"{folder / self.LIST}, the list of what an earlier run wrote, is damaged. Remove it, and start again with --overwrite or "
+                 "in another folder.")
+        self.names.add(self.LIST)
+        # A run that was killed could not list its planes: the series that it kept does.
+        for series in [name for name in self.names if name.endswith(".pvd")]:
+            if (folder / series).is_file():
+                self.names.update(re.findall(r'file="(run_planes_[0-9]+\.vtp)"', (folder / series).read_text(errors="replace")))
+
+    def claim(self, names, overwrite):
+        """Before the first of these is written. Refuses when one is there that is not ours."""
+        foreign = sorted(name for name in names if name not in self.names and os.path.lexists(self.folder / name))
+        if foreign and not overwrite:
+            fail(f"{self.folder} has files of the names that the run writes, but no earlier run wrote them: {', '.join(foreign)}. "
+                 "Nothing was changed. Choose another folder, move them away, or say --overwrite.")
+        self.names.update(names)
+        self.save()
+
+    def save(self):
+        draft = self.folder / (self.LIST + ".part")
+        draft.write_text(json.dumps(sorted(self.names), indent=0) + "\n")
+        os.replace(draft, self.folder / self.LIST)
+
+    def remove(self, keep):
+        for name in sorted(self.names - set(keep) - {self.LIST}):
+            path = self.folder / name
+            if path.is_file() or path.is_symlink():
+                path.unlink()
+        self.names &= set(keep) | {self.LIST}
+
+    def there(self):
+        return {str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if not path.is_dir() or path.is_symlink()}
+
+
 class ExampleRun:
     """One run: an example in one size, with the changes of one variant (or a combination)."""
 
@@ -132,6 +183,7 @@ class ExampleRun:
         self.deck["mesh"] = "mesh.e"
         self.deck.setdefault("output", {}).pop("results", None)
         self.deck.setdefault("history", {}).pop("file", None)
+        self.overwrite = options.overwrite
         label = size + ("-" + variant if variant else "")
         if options.output is None:
             self.folder = TOP / "build/examples" / name / label
@@ -153,6 +205,11 @@ class ExampleRun:
         path = self.folder / stamp
         return path.exists() and path.read_text() == key
 
+    def new_files(self, before):
+        """Of those that were not there before: what coplane and the pictures add to the names that are known beforehand."""
+        pattern = re.compile(r"run_planes_[0-9]+\.vtp|run\.e[.-].*|run\.run-s[0-9]+\.json|run\.chk\..*|pictures/.*")
+        return {name for name in self.own.there() - before if pattern.fullmatch(name)}
+
     def call(self, command, log, environment=None):
         """Runs a program in the folder; its output goes to a file too. Returns the exit code."""
         with open(self.folder / log, "w") as file:
@@ -170,6 +227,15 @@ class ExampleRun:
             if not os.path.exists(program.binary(name)):
                 fail(f"{program.binary(name)} is missing. packages/cmake/main-job.sh builds it, or set COPLANE_BIN to its folder.")
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.own = OwnFiles(self.folder)
+        history = self.deck.get("history") or {}
+        self.results = ["run.csv", "run.run.json"] + [f"run_{table}.csv" for table in history.get("tables") or []]
+        self.results += [] if (self.deck.get("output") or {}).get("results") == "none" else ["run.e"]
+        made = ["mesh.yaml", "run.yaml", "mesh.e", "example.json", "run.log", "done", "pictures.done", "pictures.log", "checks.jsonl",
+                "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
+        if self.joints is not None:
+            made += ["joints.yaml", "whole.e"]
+        self.own.claim(made, self.overwrite)
         documents.save(self.recipe, self.folder / "mesh.yaml")
         documents.save(self.deck, self.folder / "run.yaml")
         inputs = [self.folder / "mesh.yaml", self.folder / "run.yaml", program.binary("coplane"), program.binary("coplane_mesh")]
@@ -177,14 +243,12 @@ class ExampleRun:
             documents.save(self.joints, self.folder / "joints.yaml")
             inputs.append(self.folder / "joints.yaml")
         self.run_key = self.key(*inputs)
-        if self.is_done("done", self.run_key):
+        if self.is_done("done", self.run_key) and all((self.folder / name).exists() for name in self.results):
             self.say(f"computed already, in {self.folder}")
             return
-        for path in self.folder.glob("run*"):
-            if path.name != "run.yaml" and path.is_file():
-                path.unlink()
-        for name in ("done", "pictures.done"):
-            (self.folder / name).unlink(missing_ok=True)
+        self.own.remove(keep=["mesh.yaml", "run.yaml", "joints.yaml"])
+        self.own.claim(made, self.overwrite)
+        before = self.own.there()
         self.say(f"making the mesh in {self.folder}")
         whole = "whole.e" if self.joints is not None else "mesh.e"
         program.make_mesh(str(self.folder / "mesh.yaml"), str(self.folder / whole))
@@ -198,6 +262,7 @@ class ExampleRun:
         self.say("running: " + " ".join(command))
         start = time.monotonic()
         code = self.call(command, "run.log")
+        self.own.claim(self.new_files(before), overwrite=True)
         if code:
             fail(f"coplane ended with exit code {code}; see {self.folder}/run.log and docs/user/exit-codes.md.")
         self.say(f"computed in {time.monotonic() - start:.0f} s")
@@ -216,6 +281,7 @@ class ExampleRun:
             fail(f"{' and '.join(missing)} not found: packages/cmake/dependencies.sh --with-paraview installs ParaView on Debian 12; "
                  "or leave the pictures out with --no-pictures.")
         self.say("drawing")
+        before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
         environment = dict(os.environ, PYTHONPATH=str(common), PYTHONDONTWRITEBYTECODE="1")
         for attempt in range(3):
@@ -229,6 +295,7 @@ class ExampleRun:
                 break
         if done.returncode:
             fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text(errors="replace").splitlines(True)[-20:]))
+        self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")
 

@@ -62,7 +62,9 @@ multiarch=$(gcc -print-multiarch)
 netcdf=/usr/lib/$multiarch/netcdf/pnetcdf
 [ -f "$netcdf/libnetcdf_pnetcdf.so" ] || [ -f "$netcdf/libnetcdf.so" ] || ls "$netcdf" >/dev/null || die "no netCDF with PnetCDF in $netcdf"
 key=$(cat "$here"/trilinos/* <(gcc -dumpfullversion) | sha256sum | cut -c1-12)
-cache=${COPLANE_CACHE:-${XDG_CACHE_HOME:-$HOME/.cache}/coplane}
+cache=${COPLANE_CACHE:-${XDG_CACHE_HOME:+$XDG_CACHE_HOME/coplane}}
+[ -n "$cache" ] || cache=${HOME:+$HOME/.cache/coplane}
+[ -n "$cache" ] || die "no folder for the build of Trilinos: HOME, XDG_CACHE_HOME and COPLANE_CACHE are all unset; set COPLANE_CACHE to a folder"
 prefix=$cache/trilinos-${trilinos_source_version}-$key
 work=$cache/work-$key
 [ -f "$prefix/complete" ] && { echo "$prefix"; exit 0; }
@@ -88,8 +90,10 @@ if [ ! -f "$work/unpacked" ]; then
     grep -E "^deb .*[[:space:]]$codename[[:space:]]" | sed 's/^deb /deb-src /' > "$work/apt/sources/derived.list" || true
   apt=(-o "Dir::Etc::sourcelist=/dev/null" -o "Dir::Etc::sourceparts=$work/apt/sources" -o "Dir::State::lists=$work/apt/lists"
        -o "Dir::Cache=$work/apt" -o APT::Sandbox::User=)
-  apt-get "${apt[@]}" update -qq >&2
-  (cd "$work/source" && apt-get "${apt[@]}" source -qq --download-only "$trilinos_source_package=$trilinos_source_version" >&2)
+  { apt-get "${apt[@]}" update -qq >&2 &&
+    (cd "$work/source" && apt-get "${apt[@]}" source -qq --download-only "$trilinos_source_package=$trilinos_source_version" >&2); } ||
+    die "the source package $trilinos_source_package $trilinos_source_version cannot be fetched (above: what apt says). Is there a network, and does the" \
+      "Debian mirror still have this version? Otherwise build Trilinos yourself, as docs/developer/building.md says, and name its folder in COPLANE_TRILINOS"
   (cd "$work/source" && dpkg-source --no-check -x ./*.dsc tree >"$work/unpack.log" 2>&1) || die "unpacking failed, see $work/unpack.log"
   # netCDF 4.9 has a macro of the name of this constant.
   sed -i '/NC_SZIP_NN *=/d' "$(find "$work/source/tree/packages/seacas" -name ex_utils.c)"

@@ -96,6 +96,14 @@ def check_deck():
     assert printed.stdout == kept, "docs/user/point-deck.md is old: build/bin/coplane_point --help-deck-markdown > docs/user/point-deck.md"
 
 
+def check_codes():
+    """The table of exit codes is what the program prints."""
+    printed = run([str(BINARIES / "coplane"), "--help-codes"])
+    assert printed.returncode == 0, printed.stdout
+    kept = (SOURCE / "docs/user/exit-codes.md").read_text()
+    assert printed.stdout in kept, "the table of docs/user/exit-codes.md is old: take that of build/bin/coplane --help-codes"
+
+
 def check_links():
     """Relative links of all Markdown files lead to files of the project."""
     broken = []

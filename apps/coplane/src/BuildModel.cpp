@@ -2,6 +2,7 @@
 
 #include "ContactRulesOfDeck.hpp"
 
+#include <coplane_core/Log.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/MaterialCards.hpp>
@@ -356,6 +357,54 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice
               card.where, card.set, mesh.blocks[block].name));
       }
   return problems;
+}
+
+void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                            const Comm& comm)
+{
+  const auto prescribes = [](const ConditionCard& card)
+  { return card.type == "fixed" || card.type == "velocity" || card.type == "displacement"; };
+  const std::size_t count = deck.conditions.size();
+  std::vector<std::array<int, 3>> last(std::size_t(part.nodes()), {-1, -1, -1}); // condition
+  std::vector<std::int64_t> nodes(count * count, 0);
+  std::vector<std::int64_t> lowest(count * count, INT64_MAX);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const ConditionCard& card = deck.conditions[i];
+    if (!prescribes(card))
+      continue;
+    for (const int node : part.nodeSets[std::size_t(indexOf(mesh.nodeSets, card.set))])
+    {
+      std::int64_t with = -1; // the condition whose component is taken over
+      for (int c = 0; c < part.dimension; ++c)
+        if (card.components[c])
+        {
+          int& before = last[std::size_t(node)][std::size_t(c)];
+          if (before >= 0 &&
+              !(card.type == "fixed" && deck.conditions[std::size_t(before)].type == "fixed"))
+            with = before;
+          before = int(i);
+        }
+      if (with < 0 || node >= part.ownedNodes)
+        continue;
+      const std::size_t pair = std::size_t(with) * count + i;
+      ++nodes[pair];
+      lowest[pair] = std::min(lowest[pair], std::int64_t(part.nodeIds[node]));
+    }
+  }
+  comm.sum(nodes);
+  for (std::size_t pair = 0; pair < nodes.size(); ++pair)
+    if (nodes[pair] > 0)
+    {
+      const ConditionCard &first = deck.conditions[pair / count],
+                          &second = deck.conditions[pair % count];
+      logWarning("two conditions on one node",
+                 fmt::format("{} ({} of '{}') and {} ({} of '{}') prescribe the same component of "
+                             "{} nodes, the first of which is node {}: the second acts there. Take "
+                             "these nodes out of one of the sets.",
+                             first.where, first.type, first.set, second.where, second.type,
+                             second.set, nodes[pair], comm.min(lowest[pair])));
+    }
 }
 
 Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const Comm& comm)

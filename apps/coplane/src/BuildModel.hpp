@@ -14,6 +14,12 @@ std::vector<std::string> problemsOfLaws(const Deck& deck);
 std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice& mesh,
                                                const Comm& comm);
 
+/// Warns of conditions that prescribe one component of one node differently: the later one acts.
+/// Collective.
+/// @param part with every node of this rank
+void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                            const Comm& comm);
+
 /// Joins the deck to this rank's part of the mesh. Names have been checked before.
 Model buildModel(const Deck& deck, const MeshSlice& mesh, RankMesh part, const Comm& comm);
 } // namespace coplane

@@ -1,5 +1,6 @@
 #include "Observers.hpp"
 
+#include "FilesOfRun.hpp"
 #include "Restart.hpp"
 
 #include <coplane_input/MaterialCards.hpp>
@@ -12,7 +13,6 @@
 #include <coplane_output/TablesObserver.hpp>
 
 #include <algorithm>
-#include <filesystem>
 #include <sstream>
 
 namespace coplane
@@ -54,11 +54,6 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
   }
   return names;
 }
-
-std::string withoutExtension(const std::string& file)
-{
-  return std::filesystem::path(file).replace_extension().string();
-}
 } // namespace
 
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
@@ -73,10 +68,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   const OutputTimes when{deck.output.every, deck.output.times};
 
   RunRecordOptions record;
-  record.file =
-      settings.part == 1
-          ? withoutExtension(deck.history.file) + ".run.json"
-          : fmt::format("{}.run-s{:04}.json", withoutExtension(deck.history.file), settings.part);
+  record.file = recordFile(deck, settings.part);
   record.restartedFrom = settings.restartedFrom;
   record.title = deck.title;
   record.commandLine = settings.command;
@@ -121,9 +113,8 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   };
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(
-        comm,
-        TablesOptions{withoutExtension(deck.history.file), deck.history.every, wants("blocks"),
-                      wants("pairs"), wants("materials"), settings.positions}));
+        comm, TablesOptions{tablesBase(deck), deck.history.every, wants("blocks"), wants("pairs"),
+                            wants("materials"), settings.positions}));
 
   if (!deck.output.results.empty())
   {
@@ -139,7 +130,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{withoutExtension(deck.output.results), when, lastTime("planes")}));
+          comm, PlanesOptions{planesBase(deck), when, lastTime("planes")}));
   }
   observers.add(std::make_unique<ProgressObserver>());
 
@@ -149,7 +140,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   checkpoint.everySeconds = deck.checkpoint.everySeconds;
   checkpoint.atEnd = deck.checkpoint.atEnd;
   checkpoint.maxWall = settings.maxWall;
-  checkpoint.stopFile = withoutExtension(deck.checkpoint.file) + ".stop";
+  checkpoint.stopFile = stopFile(deck);
   checkpoint.restartedFrom = settings.restartedFrom;
   checkpoint.texts = fingerprintsOf(deck, mesh, settings.part, comm);
   checkpoint.begin = settings.begin;

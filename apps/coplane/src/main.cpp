@@ -1,11 +1,14 @@
 #include "BuildModel.hpp"
+#include "FilesOfRun.hpp"
 #include "Observers.hpp"
 #include "PartitionPlan.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
 #include "SofteningReport.hpp"
 
+#include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/ExitCodes.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Memory.hpp>
 #include <coplane_core/Version.hpp>
@@ -21,9 +24,14 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace
@@ -40,7 +48,34 @@ struct CommandLine
   std::string checkpoint; ///< to restart from; empty: the newest
   double maxWall = 0;     ///< [s]; 0: no limit
   bool check = false, quiet = false, helpDeck = false, helpDeckMarkdown = false, schema = false;
+  bool helpCodes = false;
 };
+
+bool asksForHelp(const CommandLine& line)
+{
+  return line.helpDeck || line.helpDeckMarkdown || line.schema || line.helpCodes;
+}
+
+/// More than that is a slip of the pen: each thread takes memory, and the system gives only so
+/// many.
+int mostThreads()
+{
+  return std::max(256, 4 * int(std::thread::hardware_concurrency()));
+}
+
+/// What all ranks must have been given alike. Threads may differ.
+std::string optionsOf(const CommandLine& line)
+{
+  return fmt::format("{} --set [{}] restart {} {} max-wall {} check {} help {}", line.deck,
+                     fmt::join(line.overrides, "] ["), line.restart, line.checkpoint, line.maxWall,
+                     line.check, asksForHelp(line));
+}
+
+std::string build()
+{
+  return fmt::format("coplane {} ({}; {}; {}; Trilinos {})", version().number, version().revision,
+                     version().compiler, version().flags, version().trilinos);
+}
 
 /// Exit code when the program should end now, -1 to go on.
 int parse(int argc, char** argv, bool isRoot, CommandLine& line)
@@ -56,7 +91,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
       ->check(CLI::IsMember({"serial", "threads"}));
   app.add_option("--threads", line.threads,
                  "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, mostThreads()));
   CLI::Option* restart =
       app.add_option(
              "--restart", line.checkpoint,
@@ -70,20 +105,17 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
   app.add_flag("--help-deck", line.helpDeck, "Print every key of a deck and stop");
   app.add_flag("--help-deck-markdown", line.helpDeckMarkdown, "The same as Markdown");
+  app.add_flag("--help-codes", line.helpCodes,
+               "Print the table of exit codes as Markdown and stop");
   app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
-  app.set_version_flag("--version",
-                       []
-                       {
-                         return fmt::format("coplane {} ({}; {}; {}; Trilinos {})",
-                                            version().number, version().revision,
-                                            version().compiler, version().flags,
-                                            version().trilinos);
-                       });
+  app.set_version_flag("--version", build);
   try
   {
     app.parse(argc, argv);
     line.restart = restart->count() > 0;
-    if (!line.helpDeck && !line.helpDeckMarkdown && !line.schema && line.deck.empty())
+    if (!std::isfinite(line.maxWall))
+      throw CLI::ValidationError("--max-wall", "accepted: a number of seconds above 0");
+    if (!asksForHelp(line) && line.deck.empty())
       throw CLI::RequiredError("deck");
   }
   catch (const CLI::ParseError& error)
@@ -111,6 +143,14 @@ void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std:
           solver.clock().cycle, solver.clock().time, settings.part);
 }
 
+/// Ranks on machines of their own may find different files under one name.
+std::string sizeOf(const std::string& file)
+{
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  return error ? "not there" : fmt::format("{} bytes", bytes);
+}
+
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
   listenToSignals();
@@ -120,6 +160,12 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     settings.maxWall = line.maxWall;
   Deck deck;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
+  comm.demandSame("the deck", deck.text, ExitCode::Deck);
+  demandDistinctFiles(deck, line.checkpoint, comm);
+  std::vector<FileLock> locks;
+  if (!line.check)
+    locks = lockOutputs(deck, comm);
+  comm.demandSame("the mesh " + deck.mesh, sizeOf(deck.mesh), ExitCode::Mesh);
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
   const MeshReport report = reportMesh(mesh, home, comm);
@@ -151,6 +197,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
 
+  warnOfDoubleConditions(deck, mesh.mine, home, comm);
   const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part), comm); };
   const auto begin = std::chrono::steady_clock::now();
   Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
@@ -166,8 +213,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     logInfo("check: deck and mesh are fine; nothing was run");
     return int(ExitCode::Success);
   }
-  if (!line.restart && comm.isRoot())
-    putAside(deck.checkpoint.file);
+  if (!line.restart)
+    putAside(deck.checkpoint.file, comm);
   MultiObserver observers;
   addObservers(observers, deck, mesh, comm, settings);
   Rebalancer rebalancer(comm, mesh, rebalanceOptionsOf(deck, toBuild.count()), modelOf);
@@ -175,67 +222,97 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   reportEnd(solver);
   return int(code);
 }
+
+/// Threads per rank; throws where the environment asks for too many.
+int threadsOf(const CommandLine& line)
+{
+  if (line.threads > 0)
+    return line.threads;
+  const char* const asked = std::getenv("OMP_NUM_THREADS");
+  const int threads = asked ? std::max(1, std::atoi(asked)) : 1;
+  if (threads > mostThreads())
+    fail(ExitCode::Usage, "OMP_NUM_THREADS = {}; accepted: 1 to {} threads per rank.", asked,
+         mostThreads());
+  return threads;
+}
+
+/// Everything between the start and the end of MPI. Errors of all ranks at once end here, those of
+/// this rank alone are for the caller.
+int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
+{
+  try
+  {
+    CommandLine line;
+    const int parsed = parse(argc, argv, comm.isRoot(), line);
+    logSetup(comm.isRoot(), line.quiet);
+    comm.demandSame("the program", build(), ExitCode::Usage);
+    comm.demandSame("the command line",
+                    optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""),
+                    ExitCode::Usage);
+    if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
+      return int(comm.max(std::int64_t(parsed)));
+    Kokkos::InitArguments arguments;
+    comm.together([&] { arguments.num_threads = threadsOf(line); });
+    arguments.disable_warnings = true;
+    const Kokkos::ScopeGuard kokkos(arguments);
+    setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
+    std::string command;
+    for (int i = 0; i < argc; ++i)
+      command += (i ? " " : "") + std::string(argv[i]);
+    int code = 0;
+    try
+    {
+      if (asksForHelp(line))
+      {
+        if (comm.isRoot())
+          std::cout << (line.helpCodes  ? exitCodesMarkdown()
+                        : line.schema   ? deckJsonSchema()
+                        : line.helpDeck ? deckReferenceText()
+                                        : deckReferenceMarkdown());
+      }
+      else
+        code = std::max(runDeck(line, comm, command), 0);
+      logSummary();
+      return code;
+    }
+    catch (const std::exception& error)
+    {
+      // Before Kokkos ends, which a rank that fails alone must not wait for.
+      const auto* ours = dynamic_cast<const Error*>(&error);
+      if (!ours || !ours->onAllRanks())
+        abortAllRanks(codeOf(error), textOf(error).c_str());
+      throw;
+    }
+  }
+  catch (const Error& error)
+  {
+    if (!error.onAllRanks())
+      abortAllRanks(error.code(), error.what());
+    logError(error.what());
+    failure = error.what();
+    return int(error.code());
+  }
+  catch (const std::exception& error)
+  {
+    abortAllRanks(codeOf(error), textOf(error).c_str());
+  }
+}
 } // namespace
 
 int main(int argc, char** argv)
 {
   coplane::keepFreedMemory();
+  coplane::limitMemoryToMachine();
+  coplane::abortAllRanksOnTerminate();
   MPI_Init(&argc, &argv);
-  int code = 0;
-  {
-    const Comm comm;
-    CommandLine line;
-    code = parse(argc, argv, comm.isRoot(), line);
-    if (code >= 0)
-    {
-      MPI_Finalize();
-      return code;
-    }
-    logSetup(comm.isRoot(), line.quiet);
-    Kokkos::InitArguments arguments;
-    const char* fromEnvironment = std::getenv("OMP_NUM_THREADS");
-    arguments.num_threads = line.threads > 0  ? line.threads
-                            : fromEnvironment ? std::max(1, std::atoi(fromEnvironment))
-                                              : 1;
-    arguments.disable_warnings = true;
-    Kokkos::initialize(arguments);
-    setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
-    std::string command;
-    for (int i = 0; i < argc; ++i)
-      command += (i ? " " : "") + std::string(argv[i]);
-    try
-    {
-      if (line.helpDeck || line.helpDeckMarkdown || line.schema)
-      {
-        if (comm.isRoot())
-          std::cout << (line.schema     ? deckJsonSchema()
-                        : line.helpDeck ? deckReferenceText()
-                                        : deckReferenceMarkdown());
-      }
-      else
-        code = runDeck(line, comm, command);
-      code = std::max(code, 0);
-      logSummary();
-    }
-    catch (const Error& error)
-    {
-      code = int(error.code());
-      if (!error.onAllRanks())
-      {
-        // Other ranks may be waiting for this one: end them too.
-        fmt::print(stderr, "ERROR: rank {}: {}\n", comm.rank(), error.what());
-        MPI_Abort(comm.mpi(), code);
-      }
-      logError(error.what());
-    }
-    catch (const std::exception& error)
-    {
-      fmt::print(stderr, "ERROR: rank {}: {} (a defect of the program: please report it)\n",
-                 comm.rank(), error.what());
-      MPI_Abort(comm.mpi(), int(ExitCode::Internal));
-    }
-    Kokkos::finalize();
-  }
+  constexpr double patienceAfterErrors = 10, patience = 120; // [s]
+  std::string failure;
+  const Comm comm;
+  const int code = runProgram(argc, argv, comm, failure);
+  leaveTogether(comm, ExitCode(code),
+                failure.empty() ? "the other ranks do not come to the end; all are stopped"
+                                : failure,
+                failure.empty() ? patience : patienceAfterErrors);
   MPI_Finalize();
   return code;
 }

@@ -1,6 +1,7 @@
 #include "GmshFile.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -350,6 +351,8 @@ int nodesOfGmshType(int type)
 
 GmshFile readGmshFile(const std::string& name)
 {
+  if (const std::string kind = kindOfSpecialFile(name); !kind.empty())
+    fail(ExitCode::Mesh, "{}: this is {}; accepted: a file of Gmsh.", name, kind);
   std::ifstream file(name, std::ios::binary);
   std::stringstream text;
   if (!file || !(text << file.rdbuf()))

@@ -38,6 +38,7 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
     for (const Body& body : part.bodies)
     {
       ++bodies;
+      demandCountable(Real(mesh.coordinates.size()) + Real(body.points.size()));
       const int firstNode = int(mesh.coordinates.size());
       for (const Vec3& own : body.points)
       {

@@ -1,6 +1,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_input/Suggestion.hpp>
 #include <coplane_input/YamlText.hpp>
 
@@ -25,6 +26,9 @@ std::string joined(const std::vector<std::string>& words)
 
 std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
 {
+  if (const std::string kind = kindOfSpecialFile(recipeFile); !kind.empty())
+    fail(ExitCode::Deck, "{}: this is {}; accepted: a recipe, which is a YAML file.", recipeFile,
+         kind);
   std::ifstream file(recipeFile);
   std::stringstream text;
   if (!file || !(text << file.rdbuf()))

@@ -3,6 +3,7 @@
 #include <coplane_core/Error.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace coplane
 {
@@ -133,9 +134,22 @@ private:
 };
 } // namespace
 
+void demandCountable(Real nodes)
+{
+  if (nodes > Real(std::numeric_limits<int>::max()))
+    fail(ExitCode::Deck,
+         "the recipe asks for {:.3g} nodes; accepted: at most {} in a mesh. Look at divisions, "
+         "blocks and counts.",
+         nodes, std::numeric_limits<int>::max());
+}
+
 Body mappedGrid(int dimension, const std::array<int, 3>& n,
                 const std::function<Vec3(int, int, int)>& position)
 {
+  Real nodes = 1;
+  for (int axis = 0; axis < dimension; ++axis)
+    nodes *= Real(n[axis]) + 1;
+  demandCountable(nodes);
   Body body;
   body.type = dimension == 2 ? ElementType::Quad4 : ElementType::Hex8;
   const int layers = dimension == 3 ? n[2] : 0;
@@ -156,6 +170,7 @@ Body mappedGrid(int dimension, const std::array<int, 3>& n,
 Body extruded(const Body& plane, const std::vector<Real>& heights)
 {
   Body body;
+  demandCountable(Real(plane.points.size()) * Real(heights.size()));
   const int perLayer = int(plane.points.size());
   for (const Real z : heights)
     for (const Vec3& p : plane.points)

@@ -19,6 +19,9 @@ struct Body
   int elements() const { return int(connectivity.size()) / topology(type).nodes; }
 };
 
+/// Throws Error(ExitCode::Deck) when a mesh cannot have so many nodes.
+void demandCountable(Real nodes);
+
 /// Grid of n[0] x n[1] (x n[2]) elements whose node (i, j, k) is at position(i, j, k). The images
 /// of i, j, k must be right-handed.
 Body mappedGrid(int dimension, const std::array<int, 3>& n,

@@ -4,6 +4,8 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -67,8 +69,22 @@ void judge(const MeshReport& report, const std::string& file)
     fail(ExitCode::Mesh, "{}: the mesh cannot be used: {}", file, problems.front());
 }
 
+/// Throws unless the output is a file of its own. @param inputs with what messages call them
+void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inputs,
+                    const std::string& output)
+{
+  FileRoles roles;
+  for (const auto& [file, what] : inputs)
+    roles.reads(file, what);
+  for (const char* end : {"", ".part"})
+    roles.writes(output + end, "the new mesh (-o)");
+  if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
+    fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
+}
+
 void make(const std::string& recipe, const std::string& output)
 {
+  demandDistinct({{recipe, "the recipe"}}, output);
   const Mesh mesh = makeMesh(recipe);
   const MeshReport report = reportMesh(mesh);
   printReport(mesh, report);
@@ -79,6 +95,7 @@ void make(const std::string& recipe, const std::string& output)
 
 void split(const std::string& file, const std::string& recipe, const std::string& output)
 {
+  demandDistinct({{file, "the mesh"}, {recipe, "the recipe of joints"}}, output);
   const Mesh mesh = readMesh(file);
   const std::vector<MeshFace> faces = facesOf(mesh);
   const CutSelection selection =
@@ -110,6 +127,7 @@ void split(const std::string& file, const std::string& recipe, const std::string
 
 void convert(const std::string& file, const std::string& output)
 {
+  demandDistinct({{file, "the file of Gmsh"}}, output);
   ConvertedMesh converted = convertGmsh(readGmshFile(file), file);
   for (const std::string& note : converted.notes)
     print("note: " + note);
@@ -188,5 +206,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

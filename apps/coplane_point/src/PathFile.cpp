@@ -1,6 +1,7 @@
 #include "PathFile.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 
 #include <array>
 #include <cmath>
@@ -35,6 +36,8 @@ std::array<Real, 4> numbersOf(const std::string& line, const std::string& where)
 
 void readPathFile(const std::string& file, JointPathCard& card)
 {
+  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
+    fail(ExitCode::Deck, "{}: this is {}; accepted: a plain file of CSV.", file, kind);
   std::ifstream stream(file);
   std::string line;
   if (!stream || !std::getline(stream, line))

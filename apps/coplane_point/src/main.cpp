@@ -3,6 +3,8 @@
 #include "PointDeck.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckReference.hpp>
@@ -29,6 +31,22 @@ void runPath(const PointDeck& deck, const JointPathCard& card)
   writer.close();
   print(fmt::format("{}: {} of joint '{}'", card.name, card.type, card.joint));
   print(writer.summary());
+}
+
+void demandDistinctFiles(const PointDeck& deck)
+{
+  FileRoles roles;
+  roles.reads(deck.file, "the deck");
+  for (const JointPathCard& card : deck.jointPaths)
+  {
+    if (!card.file.empty())
+      roles.reads(card.file, fmt::format("the path (joint_paths.{}.file)", card.name));
+    roles.writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
+  }
+  for (const MaterialPathCard& card : deck.materialPaths)
+    roles.writes(card.output, fmt::format("the output of material_paths.{}", card.name));
+  if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
+    fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
 }
 
 std::string reference(bool markdown)
@@ -75,6 +93,7 @@ int run(int argc, char** argv)
     return int(ExitCode::Success);
   }
   const PointDeck deck = readPointDeck(file, overrides);
+  demandDistinctFiles(deck);
   if (check)
     print("check: the deck is fine; nothing was run");
   else
@@ -95,5 +114,6 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

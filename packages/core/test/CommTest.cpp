@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <functional>
+#include <new>
 #include <vector>
 
 using namespace coplane;
@@ -140,7 +143,53 @@ TEST(Comm_Together, otherExceptionsBecomeInternalErrors)
   catch (const Error& error)
   {
     EXPECT_EQ(error.code(), ExitCode::Internal);
-    EXPECT_STREQ(error.what(), "beyond the end");
+    EXPECT_STREQ(error.what(), "beyond the end (a defect of the program: please report it)");
+  }
+}
+
+TEST(Comm_Together, whatTheMachineDoesNotGiveIsNoDefect)
+{
+  const Comm comm;
+  const auto codeOn = [&](const std::function<void()>& failing)
+  {
+    try
+    {
+      comm.together(
+          [&]
+          {
+            if (comm.rank() == comm.size() - 1)
+              failing();
+          });
+    }
+    catch (const Error& error)
+    {
+      EXPECT_TRUE(error.onAllRanks());
+      return error.code();
+    }
+    return ExitCode::Success;
+  };
+  EXPECT_EQ(codeOn([] { throw std::bad_alloc(); }), ExitCode::Machine);
+  EXPECT_EQ(codeOn([] { std::vector<int>().reserve(std::size_t(-1)); }), ExitCode::Machine);
+  EXPECT_EQ(codeOn([] { std::filesystem::directory_iterator("/no/such/folder"); }),
+            ExitCode::Output);
+}
+
+TEST(Comm_DemandSame, namesTheFirstRankThatDiffers)
+{
+  const Comm comm;
+  EXPECT_NO_THROW(comm.demandSame("the deck", "one text", ExitCode::Deck));
+  if (comm.size() == 1)
+    return;
+  try
+  {
+    comm.demandSame("the deck", comm.rank() == 0 ? "a" : "b", ExitCode::Deck);
+    FAIL() << "nothing was thrown on rank " << comm.rank();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_TRUE(error.onAllRanks());
+    EXPECT_EQ(error.code(), ExitCode::Deck);
+    EXPECT_NE(std::string(error.what()).find("that of rank 1 is\n  b"), std::string::npos);
   }
 }
 

@@ -98,6 +98,85 @@ TEST(MeshReport, coincidentNodesAreReportedWithinABodyButNotBetweenBodies)
   EXPECT_EQ(reportMesh(mesh).coincident.count, 2);
 }
 
+TEST(MeshReport, elementsOnOneAnotherAreReported)
+{
+  // The shot exactly on the left element of the wall, with nodes of its own and in another order.
+  Mesh mesh = sampleMesh2d();
+  for (int node = 6; node < 10; ++node)
+    mesh.coordinates[node].x -= 3;
+  mesh.blocks[1].connectivity = {7, 9, 8, 6};
+  const MeshReport report = reportMesh(mesh);
+  ASSERT_EQ(report.twice.count, 1);
+  EXPECT_EQ(report.twice.first[0].first, 7);
+  EXPECT_EQ(report.twice.first[0].second, 8);
+  EXPECT_DOUBLE_EQ(report.twice.first[0].place.x, 0.5);
+  EXPECT_TRUE(report.usable());
+  EXPECT_NE(meshProblems(report).at(0).find("elements 7 and 8 at (0.5, 0.5, 0)"),
+            std::string::npos);
+  // The same element written twice, on the same nodes.
+  mesh = sampleMesh2d();
+  mesh.blocks[1].connectivity = {0, 1, 4, 3};
+  EXPECT_EQ(reportMesh(mesh).twice.count, 1);
+}
+
+TEST(MeshReport, edgesAndFacesOfThreeElementsAreReported)
+{
+  Mesh mesh = sampleMesh2d();
+  EXPECT_TRUE(reportMesh(mesh).overused.empty());
+  mesh.blocks[1].connectivity = {1, 7, 9, 4}; // on the edge between the elements of the wall
+  const MeshReport report = reportMesh(mesh);
+  ASSERT_EQ(report.overused.count, 1);
+  EXPECT_EQ(report.overused.first[0].count, 3);
+  EXPECT_DOUBLE_EQ(report.overused.first[0].place.x, 1);
+
+  Mesh cubes = sampleMesh3d();
+  EXPECT_TRUE(reportMesh(cubes).overused.empty());
+  const int first = int(cubes.coordinates.size());
+  for (const Vec3& x : {Vec3{2, 0, -1}, Vec3{2, 1, -1}, Vec3{2, 0, 2}, Vec3{2, 1, 2}})
+  {
+    cubes.nodeIds.push_back(900 + GlobalId(cubes.nodeIds.size()));
+    cubes.coordinates.push_back(x + Vec3{0.5, 0, 0});
+  }
+  auto& row = cubes.blocks[0];
+  row.elementIds.push_back(40);
+  row.bodyIds.push_back(1);
+  for (const int n : {1, first, first + 1, 5, 9, first + 2, first + 3, 13})
+    row.connectivity.push_back(n);
+  ASSERT_EQ(reportMesh(cubes).overused.count, 1);
+  EXPECT_EQ(reportMesh(cubes).overused.first[0].count, 3);
+}
+
+TEST(MeshReport, poorShapesAndTinyEdgesAreReportedWithTheirPlaces)
+{
+  Mesh mesh = sampleMesh2d();
+  mesh.coordinates[8] = {3.998, 1, 0}; // upper left corner of the shot, 2 mm from the right one
+  const MeshReport report = reportMesh(mesh);
+  EXPECT_TRUE(report.usable());
+  std::string all;
+  for (const std::string& problem : meshProblems(report))
+    all += problem + "\n";
+  EXPECT_NE(all.find("the shortest edge, 0.002 m at (3.999, 1, 0), is 706 times shorter"),
+            std::string::npos)
+      << all;
+  // Sheared until it is all but flat.
+  mesh = sampleMesh2d();
+  mesh.coordinates[8].x += 100;
+  mesh.coordinates[9].x += 100;
+  const std::vector<std::string> problems = meshProblems(reportMesh(mesh));
+  ASSERT_FALSE(problems.empty());
+  EXPECT_NE(problems[0].find("element 8 of block 'shot' at (53.5, 0.5, 0) has the shape 0.01"),
+            std::string::npos)
+      << problems[0];
+}
+
+TEST(MeshReport, aMeshInMillimetresIsAskedFor)
+{
+  Mesh mesh = sampleMesh2d();
+  for (Vec3& x : mesh.coordinates)
+    x = 1e5 * x;
+  EXPECT_NE(meshProblems(mesh).at(0).find("in metres?"), std::string::npos);
+}
+
 TEST(ElementQuality, idealShapesHaveOne)
 {
   const Real h = std::sqrt(0.75);

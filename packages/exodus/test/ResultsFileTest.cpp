@@ -245,10 +245,13 @@ TEST(ResultsFile, filesPerRankJoinToTheSharedFile)
     ASSERT_TRUE(std::filesystem::exists(first));
     const std::string folder = first.parent_path().string();
     const std::string bin = COPLANE_TRILINOS_BIN;
-    EXPECT_EQ(std::system(("cd " + folder + " && " + bin + "/epu -auto " +
-                           first.filename().string() + " > /dev/null")
-                              .c_str()),
-              0);
+    if (comm.size() == 1) // for which epu does nothing
+      std::filesystem::copy(first, base);
+    else
+      EXPECT_EQ(std::system(("cd " + folder + " && " + bin + "/epu -auto " +
+                             first.filename().string() + " > /dev/null")
+                                .c_str()),
+                0);
     // epu sorts by ids; -map compares entities by place.
     EXPECT_EQ(std::system((bin + "/exodiff -quiet -map -tolerance 0 -Floor 0 " + shared + " " +
                            base + " > /dev/null")

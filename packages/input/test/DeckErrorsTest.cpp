@@ -474,7 +474,7 @@ TEST(DeckErrors, aDeckThatIsAList)
 {
   EXPECT_EQ(errorOf("- mesh: wall.e\n"),
             "wall.yaml:1:1: the deck is a list; accepted: keys with values, such as 'mesh: "
-            "wall.e'. See --help-deck.");
+            "bricks.e'. See --help-deck.");
 }
 
 TEST(DeckErrors, twoDocuments)
@@ -494,9 +494,10 @@ TEST(DeckErrors, aPieceThatAnIndentationHasCutOff)
 
 TEST(DeckErrors, anAliasOfItself)
 {
-  EXPECT_EQ(errorWith("initial: &a [*a]\n"),
-            "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
-            "accepted: 50 levels and a million values. Write the values out.");
+  EXPECT_EQ(
+      errorWith("initial: &a [*a]\n"),
+      "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
+      "accepted: 50 levels and a million values more than are written. Write the values out.");
 }
 
 TEST(DeckErrors, aDeckThatDoesNotExist)

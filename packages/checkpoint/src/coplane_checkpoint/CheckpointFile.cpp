@@ -46,6 +46,8 @@ public:
     while (done < count)
     {
       const ssize_t got = ::pread(it_, to + done, count - done, off_t(from + done));
+      if (got < 0 && errno == EINTR)
+        continue;
       if (got <= 0)
         break;
       done += std::size_t(got);
@@ -117,7 +119,8 @@ std::string inspectCheckpoint(const std::string& file, CheckpointHead& head)
   return "";
 }
 
-std::uint64_t checksumOfCheckpoint(const std::string& file, std::uint64_t bytes, const Comm& comm)
+std::uint64_t checksumOfCheckpoint(const std::string& file, std::uint64_t bytes, const Comm& comm,
+                                   std::string& problem)
 {
   constexpr std::uint64_t wordBytes = sizeof(std::uint64_t), wordsAtOnce = 1 << 17;
   const std::uint64_t words =
@@ -131,9 +134,12 @@ std::uint64_t checksumOfCheckpoint(const std::string& file, std::uint64_t bytes,
   {
     const std::uint64_t count = std::min(wordsAtOnce, end - at);
     std::fill(buffer.begin(), buffer.end(), 0);
-    if (descriptor.isOpen())
-      descriptor.read(CheckpointHead::headBytes + at * wordBytes,
-                      reinterpret_cast<char*>(buffer.data()), count * wordBytes);
+    const std::uint64_t from = CheckpointHead::headBytes + at * wordBytes;
+    errno = 0;
+    if (!descriptor.isOpen() ||
+        descriptor.read(from, reinterpret_cast<char*>(buffer.data()), count * wordBytes) !=
+            std::min(count * wordBytes, bytes - from))
+      problem = fmt::format("reading: {}", errno ? std::strerror(errno) : "the file ends early");
     for (std::uint64_t i = 0; i < count; ++i)
       sum += mix(mix(at + i) ^ buffer[i]);
     at += count;
@@ -149,7 +155,12 @@ std::string verifyCheckpoint(const std::string& file, const Comm& comm, Checkpoi
   const int worst = int(comm.min(std::int64_t(mine.empty() ? comm.size() : comm.rank())));
   if (worst < comm.size())
     return comm.broadcast(mine, worst);
-  if (checksumOfCheckpoint(file, head.bytes, comm) != head.checksum)
+  std::string problem;
+  const bool same = checksumOfCheckpoint(file, head.bytes, comm, problem) == head.checksum;
+  const int failed = int(comm.min(std::int64_t(problem.empty() ? comm.size() : comm.rank())));
+  if (failed < comm.size())
+    return comm.broadcast(problem, failed);
+  if (!same)
     return "its bytes are damaged: the checksum is another one";
   return "";
 }

@@ -29,8 +29,10 @@ struct CheckpointHead
 std::string inspectCheckpoint(const std::string& file, CheckpointHead& head);
 
 /// Checksum of all bytes of a file from headBytes on: a sum of mixed words, shared out to the
-/// ranks. Collective; every rank has to be able to open the file.
-std::uint64_t checksumOfCheckpoint(const std::string& file, std::uint64_t bytes, const Comm& comm);
+/// ranks. Collective.
+/// @param problem what kept this rank from reading its part, if something did
+std::uint64_t checksumOfCheckpoint(const std::string& file, std::uint64_t bytes, const Comm& comm,
+                                   std::string& problem);
 
 /// Reads the whole file. Returns what is wrong with it, the same on all ranks. Collective.
 std::string verifyCheckpoint(const std::string& file, const Comm& comm, CheckpointHead& head);

@@ -2,24 +2,32 @@
 #include <coplane_checkpoint/Hdf5Calls.hpp>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace coplane
 {
-/// All ranks make the same calls on the same file, so they fail alike.
+/// Every rank reads by itself; one that fails takes the others along.
 template <class Action>
 auto CheckpointReader::attempt(const Action& action) const
 {
-  try
-  {
-    return action();
-  }
-  catch (const hdf5::Failure& failure)
-  {
-    failOnAllRanks(ExitCode::Checkpoint,
-                   "{}: the checkpoint does not have what this program looks for: {}. Restart with "
-                   "the program that wrote it ({}).",
-                   file_, failure.what(), head_.program);
-  }
+  std::optional<decltype(action())> result;
+  comm_->together(
+      [&]
+      {
+        try
+        {
+          result.emplace(action());
+        }
+        catch (const hdf5::Failure& failure)
+        {
+          fail(ExitCode::Checkpoint,
+               "{}: the checkpoint does not have what this program looks for: {}. Restart with the "
+               "program that wrote it ({}).",
+               file_, failure.what(), head_.program);
+        }
+      });
+  return std::move(*result);
 }
 
 CheckpointReader::CheckpointReader(const std::string& file, const Comm& comm)
@@ -31,7 +39,7 @@ CheckpointReader::CheckpointReader(const std::string& file, const Comm& comm)
                    "{}: this checkpoint cannot be used: {}. Restart from another one, or start "
                    "without --restart.",
                    file, problem);
-  data_ = attempt([&] { return std::make_unique<hdf5::File>(file, hdf5::File::Mode::Read, comm); });
+  data_ = attempt([&] { return std::make_unique<hdf5::File>(file, hdf5::File::Mode::Read); });
 }
 
 CheckpointReader::~CheckpointReader() = default;

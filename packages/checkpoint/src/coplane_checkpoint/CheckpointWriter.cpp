@@ -3,13 +3,17 @@
 #include <coplane_checkpoint/Hdf5Calls.hpp>
 #include <coplane_core/Version.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <optional>
 #include <unistd.h>
+#include <vector>
 
 namespace coplane
 {
@@ -46,25 +50,139 @@ std::string makeSafe(const std::string& path)
   return reason;
 }
 
+/// Writes at a place of a file that is there. Returns the reason if that fails.
+class PlaceWriter
+{
+public:
+  explicit PlaceWriter(const std::string& file)
+      : descriptor_(::open(file.c_str(), O_RDWR | O_CLOEXEC))
+  {
+    if (descriptor_ < 0)
+      reason_ = systemsReason();
+  }
+  ~PlaceWriter() { close(); }
+  PlaceWriter(const PlaceWriter&) = delete;
+  PlaceWriter& operator=(const PlaceWriter&) = delete;
+
+  void write(std::uint64_t at, const void* values, std::size_t count)
+  {
+    const char* bytes = static_cast<const char*>(values);
+    while (reason_.empty() && count > 0)
+    {
+      const ssize_t done = ::pwrite(descriptor_, bytes, count, off_t(at));
+      if (done < 0 && errno == EINTR)
+        continue;
+      if (done <= 0)
+        reason_ = done == 0 ? std::strerror(ENOSPC) : systemsReason();
+      bytes += done;
+      at += std::uint64_t(done);
+      count -= std::size_t(done);
+    }
+  }
+
+  void resize(off_t bytes)
+  {
+    if (reason_.empty() && ::ftruncate(descriptor_, bytes) != 0)
+      reason_ = systemsReason();
+  }
+
+  /// Whether the file has these bytes there.
+  void compare(std::uint64_t at, const void* values, std::size_t count)
+  {
+    std::vector<char> there(std::min<std::size_t>(count, 1 << 20));
+    const char* bytes = static_cast<const char*>(values);
+    while (reason_.empty() && count > 0)
+    {
+      const ssize_t got =
+          ::pread(descriptor_, there.data(), std::min(count, there.size()), off_t(at));
+      if (got < 0 && errno == EINTR)
+        continue;
+      if (got < 0)
+        reason_ = "reading back: " + systemsReason();
+      else if (got == 0 || std::memcmp(there.data(), bytes, std::size_t(got)) != 0)
+        reason_ = "what was read back differs from what was written";
+      bytes += got;
+      at += std::uint64_t(got);
+      count -= std::size_t(got);
+    }
+  }
+
+  /// Here some file systems tell of writes that failed.
+  void close()
+  {
+    if (descriptor_ >= 0 && ::close(descriptor_) != 0 && reason_.empty())
+      reason_ = systemsReason();
+    descriptor_ = -1;
+  }
+
+  const std::string& reason() const { return reason_; }
+
+private:
+  int descriptor_;
+  std::string reason_; ///< the first one
+};
+
+/// A file in memory with the name of one on a disk, for a library that does not survive an error of
+/// a disk (HDF5 1.10 crashes when the program ends).
+class MemoryFile
+{
+public:
+  MemoryFile() : descriptor_(::mkostemp(name_, O_CLOEXEC))
+  {
+    if (descriptor_ < 0)
+      throw hdf5::Failure(fmt::format("a file in memory, {}: {}", name_, systemsReason()));
+  }
+  ~MemoryFile()
+  {
+    forgetName();
+    ::close(descriptor_);
+  }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  std::string name() const { return name_; }
+  /// So that nothing is left behind when the program is killed.
+  void forgetName()
+  {
+    if (name_[0] != '\0')
+      ::unlink(name_);
+    name_[0] = '\0';
+  }
+  off_t size() const { return ::lseek(descriptor_, 0, SEEK_END); }
+
+  /// action(place, bytes, count) for all that was written; holes are passed over.
+  template <class Action>
+  void forEachPiece(const Action& action) const
+  {
+    std::vector<char> piece(1 << 16);
+    for (off_t at = ::lseek(descriptor_, 0, SEEK_DATA); at >= 0;
+         at = ::lseek(descriptor_, at, SEEK_DATA))
+      for (const off_t end = ::lseek(descriptor_, at, SEEK_HOLE); at < end;)
+      {
+        const ssize_t got = ::pread(descriptor_, piece.data(),
+                                    std::min<std::size_t>(piece.size(), std::size_t(end - at)), at);
+        if (got <= 0)
+          throw hdf5::Failure("a file in memory: " + systemsReason());
+        action(std::uint64_t(at), piece.data(), std::size_t(got));
+        at += got;
+      }
+  }
+
+private:
+  char name_[32] = "/dev/shm/coplane_XXXXXX"; ///< HDF5 takes no name that is a link (/proc/self/fd)
+  int descriptor_;
+};
+
 std::string writeHead(const std::string& file, const std::string& text)
 {
   std::string bytes = text;
   bytes.resize(CheckpointHead::headBytes, '\0');
-  const int descriptor = ::open(file.c_str(), O_WRONLY);
-  if (descriptor < 0)
-    return systemsReason();
-  const bool written = ::pwrite(descriptor, bytes.data(), bytes.size(), 0) == ssize_t(bytes.size());
-  const std::string reason = written ? "" : systemsReason();
-  ::close(descriptor);
-  return reason;
+  PlaceWriter out(file);
+  out.write(0, bytes.data(), bytes.size());
+  out.close();
+  return out.reason();
 }
 
-template <class T>
-bool sameBytes(const std::vector<T>& a, const std::vector<T>& b)
-{
-  return a.size() == b.size() &&
-         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
 } // namespace
 
 std::uint64_t CheckpointWriter::dataBytes() const
@@ -80,70 +198,40 @@ std::uint64_t CheckpointWriter::dataBytes() const
   return bytes;
 }
 
-std::string CheckpointWriter::writeData(const std::string& name) const
+/// Everything but the rows of tables, whose places are returned, two for each table.
+std::vector<std::uint64_t> CheckpointWriter::makeFile(const std::string& name) const
 {
-  try
+  std::vector<std::uint64_t> places;
+  hdf5::File file(name, hdf5::File::Mode::Create);
+  for (const Table& table : tables_)
   {
-    hdf5::File file(name, hdf5::File::Mode::Create, *comm_);
-    for (const Table& table : tables_)
-    {
-      const KeyedRows& rows = table.rows;
-      hdf5::Part part{table.total, rows.keySize, table.first, std::int64_t(rows.count())};
-      file.write(table.name + "/keys", part, rows.keys);
-      part.columns = std::int64_t(rows.columns.size());
-      file.write(table.name + "/numbers", part, rows.numbers);
-      file.writeText(table.name + "/columns", rows.header());
-    }
-    for (const auto& [set, values] : numbers_)
-    {
-      const std::int64_t size = std::int64_t(values.size());
-      file.write(set, {size, 1, 0, comm_->isRoot() ? size : 0}, values);
-    }
-    for (const auto& [set, value] : texts_)
-      file.writeText(set, value);
-    file.close();
+    const KeyedRows& rows = table.rows;
+    places.push_back(file.makeTable(table.name + "/keys", table.total, rows.keySize, true));
+    places.push_back(file.makeTable(table.name + "/numbers", table.total,
+                                    std::int64_t(rows.columns.size()), false));
+    file.writeText(table.name + "/columns", rows.header());
   }
-  catch (const hdf5::Failure& failure)
-  {
-    return failure.what();
-  }
-  return "";
+  for (const auto& [set, values] : numbers_)
+    file.write(set, values);
+  for (const auto& [set, value] : texts_)
+    file.writeText(set, value);
+  file.close();
+  return places;
 }
 
-std::string CheckpointWriter::readBack(const std::string& name) const
+/// This rank's rows of all tables: action(place in the file, values, bytes).
+template <class Action>
+void CheckpointWriter::forOwnRows(const std::vector<std::uint64_t>& places,
+                                  const Action& action) const
 {
-  try
+  for (std::size_t t = 0; t < tables_.size(); ++t)
   {
-    const hdf5::File file(name, hdf5::File::Mode::Read, *comm_);
-    bool same = true;
-    for (const Table& table : tables_)
-    {
-      KeyedRows rows;
-      hdf5::Part part{table.total, table.rows.keySize, table.first,
-                      std::int64_t(table.rows.count())};
-      file.read(table.name + "/keys", part, rows.keys);
-      part.columns = std::int64_t(table.rows.columns.size());
-      file.read(table.name + "/numbers", part, rows.numbers);
-      same = same && sameBytes(rows.keys, table.rows.keys) &&
-             sameBytes(rows.numbers, table.rows.numbers);
-    }
-    for (const auto& [set, values] : numbers_)
-    {
-      std::vector<Real> read;
-      const std::int64_t size = std::int64_t(values.size());
-      file.read(set, {size, 1, 0, size}, read);
-      same = same && (!comm_->isRoot() || sameBytes(read, values));
-    }
-    for (const auto& [set, value] : texts_)
-    {
-      const std::string read = file.readText(set);
-      same = same && (!comm_->isRoot() || read == value);
-    }
-    return same ? "" : "what was read back differs from what was written";
-  }
-  catch (const hdf5::Failure& failure)
-  {
-    return std::string("reading back: ") + failure.what();
+    const KeyedRows& rows = tables_[t].rows;
+    const std::uint64_t first = std::uint64_t(tables_[t].first);
+    action(places[2 * t] + first * std::uint64_t(rows.keySize) * sizeof(GlobalId), rows.keys.data(),
+           rows.keys.size() * sizeof(GlobalId));
+    action(places[2 * t + 1] + first * rows.columns.size() * sizeof(Real), rows.numbers.data(),
+           rows.numbers.size() * sizeof(Real));
   }
 }
 
@@ -167,22 +255,65 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
         "and can be written to, and that there is room (disk, quota, file-size limit): {} bytes.",
         file, cycle, reason, std::filesystem::absolute(file).parent_path().string(), dataBytes());
   };
+  std::vector<std::uint64_t> places;
+  std::optional<MemoryFile> skeleton; // of rank 0: everything but the rows of tables
   if (comm_->isRoot())
+  {
     failure = findRoom(draft, dataBytes());
+    try
+    {
+      if (failure.empty())
+        places = makeFile(skeleton.emplace().name());
+    }
+    catch (const hdf5::Failure& reason)
+    {
+      failure = reason.what();
+    }
+    if (skeleton)
+      skeleton->forgetName();
+    if (failure.empty())
+    {
+      PlaceWriter out(draft);
+      out.resize(skeleton->size());
+      skeleton->forEachPiece([&](auto... piece) { out.write(piece...); });
+      // Now, because pieces are whole pages, on which rows of tables come to lie.
+      skeleton->forEachPiece([&](auto... piece) { out.compare(piece...); });
+      out.close();
+      failure = out.reason();
+    }
+  }
   failTogether();
-  failure = writeData(draft);
+  places = comm_->allGather(places);
+  {
+    PlaceWriter out(draft);
+    forOwnRows(places, [&](auto... row) { out.write(row...); });
+    out.close();
+    failure = out.reason();
+  }
   failTogether();
-  failure = readBack(draft);
+  {
+    PlaceWriter in(draft);
+    forOwnRows(places, [&](auto... row) { in.compare(row...); });
+    failure = in.reason();
+  }
   failTogether();
 
   CheckpointHead head;
   head.cycle = cycle;
   head.time = time;
   head.program = version().number;
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(draft, error);
-  head.bytes = error ? 0 : bytes;
-  head.checksum = checksumOfCheckpoint(draft, head.bytes, *comm_);
+  std::int64_t bytes = 0;
+  if (comm_->isRoot())
+  {
+    std::error_code error;
+    bytes = std::int64_t(std::filesystem::file_size(draft, error));
+    if (error)
+      failure = error.message();
+  }
+  failTogether();
+  head.bytes = std::uint64_t(comm_->max(bytes));
+  head.checksum = checksumOfCheckpoint(draft, head.bytes, *comm_, failure);
+  failTogether();
   if (comm_->isRoot())
     failure = writeHead(draft, head.text());
   failTogether();

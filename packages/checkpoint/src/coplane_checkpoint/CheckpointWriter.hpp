@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace coplane
 {
@@ -20,8 +21,9 @@ public:
   void write(const std::string& file, std::int64_t cycle, Real time) const;
 
 private:
-  std::string writeData(const std::string& file) const;
-  std::string readBack(const std::string& file) const;
+  std::vector<std::uint64_t> makeFile(const std::string& name) const;
+  template <class Action>
+  void forOwnRows(const std::vector<std::uint64_t>& places, const Action& action) const;
   std::uint64_t dataBytes() const;
 };
 } // namespace coplane

@@ -1,6 +1,7 @@
 #include <coplane_checkpoint/CheckpointFile.hpp>
 #include <coplane_checkpoint/Hdf5Calls.hpp>
 
+#include <cstdlib>
 #include <hdf5.h>
 
 namespace coplane::hdf5
@@ -32,14 +33,6 @@ void check(herr_t status, const std::string& what)
     throw Failure(what);
 }
 
-/// All ranks read or write their parts in one call.
-hid_t together()
-{
-  const hid_t list = H5Pcreate(H5P_DATASET_XFER);
-  H5Pset_dxpl_mpio(list, H5FD_MPIO_COLLECTIVE);
-  return list;
-}
-
 void select(hid_t space, const Part& part)
 {
   if (part.count == 0)
@@ -51,12 +44,6 @@ void select(hid_t space, const Part& part)
   const hsize_t count[2] = {hsize_t(part.count), hsize_t(part.columns)};
   check(H5Sselect_hyperslab(space, H5S_SELECT_SET, first, nullptr, count, nullptr),
         "selecting rows");
-}
-
-hid_t spaceOf(const Part& part)
-{
-  const hsize_t size[2] = {hsize_t(part.rows), hsize_t(part.columns)};
-  return H5Screate_simple(2, size, nullptr);
 }
 
 hid_t memoryOf(const Part& part)
@@ -74,19 +61,20 @@ hid_t creation()
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   H5Pset_obj_track_times(list, false);
   H5Pset_fill_time(list, H5D_FILL_TIME_NEVER);
+  H5Pset_alloc_time(list, H5D_ALLOC_TIME_EARLY); // tables have their place at once
   return list;
 }
 
 } // namespace
 
-File::File(const std::string& file, Mode mode, const Comm& comm) : comm_(&comm)
+File::File(const std::string& file, Mode mode)
 {
+  // Whole files are written beside their names and renamed: locks guard nothing, and some file
+  // systems of clusters have none.
+  ::setenv("HDF5_USE_FILE_LOCKING", "FALSE", 0);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // failures become messages of ours
   const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "opening the file");
-  check(H5Pset_fapl_mpio(access, comm.mpi(), MPI_INFO_NULL), "opening the file on all ranks");
   check(H5Pset_libver_bounds(access, H5F_LIBVER_LATEST, H5F_LIBVER_LATEST), "opening the file");
-  check(H5Pset_all_coll_metadata_ops(access, true), "opening the file");
-  check(H5Pset_coll_metadata_write(access, true), "opening the file");
   if (mode == Mode::Create)
   {
     const Id list(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "creating the file");
@@ -126,35 +114,45 @@ void File::makeGroups(const std::string& name)
     }
 }
 
-void File::writeAny(const std::string& name, const Part& part, std::int64_t type,
-                    const void* values)
+std::int64_t File::makeSet(const std::string& name, std::int64_t rows, std::int64_t columns,
+                           std::int64_t type)
 {
   makeGroups(name);
-  const Id space(spaceOf(part), H5Sclose, "shape of the data"), list(creation(), H5Pclose, "list");
-  const Id set(H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT), H5Dclose,
+  const hsize_t size[2] = {hsize_t(rows), hsize_t(columns)};
+  const Id space(H5Screate_simple(2, size, nullptr), H5Sclose, "shape of the data");
+  const Id list(creation(), H5Pclose, "list");
+  return H5Dcreate2(id_, name.c_str(), type, space, H5P_DEFAULT, list, H5P_DEFAULT);
+}
+
+std::uint64_t File::makeTable(const std::string& name, std::int64_t rows, std::int64_t columns,
+                              bool ofIds)
+{
+  const Id set(makeSet(name, rows, columns, ofIds ? H5T_NATIVE_INT64 : H5T_NATIVE_DOUBLE), H5Dclose,
                "creating a data set");
-  if (part.rows * part.columns == 0)
-    return;
-  select(space, part);
-  const Id memory(memoryOf(part), H5Sclose, "shape of the data"), all(together(), H5Pclose, "list");
-  check(H5Dwrite(set, type, memory, space, all, values), "writing '" + name + "'");
+  if (rows * columns == 0)
+    return 0;
+  const haddr_t place = H5Dget_offset(set);
+  if (place == HADDR_UNDEF)
+    throw Failure("finding the place of a data set");
+  return place;
 }
 
-void File::write(const std::string& name, const Part& part, const std::vector<Real>& values)
+void File::writeAll(const std::string& name, std::size_t count, std::int64_t type,
+                    const void* values)
 {
-  writeAny(name, part, H5T_NATIVE_DOUBLE, values.data());
+  const Id set(makeSet(name, std::int64_t(count), 1, type), H5Dclose, "creating a data set");
+  if (count > 0)
+    check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "writing '" + name + "'");
 }
 
-void File::write(const std::string& name, const Part& part, const std::vector<GlobalId>& values)
+void File::write(const std::string& name, const std::vector<Real>& values)
 {
-  static_assert(sizeof(GlobalId) == 8);
-  writeAny(name, part, H5T_NATIVE_INT64, values.data());
+  writeAll(name, values.size(), H5T_NATIVE_DOUBLE, values.data());
 }
 
 void File::writeText(const std::string& name, const std::string& text)
 {
-  const Part part{std::int64_t(text.size()), 1, 0, comm_->isRoot() ? std::int64_t(text.size()) : 0};
-  writeAny(name, part, H5T_NATIVE_CHAR, text.data());
+  writeAll(name, text.size(), H5T_NATIVE_CHAR, text.data());
 }
 
 bool File::has(const std::string& name) const
@@ -188,8 +186,8 @@ void File::readAny(const std::string& name, const Part& part, std::int64_t type,
   const Id set(H5Dopen2(id_, name.c_str(), H5P_DEFAULT), H5Dclose, "opening a data set");
   const Id space(H5Dget_space(set), H5Sclose, "shape of the data");
   select(space, part);
-  const Id memory(memoryOf(part), H5Sclose, "shape of the data"), all(together(), H5Pclose, "list");
-  check(H5Dread(set, type, memory, space, all, values), "reading '" + name + "'");
+  const Id memory(memoryOf(part), H5Sclose, "shape of the data");
+  check(H5Dread(set, type, memory, space, H5P_DEFAULT, values), "reading '" + name + "'");
 }
 
 void File::read(const std::string& name, const Part& part, std::vector<Real>& values) const

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <coplane_core/Comm.hpp>
 #include <coplane_core/Real.hpp>
 
 #include <cstdint>
@@ -24,8 +23,9 @@ struct Part
   std::int64_t first, count;  ///< rows of this rank
 };
 
-/// A file that all ranks have open. Ids of HDF5 are 64-bit integers; the header stays in
-/// Hdf5Calls.cpp. All calls are collective.
+/// A file that this rank has open by itself: no call is collective, so a rank on which one fails
+/// leaves nobody waiting in the library. Ids of HDF5 are 64-bit integers; the header stays in
+/// Hdf5Calls.cpp.
 class File
 {
 public:
@@ -34,16 +34,19 @@ public:
     Create, ///< with room for the head
     Read
   };
-  File(const std::string& file, Mode mode, const Comm& comm);
+  File(const std::string& file, Mode mode);
   ~File();
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   /// Closes; throws where that fails.
   void close();
 
-  void write(const std::string& name, const Part& part, const std::vector<Real>& values);
-  void write(const std::string& name, const Part& part, const std::vector<GlobalId>& values);
+  void write(const std::string& name, const std::vector<Real>& values);
   void writeText(const std::string& name, const std::string& text);
+  /// Makes a table of 8-byte values that are written later, row after row, by whoever has them.
+  /// Returns where in the file it begins.
+  std::uint64_t makeTable(const std::string& name, std::int64_t rows, std::int64_t columns,
+                          bool ofIds);
 
   bool has(const std::string& name) const;
   /// Rows and columns of the whole.
@@ -54,10 +57,11 @@ public:
 
 private:
   void makeGroups(const std::string& name);
-  void writeAny(const std::string& name, const Part& part, std::int64_t type, const void* values);
+  std::int64_t makeSet(const std::string& name, std::int64_t rows, std::int64_t columns,
+                       std::int64_t type);
+  void writeAll(const std::string& name, std::size_t count, std::int64_t type, const void* values);
   void readAny(const std::string& name, const Part& part, std::int64_t type, void* values) const;
 
-  const Comm* comm_;
   std::int64_t id_ = -1;
   std::set<std::string> groups_; ///< that have been made
 };

@@ -1,3 +1,4 @@
+#include <coplane_core/Abort.hpp>
 #include <coplane_core/Comm.hpp>
 
 namespace coplane
@@ -131,6 +132,20 @@ void Comm::exchangeItems(const void* send, const std::vector<int>& sendCounts, v
   MPI_Type_free(&item);
 }
 
+void Comm::demandSame(const std::string& what, const std::string& text, ExitCode code) const
+{
+  if (size_ == 1)
+    return;
+  const std::string first = broadcast(text);
+  const int other = int(min(std::int64_t(text == first ? size_ : rank_)));
+  if (other == size_)
+    return;
+  failOnAllRanks(code,
+                 "the ranks were not started alike: {} of rank 0 is\n  {}\nand that of rank {} is"
+                 "\n  {}\nAccepted: one command for all ranks, which see the same files.",
+                 what, first, other, broadcast(text, other));
+}
+
 void Comm::together(const std::function<void()>& action) const
 {
   std::string text;
@@ -139,15 +154,10 @@ void Comm::together(const std::function<void()>& action) const
   {
     action();
   }
-  catch (const Error& error)
-  {
-    text = error.what();
-    code = int(error.code());
-  }
   catch (const std::exception& error)
   {
-    text = error.what();
-    code = int(ExitCode::Internal);
+    text = textOf(error);
+    code = int(codeOf(error));
   }
   const std::int64_t lowest = min(std::int64_t(code == 0 ? size_ : rank_));
   if (lowest == size_)

@@ -40,6 +40,9 @@ public:
 
   std::string broadcast(const std::string& text, int root = 0) const;
 
+  /// Throws Error(code) on all ranks when a text is not the same on all of them. Collective.
+  void demandSame(const std::string& what, const std::string& text, ExitCode code) const;
+
   /// The concatenation of all ranks' items in rank order, on every rank.
   template <class T>
   std::vector<T> allGather(const std::vector<T>& mine) const

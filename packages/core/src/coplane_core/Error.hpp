@@ -19,6 +19,7 @@ enum class ExitCode : int
   Interrupted = 7, ///< stopped by a signal after writing a last results step
   Resumable = 8,   ///< stopped on request after writing a checkpoint, from which it can go on
   Checkpoint = 9,  ///< the checkpoint is missing, damaged, or of another mesh or deck
+  Machine = 10,    ///< the machine has too little memory, or does not give what is asked of it
   Internal = 70    ///< a defect of the program
 };
 

@@ -6,4 +6,9 @@ namespace coplane
 /// giving it back to the system and taking it again page by page. Call before threads start; does
 /// nothing where the C library is not that of GNU.
 void keepFreedMemory();
+
+/// Makes asking for more memory than the machine (or the container) has an error of the call,
+/// std::bad_alloc, instead of the slow death of everything on the machine. A lower limit of the
+/// user's stays.
+void limitMemoryToMachine();
 } // namespace coplane

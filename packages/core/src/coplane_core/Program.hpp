@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/Abort.hpp>
 #include <coplane_core/Error.hpp>
 
 #include <cstdio>
@@ -16,15 +17,10 @@ int exitCodeOf(const Body& body)
   {
     return body();
   }
-  catch (const Error& error)
-  {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return int(error.code());
-  }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "error: {} (a defect of the program: please report it)\n", error.what());
-    return int(ExitCode::Internal);
+    fmt::print(stderr, "error: {}\n", textOf(error));
+    return int(codeOf(error));
   }
 }
 } // namespace coplane

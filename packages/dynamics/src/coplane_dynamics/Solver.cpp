@@ -15,6 +15,8 @@ namespace
 constexpr std::int64_t energyCheckEvery = 100; // cycles
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
 constexpr Real fasterThanWaves = 0.35;
+constexpr Real mostCycles = 1e15; // some centuries
+constexpr Real mostSkins = 1e8;   // of relative motion in one step
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -403,14 +405,16 @@ void Solver::planNextCycle(bool first)
     step = *model_.time.fixedStep;
   }
   if (!(step < infinity))
-    failOnAllRanks(
-        ExitCode::Computation,
-        "The stable step is not finite: no element or contact limits it. Give "
-        "time.maximum_step where all that is left are rigid bodies that touch nothing; else check "
-        "the mesh.");
+    step = stepOfFreeBodies();
   if (!model_.time.fixedStep)
     step = growth_.next(step, clock_.nextStep);
   largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
+  if (step * mostCycles < model_.time.end)
+    failOnAllRanks(ExitCode::Computation,
+                   "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
+                   "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
+                   "time.maximum_step, and at elements that are far too small or stiff.",
+                   clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
   attempt([&] { kick(step); });
   clock_.nextStep = step;
   if (first) // energies at t = 0 are those of the given velocities
@@ -436,6 +440,14 @@ void Solver::planNextCycle(bool first)
   if (failed_ || !contact_)
     return;
   relativeSpeed_ = speedOf(&range[6]);
+  for (int axis = 0; axis < 3; ++axis)
+    if (const Real moved = range[axis] + range[3 + axis];
+        moved > -infinity && !(moved < mostSkins * contact_->skin()))
+      failOnAllRanks(ExitCode::Computation,
+                     "cycle {}, t = {:.6e} s: nodes move {:.3e} m against each other along {} in "
+                     "one step of {:.3e} s; the skin of contact is {:.3e} m. Look for a velocity, "
+                     "a load or a gravity that is far too large.",
+                     clock_.cycle, clock_.time, moved, "xyz"[axis], step, contact_ -> skin());
   const bool forced = range[0] + range[3] > 0.5 * contact_->skin() ||
                       range[1] + range[4] > 0.5 * contact_->skin() ||
                       range[2] + range[5] > 0.5 * contact_->skin();
@@ -529,6 +541,36 @@ WorkTimes Solver::takeWorkTimes()
   return work;
 }
 
+/// The end counts as reached when only the rounding of many summed steps is missing, as for
+/// outputs.
+bool Solver::isOver() const
+{
+  return clock_.time + 1e-10 * std::abs(clock_.time) >= model_.time.end;
+}
+
+/// When neither elements nor contact limit the step (rigid bodies in free flight): a thousandth of
+/// the run, and no node may leave the skin of contact in one step. Collective.
+Real Solver::stepOfFreeBodies() const
+{
+  constexpr Real ofTheRun = 1e-3;
+  Real step = ofTheRun * model_.time.end;
+  if (!contact_)
+    return step;
+  std::vector<Real> fastest{0, 0};
+  for (int n = 0; n < layout_.owned(); ++n)
+  {
+    fastest[0] = std::max(fastest[0], norm(at(state_.v, n)));
+    if (state_.mass(n) > 0)
+      fastest[1] =
+          std::max(fastest[1], norm(at(state_.force, n) + at(state_.external, n)) / state_.mass(n));
+  }
+  comm_->max(fastest);
+  // v dt + a dt^2 is at most a quarter of the skin for each of two bodies.
+  const Real room = 0.25 * contact_->skin();
+  const Real root = std::sqrt(fastest[0] * fastest[0] + 4 * fastest[1] * room);
+  return fastest[0] + root > 0 ? std::min(step, 2 * room / (fastest[0] + root)) : step;
+}
+
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   // Faster than waves, bodies meet with more pressure than contact can give at its depth limit:
@@ -545,7 +587,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
   observer.start(*this);
   std::string ending = "completed";
   ExitCode code = ExitCode::Success;
-  while (clock_.time < model_.time.end)
+  while (!isOver())
   {
     advance();
     if (failed_)
@@ -591,7 +633,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
       code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
-    if (rebalancer && clock_.time < model_.time.end && rebalancer->look(*this))
+    if (rebalancer && !isOver() && rebalancer->look(*this))
       observer.repartitioned(*this);
   }
   observer.finish(*this, ending);

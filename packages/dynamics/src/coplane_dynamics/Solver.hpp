@@ -109,6 +109,7 @@ public:
   ErosionTotals erosion() const;
   Momenta momenta() const;
   StepControl stepControl() const;
+  bool isOver() const;
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;
@@ -152,6 +153,7 @@ private:
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stableStep() const;
+  Real stepOfFreeBodies() const;
   /// In which faces move by a fraction of the thinnest element behind one, relative to each other:
   /// no face may jump over an element, nor deep into it, between two looks at their closure.
   /// `thinnest`: over all ranks [m]

@@ -2,6 +2,7 @@
 #include <coplane_exodus/MeshDefinition.hpp>
 
 #include <exodusII.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
@@ -182,6 +183,8 @@ int creationMode(GlobalId largestId)
   return mode;
 }
 
+namespace
+{
 void defineMesh(int exoid, const MeshSlice& slice, const FileExtras& extras)
 {
   const Mesh& mesh = slice.mine;
@@ -209,63 +212,73 @@ void defineMesh(int exoid, const MeshSlice& slice, const FileExtras& extras)
   if (!extras.nodalNames.empty() || !extras.elementNames.empty() || !extras.globalNames.empty())
     defineVariables(exoid, slice, extras);
 }
+} // namespace
 
-void writeMeshRanges(int exoid, const MeshSlice& slice)
+void defineFile(const std::string& file, const MeshSlice& slice, const FileExtras& extras, int mode)
+{
+  int memoryWord = 8, fileWord = 8;
+  const int exoid = ex_create(file.c_str(), mode, &memoryWord, &fileWord);
+  checkExodus(exoid, "creating the file");
+  try
+  {
+    defineMesh(exoid, slice, extras);
+  }
+  catch (...)
+  {
+    ex_close(exoid);
+    throw;
+  }
+  checkExodus(ex_close(exoid), "creating the file");
+}
+
+void writeMeshRanges(SharedFile& file, const MeshSlice& slice)
 {
   const Mesh& mesh = slice.mine;
-  if (slice.rank > 0)
-    putIds(exoid, slice);
-  if (const IndexRange mine = slice.nodeRange(); mine.count > 0)
+  const IndexRange nodes = slice.nodeRange();
+  if (nodes.count > 0)
   {
-    std::vector<Real> x[3];
-    for (int k = 0; k < 3; ++k)
+    file.put("node_num_map", std::uint64_t(nodes.first), mesh.nodeIds);
+    for (int axis = 0; axis < mesh.dimension; ++axis)
+    {
+      std::vector<Real> x;
       for (const Vec3& place : mesh.coordinates)
-        x[k].push_back(place[k]);
-    checkExodus(ex_put_partial_coord(exoid, mine.first + 1, mine.count, x[0].data(), x[1].data(),
-                                     mesh.dimension == 3 ? x[2].data() : nullptr),
-                "coordinates");
+        x.push_back(place[axis]);
+      file.put(fmt::format("coord{}", "xyz"[axis]), std::uint64_t(nodes.first), x);
+    }
   }
+  const auto oneMore = [](const std::vector<int>& values)
+  {
+    std::vector<ExodusInt> counted; // from 1
+    for (const int value : values)
+      counted.push_back(value + 1);
+    return counted;
+  };
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
     const Mesh::Block& block = mesh.blocks[b];
     const IndexRange mine = slice.elementRange(int(b));
     if (mine.count == 0)
       continue;
-    std::vector<ExodusInt> nodes;
-    nodes.reserve(block.connectivity.size());
-    for (const int node : block.connectivity)
-      nodes.push_back(node + 1);
     std::vector<Real> bodies(block.bodyIds.begin(), block.bodyIds.end());
     bodies.resize(std::size_t(mine.count), 0);
-    checkExodus(ex_put_partial_conn(exoid, EX_ELEM_BLOCK, block.id, mine.first + 1, mine.count,
-                                    nodes.data(), nullptr, nullptr),
-                "connectivity");
-    checkExodus(ex_put_partial_one_attr(exoid, EX_ELEM_BLOCK, block.id, mine.first + 1, mine.count,
-                                        1, bodies.data()),
-                "attribute body_id");
+    const std::uint64_t first = std::uint64_t(mine.first);
+    file.put("elem_num_map", std::uint64_t(slice.firstElements[b]) + first, block.elementIds);
+    file.put(fmt::format("connect{}", b + 1), first * std::uint64_t(topology(block.type).nodes),
+             oneMore(block.connectivity));
+    file.put(fmt::format("attrib{}", b + 1), first, bodies);
   }
-  const auto putSet = [&](ex_entity_type type, GlobalId id, int size, const std::vector<int>& first,
-                          const std::vector<int>* second)
-  {
-    const IndexRange mine = slice.rangeOf(size);
-    if (mine.count == 0)
-      return;
-    std::vector<ExodusInt> entries, extra;
-    for (const int entry : first)
-      entries.push_back(entry + 1);
-    if (second)
-      for (const int side : *second)
-        extra.push_back(side + 1);
-    checkExodus(ex_put_partial_set(exoid, type, id, mine.first + 1, mine.count, entries.data(),
-                                   second ? extra.data() : nullptr),
-                "set entries");
-  };
   for (std::size_t s = 0; s < mesh.nodeSets.size(); ++s)
-    putSet(EX_NODE_SET, mesh.nodeSets[s].id, slice.nodeSetSizes[s], mesh.nodeSets[s].nodes,
-           nullptr);
+    if (const IndexRange mine = slice.rangeOf(slice.nodeSetSizes[s]); mine.count > 0)
+      file.put(fmt::format("node_ns{}", s + 1), std::uint64_t(mine.first),
+               oneMore(mesh.nodeSets[s].nodes));
   for (std::size_t s = 0; s < mesh.sideSets.size(); ++s)
-    putSet(EX_SIDE_SET, mesh.sideSets[s].id, slice.sideSetSizes[s], mesh.sideSets[s].elements,
-           &mesh.sideSets[s].sides);
+    if (const IndexRange mine = slice.rangeOf(slice.sideSetSizes[s]); mine.count > 0)
+    {
+      file.put(fmt::format("elem_ss{}", s + 1), std::uint64_t(mine.first),
+               oneMore(mesh.sideSets[s].elements));
+      file.put(fmt::format("side_ss{}", s + 1), std::uint64_t(mine.first),
+               oneMore(mesh.sideSets[s].sides));
+    }
 }
 
 std::vector<std::string> splitInfoLines(const std::vector<std::string>& lines)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_exodus/SharedFile.hpp>
 #include <coplane_mesh/MeshSlice.hpp>
 
 #include <string>
@@ -23,15 +24,14 @@ GlobalId largestId(const MeshSlice& slice);
 /// The flags of ex_create: CDF-5, with 64-bit ids only when the largest id of the mesh needs them.
 int creationMode(GlobalId largestId);
 
-/// Defines everything in a new, serially opened Exodus file: sizes, blocks, sets, names,
-/// attributes, QA and info records, id maps, variables; and writes the ids of this slice, which
-/// must be that of the first rank. Afterwards the header is complete, so the file needs no further
-/// redefinition.
-void defineMesh(int exoid, const MeshSlice& slice, const FileExtras& extras);
+/// Makes a new Exodus file with everything defined: sizes, blocks, sets, names, attributes, QA and
+/// info records, id maps, variables. The slice must be that of the first rank, or of the only one.
+/// On one rank. Throws ExodusFailure.
+void defineFile(const std::string& file, const MeshSlice& slice, const FileExtras& extras,
+                int mode);
 
-/// Writes this rank's ranges of coordinates, connectivity, attributes and sets, and ids but on the
-/// first rank.
-void writeMeshRanges(int exoid, const MeshSlice& slice);
+/// Writes this rank's ranges of ids, coordinates, connectivity, attributes and sets.
+void writeMeshRanges(SharedFile& file, const MeshSlice& slice);
 
 /// Info records of Exodus have 80 characters: longer lines continue on the next with a "> " in
 /// front.

@@ -1,4 +1,6 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Text.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/MeshReader.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
@@ -435,7 +437,7 @@ private:
     std::string name(ex_inquire_int(exoid_, EX_INQ_MAX_READ_NAME_LENGTH) + 1, '\0');
     check(ex_get_name(exoid_, type, id, name.data()), "names");
     name.resize(std::char_traits<char>::length(name.c_str()));
-    return name.empty() ? fmt::format("{}_{}", kind, id) : name;
+    return name.empty() ? fmt::format("{}_{}", kind, id) : asUtf8(name);
   }
 
   void checkIds(const char* what, const std::vector<GlobalId>& ids) const
@@ -478,8 +480,8 @@ private:
 /// Whether the file may be given to the library; throws where it may not.
 void probeFile(const std::string& file)
 {
-  if (std::filesystem::is_directory(file))
-    fail(ExitCode::Mesh, "{}: this is a folder; name an Exodus II file.", file);
+  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
+    fail(ExitCode::Mesh, "{}: this is {}; name an Exodus II file.", file, kind);
   std::ifstream probe(file, std::ios::binary);
   if (!probe)
     fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",

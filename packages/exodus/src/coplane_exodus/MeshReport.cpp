@@ -33,9 +33,127 @@ void measureEdges(MeshReport& report, const ElementTopology& shape,
       const Vec3& a = corners[shape.sideNodes[side][k]];
       const Vec3& b = corners[shape.sideNodes[side][(k + 1) % shape.nodesPerSide]];
       const Real length = norm(b - a);
+      if (length < report.shortestEdge)
+        report.shortestPlace = 0.5 * (a + b);
       report.shortestEdge = std::min(report.shortestEdge, length);
       report.longestEdge = std::max(report.longestEdge, length);
     }
+}
+
+/// The place of the rank that has it; of several the one with the lowest coordinates. Collective.
+Vec3 agreedPlace(const Vec3& mine, bool isMine, const Comm& comm)
+{
+  Vec3 place{};
+  for (int c = 0; c < 3; ++c)
+  {
+    place[c] = comm.min(isMine ? mine[c] : infinity);
+    isMine = isMine && mine[c] == place[c];
+  }
+  return place;
+}
+
+/// The same bits for the same corners in any order.
+Vec3 centreOf(const std::array<Vec3, 8>& corners, int count)
+{
+  std::vector<Vec3> sorted(corners.begin(), corners.begin() + count);
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Vec3& a, const Vec3& b)
+            { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); });
+  Vec3 sum{};
+  for (const Vec3& corner : sorted)
+    sum += corner;
+  return (1.0 / count) * sum;
+}
+
+struct PlacedElement
+{
+  Vec3 cell, centre;
+  std::int64_t position; ///< in the file
+  GlobalId id;
+};
+
+/// Elements whose centres lie in one cell of a grid: written twice, or of bodies on each other.
+Findings<MeshReport::ElementPair> findTwice(const MeshSlice& slice, const RankMesh& home,
+                                            const Boxes& boxes, Real tolerance, const Comm& comm)
+{
+  const Real size = tolerance > 0 ? 2 * tolerance : 1;
+  const auto cell = [&](Real value)
+  { return tolerance > 0 ? std::floor(value / size + 0.5) : value; };
+  std::vector<std::vector<PlacedElement>> toRank(comm.size());
+  for (std::size_t b = 0; b < home.blocks.size(); ++b)
+  {
+    const RankMesh::Block& block = home.blocks[b];
+    for (int e = 0; e < block.elements(); ++e)
+      if (block.owned[e])
+      {
+        const Vec3 x = centreOf(cornersOf(home, block, e), topology(block.type).nodes);
+        const Vec3 place{cell(x.x), cell(x.y), cell(x.z)};
+        toRank[boxes.rankOf(size * place)].push_back(
+            {place, x, slice.firstElements[b] + block.positions[e], block.elementIds[e]});
+      }
+  }
+  std::vector<PlacedElement> elements = comm.exchange(toRank);
+  const auto key = [](const PlacedElement& e) { return std::tie(e.cell.x, e.cell.y, e.cell.z); };
+  std::sort(elements.begin(), elements.end(),
+            [&](const PlacedElement& a, const PlacedElement& b)
+            { return key(a) != key(b) ? key(a) < key(b) : a.position < b.position; });
+  std::vector<Ordered<MeshReport::ElementPair>> pairs;
+  for (std::size_t i = 1; i < elements.size(); ++i)
+    if (const PlacedElement& a = elements[i - 1], &b = elements[i]; key(a) == key(b))
+      pairs.push_back({a.position, {a.id, b.id, a.centre}});
+  return findingsOf(pairs, comm);
+}
+
+struct PlacedSide
+{
+  std::array<int, 4> nodes; ///< positions in the file, ascending; -1: none
+  Vec3 centre;
+  std::int64_t position; ///< of the element in the file
+  GlobalId id;
+};
+
+/// Faces that more than two elements have: there is no inside and outside there.
+Findings<MeshReport::SharedFace> findOverused(const MeshSlice& slice, const RankMesh& home,
+                                              const Comm& comm)
+{
+  std::vector<std::vector<PlacedSide>> toRank(comm.size());
+  for (std::size_t b = 0; b < home.blocks.size(); ++b)
+  {
+    const RankMesh::Block& block = home.blocks[b];
+    const ElementTopology& shape = topology(block.type);
+    for (int e = 0; e < block.elements(); ++e)
+      for (int s = 0; s < shape.sides && block.owned[e]; ++s)
+      {
+        PlacedSide side{
+            {-1, -1, -1, -1}, {}, slice.firstElements[b] + block.positions[e], block.elementIds[e]};
+        std::uint64_t hash = 0;
+        for (int k = 0; k < shape.nodesPerSide; ++k)
+        {
+          const int node = block.connectivity[std::size_t(e) * shape.nodes + shape.sideNodes[s][k]];
+          side.nodes[std::size_t(k)] = home.nodePositions[node];
+          side.centre += (1.0 / shape.nodesPerSide) * home.coordinates[node];
+          hash += mix(std::uint64_t(home.nodePositions[node]));
+        }
+        std::sort(side.nodes.begin(), side.nodes.end());
+        toRank[hash % std::uint64_t(comm.size())].push_back(side);
+      }
+  }
+  std::vector<PlacedSide> sides = comm.exchange(toRank);
+  std::sort(sides.begin(), sides.end(),
+            [](const PlacedSide& a, const PlacedSide& b)
+            { return std::tie(a.nodes, a.position) < std::tie(b.nodes, b.position); });
+  std::vector<Ordered<MeshReport::SharedFace>> found;
+  for (std::size_t i = 0; i < sides.size();)
+  {
+    std::size_t end = i;
+    while (end < sides.size() && sides[end].nodes == sides[i].nodes)
+      ++end;
+    if (end - i > 2)
+      found.push_back(
+          {sides[i].position, {{sides[i].id, sides[i + 1].id}, int(end - i), sides[i].centre}});
+    i = end;
+  }
+  return findingsOf(found, comm);
 }
 
 struct PlacedNode
@@ -133,6 +251,16 @@ void countBodies(MeshReport& report, const MeshSlice& slice, const RankMesh& hom
   comm.sum(counts);
   for (std::size_t b = 0; b < counts.size(); ++b)
     report.blocks[b].bodies = counts[b];
+}
+
+// Beyond these a mesh is told of, though it can be used.
+constexpr Real poorQuality = 0.03;                         // a corner of 2 degrees in a rectangle
+constexpr Real shortEdge = 1.0 / 300;                      // of the longest
+constexpr Real largestExtent = 1e5, smallestExtent = 1e-5; // [m]
+
+std::string at(const Vec3& x)
+{
+  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x, x.y, x.z);
 }
 
 template <class T, class Text>
@@ -233,6 +361,7 @@ void reportElements(MeshReport& report, const MeshSlice& slice, const RankMesh& 
   std::vector<ExactSum> volumes(blocks);
   std::vector<Real> worst(blocks, infinity);
   std::vector<std::int64_t> worstPosition(blocks, INT64_MAX);
+  std::vector<Vec3> worstPlace(blocks);
   for (std::size_t b = 0; b < blocks; ++b)
   {
     const RankMesh::Block& block = home.blocks[b];
@@ -258,6 +387,7 @@ void reportElements(MeshReport& report, const MeshSlice& slice, const RankMesh& 
       {
         worst[b] = quality;
         worstPosition[b] = block.positions[e];
+        worstPlace[b] = centreOf(corners, shape.nodes);
       }
       measureEdges(report, shape, corners);
     }
@@ -265,7 +395,9 @@ void reportElements(MeshReport& report, const MeshSlice& slice, const RankMesh& 
   report.inverted = badElements(slice, inverted, comm);
   report.repeatedNodes = badElements(slice, repeated, comm);
   report.folded = badElements(slice, folded, comm);
-  report.shortestEdge = comm.min(report.shortestEdge);
+  const Real shortest = report.shortestEdge;
+  report.shortestEdge = comm.min(shortest);
+  report.shortestPlace = agreedPlace(report.shortestPlace, shortest == report.shortestEdge, comm);
   report.longestEdge = comm.max(report.longestEdge);
 
   const std::vector<Real> sums = ExactSum::overRanks(volumes, comm);
@@ -283,7 +415,8 @@ void reportElements(MeshReport& report, const MeshSlice& slice, const RankMesh& 
     }
     report.blocks.push_back({block.id, block.name, topology(block.type).exodusName,
                              slice.elementsOf(int(b)), 0, sums[b], std::min(least, Real(1)),
-                             comm.max(std::int64_t(id))});
+                             comm.max(std::int64_t(id)),
+                             agreedPlace(worstPlace[b], id != 0, comm)});
   }
 }
 
@@ -322,6 +455,8 @@ void reportNodes(MeshReport& report, const MeshSlice& slice, const RankMesh& hom
   if (report.elements == 0)
     return;
   const Real tolerance = 1e-6 * report.shortestEdge;
+  report.twice = findTwice(slice, home, boxes, tolerance, comm);
+  report.overused = findOverused(slice, home, comm);
   report.joints = findJoints(slice, home, boxes, tolerance, comm);
   report.coincident = findCoincident(home, bodies, nodesOfJoints(slice, home, report.joints), boxes,
                                      tolerance, comm);
@@ -401,6 +536,43 @@ std::vector<std::string> meshProblems(const MeshReport& report)
                     report.coincident.count,
                     firstOf(report.coincident, [](const MeshReport::NodePair& p)
                             { return fmt::format("nodes {} and {}", p.first, p.second); })));
+  if (!report.twice.empty())
+    problems.push_back(fmt::format(
+        "{} pairs of elements have their centres at one place: {}. They are in the file twice, or "
+        "bodies lie in each other; remove one of each pair.",
+        report.twice.count,
+        firstOf(report.twice,
+                [](const MeshReport::ElementPair& p) {
+                  return fmt::format("elements {} and {} at {}", p.first, p.second, at(p.place));
+                })));
+  if (!report.overused.empty())
+    problems.push_back(fmt::format(
+        "{} {} belong to more than two elements: {}. There is no inside and outside there; use "
+        "nodes of its own for one of the bodies.",
+        report.overused.count, report.dimension == 2 ? "edges" : "faces",
+        firstOf(report.overused,
+                [](const MeshReport::SharedFace& f)
+                {
+                  return fmt::format("of {} elements, among them {} and {}, at {}", f.count,
+                                     f.elements[0], f.elements[1], at(f.place));
+                })));
+  for (const MeshReport::BlockSummary& block : report.blocks)
+    if (block.worstQuality > 0 && block.worstQuality < poorQuality)
+      problems.push_back(fmt::format(
+          "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
+          "small time step and is stiff. Mesh there again.",
+          block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
+  if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
+    problems.push_back(fmt::format(
+        "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "
+        "time step of all. If it is not meant, mesh there again.",
+        report.shortestEdge, at(report.shortestPlace), report.longestEdge / report.shortestEdge));
+  const Real extent = norm(report.highest - report.lowest);
+  if (report.elements > 0 && (extent > largestExtent || extent < smallestExtent))
+    problems.push_back(fmt::format(
+        "the mesh measures {:.3g} m from corner to corner. Are its lengths in metres? Scale its "
+        "coordinates if not.",
+        extent));
   return problems;
 }
 

@@ -35,6 +35,17 @@ struct MeshReport
   {
     GlobalId first = 0, second = 0;
   };
+  struct ElementPair
+  {
+    GlobalId first = 0, second = 0;
+    Vec3 place{}; ///< [m]
+  };
+  struct SharedFace
+  {
+    GlobalId elements[2] = {0, 0}; ///< the first two of those that have it
+    int count = 0;
+    Vec3 place{}; ///< [m]
+  };
   struct BlockSummary
   {
     GlobalId id = 0;
@@ -45,6 +56,7 @@ struct MeshReport
     Real volume = 0;         ///< [m^3], or [m^2] times one metre
     Real worstQuality = 1;   ///< least elementQuality [-]
     GlobalId worstElement = 0;
+    Vec3 worstPlace{}; ///< its centre [m]
   };
   /// A side set in which faces lie on each other pairwise.
   struct Joint
@@ -61,12 +73,15 @@ struct MeshReport
   std::int64_t bodies = 0;                ///< parts that share no node with each other
   Vec3 lowest{}, highest{};               ///< bounding box [m]
   Real shortestEdge = 0, longestEdge = 0; ///< [m]
+  Vec3 shortestPlace{};                   ///< the middle of a shortest edge [m]
   std::vector<BlockSummary> blocks;
   Findings<BadElement> inverted;      ///< volume zero or negative
   Findings<BadElement> repeatedNodes; ///< a node occurs twice in the element
   Findings<GlobalId> unusedNodes;     ///< of no element
   Findings<BadElement> folded;        ///< volume positive, but a corner turned inside out
   Findings<NodePair> coincident;      ///< two nodes of one body at one place, not of joints
+  Findings<ElementPair> twice;        ///< two elements with their centres at one place
+  Findings<SharedFace> overused;      ///< faces (2D: edges) of more than two elements
   std::vector<Joint> joints;          ///< side sets that hold both sides of a joint
 
   /// No computation can start with inverted elements or repeated nodes; the other findings are for

@@ -1,8 +1,12 @@
+#include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace coplane
@@ -33,18 +37,30 @@ public:
            (version_ == 1 || version_ == 2 || version_ == 5);
   }
 
-  void check()
+  /// Checks on the way that nothing is larger than the file.
+  ClassicLayout layout()
   {
+    ClassicLayout layout;
     number(wide()); // records
     for (std::uint64_t left = list(10); left > 0; --left)
     {
-      skipName();
+      name();
       lengths_.push_back(number(wide()));
       require(lengths_.back() <= size_);
     }
     skipAttributes();
     for (std::uint64_t left = list(11); left > 0; --left)
-      checkVariable();
+    {
+      const auto [name, variable] = nextVariable();
+      layout.variables[name] = variable;
+      const std::uint64_t bytes =
+          (std::uint64_t(variable.bytes) * variable.entries + 3) / 4 * 4; // padded
+      if (variable.isRecord)
+        layout.recordBytes += bytes;
+      else
+        layout.firstRecord = std::max(layout.firstRecord, variable.begin + bytes);
+    }
+    return layout;
   }
 
 private:
@@ -69,7 +85,16 @@ private:
     in_.seekg(std::streamoff((bytes + 3) / 4 * 4), std::ios::cur);
     require(std::uint64_t(in_.tellg()) <= size_);
   }
-  void skipName() { skip(number(wide())); }
+  std::string name()
+  {
+    const std::uint64_t length = number(wide());
+    require(length <= size_);
+    std::string text(length, '\0');
+    in_.read(text.data(), std::streamsize(length));
+    in_.ignore(std::streamsize((4 - length % 4) % 4)); // padded
+    require(bool(in_));
+    return text;
+  }
 
   /// Entries of a list with this tag; 0 when it is absent.
   std::uint64_t list(std::uint64_t expected)
@@ -80,11 +105,15 @@ private:
     return count;
   }
 
-  std::uint64_t bytesOfType()
+  int type()
   {
-    static const std::uint64_t bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     const std::uint64_t type = number(4);
     require(type >= 1 && type <= 11);
+    return int(type);
+  }
+  static int bytesOf(int type)
+  {
+    constexpr int bytes[] = {0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
     return bytes[type];
   }
 
@@ -92,32 +121,44 @@ private:
   {
     for (std::uint64_t left = list(12); left > 0; --left)
     {
-      skipName();
-      const std::uint64_t bytes = bytesOfType(), count = number(wide());
+      name();
+      const int bytes = bytesOf(type());
+      const std::uint64_t count = number(wide());
       require(count <= size_);
-      skip(bytes * count);
+      skip(std::uint64_t(bytes) * count);
     }
   }
 
-  void checkVariable()
+  std::pair<std::string, ClassicVariable> nextVariable()
   {
-    skipName();
+    const std::string called = name();
+    ClassicVariable variable;
     const std::uint64_t axes = number(wide());
     require(axes <= lengths_.size());
-    std::uint64_t entries = 1;
+    variable.entries = 1;
     for (std::uint64_t axis = 0; axis < axes; ++axis)
     {
       const std::uint64_t dimension = number(wide());
       require(dimension < lengths_.size());
       const std::uint64_t length = lengths_[dimension];
-      require(length == 0 || entries <= size_ / length);
-      entries *= length; // 0 along the axis of records
+      if (length == 0) // the axis of records
+      {
+        variable.isRecord = true;
+        continue;
+      }
+      require(variable.entries <= size_ / length || variable.isRecord);
+      require(variable.entries <= std::numeric_limits<std::uint64_t>::max() / length / 8);
+      variable.entries *= length;
     }
     skipAttributes();
-    const std::uint64_t bytes = bytesOfType() * entries;
+    variable.type = type();
+    variable.bytes = bytesOf(variable.type);
     number(wide()); // bytes again, which large variables do not give
-    const std::uint64_t begin = number(version_ == 1 ? 4 : 8);
-    require(begin <= size_ && bytes <= size_ - begin);
+    variable.begin = number(version_ == 1 ? 4 : 8);
+    require(variable.begin <= size_ || variable.isRecord); // there may be no time step yet
+    if (!variable.isRecord)
+      require(std::uint64_t(variable.bytes) * variable.entries <= size_ - variable.begin);
+    return {called, variable};
   }
 
   std::ifstream in_;
@@ -134,12 +175,27 @@ bool classicHeaderFitsFile(const std::string& file)
     return true;
   try
   {
-    header.check();
+    header.layout();
   }
   catch (const Misfit&)
   {
     return false;
   }
   return true;
+}
+
+ClassicLayout readClassicLayout(const std::string& file)
+{
+  ClassicHeader header(file);
+  if (!header.isClassic())
+    throw ExodusFailure("the new file has no header of netCDF");
+  try
+  {
+    return header.layout();
+  }
+  catch (const Misfit&)
+  {
+    throw ExodusFailure("the header of the new file cannot be read back");
+  }
 }
 } // namespace coplane

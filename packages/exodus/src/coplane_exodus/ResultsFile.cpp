@@ -3,20 +3,14 @@
 #include <coplane_exodus/OwnPart.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
 
-#include <exodusII.h>
-#include <netcdf.h>
-#include <netcdf_par.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <fcntl.h>
 #include <filesystem>
 #include <numeric>
-#include <unistd.h>
 
 namespace coplane
 {
@@ -45,36 +39,6 @@ void probeWritable(const std::string& file)
   std::fclose(probe);
 }
 
-/// Claims room on the disk for `bytes` of the file from `first` on. MPI-IO may lose the error of a
-/// write (Open MPI 4.1 prints "File too large" and reports success), so a full disk must be found
-/// before writing.
-void reserve(const std::string& file, std::uint64_t first, std::uint64_t bytes)
-{
-  const int descriptor = ::open(file.c_str(), O_RDWR);
-  if (descriptor < 0)
-    throw ExodusFailure(std::strerror(errno));
-  const int error = ::posix_fallocate(descriptor, off_t(first), off_t(bytes));
-  ::close(descriptor);
-  // A file system that cannot reserve answers EINVAL or EOPNOTSUPP; there the write itself has to
-  // tell.
-  if (error != 0 && error != EINVAL && error != EOPNOTSUPP)
-    throw ExodusFailure(fmt::format("reserving {} bytes: {}", bytes, std::strerror(error)));
-}
-
-/// Sets the number of steps in the header of a CDF-5 file: 8 bytes, big-endian, after the 4 of the
-/// magic number.
-void setStepCount(const std::string& file, int steps)
-{
-  std::FILE* header = std::fopen(file.c_str(), "r+b");
-  if (!header)
-    return;
-  unsigned char bytes[8];
-  for (int i = 0; i < 8; ++i)
-    bytes[i] = static_cast<unsigned char>(std::uint64_t(steps) >> (8 * (7 - i)));
-  std::fseek(header, 4, SEEK_SET);
-  std::fwrite(bytes, 1, sizeof bytes, header);
-  std::fclose(header);
-}
 } // namespace
 
 void cutResults(const std::string& file, int steps)
@@ -90,8 +54,21 @@ void cutResults(const std::string& file, int steps)
   std::uint64_t there = 0;
   for (int i = 0; i < 8; ++i)
     there = there << 8 | bytes[4 + i];
-  if (there > std::uint64_t(steps))
-    setStepCount(file, steps);
+  if (there <= std::uint64_t(steps))
+    return;
+  try
+  {
+    SharedFile data(file);
+    data.setSteps(steps);
+    data.close();
+  }
+  catch (const ExodusFailure& failure)
+  {
+    fail(ExitCode::Output,
+         "{}: steps later than the checkpoint cannot be taken out of the results: {}. Check that "
+         "the file can be written to, or move it away.",
+         file, failure.what());
+  }
 }
 
 std::string resultsFileOfRank(const std::string& file, int rank, int ranks)
@@ -112,16 +89,10 @@ ResultsFile::ResultsFile(const std::string& file, const Comm& comm, const MeshSl
   for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
   {
     blockSizes_.push_back(mesh.elementsOf(int(b)));
-    blockIds_.push_back(mesh.mine.blocks[b].id);
   }
-  stepBytes_ = sizeof(Real) *
-               (1 + variables.global.size() + variables.nodal.size() * std::uint64_t(mesh.nodes) +
-                variables.element.size() * std::uint64_t(mesh.elements()));
   for (std::size_t s = 0; s < mesh.mine.sideSets.size(); ++s)
   {
     const int sides = mesh.sideSetSizes[s];
-    stepBytes_ += sizeof(Real) * variables.side.size() * std::uint64_t(sides);
-    sideSetIds_.push_back(mesh.mine.sideSets[s].id);
     const IndexRange mine = mesh.rangeOf(sides);
     std::vector<int> positions(mine.count);
     std::iota(positions.begin(), positions.end(), mine.first);
@@ -146,61 +117,18 @@ void ResultsFile::create(const MeshSlice& slice, const ResultsVariables& variabl
   const FileExtras extras{variables.nodal, variables.element, variables.global, variables.side,
                           splitInfoLines(infoLines)};
   const GlobalId largest = comm_.max(std::int64_t(largestId(slice)));
-  int memoryWord = 8, fileWord = 8;
-  if (filePerRank_ || comm_.isRoot())
-    attempt(
-        [&]
-        {
-          exoid_ = ex_create(file_.c_str(), creationMode(largest), &memoryWord, &fileWord);
-          checkExodus(exoid_, "creating the file");
-          defineMesh(exoid_, slice, extras);
-        });
+  const bool defines = filePerRank_ || comm_.isRoot();
+  if (defines)
+    attempt([&] { defineFile(file_, slice, extras, creationMode(largest)); });
   failTogether("defining the mesh");
-  if (filePerRank_)
-    attempt([&] { writeMeshRanges(exoid_, slice); });
-  else
-  {
-    // Rank 0 defines the file, then all open it. (ex_create_par of Exodus 8.12 passes a flag that
-    // netCDF 4.9 refuses for CDF-5.)
-    if (comm_.isRoot())
-    {
-      const int closing = exoid_;
-      exoid_ = -1;
-      attempt(
-          [&]
-          {
-            checkExodus(ex_close(closing), "creating the file");
-            // Closing has extended the file to the end of what is not a time step.
-            meshBytes_ = std::filesystem::file_size(file_);
-            reserve(file_, 0, meshBytes_);
-          });
-    }
-    failTogether("defining the mesh");
-    attempt(
-        [&]
-        {
-          float version = 0;
-          exoid_ = ex_open_par(file_.c_str(), EX_WRITE | EX_ALL_INT64_API, &memoryWord, &fileWord,
-                               &version, comm_.mpi(), MPI_INFO_NULL);
-          checkExodus(exoid_, "opening the file on all ranks");
-          // Data are written independently by every rank: PnetCDF then raises the number of steps
-          // in the header only in the collective ex_update, after all data, and an error on one
-          // rank leaves nobody waiting.
-          if (nc_var_par_access(exoid_, 0, NC_INDEPENDENT) != NC_NOERR)
-            throw ExodusFailure("opening the file on all ranks: independent access was refused");
-        });
-    failTogether("opening the file");
-    attempt([&] { writeMeshRanges(exoid_, slice); });
-  }
+  attempt([&] { data_.emplace(file_); });
+  if (defines)
+    attempt([&] { data_->reserveMesh(); });
+  failTogether("opening the file");
+  attempt([&] { writeMeshRanges(*data_, slice); });
   failTogether("writing the mesh");
-  attempt([&] { checkExodus(ex_update(exoid_), "writing the mesh"); });
+  attempt([&] { data_->sync(); });
   failTogether("writing the mesh");
-}
-
-ResultsFile::~ResultsFile()
-{
-  if (exoid_ >= 0)
-    ex_close(exoid_);
 }
 
 template <class Action>
@@ -236,100 +164,81 @@ void ResultsFile::failTogether(const std::string& doing)
 
 void ResultsFile::abandon()
 {
-  if (exoid_ >= 0)
-    ex_close(exoid_);
-  exoid_ = -1;
-  // Closing may have counted the unfinished step.
-  if (steps_ > 0 && (filePerRank_ || comm_.isRoot()))
-    setStepCount(file_, steps_);
-  comm_.barrier();
+  // The header may count the step whose writing failed in the end.
+  try
+  {
+    if (data_ && (filePerRank_ || comm_.isRoot()))
+      data_->setSteps(steps_);
+  }
+  catch (const ExodusFailure&)
+  {
+    // The first failure is the one to tell of.
+  }
+  data_.reset();
 }
 
 void ResultsFile::beginStep(Real time)
 {
   time_ = time;
-  if (!filePerRank_)
-  {
-    if (comm_.isRoot())
-      attempt([&] { reserve(file_, meshBytes_ + std::uint64_t(steps_) * stepBytes_, stepBytes_); });
-    failTogether(fmt::format("writing the step at t = {:.6g} s", time_));
-  }
   if (filePerRank_ || comm_.isRoot())
-    attempt([&] { checkExodus(ex_put_time(exoid_, steps_ + 1, &time), "time"); });
+  {
+    attempt([&] { data_->reserveStep(steps_); });
+    attempt([&] { data_->put("time_whole", 0, std::vector<Real>{time}, steps_); });
+  }
+  failTogether(fmt::format("writing the step at t = {:.6g} s", time_));
 }
 
 void ResultsFile::putNodal(int variable, const std::vector<Real>& myRange)
 {
   const std::vector<Real> values = filePerRank_ ? nodesOfPart_->values(myRange) : myRange;
   const int first = filePerRank_ ? 0 : myNodes().first;
-  if (!values.empty())
-    attempt(
-        [&]
-        {
-          checkExodus(ex_put_partial_var(exoid_, steps_ + 1, EX_NODAL, variable + 1, 1, first + 1,
-                                         int64_t(values.size()), values.data()),
-                      "nodal variable");
-        });
+  put(fmt::format("vals_nod_var{}", variable + 1), first, values);
 }
 
 void ResultsFile::putElement(int variable, int block, const std::vector<Real>& myRangeOfThatBlock)
 {
   const int first = filePerRank_ ? 0 : myElements(block).first;
-  if (!myRangeOfThatBlock.empty())
-    attempt(
-        [&]
-        {
-          checkExodus(ex_put_partial_var(
-                          exoid_, steps_ + 1, EX_ELEM_BLOCK, variable + 1, blockIds_[block],
-                          first + 1, int64_t(myRangeOfThatBlock.size()), myRangeOfThatBlock.data()),
-                      "element variable");
-        });
+  put(fmt::format("vals_elem_var{}eb{}", variable + 1, block + 1), first, myRangeOfThatBlock);
 }
 
 void ResultsFile::putSide(int variable, int set, const std::vector<Real>& values)
 {
   const std::vector<int>& mine = mySides_[set];
   const int first = filePerRank_ || mine.empty() ? 0 : mine.front();
-  if (!mine.empty())
-    attempt(
-        [&]
-        {
-          checkExodus(ex_put_partial_var(exoid_, steps_ + 1, EX_SIDE_SET, variable + 1,
-                                         sideSetIds_[set], first + 1, int64_t(values.size()),
-                                         values.data()),
-                      "side set variable");
-        });
+  put(fmt::format("vals_sset_var{}ss{}", variable + 1, set + 1), first, values);
 }
 
 void ResultsFile::putGlobals(const std::vector<Real>& values)
 {
-  if (!values.empty() && (filePerRank_ || comm_.isRoot()))
-    attempt(
-        [&]
-        {
-          checkExodus(ex_put_var(exoid_, steps_ + 1, EX_GLOBAL, 1, 0, int64_t(values.size()),
-                                 values.data()),
-                      "global variables");
-        });
+  if (filePerRank_ || comm_.isRoot())
+    put("vals_glo_var", 0, values);
+}
+
+void ResultsFile::put(const std::string& variable, int first, const std::vector<Real>& values)
+{
+  if (!values.empty())
+    attempt([&] { data_->put(variable, std::uint64_t(first), values, steps_); });
 }
 
 void ResultsFile::endStep()
 {
   const std::string doing = fmt::format("writing the step at t = {:.6g} s", time_);
+  attempt([&] { data_->sync(); });
   failTogether(doing);
-  attempt([&] { checkExodus(ex_update(exoid_), "time step"); });
+  if (filePerRank_ || comm_.isRoot())
+    attempt([&] { data_->setSteps(steps_ + 1); });
   failTogether(doing);
   ++steps_;
 }
 
 void ResultsFile::close()
 {
-  if (exoid_ < 0)
+  if (!data_)
     return;
-  const int closing = exoid_;
-  exoid_ = -1;
-  attempt([&] { checkExodus(ex_close(closing), "closing"); });
+  attempt([&] { data_->sync(); });
+  attempt([&] { data_->close(); });
   failTogether("closing the file");
+  data_.reset();
 }
 
 MeshSlice ResultsFile::meshOfThisRank(const MeshSlice& slice)

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Comm.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
+#include <coplane_exodus/SharedFile.hpp>
 #include <coplane_mesh/MeshSlice.hpp>
 
 #include <optional>
@@ -29,16 +30,17 @@ std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
 /// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
 /// variables by time step.
 ///
-/// One file shared by all ranks: CDF-5, defined by rank 0, then written through PnetCDF and MPI-IO.
-/// Each rank writes contiguous ranges of the file order: items contiguousRange(n, rank, size) of
-/// nodes, of each block's elements and of each side set's sides. Data go to the file at once, and
-/// the number of steps in the header is raised last, in endStep: a program killed at any moment
-/// leaves a file with all finished steps. Or one file per rank (`base.e.N.r`), which `epu -auto`
-/// joins; the calls and the ranges are the same.
+/// One file shared by all ranks: CDF-5, defined by rank 0, then written by each rank at its own
+/// places (SharedFile). Each rank writes contiguous ranges of the file order: items
+/// contiguousRange(n, rank, size) of nodes, of each block's elements and of each side set's sides.
+/// Data go to the file at once, and the number of steps in the header is raised last, in endStep: a
+/// program killed at any moment leaves a file with all finished steps. Or one file per rank
+/// (`base.e.N.r`), which `epu -auto` joins; the calls and the ranges are the same.
 ///
 /// Every rank makes every call. A failed write (full disk, quota) is remembered, decided together
 /// in endStep, and thrown there on all ranks as Error(ExitCode::Output) with file, time and reason;
-/// finished steps stay readable.
+/// finished steps stay readable. Files are opened, written and closed without a collective call of
+/// a library, so a rank that fails elsewhere can leave without the others.
 class ResultsFile
 {
 public:
@@ -47,8 +49,6 @@ public:
   ResultsFile(const std::string& file, const Comm& comm, const MeshSlice& mesh,
               const ResultsVariables& variables, const std::vector<std::string>& infoLines,
               bool filePerRank = false);
-  /// Closes; errors are lost here, so call close() first where they matter.
-  ~ResultsFile();
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
@@ -76,6 +76,8 @@ public:
   void endStep();
   void close();
 
+  /// Not after close(), nor after a failure.
+  bool isOpen() const { return data_.has_value(); }
   int steps() const { return steps_; }
   /// The file that this rank writes.
   const std::string& file() const { return file_; }
@@ -86,24 +88,20 @@ private:
   MeshSlice meshOfThisRank(const MeshSlice& slice);
   template <class Action>
   void attempt(const Action& action);
+  void put(const std::string& variable, int first, const std::vector<Real>& values);
   void failTogether(const std::string& doing);
   void abandon();
 
   std::string file_;
   Comm comm_;
   bool filePerRank_;
-  int exoid_ = -1;
+  std::optional<SharedFile> data_;
   int nodeCount_ = 0;
   std::vector<int> blockSizes_;
-  std::vector<GlobalId> blockIds_;
-  std::vector<GlobalId> sideSetIds_;
   std::vector<std::vector<int>> mySides_; ///< by side set: positions in it
   int steps_ = 0;                         ///< finished ones
   Real time_ = 0;                         ///< of the step being written [s]
   std::string failure_;                   ///< first reason on this rank
-  std::uint64_t meshBytes_ = 0;           ///< shared file: size before the first step
-  std::uint64_t stepBytes_ =
-      0; ///< of one time step: all variables are 8-byte reals, one after another
 
   /// File per rank: the nodes of this rank's file come from the ranks in whose ranges they lie.
   std::optional<NodesFromHome> nodesOfPart_;

@@ -3,8 +3,6 @@
 #include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
 
-#include <exodusII.h>
-
 #include <csignal>
 #include <filesystem>
 
@@ -17,22 +15,27 @@ void writeMesh(const Mesh& mesh, const std::string& file)
   // of the program.
   std::signal(SIGXFSZ, SIG_IGN);
   const MeshSlice all = sliceOf(mesh);
-  int exoid = -1;
+  // Beside it first: a mesh of this name that is there is lost only when the new one is whole.
+  std::error_code error;
+  std::filesystem::path target = std::filesystem::canonical(file, error); // of a link
+  if (error)
+    target = file;
+  const std::string draft = target.string() + ".part";
   try
   {
-    int memoryWord = 8, fileWord = 8;
-    exoid = ex_create(file.c_str(), creationMode(largestId(all)), &memoryWord, &fileWord);
-    checkExodus(exoid, "creating the file");
-    defineMesh(exoid, all, {});
-    writeMeshRanges(exoid, all);
-    const int closing = exoid;
-    exoid = -1;
-    checkExodus(ex_close(closing), "closing the file");
+    defineFile(draft, all, {}, creationMode(largestId(all)));
+    SharedFile data(draft);
+    data.reserveMesh();
+    writeMeshRanges(data, all);
+    data.sync();
+    data.close();
+    std::filesystem::rename(draft, target, error);
+    if (error)
+      throw ExodusFailure(error.message());
   }
   catch (const ExodusFailure& failure)
   {
-    if (exoid >= 0)
-      ex_close(exoid);
+    std::filesystem::remove(draft, error);
     const auto folder = std::filesystem::absolute(file).parent_path();
     fail(ExitCode::Output,
          "{}: the mesh cannot be written ({}). Check that the folder '{}' exists, can be written "

@@ -17,10 +17,11 @@ namespace
 /// Where the nodes of one text stand: in the deck, or in the value of a --set.
 struct Source
 {
-  std::string file; // of the deck
-  std::string set;  // the whole --set, or empty
-  int number = 0;   // of the --set
-  int nodes = 0;    // copied so far
+  std::string file;           // of the deck
+  std::string set;            // the whole --set, or empty
+  int number = 0;             // of the --set
+  std::size_t most = 1000000; // values that may be copied: more are repetitions by aliases
+  std::size_t nodes = 0;      // copied so far
   std::string where(const YAML::Mark& mark) const
   {
     return set.empty() ? fmt::format("{}:{}:{}", file, mark.line + 1, mark.column + 1) : set;
@@ -36,10 +37,10 @@ struct Source
 DeckNode copyNode(const YAML::Node& node, Source& source, int depth)
 {
   // An alias can contain itself, or double at each of many levels.
-  if (depth > 50 || ++source.nodes > 1000000)
+  if (depth > 50 || ++source.nodes > source.most)
     fail(ExitCode::Deck,
          "{}: aliases (*name) make this part of the deck endless or enormous; accepted: 50 "
-         "levels and a million values. Write the values out.",
+         "levels and a million values more than are written. Write the values out.",
          source.where(node.Mark()));
   DeckNode copy;
   copy.where = source.where(node.Mark());
@@ -165,6 +166,7 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
   demandPlainText(text, file);
   Source source;
   source.file = file;
+  source.most += text.size(); // every value that is written has a character
   YamlText yaml;
   try
   {
@@ -190,7 +192,8 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
   DeckNode root = copyNode(yaml.document, source, 0);
   if (root.kind != DeckNode::Kind::Map)
     fail(ExitCode::Deck,
-         "{}: the deck is {}; accepted: keys with values, such as 'mesh: wall.e'. See --help-deck.",
+         "{}: the deck is {}; accepted: keys with values, such as 'mesh: bricks.e'. See "
+         "--help-deck.",
          root.where, root.kind == DeckNode::Kind::List ? "a list" : "a single value");
   return root;
 }

@@ -9,6 +9,7 @@
 #include "TimeFunctionEvaluator.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 
 #include <algorithm>
 #include <cerrno>
@@ -497,9 +498,8 @@ private:
 
 std::string readDeckFile(const std::string& file)
 {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored))
-    fail(ExitCode::Deck, "{}: this is a folder; accepted: a deck, which is a YAML file.", file);
+  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
+    fail(ExitCode::Deck, "{}: this is {}; accepted: a deck, which is a YAML file.", file, kind);
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;

@@ -417,7 +417,7 @@ Key makeSchema()
               text("title", &Deck::title).means("for the records").like("Bar through a wall"),
               text("mesh", &Deck::mesh)
                   .needed()
-                  .like("wall.e")
+                  .like("bricks.e")
                   .means("Exodus file, relative to the folder of the deck"),
               text("geometry", &Deck::geometry)
                   .oneOf({"plane_strain", "axisymmetric"})

@@ -1,6 +1,7 @@
 #include "YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Text.hpp>
 
 #include <yaml-cpp/eventhandler.h>
 
@@ -54,6 +55,16 @@ void demandPlainText(const std::string& text, const std::string& file)
          "{}:{}: the text has a control character (byte {:#04x}) here: the file is damaged, or is "
          "no text. Write the line again.",
          file, 1 + std::count(text.begin(), found, '\n'), static_cast<unsigned char>(*found));
+  if (isUtf8(text))
+    return;
+  std::istringstream lines(text);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);)
+    if (++number; !isUtf8(line))
+      fail(ExitCode::Deck,
+           "{}:{}: the text is not UTF-8 here, perhaps Latin-1; accepted: UTF-8. Save it as UTF-8, "
+           "or: iconv -f latin1 -t utf-8.",
+           file, number);
 }
 
 YamlText readYaml(const std::string& text)

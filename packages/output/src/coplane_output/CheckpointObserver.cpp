@@ -1,5 +1,6 @@
 #include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Signals.hpp>
 #include <coplane_dynamics/Solver.hpp>
@@ -8,7 +9,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <ctime>
 #include <filesystem>
+#include <limits>
+#include <sys/stat.h>
 
 namespace coplane
 {
@@ -19,6 +23,52 @@ constexpr double lookEvery = 0.5; ///< for the stop file [s]
 std::string slotFile(const std::string& file, int slot)
 {
   return fmt::format("{}.{}", file, slot);
+}
+
+/// When a file was written, as 20261122-064405 (UTC).
+std::string timeOf(const std::string& file)
+{
+  struct stat status
+  {
+  };
+  std::tm utc{};
+  if (::stat(file.c_str(), &status) != 0 || !::gmtime_r(&status.st_mtime, &utc))
+    return "unknown";
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &utc);
+  return text;
+}
+
+/// The name, or the name with a number where that is taken.
+std::string freeName(const std::string& name)
+{
+  std::error_code error;
+  std::string free = name;
+  for (int n = 2; std::filesystem::exists(std::filesystem::symlink_status(free, error)); ++n)
+    free = fmt::format("{}-{}", name, n);
+  return free;
+}
+
+/// Checkpoints that were put aside, the latest last.
+std::vector<std::string> oldCheckpoints(const std::string& file)
+{
+  const std::filesystem::path path(file);
+  const std::string stem = path.filename().string();
+  std::vector<std::pair<std::string, std::string>> olds; // time, name
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(
+           path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), error))
+  {
+    const std::string name = entry.path().filename().string();
+    for (const char* end : {".0.old-", ".1.old-"})
+      if (name.rfind(stem + end, 0) == 0)
+        olds.emplace_back(name.substr(stem.size() + 7), (path.parent_path() / name).string());
+  }
+  std::sort(olds.begin(), olds.end());
+  std::vector<std::string> names;
+  for (const auto& [time, name] : olds)
+    names.push_back(name);
+  return names;
 }
 
 double secondsSince(std::chrono::steady_clock::time_point begin)
@@ -117,7 +167,11 @@ void CheckpointObserver::write(const Solver& solver)
   CheckpointWriter out(*comm_);
   solver.save(out);
   std::map<std::string, std::string> positions;
-  outputs_->savePosition(positions);
+  comm_->together([&] { outputs_->savePosition(positions); });
+  // Names of files may have any bytes, and have to come back as they are: JSON keeps them as
+  // Latin-1.
+  for (auto& [output, position] : positions)
+    position = latin1AsUtf8(position);
   out.text("outputs", comm_->broadcast(nlohmann::json(positions).dump()));
   for (const auto& [name, text] : options_.texts)
     out.text(name, text);
@@ -144,31 +198,64 @@ std::string newestCheckpoint(const std::string& file, const Comm& comm)
       problems += fmt::format("{}{}: {}.", problems.empty() ? "" : " ", slotFile(file, s), problem);
   }
   if (order.empty())
-    failOnAllRanks(ExitCode::Checkpoint,
-                   "--restart: there is no checkpoint to restart from. {} Name one with --restart "
-                   "FILE, or start without --restart.",
-                   problems);
+  {
+    const std::vector<std::string> olds = oldCheckpoints(file);
+    const std::string also =
+        olds.empty() ? "" : fmt::format(" Of earlier runs there are {}.", fmt::join(olds, ", "));
+    failOnAllRanks(
+        ExitCode::Checkpoint,
+        "--restart: there is no checkpoint to restart from. {}{} Name one with --restart "
+        "FILE, or start without --restart.",
+        problems, also);
+  }
   if (!problems.empty() && problems.find("No such file") == std::string::npos)
     logWarning("a checkpoint is not used", problems);
   return slotFile(file, std::max_element(order.begin(), order.end())->second);
 }
 
-void putAside(const std::string& file)
+void putAside(const std::string& file, const Comm& comm)
 {
-  for (int s = 0; s < 2; ++s)
-  {
-    const std::string old = slotFile(file, s);
-    std::error_code error;
-    if (!std::filesystem::exists(old, error))
-      continue;
-    std::filesystem::rename(old, old + ".old", error);
-    logInfo("{} is of an earlier run; it is called {}.old now", old, old);
-  }
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        std::error_code error;
+        bool some = false;
+        for (int s = 0; s < 2; ++s)
+        {
+          const std::string name = slotFile(file, s);
+          if (!std::filesystem::exists(std::filesystem::symlink_status(name, error)))
+            continue;
+          const std::string aside = freeName(fmt::format("{}.old-{}", name, timeOf(name)));
+          std::filesystem::rename(name, aside, error);
+          if (error)
+            fail(ExitCode::Output,
+                 "{}: this checkpoint of an earlier run cannot be put aside as {}: {}. Go on from "
+                 "it with --restart, or move it away.",
+                 name, aside, error.message());
+          logInfo("{} is of an earlier run; it is called {} now", name, aside);
+          some = true;
+        }
+        const std::vector<std::string> olds = oldCheckpoints(file);
+        if (!some)
+          return;
+        std::uintmax_t bytes = 0;
+        for (const std::string& old : olds)
+          if (const auto size = std::filesystem::file_size(old, error); !error)
+            bytes += size;
+        logInfo("{} checkpoints of earlier runs take {:.1f} MB. To go on from one: --restart {}; "
+                "when none is wanted any more: rm {}.[01].old-*",
+                olds.size(), double(bytes) / 1e6, olds.back(), file);
+      });
 }
 
 std::map<std::string, std::string> positionsIn(const CheckpointReader& checkpoint)
 {
-  return nlohmann::json::parse(checkpoint.text("outputs"))
-      .get<std::map<std::string, std::string>>();
+  auto positions =
+      nlohmann::json::parse(checkpoint.text("outputs")).get<std::map<std::string, std::string>>();
+  for (auto& [output, position] : positions)
+    position = utf8AsLatin1(position);
+  return positions;
 }
 } // namespace coplane

@@ -57,8 +57,11 @@ private:
 /// Error(ExitCode::Checkpoint) when there is none. Collective.
 std::string newestCheckpoint(const std::string& file, const Comm& comm);
 
-/// Puts checkpoints of an earlier run aside, to `file`.0.old and .1.old: a new run begins.
-void putAside(const std::string& file);
+/// Puts checkpoints of an earlier run aside under a name with the time when they were written,
+/// `file`.0.old-20261122-064405, so that no number of new runs ever overwrites one. Says how to go
+/// on from them and how to get rid of them. Throws Error(ExitCode::Output) when that fails.
+/// Collective.
+void putAside(const std::string& file, const Comm& comm);
 
 /// Positions of the outputs in a checkpoint. Collective.
 std::map<std::string, std::string> positionsIn(const CheckpointReader& checkpoint);

@@ -1,12 +1,12 @@
 #include <coplane_contact/ContactTables.hpp>
 #include <coplane_core/ExactSum.hpp>
+#include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/TextFile.hpp>
 
 #include <cerrno>
-#include <filesystem>
 
 namespace coplane
 {
@@ -33,8 +33,8 @@ private:
   void put(const std::string& name, const std::string& text)
   {
     const char* comma = names.empty() ? "" : ",";
-    names += comma + name;
-    values += comma + text;
+    names += comma + csvField(name);
+    values += comma + csvField(text);
   }
 };
 
@@ -147,7 +147,7 @@ void HistoryObserver::savePosition(std::map<std::string, std::string>& positions
 {
   TextPosition position{options_.file, 0, lastCycle_};
   if (stream_.is_open()) // on rank 0, which speaks
-    position.bytes = std::filesystem::file_size(options_.file);
+    position.bytes = endOfTable(options_.file);
   positions["history"] = position.text();
 }
 

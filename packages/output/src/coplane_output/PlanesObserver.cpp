@@ -1,3 +1,4 @@
+#include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <regex>
 #include <sstream>
 
 namespace coplane
@@ -173,8 +176,11 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
   comm.together(
       [&]
       {
-        if (comm.isRoot())
-          writeSeries();
+        if (!comm.isRoot())
+          return;
+        if (!continues_)
+          removeOldSteps();
+        writeSeries();
       });
 }
 
@@ -227,13 +233,31 @@ void PlanesObserver::write(const Solver& solver)
   lastCycle_ = solver.clock().cycle;
 }
 
+/// The steps of an earlier run: those that its series names, and no others.
+void PlanesObserver::removeOldSteps() const
+{
+  const std::filesystem::path series(file());
+  std::ifstream stream(series);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  static const std::regex entry("file=\"([^\"/]*_planes_[0-9]+\\.vtp)\"");
+  const std::string all = text.str();
+  const std::string mine = xmlText(std::filesystem::path(base_).filename().string()) + "_planes_";
+  std::error_code error;
+  for (auto step = std::sregex_iterator(all.begin(), all.end(), entry);
+       step != std::sregex_iterator(); ++step)
+    if (const std::string name = (*step)[1]; name.rfind(mine, 0) == 0)
+      std::filesystem::remove(fmt::format("{}_planes_{}", base_, name.substr(mine.size())), error);
+}
+
 void PlanesObserver::writeSeries() const
 {
   std::string text = "<?xml version=\"1.0\"?>\n"
                      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
                      "  <Collection>\n";
   for (const auto& [time, name] : steps_)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, name);
+    text +=
+        fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, xmlText(name));
   text += "  </Collection>\n</VTKFile>\n";
   replaceFile(file(), text);
 }

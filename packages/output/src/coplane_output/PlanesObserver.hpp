@@ -36,6 +36,7 @@ public:
 
 private:
   void write(const Solver& solver);
+  void removeOldSteps() const;
   void writeSeries() const;
 
   std::string base_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace coplane
@@ -90,11 +91,16 @@ void removeParts(const std::string& file, int first)
   const std::string stem = path.filename().string() + "-s";
   std::error_code error;
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  static const std::regex number(R"(([0-9]{4,9})(\.[0-9]+\.[0-9]+)?)"); // and no other name
   std::vector<std::filesystem::path> old;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
   {
     const std::string name = entry.path().filename().string();
-    if (name.rfind(stem, 0) == 0 && std::atoi(name.c_str() + stem.size()) >= first)
+    std::smatch match;
+    if (name.rfind(stem, 0) != 0)
+      continue;
+    const std::string rest = name.substr(stem.size());
+    if (std::regex_match(rest, match, number) && std::atoi(match[1].str().c_str()) >= first)
       old.push_back(entry.path());
   }
   for (const auto& one : old)
@@ -130,12 +136,16 @@ void ResultsObserver::continueSeries()
 {
   const ResultsPosition position = ResultsPosition::from(options_.position);
   lastCycle_ = position.cycle;
-  if (!comm_->isRoot() || position.file != options_.file || position.steps == 0)
-    return;
-  const std::string part = resultsPart(position.file, position.part);
-  for (int r = 0; r < std::max(1, position.ranks); ++r)
-    cutResults(position.ranks == 0 ? part : resultsFileOfRank(part, r, position.ranks),
-               position.steps);
+  comm_->together(
+      [&]
+      {
+        if (!comm_->isRoot() || position.file != options_.file || position.steps == 0)
+          return;
+        const std::string part = resultsPart(position.file, position.part);
+        for (int r = 0; r < std::max(1, position.ranks); ++r)
+          cutResults(position.ranks == 0 ? part : resultsFileOfRank(part, r, position.ranks),
+                     position.steps);
+      });
 }
 
 void ResultsObserver::start(const Solver& solver)
@@ -199,6 +209,8 @@ void ResultsObserver::repartitioned(const Solver&)
 
 void ResultsObserver::finish(const Solver& solver, const std::string&)
 {
+  if (file_ && !file_->isOpen())
+    return; // it is what failed
   if (solver.clock().cycle != lastCycle_)
     write(solver);
   if (file_)

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <ctime>
+#include <filesystem>
 #include <sys/resource.h>
 
 namespace coplane
@@ -167,6 +168,17 @@ Json slowestTimers(const Comm& comm)
   return json;
 }
 
+/// Those of an earlier run, which belong to results that are not there any more.
+void removeRecordsOfRestarts(const std::string& file)
+{
+  std::filesystem::path base(file);
+  base.replace_extension(); // wall.run
+  std::error_code error;
+  for (int part = 2;; ++part)
+    if (!std::filesystem::remove(fmt::format("{}-s{:04}.json", base.string(), part), error))
+      return;
+}
+
 /// Largest resident memory of a rank so far [bytes].
 std::int64_t peakMemory()
 {
@@ -191,6 +203,8 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
   {
     deckHash_ = sha256(options_.deckText);
     meshHash_ = sha256OfFile(options_.meshFile);
+    if (options_.restartedFrom.empty())
+      removeRecordsOfRestarts(options_.file);
   }
 }
 

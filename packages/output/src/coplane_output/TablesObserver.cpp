@@ -1,4 +1,5 @@
 #include <coplane_contact/ContactTables.hpp>
+#include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/TablesObserver.hpp>
@@ -6,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -82,7 +82,7 @@ void TablesObserver::savePosition(std::map<std::string, std::string>& positions)
   {
     TextPosition position{fileOf(table), 0, lastCycle_};
     if (stream.is_open()) // on rank 0, which speaks
-      position.bytes = std::filesystem::file_size(position.file);
+      position.bytes = endOfTable(position.file);
     positions[table] = position.text();
   };
   if (options_.blocks)
@@ -179,7 +179,7 @@ std::string TablesObserver::blockLines(const Solver& solver) const
   for (std::size_t b = 0; b < shares_.size(); ++b)
   {
     text += fmt::format("{:.17g},{},{}", solver.clock().time, solver.clock().cycle,
-                        solver.model().blocks[b].name);
+                        csvField(solver.model().blocks[b].name));
     for (int k = 0; k < terms; ++k)
       text += fmt::format(",{:.17g}", totals[terms * b + k]);
     text += "\n";
@@ -193,9 +193,9 @@ std::string lineOf(const Solver& solver, const std::string& sideA, const std::st
                    const ContactTableRow& row)
 {
   const ContactEnergy& e = row.energy;
-  std::string text =
-      fmt::format("{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle, sideA, sideB,
-                  solver.contact().rules().joints[row.kind.joint].name, row.planes);
+  std::string text = fmt::format(
+      "{:.17g},{},{},{},{},{}", solver.clock().time, solver.clock().cycle, csvField(sideA),
+      csvField(sideB), csvField(solver.contact().rules().joints[row.kind.joint].name), row.planes);
   for (const Real value : {row.area, e.work, e.stored, e.friction, e.hysteresis, e.fracture,
                            e.damping, e.eroded, e.remainder()})
     text += fmt::format(",{:.17g}", value);

@@ -19,6 +19,18 @@ void failToWrite(const std::string& file)
        file, reason, std::filesystem::absolute(file).parent_path().string());
 }
 
+std::uint64_t endOfTable(const std::string& file)
+{
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file, error);
+  if (error)
+    fail(ExitCode::Output,
+         "{}: lines of this run are not there any more: {}. A restart could not go on with them. "
+         "What is written to a file that was removed or moved away is lost.",
+         file, error.message());
+  return bytes;
+}
+
 std::string TextPosition::text() const
 {
   return fmt::format("{} {} {}", cycle, bytes, file);
@@ -48,10 +60,18 @@ bool openTable(std::ofstream& stream, const std::string& file, const TextPositio
                              "file begins anew with the restart.",
                              file));
     else
+    {
       std::filesystem::resize_file(file, position.bytes, error);
+      errno = error.value();
+      if (error)
+        failToWrite(file);
+    }
   }
   errno = 0;
-  stream.open(file, goesOn ? std::ios::app : std::ios::trunc);
+  if (!goesOn && !std::ofstream(file, std::ios::trunc))
+    failToWrite(file);
+  // Always at the end of what is there: a file that somebody cuts off gets no hole.
+  stream.open(file, std::ios::app);
   if (!stream)
     failToWrite(file);
   return goesOn;

@@ -28,6 +28,9 @@ struct TextPosition
 /// says so where lines are missing. On one rank, within Comm::together.
 bool openTable(std::ofstream& stream, const std::string& file, const TextPosition& position);
 
+/// Bytes of a table that is being written. Throws Error(ExitCode::Output) when it is gone.
+std::uint64_t endOfTable(const std::string& file);
+
 /// Throws Error(ExitCode::Output): the file, what the system says (errno) and what to check.
 [[noreturn]] void failToWrite(const std::string& file);
 } // namespace coplane

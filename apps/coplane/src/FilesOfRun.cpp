@@ -1,0 +1,144 @@
+#include "FilesOfRun.hpp"
+
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Log.hpp>
+
+#include <filesystem>
+#include <set>
+
+namespace coplane
+{
+namespace
+{
+std::string withoutExtension(const std::string& file)
+{
+  return std::filesystem::path(file).replace_extension().string();
+}
+
+/// One for each stem of the outputs: runs of other names may share the folder.
+std::set<std::string> lockFiles(const Deck& deck)
+{
+  std::set<std::string> files{withoutExtension(deck.history.file) + ".lock",
+                              withoutExtension(deck.checkpoint.file) + ".lock"};
+  if (!deck.output.results.empty())
+    files.insert(withoutExtension(deck.output.results) + ".lock");
+  return files;
+}
+
+void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedFrom)
+{
+  roles.reads(deck.file, "the deck");
+  roles.reads(deck.mesh, "the mesh (mesh)");
+  if (restartedFrom.empty())
+    return;
+  // The run goes on in its own checkpoints, and never overwrites the one that it came from first.
+  std::error_code error;
+  for (const char* slot : {".0", ".1"})
+    if (std::filesystem::equivalent(restartedFrom, deck.checkpoint.file + slot, error))
+      return;
+  roles.reads(restartedFrom, "the checkpoint (--restart)");
+}
+
+void addOutputs(FileRoles& roles, const Deck& deck)
+{
+  const std::string history = "the history (history.file)", record = "the record of the run",
+                    tables = "a table (history.tables)", results = "the results (output.results)",
+                    planes = "the planes (output.planes)",
+                    checkpoint = "the checkpoint (checkpoint.file)", draft = ".part";
+  roles.writes(deck.history.file, history);
+  roles.writes(recordFile(deck, 1), record);
+  roles.writes(recordFile(deck, 1) + draft, record);
+  const std::string base = withoutExtension(deck.history.file);
+  roles.writesSeries({base + ".run-s", ".json"}, record);
+  roles.writesSeries({base + ".run-s", ".json" + draft}, record);
+  for (const std::string& table : deck.history.tables)
+    roles.writes(fmt::format("{}_{}.csv", base, table), tables + " " + table);
+  if (!deck.output.results.empty())
+  {
+    const std::string& file = deck.output.results;
+    if (deck.output.filePerRank)
+    {
+      roles.writesSeries({file + ".", ".", ""}, results);
+      roles.writesSeries({file + "-s", ".", ".", ""}, results);
+    }
+    else
+    {
+      roles.writes(file, results);
+      roles.writesSeries({file + "-s", ""}, results);
+    }
+    if (deck.output.planes && deck.contact.enabled)
+    {
+      const std::string series = planesBase(deck) + "_planes";
+      for (const std::string& end : {std::string(), draft})
+      {
+        roles.writes(series + ".pvd" + end, planes);
+        roles.writesSeries({series + "_", ".vtp" + end}, planes);
+      }
+    }
+  }
+  for (const char* slot : {".0", ".1"})
+    for (const std::string& end : {std::string(), draft})
+      roles.writes(deck.checkpoint.file + slot + end, checkpoint);
+  for (const std::string& file : lockFiles(deck))
+    roles.writes(file, "the lock of the run");
+  roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");
+}
+} // namespace
+
+std::string recordFile(const Deck& deck, int part)
+{
+  const std::string base = withoutExtension(deck.history.file);
+  return part == 1 ? base + ".run.json" : fmt::format("{}.run-s{:04}.json", base, part);
+}
+
+std::string planesBase(const Deck& deck)
+{
+  return withoutExtension(deck.output.results);
+}
+
+std::string tablesBase(const Deck& deck)
+{
+  return withoutExtension(deck.history.file);
+}
+
+std::string stopFile(const Deck& deck)
+{
+  return withoutExtension(deck.checkpoint.file) + ".stop";
+}
+
+std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
+{
+  std::vector<FileLock> locks;
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        for (const std::string& file : lockFiles(deck))
+        {
+          locks.emplace_back(file, "the outputs of " + deck.file);
+          if (!locks.back().isHeld())
+            logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
+                                            "second run from writing the same files",
+                                            file));
+        }
+      });
+  return locks;
+}
+
+void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm)
+{
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        FileRoles roles;
+        addInputs(roles, deck, restartedFrom);
+        addOutputs(roles, deck);
+        const std::vector<std::string> problems = roles.problems();
+        if (!problems.empty())
+          fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
+      });
+}
+} // namespace coplane

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/FileLock.hpp>
+#include <coplane_input/Deck.hpp>
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// Names that follow from those of the deck.
+std::string recordFile(const Deck& deck, int part);
+std::string planesBase(const Deck& deck);
+std::string tablesBase(const Deck& deck);
+std::string stopFile(const Deck& deck);
+
+/// Throws Error(ExitCode::Deck) on all ranks when an output of the run is an input of it, another
+/// output, or not a plain file. Before anything is written. Collective.
+/// @param restartedFrom checkpoint that is read; empty: none, or the newest of the run
+void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm);
+
+/// Makes sure that no other run writes files of the same names. Throws Error(ExitCode::Output) on
+/// all ranks when one does. Rank 0 holds the locks for as long as the result lives. Collective.
+std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm);
+} // namespace coplane

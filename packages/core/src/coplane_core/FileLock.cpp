@@ -1,0 +1,111 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/FileLock.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+#include <fcntl.h>
+#include <filesystem>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace coplane
+{
+namespace
+{
+std::string me()
+{
+  char host[256] = "unknown host", date[64];
+  ::gethostname(host, sizeof host - 1);
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S UTC", &utc);
+  return fmt::format("process {} on {}, since {}\n", ::getpid(), host, date);
+}
+
+std::string ownerIn(int descriptor)
+{
+  char text[512];
+  const ssize_t length = ::pread(descriptor, text, sizeof text, 0);
+  const std::string owner(text, length > 0 ? std::size_t(length) : 0);
+  return owner.empty() ? "an unknown process" : owner.substr(0, owner.find('\n'));
+}
+
+std::string folderOf(const std::string& file)
+{
+  std::error_code error;
+  const auto path = std::filesystem::absolute(file, error);
+  return error ? "." : path.parent_path().string();
+}
+
+/// Whether the path still leads to the file that is open: its owner may just have removed it.
+bool isStillThere(const std::string& file, int descriptor)
+{
+  struct stat open
+  {
+  };
+  struct stat there
+  {
+  };
+  return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &there) == 0 &&
+         open.st_dev == there.st_dev && open.st_ino == there.st_ino;
+}
+} // namespace
+
+FileLock::FileLock(const std::string& file, const std::string& what) : file_(file)
+{
+  for (;;)
+  {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    if (descriptor < 0)
+    {
+      const std::string reason = std::strerror(errno);
+      fail(ExitCode::Output,
+           "{}: the file that says who writes {} cannot be made: {}. Check that the folder '{}' "
+           "exists and can be written to.",
+           file, what, reason, folderOf(file));
+    }
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
+    {
+      const int reason = errno;
+      const std::string owner = ownerIn(descriptor);
+      ::close(descriptor);
+      if (reason == EINTR)
+        continue;
+      if (reason != EWOULDBLOCK)
+        return; // no locks here
+      fail(ExitCode::Output,
+           "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder "
+           "or other names (output.results, history.file, checkpoint.file). Nothing was written.",
+           file, what, owner);
+    }
+    if (!isStillThere(file, descriptor))
+    {
+      ::close(descriptor);
+      continue;
+    }
+    descriptor_ = descriptor;
+    const std::string text = me();
+    // Not being able to say who holds it does not make the lock less of one.
+    if (::ftruncate(descriptor, 0) != 0 || ::pwrite(descriptor, text.data(), text.size(), 0) < 0)
+      return;
+    return;
+  }
+}
+
+FileLock::~FileLock()
+{
+  if (descriptor_ < 0)
+    return;
+  ::unlink(file_.c_str()); // while it is held: nobody can have taken it
+  ::close(descriptor_);
+}
+
+FileLock::FileLock(FileLock&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1))
+{
+}
+} // namespace coplane

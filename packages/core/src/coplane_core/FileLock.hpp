@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+namespace coplane
+{
+/// A file that this process alone holds for as long as it lives: the lock goes with its owner,
+/// however that ends, and what a killed one leaves behind holds nobody up. The file names its
+/// owner.
+class FileLock
+{
+public:
+  /// Throws Error(ExitCode::Output) with host, process and time of the owner when another process
+  /// has it. On a file system without locks it is taken as free; isHeld() then is false.
+  /// @param what for the message: "the outputs of wall.yaml"
+  FileLock(const std::string& file, const std::string& what);
+  /// Removes the file.
+  ~FileLock();
+  FileLock(FileLock&& other) noexcept;
+  FileLock& operator=(FileLock&&) = delete;
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  bool isHeld() const { return descriptor_ >= 0; }
+
+private:
+  std::string file_;
+  int descriptor_ = -1;
+};
+} // namespace coplane

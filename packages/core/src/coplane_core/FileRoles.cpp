@@ -1,0 +1,203 @@
+#include <coplane_core/FileRoles.hpp>
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <filesystem>
+#include <set>
+#include <sys/stat.h>
+#include <utility>
+
+namespace coplane
+{
+namespace
+{
+namespace fs = std::filesystem;
+using Inode = std::pair<dev_t, ino_t>;
+
+constexpr int longestChainOfLinks = 40;
+
+/// Where a file is or would be: symbolic links are followed, also one to something that is missing.
+fs::path placeOf(const fs::path& name)
+{
+  std::error_code error;
+  fs::path place = fs::absolute(name, error);
+  for (int links = 0; links < longestChainOfLinks && fs::is_symlink(place, error); ++links)
+  {
+    const fs::path target = fs::read_symlink(place, error);
+    place = target.is_absolute() ? target : place.parent_path() / target;
+  }
+  const fs::path folder = fs::weakly_canonical(place.parent_path(), error);
+  return (error ? place.parent_path().lexically_normal() : folder) / place.filename();
+}
+
+bool inodeOf(const fs::path& file, Inode& inode)
+{
+  struct stat status
+  {
+  };
+  if (::stat(file.c_str(), &status) != 0)
+    return false;
+  inode = {status.st_dev, status.st_ino};
+  return true;
+}
+
+/// Whether a name is of the series: numbers stand between the pieces.
+bool matches(const std::string& name, const std::vector<std::string>& pieces)
+{
+  std::size_t at = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+  {
+    if (p > 0)
+    {
+      const std::size_t first = at;
+      while (at < name.size() && std::isdigit(static_cast<unsigned char>(name[at])))
+        ++at;
+      if (at == first)
+        return false;
+    }
+    if (name.compare(at, pieces[p].size(), pieces[p]) != 0)
+      return false;
+    at += pieces[p].size();
+  }
+  return at == name.size();
+}
+
+/// One output or input as the file system sees it.
+struct Seen
+{
+  fs::path folder;
+  std::vector<std::string> pieces; ///< of the name without folder
+  std::set<Inode> inodes;          ///< of what is there
+
+  bool isSeries() const { return pieces.size() > 1; }
+  std::vector<std::string> examples() const
+  {
+    if (!isSeries())
+      return pieces;
+    std::vector<std::string> names;
+    for (const char* number : {"1", "0001"})
+    {
+      names.push_back(pieces[0]);
+      for (std::size_t p = 1; p < pieces.size(); ++p)
+        names.back() += number + pieces[p];
+    }
+    return names;
+  }
+};
+
+Seen look(const std::vector<std::string>& pieces)
+{
+  Seen seen;
+  seen.pieces = pieces;
+  Inode inode;
+  if (!seen.isSeries())
+  {
+    const fs::path place = placeOf(pieces[0]);
+    seen.folder = place.parent_path();
+    seen.pieces[0] = place.filename().string();
+    if (inodeOf(place, inode))
+      seen.inodes.insert(inode);
+    return seen;
+  }
+  const fs::path first = pieces[0];
+  seen.pieces[0] = first.filename().string();
+  seen.folder = placeOf(first).parent_path();
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(seen.folder, error))
+    if (matches(entry.path().filename().string(), seen.pieces) && inodeOf(entry.path(), inode))
+      seen.inodes.insert(inode);
+  return seen;
+}
+
+bool meet(const Seen& a, const Seen& b)
+{
+  for (const Inode& inode : a.inodes)
+    if (b.inodes.count(inode))
+      return true;
+  if (a.folder != b.folder)
+    return false;
+  for (const std::string& name : a.examples())
+    if (matches(name, b.pieces))
+      return true;
+  for (const std::string& name : b.examples())
+    if (matches(name, a.pieces))
+      return true;
+  return false;
+}
+
+std::string nameOf(const std::vector<std::string>& pieces)
+{
+  return fmt::format("{}", fmt::join(pieces, "<number>"));
+}
+} // namespace
+
+std::string kindOfSpecialFile(const std::string& file)
+{
+  std::error_code error;
+  switch (fs::status(file, error).type())
+  {
+  case fs::file_type::directory:
+    return "a folder";
+  case fs::file_type::character:
+  case fs::file_type::block:
+    return "a device";
+  case fs::file_type::fifo:
+    return "a pipe";
+  case fs::file_type::socket:
+    return "a socket";
+  default:
+    return "";
+  }
+}
+
+void FileRoles::reads(const std::string& file, const std::string& what)
+{
+  roles_.push_back({{file}, what, false});
+}
+
+void FileRoles::writes(const std::string& file, const std::string& what)
+{
+  roles_.push_back({{file}, what, true});
+}
+
+void FileRoles::writesSeries(const std::vector<std::string>& pieces, const std::string& what)
+{
+  roles_.push_back({pieces, what, true});
+}
+
+std::vector<std::string> FileRoles::problems() const
+{
+  std::vector<std::string> problems;
+  std::set<std::string> said; // the two sides of a sentence, each pair once
+  std::vector<Seen> seen;
+  for (const Role& role : roles_)
+    seen.push_back(look(role.pieces));
+  for (std::size_t i = 0; i < roles_.size(); ++i)
+  {
+    const Role& output = roles_[i];
+    if (!output.isOutput)
+      continue;
+    if (output.pieces.size() == 1)
+      if (const std::string kind = kindOfSpecialFile(output.pieces[0]); !kind.empty())
+        problems.push_back(fmt::format(
+            "{}: {} cannot be written there, because this is {}; accepted: a plain file, "
+            "or a name that is not there yet.",
+            output.pieces[0], output.what, kind));
+    for (std::size_t k = 0; k < roles_.size(); ++k)
+    {
+      const Role& other = roles_[k];
+      if (k == i || (other.isOutput && k < i) || !meet(seen[i], seen[k]))
+        continue;
+      if (!said.insert(output.what + "\n" + other.what).second)
+        continue;
+      problems.push_back(fmt::format(
+          "{} '{}' would {} {} '{}': both names lead to the same file. Nothing was written. "
+          "Give one of them another name.",
+          output.what, nameOf(output.pieces), other.isOutput ? "be written over" : "overwrite",
+          other.what, nameOf(other.pieces)));
+    }
+  }
+  return problems;
+}
+} // namespace coplane

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// What a path leads to when that is neither a plain file nor nothing: "a folder", "a pipe", ...
+/// Empty otherwise.
+std::string kindOfSpecialFile(const std::string& file);
+
+/// The files that a program reads and those that it writes: the one place that knows whether they
+/// are distinct. Two names mean the same file when they lead to one place (relative parts, symbolic
+/// links, also of folders, also to something that is not there yet) or to one inode (hard links).
+class FileRoles
+{
+public:
+  /// @param what how messages call it, with the key or option that names it: "the mesh (mesh)"
+  void reads(const std::string& file, const std::string& what);
+  void writes(const std::string& file, const std::string& what);
+  /// Files whose names have numbers between these pieces: {"wall.e-s", ""} is wall.e-s0002, ...
+  void writesSeries(const std::vector<std::string>& pieces, const std::string& what);
+
+  /// A sentence for each output that is an input, another output, or something that is not a plain
+  /// file. Empty: all may be written. Looks at the file system, changes nothing.
+  std::vector<std::string> problems() const;
+
+private:
+  struct Role
+  {
+    std::vector<std::string> pieces; ///< one: a single file
+    std::string what;
+    bool isOutput;
+  };
+  std::vector<Role> roles_;
+};
+} // namespace coplane

@@ -1,0 +1,194 @@
+"""Values that are absurd, names that are odd, and small things that were wrong once (README.md)."""
+
+import copy
+import csv
+import json
+import os
+import pathlib
+import resource
+import shutil
+import subprocess
+import time
+import xml.etree.ElementTree
+
+import netCDF4
+import numpy
+from coplanetest import Case, documents, program
+
+case = Case("limits", __file__)
+steel = {"model": "linear_elastic", "density": 7800, "youngs_modulus": 200e9, "poisson_ratio": 0.3}
+box = {"shape": "box", "block": "low", "min": [0, 0], "size": [1, 1], "divisions": [4, 4]}
+recipe = {"dimension": 2, "parts": [box, {**box, "block": "high", "min": [0, 1.001]}],
+          "node_sets": {"ground": {"block": "low", "where": {"y": 0}}, "left": {"block": "low", "where": {"x": 0}}}}
+deck = {"materials": {"steel": steel}, "blocks": {"low": {"material": "steel"}, "high": {"material": "steel"}},
+        "joints": {"touch": {"model": "penalty", "friction": 0.3}}, "contact": {"default_joint": "touch"},
+        "time": {"end": 1e-3}, "output": {"results": "none"}}
+DECK, MESH, OUTPUT, COMPUTATION, MACHINE = 3, 4, 5, 6, 10
+
+
+def attempt(name, code, words=(), changes=None, ranks=1, recipe=recipe, options=(), limits=None):
+    folder = pathlib.Path(name.replace(" ", "_")).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    if recipe:
+        documents.save({"title": "limits", **recipe}, folder / "mesh.yaml")
+        program.make_mesh(str(folder / "mesh.yaml"), str(folder / "mesh.e"))
+    changed = copy.deepcopy(deck)
+    for path, value in (changes or {}).items():
+        place = changed
+        *way, last = path.split(".")
+        for key in way:
+            place = place.setdefault(key, {})
+        place[last] = value
+    documents.save({"mesh": "mesh.e", **changed}, folder / "run.yaml")
+    begin = time.monotonic()
+    try:
+        found, output = program.run_program(["run.yaml", *options], folder, ranks, timeout=60)
+    except subprocess.TimeoutExpired:
+        found, output = "no end", ""
+    good = case.check_equal(f"{name}: exit code", found, code)
+    if not (case.check_equal(f"{name}: words missing", [word for word in words if word not in output], []) and good):
+        print(output[-3000:])
+    return folder, output
+
+
+def history(folder, name="run.csv"):
+    with open(folder / name, newline="") as file:
+        rows = list(csv.reader(file))
+    return rows[0], rows[1:]
+
+
+# --- absurd values ------------------------------------------------------------------------------------------
+up = [{"block": "high", "velocity": [0, -1e150, 0]}]
+for ranks in (1, 2, 3):
+    attempt(f"velocity 1e150 on {ranks} ranks", COMPUTATION, ["far too large"], {"initial": up}, ranks)
+    attempt(f"gravity 1e300 on {ranks} ranks", COMPUTATION, ["not finite"], {"gravity": [0, -1e300, 0]}, ranks)
+attempt("fixed step 1e-300", COMPUTATION, ["time.fixed_step"], {"time.fixed_step": 1e-300})
+documents.save({"dimension": 3, "parts": [{**box, "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [10000, 10000, 10000]}]}, "huge.yaml")
+done = subprocess.run([program.binary("coplane_mesh"), "make", "huge.yaml", "-o", "huge.e"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+case.check_equal("1e12 elements: code and cause", (done.returncode, "at most" in done.stdout), (DECK, True))
+documents.save({"dimension": 3, "parts": [{**box, "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [400, 400, 400]}]}, "large.yaml")
+done = subprocess.run([program.binary("coplane_mesh"), "make", "large.yaml", "-o", "large.e"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                      preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_DATA, (2**28, 2**28)))
+case.check_equal("more than the memory: code and cause", (done.returncode, "not enough memory" in done.stdout), (MACHINE, True))
+folder, _ = attempt("a table of a million rows", 0, changes={"time.end": 1e-6})
+rows = 500001
+table = {"times": [round(i * 1e-6, 6) for i in range(rows)], "values": [0] * rows}
+with open(folder / "run.yaml", "a") as file:
+    file.write("gravity: [0, {times: [" + ", ".join(f"{i}e-6" for i in range(rows)) + "], values: [" + "0, " * (rows - 1) + "0]}, 0]\n")
+code, output = program.run_program(["run.yaml", "--check"], folder, timeout=100)
+case.check_equal("a table of a million numbers is read", code, 0)
+if code:
+    print(output[-2000:])
+
+# --- counts of cycles, free flight --------------------------------------------------------------------------
+folder, _ = attempt("fixed step", 0, changes={"time.end": 1e-5, "time.fixed_step": 1e-8, "history.every": 1e-6})
+names, lines = history(folder)
+case.check_equal("cycles of a fixed step that fits 1000 times", int(lines[-1][names.index("cycle")]), 1000)
+case.check_equal("lines of ten outputs and the start", len(lines), 11)
+rigid = {"blocks": {name: {"material": "steel", "rigid": True} for name in ("low", "high")}, "time.end": 0.1, "gravity": [0, -9.81, 0],
+         "initial": [{"block": name, "velocity": [2, 1, 0]} for name in ("low", "high")], "history.rigid": ["*"]}
+for ranks in (1, 2):
+    folder, _ = attempt(f"rigid bodies in free flight, {ranks} ranks", 0, changes=rigid, ranks=ranks)
+    names, lines = history(folder)
+    time_ = float(lines[-1][names.index("time[s]")])
+    y = float(lines[-1][names.index("low_displacement_y[m]")])
+    exact = 1 * time_ - 0.5 * 9.81 * time_**2
+    case.check(f"free flight on {ranks} ranks: way up [m]", y, exact, 1e-9 * abs(exact) + 1e-12)
+    case.check(f"free flight on {ranks} ranks: way along x [m]", float(lines[-1][names.index("low_displacement_x[m]")]), 2 * time_, 1e-9)
+
+# --- two conditions on one component ------------------------------------------------------------------------
+conditions = [{"type": "fixed", "node_set": "ground"}, {"type": "velocity", "node_set": "left", "components": ["x"], "value": [1, 0, 0]}]
+for ranks in (1, 2):
+    attempt(f"fixed and velocity on one node, {ranks} ranks", 0, ["'ground'", "'left'", "prescribe the same component of 1 nodes", "node 1"],
+            {"conditions": conditions, "time.end": 1e-6}, ranks)
+_, output = attempt("fixed twice", 0, changes={"conditions": [conditions[0], {**conditions[0], "node_set": "left"}], "time.end": 1e-6})
+case.check_equal("fixed twice is no contradiction", "prescribe the same" in output, False)
+
+# --- names --------------------------------------------------------------------------------------------------
+odd = 'a, "b" <c> & Mörtel\nsecond line'
+names_recipe = {"dimension": 2, "parts": [{**box, "block": odd}, {**box, "block": "high", "min": [0, 1.0]}]}
+folder, output = attempt("odd names", 0, recipe=names_recipe, changes={
+    "blocks": {odd: {"material": "steel"}, "high": {"material": "steel"}}, "output": {"results": "x & y <z>.e"}, "time.end": 1e-6,
+    "history": {"file": "run.csv", "tables": ["blocks", "pairs"], "probes": [{"name": odd, "block": odd}]}})
+header, lines = history(folder)
+case.check_equal("odd names: every line has the columns of the header", sorted({len(line) for line in lines}), [len(header)])
+case.check_equal("odd names: a column has the name", odd + "_displacement_x[m]" in header, True)
+_, lines = history(folder, "run_blocks.csv")
+case.check_equal("odd names: the block of a table", sorted({line[2] for line in lines}), sorted([odd, "high"]))
+series = xml.etree.ElementTree.parse(folder / "x & y <z>_planes.pvd")
+files = [item.get("file") for item in series.iter("DataSet")]
+case.check_equal("odd names: the files of the series are there", [name for name in files if not (folder / name).exists()], [])
+case.check_equal("odd names: the record holds the deck", odd.split("\n")[0][:3] in json.loads((folder / "run.run.json").read_text())["deck"]["text"], True)
+try:
+    import pandas
+except ImportError:
+    print("pandas is not installed here; tables were read by Python's csv")
+else:
+    case.check_equal("odd names: pandas reads the header", odd + "_displacement_x[m]" in pandas.read_csv(folder / "run.csv").columns, True)
+# A mesh whose names are Latin-1 is read as such; a deck is UTF-8.
+folder, _ = attempt("Latin-1 in the mesh", 0, changes={"time.end": 1e-6})
+with netCDF4.Dataset(folder / "mesh.e", "a") as file:
+    file.set_auto_mask(False)
+    file["eb_names"][0] = numpy.frombuffer(b"M\xf6rtel".ljust(file["eb_names"].shape[1], b"\0"), "S1")
+text = documents.load(folder / "run.yaml")
+text["blocks"] = {"Mörtel": {"material": "steel"}, "high": {"material": "steel"}}
+documents.save(text, folder / "run.yaml")
+code, output = program.run_program(["run.yaml"], folder, timeout=60)
+case.check_equal("a name in Latin-1 is that of the deck in UTF-8", code, 0)
+if code:
+    print(output)
+(folder / "run.yaml").write_bytes((folder / "run.yaml").read_text().encode("utf-8").decode("utf-8").encode("latin-1", "replace") + b"# M\xf6rtel\n")
+code, output = program.run_program(["run.yaml"], folder, timeout=60)
+case.check_equal("a deck in Latin-1", (code, "UTF-8" in output), (DECK, True))
+strange = folder / os.fsdecode(b"M\xf6rtel.yaml")
+documents.save(text, strange)
+done = subprocess.run([program.binary("coplane"), b"M\xf6rtel.yaml", "--set", "checkpoint.at_end=true"], cwd=folder, stdout=subprocess.DEVNULL, timeout=60)
+case.check_equal("a deck whose name is Latin-1 runs", done.returncode, 0)
+
+# --- a table that is cut off while the run goes on ----------------------------------------------------------
+folder, _ = attempt("a table is cut off", 0, changes={"time.end": 1e-6})
+documents.save({"mesh": "mesh.e", **deck, "time": {"end": 10.0}}, folder / "run.yaml")
+process = subprocess.Popen([program.binary("coplane"), "run.yaml", "--quiet"], cwd=folder)
+deadline = time.monotonic() + 30
+while (folder / "run.csv").stat().st_size < 5000 and time.monotonic() < deadline:
+    time.sleep(0.02)
+os.truncate(folder / "run.csv", 100)
+while (folder / "run.csv").stat().st_size < 5000 and time.monotonic() < deadline:
+    time.sleep(0.02)
+process.kill()
+process.wait()
+case.check_equal("a table is cut off: bytes of zero", (folder / "run.csv").read_bytes().count(b"\0"), 0)
+
+# --- what is left of an earlier run -------------------------------------------------------------------------
+folder, _ = attempt("an earlier run", 0, changes={"output": {"every": 1e-5}, "time.end": 1e-4})
+(folder / "run.run-s0002.json").write_text("{}")
+(folder / "run.e-s0002.txt").write_text("of the user")
+(folder / "run_planes_0099.vtp").write_text("of the user")
+steps = len(list(folder.glob("run_planes_*.vtp")))
+code, _ = program.run_program(["run.yaml", "--set", "time.end=1e-6"], folder, timeout=60)
+case.check_equal("a new run takes away the steps that the series of the old one names",
+                 sorted(path.name for path in folder.glob("run_planes_*.vtp")), ["run_planes_0000.vtp", "run_planes_0001.vtp", "run_planes_0099.vtp"])
+case.check_equal("a new run takes away old records", (folder / "run.run-s0002.json").exists(), False)
+case.check_equal("a file of the user with a similar name stays", (folder / "run.e-s0002.txt").exists(), True)
+
+# --- a folder that goes away --------------------------------------------------------------------------------
+folder = pathlib.Path("gone").resolve()
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir()
+mesh = pathlib.Path("fixed_step/mesh.e").resolve()
+documents.save({"mesh": str(mesh), **deck}, folder / "run.yaml")
+shutil.copy(folder / "run.yaml", "gone.yaml")
+for ranks in (1, 2):
+    folder.mkdir(exist_ok=True)
+    launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
+    command = " ".join([*launch, "sh", "-c", f"'cd {folder}; until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
+                        f"exec {program.binary('coplane')} {pathlib.Path('gone.yaml').resolve()}'"])
+    try:
+        done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+        case.check_equal(f"the folder is gone, {ranks} ranks: exit code", done.returncode, OUTPUT)
+        if done.returncode != OUTPUT:
+            print(done.stdout[-2000:])
+    except subprocess.TimeoutExpired:
+        case.check_equal(f"the folder is gone, {ranks} ranks: exit code", "no end", OUTPUT)
+case.finish()
