@@ -157,7 +157,7 @@ public:
   T overlap{};               ///< whole overlap of the shadows [m^2]
   T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
   ContactMoments<T> moments; ///< of the part in contact
-  T ways{};                  ///< length of its border over which the bodies can part sideways [m]
+  T ways[2]{};               ///< length of its border over which each body can be left sideways [m]
   T opposedness{};           ///< phi
   T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
   Vec3Of<T> gradient[2][4];  ///< of the energy [N]
@@ -194,7 +194,8 @@ public:
       }
   }
 
-  /// Where the way out is sideways nothing is in contact: the part of the energy k/2 Int c^2 that
+  /// Where the way out is sideways, over an edge of each body, nothing is in contact: the part of
+  /// the energy k/2 Int c^2 that
   /// counts, and what follows for the density. Uniform closure c over a strip of width w between
   /// such edges: a function of w / c.
   KOKKOS_INLINE_FUNCTION T shareOfWayOut(const T& stiffness, EnergyDensity<T>& density) const
@@ -202,12 +203,14 @@ public:
     using namespace branchFree;
     density.square = 0.5 * stiffness;
     density.linear = density.constant = T(0.0);
-    const auto bounded = ways > 0.0 && moments.squares > 0.0;
+    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && moments.squares > 0.0;
     if (!anyOf(bounded))
       return T(1.0);
     const T& v = moments.volume;
     const T& s = moments.squares;
-    const T ratio = v * v * v / (s * s * ways);
+    // A strip between an edge of each: twice its length.
+    const T both = 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]);
+    const T ratio = v * v * v / (s * s * both);
     const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
     const SmoothStep<T> share((ratio - scale_.wayOutFrom) * width);
     const T slope = share.slope * width * ratio;
@@ -498,7 +501,7 @@ private:
   KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole)
   {
     moments = {};
-    ways = T(0.0);
+    ways[0] = ways[1] = T(0.0);
     for (int i = 0; i < pieces_; ++i)
       press(piece_[i], whole);
   }
@@ -536,7 +539,7 @@ private:
       moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
       for (int k = 0; k < 2; ++k)
         if (q.owner[k] >= 0)
-          ways += exit_[q.owner[k]];
+          ways[q.owner[k] / 4] += exit_[q.owner[k]];
     }
     else
     {
@@ -566,7 +569,7 @@ private:
         apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
       const T atApex = closureAt(apex);
       ContactMoments<T> sum;
-      T border{};
+      T border[2]{};
       for (int k = 0; k < q.sides.size; ++k)
       {
         const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
@@ -575,7 +578,7 @@ private:
         {
           const T& exit = exit_[q.owner[k]];
           if (anyOf(exit > 0.0))
-            border += exit * squareRoot(dot(r - p, r - p));
+            border[q.owner[k] / 4] += exit * squareRoot(dot(r - p, r - p));
         }
       }
       const auto there = sum.area > 0.0 && plane.opposed && (whole || sum.volume > 0.0);
@@ -587,7 +590,8 @@ private:
           moments.areaMoment + coplane::choose(there, sum.areaMoment, Vec2Of<T>{none, none});
       moments.volumeMoment =
           moments.volumeMoment + coplane::choose(there, sum.volumeMoment, Vec2Of<T>{none, none});
-      ways += choose(there, border, none);
+      for (int f = 0; f < 2; ++f)
+        ways[f] += choose(there, border[f], none);
     }
   }
 

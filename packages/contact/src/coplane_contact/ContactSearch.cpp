@@ -322,7 +322,10 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.face[1] = pair.higher;
     plane.missedSearches = 0;
     const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
-    plane.exits = waysOut(a, b, planeA, planeB, x, normals, dimension_);
+    // While the faces lie in each other, what is a way out stays one, and the energy does not jump.
+    if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
+      plane.exits = waysOut(a, b, planeA, planeB, x, normals, dimension_);
+    plane.woke = known >= 0 && planes_(known).face[0] < 0;
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
     if (classic())
     {

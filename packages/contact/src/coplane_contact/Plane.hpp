@@ -91,11 +91,12 @@ struct alignas(64) Plane
   bool fresh : 1;                  ///< not evaluated since the slot was made
   bool foundLate : 1;              ///< was penetrated already when the search found it
   bool inherited : 1;              ///< took its history from living neighbours
-  bool slidesOn : 1;      ///< inherited, and some neighbour touches the same surface: a face beside
-  bool released : 1;      ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep : 1;       ///< deeper than the limit; force frozen
-  bool leads : 1;         ///< CommonPlane: the plane of its two elements acts on these faces
-  bool stiff : 1;         ///< stiffer than the elements behind its faces: they chatter on it
+  bool slidesOn : 1; ///< inherited, and some neighbour touches the same surface: a face beside
+  bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
+  bool tooDeep : 1;  ///< deeper than the limit; force frozen
+  bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
+  bool woke : 1;     ///< was no candidate until the last search, and has not been evaluated since
+  bool stiff : 1;    ///< stiffer than the elements behind its faces: they chatter on it
   std::uint8_t exits = 0; ///< bit 4 f + e: bodies can part over edge e of the outline of face f
   JointFit fit;           ///< stiffnesses of the law for this pair
 
@@ -129,7 +130,7 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION Plane()
       : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
         inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false),
-        stiff(false)
+        woke(false), stiff(false)
   {
   }
 

@@ -37,6 +37,7 @@ void forEachMember(Plane& plane, F&& f)
   plane.released = flag("released", plane.released);
   plane.tooDeep = flag("too_deep", plane.tooDeep);
   plane.leads = flag("leads", plane.leads);
+  plane.woke = flag("woke", plane.woke);
   plane.stiff = flag("stiff", plane.stiff);
   f("exits", plane.exits);
   f("fit_normal_stiffness", plane.fit.normalStiffness);

@@ -24,6 +24,16 @@ KOKKOS_INLINE_FUNCTION T spinAbout(const Vec3Of<T>& axis, const HalfStepFaceOf<T
   return moment / inertia;
 }
 
+/// Depth beyond which a first overlap is not taken for a contact; approach: of the faces in two
+/// steps [m].
+KOKKOS_INLINE_FUNCTION Real smallestStart(const Plane& plane, Real approach)
+{
+  if (plane.fresh || plane.woke)
+    return plane.depthLimit;
+  const Real start = deepestBirth * plane.depthLimit;
+  return approach > start ? approach : start;
+}
+
 /// Length of the shortest edge of both faces [m].
 template <class T>
 KOKKOS_INLINE_FUNCTION T shortestEdge(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b)
@@ -97,8 +107,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   const T overlap = choose(opposed, pair.overlap, T(0.0));
   const auto overlaps = overlap > options.areaMin * smaller(a.area, b.area);
   const T deepest = pair.mostClosure + permanent; // negative: nearest
-  const T ahead =
-      choose(overlaps, options.lookAhead * approachSpeed(pair.plane.normal, a, b), T(0.0));
+  const T speed = choose(overlaps, approachSpeed(pair.plane.normal, a, b), T(0.0));
+  const T ahead = options.lookAhead * speed;
   const auto inContact =
       done && overlaps && pair.moments.area > 0.0 && (bonded || pair.moments.volume > 0.0);
 
@@ -112,20 +122,35 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
             Plane& plane = *planes.plane[i];
             plane.overlap = lane(overlap, i);
             plane.foundLate = plane.fresh && !plane.declared && !plane.born && lane(inContact, i);
-            plane.released = false;
             if (!lane(inContact, i))
+            {
+              plane.released = false;
+              return 0;
+            }
+            const bool carried = plane.area > 0;
+            if (!carried && !plane.declared && !plane.slidesOn && !plane.history.bonded)
+            {
+              // A contact begins at the surface, and begins there anew after its faces had no area
+              // in common. Faces that come to share area while one lies deep behind the other did
+              // not meet: they carry nothing until they share none. They have no energy yet, so
+              // this costs none.
+              const Real start = detail::smallestStart(plane, 2 * dt * lane(speed, i));
+              const Real explained = plane.born || plane.inherited ? plane.closure : 0;
+              plane.released = plane.released || lane(deepest, i) - explained > start;
+            }
+            if (plane.released)
               return 0;
             if (!(plane.birthArea[0] > 0))
             {
               plane.birthArea[0] = lane(a.area, i);
               plane.birthArea[1] = lane(b.area, i);
             }
-            if (stepE_planeExists(plane))
+            if (stepE_planeExists(plane) && (carried || !plane.woke))
               return 1;
             // Overlap that exists when a pair is found has no energy.
             stepF_createPlane(plane, lane(pair.plane.normal, i), plane.offset - lane(deepest, i));
             plane.maximumBefore = plane.history.maximumClosure;
-            return !(plane.foundLate && !plane.inherited);
+            return !((plane.foundLate || plane.woke) && !plane.inherited);
           }) > 0.0;
 
   if (anyOf(touching))
@@ -304,7 +329,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   }
 
   // The overlap counts for the stable step as soon as the faces could touch within the look-ahead.
-  const auto near = overlaps && -pair.mostClosure <= ahead + 1e-8 * squareRoot(overlap);
+  const auto near = overlaps && -pair.mostClosure <= ahead + 1e-8 * squareRoot(overlap) &&
+                    !(planes.each([](const Plane& p) { return p.released; }) > 0.0);
   T nodeArea{};
   if (anyOf(near))
   {
@@ -326,7 +352,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       if (plane.overlap > 0)
         plane.gap = plane.offset - lane(deepest, i);
     }
-    plane.fresh = false;
+    plane.fresh = plane.woke = false;
     plane.nodeStiffness =
         lane(near, i)
             ? float(plane.weightInStep() * planes.law[i]->stiffnessBound(plane.fit, plane.history) *
