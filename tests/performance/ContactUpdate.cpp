@@ -101,7 +101,7 @@ void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
   for (auto _ : state)
   {
     contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt);
-    contact.addForces(x, f, stiffness);
+    contact.addForces(f, stiffness);
     benchmark::DoNotOptimize(f.data());
   }
   std::int64_t planes = 0;
