@@ -19,6 +19,10 @@ class Scene:
     rider: int  # position of the part that is meshed finer or split
     along: int = 0  # axis along which the slab is cut
     scale: tuple = None  # length and speed against which differences count; none: the largest of the original
+    frequency: float = 0.0  # of the bounce on the joint [rad/s]: a step of the slab makes a speed of the step times it
+    mesh: float = 1e-2  # bound of what another mesh may change
+    finer: float = 1e-2  # the same of a rider that is meshed twice as fine
+    thorough: bool = False  # told in every way also without `all`
 
     @property
     def dimension(self):
@@ -26,6 +30,11 @@ class Scene:
 
     def problem(self):
         return Problem(copy.deepcopy(self.recipe), copy.deepcopy(self.deck))
+
+
+def inertia(n):
+    """By how much n elements in a row, with masses at the nodes, have more moment of inertia than 2 n: 1 + 2 / n^2 over 1 + 1 / (2 n^2), less 1."""
+    return (1 + 2 / n**2) / (1 + 1 / (2 * n**2)) - 1
 
 
 def box(block, low, size, divisions, **other):
@@ -65,7 +74,7 @@ def slide(dimension, friction):
     recipe = {"dimension": dimension, "parts": parts, "node_sets": {"slab": {"block": "slab"}}}
     deck = deck_of("a block slides on a slab", 1e8, 1e7, end, 8e-5, ["slab", "rider"], friction, damping=0.5,
                    initial=[{"block": "rider", "velocity": velocity}])
-    return Scene(recipe, deck, ["rider"], 0, 1)
+    return Scene(recipe, deck, ["rider"], 0, 1, frequency=(1e7 / (DENSITY * 0.1)) ** 0.5, thorough=dimension == 2 and friction > 0)
 
 
 def corner(dimension, friction, end=0.03, spin=3.0, height=0.005):
@@ -82,7 +91,9 @@ def corner(dimension, friction, end=0.03, spin=3.0, height=0.005):
     velocity = [1.0, -2.0, 0.0] if dimension == 2 else [1.0, -2.0, 0.4]
     deck = deck_of("a corner is thrown on a slab", 4e9, 5e8, end, 1.2e-5, ["slab", "rider"], friction,
                    initial=[{"block": "rider", "velocity": velocity, "angular_velocity": omega, "center": center}])
-    return Scene(recipe, deck, ["rider"], 0, 1)
+    # Friction at a corner acts at one point of each face, so that it depends on the faces; a slab of triangles has other ones.
+    return Scene(recipe, deck, ["rider"], 0, 1, mesh=5e-2 if friction else 1e-2, finer=inertia(4 if dimension == 2 else 3),
+                 thorough=dimension == 3 and friction > 0)
 
 
 def stack(dimension, rest):
@@ -105,7 +116,9 @@ def stack(dimension, rest):
     else:
         deck["damping"] = {"mass": 500.0}
     closure = 3 * 0.2 * DENSITY * G / 1e9  # of the lowest joint, and the speed of a fall from that height
-    return Scene(recipe, deck, names, 0, 2, scale=(closure, (2 * G * closure) ** 0.5))
+    # The mean displacement of nodes with masses is that of the body to rho g h^2 / (6 E) in elements of height h.
+    mesh = DENSITY * G * 0.1**2 / (6 * 1e8) / closure
+    return Scene(recipe, deck, names, 0, 2, scale=(closure, (2 * G * closure) ** 0.5), mesh=mesh, finer=mesh, thorough=dimension == 2 and not rest)
 
 
 def bars(dimension):
@@ -119,7 +132,8 @@ def bars(dimension):
     recipe = {"dimension": dimension, "parts": parts}
     deck = deck_of("two bars meet", 1e9, 2e10, 5e-3, 1e-5, ["left", "right"], poisson=0.0, fixed=None, gravity=False,
                    initial=[{"block": "left", "velocity": [1.0, 0.0, 0.0]}, {"block": "right", "velocity": [-1.0, 0.0, 0.0]}])
-    return Scene(recipe, deck, ["left", "right"], 0, 1, along=1)
+    # Bulk viscosity and the front, which is some elements long, take a share of the motion that halves with the elements.
+    return Scene(recipe, deck, ["left", "right"], 0, 1, along=1, mesh=2e-2, finer=2e-2)
 
 
 def spin(dimension, friction):
@@ -127,6 +141,7 @@ def spin(dimension, friction):
     if dimension == 2:
         scene = corner(2, friction, end=0.12, spin=-15.0, height=0.02)
         scene.deck["title"] = "a block tumbles over slabs"
+        scene.finer *= 2  # two hits
         return scene
     parts = [
         box("slab", [-0.42, -0.1, -0.35], [0.84, 0.1, 0.7], [14, 1, 7]), box("rider", [-0.13, 0.0, -0.1], [0.3, 0.1, 0.2], [4, 2, 3]),
@@ -134,7 +149,7 @@ def spin(dimension, friction):
     recipe = {"dimension": 3, "parts": parts, "node_sets": {"slab": {"block": "slab"}}}
     deck = deck_of("a plate turns over slabs", 1e8, 1e7, 0.2, 8e-5, ["slab", "rider"], friction, damping=0.5,
                    initial=[{"block": "rider", "velocity": [0.3, 0.0, 0.1], "angular_velocity": [0.0, 10.0, 0.0], "center": [0.02, 0.05, 0.0]}])
-    return Scene(recipe, deck, ["rider"], 0, 1)
+    return Scene(recipe, deck, ["rider"], 0, 1, frequency=(1e7 / (DENSITY * 0.1)) ** 0.5, finer=inertia(2))
 
 
 SCENES = {
