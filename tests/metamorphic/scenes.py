@@ -112,12 +112,14 @@ def stack(dimension, rest):
     if rest:
         deck["contact"]["pairs"] = [{"blocks": ["*", "*"], "declared": True}]
         deck["initial"] = [{"block": name, "stress": [0.0] * 6, "stress_gradient": [0.0, DENSITY * G, 0.0, 0.0, 0.0, 0.0],
-                            "stress_axis": [0.0, 1.0, 0.0], "stress_point": [0.0, 0.6, 0.0]} for name in names]
+                            "stress_axis": [0.0, 1.0, 0.0], "stress_point": [0.0, 0.6, 0.0]} for name in ("slab", *names)]
     else:
         deck["damping"] = {"mass": 500.0}
     closure = 3 * 0.2 * DENSITY * G / 1e9  # of the lowest joint, and the speed of a fall from that height
     # The mean displacement of nodes with masses is that of the body to rho g h^2 / (6 E) in elements of height h.
-    mesh = DENSITY * G * 0.1**2 / (6 * 1e8) / closure
+    # At rest: the traction of a declared joint is the mean of the stresses in both elements, whose middles are off by h / 8 together where one
+    # is half as high; what is not in equilibrium swings out twice as far.
+    mesh = 2 * (0.1 / 8) / 0.6 if rest else DENSITY * G * 0.1**2 / (6 * 1e8) / closure
     return Scene(recipe, deck, names, 0, 2, scale=(closure, (2 * G * closure) ** 0.5), mesh=mesh, finer=mesh, thorough=dimension == 2 and not rest)
 
 
@@ -136,15 +138,15 @@ def bars(dimension):
     return Scene(recipe, deck, ["left", "right"], 0, 1, along=1, mesh=2e-2, finer=2e-2)
 
 
-def spin(dimension, friction):
-    """A plate turns about the vertical on a slab, over the middle; in 2D a block tumbles over it and hits it with several corners."""
+def spin(dimension, friction, gap=1e-6):
+    """A plate turns about the vertical on a slab, over the middle, falling from a hair above it; in 2D a block tumbles over it and hits it with several corners."""
     if dimension == 2:
         scene = corner(2, friction, end=0.12, spin=-15.0, height=0.02)
         scene.deck["title"] = "a block tumbles over slabs"
         scene.finer *= 2  # two hits
         return scene
     parts = [
-        box("slab", [-0.42, -0.1, -0.35], [0.84, 0.1, 0.7], [14, 1, 7]), box("rider", [-0.13, 0.0, -0.1], [0.3, 0.1, 0.2], [4, 2, 3]),
+        box("slab", [-0.42, -0.1, -0.35], [0.84, 0.1, 0.7], [14, 1, 7]), box("rider", [-0.13, gap, -0.1], [0.3, 0.1, 0.2], [4, 2, 3]),
     ]
     recipe = {"dimension": 3, "parts": parts, "node_sets": {"slab": {"block": "slab"}}}
     deck = deck_of("a plate turns over slabs", 1e8, 1e7, 0.2, 8e-5, ["slab", "rider"], friction, damping=0.5,
