@@ -108,7 +108,7 @@ def look(words, problem, report=False):
 
 
 def cut(parts, open_by=0.0, step=0.0):
-    """The slab (or the bar) in flush parts with the same grid lines, a hair open or alternately raised and lowered."""
+    """The slab (or the bar) in flush parts with the same grid lines, a hair open, or every second one lower by twice the step."""
     problem = scene.problem()
     whole = problem.recipe["parts"].pop(scene.slab)
     axis, up = scene.along, 1 - scene.along
@@ -121,7 +121,7 @@ def cut(parts, open_by=0.0, step=0.0):
         piece["size"][axis] = size
         # What stays shut lies at the middle: both halves give way to the gap.
         piece["min"][axis] = whole["min"][axis] + i * size + open_by * (i - (parts - 1) / 2)
-        piece["min"][up] += step * (-1) ** i
+        piece["min"][up] -= 2 * step * (i % 2)
         pieces.append(piece)
     problem.recipe["parts"][scene.slab : scene.slab] = pieces
     return problem
@@ -212,7 +212,7 @@ if scene.along == 0:
         for step in (1e-6, 1e-5, 1e-4):
             lifted = 0.0 if kind == "rest" else 2 * step
             shaken = 0.0 if kind == "rest" else lifted * scene.frequency / speed
-            near(f"7 slabs with steps of {step:g} m", cut(7, step=step), flush + lifted / length, flush + shaken,
+            near(f"7 slabs with steps of {2 * step:g} m", cut(7, step=step), flush + lifted / length, flush + shaken,
                  report=kind == "tumble" and step > 1e-6)
 else:
     near("2 flush strips", cut(2), 1e-3)
