@@ -212,8 +212,9 @@ if scene.along == 0:
         for step in (1e-6, 1e-5, 1e-4):
             lifted = 0.0 if kind == "rest" else 2 * step
             shaken = 0.0 if kind == "rest" else lifted * scene.frequency / speed
-            near(f"7 slabs with steps of {2 * step:g} m", cut(7, step=step), flush + lifted / length, flush + shaken,
-                 report=kind == "tumble" and step > 1e-6)
+            # What comes back from a slab that is lower by s is late by s (1 / v_in + 1 / v_out), thus lower by at most 2 s.
+            near(f"7 slabs with steps of {2 * step:g} m", cut(7, step=step), flush + (2 if thrown else 1) * lifted / length, flush + shaken,
+                 report=(kind == "tumble" and step > 1e-6) or (kind == "spin" and rough and step > 1e-5))
 else:
     near("2 flush strips", cut(2), 1e-3)
 

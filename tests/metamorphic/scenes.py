@@ -139,7 +139,9 @@ def bars(dimension):
 
 
 def spin(dimension, friction, gap=1e-6):
-    """A plate turns about the vertical on a slab, over the middle, falling from a hair above it; in 2D a block tumbles over it and hits it with several corners."""
+    """A plate turns about the vertical on a slab, over the middle, falling from a hair above it; in 2D a block tumbles over
+    it and hits it with several corners.
+    """
     if dimension == 2:
         scene = corner(2, friction, end=0.12, spin=-15.0, height=0.02)
         scene.deck["title"] = "a block tumbles over slabs"

@@ -36,6 +36,7 @@ def table(found):
 
 if __name__ == "__main__":
     found = rows(sys.argv[1])
+    sys.path.insert(0, str(README.parents[1] / "support"))
     from scenes import SCENES  # in their order
 
     text = table({name: found[name] for name in SCENES if name in found})
