@@ -41,14 +41,14 @@ class Case:
 
     def run(
         self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), change_mesh=None, joints=None,
-        **tolerances
+        edit_mesh=None, **tolerances
     ):
         """Makes the mesh, runs the deck, demands exit code 0 and checks conservation.
 
         Tolerances: see conservation().
         """
         result = self.attempt(
-            name, recipe, deck, ranks, threads, backend, options, change_mesh=change_mesh, joints=joints
+            name, recipe, deck, ranks, threads, backend, options, change_mesh=change_mesh, joints=joints, edit_mesh=edit_mesh
         )
         if result.code:
             sys.exit(f"{self.name}, run '{name}': exit code {result.code}\n{result.output}")
@@ -68,11 +68,11 @@ class Case:
 
     def attempt(
         self, name, recipe, deck, ranks=1, threads=1, backend="serial", options=(), prefix=(), change_mesh=None,
-        joints=None,
+        joints=None, edit_mesh=None,
     ):
         """The same without demands on how the run ends. `recipe` None: no mesh is made. `change_mesh`
         gets the mesh's coordinates (node, axis) and returns those that are used. `joints`: a recipe of
-        joints that are opened in the mesh.
+        joints that are opened in the mesh. `edit_mesh` gets the path of the mesh and may change all of it.
         """
         folder = pathlib.Path(name).resolve()
         shutil.rmtree(folder, ignore_errors=True)
@@ -86,6 +86,8 @@ class Case:
             (folder / "split.txt").write_text(split)
         if change_mesh is not None:
             program.change_coordinates(str(folder / "mesh.e"), change_mesh)
+        if edit_mesh is not None:
+            edit_mesh(str(folder / "mesh.e"))
         documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")
         arguments = ["run.yaml", "--backend", backend, "--threads", str(threads), *options]
         code, output = program.run_program(arguments, folder, ranks, prefix)

@@ -77,8 +77,9 @@ def turned(recipe, deck, angles=0, offset=(0, 0, 0), velocity=(0, 0, 0)):
 
 
 def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
-    """The deck of a problem whose mesh is turned by the matrix, then moved, with `velocity` added to all."""
+    """The deck of a problem whose mesh is turned (or mirrored) by the matrix, then moved, with `velocity` added to all."""
     deck = copy.deepcopy(deck)
+    hand = round(numpy.linalg.det(matrix))  # spins are no vectors: a mirror turns them the other way
 
     def turn(vector):
         return [float(value) for value in matrix @ numpy.array(vector, float)]
@@ -92,12 +93,15 @@ def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
             v + float(w) for v, w in zip(turn(item.get("velocity", [0, 0, 0])), velocity)
         ]
         if "angular_velocity" in item:
-            item["angular_velocity"] = turn(item["angular_velocity"])
+            item["angular_velocity"] = [hand * value for value in turn(item["angular_velocity"])]
             item["center"] = [c + float(o) for c, o in zip(turn(item.get("center", [0, 0, 0])), offset)]
-        if "stress" in item:
-            xx, yy, zz, xy, yz, zx = item["stress"]
+        for key in {"stress", "stress_gradient"} & set(item):
+            xx, yy, zz, xy, yz, zx = item[key]
             stress = matrix @ numpy.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]) @ matrix.T
-            item["stress"] = [float(stress[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
+            item[key] = [float(stress[i, j]) for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))]
+        if "stress_gradient" in item:
+            item["stress_axis"] = turn(item.get("stress_axis", [0, 1, 0]))
+            item["stress_point"] = [c + float(o) for c, o in zip(turn(item.get("stress_point", [0, 0, 0])), offset)]
     if moving:
         deck["initial"] = list(moving.values())
     if "gravity" in deck:
@@ -105,4 +109,6 @@ def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
     for condition in deck.get("conditions", []):
         if "normal" in condition:
             condition["normal"] = turn(condition["normal"])
+        if condition["type"] == "fixed" and any(velocity):
+            condition.update(type="velocity", value=[float(value) for value in velocity])
     return deck
