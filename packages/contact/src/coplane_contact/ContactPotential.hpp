@@ -70,7 +70,7 @@ struct ContactPotentialScale
   Real oneBorder = 0.25;
   /// Where the area in contact is narrower than this many closures between edges over which the
   /// bodies can leave each other, sideways is the shorter way out: between these nothing is left.
-  Real wayOutFrom = 0.5, wayOutTo = 2;
+  Real wayOutFrom = 0.25, wayOutTo = 1;
 };
 
 namespace detail
