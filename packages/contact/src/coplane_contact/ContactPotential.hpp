@@ -203,13 +203,16 @@ public:
     using namespace branchFree;
     density.square = 0.5 * stiffness;
     density.linear = density.constant = T(0.0);
-    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && moments.squares > 0.0;
+    // A strip between an edge of each: twice its length. Faces that share most of what they have
+    // are no strip, however deep they lie in each other.
+    const T shared = overlap / size_;
+    const T both = 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
+                   (1.0 - SmoothStep<T>(4.0 * shared - 2.0).value);
+    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && shared < 0.75 && moments.squares > 0.0;
     if (!anyOf(bounded))
       return T(1.0);
     const T& v = moments.volume;
     const T& s = moments.squares;
-    // A strip between an edge of each: twice its length.
-    const T both = 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]);
     const T ratio = v * v * v / (s * s * both);
     const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
     const SmoothStep<T> share((ratio - scale_.wayOutFrom) * width);
