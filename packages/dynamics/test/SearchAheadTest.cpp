@@ -9,7 +9,8 @@ namespace coplane
 TEST(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
 {
   // Waves run at 1095 m/s through elements of 0.5 m: by motion a step is 0.125 ms, in which 800 m/s
-  // are 0.1 m, twice the skin of slow bodies. From gaps of all parts of a step, as the first step closes them too.
+  // are 0.1 m, twice the skin of slow bodies. From gaps of all parts of a step, as the first step
+  // closes them too.
   const Comm comm;
   for (const int dimension : {2, 3})
     for (const Real gap : {0.06, 0.15, 0.26, 0.3, 0.34, 0.38})
