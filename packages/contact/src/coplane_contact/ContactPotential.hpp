@@ -208,12 +208,12 @@ public:
     const T shared = overlap / size_;
     const T both = 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
                    (1.0 - SmoothStep<T>(4.0 * shared - 2.0).value);
-    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && shared < 0.75 && moments.squares > 0.0;
+    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && both > 0.0 && moments.squares > 0.0;
     if (!anyOf(bounded))
       return T(1.0);
     const T& v = moments.volume;
     const T& s = moments.squares;
-    const T ratio = v * v * v / (s * s * both);
+    const T ratio = smaller(v * v * v / (s * s * both), T(scale_.wayOutTo));
     const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
     const SmoothStep<T> share((ratio - scale_.wayOutFrom) * width);
     const T slope = share.slope * width * ratio;

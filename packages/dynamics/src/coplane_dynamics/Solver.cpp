@@ -410,11 +410,13 @@ void Solver::planNextCycle(bool first)
     step = growth_.next(step, clock_.nextStep);
   largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
   if (step * mostCycles < model_.time.end)
-    failOnAllRanks(ExitCode::Computation,
-                   "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
-                   "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
-                   "time.maximum_step, and at elements that are far too small or stiff.",
-                   clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
+    failOnAllRanks(
+        ExitCode::Computation,
+        "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
+        "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
+        "time.maximum_step, elements that are far too small or stiff, and velocities that "
+        "are far too large.",
+        clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
   attempt([&] { kick(step); });
   clock_.nextStep = step;
   if (first) // energies at t = 0 are those of the given velocities
