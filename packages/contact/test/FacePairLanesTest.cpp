@@ -54,7 +54,9 @@ struct PairTable
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), u(random)});
       plane.depthLimit = 1;
-      plane.exits = std::uint8_t(random() & random());
+      plane.turns = std::uint8_t(random());
+      plane.exits = std::uint8_t(plane.turns & random());
+      plane.covered = std::uint8_t(random() & random() & random());
       plane.fit.normalStiffness = 10;
       plane.fit.shearStiffness = 5;
       if (random() % 2 == 0)

@@ -21,21 +21,27 @@ struct Evaluation
   Vec3 gradient[2][4];
 
   Evaluation(const FaceNodes& a, const FaceNodes& b, Real stiffness, Real offset,
-             const std::array<Real, 2>& birth = {0, 0}, unsigned exits = 0, Real oneEdge = 1e-3)
+             const std::array<Real, 2>& birth = {0, 0}, unsigned exits = 0, Real oneEdge = 1e-3,
+             Real inverseDepth = 0)
   {
     const HalfStepFace faceA = stepA_faceAtEnd<Dim>(a), faceB = stepA_faceAtEnd<Dim>(b);
-    ContactPotentialScale scale;
+    ContactPotentialScale scale(0.1);
     scale.oneEdge = oneEdge;
+    if (oneEdge == 0) // sharing is no gradient
+      scale.oneBorder = 0;
     PairPotential<Dim, Real> pair(faceA, faceB, scale);
     xi = -dot(faceA.normal, faceB.normal);
     if (!pair.plane.opposed)
       return;
-    pair.meet(offset, false, [&](int owner) { return Real(exits >> owner & 1); });
+    EdgesOf<Real> edges;
+    for (int e = 0; e < 8; ++e)
+      edges.exits[e] = edges.turns[e] = exits >> e & 1;
+    pair.meet(offset, false, edges);
     if (!(pair.moments.volume > 0))
       return;
     EnergyDensity<Real> density;
-    share = pair.shareOfWayOut(stiffness, density);
-    energy = .5 * share * stiffness * pair.moments.squares;
+    energy = pair.press(stiffness, inverseDepth, density);
+    share = pair.wayOut;
     force = pair.differentiate(energy, density, birth[0] > 0 ? birth[0] : faceA.area,
                                birth[1] > 0 ? birth[1] : faceB.area);
     area = pair.moments.area;
@@ -85,10 +91,11 @@ void expectForce(const Evaluation<Dim>& e, const FaceNodes (&faces)[2], int f, i
 
 /// Largest difference between the gradient and central differences, over the largest entry.
 template <int Dim>
-Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsigned exits = 0)
+Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsigned exits = 0,
+                     Real inverseDepth = 0)
 {
   const std::array<Real, 2> birth = {1.3 * areaOf<Dim>(a), .8 * areaOf<Dim>(b)};
-  const Evaluation<Dim> e(a, b, 1, offset, birth, exits, 0);
+  const Evaluation<Dim> e(a, b, 1, offset, birth, exits, 0, inverseDepth);
   Real largest = 0, worst = 0;
   for (int f = 0; f < 2; ++f)
     for (int i = 0; i < (f == 0 ? a : b).count; ++i)
@@ -99,7 +106,8 @@ Real errorOfGradient(const FaceNodes& a, const FaceNodes& b, Real offset, unsign
         {
           FaceNodes faces[2] = {a, b};
           faces[f].x[i][c] += h;
-          return Evaluation<Dim>(faces[0], faces[1], 1, offset, birth, exits, 0).energy;
+          return Evaluation<Dim>(faces[0], faces[1], 1, offset, birth, exits, 0, inverseDepth)
+              .energy;
         };
         const Real h = 3e-5;
         const Real slope = (8 * (at(h) - at(-h)) - (at(2 * h) - at(-2 * h))) / (12 * h);
@@ -179,8 +187,9 @@ TEST(ContactPotential, gradientIsThatOfTheEnergy)
       if (!(Evaluation<3>(pair.a, pair.b, 1, 0).energy > 1e-4))
         continue;
       ++pairs;
-      const Real error = errorOfGradient<3>(pair.a, pair.b, 0);
-      EXPECT_LT(error, 3e-5) << "warp " << warp << " pair " << pairs;
+      for (const Real inverseDepth : {0., 4.})
+        EXPECT_LT((errorOfGradient<3>(pair.a, pair.b, 0, 0, inverseDepth)), 3e-5)
+            << "warp " << warp << " pair " << pairs;
     }
   }
 }
@@ -202,10 +211,33 @@ TEST(ContactPotential, gradientInTwoDimensionsAlsoWhereAWayOutIsNear)
       continue;
     ++pairs;
     part += e.share > .01 && e.share < .99;
-    const Real error = errorOfGradient<2>(a, b, 0, exits);
-    EXPECT_LT(error, 1e-5) << pairs;
+    for (const Real inverseDepth : {0., 15.})
+      EXPECT_LT((errorOfGradient<2>(a, b, 0, exits, inverseDepth)), 1e-5) << pairs;
   }
   EXPECT_GT(part, 100);
+}
+
+TEST(ContactPotential, gradientInThreeDimensionsAlsoWhereAWayOutIsNear)
+{
+  std::mt19937 random(8);
+  std::uniform_real_distribution<Real> u(0, 1);
+  int pairs = 0, part = 0;
+  while (part < 300)
+  {
+    RandomPair pair = randomPair(random, .1 * u(random));
+    const Real deep = .3 * u(random);
+    for (int i = 0; i < pair.b.count; ++i)
+      pair.b.x[i] -= deep * Vec3{0, 0, 1};
+    const unsigned exits = unsigned(256 * u(random));
+    const Evaluation<3> e(pair.a, pair.b, 1, 0, {0, 0}, exits);
+    ASSERT_LT(++pairs, 100000);
+    if (!(e.energy > 1e-4) || !(e.share > .02 && e.share < .98))
+      continue;
+    ++part;
+    for (const Real inverseDepth : {0., 4.})
+      EXPECT_LT((errorOfGradient<3>(pair.a, pair.b, 0, exits, inverseDepth)), 3e-5)
+          << "share " << e.share;
+  }
 }
 
 TEST(ContactPotential, forcesAreNumbersWhereAStripBecomesAFace)

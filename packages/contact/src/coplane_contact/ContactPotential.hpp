@@ -3,6 +3,8 @@
 #include <coplane_contact/AreaOfContact.hpp>
 #include <coplane_contact/FacePairSteps.hpp>
 
+#include <type_traits>
+
 // The energy of a pair of faces and its gradient (docs/theory/contact-potential.md). Everything is
 // a function of the positions at one time, so the forces are those of a potential to round-off. T
 // is Real, or Lanes for several pairs side by side.
@@ -61,26 +63,50 @@ struct ContactMoments
 struct ContactPotentialScale
 {
   /// The energy falls to zero between these values of -n0.n1, so that pairs come and go smoothly.
-  Real opposedFrom = 0.1, opposedTo = 0.3;
+  Real opposedFrom, opposedTo;
   /// Edges of both faces nearer than this fraction of a face across them count as one, and share
   /// what belongs to them.
   Real oneEdge = 1e-3;
-  /// The same for the borders of two bodies that lie beside each other: a block that is set a
-  /// little off another one, or slides a little, keeps the area it has.
-  Real oneBorder = 0.25;
+  /// The same for the borders of two bodies whose faces are pressed together all over: a block that
+  /// is set a little off another one is not pushed off it.
+  Real oneBorder = 0.01;
   /// Where the area in contact is narrower than this many closures between edges over which the
   /// bodies can leave each other, sideways is the shorter way out: between these nothing is left.
   Real wayOutFrom = 0.25, wayOutTo = 1;
+
+  KOKKOS_INLINE_FUNCTION explicit ContactPotentialScale(Real cosOpposed)
+      : opposedFrom(cosOpposed), opposedTo(3 * cosOpposed)
+  {
+    if (cosOpposed < 0.004)
+      opposedTo = cosOpposed + 0.008;
+    if (cosOpposed > 0.2)
+      opposedTo = 0.5 * (1 + cosOpposed);
+  }
+};
+
+/// A penalty has to carry what bodies can bear: its energy is (k/2) c^2 (1 + part z^4 / (1 + z^4))
+/// with z = c / depth. At c = 0.1 of an element its pressure is 1 % above k c, at the depth 6
+/// times.
+struct PenaltyHardening
+{
+  static constexpr Real part = 5;
+};
+
+/// What the edges of both outlines are, 1 or 0 each, as in Plane: 0..3 of face 0, 4..7 of face 1.
+template <class T>
+struct EdgesOf
+{
+  T exits[8] = {}, turns[8] = {}, covered[8] = {};
 };
 
 namespace detail
 {
 /// A polygon whose sides know whose edge they are: 0..3 an edge of the outline of face 0, 4..7 of
-/// face 1, noEdge: neither.
+/// face 1, closureLine: where the closure is zero, noEdge: none of these.
 template <class T>
 struct OwnedSides
 {
-  static constexpr int noEdge = -1;
+  static constexpr int noEdge = -1, closureLine = -2;
   PolygonSides<T> sides;
   int owner[PolygonSides<T>::capacity];
 };
@@ -157,6 +183,8 @@ public:
   T overlap{};               ///< whole overlap of the shadows [m^2]
   T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
   ContactMoments<T> moments; ///< of the part in contact
+  T wayOut = T(1.0);         ///< chi
+  Mask hidden{false};        ///< the part in contact begins at covered edges only
   T ways[2]{};               ///< length of its border over which each body can be left sideways [m]
   T opposedness{};           ///< phi
   T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
@@ -165,9 +193,7 @@ public:
   /// Overlap of the shadows, closures in it, the part in contact.
   /// @param offset gap at which the closure is zero [m]
   /// @param whole the whole overlap carries: a bond
-  /// @param exits edges over which bodies can part: exits(0..7) is 1 or 0
-  template <class Exits>
-  KOKKOS_INLINE_FUNCTION void meet(const T& offset, const Mask& whole, const Exits& exits)
+  KOKKOS_INLINE_FUNCTION void meet(const T& offset, const Mask& whole, const EdgesOf<T>& edges)
   {
     using namespace branchFree;
     const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
@@ -182,8 +208,7 @@ public:
     opposednessSlope_ = opposed.slope * (1.0 / (scale_.opposedTo - scale_.opposedFrom));
     const T least = smaller(a.area, b.area);
     size_ = least;
-    for (int owner = 0; owner < 8; ++owner)
-      exit_[owner] = exits(owner);
+    edges_ = edges;
     findOverlap();
     pressAll(whole);
     if constexpr (Dim == 3 && widthOf<T> == 1)
@@ -192,34 +217,43 @@ public:
         findPieces();
         pressAll(whole);
       }
+    findStrip(whole);
+    hidden = !whole && ((coveredSides_[0] > 0.0 && openSides_[0] == 0.0) ||
+                        (coveredSides_[1] > 0.0 && openSides_[1] == 0.0));
   }
 
-  /// Where the way out is sideways, over an edge of each body, nothing is in contact: the part of
-  /// the energy k/2 Int c^2 that
-  /// counts, and what follows for the density. Uniform closure c over a strip of width w between
-  /// such edges: a function of w / c.
-  KOKKOS_INLINE_FUNCTION T shareOfWayOut(const T& stiffness, EnergyDensity<T>& density) const
+  /// The law: k/2 chi H Int c^2, as the density whose integral changes as that does when the
+  /// moments change, and its value.
+  /// chi: where the way out is sideways, over an edge of each body, nothing is in contact. Uniform
+  /// closure c over a strip of width w between such edges: a function of w / c.
+  /// H: PenaltyHardening.
+  /// @param inverseDepth 1 / depth, 0: no hardening [1/m]
+  KOKKOS_INLINE_FUNCTION T press(const T& stiffness, const T& inverseDepth,
+                                 EnergyDensity<T>& density)
   {
     using namespace branchFree;
-    density.square = 0.5 * stiffness;
-    density.linear = density.constant = T(0.0);
-    // A strip between an edge of each: twice its length. Faces that share most of what they have
-    // are no strip, however deep they lie in each other.
-    const T shared = overlap / size_;
-    const T both = 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
-                   (1.0 - SmoothStep<T>(4.0 * shared - 2.0).value);
-    const auto bounded = ways[0] > 0.0 && ways[1] > 0.0 && both > 0.0 && moments.squares > 0.0;
-    if (!anyOf(bounded))
-      return T(1.0);
     const T& v = moments.volume;
     const T& s = moments.squares;
-    const T ratio = smaller(v * v * v / (s * s * both), T(scale_.wayOutTo));
-    const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
-    const SmoothStep<T> share((ratio - scale_.wayOutFrom) * width);
-    const T slope = share.slope * width * ratio;
-    density.square = choose(bounded, 0.5 * stiffness * (share.value - 2.0 * slope), density.square);
-    density.linear = choose(bounded, 1.5 * stiffness * s * slope / v, density.linear);
-    return choose(bounded, share.value, T(1.0));
+    const T mean = s / v;
+    const T z = inverseDepth * mean, z4 = z * z * z * z, grown = z4 / (1.0 + z4);
+    const T hard = 1.0 + PenaltyHardening::part * grown;
+    const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
+    wayOut = T(1.0);
+    T slope(0.0);
+    if constexpr (widthOf<T> == 1)
+      if (strip_)
+      {
+        const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
+        const Real ratio = v * v * v / (s * s * lengthOfStrip());
+        const SmoothStep<Real> share((ratio - scale_.wayOutFrom) * width);
+        wayOut = share.value;
+        slope = share.slope * width * ratio;
+        alongStrip_ = -0.5 * stiffness * hard * s * slope;
+      }
+    density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - 2.0 * slope * hard);
+    density.linear = 0.5 * stiffness * mean * (3.0 * slope * hard - wayOut * hardSlope);
+    density.constant = T(0.0);
+    return 0.5 * stiffness * wayOut * hard * s;
   }
 
   /// Gradient of gamma phi (energy), where the energy is the integral of a density over the part in
@@ -232,12 +266,16 @@ public:
     using namespace branchFree;
     const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
     materialArea = 0.5 * (birth0 / a.area + birth1 / b.area);
-    const T push = 2.0 * density.square * moments.volume + density.linear * moments.area;
-    const Vec2Of<T> first =
+    T push = 2.0 * density.square * moments.volume + density.linear * moments.area;
+    Vec2Of<T> first =
         (2.0 * density.square) * moments.volumeMoment + density.linear * moments.areaMoment;
     Vec2Of<T> rim[2][4];
     for (int i = 0; i < pieces_; ++i)
       addRims(piece_[i], density, rim);
+    const T scale = materialArea * opposedness;
+    if constexpr (widthOf<T> == 1)
+      if (alongStrip_ != 0)
+        addStrip(scale, push, first, rim);
 
     // Through the normal of the plane: turning it at fixed nodes is turning all nodes and normals
     // back.
@@ -248,7 +286,6 @@ public:
         turn = turn - shadow[f].height[i] * rim[f][i];
     turn = (0.5 * inverse) * turn;
 
-    const T scale = materialArea * opposedness;
     const T birth[2] = {birth0, birth1};
     for (int f = 0; f < 2; ++f)
     {
@@ -505,12 +542,18 @@ private:
   {
     moments = {};
     ways[0] = ways[1] = T(0.0);
+    for (int f = 0; f < 2; ++f)
+      coveredSides_[f] = openSides_[f] = T(0.0);
     for (int i = 0; i < pieces_; ++i)
-      press(piece_[i], whole);
+    {
+      if constexpr (branchFree::widthOf<T> == 1)
+        whole_[i] = piece_[i];
+      cutAndIntegrate(piece_[i], whole);
+    }
   }
 
   /// Cuts off what is not closed, and integrates.
-  KOKKOS_INLINE_FUNCTION void press(Owned& q, const Mask& whole)
+  KOKKOS_INLINE_FUNCTION void cutAndIntegrate(Owned& q, const Mask& whole)
   {
     using namespace branchFree;
     if constexpr (Dim == 2)
@@ -525,12 +568,12 @@ private:
       if (!whole && c0 < 0)
       {
         from = cut;
-        q.owner[0] = Owned::noEdge;
+        q.owner[0] = Owned::closureLine;
       }
       if (!whole && c1 < 0)
       {
         to = cut;
-        q.owner[1] = Owned::noEdge;
+        q.owner[1] = Owned::closureLine;
       }
       const T u = closureAt({from, 0}), v = closureAt({to, 0}), width = to - from;
       if (!(width > 0))
@@ -541,8 +584,11 @@ private:
       moments.areaMoment.x = 0.5 * width * (from + to);
       moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
       for (int k = 0; k < 2; ++k)
-        if (q.owner[k] >= 0)
-          ways[q.owner[k] / 4] += exit_[q.owner[k]];
+        if (const int owner = q.owner[k]; owner >= 0)
+        {
+          ways[owner / 4] += edges_.exits[owner];
+          addSide(owner, true);
+        }
     }
     else
     {
@@ -555,16 +601,16 @@ private:
       if constexpr (widthOf<T> == 1)
       {
         if (inOrder_)
-          detail::cutOwnedInOrder(q, from, Owned::noEdge);
+          detail::cutOwnedInOrder(q, from, Owned::closureLine);
         else
         {
-          detail::cutOwned(q, from, to, Owned::noEdge);
+          detail::cutOwned(q, from, to, Owned::closureLine);
           regular = regular && !q.sides.crossed;
         }
       }
       else
       {
-        detail::cutOwned(q, from, to, Owned::noEdge);
+        detail::cutOwned(q, from, to, Owned::closureLine);
         regular = regular && !q.sides.crossed;
       }
       Vec2Of<T> apex;
@@ -579,7 +625,8 @@ private:
         sum.add(apex, p, r, atApex, closureAt(p), closureAt(r));
         if (q.owner[k] >= 0)
         {
-          const T& exit = exit_[q.owner[k]];
+          addSide(q.owner[k], q.sides.isThere(k));
+          const T& exit = edges_.exits[q.owner[k]];
           if (anyOf(exit > 0.0))
             border[q.owner[k] / 4] += exit * squareRoot(dot(r - p, r - p));
         }
@@ -624,9 +671,7 @@ private:
         {
           const T near = absolute(shadow[1 - f].p[other].x - x);
           const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
-          const bool borders =
-              exit_[q.owner[end]] > 0 && exit_[4 * (1 - f) + other] > 0 && upper == (end == 1);
-          const T width = (borders ? scale_.oneBorder : scale_.oneEdge) * size_;
+          const T width = reachOfEdge(q.owner[end], 4 * (1 - f) + other, upper == (end == 1));
           if (!(near < width))
             continue;
           const T given = 0.5 - 0.5 * apartness(near / width);
@@ -661,9 +706,7 @@ private:
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
           const T along = dot(edge, d);
-          const auto borders = exit_[q.owner[k]] > 0.0 && exit_[4 * g + o] > 0.0 && along > 0.0;
-          // Both times the length of the edge: the size of a face across it is its area over that.
-          const T width = choose(borders, T(scale_.oneBorder), T(scale_.oneEdge)) * size_;
+          const T width = reachOfEdge(q.owner[k], 4 * g + o, along > 0.0);
           const auto close =
               near < width && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
           if (!anyOf(close))
@@ -675,6 +718,19 @@ private:
         addRim(f, e, there, from, to, total, second, kept, rim);
       }
     }
+  }
+
+  /// Within which distance two edges count as one [m], in three dimensions times the length of the
+  /// other: the size of a face across it is its area over that. Mesh lines of two surfaces that go
+  /// on: what is shared cancels with what their neighbours share. Borders of both that run the same
+  /// way, if no part of the overlap is open: at a corner that dips into a face the gradient counts.
+  KOKKOS_FORCEINLINE_FUNCTION T reachOfEdge(int mine, int its, const Mask& sameWay) const
+  {
+    using namespace branchFree;
+    const auto bothTurn = edges_.turns[mine] > 0.0 && edges_.turns[its] > 0.0 && sameWay &&
+                          moments.area > (1 - 1e-9) * overlap;
+    const auto none = edges_.turns[mine] == 0.0 && edges_.turns[its] == 0.0;
+    return size_ * choose(none, T(scale_.oneEdge), choose(bothTurn, T(scale_.oneBorder), T(0.0)));
   }
 
   /// The gradient of the energy beside one edge: its nodes share a part of it. total, second: of
@@ -698,6 +754,121 @@ private:
     const T atStart = choose(there, part * total - atEnd, none);
     rim[f][i1] = rim[f][i1] + atEnd * outward;
     rim[f][i0] = rim[f][i0] + atStart * outward;
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere)
+  {
+    using namespace branchFree;
+    const T none(0.0);
+    const T& covered = edges_.covered[owner];
+    coveredSides_[owner / 4] += choose(isThere, covered, none);
+    openSides_[owner / 4] += choose(isThere && !(covered > 0.0), edges_.turns[owner], none);
+  }
+
+  /// Length of a strip between an edge of each face, twice; faces that share most of what they have
+  /// are no strip, however deep they lie in each other [m].
+  KOKKOS_FORCEINLINE_FUNCTION T lengthOfStrip() const
+  {
+    return 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
+           (1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value);
+  }
+
+  /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
+  KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole)
+  {
+    const T& v = moments.volume;
+    const T& s = moments.squares;
+    const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
+    strip_ = between && v * v * v < scale_.wayOutTo * (s * s) * lengthOfStrip();
+    if constexpr (branchFree::widthOf < T >> 1)
+      regular = regular && !strip_;
+  }
+
+  /// Adds the gradient of what hangs on the length of the strip.
+  KOKKOS_INLINE_FUNCTION void addStrip(const Real& scale, Real& push, Vec2& first,
+                                       Vec2 (&rim)[2][4])
+  {
+    if constexpr (Dim == 3)
+      for (int i = 0; i < pieces_; ++i)
+        for (int k = 0; k < piece_[i].sides.size; ++k)
+          if (const int owner = piece_[i].owner[k]; owner >= 0 && edges_.exits[owner] > 0)
+            addLength(piece_[i], k, alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])),
+                      push, first, rim);
+    const Real shared = overlap / size_;
+    const SmoothStep<Real> together(4 * shared - 2);
+    if (!(together.slope > 0))
+      return;
+    const Real perShare = -4 * alongStrip_ * together.slope / (1 - together.value);
+    for (int i = 0; i < pieces_; ++i)
+      addRims(whole_[i], {0, 0, perShare / size_}, rim);
+    const int smallest = face_[0]->area < face_[1]->area ? 0 : 1;
+    byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
+  }
+
+  /// The gradient of a side's length, which is bounded by the lines of its neighbours.
+  KOKKOS_INLINE_FUNCTION void addLength(const Owned& q, int k, Real perLength, Real& push,
+                                        Vec2& first, Vec2 (&rim)[2][4]) const
+  {
+    const Vec2 along = q.sides.to[k] - q.sides.from[k];
+    const Real length = std::sqrt(dot(along, along));
+    if (!(length > 0) || !q.sides.isThere(k))
+      return;
+    const Vec2 t = (1 / length) * along, n{t.y, -t.x};
+    for (int end = 0; end < 2; ++end)
+    {
+      const Vec2 p = end == 0 ? q.sides.from[k] : q.sides.to[k];
+      int next = -1;
+      Real nearest = infinity;
+      for (int j = 0; j < q.sides.size; ++j)
+      {
+        const Vec2 r = (end == 0 ? q.sides.to[j] : q.sides.from[j]) - p;
+        if (j == k || !q.sides.isThere(j) || !(dot(r, r) < nearest))
+          continue;
+        nearest = dot(r, r);
+        next = j;
+      }
+      if (next < 0 || q.owner[next] == Owned::noEdge)
+        continue;
+      const Vec2 other = outwardOf(q.owner[next]);
+      const Real sine = dot(other, t);
+      if (!(std::abs(sine) > 1e-6))
+        continue;
+      const Real ofOther = (end == 0 ? -perLength : perLength) / sine;
+      pushEdge(q.owner[k], p, (-ofOther * dot(other, n)) * n, rim);
+      if (q.owner[next] >= 0)
+        pushEdge(q.owner[next], p, ofOther * other, rim);
+      else
+      {
+        const Real perClosure = ofOther * kappa_ / (2 * std::sqrt(dot(tilt_, tilt_)));
+        push += perClosure;
+        first = first + perClosure * p;
+      }
+    }
+  }
+
+  /// Unit normal of the line that a side lies on, out of the polygon.
+  KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const
+  {
+    Vec2 normal = tilt_; // closure falls along it
+    if (owner >= 0)
+    {
+      const int f = owner / 4, e = owner % 4;
+      const Vec2 d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
+      normal = {d.y, -d.x};
+    }
+    return (1 / std::sqrt(dot(normal, normal))) * normal;
+  }
+
+  /// A gradient with the motion of an edge at a place on it.
+  KOKKOS_INLINE_FUNCTION void pushEdge(int owner, const Vec2& at, const Vec2& slope,
+                                       Vec2 (&rim)[2][4]) const
+  {
+    const int f = owner / 4, e = owner % 4;
+    const int i0 = nodeOfEdge(f, e, 0), i1 = nodeOfEdge(f, e, 1);
+    const Vec2 d = shadow[f].p[i1] - shadow[f].p[i0];
+    const Real part = dot(at - shadow[f].p[i0], d) / dot(d, d);
+    rim[f][i0] = rim[f][i0] + (1 - part) * slope;
+    rim[f][i1] = rim[f][i1] + part * slope;
   }
 
   /// 0 for edges that count as one, 1 for edges that do not.
@@ -737,10 +908,18 @@ private:
   const HalfStepFaceOf<T>* face_[2];
   ContactPotentialScale scale_;
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
-  T exit_[8];
+  EdgesOf<T> edges_;
+  T coveredSides_[2]{}, openSides_[2]{}; ///< number of sides on edges of each face
   Vec2Of<T> tilt_, apart_;
   bool inOrder_ = false;
   int pieces_ = 0;
   Owned piece_[maxPieces];
+  struct Nothing
+  {
+  };
+  /// Before what is not closed is cut off.
+  std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
+  Mask strip_{false};
+  T alongStrip_{}; ///< what the energy changes with the logarithm of the strip's length [J]
 };
 } // namespace coplane

@@ -67,7 +67,7 @@ Slots slotsOf(std::vector<CandidatePair> candidates,
     }
     // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
     // booked at their end.
-    if (plane.declared || plane.missedSearches == 0)
+    if (plane.declared || !plane.missed)
       slots.source.push_back(~std::int64_t(p));
     else if (plane.countedHere)
       ended.add(plane);
@@ -283,7 +283,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
   }
 
-  const ConstNodeVectors normals = nodeNormals(localFaces_, x, dimension_, layout);
+  const EdgesOfSurfaces edges(localFaces_, pairs, faces_, x, dimension_, layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -292,7 +292,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     if (source[slot] < 0)
     {
       plane = planes_(~source[slot]);
-      plane.missedSearches = std::uint8_t(std::min(255, plane.missedSearches + 1));
+      plane.missed = true;
       makeDormant(plane);
       return;
     }
@@ -320,11 +320,11 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
-    plane.missedSearches = 0;
+    plane.missed = false;
     const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
-    // While the faces lie in each other, what is a way out stays one, and the energy does not jump.
+    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
     if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
-      plane.exits = waysOut(a, b, planeA, planeB, x, normals, dimension_);
+      edges.look(a, b, plane);
     plane.woke = known >= 0 && planes_(known).face[0] < 0;
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
     if (classic())

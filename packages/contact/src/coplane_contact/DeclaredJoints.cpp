@@ -19,12 +19,10 @@ template <int Dim>
 Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options,
                   Patch& patch)
 {
-  ContactPotentialScale scale;
-  scale.opposedFrom = options.cosOpposed;
-  PairPotential<Dim, Real> pair(a, b, scale);
+  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options.cosOpposed));
   if (!pair.plane.opposed)
     return 0;
-  pair.meet(0, true, [](int) { return 0.0; });
+  pair.meet(0, true, {});
   patch.overlap = pair.overlap;
   patch.area = pair.opposedness * pair.moments.area;
   if (!(patch.area > 0))

@@ -418,12 +418,16 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
     faces[f].normal = branchFree::lane(from.normal, i);
     faces[f].area = branchFree::lane(from.area, i);
   }
-  PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale{0, 0.3});
+  PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(1e-3));
   if (!pair.plane.opposed)
     return false;
-  pair.meet(plane.offset, false, [&](int owner) { return Real(plane.exits >> owner & 1); });
+  EdgesOf<Real> edges;
+  for (int e = 0; e < 8; ++e)
+    edges.exits[e] = plane.exits >> e & 1;
+  pair.meet(plane.offset, false, edges);
   EnergyDensity<Real> density;
-  return pair.shareOfWayOut(1, density) < 0.5;
+  pair.press(1, 0, density);
+  return pair.wayOut < 0.5;
 }
 
 /// A pair whose shadows share nothing in this cycle.

@@ -84,21 +84,25 @@ struct alignas(64) Plane
   std::uint16_t joint = 0;         ///< index of the joint card
   std::uint16_t block[2] = {0, 0}; ///< element blocks behind the faces, in the order of the mesh
   PlaneState state = PlaneState::Slot;
-  std::uint8_t missedSearches = 0; ///< consecutive searches in which the pair was no candidate
-  bool countedHere : 1;            ///< this rank books the plane's energy: it owns face 0
-  bool declared : 1;               ///< a joint that was closed at the start
-  bool born : 1;                   ///< steps E and F: a plane exists
-  bool fresh : 1;                  ///< not evaluated since the slot was made
-  bool foundLate : 1;              ///< was penetrated already when the search found it
-  bool inherited : 1;              ///< took its history from living neighbours
-  bool slidesOn : 1; ///< inherited, and some neighbour touches the same surface: a face beside
-  bool released : 1; ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep : 1;  ///< deeper than the limit; force frozen
-  bool leads : 1;    ///< CommonPlane: the plane of its two elements acts on these faces
-  bool woke : 1;     ///< was no candidate until the last search, and has not been evaluated since
-  bool stiff : 1;    ///< stiffer than the elements behind its faces: they chatter on it
-  std::uint8_t exits = 0; ///< bit 4 f + e: bodies can part over edge e of the outline of face f
-  JointFit fit;           ///< stiffnesses of the law for this pair
+  bool countedHere : 1; ///< this rank books the plane's energy: it owns face 0
+  bool declared : 1;    ///< a joint that was closed at the start
+  bool born : 1;        ///< steps E and F: a plane exists
+  bool fresh : 1;       ///< not evaluated since the slot was made
+  bool foundLate : 1;   ///< was penetrated already when the search found it
+  bool inherited : 1;   ///< took its history from living neighbours
+  bool slidesOn : 1;    ///< inherited, and some neighbour touches the same surface: a face beside
+  bool released : 1;    ///< came into overlap deep inside: carries nothing until its faces part
+  bool tooDeep : 1;     ///< deeper than the limit; force frozen
+  bool leads : 1;       ///< CommonPlane: the plane of its two elements acts on these faces
+  bool woke : 1;   ///< was no candidate until the last search, and has not been evaluated since
+  bool stiff : 1;  ///< stiffer than the elements behind its faces: they chatter on it
+  bool missed : 1; ///< was no candidate in the last search
+  bool hidden : 1; ///< came into overlap behind a face that lies on one of these: carries nothing
+  // Bit 4 f + e: of edge e of the outline of face f.
+  std::uint8_t exits = 0;   ///< bodies can part over it
+  std::uint8_t turns = 0;   ///< the surface turns there
+  std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
+  JointFit fit;             ///< stiffnesses of the law for this pair
 
   Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
   Real area = 0;         ///< that carries traction [m^2]
@@ -130,7 +134,7 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION Plane()
       : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
         inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false),
-        woke(false), stiff(false)
+        woke(false), stiff(false), missed(false), hidden(false)
   {
   }
 

@@ -27,7 +27,6 @@ void forEachMember(Plane& plane, F&& f)
   f("block_0", plane.block[0]);
   f("block_1", plane.block[1]);
   f("state", plane.state);
-  f("missed_searches", plane.missedSearches);
   plane.declared = flag("declared", plane.declared);
   plane.born = flag("born", plane.born);
   plane.fresh = flag("fresh", plane.fresh);
@@ -39,7 +38,11 @@ void forEachMember(Plane& plane, F&& f)
   plane.leads = flag("leads", plane.leads);
   plane.woke = flag("woke", plane.woke);
   plane.stiff = flag("stiff", plane.stiff);
+  plane.missed = flag("missed", plane.missed);
+  plane.hidden = flag("hidden", plane.hidden);
   f("exits", plane.exits);
+  f("turns", plane.turns);
+  f("covered", plane.covered);
   f("fit_normal_stiffness", plane.fit.normalStiffness);
   f("fit_stiffness_cap", plane.fit.stiffnessCap);
   f("fit_shear_stiffness", plane.fit.shearStiffness);

@@ -24,6 +24,22 @@ KOKKOS_INLINE_FUNCTION T spinAbout(const Vec3Of<T>& axis, const HalfStepFaceOf<T
   return moment / inertia;
 }
 
+template <class T>
+KOKKOS_INLINE_FUNCTION EdgesOf<T> edgesOf(const PlaneBatch<T>& planes)
+{
+  EdgesOf<T> edges;
+  unsigned any = 0;
+  for (int i = 0; i < planes.count; ++i)
+    any |= planes.plane[i]->turns | planes.plane[i]->covered; // exits turn
+  for (int e = 0; e < 8 && any != 0; ++e)
+  {
+    edges.exits[e] = planes.each([&](const Plane& p) { return Real(p.exits >> e & 1); });
+    edges.turns[e] = planes.each([&](const Plane& p) { return Real(p.turns >> e & 1); });
+    edges.covered[e] = planes.each([&](const Plane& p) { return Real(p.covered >> e & 1); });
+  }
+  return edges;
+}
+
 /// Depth beyond which a first overlap is not taken for a contact; approach: of the faces in two
 /// steps [m].
 KOKKOS_INLINE_FUNCTION Real smallestStart(const Plane& plane, Real approach)
@@ -72,9 +88,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
 {
   using namespace branchFree;
   constexpr int width = PlaneBatch<T>::width;
-  ContactPotentialScale scale;
-  scale.opposedFrom = options.cosOpposed;
-  PairPotential<Dim, T> pair(a, b, scale);
+  PairPotential<Dim, T> pair(a, b, ContactPotentialScale(options.cosOpposed));
   const auto& opposed = pair.plane.opposed;
 
   // The kernel is linear: a closure curve is its tangent at the largest closure so far, at which it
@@ -96,11 +110,12 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
   }
   const T slope = gathered<T>([&](int i) { return slopes[i]; });
   const T permanent = gathered<T>([&](int i) { return permanents[i]; });
+  const T hardening = gathered<T>(
+      [&](int i) -> Real
+      { return i < planes.count && planes.law[i]->penalty ? 1 / planes.plane[i]->depthLimit : 0; });
   const T offset = planes.each([](const Plane& p) { return p.offset; });
   if (anyOf(opposed))
-    pair.meet(offset - permanent, bonded,
-              [&](int owner)
-              { return planes.each([&](const Plane& p) { return Real(p.exits >> owner & 1); }); });
+    pair.meet(offset - permanent, bonded, detail::edgesOf(planes));
   const auto done = pair.regular || !opposed || MaskOf<T>(width == 1);
   bookOldForce(planes, done, a, b, dt);
 
@@ -124,21 +139,27 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
             plane.foundLate = plane.fresh && !plane.declared && !plane.born && lane(inContact, i);
             if (!lane(inContact, i))
             {
-              plane.released = false;
+              plane.released = plane.hidden = false;
               return 0;
             }
             const bool carried = plane.area > 0;
-            if (!carried && !plane.declared && !plane.slidesOn && !plane.history.bonded)
+            if (!carried && !plane.declared && !plane.history.bonded)
             {
+              plane.hidden = plane.hidden || lane(pair.hidden, i);
               // A contact begins at the surface, and begins there anew after its faces had no area
               // in common. Faces that come to share area while one lies deep behind the other did
               // not meet: they carry nothing until they share none. They have no energy yet, so
               // this costs none.
               const Real start = detail::smallestStart(plane, 2 * dt * lane(speed, i));
-              const Real explained = plane.born || plane.inherited ? plane.closure : 0;
+              // What slides on takes up where a neighbour leaves off, whose mean closure is no
+              // less than a quarter of that at its border.
+              const Real explained = (plane.slidesOn                  ? 4
+                                      : plane.born || plane.inherited ? 1
+                                                                      : 0) *
+                                     plane.closure;
               plane.released = plane.released || lane(deepest, i) - explained > start;
             }
-            if (plane.released)
+            if (plane.released || plane.hidden)
               return 0;
             if (!(plane.birthArea[0] > 0))
             {
@@ -159,8 +180,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
     const Vec3Of<T>& n = pair.plane.normal;
     const T mean = m.volume / m.area;
     EnergyDensity<T> density;
-    T share = pair.shareOfWayOut(slope, density);
-    share = choose(bonded, T(1.0), share);
+    const T pressed = pair.press(slope, choose(bonded, T(0.0), hardening), density);
+    const T share = choose(bonded, T(1.0), pair.wayOut);
     const T newArea = choose(touching, pair.opposedness * share * m.area, T(0.0));
 
     // Motion at the centre of pressure.
@@ -214,12 +235,11 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       const Real before = plane.history.maximumClosure;
       JointState state = plane.history;
       // Where a way out is open sideways the area stands for what is left of the pressure.
-      const Real pressed =
-          wasBonded ? plane.closure
-          : area > 0
-              ? permanents[i] + lane(loaded, i) * lane(pair.opposedness, i) / (slopes[i] * area)
-              : permanents[i];
-      const JointResponse response = law(plane.fit, pressed, lane(increment, i), dt, state);
+      const Real closed = wasBonded  ? plane.closure
+                          : area > 0 ? permanents[i] + lane(loaded, i) * lane(pair.opposedness, i) /
+                                                           (slopes[i] * area)
+                                     : permanents[i];
+      const JointResponse response = law(plane.fit, closed, lane(increment, i), dt, state);
       if (!wasBonded)
       {
         // The maximum closure of the next cycle; what it costs is booked half with the area of this
@@ -273,7 +293,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
     density.square = choose(bonded, T(0.0), density.square);
     density.constant = choose(bonded, perArea - sigma * mean, density.constant);
     density.linear = choose(bonded, sigma, density.linear);
-    const T energy = choose(bonded, perArea * m.area, (0.5 * share) * slope * m.squares);
+    const T energy = choose(bonded, perArea * m.area, pressed);
     const T normalForce = pair.differentiate(
         energy, density, planes.each([](const Plane& p) { return p.birthArea[0]; }),
         planes.each([](const Plane& p) { return p.birthArea[1]; }));
@@ -330,14 +350,19 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
 
   // The overlap counts for the stable step as soon as the faces could touch within the look-ahead.
   const auto near = overlaps && -pair.mostClosure <= ahead + 1e-8 * squareRoot(overlap) &&
-                    !(planes.each([](const Plane& p) { return p.released; }) > 0.0);
+                    !(planes.each([](const Plane& p) { return p.released || p.hidden; }) > 0.0);
   T nodeArea{};
   if (anyOf(near))
   {
     const int fewer = a.count < b.count ? a.count : b.count;
     // Rims make a contact stiffer that is deep for its width.
     const T deep = positivePart(deepest / detail::shortestEdge(a, b) - 0.02);
-    nodeArea = overlap * (1.0 + 3.0 * deep) * (2.000002 * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0));
+    const T z = hardening * positivePart(deepest + ahead), z2 = z * z;
+    const T grown = z2 * z2 / (1.0 + z2 * z2); // of the slope of the hardened law at z, at most 13
+    const T hardened =
+        1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
+    nodeArea = overlap * (1.0 + 3.0 * deep) * hardened *
+               (2.000002 * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0));
   }
   for (int i = 0; i < planes.count; ++i)
   {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <coplane_contact/Faces.hpp>
+#include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
-#include <cstdint>
 #include <vector>
 
 namespace coplane
@@ -16,8 +16,35 @@ namespace coplane
 NodeVectors nodeNormals(const std::vector<Face>& localFaces, const ConstNodeVectors& x,
                         int dimension, const NodeLayout& layout);
 
-/// The edges over which the bodies of a pair can part sideways, as Plane::exits: beyond such an
-/// edge the surface turns away from the other face, so that a way along the plane leads out.
-std::uint8_t waysOut(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
-                     const ConstNodeVectors& x, const ConstNodeVectors& normals, int dimension);
+/// What lies beyond the edges of faces, as they lie now. Where another body is flush, the surface
+/// goes on over the seam, and the sides that lie on each other there are hidden: nothing comes to
+/// them but through one of the two bodies.
+class EdgesOfSurfaces
+{
+public:
+  /// Lengths up to which bodies are flush: gap, step, and overhang of an edge, as a fraction of the
+  /// size of the smaller face.
+  static constexpr Real flush = 0.005;
+
+  /// `pairs` are the candidates of this rank, among them all with a local face. Collective.
+  EdgesOfSurfaces(const std::vector<Face>& localFaces, const std::vector<CandidatePair>& pairs,
+                  const std::vector<Face>& faces, const ConstNodeVectors& x, int dimension,
+                  const NodeLayout& layout);
+
+  /// Sets exits, turns and covered of a plane between two faces.
+  void look(const Face& a, const Face& b, Plane& plane) const;
+
+private:
+  struct Edge;
+  Edge edge(const Face& face, int side, int e, const Vec3& normal) const;
+  void findFlushNodes(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
+                      const NodeLayout& layout);
+  bool lieOn(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB) const;
+  /// n.Q.n of the sum Q of the dyads of normals of hidden faces at a node.
+  Real hiddenAlong(int node, const Vec3& n) const;
+
+  ConstNodeVectors x_, normals_;
+  NodeVectors squares_, products_; ///< Q: xx yy zz, xy yz zx
+  int dimension_;
+};
 } // namespace coplane

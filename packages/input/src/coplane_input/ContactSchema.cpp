@@ -368,6 +368,7 @@ Key contactKeys()
                      .in("-")
                      .atLeast(0)
                      .below(1)
+                     .defaultIs("0.004; 0.1 with forces along the common normal")
                      .like("0.2")
                      .means("faces are paired when n1.n2 < -cos_opposed"),
                  number("depth_max", &ContactCard::depthMax)

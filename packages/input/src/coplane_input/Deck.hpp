@@ -196,7 +196,7 @@ struct ContactCard
   bool inherit = true;
   std::string shareNode = "skip";       ///< skip | allow
   std::string initialOverlap = "error"; ///< error | allow
-  Real cosOpposed = 0.1;
+  std::optional<Real> cosOpposed; ///< [-]; default 0.004, with forces along the common normal 0.1
   Real depthMax = 0.6;
   Real areaMin = 1e-8;
   std::optional<Real> skin; ///< [m]; default 0.1 (once: 0.5) of the smallest face size
