@@ -85,8 +85,7 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
 {
   if (!a.local && !b.local)
     return Verdict::BothGhost;
-  const Real cosine = dot(planeA.normal, planeB.normal);
-  if (!(cosine < 0))
+  if (!(dot(planeA.normal, planeB.normal) < rules.mostCosine()))
     return Verdict::NotOpposed;
   if (!boxA.overlaps(boxB))
     return Verdict::TooFarApart;
@@ -96,8 +95,6 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
     return Verdict::SharedNode;
   if (rules.excluded && rules.excluded(a.group, b.group))
     return Verdict::Excluded;
-  if (!(cosine < -rules.cosOpposed))
-    return Verdict::NotOpposed;
   const Vec3 n = normalised(planeA.normal - planeB.normal);
   const auto halfExtent = [&](const Face& face, const Vec3& center)
   {
@@ -144,7 +141,7 @@ struct BinSearch
       return false;
     if (shareNode(a, b) && !mayShareNode(a, b, planes(p), planes(q), rules))
       return false;
-    if (dot(planes(p).normal, planes(q).normal) < -rules.cosOpposed)
+    if (dot(planes(p).normal, planes(q).normal) < rules.mostCosine())
     {
       const Vec3 n = normalised(planes(p).normal - planes(q).normal);
       const Real gap = dot(n, planes(q).center - planes(p).center);
@@ -173,13 +170,15 @@ struct BinSearch
     const std::size_t residents = take(true);
     if (residents == 0)
       return;
+    const Real most = rules.mostCosine();
     const std::size_t all = residents == std::size_t(end - begin) ? residents : take(false);
     for (std::size_t i = 0; i < residents; ++i)
       for (std::size_t j = i + 1; j < all; ++j)
       {
         const BinFace& p = inBin[i];
         const BinFace& q = inBin[j];
-        if (!(((p.corner | q.corner) == 7) & p.box.overlaps(q.box) & (dot(p.normal, q.normal) < 0)))
+        if (!(((p.corner | q.corner) == 7) & p.box.overlaps(q.box) &
+              (dot(p.normal, q.normal) < most)))
           continue;
         if (faces[p.face].id < faces[q.face].id ? isCandidate(p.face, q.face)
                                                 : isCandidate(q.face, p.face))

@@ -69,12 +69,20 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
       laws_("coplane::contact::laws", rules_.joints.size())
 {
   demandFewKinds(comm, localFaces_, rules_);
-  candidates_.skin = candidates_.reach = skin_;
+  setSkin(skin_);
   candidates_.cosOpposed = options_.cosOpposed;
-  candidates_.depthMax = options_.depthMax;
+  candidates_.depthMax = potential() ? 1 : options_.depthMax; // there is no end of the force
   candidates_.sharedNodes = options_.sharedNodes;
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
     laws_(j) = rules_.joints[j].law;
+}
+
+void Contact::setSkin(Real skin)
+{
+  candidates_.skin = candidates_.reach = skin;
+  // Nodes move by at most half a skin against each other until the next search, so each face turns
+  // by at most a skin over its size. What begins to oppose meanwhile has to be known.
+  candidates_.turning = potential() ? std::min(0.2, 2 * skin_ / smallestFace_) : 0;
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,

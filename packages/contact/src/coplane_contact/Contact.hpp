@@ -91,7 +91,7 @@ public:
   /// For the searches from now on: at least the given skin, more where faces move by more than a
   /// fraction of it in one step. `motion` as a step may carry faces relative to each other [m].
   void coverMotion(Real motion) { setSkin(std::max(skin_, skinOverMotion * motion)); }
-  void setSkin(Real skin) { candidates_.skin = candidates_.reach = skin; } ///< [m]
+  void setSkin(Real skin); ///< [m]
   /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
   Real thinnestElement() const;
   int dimension() const { return dimension_; }
@@ -138,6 +138,7 @@ private:
   void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
   void takeFaceTables();
   bool classic() const { return options_.method == ContactOptions::Method::CommonPlane; }
+  bool potential() const { return options_.forces == ContactOptions::Forces::Potential; }
   std::vector<Donor> livingPlanes() const;
   Donor donor(const Plane& plane) const;
   std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,

@@ -37,11 +37,15 @@ struct CandidateRules
   Real skin = 0;  ///< largest gap of a candidate [m]
   Real reach = 0; ///< by which boxes may be apart, not below the skin [m]
   Real cosOpposed = 0.1;
+  Real turning = 0;         ///< by which n0.n1 may fall until the next search [-]
   Real depthMax = 0.6;      ///< largest depth of a candidate over the thinner element's thickness
   bool sharedNodes = false; ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
   Motion motion;
+
+  /// Candidates have n0.n1 below this.
+  Real mostCosine() const { return turning - cosOpposed; }
 
   /// Way of a node of a face ahead. Steps are bound so that no face moves by a body's thickness:
   /// what is far beyond is none of this face's business, and would only fill the bins.
