@@ -75,8 +75,8 @@ void reportEnd(const Solver& solver)
                              counts.missed));
     if (counts.tooDeep > 0)
       logWarning("planes too deep at the end",
-                 fmt::format("{} planes are deeper than contact.depth_max and push with too little "
-                             "force. Raise the stiffness of the joint.",
+                 fmt::format("{} planes are deeper than contact.depth_max: bodies lie in each "
+                             "other. Raise the stiffness of the joint.",
                              counts.tooDeep));
   }
   if (const Repartitions& done = solver.repartitions(); done.count > 0)

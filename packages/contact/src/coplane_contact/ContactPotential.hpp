@@ -671,7 +671,8 @@ private:
         {
           const T near = absolute(shadow[1 - f].p[other].x - x);
           const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
-          const T width = reachOfEdge(q.owner[end], 4 * (1 - f) + other, upper == (end == 1));
+          const T width = reachOfEdge(q.owner[end], 4 * (1 - f) + other, upper == (end == 1),
+                                      2 / kappa_ * tilt_.x * size_);
           if (!(near < width))
             continue;
           const T given = 0.5 - 0.5 * apartness(near / width);
@@ -706,7 +707,8 @@ private:
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
           const T along = dot(edge, d);
-          const T width = reachOfEdge(q.owner[k], 4 * g + o, along > 0.0);
+          const T width = reachOfEdge(q.owner[k], 4 * g + o, along > 0.0,
+                                      2.0 / kappa_ * cross(tilt_, edge) * size_ / dot(edge, edge));
           const auto close =
               near < width && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
           if (!anyOf(close))
@@ -721,16 +723,20 @@ private:
   }
 
   /// Within which distance two edges count as one [m], in three dimensions times the length of the
-  /// other: the size of a face across it is its area over that. Mesh lines of two surfaces that go
-  /// on: what is shared cancels with what their neighbours share. Borders of both that run the same
-  /// way, if no part of the overlap is open: at a corner that dips into a face the gradient counts.
-  KOKKOS_FORCEINLINE_FUNCTION T reachOfEdge(int mine, int its, const Mask& sameWay) const
+  /// other: the size of a face across it is its area over that. What mesh lines of two surfaces
+  /// that go on share cancels with what their neighbours share. A border shares only if the closure
+  /// changes across a face by less than its mean: at a corner that dips into a face the gradient
+  /// counts.
+  /// @param change of the closure over the size of a face, out over its edge [m]
+  KOKKOS_FORCEINLINE_FUNCTION T reachOfEdge(int mine, int its, const Mask& sameWay,
+                                            const T& change) const
   {
     using namespace branchFree;
-    const auto bothTurn = edges_.turns[mine] > 0.0 && edges_.turns[its] > 0.0 && sameWay &&
-                          moments.area > (1 - 1e-9) * overlap;
-    const auto none = edges_.turns[mine] == 0.0 && edges_.turns[its] == 0.0;
-    return size_ * choose(none, T(scale_.oneEdge), choose(bothTurn, T(scale_.oneBorder), T(0.0)));
+    const auto turns = edges_.turns[mine] > 0.0, itTurns = edges_.turns[its] > 0.0;
+    const auto flat = absolute(change) * moments.area < moments.volume;
+    const T border = choose(flat && sameWay, T(scale_.oneBorder), T(0.0));
+    const T mixed = choose(flat || !(turns || itTurns), T(scale_.oneEdge), T(0.0));
+    return size_ * choose(turns && itTurns, border, mixed);
   }
 
   /// The gradient of the energy beside one edge: its nodes share a part of it. total, second: of

@@ -398,6 +398,20 @@ KOKKOS_INLINE_FUNCTION T areaOfNode(const PatchOf<T>& patch, int countA, int cou
                                        patch.area * most);
 }
 
+/// Where the face in lane i is, without its motion.
+template <class T>
+KOKKOS_INLINE_FUNCTION HalfStepFace placeOf(const HalfStepFaceOf<T>& from, int i)
+{
+  HalfStepFace face;
+  face.count = from.count;
+  for (int k = 0; k < from.count; ++k)
+    face.x[k] = branchFree::lane(from.x[k], i);
+  face.center = branchFree::lane(from.center, i);
+  face.normal = branchFree::lane(from.normal, i);
+  face.area = branchFree::lane(from.area, i);
+  return face;
+}
+
 /// Whether what the faces in lane i share is so narrow between edges over which their bodies can
 /// part that the least way out leads along the plane: the front of a slider behind the hidden side
 /// of the next block. Then it is no contact.
@@ -407,17 +421,7 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
 {
   if (plane.exits == 0)
     return false;
-  HalfStepFace faces[2];
-  for (int f = 0; f < 2; ++f)
-  {
-    const HalfStepFaceOf<T>& from = f == 0 ? a : b;
-    faces[f].count = from.count;
-    for (int k = 0; k < from.count; ++k)
-      faces[f].x[k] = branchFree::lane(from.x[k], i);
-    faces[f].center = branchFree::lane(from.center, i);
-    faces[f].normal = branchFree::lane(from.normal, i);
-    faces[f].area = branchFree::lane(from.area, i);
-  }
+  const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
   PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(1e-3));
   if (!pair.plane.opposed)
     return false;

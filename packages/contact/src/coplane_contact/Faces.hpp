@@ -16,6 +16,7 @@ struct Face
   int far[4] = {-1, -1, -1, -1};   ///< other nodes of the element behind it; -1: not known here
   int block = 0;                   ///< element block behind it
   int group = 0;                   ///< row of the table of contact rules
+  int body = 0;                    ///< number of the body at the start, the same on all ranks
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
   bool local = false; ///< this rank owns at least one node
@@ -40,6 +41,7 @@ struct GhostFace
   int count = 0;
   int block = 0;
   int group = 0;
+  int body = 0;
   Real thickness = 0;
   Real modulus = 0;
   bool young = false;
@@ -57,6 +59,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.count = face.count;
   ghost.block = face.block;
   ghost.group = face.group;
+  ghost.body = face.body;
   ghost.thickness = face.thickness;
   ghost.modulus = face.modulus;
   ghost.young = face.young;
@@ -79,6 +82,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.count = ghost.count;
   face.block = ghost.block;
   face.group = ghost.group;
+  face.body = ghost.body;
   face.thickness = ghost.thickness;
   face.modulus = ghost.modulus;
   face.young = ghost.young;

@@ -64,6 +64,36 @@ KOKKOS_INLINE_FUNCTION T shortestEdge(const HalfStepFaceOf<T>& a, const HalfStep
   return branchFree::squareRoot(shortest);
 }
 
+/// A bond carries by the mean closure, what is left of it where it is closed: half of a tilted
+/// pair. The offset by which the joint settles when the bond breaks, so that this makes no energy
+/// [m].
+/// @param energy that is left at the mean closure [J]
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
+                                       const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                                       int i, Real cosOpposed, Real energy)
+{
+  const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
+  const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
+  const Real permanent =
+      law.curve.straight() ? 0 : plane.history.maximumClosure - top.traction / top.stiffness;
+  const Real stiffness = law.curve.straight() ? plane.fit.normalStiffness : top.stiffness;
+  Real low = 0, high = 0;
+  for (int step = 0; step < 60; ++step)
+  {
+    const Real middle = 0.5 * (low + high);
+    PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(cosOpposed));
+    if (!pair.plane.opposed)
+      return 0;
+    pair.meet(plane.offset - permanent - middle, false, {});
+    if (step == 0)
+      high = pair.mostClosure > 0 ? pair.mostClosure : 0;
+    else
+      (0.5 * stiffness * pair.moments.squares > energy ? low : high) = middle;
+  }
+  return low > 1e-12 * high ? high : 0;
+}
+
 /// What the closure curve's history loses when its maximum closure rises from `before` to now, with
 /// the area in contact as it is [J]: the energy before less that after. The moments are those of
 /// closures beyond the permanent closure of now.
@@ -143,7 +173,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
               return 0;
             }
             const bool carried = plane.area > 0;
-            if (!carried && !plane.declared && !plane.history.bonded)
+            if (!carried && !(plane.declared && plane.fresh) && !plane.history.bonded)
             {
               plane.hidden = plane.hidden || lane(pair.hidden, i);
               // A contact begins at the surface, and begins there anew after its faces had no area
@@ -284,6 +314,9 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       plane.offset += response.dilation;
       plane.frictionWork += area * response.frictionWork;
       plane.fractureWork += area * response.fractureWork;
+      if (wasBonded && !plane.history.bonded)
+        plane.offset -=
+            detail::settlement<Dim>(plane, law, a, b, i, options.cosOpposed, stored[i] * wholeArea);
     }
     const auto each = [&](const Real* values)
     { return gathered<T>([&](int i) { return values[i]; }); };

@@ -6,45 +6,55 @@
 
 namespace coplane
 {
-NodeVectors nodeNormals(const std::vector<Face>& localFaces, const ConstNodeVectors& x,
-                        int dimension, const NodeLayout& layout)
+DirectionsOfNodes::DirectionsOfNodes(int nodes) : numbers_("coplane::contact::numbers", nodes)
 {
-  NodeVectors normals("coplane::contact::nodeNormals", layout.size());
-  for (const Face& face : localFaces)
+  for (NodeVectors& of : directions_)
+    of = NodeVectors("coplane::contact::directions", nodes);
+}
+
+int DirectionsOfNodes::count(int node) const
+{
+  int count = 0;
+  while (count < most && dot(direction(node, count), direction(node, count)) > 0)
+    ++count;
+  return count;
+}
+
+int DirectionsOfNodes::find(int node, const Vec3& direction) const
+{
+  for (int i = 0; i < most; ++i)
+    if (dot(this->direction(node, i), direction) > one)
+      return i;
+  return -1;
+}
+
+void DirectionsOfNodes::add(int node, const Vec3& direction, int number)
+{
+  Vec3 numbers = at(numbers_, node);
+  if (const int known = find(node, direction); known >= 0)
+    numbers[known] = numbers[known] == number ? number : -1;
+  else if (const int next = count(node); next < most)
   {
-    const FacePlane plane = facePlane(face, x, dimension);
-    for (int k = 0; k < face.count; ++k)
-    {
-      const int node = face.nodes[k];
-      if (node >= layout.owned())
-        continue;
-      Real angle = 1;
-      if (dimension == 3)
-      {
-        const Vec3 here = at(x, node);
-        const Vec3 before = at(x, face.nodes[k == 0 ? face.count - 1 : k - 1]) - here;
-        const Vec3 after = at(x, face.nodes[k + 1 == face.count ? 0 : k + 1]) - here;
-        angle = std::atan2(norm(cross(after, before)), dot(after, before));
-      }
-      set(normals, node, at(normals, node) + angle * plane.normal);
-    }
+    set(directions_[next], node, direction);
+    numbers[next] = number;
   }
-  layout.refresh(normals, normals);
-  return normals;
+  set(numbers_, node, numbers);
+}
+
+void DirectionsOfNodes::refresh(const NodeLayout& layout) const
+{
+  layout.refresh(directions_[0], directions_[1]);
+  layout.refresh(directions_[2], numbers_);
 }
 
 namespace
 {
-/// Surfaces that turn by less than this over an edge go on [-]: tangent of half of 20 degrees.
-constexpr Real goesOn = 0.17632698;
 /// Edges bound a strip if they face away from each other at least so much [-]: minus the cosine.
 /// Edges that cross bound none, bodies on them cannot leave each other sideways.
 constexpr Real faceAway = 0.5;
 /// Beyond an edge a surface still faces the other one if its normal has more than this against it.
 constexpr Real stillOpposed = 0.1;
-/// Faces lie on each other if their normals have more than this against each other [-]...
-constexpr Real nearlyOpposed = 0.94;
-/// ... and share more than this fraction of the smaller one.
+/// Faces lie on each other if they share more than this fraction of the smaller one.
 constexpr Real leastShare = 0.2;
 /// Edges run along each other if their outward directions have more than this in common [-].
 constexpr Real sameWay = 0.7;
@@ -52,10 +62,10 @@ constexpr Real sameWay = 0.7;
 
 struct EdgesOfSurfaces::Edge
 {
-  Vec3 outward;              ///< in the face, away from it over the edge
-  int nodes[2], count;       ///< one in two dimensions
-  Real cosine = 1, sine = 0; ///< of the angle by which the surface turns; the node normals halve it
+  Vec3 outward; ///< in the face, away from it over the edge
+  int nodes[2]; ///< in two dimensions twice the same
   bool turns = false;
+  Vec3 beyond; ///< normal of the surface beyond an edge at which it turns
 };
 
 EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
@@ -64,7 +74,6 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
   Edge edge;
   if (dimension_ == 2) // the "edge" is node e
   {
-    edge.count = 1;
     edge.nodes[0] = edge.nodes[1] = face.nodes[e];
     edge.outward = normalised(at(x_, face.nodes[e]) - at(x_, face.nodes[1 - e]));
   }
@@ -72,24 +81,24 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
   {
     // Edge e of the outline: that of the higher face runs the other way.
     const int next = e + 1 == face.count ? 0 : e + 1;
-    edge.count = 2;
     edge.nodes[0] = face.nodes[side == 0 ? e : face.count - 1 - next];
     edge.nodes[1] = face.nodes[side == 0 ? next : face.count - 1 - e];
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
-  Real half = infinity; // tangent of half of the angle
-  for (int i = 0; i < edge.count; ++i)
+  // The surface beyond is the one that both nodes have beside this one, the sharpest turn if there
+  // are two.
+  Real least = DirectionsOfNodes::one;
+  for (int i = 0; i < DirectionsOfNodes::most; ++i)
   {
-    const Vec3 atNode = at(normals_, edge.nodes[i]);
-    const Real up = dot(atNode, normal), out = dot(atNode, edge.outward);
-    half = std::min(half, up > 0 ? out / up : out > 0 ? infinity : 0);
+    const Vec3 other = normals_.direction(edge.nodes[0], i);
+    if (dot(other, edge.outward) > 0.1 && dot(other, normal) < least &&
+        normals_.find(edge.nodes[1], other) >= 0)
+    {
+      edge.turns = true;
+      edge.beyond = other;
+      least = dot(other, normal);
+    }
   }
-  edge.turns = half > goesOn;
-  if (!edge.turns)
-    return edge;
-  const Real square = half * half;
-  edge.cosine = std::isinf(half) ? -1 : (1 - square) / (1 + square);
-  edge.sine = std::isinf(half) ? 0 : 2 * half / (1 + square);
   return edge;
 }
 
@@ -97,25 +106,21 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<Face>& localFaces,
                                  const std::vector<CandidatePair>& pairs,
                                  const std::vector<Face>& faces, const ConstNodeVectors& x,
                                  int dimension, const NodeLayout& layout)
-    : x_(x), normals_(nodeNormals(localFaces, x, dimension, layout)),
-      squares_("coplane::contact::hiddenSquares", layout.size()),
-      products_("coplane::contact::hiddenProducts", layout.size()), dimension_(dimension)
+    : x_(x), dimension_(dimension), normals_(layout.size()), hidden_(layout.size())
 {
-  findFlushNodes(pairs, faces, layout);
+  for (const Face& face : localFaces)
+    for (int k = 0; k < face.count; ++k)
+      if (face.nodes[k] < layout.owned())
+        normals_.add(face.nodes[k], facePlane(face, x, dimension).normal, 0);
+  normals_.refresh(layout);
+  findHidden(pairs, faces, layout);
 }
 
-Real EdgesOfSurfaces::hiddenAlong(int node, const Vec3& n) const
-{
-  const Vec3 s = at(squares_, node), p = at(products_, node);
-  return n.x * (s.x * n.x + 2 * p.x * n.y) + n.y * (s.y * n.y + 2 * p.y * n.z) +
-         n.z * (s.z * n.z + 2 * p.z * n.x);
-}
-
-bool EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& planeA,
+Real EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& planeA,
                             const FacePlane& planeB) const
 {
-  if (!(dot(planeA.normal, planeB.normal) < -nearlyOpposed))
-    return false;
+  if (!(dot(planeA.normal, planeB.normal) < -DirectionsOfNodes::one))
+    return 0;
   const Vec3 normal = normalised(planeA.normal - planeB.normal);
   const View view(normal, at(x_, a.nodes[0]), dimension_);
   ConvexPolygon shadows[2];
@@ -134,26 +139,22 @@ bool EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& plane
   const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
   const Real size = dimension_ == 2 ? smaller : std::sqrt(smaller);
   const Real gap = dot(normal, centers[1] - centers[0]);
-  return gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&
-         areaAndCentroid(intersection(shadows[0], shadows[1])).area > leastShare * smaller;
+  const bool near =
+      gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&
+      areaAndCentroid(intersection(shadows[0], shadows[1])).area > leastShare * smaller;
+  return near ? size : 0;
 }
 
-void EdgesOfSurfaces::findFlushNodes(const std::vector<CandidatePair>& pairs,
-                                     const std::vector<Face>& faces, const NodeLayout& layout)
+void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
+                                 const std::vector<Face>& faces, const NodeLayout& layout)
 {
-  const auto add = [&](int node, const Vec3& n)
-  {
-    if (node >= layout.owned() || hiddenAlong(node, n) > 0.5)
-      return;
-    set(squares_, node, at(squares_, node) + Vec3{n.x * n.x, n.y * n.y, n.z * n.z});
-    set(products_, node, at(products_, node) + Vec3{n.x * n.y, n.y * n.z, n.z * n.x});
-  };
   for (const CandidatePair& pair : pairs)
   {
     const Face* const both[2] = {&faces[pair.lower], &faces[pair.higher]};
     const FacePlane planes[2] = {facePlane(*both[0], x_, dimension_),
                                  facePlane(*both[1], x_, dimension_)};
-    if (!lieOn(*both[0], *both[1], planes[0], planes[1]))
+    const Real size = lieOn(*both[0], *both[1], planes[0], planes[1]);
+    if (!(size > 0))
       continue;
     for (int e = 0; e < both[0]->count; ++e)
     {
@@ -168,54 +169,54 @@ void EdgesOfSurfaces::findFlushNodes(const std::vector<CandidatePair>& pairs,
           const Edge& from = f == 0 ? mine : its;
           const Edge& to = f == 0 ? its : mine;
           const Vec3 along = at(x_, to.nodes[1]) - at(x_, to.nodes[0]);
-          const Vec3 alongMine = at(x_, from.nodes[1]) - at(x_, from.nodes[0]);
-          const Real size =
-              dimension_ == 2
-                  ? std::min(norm(at(x_, both[0]->nodes[1]) - at(x_, both[0]->nodes[0])),
-                             norm(at(x_, both[1]->nodes[1]) - at(x_, both[1]->nodes[0])))
-                  : std::sqrt(std::min(dot(along, along), dot(alongMine, alongMine)));
-          for (int i = 0; i < from.count; ++i)
+          for (const int node : {from.nodes[0], from.nodes[1]})
           {
-            const Vec3 off = at(x_, from.nodes[i]) - at(x_, to.nodes[0]);
+            const Vec3 off = at(x_, node) - at(x_, to.nodes[0]);
             const Real part = dimension_ == 2 ? 0 : dot(off, along) / dot(along, along);
-            if (std::abs(dot(off, to.outward)) < flush * size && part > -flush && part < 1 + flush)
-              add(from.nodes[i], planes[f].normal);
+            if (node < layout.owned() && std::abs(dot(off, to.outward)) < flush * size &&
+                part > -flush && part < 1 + flush)
+              hidden_.add(node, planes[f].normal, both[1 - f]->body);
           }
         }
       }
     }
   }
-  layout.refresh(squares_, products_);
+  hidden_.refresh(layout);
 }
 
 void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
 {
   const FacePlane planes[2] = {facePlane(a, x_, dimension_), facePlane(b, x_, dimension_)};
-  const bool onEachOther = lieOn(a, b, planes[0], planes[1]);
+  const bool onEachOther = lieOn(a, b, planes[0], planes[1]) > 0;
   unsigned turns = 0, exits = 0, covered = 0;
   Vec3 outward[8];
   for (int f = 0; f < 2; ++f)
   {
     const Face& face = f == 0 ? a : b;
-    const Vec3 &n = planes[f].normal, &other = planes[1 - f].normal;
+    const Face& other = f == 0 ? b : a;
     for (int e = 0; e < face.count; ++e)
     {
-      const Edge edge = this->edge(face, f, e, n);
+      const Edge edge = this->edge(face, f, e, planes[f].normal);
       if (!edge.turns)
         continue;
-      const auto atAllNodes = [&](const Vec3& direction, Real least)
-      {
-        return hiddenAlong(edge.nodes[0], direction) > least &&
-               hiddenAlong(edge.nodes[1], direction) > least;
-      };
       const unsigned bit = 1u << (4 * f + e);
-      if (!onEachOther && atAllNodes(n, 0.8))
+      // Not by the body of the other face: that one comes with what lies there.
+      int here[2], beyond[2];
+      bool byThird = !onEachOther;
+      for (int end = 0; end < 2; ++end)
+      {
+        here[end] = hidden_.find(edge.nodes[end], planes[f].normal);
+        beyond[end] = hidden_.find(edge.nodes[end], edge.beyond);
+        byThird =
+            byThird && here[end] >= 0 && hidden_.number(edge.nodes[end], here[end]) != other.body;
+      }
+      if (byThird)
         covered |= bit;
-      if (atAllNodes(edge.outward, 0.1)) // goes on over the seam
+      if (beyond[0] >= 0 && beyond[1] >= 0) // the surface goes on over the seam
         continue;
       turns |= bit;
       outward[4 * f + e] = edge.outward;
-      if (edge.cosine * dot(n, other) + edge.sine * dot(edge.outward, other) > -stillOpposed)
+      if (dot(edge.beyond, planes[1 - f].normal) > -stillOpposed)
         exits |= bit;
     }
   }

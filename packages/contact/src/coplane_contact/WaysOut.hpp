@@ -10,11 +10,29 @@
 
 namespace coplane
 {
-/// Outward unit normals of the surface at all nodes of a layout: means of the faces around a node
-/// by their angles, so that they do not depend on how a surface is meshed; zero where a node has no
-/// face. `localFaces` are all that have an owned node, sorted by id. Collective.
-NodeVectors nodeNormals(const std::vector<Face>& localFaces, const ConstNodeVectors& x,
-                        int dimension, const NodeLayout& layout);
+/// Up to three directions per node, each with a number; directions within 20 degrees are one.
+class DirectionsOfNodes
+{
+public:
+  static constexpr int most = 3;
+  static constexpr Real one = 0.94;
+
+  explicit DirectionsOfNodes(int nodes);
+  /// Unless the node has it already, or has three. The number of one that comes again with another
+  /// number is lost.
+  void add(int node, const Vec3& direction, int number);
+  void refresh(const NodeLayout& layout) const; ///< copies from the owners. Collective.
+
+  int count(int node) const; ///< zero vectors are no directions
+  Vec3 direction(int node, int i) const { return at(directions_[i], node); }
+  /// Place of a direction, -1: none.
+  int find(int node, const Vec3& direction) const;
+  /// The number of a direction; -1 if it came with several.
+  int number(int node, int i) const { return int(at(numbers_, node)[i]); }
+
+private:
+  NodeVectors directions_[most], numbers_;
+};
 
 /// What lies beyond the edges of faces, as they lie now. Where another body is flush, the surface
 /// goes on over the seam, and the sides that lie on each other there are hidden: nothing comes to
@@ -26,7 +44,8 @@ public:
   /// size of the smaller face.
   static constexpr Real flush = 0.005;
 
-  /// `pairs` are the candidates of this rank, among them all with a local face. Collective.
+  /// `pairs` are the candidates of this rank, among them all with a local face; `localFaces` are
+  /// all that have an owned node, sorted by id. Collective.
   EdgesOfSurfaces(const std::vector<Face>& localFaces, const std::vector<CandidatePair>& pairs,
                   const std::vector<Face>& faces, const ConstNodeVectors& x, int dimension,
                   const NodeLayout& layout);
@@ -37,14 +56,14 @@ public:
 private:
   struct Edge;
   Edge edge(const Face& face, int side, int e, const Vec3& normal) const;
-  void findFlushNodes(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
-                      const NodeLayout& layout);
-  bool lieOn(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB) const;
-  /// n.Q.n of the sum Q of the dyads of normals of hidden faces at a node.
-  Real hiddenAlong(int node, const Vec3& n) const;
+  void findHidden(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
+                  const NodeLayout& layout);
+  /// Size of the smaller one of two faces that lie on each other [m]; 0 if they do not.
+  Real lieOn(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB) const;
 
-  ConstNodeVectors x_, normals_;
-  NodeVectors squares_, products_; ///< Q: xx yy zz, xy yz zx
+  ConstNodeVectors x_;
   int dimension_;
+  DirectionsOfNodes normals_; ///< of the surfaces around a node
+  DirectionsOfNodes hidden_;  ///< normals of hidden faces that end at a node, and who lies on them
 };
 } // namespace coplane

@@ -8,6 +8,7 @@ namespace coplane
 {
 std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
                                const std::vector<std::pair<GlobalId, int>>& faceGroups,
+                               const std::vector<int>& bodyOfNode,
                                const std::vector<ExteriorFace>& exterior, const ConstNodeVectors& x,
                                const std::vector<Face>* known)
 {
@@ -30,6 +31,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
         std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(side.id, 0));
     face.group =
         special != faceGroups.end() && special->first == side.id ? special->second : side.block;
+    face.body = bodyOfNode[side.nodes[0]];
     face.local = true;
     face.ownedHere = side.ownedHere;
     face.young = known != nullptr;

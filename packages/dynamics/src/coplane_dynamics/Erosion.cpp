@@ -133,7 +133,7 @@ void Solver::findContactFaces(const std::vector<Face>* known)
   if (model_.contact.method == ContactOptions::Method::CommonPlane)
     elements = elementsOfFaces(model_.mesh, exterior);
   contact_->replaceLocalFaces(
-      contactFaces(model_.mesh, blocks_, model_.faceGroups, exterior, state_.x, known),
+      contactFaces(model_.mesh, blocks_, model_.faceGroups, bodyOfNode_, exterior, state_.x, known),
       std::move(elements));
 }
 

@@ -4,6 +4,7 @@
 #include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/Bodies.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +87,9 @@ Solver::Solver(Model model, const Comm& comm)
   if (model_.contactEnabled)
   {
     const std::vector<ExteriorFace> exterior = exteriorFaces(mesh);
-    std::vector<Face> faces = contactFaces(mesh, blocks_, model_.faceGroups, exterior, state_.x);
+    bodyOfNode_ = bodyLabels(mesh, std::vector<char>(mesh.blocks.size(), 1), comm);
+    std::vector<Face> faces =
+        contactFaces(mesh, blocks_, model_.faceGroups, bodyOfNode_, exterior, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
     std::vector<FaceElement> elements;
@@ -608,7 +611,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
           "pressure. {}",
           clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
     }
-    if (clock_.cycle % energyCheckEvery == 0)
+    if (clock_.cycle % energyCheckEvery == 0 || isOver())
     {
       const EnergyBalance balance = energy();
       const std::string broken = brokenBalance(balance);

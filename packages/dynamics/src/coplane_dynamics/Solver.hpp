@@ -219,6 +219,7 @@ private:
   std::vector<ElementBlock> blocks_;
   std::vector<Gather> gathers_;
   std::unique_ptr<Contact> contact_;
+  std::vector<int> bodyOfNode_;  ///< number of the body, the same on all ranks; contact only
   Array<Real> contactStiffness_; ///< per owned node [N/m]
   Array<Real> dilatation_;       ///< of the step, per node of the layout
   std::vector<int> constrained_;

@@ -180,10 +180,10 @@ void Solver::warnOfTrouble(const EnergyBalance& balance)
   warnOfCaps(now);
   const std::int64_t tooDeep = contact_->counts().tooDeep;
   if (isWorse(Real(tooDeep), 1, warned_.tooDeep))
-    logWarning("planes too deep",
-               fmt::format("{}: {} planes are deeper than contact.depth_max; their force grows no "
-                           "more. Raise the stiffness of the joint or lower time.step_factor. "
-                           "Worst:{}",
-                           now, tooDeep, deepestPlanes()));
+    logWarning(
+        "planes too deep",
+        fmt::format("{}: {} planes are deeper than contact.depth_max. Raise the stiffness of "
+                    "the joint or lower time.step_factor. Worst:{}",
+                    now, tooDeep, deepestPlanes()));
 }
 } // namespace coplane
