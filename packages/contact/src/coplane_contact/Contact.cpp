@@ -71,7 +71,7 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
   demandFewKinds(comm, localFaces_, rules_);
   setSkin(skin_);
   candidates_.cosOpposed = options_.cosOpposed;
-  candidates_.depthMax = potential() ? 1 : options_.depthMax; // there is no end of the force
+  candidates_.depthMax = potential() ? 0.9 : options_.depthMax; // the force has no end
   candidates_.sharedNodes = options_.sharedNodes;
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
     laws_(j) = rules_.joints[j].law;

@@ -106,7 +106,8 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<Face>& localFaces,
                                  const std::vector<CandidatePair>& pairs,
                                  const std::vector<Face>& faces, const ConstNodeVectors& x,
                                  int dimension, const NodeLayout& layout)
-    : x_(x), dimension_(dimension), normals_(layout.size()), hidden_(layout.size())
+    : x_(x), dimension_(dimension), normals_(layout.size()), hidden_(layout.size()),
+      flush_(layout.size())
 {
   for (const Face& face : localFaces)
     for (int k = 0; k < face.count; ++k)
@@ -114,6 +115,15 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<Face>& localFaces,
         normals_.add(face.nodes[k], facePlane(face, x, dimension).normal, 0);
   normals_.refresh(layout);
   findHidden(pairs, faces, layout);
+}
+
+bool EdgesOfSurfaces::isHidden(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const
+{
+  const Vec3 outward = normalised(beyond - dot(beyond, normal) * normal);
+  for (const int node : nodes)
+    if (hidden_.find(node, normal) < 0 || flush_.find(node, outward) < 0)
+      return false;
+  return true;
 }
 
 Real EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& planeA,
@@ -173,15 +183,18 @@ void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
           {
             const Vec3 off = at(x_, node) - at(x_, to.nodes[0]);
             const Real part = dimension_ == 2 ? 0 : dot(off, along) / dot(along, along);
-            if (node < layout.owned() && std::abs(dot(off, to.outward)) < flush * size &&
-                part > -flush && part < 1 + flush)
-              hidden_.add(node, planes[f].normal, both[1 - f]->body);
+            if (node >= layout.owned() || !(std::abs(dot(off, to.outward)) < flush * size) ||
+                !(part > -flush && part < 1 + flush))
+              continue;
+            hidden_.add(node, planes[f].normal, both[1 - f]->body);
+            flush_.add(node, from.outward, 0);
           }
         }
       }
     }
   }
   hidden_.refresh(layout);
+  flush_.refresh(layout);
 }
 
 void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
@@ -201,18 +214,12 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
         continue;
       const unsigned bit = 1u << (4 * f + e);
       // Not by the body of the other face: that one comes with what lies there.
-      int here[2], beyond[2];
-      bool byThird = !onEachOther;
-      for (int end = 0; end < 2; ++end)
-      {
-        here[end] = hidden_.find(edge.nodes[end], planes[f].normal);
-        beyond[end] = hidden_.find(edge.nodes[end], edge.beyond);
-        byThird =
-            byThird && here[end] >= 0 && hidden_.number(edge.nodes[end], here[end]) != other.body;
-      }
-      if (byThird)
+      const auto byThird = [&](int node)
+      { return hidden_.number(node, hidden_.find(node, planes[f].normal)) != other.body; };
+      if (!onEachOther && isHidden(edge.nodes, planes[f].normal, edge.beyond) &&
+          byThird(edge.nodes[0]) && byThird(edge.nodes[1]))
         covered |= bit;
-      if (beyond[0] >= 0 && beyond[1] >= 0) // the surface goes on over the seam
+      if (isHidden(edge.nodes, edge.beyond, planes[f].normal)) // the surface goes on over the seam
         continue;
       turns |= bit;
       outward[4 * f + e] = edge.outward;
