@@ -120,12 +120,6 @@ series = xml.etree.ElementTree.parse(folder / "x & y <z>_planes.pvd")
 files = [item.get("file") for item in series.iter("DataSet")]
 case.check_equal("odd names: the files of the series are there", [name for name in files if not (folder / name).exists()], [])
 case.check_equal("odd names: the record holds the deck", odd.split("\n")[0][:3] in json.loads((folder / "run.run.json").read_text())["deck"]["text"], True)
-try:
-    import pandas
-except ImportError:
-    print("pandas is not installed here; tables were read by Python's csv")
-else:
-    case.check_equal("odd names: pandas reads the header", odd + "_displacement_x[m]" in pandas.read_csv(folder / "run.csv").columns, True)
 # A mesh whose names are Latin-1 is read as such; a deck is UTF-8.
 folder, _ = attempt("Latin-1 in the mesh", 0, changes={"time.end": 1e-6})
 with netCDF4.Dataset(folder / "mesh.e", "a") as file:
