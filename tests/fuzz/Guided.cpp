@@ -5,6 +5,7 @@
 #include <coplane_core/Error.hpp>
 
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 
@@ -30,6 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace coplane;
   static const Reader& reader = chosenReader();
   static const std::string file = "guided" + reader.extension;
+  std::remove(file.c_str()); // see write() in Fuzz.cpp
   std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(data), long(size));
   try
   {

@@ -31,6 +31,12 @@ std::string textOfFile(const std::string& path)
   return text.str();
 }
 
+std::vector<std::string>& goodFiles()
+{
+  static std::vector<std::string> contents;
+  return contents;
+}
+
 namespace
 {
 /// The mesh of a recipe as an Exodus file.
@@ -64,12 +70,6 @@ const Comm& comm()
   return world;
 }
 
-std::string& goodCheckpoint()
-{
-  static std::string content;
-  return content;
-}
-
 /// A small checkpoint. A child writes it: this process is forked once more, which MPI does not
 /// like.
 std::string checkpointFile(const std::string& name)
@@ -90,7 +90,7 @@ std::string checkpointFile(const std::string& name)
   }
   else
     waitpid(child, nullptr, 0);
-  return goodCheckpoint() = textOfFile(name);
+  return textOfFile(name);
 }
 
 void readCheckpoint(const std::string& file)
@@ -99,7 +99,9 @@ void readCheckpoint(const std::string& file)
   const std::string problem = verifyCheckpoint(file, comm(), head);
   if (!problem.empty())
     fail(ExitCode::Checkpoint, "{}: {}", file, problem);
-  if (!goodCheckpoint().empty() && textOfFile(file) != goodCheckpoint())
+  const std::string content = textOfFile(file);
+  const auto& good = goodFiles();
+  if (!good.empty() && std::find(good.begin(), good.end(), content) == good.end())
     throw std::runtime_error("a spoilt checkpoint is taken for a whole one");
 }
 
