@@ -155,7 +155,11 @@ void collective(void* caller)
 void* allocate(std::size_t size, std::size_t alignment)
 {
   if (isOn && !inside && fails(Memory))
+  {
+    if (const std::new_handler handler = std::get_new_handler())
+      handler();
     throw std::bad_alloc();
+  }
   void* memory = nullptr;
   if (alignment <= alignof(max_align_t))
     memory = std::malloc(size ? size : 1);

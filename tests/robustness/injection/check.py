@@ -140,9 +140,9 @@ def points(ranks, restart, calls, stages):
                     for place in spread(4 if full else 1, len(numbers)):
                         yield kind, rank, numbers[place - 1], None, name
                 continue
-            many = {"memory": 16, "write": 8, "read": 6, "open": 8}.get(kind, 4) if full else 1
+            many = {"memory": 16, "write": 8, "read": 6, "open": 8}.get(kind, 4) if full or kind == "close" else 1
             chosen = spread(many, calls[rank].get(kind, 0))
-            for position, number in enumerate(chosen if full else chosen[-1:]):
+            for position, number in enumerate(chosen if full or (restart and kind == "close") else chosen[-1:]):
                 names = errors.get(kind, [None])
                 yield kind, rank, number, names[position % len(names)], ""
 
