@@ -44,7 +44,7 @@ done
 echo "$COPLANE_READER: $(awk '/number_of_executed_units/ { n += $2 } END { print n }' log.txt) files, $(grep -E 'cov: [0-9]+' log.txt | tail -n 1 | sed -E 's/.*cov: ([0-9]+) ft: ([0-9]+).*/\1 edges, \2 features/'), no crash"
 if [ $keep = yes ]; then
   rm -f smallest/*
-  "${fuzzer[@]}" -merge=1 -use_value_profile=0 smallest "$corpus" found >merge.txt 2>&1
+  "${fuzzer[@]}" -merge=1 -use_counters=0 smallest "$corpus" found >merge.txt 2>&1
   rm -f "$corpus"/* && cp smallest/* "$corpus"
   echo "$corpus: $(ls smallest | wc -l) files, $(du -sb smallest | cut -f1) bytes"
 fi
