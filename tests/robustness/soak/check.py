@@ -87,7 +87,8 @@ def fill_disk(folder, process):
     Open MPI from starting.)
     """
     which, size, deadline = chance.choice(("all", "one")), chance.choice((20000, 150000, 300000)), time.monotonic() + 20
-    while not (folder / "run.lock").exists() and process.poll() is None and time.monotonic() < deadline:
+    begun = time.time() - 0.1
+    while not ((folder / "run.lock").exists() and (folder / "run.lock").stat().st_mtime > begun) and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.02)
     files = sorted(folder.glob("pid.*"))
     for file in files if which == "all" else chance.sample(files, min(1, len(files))):
