@@ -6,6 +6,7 @@
 #include <coplane_exodus/NetcdfHeader.hpp>
 
 #include <exodusII.h>
+#include <netcdf.h>
 
 #include <algorithm>
 #include <array>
@@ -18,7 +19,6 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <netcdf.h>
 #include <thread>
 #include <unistd.h>
 #include <unordered_map>
