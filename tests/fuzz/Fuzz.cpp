@@ -1,5 +1,6 @@
-// Gives spoilt files to a reader: coplane_fuzz READER [--count N] [--seed S] FILE ...
+// Gives spoilt files to a reader: coplane_fuzz READER [--count N] [--seed S] FILE|FOLDER ...
 //
+// Files of a folder are taken as they are (corpus/READER), with N more made of all of them.
 // Every file must be read, or refused with an Error: no crash, no other exception, nothing that
 // takes longer than 90 s, no memory that is lost. A file that does anything else is kept beside the
 // working folder under the name that is printed. Files are read in a child process, so that one
@@ -13,6 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <malloc.h>
@@ -37,6 +39,8 @@ struct Progress
 
 void write(const std::string& path, const std::string& content)
 {
+  // ext4 waits for the disk where a file is cut to nothing and written again.
+  std::remove(path.c_str());
   std::ofstream(path, std::ios::binary) << content;
 }
 
@@ -68,6 +72,16 @@ Outcome outcomeOf(const Reader& reader, const std::string& path)
 std::string keptName(const Reader& reader, int file)
 {
   return reader.name + "-" + std::to_string(file) + reader.extension;
+}
+
+void addFiles(const std::string& folder, std::vector<std::string>& to)
+{
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    names.push_back(entry.path().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& name : names)
+    to.push_back(textOfFile(name));
 }
 
 const Reader* readerOf(const std::string& name)
@@ -133,7 +147,7 @@ int main(int argc, char** argv)
   const Reader* const reader = argc > 1 ? readerOf(argv[1]) : nullptr;
   int count = 1000;
   std::uint64_t seed = 1;
-  std::vector<std::string> good;
+  std::vector<std::string>& good = goodFiles();
   for (int i = 2; i < argc && reader; ++i)
   {
     const std::string argument = argv[i];
@@ -141,12 +155,15 @@ int main(int argc, char** argv)
       count = std::atoi(argv[++i]);
     else if (argument == "--seed" && i + 1 < argc)
       seed = std::strtoull(argv[++i], nullptr, 10);
+    else if (std::filesystem::is_directory(argument))
+      addFiles(argument, good);
     else
       good.push_back(reader->goodFile(argument));
   }
+  count += int(good.size());
   if (good.empty())
   {
-    std::cerr << "usage: coplane_fuzz READER [--count N] [--seed S] FILE ...\nreaders:";
+    std::cerr << "usage: coplane_fuzz READER [--count N] [--seed S] FILE|FOLDER ...\nreaders:";
     for (const Reader& candidate : readers())
       std::cerr << ' ' << candidate.name;
     std::cerr << '\n';

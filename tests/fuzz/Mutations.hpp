@@ -11,7 +11,8 @@
 namespace coplane
 {
 /// Makes spoilt files out of good ones: a few random changes each, of the kinds that disks, editors
-/// and other programs make. The same seed gives the same files.
+/// and other programs make. The same seed gives the same files. First come the good ones
+/// themselves.
 class Mutations
 {
 public:
@@ -22,6 +23,8 @@ public:
 
   std::string next()
   {
+    if (unchanged_ < good_.size())
+      return good_[unchanged_++];
     std::string file = good_[below(good_.size())];
     for (std::size_t changes = 1 + below(4); changes > 0; --changes)
       change(file);
@@ -138,6 +141,7 @@ private:
   }
 
   std::vector<std::string> good_;
+  std::size_t unchanged_ = 0; ///< so many of them have been given
   std::mt19937_64 random_;
 };
 } // namespace coplane

@@ -22,5 +22,7 @@ struct Reader
 };
 
 const std::vector<Reader>& readers();
+/// What was not spoilt: the files to start from.
+std::vector<std::string>& goodFiles();
 std::string textOfFile(const std::string& path);
 } // namespace coplane

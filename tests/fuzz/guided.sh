@@ -1,30 +1,50 @@
 #!/usr/bin/env bash
-# Searches for a time with a coverage-guided fuzzer (AFL++) for files that a reader does not survive:
+# Searches with a coverage-guided fuzzer (libFuzzer) for files that a reader does not survive: what reaches new code is kept and changed
+# further.
 #
-#   tests/fuzz/guided.sh READER SECONDS
+#   tests/fuzz/guided.sh [--sanitize] [--keep] READER RUNS
 #
-# Builds coplane_fuzz in build-fuzz with AFL's compiler pass (Debian package afl++), starts from the good files of CMakeLists.txt and from
-# earlier findings, and leaves what it finds in build-fuzz/findings/READER/default/{crashes,hangs}.
+# READER      deck, recipe, gmsh, exodus or checkpoint
+# RUNS        files to try; the search starts from corpus/READER and earlier finds
+# --sanitize  with address and undefined-behaviour sanitizers, in build-fuzz-sanitize; several times slower
+# --keep      at the end corpus/READER becomes the smallest set of files that reaches all that was reached
+#
+# Needs Debian's clang and libclang-rt-14-dev. Finds are in build-fuzz/READER: crash-*, timeout-*, oom-*; the counts in its log.
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-[ $# = 2 ] || { echo "usage: tests/fuzz/guided.sh READER SECONDS" >&2; exit 2; }
-reader=$1 seconds=$2 build=$top/build-fuzz
-command -v afl-fuzz >/dev/null || { echo "guided.sh: no afl-fuzz; install the Debian package afl++" >&2; exit 1; }
+build=$top/build-fuzz keep=no flags=
+while [ "${1#--}" != "${1:-}" ]; do
+  case $1 in
+    --sanitize) build=$top/build-fuzz-sanitize flags="-fsanitize=address,undefined -fno-sanitize-recover=undefined" ;;
+    --keep) keep=yes ;;
+    *) echo "guided.sh: unknown option '$1'; accepted: --sanitize, --keep" >&2; exit 2 ;;
+  esac
+  shift
+done
+[ $# = 2 ] && [ -d "$top/tests/fuzz/corpus/$1" ] || { echo "usage: tests/fuzz/guided.sh [--sanitize] [--keep] READER RUNS; readers:" $(ls "$top/tests/fuzz/corpus") >&2; exit 2; }
+command -v clang++ >/dev/null || { echo "guided.sh: no clang++; install the Debian packages clang and libclang-rt-14-dev" >&2; exit 1; }
+export COPLANE_READER=$1
+runs=$2 corpus=$top/tests/fuzz/corpus/$1 work=$build/$1
 . "$top/packages/cmake/environment.sh"
 trilinos=${COPLANE_TRILINOS:-$("$top/packages/cmake/dependencies.sh" | tail -n 1)}
-cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=afl-g++ -DCOPLANE_BENCHMARKS=OFF \
-  -DCOPLANE_TRILINOS="$trilinos" >/dev/null
-ninja -C "$build" coplane_fuzz | tail -n 1
-inputs=$top/exodus_inputs seeds=$build/seeds/$reader
-rm -rf "$seeds" && mkdir -p "$seeds" "$build/findings"
-case $reader in
-  deck) cp "$inputs"/bars_2d/bars.yaml "$inputs"/bar_wall_3d/wall.yaml "$inputs"/cut_rock_2d/rock.yaml "$seeds" ;;
-  gmsh) cp "$top"/apps/coplane_mesh/test/*.msh "$seeds" ;;
-  exodus | exodus_hdf5) (cd "$seeds" && "$build/bin/coplane_fuzz" "$reader" --count 0 "$inputs/incline/mesh.yaml" && rm -f read.log) ;;
-esac
-[ "$reader" != exodus_hdf5 ] || rm -f "$seeds"/*_good.e
-resume=$seeds
-[ ! -d "$build/findings/$reader/default" ] || resume=-
-export AFL_SKIP_CPUFREQ=1 AFL_I_DONT_CARE_ABOUT_MISSING_CRASHES=1 AFL_NO_UI=1 AFL_NO_AFFINITY=1
-afl-fuzz -i "$resume" -o "$build/findings/$reader" -t 2000 -V "$seconds" -- "$build/bin/coplane_fuzz" --read "$reader" @@ >"$build/$reader.log" 2>&1 || true
-grep -E '^(execs_done|saved_crashes|saved_hangs|corpus_count|bitmap_cvg)' "$build/findings/$reader/default/fuzzer_stats"
+cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS="$flags" \
+  -DCOPLANE_BENCHMARKS=OFF -DCOPLANE_TRILINOS="$trilinos" >/dev/null
+ninja -C "$build" coplane_guided | tail -n 1
+
+mkdir -p "$work/found" "$work/smallest"
+cd "$work"
+export ASAN_OPTIONS=detect_container_overflow=0 # Trilinos is not instrumented
+fuzzer=("$build/bin/coplane_guided" -detect_leaks=0 -timeout=30 -rss_limit_mb=4096 -max_len=16384 -print_final_stats=1)
+: >log.txt
+# In rounds: the netCDF library loses some memory of every file that it refuses.
+for ((done = 0; done < runs; done += round)); do
+  round=$((runs - done < 200000 ? runs - done : 200000))
+  "${fuzzer[@]}" -runs="$round" found "$corpus" >>log.txt 2>&1 || { grep -E 'ERROR|SUMMARY|Test unit' log.txt; exit 1; }
+done
+echo "$COPLANE_READER: $(awk '/number_of_executed_units/ { n += $2 } END { print n }' log.txt) files, $(grep -E 'cov: [0-9]+' log.txt | tail -n 1 | sed -E 's/.*cov: ([0-9]+) ft: ([0-9]+).*/\1 edges, \2 features/'), no crash"
+if [ $keep = yes ]; then
+  rm -f smallest/*
+  "${fuzzer[@]}" -merge=1 -use_counters=0 smallest "$corpus" found >merge.txt 2>&1
+  rm -f "$corpus"/* && cp smallest/* "$corpus"
+  echo "$corpus: $(ls smallest | wc -l) files, $(du -sb smallest | cut -f1) bytes"
+fi

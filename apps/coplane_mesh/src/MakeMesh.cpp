@@ -76,14 +76,20 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name)
   if (dimension > 3)
     recipe.refuse("dimension", fmt::format("= {} must be 2 or 3.", dimension));
   std::vector<Part> parts;
+  RecipeProblems problems;
+  int number = 0;
   for (const YAML::Node& node : recipe.list("parts"))
-    parts.push_back(readPart(node, name, fmt::format("parts[{}]", parts.size()), dimension));
+    problems.collect(
+        [&]
+        { parts.push_back(readPart(node, name, fmt::format("parts[{}]", number++), dimension)); });
+  problems.tell(); // sets are made of all parts
   std::vector<Vec3> ownCoordinates;
   Mesh mesh = assemble(parts, dimension, ownCoordinates);
   mesh.title =
       recipe.has("title") ? recipe.text("title") : std::filesystem::path(name).filename().string();
   mesh.qaRecords.push_back(qaRecord());
-  addSets(mesh, ownCoordinates, recipe);
+  addSets(mesh, ownCoordinates, recipe, problems);
+  problems.tell();
   return mesh;
 }
 
@@ -161,6 +167,7 @@ node_sets:                       optional
   name:
     block: name or list          default: all blocks
     where: {y: 0, x: [0, 1]}     planes and ranges in the mesh; nodes must meet all of them, within 1e-6 of the mesh size
+           {radius: r, angle: [0, 90]}  distance from the z axis (2D: the origin), degrees from x towards y about it; also ranges or single values
     where_own: {x: 0}            the same in the part's coordinates before rotate and offset
 side_sets:                       optional; exterior faces whose nodes all meet the selection
   name:

@@ -22,6 +22,15 @@ std::string joined(const std::vector<std::string>& words)
     text += (text.empty() ? "" : ", ") + word;
   return text;
 }
+
+/// A key of the map at `path`.
+std::string wordOf(const YAML::Node& key, const std::string& file, const std::string& path)
+{
+  if (!key.IsScalar())
+    fail(ExitCode::Deck, "{}: a key in {} is no word; accepted: a word, such as 'parts:'.",
+         placeOf(file, key), path.empty() ? "the recipe" : path);
+  return key.Scalar();
+}
 } // namespace
 
 std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
@@ -74,7 +83,7 @@ RecipeMap::RecipeMap(YAML::Node node, std::string file, std::string path,
   std::set<std::string> seen;
   for (const auto& entry : node_)
   {
-    const std::string key = entry.first.as<std::string>();
+    const std::string key = wordOf(entry.first, file_, path_);
     if (std::find(accepted.begin(), accepted.end(), key) == accepted.end())
       fail(ExitCode::Deck, "{}: {} is not known; {} accepts {}.{}", placeOf(file_, entry.first),
            pathOf(key), name, joined(accepted), didYouMean(key, accepted));
@@ -281,7 +290,7 @@ std::vector<std::pair<std::string, YAML::Node>> RecipeMap::entries(const std::st
   std::set<std::string> seen;
   for (const auto& entry : node_[key])
   {
-    const std::string name = entry.first.as<std::string>();
+    const std::string name = wordOf(entry.first, file_, pathOf(key));
     if (!seen.insert(name).second)
       fail(ExitCode::Deck, "{}: {}.{} is given twice; keep one.", placeOf(file_, entry.first),
            pathOf(key), name);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/Error.hpp>
 #include <coplane_core/Vec3.hpp>
 
 #include <yaml-cpp/yaml.h>
@@ -60,6 +61,36 @@ private:
 
   YAML::Node node_;
   std::string file_, path_;
+};
+
+/// Errors of several parts and sets of one recipe, to be told together.
+class RecipeProblems
+{
+public:
+  /// Does something; an Error of ExitCode::Deck is kept for later.
+  template <class F>
+  void collect(const F& action)
+  {
+    try
+    {
+      action();
+    }
+    catch (const Error& error)
+    {
+      if (error.code() != ExitCode::Deck)
+        throw;
+      text_ += (text_.empty() ? "" : "\n") + std::string(error.what());
+    }
+  }
+  /// Throws what was kept.
+  void tell() const
+  {
+    if (!text_.empty())
+      throw Error(ExitCode::Deck, text_);
+  }
+
+private:
+  std::string text_;
 };
 
 /// The text of a file, or an Error(ExitCode::Deck) that says where its keys are explained.

@@ -15,47 +15,72 @@ namespace coplane
 {
 namespace
 {
-/// Ranges along the axes; a plane is a range of zero length. Both ends are widened by the
-/// tolerance.
+/// From and to, both ends widened by the tolerance; a plane is a range of zero length.
+struct Range
+{
+  Real low = -infinity, high = infinity;
+  bool holds(Real x) const { return low <= x && x <= high; }
+};
+
+/// Ranges along the axes, of the distance from the z axis (2D: from the origin), and of the angle
+/// about it.
 struct Ranges
 {
-  std::array<Real, 3> low{-infinity, -infinity, -infinity}, high{infinity, infinity, infinity};
+  std::array<Range, 3> axes;
+  Range radius, angle; ///< [m, degrees from x towards y]
+  Real tolerance;
+
   bool hold(const Vec3& x) const
   {
     for (int axis = 0; axis < 3; ++axis)
-      if (x[axis] < low[axis] || x[axis] > high[axis])
+      if (!axes[axis].holds(x[axis]))
         return false;
-    return true;
+    const Real r = std::hypot(x[0], x[1]);
+    if (!radius.holds(r))
+      return false;
+    if (angle.low == -infinity || r <= tolerance)
+      return true; // the axis has any angle
+    const Real slack = degrees(tolerance / r), from = angle.low - slack;
+    const Real turned =
+        std::fmod(std::fmod(degrees(std::atan2(x[1], x[0])) - from, 360) + 360, 360);
+    return turned <= angle.high - angle.low + 2 * slack;
   }
+
+private:
+  static Real degrees(Real radians) { return radians * 180 / pi; }
 };
+
+/// A number, or two with the lower one first.
+Range readRange(const RecipeMap& map, const std::string& key, Real tolerance)
+{
+  if (!map.has(key))
+    return {};
+  if (!map.node(key).IsSequence())
+  {
+    const Real at = map.number(key);
+    return {at - tolerance, at + tolerance};
+  }
+  const std::vector<Real> ends = map.numbers(key, 2);
+  if (ends[0] > ends[1])
+    map.refuse(key, fmt::format("= [{}, {}]: the lower end comes first.", ends[0], ends[1]));
+  return {ends[0] - tolerance, ends[1] + tolerance};
+}
 
 Ranges readRanges(const RecipeMap& selection, const std::string& key, int dimension, Real tolerance)
 {
   Ranges ranges;
+  ranges.tolerance = tolerance;
   if (!selection.has(key))
     return ranges;
-  const RecipeMap map =
-      selection.map(key, dimension == 2 ? std::vector<std::string>{"x", "y"}
-                                        : std::vector<std::string>{"x", "y", "z"});
+  std::vector<std::string> accepted{"x", "y", "z", "radius", "angle"};
+  if (dimension == 2)
+    accepted.erase(accepted.begin() + 2);
+  const RecipeMap map = selection.map(key, accepted);
   const std::array<std::string, 3> axes{"x", "y", "z"};
   for (int axis = 0; axis < dimension; ++axis)
-  {
-    if (!map.has(axes[axis]))
-      continue;
-    Real low, high;
-    if (map.node(axes[axis]).IsSequence())
-    {
-      const std::vector<Real> ends = map.numbers(axes[axis], 2);
-      low = ends[0];
-      high = ends[1];
-      if (low > high)
-        map.refuse(axes[axis], fmt::format("= [{}, {}]: the lower end comes first.", low, high));
-    }
-    else
-      low = high = map.number(axes[axis]);
-    ranges.low[axis] = low - tolerance;
-    ranges.high[axis] = high + tolerance;
-  }
+    ranges.axes[axis] = readRange(map, axes[axis], tolerance);
+  ranges.radius = readRange(map, "radius", tolerance);
+  ranges.angle = readRange(map, "angle", 0);
   return ranges;
 }
 
@@ -143,22 +168,32 @@ void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
 }
 } // namespace
 
-void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const RecipeMap& recipe)
+void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const RecipeMap& recipe,
+             RecipeProblems& problems)
 {
   const Real tolerance = 1e-6 * sizeOf(mesh);
-  for (const auto& [name, node] : recipe.entries("node_sets"))
-    addNodeSet(mesh, ownCoordinates,
-               RecipeMap(node, recipe.file(), "node_sets." + name, {"block", "where", "where_own"}),
-               name, tolerance);
+  for (const auto& entry : recipe.entries("node_sets"))
+    problems.collect(
+        [&, &name = entry.first]
+        {
+          addNodeSet(mesh, ownCoordinates,
+                     RecipeMap(entry.second, recipe.file(), "node_sets." + name,
+                               {"block", "where", "where_own"}),
+                     name, tolerance);
+        });
   const auto sideSets = recipe.entries("side_sets");
   if (sideSets.empty())
     return;
   const std::vector<MeshFace> faces = facesOf(mesh);
   const std::vector<ElementPlace> places = placesOfElements(mesh);
-  for (const auto& [name, node] : sideSets)
-    addSideSet(mesh, ownCoordinates,
-               RecipeMap(node, recipe.file(), "side_sets." + name,
-                         {"block", "where", "where_own", "normal"}),
-               name, tolerance, faces, places);
+  for (const auto& entry : sideSets)
+    problems.collect(
+        [&, &name = entry.first]
+        {
+          addSideSet(mesh, ownCoordinates,
+                     RecipeMap(entry.second, recipe.file(), "side_sets." + name,
+                               {"block", "where", "where_own", "normal"}),
+                     name, tolerance, faces, places);
+        });
 }
 } // namespace coplane

@@ -46,6 +46,15 @@ TEST(Recipe, aKeyGivenTwiceIsRefused)
             "r.yaml:2:1: dimension is given twice; keep one.");
 }
 
+TEST(Recipe, aKeyThatIsNoWordIsRefused)
+{
+  EXPECT_EQ(errorOf("? [a, b]\n: 2\n"), "r.yaml:1:3: a key in the recipe is no word; accepted: a "
+                                        "word, such as 'parts:'.");
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1]}\n"
+                           "node_sets: {~: {block: b}}\n"),
+            "r.yaml:4:13: a key in node_sets is no word; accepted: a word, such as 'parts:'.");
+}
+
 TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
 {
   EXPECT_EQ(

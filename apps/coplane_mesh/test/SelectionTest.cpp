@@ -1,5 +1,6 @@
 #include "MakeMesh.hpp"
 
+#include <coplane_core/Error.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 
 #include <gtest/gtest.h>
@@ -38,6 +39,64 @@ TEST(Selection, aRangeIncludesItsEnds)
 {
   // x = 1, 2, 3 on the two lines of nodes of `low`.
   EXPECT_EQ(made("node_sets: {a: {block: low, where: {x: [1, 3]}}}").nodeSets[0].nodes.size(), 6u);
+}
+
+TEST(Selection, radiusAndAngleAreThoseAboutTheOrigin)
+{
+  const auto ring = [](const std::string& where)
+  {
+    return makeMeshFromText("{dimension: 2, parts: [{shape: sector, block: b, inner_radius: 1, "
+                            "outer_radius: 2, from: 0, to: 180, divisions: [2, 12]}], node_sets: "
+                            "{a: {where: {" +
+                                where + "}}}}",
+                            "ring.yaml")
+        .nodeSets[0]
+        .nodes.size();
+  };
+  EXPECT_EQ(ring("radius: 1"), 13u);
+  EXPECT_EQ(ring("radius: [1, 1.5]"), 26u);
+  EXPECT_EQ(ring("angle: 90"), 3u);
+  EXPECT_EQ(ring("angle: [0, 30]"), 9u); // nodes every 15 degrees
+  EXPECT_EQ(ring("angle: [-370, -330]"), 9u);
+  EXPECT_EQ(ring("angle: [150, 180], radius: 2"), 3u);
+  EXPECT_EQ(ring("angle: [-200, 200]"), 39u);
+  EXPECT_THROW(ring("angle: [30, 0]"), Error);
+  EXPECT_THROW(ring("radius: 3"), Error);
+}
+
+TEST(Selection, theMantleOfACylinder)
+{
+  const Mesh mesh = makeMeshFromText(
+      "{dimension: 3, parts: [{shape: cylinder, block: b, radius: 0.5, across: 4, length: 1, "
+      "along: 2, rotate: [90, 0, 0]}], side_sets: {mantle: {where_own: {radius: 0.5}}}}",
+      "cylinder.yaml");
+  EXPECT_EQ(mesh.sideSets[0].elements.size(), 8u * 2); // two layers; the outline has 8 faces
+}
+
+TEST(Selection, everyWrongPartAndSetIsNamed)
+{
+  try
+  {
+    makeMeshFromText("{dimension: 2, parts: [{shape: bux, block: a}, {shape: box, block: b, size: "
+                     "[1, 1], divisions: [0, 1]}]}",
+                     "parts.yaml");
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("parts[0]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("parts[1]"), std::string::npos) << error.what();
+  }
+  try
+  {
+    made("node_sets: {a: {block: middle}, b: {where: {y: 7}}}\nside_sets: {c: {normal: [0, 0]}}");
+    FAIL();
+  }
+  catch (const Error& error)
+  {
+    for (const char* set : {"node_sets.a", "node_sets.b", "side_sets.c"})
+      EXPECT_NE(std::string(error.what()).find(set), std::string::npos) << error.what();
+  }
 }
 
 TEST(Selection, interiorFacesAreNotInSideSets)

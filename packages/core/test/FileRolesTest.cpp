@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <TestFolder.hpp>
+#include <atomic>
 #include <sys/stat.h>
+#include <thread>
 
 namespace coplane
 {
@@ -118,4 +120,26 @@ TEST_F(FileRolesTest, SpecialFilesAreNotWritten)
   EXPECT_EQ(kindOfSpecialFile(at("missing")), "");
 }
 } // namespace
+TEST_F(FileRolesTest, FilesThatARunReplacesMeanwhileDoNotSeemToBeOne)
+{
+  // Two files are replaced in turn; where the file system gives the inode of one that has gone to
+  // the next that is made, each has now and then the inode that the other had.
+  std::atomic<bool> isOver{false};
+  std::thread writer(
+      [&]
+      {
+        for (int i = 0; !isOver; ++i)
+          for (const char* name : {"mesh.e", "run.e"})
+          {
+            make("draft");
+            fs::rename(at("draft"), at(name));
+          }
+      });
+  int clashes = 0;
+  for (int i = 0; i < 20000; ++i)
+    clashes += int(problems(at("mesh.e"), at("run.e")).size());
+  isOver = true;
+  writer.join();
+  EXPECT_EQ(clashes, 0);
+}
 } // namespace coplane

@@ -226,6 +226,36 @@ TEST(MeshFile, aMeshWithoutElementsIsRefused)
                        "the mesh has no elements (10 nodes, 0 element blocks)"));
 }
 
+TEST(MeshFile, listsThatTheLibraryCannotReadAreRefused)
+{
+  // In the header of CDF-5 a variable is its name, the number and ids of its dimensions, attributes
+  // (none: 12 bytes of zero), type.
+  const std::string file = ownFile("lists.e");
+  writeMesh(sampleMesh2d(), file);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(stream)), {});
+  const std::size_t variable = good.find("eb_status");
+  ASSERT_NE(variable, std::string::npos);
+  const std::size_t dimension = variable + 12 + 8, type = dimension + 8 + 12;
+  ASSERT_EQ(good[type + 3], 4); // NC_INT
+  for (const auto& [place, value] : {std::pair(type + 3, char(2)), {dimension + 7, char(2)}})
+  {
+    std::string spoilt = good;
+    spoilt[place] = value; // text; or one for each axis
+    std::ofstream(file, std::ios::binary) << spoilt;
+    try
+    {
+      readMesh(file);
+      FAIL();
+    }
+    catch (const Error& error)
+    {
+      EXPECT_EQ(error.code(), ExitCode::Mesh);
+      EXPECT_NE(std::string(error.what()).find("'eb_status'"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(MeshFile, anIdThatOccursTwiceIsRefused)
 {
   Mesh mesh = sampleMesh2d();

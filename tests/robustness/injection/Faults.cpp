@@ -1,13 +1,15 @@
 // Loaded before the program (LD_PRELOAD), this makes one call on one rank fail: an allocation or a
 // collective call throws std::bad_alloc, a call of the system returns an error. Counted are calls
 // between MPI_Init and MPI_Finalize; of files, those of plain files below the working folder; of
-// collectives, those that the program itself makes.
+// collectives, those that the program itself makes. A line "FAULT: ..." on stderr says that it
+// happened.
 //
 //   FAULT_KIND   memory, collective, open, read, write, sync, reserve, rename or close
 //   FAULT_RANK   the rank on which it fails
 //   FAULT_NTH    which call of the kind fails, from 1; 0: none
 //   FAULT_LAST   the last one that fails (a disk that stays full); default: only the one
 //   FAULT_ERRNO  of calls of the system; default: EIO
+//   FAULT_TRACE  set: the stack of the call is printed
 //   FAULT_LOG    folder for a file per rank: how many calls of each kind there were, and from where
 //   the collective ones came
 
@@ -62,10 +64,28 @@ struct Inside
   ~Inside() { inside = false; }
 };
 
+/// Says once on stderr that it happened, without memory of its own; with FAULT_TRACE, where.
+void tell(Kind kind, long call)
+{
+  static std::atomic<bool> told{false};
+  if (told.exchange(true))
+    return;
+  const Inside guard;
+  char text[64];
+  const int length = std::snprintf(text, sizeof text, "FAULT: %s %ld\n", names[kind], call);
+  if (::write(STDERR_FILENO, text, std::size_t(length)) < 0 || !std::getenv("FAULT_TRACE"))
+    return;
+  void* frames[40];
+  ::backtrace_symbols_fd(frames, ::backtrace(frames, 40), STDERR_FILENO);
+}
+
 bool fails(Kind kind)
 {
   const long call = ++calls[kind];
-  return chosen == kind && call >= first && call <= last;
+  const bool now = chosen == kind && call >= first && call <= last;
+  if (now)
+    tell(kind, call);
+  return now;
 }
 
 bool isMine(int descriptor)
@@ -135,7 +155,11 @@ void collective(void* caller)
 void* allocate(std::size_t size, std::size_t alignment)
 {
   if (isOn && !inside && fails(Memory))
+  {
+    if (const std::new_handler handler = std::get_new_handler())
+      handler();
     throw std::bad_alloc();
+  }
   void* memory = nullptr;
   if (alignment <= alignof(max_align_t))
     memory = std::malloc(size ? size : 1);

@@ -4,6 +4,9 @@
 #include <cstdlib>
 #include <hdf5.h>
 
+/// Of the library, but not in its header: takes an id from its list.
+extern "C" void* H5I_remove(hid_t id) __attribute__((weak));
+
 namespace coplane::hdf5
 {
 namespace
@@ -65,6 +68,15 @@ hid_t creation()
   return list;
 }
 
+/// Closes a file. Where the system's close fails, HDF5 1.10 frees the file but keeps its id, and
+/// frees it again at its end, in MPI_Finalize: then it must forget the id.
+herr_t closeFile(hid_t id)
+{
+  const herr_t status = H5Fclose(id);
+  if (status < 0 && H5I_remove)
+    H5I_remove(id);
+  return status;
+}
 } // namespace
 
 File::File(const std::string& file, Mode mode)
@@ -91,14 +103,14 @@ File::File(const std::string& file, Mode mode)
 File::~File()
 {
   if (id_ >= 0)
-    H5Fclose(id_);
+    closeFile(id_);
 }
 
 void File::close()
 {
   const hid_t closing = id_;
   id_ = -1;
-  check(H5Fclose(closing), "closing the file");
+  check(closeFile(closing), "closing the file");
 }
 
 /// Groups are made one by one, since those that HDF5 makes on the way note the time of day.

@@ -23,11 +23,26 @@ bool mpiRuns() noexcept
   return begun && !ended;
 }
 
+/// Whether an allocation of this thread has failed.
+thread_local bool memoryRanOut = false;
+
+[[noreturn]] void onFailedAllocation()
+{
+  memoryRanOut = true;
+  throw std::bad_alloc();
+}
+
 [[noreturn]] void onTerminate()
 {
-  // A rank that has aborted may unwind once more.
+  // Before GCC 13 an exception that leaves a noexcept function (as some of std::filesystem that
+  // allocate) is not the current one here.
   const char* text = "an exception was thrown where nothing may throw";
   ExitCode code = ExitCode::Internal;
+  if (memoryRanOut)
+  {
+    text = "there is not enough memory";
+    code = ExitCode::Machine;
+  }
   if (const std::exception_ptr current = std::current_exception())
     try
     {
@@ -95,6 +110,7 @@ std::string textOf(const std::exception& error)
 void abortAllRanksOnTerminate()
 {
   std::set_terminate(onTerminate);
+  std::set_new_handler(onFailedAllocation);
 }
 
 void leaveTogether(const Comm& comm, ExitCode code, const std::string& text, double seconds)

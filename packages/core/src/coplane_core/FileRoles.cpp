@@ -126,6 +126,19 @@ bool meet(const Seen& a, const Seen& b)
   return false;
 }
 
+/// Whether two names that met do so when they are looked at again, and again. Beside a run that
+/// replaces its files, the inode of one that has just gone may have become that of the other.
+bool meetStill(const std::vector<std::string>& a, const std::vector<std::string>& b)
+{
+  for (int time = 0; time < 3; ++time)
+  {
+    const Seen before = look(a), other = look(b), after = look(a);
+    if (!meet(before, other) || !meet(after, other))
+      return false;
+  }
+  return true;
+}
+
 std::string nameOf(const std::vector<std::string>& pieces)
 {
   return fmt::format("{}", fmt::join(pieces, "<number>"));
@@ -187,7 +200,8 @@ std::vector<std::string> FileRoles::problems() const
     for (std::size_t k = 0; k < roles_.size(); ++k)
     {
       const Role& other = roles_[k];
-      if (k == i || (other.isOutput && k < i) || !meet(seen[i], seen[k]))
+      if (k == i || (other.isOutput && k < i) || !meet(seen[i], seen[k]) ||
+          !meetStill(output.pieces, other.pieces))
         continue;
       if (!said.insert(output.what + "\n" + other.what).second)
         continue;

@@ -6,6 +6,7 @@
 #include <coplane_exodus/NetcdfHeader.hpp>
 
 #include <exodusII.h>
+#include <netcdf.h>
 
 #include <algorithm>
 #include <array>
@@ -136,6 +137,7 @@ public:
 
   ReadSlice read()
   {
+    demandLists();
     readSizes();
     readNodes();
     readBlocks();
@@ -158,6 +160,30 @@ private:
       fail(ExitCode::Mesh, "{}: cannot be read: {}. The file is damaged; write it again.", file_,
            failure.what());
     }
+  }
+
+  /// The lists of ids and states of blocks and sets, as Exodus 8 reads them: without a look at
+  /// their length, and when it cannot read one it frees it twice.
+  void demandLists() const
+  {
+    for (const auto& [kind, dimension] :
+         {std::pair("eb", "num_el_blk"), {"ns", "num_node_sets"}, {"ss", "num_side_sets"}})
+      for (const char* list : {"_prop1", "_status"})
+      {
+        int variable = -1, dimensions = 0, own = -1, whole = -1;
+        nc_type type = NC_NAT;
+        if (nc_inq_varid(exoid_, (std::string(kind) + list).c_str(), &variable) != NC_NOERR)
+          continue;
+        const bool isInt = nc_inq_vartype(exoid_, variable, &type) == NC_NOERR &&
+                           (type == NC_INT || (type == NC_INT64 && list[1] == 'p'));
+        if (!isInt || nc_inq_varndims(exoid_, variable, &dimensions) != NC_NOERR ||
+            dimensions != 1 || nc_inq_vardimid(exoid_, variable, &own) != NC_NOERR ||
+            nc_inq_dimid(exoid_, dimension, &whole) != NC_NOERR || own != whole)
+          fail(ExitCode::Mesh,
+               "{}: the list '{}{}' is not one of whole numbers, one for each of '{}'. The file is "
+               "damaged; write it again.",
+               file_, kind, list, dimension);
+      }
   }
 
   void readSizes()

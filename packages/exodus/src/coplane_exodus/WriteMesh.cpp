@@ -8,8 +8,35 @@
 
 namespace coplane
 {
+namespace
+{
+constexpr std::size_t longestName = 255; // NC_MAX_NAME, less its end
+
+/// Exodus ends names at a zero, and takes blanks at their end for filling.
+template <class Entities>
+void demandNames(const Entities& entities, const char* kind, const std::string& file)
+{
+  for (const auto& entity : entities)
+  {
+    const std::string& name = entity.name;
+    const char* const fault = name.size() > longestName              ? "is longer than 255 bytes"
+                              : name.find('\0') != std::string::npos ? "holds a zero byte"
+                              : !name.empty() && name.back() == ' '  ? "ends with a blank"
+                                                                     : nullptr;
+    if (fault)
+      fail(ExitCode::Deck,
+           "{}: the name '{}' of a {} {}, which Exodus files cannot keep. Accepted: any letters in "
+           "UTF-8, up to 255 bytes. Choose another name.",
+           file, std::string(name.c_str()).substr(0, longestName), kind, fault);
+  }
+}
+} // namespace
+
 void writeMesh(const Mesh& mesh, const std::string& file)
 {
+  demandNames(mesh.blocks, "block", file);
+  demandNames(mesh.nodeSets, "node set", file);
+  demandNames(mesh.sideSets, "side set", file);
   quietExodus();
   // Going beyond a file-size limit shall be an error of the call, like a full disk, not the death
   // of the program.

@@ -154,8 +154,9 @@ private:
                                         join(path, "<<")));
         continue;
       }
-      const auto twin = std::find_if(seen.begin(), seen.end(),
-                                     [&](const auto& one) { return one.first == name.text; });
+      const auto twin =
+          std::find_if(seen.begin(), seen.end(),
+                       [&text = name.text](const auto& one) { return one.first == text; });
       if (twin != seen.end())
         problems_.add(name, fmt::format("{} is given twice, first at {}; keep one of them.",
                                         join(path, name.text), twin->second->where));
