@@ -151,6 +151,25 @@ std::string sizeOf(const std::string& file)
   return error ? "not there" : fmt::format("{} bytes", bytes);
 }
 
+/// Does some work; an error of this rank alone ends all ranks before anything is destroyed that
+/// was made outside of it: communicators within libraries are freed by all ranks together, and this
+/// one must not wait for others that wait for it.
+template <class Work>
+void endAllRanksOnOwnError(const Work& work)
+{
+  try
+  {
+    work();
+  }
+  catch (const std::exception& error)
+  {
+    const auto* ours = dynamic_cast<const Error*>(&error);
+    if (!ours || !ours->onAllRanks())
+      abortAllRanks(codeOf(error), textOf(error).c_str());
+    throw;
+  }
+}
+
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
   listenToSignals();
@@ -202,24 +221,29 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   const auto begin = std::chrono::steady_clock::now();
   Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
   const std::chrono::duration<double> toBuild = std::chrono::steady_clock::now() - begin;
-  if (line.restart)
-    restart(solver, deck, mesh, line.checkpoint, settings);
-  else
-    solver.prepare();
-  reportModel(solver, mesh, deck);
-  reportSoftening(deck, mesh, solver, comm);
-  if (line.check)
-  {
-    logInfo("check: deck and mesh are fine; nothing was run");
-    return int(ExitCode::Success);
-  }
-  if (!line.restart)
-    putAside(deck.checkpoint.file, comm);
   MultiObserver observers;
-  addObservers(observers, deck, mesh, comm, settings);
   Rebalancer rebalancer(comm, mesh, rebalanceOptionsOf(deck, toBuild.count()), modelOf);
-  const ExitCode code = solver.run(observers, &rebalancer);
-  reportEnd(solver);
+  ExitCode code = ExitCode::Success;
+  const auto work = [&]
+  {
+    if (line.restart)
+      restart(solver, deck, mesh, line.checkpoint, settings);
+    else
+      solver.prepare();
+    reportModel(solver, mesh, deck);
+    reportSoftening(deck, mesh, solver, comm);
+    if (line.check)
+    {
+      logInfo("check: deck and mesh are fine; nothing was run");
+      return;
+    }
+    if (!line.restart)
+      putAside(deck.checkpoint.file, comm);
+    addObservers(observers, deck, mesh, comm, settings);
+    code = solver.run(observers, &rebalancer);
+    reportEnd(solver);
+  };
+  endAllRanksOnOwnError(work);
   return int(code);
 }
 
@@ -260,7 +284,8 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
     for (int i = 0; i < argc; ++i)
       command += (i ? " " : "") + std::string(argv[i]);
     int code = 0;
-    try
+    // Before Kokkos ends, which a rank that fails alone must not wait for.
+    const auto work = [&]
     {
       if (asksForHelp(line))
       {
@@ -273,16 +298,9 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
       else
         code = std::max(runDeck(line, comm, command), 0);
       logSummary();
-      return code;
-    }
-    catch (const std::exception& error)
-    {
-      // Before Kokkos ends, which a rank that fails alone must not wait for.
-      const auto* ours = dynamic_cast<const Error*>(&error);
-      if (!ours || !ours->onAllRanks())
-        abortAllRanks(codeOf(error), textOf(error).c_str());
-      throw;
-    }
+    };
+    endAllRanksOnOwnError(work);
+    return code;
   }
   catch (const Error& error)
   {
