@@ -105,7 +105,7 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
   };
   const Real gap = dot(n, planeB.center - planeA.center);
   const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
-  if (gap > rules.skin + extents + approach(a, b, n, rules) ||
+  if (gap > rules.skin + rules.offset + extents + approach(a, b, n, rules) ||
       gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
     return Verdict::TooFarApart;
   return Verdict::Candidate;

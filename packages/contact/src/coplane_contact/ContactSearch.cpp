@@ -135,6 +135,12 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   oldX_ = x;
   {
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
+    std::vector<Real> offset{0};
+    for (std::size_t p = 0; p < planes_.extent(0); ++p)
+      offset[0] = std::max(offset[0], planes_(p).offset);
+    comm_->max(offset);
+    candidates_.offset = offset[0];
+    candidates_.reach = candidates_.skin + candidates_.offset;
     candidates_.motion = {};
     if (ahead > 0)
       candidates_.motion = {v, ahead, commonVelocity(localFaces_, v, *comm_)};
