@@ -71,7 +71,8 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
   demandFewKinds(comm, localFaces_, rules_);
   setSkin(skin_);
   candidates_.cosOpposed = options_.cosOpposed;
-  candidates_.depthMax = potential() ? 0.9 : options_.depthMax; // the force has no end
+  // With the potential the force has no end.
+  candidates_.depthMax = potential() ? std::max(0.9, options_.depthMax) : options_.depthMax;
   candidates_.sharedNodes = options_.sharedNodes;
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
     laws_(j) = rules_.joints[j].law;
@@ -81,8 +82,8 @@ void Contact::setSkin(Real skin)
 {
   candidates_.skin = candidates_.reach = skin;
   // Nodes move by at most half a skin against each other until the next search, so each face turns
-  // by at most a skin over its size. What begins to oppose meanwhile has to be known.
-  candidates_.turning = potential() ? std::min(0.2, 2 * skin_ / smallestFace_) : 0;
+  // by at most a skin over its size. What begins to oppose meanwhile should be known.
+  candidates_.turning = potential() ? std::min(0.2, 2 * skin / smallestFace_) : 0;
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,
@@ -338,7 +339,7 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   const FacePlane b = facePlane(faceB, x, dimension_);
   const Real turn = 2 * skin_ / smallestFace_;
   const Real gap = dot(normalised(a.normal - b.normal), b.center - a.center);
-  const Real deepest = options_.depthMax * std::min(faceA.thickness, faceB.thickness);
+  const Real deepest = candidates_.depthMax * std::min(faceA.thickness, faceB.thickness);
   return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
 }
 

@@ -733,7 +733,7 @@ private:
   {
     using namespace branchFree;
     const auto turns = edges_.turns[mine] > 0.0, itTurns = edges_.turns[its] > 0.0;
-    const auto flat = absolute(change) * moments.area < moments.volume;
+    const auto flat = absolute(change) * moments.area < absolute(moments.volume);
     const T border = choose(flat && sameWay, T(scale_.oneBorder), T(0.0));
     const T mixed = choose(flat || !(turns || itTurns), T(scale_.oneEdge), T(0.0));
     return size_ * choose(turns && itTurns, border, mixed);
@@ -786,7 +786,7 @@ private:
     const T& s = moments.squares;
     const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
     strip_ = between && v * v * v < scale_.wayOutTo * (s * s) * lengthOfStrip();
-    if constexpr (branchFree::widthOf < T >> 1)
+    if constexpr (branchFree::widthOf<T> != 1)
       regular = regular && !strip_;
   }
 
@@ -915,7 +915,8 @@ private:
   ContactPotentialScale scale_;
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
   EdgesOf<T> edges_;
-  T coveredSides_[2]{}, openSides_[2]{}; ///< number of sides on edges of each face
+  T coveredSides_[2]{}; ///< number of sides on covered edges of each face
+  T openSides_[2]{};    ///< and on others at which its surface turns
   Vec2Of<T> tilt_, apart_;
   bool inOrder_ = false;
   int pieces_ = 0;

@@ -5,6 +5,7 @@
 #include <coplane_core/WorkWatch.hpp>
 
 #include <algorithm>
+#include <optional>
 
 namespace coplane
 {
@@ -24,7 +25,7 @@ void makeDormant(Plane& plane)
   plane.stored = 0;
   plane.history.shearTraction = {};
   plane.closure = 0;
-  plane.tooDeep = false;
+  plane.tooDeep = plane.released = plane.hidden = false;
   plane.state = PlaneState::Open;
   plane.leads = false;
 }
@@ -289,7 +290,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
   }
 
-  const EdgesOfSurfaces edges(localFaces_, pairs, faces_, x, dimension_, layout);
+  std::optional<EdgesOfSurfaces> edges;
+  if (!classic())
+    edges.emplace(localFaces_, pairs, faces_, x, dimension_, layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -329,8 +332,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.missed = false;
     const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
-    if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
-      edges.look(a, b, plane);
+    if (edges && (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset)))
+      edges->look(a, b, plane);
     plane.woke = known >= 0 && planes_(known).face[0] < 0;
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
     if (classic())

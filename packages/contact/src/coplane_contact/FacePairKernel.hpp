@@ -441,7 +441,7 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
   openUp(plane, a, b, dt);
   plane.overlap = 0;
   plane.nodeStiffness = 0;
-  plane.fresh = plane.foundLate = plane.released = false;
+  plane.fresh = plane.foundLate = plane.released = plane.hidden = plane.woke = false;
 }
 
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.

@@ -92,7 +92,7 @@ struct alignas(64) Plane
   bool inherited : 1;   ///< took its history from living neighbours
   bool slidesOn : 1;    ///< inherited, and some neighbour touches the same surface: a face beside
   bool released : 1;    ///< came into overlap deep inside: carries nothing until its faces part
-  bool tooDeep : 1;     ///< deeper than the limit; force frozen
+  bool tooDeep : 1;     ///< deeper than the limit
   bool leads : 1;       ///< CommonPlane: the plane of its two elements acts on these faces
   bool woke : 1;   ///< was no candidate until the last search, and has not been evaluated since
   bool stiff : 1;  ///< stiffer than the elements behind its faces: they chatter on it
@@ -100,7 +100,7 @@ struct alignas(64) Plane
   bool hidden : 1; ///< came into overlap behind a face that lies on one of these: carries nothing
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
-  std::uint8_t turns = 0;   ///< the surface turns there
+  std::uint8_t turns = 0;   ///< the surface turns outwards there
   std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
   JointFit fit;             ///< stiffnesses of the law for this pair
 

@@ -305,7 +305,9 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       }
       plane.history = state;
       tractions[i] = response.normalTraction;
-      stored[i] = wasBonded ? law.storedNormally(plane.fit, plane.closure, plane.history) : 0;
+      stored[i] = wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation,
+                                                 plane.history)
+                            : 0;
       plane.area = area;
       plane.normalTraction = response.normalTraction;
       plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
@@ -391,7 +393,8 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
     // Rims make a contact stiffer that is deep for its width.
     const T deep = positivePart(deepest / detail::shortestEdge(a, b) - 0.02);
     const T z = hardening * positivePart(deepest + ahead), z2 = z * z;
-    const T grown = z2 * z2 / (1.0 + z2 * z2); // of the slope of the hardened law at z, at most 13
+    // The slope of the hardened law is largest at 0.3455, where it is 12.3: from there on it stays.
+    const T grown = smaller(z2 * z2 / (1.0 + z2 * z2), T(0.3455));
     const T hardened =
         1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
     nodeArea = overlap * (1.0 + 3.0 * deep) * hardened *

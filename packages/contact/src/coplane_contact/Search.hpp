@@ -57,9 +57,13 @@ struct CandidateRules
     return size > longest ? (longest / size) * way : size >= 0 ? way : Vec3{};
   }
   /// How far the box of a face goes on into the body [m]. Points of two faces that lie at depth d
-  /// in each other are apart by d (n0 - n1) / |n0 - n1|, and |n0 - n1| > sqrt(2) for opposed
-  /// normals: moved inwards by d / sqrt(2) the faces meet.
-  Real depthInto(const Face& face) const { return std::sqrt(0.5) * depthMax * face.thickness; }
+  /// in each other are apart by d (n0 - n1) / |n0 - n1|: moved inwards by d / |n0 - n1| the faces
+  /// meet.
+  Real depthInto(const Face& face) const
+  {
+    const Real square = 2 - 2 * std::max(0.0, mostCosine()); // least of |n0 - n1|
+    return depthMax * face.thickness / std::sqrt(square);
+  }
 };
 
 /// Where the face may be in contact before the next search: the face, the same at the largest depth

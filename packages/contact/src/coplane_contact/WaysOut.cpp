@@ -56,6 +56,9 @@ constexpr Real faceAway = 0.5;
 constexpr Real stillOpposed = 0.1;
 /// Faces lie on each other if they share more than this fraction of the smaller one.
 constexpr Real leastShare = 0.2;
+/// A surface turns outwards at an edge if its normal beyond has more than this in the outward
+/// direction; reentrant edges do not count.
+constexpr Real convex = 0.1;
 /// Edges run along each other if their outward directions have more than this in common [-].
 constexpr Real sameWay = 0.7;
 } // namespace
@@ -91,7 +94,7 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
   for (int i = 0; i < DirectionsOfNodes::most; ++i)
   {
     const Vec3 other = normals_.direction(edge.nodes[0], i);
-    if (dot(other, edge.outward) > 0.1 && dot(other, normal) < least &&
+    if (dot(other, edge.outward) > convex && dot(other, normal) < least &&
         normals_.find(edge.nodes[1], other) >= 0)
     {
       edge.turns = true;
@@ -117,13 +120,18 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<Face>& localFaces,
   findHidden(pairs, faces, layout);
 }
 
-bool EdgesOfSurfaces::isHidden(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const
+int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const
 {
   const Vec3 outward = normalised(beyond - dot(beyond, normal) * normal);
-  for (const int node : nodes)
-    if (hidden_.find(node, normal) < 0 || flush_.find(node, outward) < 0)
-      return false;
-  return true;
+  int bodies[2];
+  for (int end = 0; end < 2; ++end)
+  {
+    const int place = hidden_.find(nodes[end], normal);
+    if (place < 0 || flush_.find(nodes[end], outward) < 0)
+      return -1;
+    bodies[end] = hidden_.number(nodes[end], place);
+  }
+  return bodies[0] == bodies[1] ? bodies[0] : -1; // two may have a gap between them
 }
 
 Real EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& planeA,
@@ -166,12 +174,15 @@ void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
     const Real size = lieOn(*both[0], *both[1], planes[0], planes[1]);
     if (!(size > 0))
       continue;
+    Edge theirs[4];
+    for (int o = 0; o < both[1]->count; ++o)
+      theirs[o] = edge(*both[1], 1, o, planes[1].normal);
     for (int e = 0; e < both[0]->count; ++e)
     {
       const Edge mine = edge(*both[0], 0, e, planes[0].normal);
       for (int o = 0; o < both[1]->count && mine.turns; ++o)
       {
-        const Edge its = edge(*both[1], 1, o, planes[1].normal);
+        const Edge& its = theirs[o];
         if (!its.turns || !(dot(mine.outward, its.outward) > sameWay))
           continue;
         for (int f = 0; f < 2; ++f)
@@ -214,12 +225,10 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
         continue;
       const unsigned bit = 1u << (4 * f + e);
       // Not by the body of the other face: that one comes with what lies there.
-      const auto byThird = [&](int node)
-      { return hidden_.number(node, hidden_.find(node, planes[f].normal)) != other.body; };
-      if (!onEachOther && isHidden(edge.nodes, planes[f].normal, edge.beyond) &&
-          byThird(edge.nodes[0]) && byThird(edge.nodes[1]))
+      const int third = onEachOther ? -1 : hides(edge.nodes, planes[f].normal, edge.beyond);
+      if (third >= 0 && third != other.body)
         covered |= bit;
-      if (isHidden(edge.nodes, edge.beyond, planes[f].normal)) // the surface goes on over the seam
+      if (hides(edge.nodes, edge.beyond, planes[f].normal) >= 0) // goes on over the seam
         continue;
       turns |= bit;
       outward[4 * f + e] = edge.outward;

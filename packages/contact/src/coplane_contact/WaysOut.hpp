@@ -58,9 +58,9 @@ private:
   Edge edge(const Face& face, int side, int e, const Vec3& normal) const;
   void findHidden(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
                   const NodeLayout& layout);
-  /// Whether the face with this normal is hidden up to its edge, beyond which lies one with the
-  /// other normal.
-  bool isHidden(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const;
+  /// The body that hides the face with this normal up to its edge, beyond which lies one with the
+  /// other normal; -1: none, or several.
+  int hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const;
   /// Size of the smaller one of two faces that lie on each other [m]; 0 if they do not.
   Real lieOn(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB) const;
 

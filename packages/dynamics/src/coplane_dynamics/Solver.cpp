@@ -578,8 +578,8 @@ Real Solver::stepOfFreeBodies() const
 
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
-  // Faster than waves, bodies meet with more pressure than contact can give at its depth limit:
-  // they would pass through each other. The skin tells at no cost whether anything is fast at all.
+  // Faster than waves, bodies may meet with more pressure than contact can give, and pass through
+  // each other. The skin tells at no cost whether anything is fast at all.
   const auto cannotStop = [this]
   {
     if (!contact_ || 10 * relativeSpeed_ * clock_.nextStep < contact_->skin())
