@@ -390,6 +390,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     {
       const NewPair now = newPair(classic() ? leaders[source[slot]].normal
                                             : normalised(planeA.normal - planeB.normal));
+      if (!classic())
+        for (Donor& donor : donors)
+          donor.flush = isFlush(now, donor, dimension_);
       donors.erase(std::remove_if(donors.begin(), donors.end(),
                                   [&](const Donor& donor)
                                   { return !continues(now, donor, dimension_, skin_); }),

@@ -116,6 +116,7 @@ struct Donor
   Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
   bool bonded = false;
+  bool flush = false; ///< with the pair that looks for donors; not sent
   Vec3 normal{};
   Real area = 0;
   Real offset = 0;

@@ -1,6 +1,7 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Inheritance.hpp>
 #include <coplane_contact/View.hpp>
+#include <coplane_contact/WaysOut.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>
@@ -59,8 +60,10 @@ bool anyCommonFace(const GlobalId* faceId, const Donor& donor, const Visit& visi
 bool isOnSameSurface(const Donor& donor, const GlobalId* faceId, const PairNodes& nodes)
 {
   return anyCommonFace(faceId, donor,
-                       [&](int mine, int its)
-                       { return shareNode(donor.nodes[1 - its], nodes[1 - mine].data()); });
+                       [&](int mine, int its) {
+                         return donor.flush ||
+                                shareNode(donor.nodes[1 - its], nodes[1 - mine].data());
+                       });
 }
 
 /// Shares of area below this fraction of the smaller face are round-off of edges on each other.
@@ -95,6 +98,32 @@ Real distance(const ConvexPolygon& a, const ConvexPolygon& b)
   return least;
 }
 } // namespace
+
+bool isFlush(const NewPair& pair, const Donor& donor, int dimension)
+{
+  const auto areaOf = [&](const Vec3* corners, int count)
+  { return dimension == 2 ? vectorArea<2>(corners, count) : vectorArea<3>(corners, count); };
+  const auto goesOn = [&](int mine, int its)
+  {
+    const Vec3* const a = pair.corners[1 - mine];
+    const Vec3* const b = donor.corners[1 - its];
+    const int countA = pair.count[1 - mine], countB = donor.count[1 - its];
+    if (countB == 0)
+      return false;
+    const Vec3 areaA = areaOf(a, countA), areaB = areaOf(b, countB);
+    const Vec3 normal = normalised(areaA);
+    if (!(dot(normal, normalised(areaB)) > DirectionsOfNodes::one))
+      return false;
+    const Real smaller = std::min(norm(areaA), norm(areaB));
+    const Real near = EdgesOfSurfaces::flush * (dimension == 2 ? smaller : std::sqrt(smaller));
+    Real step = infinity;
+    for (int k = 0; k < countB; ++k)
+      step = std::min(step, std::abs(dot(normal, b[k] - a[0])));
+    const View view(normal, a[0], dimension);
+    return step <= near && distance(view.shadow(a, countA), view.shadow(b, countB)) <= near;
+  };
+  return anyCommonFace(pair.faceId, donor, goesOn);
+}
 
 bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach)
 {

@@ -31,6 +31,10 @@ struct NewPair
   Real sharedBefore = -1;
 };
 
+/// Whether the other face of the donor goes on in that of the pair without a node in common: over
+/// the flush seam of two bodies.
+bool isFlush(const NewPair& pair, const Donor& donor, int dimension);
+
 /// Whether the area of a new plane goes on where that of a donor ends. The donor shares a face with
 /// the pair, and its area, which the faces have carried along, lies within `reach` of the pair's
 /// other face on the common plane. Where the pair shared area already, it has to be closed at the
