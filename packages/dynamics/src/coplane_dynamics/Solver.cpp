@@ -587,7 +587,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     const StepControl control = stepControl();
     return motionStep(control.thinnest) <
                fasterThanWaves * model_.time.stepFactor * control.stableStep &&
-           contact_->counts().tooDeep > 0;
+           (contact_->counts().tooDeep > 0 || contact_->counts().missed > 0);
   };
   observer.start(*this);
   std::string ending = "completed";
@@ -606,7 +606,9 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
       failOnAllRanks(
           ExitCode::Computation,
           "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, faster than "
-          "waves run in them, and faces lie deeper in them than contact.depth_max: contact cannot "
+          "waves run in them, and faces lie deeper in them than contact.depth_max, or in each "
+          "other "
+          "before they were found: contact cannot "
           "stop them. Raise joints.stiffness_fraction, or use a material that stiffens under "
           "pressure. {}",
           clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
