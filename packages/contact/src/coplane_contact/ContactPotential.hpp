@@ -64,8 +64,7 @@ struct ContactPotentialScale
 {
   /// The energy falls to zero between these values of -n0.n1, so that pairs come and go smoothly.
   Real opposedFrom, opposedTo;
-  /// Edges of both faces nearer than this fraction of a face across them count as one, and share
-  /// what belongs to them.
+  /// Edges of both faces nearer than this fraction of a face across them count as one.
   Real oneEdge = 1e-3;
   /// The same for the borders of two bodies whose faces are pressed together all over: a block that
   /// is set a little off another one is not pushed off it.
@@ -90,6 +89,13 @@ struct ContactPotentialScale
 struct PenaltyHardening
 {
   static constexpr Real part = 5;
+};
+
+/// Part of a rim that an edge gets which lies beside another one, if it is nearer than the reach.
+template <class T>
+struct SharedRim
+{
+  T reach, part;
 };
 
 /// What the edges of both outlines are, 1 or 0 each, as in Plane: 0..3 of face 0, 4..7 of face 1.
@@ -646,9 +652,9 @@ private:
   }
 
   /// The gradient of the area in contact times the density there, side by side. A side belongs to
-  /// one edge; an edge of the other face that lies beside it gets up to half, so that round-off
-  /// does not decide which of two edges that count as one is the owner, and slivers between them
-  /// carry nothing at their borders.
+  /// one edge; an edge of the other face that lies beside it gets a part (shareRim), so that
+  /// round-off does not decide which of two edges that count as one is the owner, and slivers
+  /// between them carry nothing at their borders.
   KOKKOS_INLINE_FUNCTION void addRims(const Owned& q, const EnergyDensity<T>& density,
                                       Vec2Of<T> (&rim)[2][4]) const
   {
@@ -671,11 +677,11 @@ private:
         {
           const T near = absolute(shadow[1 - f].p[other].x - x);
           const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
-          const T width = reachOfEdge(q.owner[end], 4 * (1 - f) + other, upper == (end == 1),
-                                      2 / kappa_ * tilt_.x * size_);
-          if (!(near < width))
+          const SharedRim<T> shared = shareRim(q.owner[end], 4 * (1 - f) + other,
+                                               upper == (end == 1), 2 / kappa_ * tilt_.x * size_);
+          if (!(near < shared.reach))
             continue;
-          const T given = 0.5 - 0.5 * apartness(near / width);
+          const T given = shared.part * (1 - apartness(near / shared.reach));
           kept -= given;
           rim[1 - f][other].x += given * whole;
         }
@@ -707,13 +713,15 @@ private:
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
           const T along = dot(edge, d);
-          const T width = reachOfEdge(q.owner[k], 4 * g + o, along > 0.0,
-                                      2.0 / kappa_ * cross(tilt_, edge) * size_ / dot(edge, edge));
+          const SharedRim<T> shared =
+              shareRim(q.owner[k], 4 * g + o, along > 0.0,
+                       2.0 / kappa_ * cross(tilt_, edge) * size_ / dot(edge, edge));
           const auto close =
-              near < width && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
+              near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
           if (!anyOf(close))
             continue;
-          const T given = choose(close, 0.5 - 0.5 * apartness(near / width), T(0.0));
+          const T given =
+              choose(close, shared.part * (1.0 - apartness(near / shared.reach)), T(0.0));
           kept = kept - given;
           addRim(g, o, close, from, to, total, second, given, rim);
         }
@@ -722,21 +730,28 @@ private:
     }
   }
 
-  /// Within which distance two edges count as one [m], in three dimensions times the length of the
-  /// other: the size of a face across it is its area over that. What mesh lines of two surfaces
-  /// that go on share cancels with what their neighbours share. A border shares only if the closure
-  /// changes across a face by less than its mean: at a corner that dips into a face the gradient
-  /// counts.
+  /// What an edge of the other face gets of the rim at an edge of this one. In three dimensions
+  /// the reach is times the length of the other edge: the size of a face across it is its area over
+  /// that.
+  ///
+  /// Beside a mesh line the surface goes on, and what pairs on both sides of it have there cancels:
+  /// a rim belongs to the edge at which a surface ends. Two mesh lines share evenly, and so do two
+  /// such edges: where both count as one, the mean of the gradients on both sides of it. All of it
+  /// is smooth, so that round-off decides nothing.
   /// @param change of the closure over the size of a face, out over its edge [m]
-  KOKKOS_FORCEINLINE_FUNCTION T reachOfEdge(int mine, int its, const Mask& sameWay,
-                                            const T& change) const
+  KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,
+                                                    const T& change) const
   {
     using namespace branchFree;
     const auto turns = edges_.turns[mine] > 0.0, itTurns = edges_.turns[its] > 0.0;
-    const auto flat = absolute(change) * moments.area < absolute(moments.volume);
-    const T border = choose(flat && sameWay, T(scale_.oneBorder), T(0.0));
-    const T mixed = choose(flat || !(turns || itTurns), T(scale_.oneEdge), T(0.0));
-    return size_ * choose(turns && itTurns, border, mixed);
+    const auto border = turns && itTurns;
+    const T tilted = absolute(change) * moments.area, closed = absolute(moments.volume);
+    const T flatness =
+        choose(closed > 0.0, 1.0 - SmoothStep<T>(2.0 * tilted / closed - 1.0).value, T(0.0));
+    const T ofLine = choose(turns, T(0.0), choose(itTurns, T(1.0), T(0.5)));
+    const T wider = choose(border, flatness * (scale_.oneBorder - scale_.oneEdge), T(0.0));
+    return {size_ * (scale_.oneEdge + wider),
+            choose(border, choose(sameWay, T(0.5), T(0.0)), ofLine)};
   }
 
   /// The gradient of the energy beside one edge: its nodes share a part of it. total, second: of
