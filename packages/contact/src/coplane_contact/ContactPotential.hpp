@@ -734,10 +734,12 @@ private:
   /// the reach is times the length of the other edge: the size of a face across it is its area over
   /// that.
   ///
-  /// Beside a mesh line the surface goes on, and what pairs on both sides of it have there cancels:
-  /// a rim belongs to the edge at which a surface ends. Two mesh lines share evenly, and so do two
-  /// such edges: where both count as one, the mean of the gradients on both sides of it. All of it
-  /// is smooth, so that round-off decides nothing.
+  /// Two mesh lines share evenly, and so do two edges at which surfaces end: where both count as
+  /// one, the mean of the gradients on both sides of it. What lies at such an edge beside a mesh
+  /// line is shared evenly as long as the closure changes across a face by less than its mean, so
+  /// that what is pressed evenly rests; at a corner that dips into a face all of it belongs to the
+  /// corner, for what pairs on both sides of a mesh line have there cancels. All of it is smooth,
+  /// so that round-off decides nothing.
   /// @param change of the closure over the size of a face, out over its edge [m]
   KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,
                                                     const T& change) const
@@ -748,7 +750,8 @@ private:
     const T tilted = absolute(change) * moments.area, closed = absolute(moments.volume);
     const T flatness =
         choose(closed > 0.0, 1.0 - SmoothStep<T>(2.0 * tilted / closed - 1.0).value, T(0.0));
-    const T ofLine = choose(turns, T(0.0), choose(itTurns, T(1.0), T(0.5)));
+    const T even = 0.5 * flatness;
+    const T ofLine = choose(turns, even, choose(itTurns, 1.0 - even, T(0.5)));
     const T wider = choose(border, flatness * (scale_.oneBorder - scale_.oneEdge), T(0.0));
     return {size_ * (scale_.oneEdge + wider),
             choose(border, choose(sameWay, T(0.5), T(0.0)), ofLine)};
