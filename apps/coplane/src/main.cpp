@@ -322,6 +322,9 @@ int main(int argc, char** argv)
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();
   coplane::abortAllRanksOnTerminate();
+  // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When the
+  // program is killed it may stay, and has been seen to fill the memory of the machine.
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   MPI_Init(&argc, &argv);
   constexpr double patienceAfterErrors = 10, patience = 120; // [s]
   std::string failure;

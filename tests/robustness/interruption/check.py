@@ -37,6 +37,9 @@ def start(name, ranks, every):
         time.sleep(0.02)
     pids = [int(path.read_text()) for path in sorted(folder.glob("pid.*"))]
     case.check(f"{name}: ranks", len(pids), ranks, 0)
+    for pid in pids:  # nothing beside a rank that could outlive it
+        started = " ".join(path.read_text() for path in pathlib.Path(f"/proc/{pid}/task").glob("*/children"))
+        case.check_equal(f"{name}: processes that a rank starts", started.split(), [])
     return folder, process, pids
 
 
