@@ -28,11 +28,14 @@ std::set<std::string> lockFiles(const Deck& deck)
 void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedFrom)
 {
   roles.reads(deck.file, "the deck");
-  roles.reads(deck.mesh, "the mesh (mesh)");
+  std::error_code error;
+  if (std::filesystem::exists(deck.mesh, error))
+    roles.reads(deck.mesh, "the mesh (mesh)");
+  else
+    roles.readsSeries({deck.mesh + ".", ".", ""}, "a part of the mesh (mesh)");
   if (restartedFrom.empty())
     return;
   // The run goes on in its own checkpoints, and never overwrites the one that it came from first.
-  std::error_code error;
   for (const char* slot : {".0", ".1"})
     if (std::filesystem::equivalent(restartedFrom, deck.checkpoint.file + slot, error))
       return;
@@ -124,6 +127,21 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
         }
       });
   return locks;
+}
+
+void demandWritableFiles(const Deck& deck, const Comm& comm)
+{
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        FileRoles roles;
+        addOutputs(roles, deck);
+        const std::vector<std::string> hindrances = roles.hindrances();
+        if (!hindrances.empty())
+          fail(ExitCode::Output, "{}", fmt::join(hindrances, "\n"));
+      });
 }
 
 void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm)

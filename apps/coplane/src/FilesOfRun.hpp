@@ -20,6 +20,10 @@ std::string stopFile(const Deck& deck);
 /// @param restartedFrom checkpoint that is read; empty: none, or the newest of the run
 void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm);
 
+/// Throws Error(ExitCode::Output) on all ranks when an output cannot be written, before what an
+/// earlier run left is touched. Collective.
+void demandWritableFiles(const Deck& deck, const Comm& comm);
+
 /// Makes sure that no other run writes files of the same names. Throws Error(ExitCode::Output) on
 /// all ranks when one does. Rank 0 holds the locks for as long as the result lives. Collective.
 std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm);

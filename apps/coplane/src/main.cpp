@@ -183,7 +183,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   demandDistinctFiles(deck, line.checkpoint, comm);
   std::vector<FileLock> locks;
   if (!line.check)
+  {
     locks = lockOutputs(deck, comm);
+    demandWritableFiles(deck, comm);
+  }
   comm.demandSame("the mesh " + deck.mesh, sizeOf(deck.mesh), ExitCode::Mesh);
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
@@ -322,8 +325,8 @@ int main(int argc, char** argv)
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();
   coplane::abortAllRanksOnTerminate();
-  // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When the
-  // program is killed it may stay, and has been seen to fill the memory of the machine.
+  // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When
+  // the program is killed it may stay, and has been seen to fill the memory of the machine.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
   MPI_Init(&argc, &argv);
   constexpr double patienceAfterErrors = 10, patience = 120; // [s]

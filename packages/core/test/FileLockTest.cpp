@@ -73,5 +73,19 @@ TEST(FileLock, LeavesNothingBehind)
   }
   EXPECT_FALSE(std::filesystem::exists(file));
 }
+TEST(FileLock, LeavesFilesOfOthersAlone)
+{
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "run.lock", kept = folder / "kept.txt";
+  std::ofstream(file) << "mine";
+  std::ofstream(kept) << "process 1 of my list";
+  EXPECT_THROW(FileLock(file, "the outputs"), Error);
+  EXPECT_EQ(std::filesystem::file_size(file), 4u);
+  std::filesystem::remove(file);
+  std::filesystem::create_hard_link(kept, file);
+  EXPECT_THROW(FileLock(file, "the outputs"), Error);
+  EXPECT_EQ(std::filesystem::file_size(kept), 20u);
+}
+
 } // namespace
 } // namespace coplane

@@ -142,4 +142,35 @@ TEST_F(FileRolesTest, FilesThatARunReplacesMeanwhileDoNotSeemToBeOne)
   writer.join();
   EXPECT_EQ(clashes, 0);
 }
+TEST_F(FileRolesTest, SaysWhatCannotBeWrittenAndChangesNothing)
+{
+  const std::string there = at("there.csv");
+  make("there.csv");
+  const auto bytes = fs::file_size(there);
+  FileRoles roles;
+  roles.writes(there, "the history");
+  roles.writes(at("new.csv"), "a table");
+  EXPECT_TRUE(roles.hindrances().empty());
+  EXPECT_EQ(fs::file_size(there), bytes);
+  EXPECT_FALSE(fs::exists(at("new.csv")));
+  // Even root cannot write over a program that runs: this one.
+  roles.writes("/proc/self/exe", "the results");
+  ASSERT_EQ(roles.hindrances().size(), 1u);
+  EXPECT_NE(roles.hindrances()[0].find("the results cannot be written over it"), std::string::npos);
+  roles.writes(at("missing/new.csv"), "the planes");
+  ASSERT_EQ(roles.hindrances().size(), 2u);
+  EXPECT_NE(roles.hindrances()[1].find("the planes cannot be written"), std::string::npos);
+}
+
+TEST_F(FileRolesTest, InputsMayBeSeries)
+{
+  FileRoles roles;
+  roles.readsSeries({at("wall.e."), ".", ""}, "a part of the mesh");
+  roles.writes(at("wall.e.2.1"), "the history");
+  EXPECT_EQ(roles.problems().size(), 1u);
+  FileRoles others;
+  others.readsSeries({at("wall.e."), ".", ""}, "a part of the mesh");
+  others.writes(at("wall.e.csv"), "the history");
+  EXPECT_TRUE(others.problems().empty());
+}
 } // namespace coplane

@@ -48,7 +48,7 @@ TEST(TakeRequests, tellsEachSignalOnce)
   EXPECT_EQ(takeRequests(), all(false, false, false));
   std::raise(SIGUSR2);
   EXPECT_EQ(takeRequests(), all(false, true, true));
-  for (const int signal : {SIGINT, SIGTERM})
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
   {
     std::raise(signal);
     EXPECT_EQ(takeRequests(), all(false, false, true)) << "signal " << signal;

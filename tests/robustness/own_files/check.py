@@ -13,7 +13,7 @@ case = Case("own_files", __file__)
 recipe = {"dimension": 2, "parts": [{"shape": "box", "block": "bar", "min": [0, 0], "size": [1, 1], "divisions": [2, 2]}]}
 deck = {"materials": {"steel": {"model": "linear_elastic", "density": 7800, "youngs_modulus": 200e9, "poisson_ratio": 0.3}},
         "blocks": {"bar": {"material": "steel"}}, "time": {"end": 1e-6}}
-USAGE, DECK, MESH = 2, 3, 4
+USAGE, DECK, MESH, OUTPUT = 2, 3, 4, 5
 documents.save({"title": "own files", **recipe}, "mesh.yaml")
 program.make_mesh("mesh.yaml", "good.e")
 
@@ -77,6 +77,29 @@ for name, sections, words in [
 folder = folder_for("the mesh is a part of the series", mesh="run_planes_0002.vtp")
 os.rename(folder / "mesh.e", folder / "run_planes_0002.vtp")
 refused("the mesh is a part of the series", folder, ["output.planes", "the mesh"])
+
+# --- parts of a mesh, files with the name of a lock, outputs that cannot be replaced ------------------------
+folder = folder_for("parts of a mesh", mesh="wall.e")
+code, output = program.run_program(
+    ["run.yaml", "--set", "mesh=mesh.e", "--set", "output.file_per_rank=true", "--set", "output.results=wall.e"], folder, 2)
+case.check_equal("parts of a mesh: made", (code, (folder / "wall.e.2.1").exists()), (0, True))
+refused("the history is a part of the mesh", folder, ["wall.e.2.1", "a part of the mesh"], options=["--set", "history.file=wall.e.2.1"])
+refused("the checkpoint is a part of the mesh", folder, ["a part of the mesh"], options=["--set", "checkpoint.file=wall.e.2"])
+folder = folder_for("a file with the name of the lock")
+(folder / "run.lock").write_text("precious")
+refused("a file with the name of the lock", folder, ["run.lock"], code=OUTPUT)
+(folder / "run.lock").unlink()
+(folder / "list.txt").write_text("process 1 of my list")
+os.link(folder / "list.txt", folder / "run.lock")
+refused("a link with the name of the lock", folder, ["run.lock"], code=OUTPUT)
+folder = folder_for("results that cannot be replaced", checkpoint={"every_cycles": 1})
+case.check_equal("results that cannot be replaced: first run", program.run_program(["run.yaml"], folder)[0], 0)
+os.remove(folder / "run.e")
+shutil.copy("/bin/sleep", folder / "run.e")  # even root cannot write over a program that runs
+with subprocess.Popen([folder / "run.e", "600"]) as running:
+    for ranks in (1, 2):
+        refused(f"results that cannot be replaced, {ranks} ranks", folder, ["run.e", "output.results", "busy"], ranks=ranks, code=OUTPUT)
+    running.kill()
 folder = folder_for("pipe")
 os.remove(folder / "mesh.e")
 os.mkfifo(folder / "mesh.e")

@@ -1,6 +1,7 @@
 #include <coplane_checkpoint/CheckpointFile.hpp>
 #include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_checkpoint/Hdf5Calls.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Version.hpp>
 
 #include <algorithm>
@@ -253,7 +254,7 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
         ExitCode::Output,
         "{}: the checkpoint of cycle {} cannot be written: {}. Check that the folder '{}' exists "
         "and can be written to, and that there is room (disk, quota, file-size limit): {} bytes.",
-        file, cycle, reason, std::filesystem::absolute(file).parent_path().string(), dataBytes());
+        file, cycle, reason, folderOf(file), dataBytes());
   };
   std::vector<std::uint64_t> places;
   std::optional<MemoryFile> skeleton; // of rank 0: everything but the rows of tables
@@ -324,7 +325,7 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
     if (std::rename(draft.c_str(), file.c_str()) != 0)
       failure = systemsReason();
     else
-      failure = makeSafe(std::filesystem::absolute(file).parent_path().string());
+      failure = makeSafe(folderOf(file));
   }
   failTogether();
 }

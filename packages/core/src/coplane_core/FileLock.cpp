@@ -1,11 +1,11 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileLock.hpp>
+#include <coplane_core/FileRoles.hpp>
 
 #include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
-#include <filesystem>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -15,6 +15,8 @@ namespace coplane
 {
 namespace
 {
+constexpr const char* beginning = "process ";
+
 std::string me()
 {
   char host[256] = "unknown host", date[64];
@@ -23,7 +25,7 @@ std::string me()
   std::tm utc{};
   ::gmtime_r(&now, &utc);
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S UTC", &utc);
-  return fmt::format("process {} on {}, since {}\n", ::getpid(), host, date);
+  return fmt::format("{}{} on {}, since {}\n", beginning, ::getpid(), host, date);
 }
 
 std::string ownerIn(int descriptor)
@@ -34,11 +36,15 @@ std::string ownerIn(int descriptor)
   return owner.empty() ? "an unknown process" : owner.substr(0, owner.find('\n'));
 }
 
-std::string folderOf(const std::string& file)
+/// Whether a file is what a lock leaves when its owner is killed, and not somebody's own.
+bool isLeftOver(int descriptor)
 {
-  std::error_code error;
-  const auto path = std::filesystem::absolute(file, error);
-  return error ? "." : path.parent_path().string();
+  struct stat open
+  {
+  };
+  const std::string text = ownerIn(descriptor);
+  return ::fstat(descriptor, &open) == 0 && open.st_nlink < 2 &&
+         (open.st_size == 0 || (open.st_size < 512 && text.rfind(beginning, 0) == 0));
 }
 
 /// Whether the path still leads to the file that is open: its owner may just have removed it.
@@ -86,6 +92,15 @@ FileLock::FileLock(const std::string& file, const std::string& what) : file_(fil
     {
       ::close(descriptor);
       continue;
+    }
+    if (!isLeftOver(descriptor))
+    {
+      ::close(descriptor);
+      fail(ExitCode::Output,
+           "{}: this is the name of the file that says who writes {}, but what is there is no such "
+           "file. Nothing was written. Move it away, or give the run other names (output.results, "
+           "history.file, checkpoint.file).",
+           file, what);
     }
     descriptor_ = descriptor;
     const std::string text = me();

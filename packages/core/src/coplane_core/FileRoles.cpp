@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <set>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <utility>
 
 namespace coplane
@@ -68,7 +72,8 @@ struct Seen
 {
   fs::path folder;
   std::vector<std::string> pieces; ///< of the name without folder
-  std::set<Inode> inodes;          ///< of what is there
+  std::set<fs::path> files;        ///< that are there
+  std::set<Inode> inodes;          ///< of these
 
   bool isSeries() const { return pieces.size() > 1; }
   std::vector<std::string> examples() const
@@ -97,7 +102,10 @@ Seen look(const std::vector<std::string>& pieces)
     seen.folder = place.parent_path();
     seen.pieces[0] = place.filename().string();
     if (inodeOf(place, inode))
+    {
+      seen.files.insert(place);
       seen.inodes.insert(inode);
+    }
     return seen;
   }
   const fs::path first = pieces[0];
@@ -106,7 +114,10 @@ Seen look(const std::vector<std::string>& pieces)
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(seen.folder, error))
     if (matches(entry.path().filename().string(), seen.pieces) && inodeOf(entry.path(), inode))
+    {
+      seen.files.insert(entry.path());
       seen.inodes.insert(inode);
+    }
   return seen;
 }
 
@@ -164,9 +175,21 @@ std::string kindOfSpecialFile(const std::string& file)
   }
 }
 
+std::string folderOf(const std::string& file)
+{
+  std::error_code error;
+  const fs::path path = fs::absolute(file, error);
+  return error ? "." : path.parent_path().string();
+}
+
 void FileRoles::reads(const std::string& file, const std::string& what)
 {
   roles_.push_back({{file}, what, false});
+}
+
+void FileRoles::readsSeries(const std::vector<std::string>& pieces, const std::string& what)
+{
+  roles_.push_back({pieces, what, false});
 }
 
 void FileRoles::writes(const std::string& file, const std::string& what)
@@ -213,5 +236,34 @@ std::vector<std::string> FileRoles::problems() const
     }
   }
   return problems;
+}
+
+std::vector<std::string> FileRoles::hindrances() const
+{
+  std::vector<std::string> hindrances;
+  std::set<fs::path> folders;
+  for (const Role& role : roles_)
+  {
+    if (!role.isOutput)
+      continue;
+    const Seen seen = look(role.pieces);
+    if (folders.insert(seen.folder).second && ::access(seen.folder.c_str(), W_OK | X_OK) != 0)
+      hindrances.push_back(fmt::format(
+          "{}: {} cannot be written: {}. Nothing was written. Check that the folder '{}' exists "
+          "and can be written to, or give another name.",
+          nameOf(role.pieces), role.what, std::strerror(errno), seen.folder.string()));
+    for (const fs::path& file : seen.files)
+    {
+      const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+      if (descriptor < 0)
+        hindrances.push_back(fmt::format(
+            "{}: {} cannot be written over it: {}. Nothing was written. Move the file away, make "
+            "it writable, or give another name.",
+            file.string(), role.what, std::strerror(errno)));
+      else
+        ::close(descriptor);
+    }
+  }
+  return hindrances;
 }
 } // namespace coplane

@@ -9,6 +9,10 @@ namespace coplane
 /// Empty otherwise.
 std::string kindOfSpecialFile(const std::string& file);
 
+/// Absolute name of the folder that a file is in; "." where that cannot be told, as when the
+/// working folder has gone. Throws nothing.
+std::string folderOf(const std::string& file);
+
 /// The files that a program reads and those that it writes: the one place that knows whether they
 /// are distinct. Two names mean the same file when they lead to one place (relative parts, symbolic
 /// links, also of folders, also to something that is not there yet) or to one inode (hard links).
@@ -17,6 +21,8 @@ class FileRoles
 public:
   /// @param what how messages call it, with the key or option that names it: "the mesh (mesh)"
   void reads(const std::string& file, const std::string& what);
+  /// Names with numbers, as with writesSeries.
+  void readsSeries(const std::vector<std::string>& pieces, const std::string& what);
   void writes(const std::string& file, const std::string& what);
   /// Files whose names have numbers between these pieces: {"wall.e-s", ""} is wall.e-s0002, ...
   void writesSeries(const std::vector<std::string>& pieces, const std::string& what);
@@ -24,6 +30,10 @@ public:
   /// A sentence for each output that is an input, another output, or something that is not a plain
   /// file. Empty: all may be written. Looks at the file system, changes nothing.
   std::vector<std::string> problems() const;
+  /// A sentence for each output that cannot be written, by the file's or the folder's permissions,
+  /// or because it is on a file system that is read only. Opens what is there for writing, and
+  /// changes nothing: to be asked before the first output of an earlier run is replaced.
+  std::vector<std::string> hindrances() const;
 
 private:
   struct Role

@@ -24,8 +24,11 @@ void onSignal(int signal)
 
 void listenToSignals()
 {
-  for (const int signal : {SIGUSR1, SIGUSR2, SIGINT, SIGTERM})
+  for (const int signal : {SIGUSR1, SIGUSR2, SIGINT, SIGTERM, SIGXCPU})
     std::signal(signal, onSignal);
+  // A terminal that closes; nohup has it ignored already.
+  if (std::signal(SIGHUP, onSignal) == SIG_IGN)
+    std::signal(SIGHUP, SIG_IGN);
 }
 
 void request(const Requests& wanted)

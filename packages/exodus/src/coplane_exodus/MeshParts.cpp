@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/SortOverRanks.hpp>
 #include <coplane_exodus/MeshParts.hpp>
 
@@ -403,7 +404,7 @@ private:
 std::vector<std::string> partsOfMesh(const std::string& file)
 {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::absolute(file).parent_path();
+  const fs::path folder = folderOf(file);
   const std::string start = fs::path(file).filename().string() + ".";
   std::map<int, std::map<int, std::string>> splits; // by number of parts: part -> name
   if (!fs::is_directory(folder))

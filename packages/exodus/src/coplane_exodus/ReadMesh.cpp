@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/SortOverRanks.hpp>
 #include <coplane_exodus/MeshParts.hpp>
 #include <coplane_exodus/MeshReader.hpp>
@@ -17,7 +18,7 @@ MeshSlice readParts(const std::string& file, const std::vector<std::string>& nam
     failOnAllRanks(ExitCode::Mesh,
                    "{}: the mesh file does not exist (looked in '{}'). Check the name, or write it "
                    "with coplane_mesh make.",
-                   file, std::filesystem::absolute(file).parent_path().string());
+                   file, folderOf(file));
   std::vector<Mesh> parts;
   std::vector<GlobalId> blocks;
   comm.together(

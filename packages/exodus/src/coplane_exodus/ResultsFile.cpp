@@ -1,3 +1,5 @@
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/OwnPart.hpp>
@@ -9,7 +11,6 @@
 #include <cstdio>
 #include <cstring>
 #include <ctime>
-#include <filesystem>
 #include <numeric>
 
 namespace coplane
@@ -35,7 +36,7 @@ void probeWritable(const std::string& file)
     fail(ExitCode::Output,
          "{}: the results file cannot be created: {}. Check that the folder '{}' exists and can be "
          "written to.",
-         file, std::strerror(errno), std::filesystem::absolute(file).parent_path().string());
+         file, std::strerror(errno), folderOf(file));
   std::fclose(probe);
 }
 
@@ -229,6 +230,13 @@ void ResultsFile::endStep()
     attempt([&] { data_->setSteps(steps_ + 1); });
   failTogether(doing);
   ++steps_;
+  if ((filePerRank_ || comm_.isRoot()) && data_->isGone())
+    logWarning(
+        "results are gone",
+        fmt::format("{}: somebody removed the file while the run writes it: its {} steps, and "
+                    "all that follow, are lost when the run ends. To keep them, stop the run "
+                    "with a checkpoint and restart it.",
+                    file_, steps_));
 }
 
 void ResultsFile::close()

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <limits>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace coplane
@@ -160,6 +161,14 @@ void SharedFile::setSteps(int steps) const
   unsigned char bytes[8];
   putBigEndian(std::uint64_t(steps), 8, bytes);
   write("number of time steps", 4, bytes, sizeof bytes);
+}
+
+bool SharedFile::isGone() const
+{
+  struct stat file
+  {
+  };
+  return ::fstat(descriptor_, &file) == 0 && file.st_nlink == 0;
 }
 
 void SharedFile::sync() const

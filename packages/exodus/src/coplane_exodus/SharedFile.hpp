@@ -34,6 +34,8 @@ public:
   void reserveStep(int step) const;
   /// Number of time steps in the header. One rank calls it, after the data.
   void setSteps(int steps) const;
+  /// Whether no name leads to the file any more: what is written is lost when it is closed.
+  bool isGone() const;
   /// Waits until the disk has what this rank wrote.
   void sync() const;
   /// Closes; here some file systems tell of writes that failed.

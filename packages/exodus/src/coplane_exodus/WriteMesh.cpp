@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
@@ -63,11 +64,10 @@ void writeMesh(const Mesh& mesh, const std::string& file)
   catch (const ExodusFailure& failure)
   {
     std::filesystem::remove(draft, error);
-    const auto folder = std::filesystem::absolute(file).parent_path();
     fail(ExitCode::Output,
          "{}: the mesh cannot be written ({}). Check that the folder '{}' exists, can be written "
          "to and is not full.",
-         file, failure.what(), folder.string());
+         file, failure.what(), folderOf(file));
   }
 }
 } // namespace coplane

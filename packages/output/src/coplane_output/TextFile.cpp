@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_output/TextFile.hpp>
 
@@ -16,7 +17,7 @@ void failToWrite(const std::string& file)
   fail(ExitCode::Output,
        "{}: the file cannot be written: {}. Check that the folder '{}' exists and can be written "
        "to, and that there is room (disk, quota, file-size limit).",
-       file, reason, std::filesystem::absolute(file).parent_path().string());
+       file, reason, folderOf(file));
 }
 
 std::uint64_t endOfTable(const std::string& file)
