@@ -2,9 +2,12 @@
 
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_output/Sha256.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
+#include <sys/stat.h>
 
 namespace coplane
 {
@@ -86,6 +89,28 @@ void addOutputs(FileRoles& roles, const Deck& deck)
     roles.writes(file, "the lock of the run");
   roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");
 }
+/// Looks for runs that hold a lock in this folder and write what this one writes.
+void demandNoOther(const std::string& folder, const std::set<std::string>& mine,
+                   const FileRoles& roles, const Deck& deck)
+{
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  {
+    const std::string file = entry.path().string();
+    if (entry.path().extension() != ".lock" ||
+        std::any_of(mine.begin(), mine.end(),
+                    [&](const std::string& own)
+                    { return std::filesystem::equivalent(own, file, error); }))
+      continue;
+    const std::string text = FileLock::textOfHolder(file);
+    const auto problems = roles.problemsWith(FileRoles::outputsIn(text));
+    if (!problems.empty())
+      fail(ExitCode::Output,
+           "{}: another run writes files of {}: {}. {} Wait for it or end it, or give this run "
+           "other names (output.results, history.file, checkpoint.file). Nothing was written.",
+           file, deck.file, text.substr(0, text.find('\n')), fmt::join(problems, " "));
+  }
+}
 } // namespace
 
 std::string recordFile(const Deck& deck, int part)
@@ -109,6 +134,25 @@ std::string stopFile(const Deck& deck)
   return withoutExtension(deck.checkpoint.file) + ".stop";
 }
 
+void demandSameFiles(const Deck& deck, const Comm& comm)
+{
+  std::error_code error;
+  const std::string here = std::filesystem::current_path(error).string();
+  if (comm.max(std::int64_t(here.empty())) == 0) // it may have been removed
+    comm.demandSame("the working folder", here, ExitCode::Usage);
+  const auto bytes = std::filesystem::file_size(deck.mesh, error);
+  comm.demandSame("the mesh " + deck.mesh, error ? "not there" : fmt::format("{} bytes", bytes),
+                  ExitCode::Mesh);
+  struct stat file
+  {
+  };
+  const bool there = ::stat(deck.mesh.c_str(), &file) == 0;
+  const std::string identity =
+      there ? fmt::format("{} {} {}", file.st_dev, file.st_ino, file.st_mtim.tv_sec) : "";
+  if (comm.max(std::int64_t(identity != comm.broadcast(identity))) > 0)
+    comm.demandSame("the mesh " + deck.mesh, "SHA-256 " + sha256OfFile(deck.mesh), ExitCode::Mesh);
+}
+
 std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
 {
   std::vector<FileLock> locks;
@@ -117,14 +161,21 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
       {
         if (!comm.isRoot())
           return;
-        for (const std::string& file : lockFiles(deck))
+        FileRoles roles;
+        addOutputs(roles, deck);
+        const std::set<std::string> files = lockFiles(deck);
+        for (const std::string& file : files)
         {
-          locks.emplace_back(file, "the outputs of " + deck.file);
+          locks.emplace_back(file, "the outputs of " + deck.file, roles.outputsText());
           if (!locks.back().isHeld())
             logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
                                             "second run from writing the same files",
                                             file));
         }
+        // Runs of other names may write the same files all the same. Each says first what it
+        // writes, and looks then.
+        for (const std::string& folder : roles.folders())
+          demandNoOther(folder, files, roles, deck);
       });
   return locks;
 }

@@ -15,6 +15,11 @@ std::string planesBase(const Deck& deck);
 std::string tablesBase(const Deck& deck);
 std::string stopFile(const Deck& deck);
 
+/// Ranks on machines of their own may find different files under one name. Throws Error on all
+/// ranks, ExitCode::Usage or Mesh, when they work in different folders or see different meshes.
+/// Where they do not all see one file, each reads the mesh once to compare it. Collective.
+void demandSameFiles(const Deck& deck, const Comm& comm);
+
 /// Throws Error(ExitCode::Deck) on all ranks when an output of the run is an input of it, another
 /// output, or not a plain file. Before anything is written. Collective.
 /// @param restartedFrom checkpoint that is read; empty: none, or the newest of the run

@@ -25,9 +25,13 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -99,7 +103,14 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
           ->expected(0, 1);
   app.add_option("--max-wall", line.maxWall,
                  "Write a checkpoint and stop after so many seconds (exit code 8)")
-      ->check(CLI::PositiveNumber);
+      ->check(
+          [](const std::string& text)
+          {
+            const double seconds = std::strtod(text.c_str(), nullptr);
+            return seconds > 0 && std::isfinite(seconds)
+                       ? ""
+                       : text + "; accepted: a number of seconds above 0";
+          });
   app.add_flag("--check", line.check,
                "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
@@ -109,12 +120,17 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
                "Print the table of exit codes as Markdown and stop");
   app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
   app.set_version_flag("--version", build);
+  app.failure_message(
+      [](const CLI::App*, const CLI::Error& error)
+      {
+        return fmt::format("ERROR: {}\nAccepted: coplane DECK [options], one deck. All options: "
+                           "coplane --help\n",
+                           error.what());
+      });
   try
   {
     app.parse(argc, argv);
     line.restart = restart->count() > 0;
-    if (!std::isfinite(line.maxWall))
-      throw CLI::ValidationError("--max-wall", "accepted: a number of seconds above 0");
     if (!asksForHelp(line) && line.deck.empty())
       throw CLI::RequiredError("deck");
   }
@@ -136,19 +152,18 @@ void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std:
       wanted.empty() ? newestCheckpoint(deck.checkpoint.file, comm) : wanted, comm);
   demandSameRun(checkpoint, deck, mesh, comm);
   solver.restore(checkpoint);
+  const Clock& clock = solver.clock();
+  if (clock.time - clock.step > deck.time.end)
+    failOnAllRanks(ExitCode::Deck,
+                   "{}: time.end = {:g} s lies before the checkpoint {} (t = {:g} s): there is "
+                   "nothing to compute, and what was written since would be lost. Nothing was "
+                   "touched. Give a later time.end, or an earlier checkpoint.",
+                   deck.file, deck.time.end, checkpoint.file(), clock.time);
   settings.restartedFrom = checkpoint.file();
   settings.positions = positionsIn(checkpoint);
   settings.part = partIn(checkpoint) + 1;
   logInfo("restart from {}: cycle {}, t = {:.9e} s, part {} of the results", checkpoint.file(),
           solver.clock().cycle, solver.clock().time, settings.part);
-}
-
-/// Ranks on machines of their own may find different files under one name.
-std::string sizeOf(const std::string& file)
-{
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(file, error);
-  return error ? "not there" : fmt::format("{} bytes", bytes);
 }
 
 /// Does some work; an error of this rank alone ends all ranks before anything is destroyed that
@@ -172,7 +187,6 @@ void endAllRanksOnOwnError(const Work& work)
 
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
-  listenToSignals();
   RunSettings settings;
   settings.command = command;
   if (line.maxWall > 0)
@@ -180,6 +194,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   Deck deck;
   comm.together([&] { deck = readDeck(line.deck, line.overrides); });
   comm.demandSame("the deck", deck.text, ExitCode::Deck);
+  demandSameFiles(deck, comm);
   demandDistinctFiles(deck, line.checkpoint, comm);
   std::vector<FileLock> locks;
   if (!line.check)
@@ -187,7 +202,6 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     locks = lockOutputs(deck, comm);
     demandWritableFiles(deck, comm);
   }
-  comm.demandSame("the mesh " + deck.mesh, sizeOf(deck.mesh), ExitCode::Mesh);
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
   const MeshReport report = reportMesh(mesh, home, comm);
@@ -243,6 +257,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     if (!line.restart)
       putAside(deck.checkpoint.file, comm);
     addObservers(observers, deck, mesh, comm, settings);
+    listenToSignals();
     code = solver.run(observers, &rebalancer);
     reportEnd(solver);
   };
@@ -278,6 +293,12 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
                     ExitCode::Usage);
     if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
       return int(comm.max(std::int64_t(parsed)));
+    // Options and nothing else say what is used; Kokkos takes variables that contradict them, or
+    // are no numbers, for errors of the program.
+    for (const char* variable : {"KOKKOS_NUM_THREADS", "KOKKOS_NUMA", "KOKKOS_DEVICE_ID",
+                                 "KOKKOS_NUM_DEVICES", "KOKKOS_SKIP_DEVICE", "KOKKOS_RAND_DEVICES",
+                                 "KOKKOS_DISABLE_WARNINGS", "KOKKOS_TUNE_INTERNALS"})
+      ::unsetenv(variable);
     Kokkos::InitArguments arguments;
     comm.together([&] { arguments.num_threads = threadsOf(line); });
     arguments.disable_warnings = true;
@@ -303,6 +324,15 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
       logSummary();
     };
     endAllRanksOnOwnError(work);
+    if (asksForHelp(line) || line.check) // what they say is all they do
+      comm.together(
+          [&]
+          {
+            if (comm.isRoot() &&
+                (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout)))
+              fail(ExitCode::Output, "the text cannot be written to the standard output: {}.",
+                   std::strerror(errno));
+          });
     return code;
   }
   catch (const Error& error)
@@ -325,6 +355,8 @@ int main(int argc, char** argv)
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();
   coplane::abortAllRanksOnTerminate();
+  // Who reads the log may stop reading; the run is no less wanted.
+  std::signal(SIGPIPE, SIG_IGN);
   // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When
   // the program is killed it may stay, and has been seen to fill the memory of the machine.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

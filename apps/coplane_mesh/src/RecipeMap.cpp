@@ -114,7 +114,7 @@ YAML::Node RecipeMap::required(const std::string& key) const
 std::string RecipeMap::text(const std::string& key) const
 {
   const YAML::Node value = required(key);
-  if (!value.IsScalar() || value.Scalar().empty())
+  if (!value.IsScalar() || value.Scalar().empty() || value.Scalar().find('\0') != std::string::npos)
     refuse(key, "must be a word.");
   return value.Scalar();
 }

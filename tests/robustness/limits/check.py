@@ -81,6 +81,19 @@ case.check_equal("a table of a million numbers is read", code, 0)
 if code:
     print(output[-2000:])
 
+folder, _ = attempt("a node far away", 0, changes={"time.end": 1e-6})
+with netCDF4.Dataset(folder / "mesh.e", "a") as mesh:
+    mesh["coordx"][0] = -1e100
+for ranks in (1, 2):
+    code, output = program.run_program(["run.yaml", "--check"], folder, ranks, timeout=60)
+    case.check_equal(f"a node far away, {ranks} ranks: code and place", (code, "1e+100" in output, "outermost" in output), (MESH, True, True))
+for key in ("checkpoint.file", "history.file", "output.results", "mesh", "title"):
+    attempt(f"a zero byte in {key}", DECK, ["zero byte"], options=["--set", f'{key}="a\\0b"'])
+for variable, value in (("KOKKOS_NUM_THREADS", "2"), ("KOKKOS_NUM_THREADS", "abc"), ("KOKKOS_DEVICE_ID", "x"), ("KOKKOS_DISABLE_WARNINGS", "maybe")):
+    os.environ[variable] = value
+    attempt(f"{variable} = {value}", 0, changes={"time.end": 1e-6})
+    del os.environ[variable]
+
 # --- counts of cycles, free flight --------------------------------------------------------------------------
 folder, _ = attempt("fixed step", 0, changes={"time.end": 1e-5, "time.fixed_step": 1e-8, "history.every": 1e-6})
 names, lines = history(folder)
@@ -170,6 +183,22 @@ case.check_equal("a new run takes away the steps that the series of the old one 
                  sorted(path.name for path in folder.glob("run_planes_*.vtp")), ["run_planes_0000.vtp", "run_planes_0001.vtp", "run_planes_0099.vtp"])
 case.check_equal("a new run takes away old records", (folder / "run.run-s0002.json").exists(), False)
 case.check_equal("a file of the user with a similar name stays", (folder / "run.e-s0002.txt").exists(), True)
+
+# --- a standard output that takes nothing -------------------------------------------------------------------
+folder, _ = attempt("standard output", 0, changes={"time.end": 1e-5})
+for options, code in ((["--schema"], OUTPUT), (["--help-deck"], OUTPUT), (["run.yaml", "--check"], OUTPUT), (["run.yaml"], 0)):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([program.binary("coplane"), *options], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    case.check_equal(f"standard output to a full disk, {' '.join(options)}: exit code", done.returncode, code)
+    case.check_equal(f"standard output to a full disk, {' '.join(options)}: a reason", "standard output" in done.stderr, code != 0)
+(folder / "run.csv").unlink()
+for ranks in (1, 2):
+    launch = "" if ranks == 1 else f"{os.environ.get('MPIEXEC', 'mpirun')} -np 2 --bind-to none "
+    command = f"set -o pipefail; {launch}{program.binary('coplane')} run.yaml | head -n 1"
+    done = subprocess.run(["bash", "-c", command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+    case.check_equal(f"who reads the log stops, {ranks} ranks: the run goes on to its end", float(history(folder)[1][-1][0]) >= 1e-5, True)
+    case.check_equal(f"who reads the log stops, {ranks} ranks: no lock is left", list(folder.glob("*.lock")), [])
+    (folder / "run.csv").unlink()
 
 # --- a folder that goes away --------------------------------------------------------------------------------
 folder = pathlib.Path("gone").resolve()

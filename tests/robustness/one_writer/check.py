@@ -61,6 +61,16 @@ run("a check beside it", folder, 0, options=["--check"])
 run("a run with one output in common", folder, OUTPUT, words, ["--set", "output.results=other.e", "--set", "checkpoint.file=other.chk"])
 run("a run of other names in the same folder", folder, 0, (), ["--set", "output.results=other.e", "--set", "checkpoint.file=other.chk",
     "--set", "history.file=other.csv", "--set", "time.end=1e-7"])
+for clash in ("history.file=run_planes_0002.vtp", "history.file=run_planes.pvd", "output.results=run.csv"):
+    only = ["output.results=other.e", "checkpoint.file=other.chk", "history.file=other.csv", clash]
+    options = [word for key in only for word in ("--set", key)]
+    run(f"a run of other names but for {clash}", folder, OUTPUT, words, [*options, "--set", "time.end=1e-7"])
+(folder / "sub").mkdir()
+os.symlink("../run.csv", folder / "sub/linked.csv")
+os.link(folder / "run.csv", folder / "hard.csv")
+for name in ("sub/linked.csv", "hard.csv"):
+    run(f"the history of the first run as {name}", folder, OUTPUT, words,
+        ["--set", "output.results=other.e", "--set", "checkpoint.file=other.chk", "--set", f"history.file={name}"])
 first.send_signal(signal.SIGKILL)
 first.wait()
 case.check_equal("the killed run has left its lock", (folder / "run.lock").exists(), True)
@@ -79,6 +89,9 @@ for start in range(3):
 case.check_equal("it is said how to get rid of them", "rm run.chk.[01].old-*" in output, True)
 aside = sorted((path for path in folder.glob("run.chk.*") if path.read_bytes() in good), key=lambda path: path.stat().st_mtime)
 run("a restart from one that was put aside", folder, 0, (), ["--restart", aside[-1].name, "--set", "time.end=1.2e-5"])
+before = {path.name: path.read_bytes() for path in folder.iterdir()}
+run("a restart that ends before its checkpoint", folder, DECK, ["time.end", "checkpoint"], ["--restart", "--set", "time.end=1e-7"])
+case.check_equal("a restart that ends before its checkpoint: nothing is touched", {path.name: path.read_bytes() for path in folder.iterdir()} == before, True)
 for path in folder.glob("run.chk.?"):
     path.unlink()
 run("a restart without checkpoint names those of earlier runs", folder, CHECKPOINT, [aside[-1].name], ["--restart"])
@@ -111,6 +124,20 @@ launch = [os.environ.get("MPIEXEC", "mpirun"), "--bind-to", "none", "-np", "1", 
           ":", "-np", "1", "-wdir", str(folder / "sub"), program.binary("coplane"), "run.yaml"]
 done = subprocess.run(launch, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
 expect("one name, two decks", done.returncode, done.stdout, DECK, ["not started alike", "the deck"])
+# Equal decks; meshes of one name and size that differ in one bit.
+(folder / "sub/run.yaml").write_text((folder / "run.yaml").read_text())
+spoilt = bytearray((folder / "mesh.e").read_bytes())
+spoilt[-1] ^= 1
+(folder / "sub/mesh.e").write_bytes(spoilt)
+done = subprocess.run(launch, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+expect("two working folders", done.returncode, done.stdout, USAGE, ["not started alike", "the working folder"])
+shutil.copy(folder / "mesh.e", folder / "sub/copy.e")
+for name, code in (("sub/mesh.e", MESH), ("sub/copy.e", 0)):  # the same name on each rank leads to a file of its own
+    seen = ["sh", "-c", 'exec 9< "$0"; exec "$@"']
+    told = [program.binary("coplane"), "run.yaml", "--check", "--set", "mesh=/proc/self/fd/9"]
+    two = [os.environ.get("MPIEXEC", "mpirun"), "--bind-to", "none", "-np", "1", *seen, "mesh.e", *told, ":", "-np", "1", *seen, name, *told]
+    done = subprocess.run(two, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+    expect(f"each rank its mesh, {name}", done.returncode, done.stdout, code, ["not started alike", "SHA-256"] if code else [])
 run("too many threads", folder, USAGE, ["--threads"], ["--threads", "5000"])
 run("--max-wall nan", folder, USAGE, ["--max-wall"], ["--max-wall", "nan"])
 run("--max-wall inf", folder, USAGE, ["--max-wall"], ["--max-wall", "inf"])

@@ -28,12 +28,20 @@ std::string me()
   return fmt::format("{}{} on {}, since {}\n", beginning, ::getpid(), host, date);
 }
 
+constexpr std::size_t longestText = 1 << 20;
+
+std::string textIn(int descriptor)
+{
+  std::string text(longestText, '\0');
+  const ssize_t length = ::pread(descriptor, text.data(), text.size(), 0);
+  text.resize(length > 0 ? std::size_t(length) : 0);
+  return text;
+}
+
 std::string ownerIn(int descriptor)
 {
-  char text[512];
-  const ssize_t length = ::pread(descriptor, text, sizeof text, 0);
-  const std::string owner(text, length > 0 ? std::size_t(length) : 0);
-  return owner.empty() ? "an unknown process" : owner.substr(0, owner.find('\n'));
+  const std::string text = textIn(descriptor);
+  return text.empty() ? "an unknown process" : text.substr(0, text.find('\n'));
 }
 
 /// Whether a file is what a lock leaves when its owner is killed, and not somebody's own.
@@ -44,7 +52,7 @@ bool isLeftOver(int descriptor)
   };
   const std::string text = ownerIn(descriptor);
   return ::fstat(descriptor, &open) == 0 && open.st_nlink < 2 &&
-         (open.st_size == 0 || (open.st_size < 512 && text.rfind(beginning, 0) == 0));
+         (open.st_size == 0 || text.rfind(beginning, 0) == 0);
 }
 
 /// Whether the path still leads to the file that is open: its owner may just have removed it.
@@ -61,7 +69,8 @@ bool isStillThere(const std::string& file, int descriptor)
 }
 } // namespace
 
-FileLock::FileLock(const std::string& file, const std::string& what) : file_(file)
+FileLock::FileLock(const std::string& file, const std::string& what, const std::string& told)
+    : file_(file)
 {
   for (;;)
   {
@@ -103,12 +112,23 @@ FileLock::FileLock(const std::string& file, const std::string& what) : file_(fil
            file, what);
     }
     descriptor_ = descriptor;
-    const std::string text = me();
+    const std::string text = me() + told;
     // Not being able to say who holds it does not make the lock less of one.
     if (::ftruncate(descriptor, 0) != 0 || ::pwrite(descriptor, text.data(), text.size(), 0) < 0)
       return;
     return;
   }
+}
+
+std::string FileLock::textOfHolder(const std::string& file)
+{
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (descriptor < 0)
+    return "";
+  const bool isFree = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  const std::string text = isFree ? "" : textIn(descriptor);
+  ::close(descriptor);
+  return text.rfind(beginning, 0) == 0 ? text : "";
 }
 
 FileLock::~FileLock()

@@ -13,7 +13,8 @@ public:
   /// Throws Error(ExitCode::Output) with host, process and time of the owner when another process
   /// has it. On a file system without locks it is taken as free; isHeld() then is false.
   /// @param what for the message: "the outputs of wall.yaml"
-  FileLock(const std::string& file, const std::string& what);
+  /// @param text for others to read while the lock is held; a line with the owner goes before it
+  FileLock(const std::string& file, const std::string& what, const std::string& text = "");
   /// Removes the file.
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
@@ -22,6 +23,8 @@ public:
   FileLock& operator=(const FileLock&) = delete;
 
   bool isHeld() const { return descriptor_ >= 0; }
+  /// What somebody wrote who holds this lock now; empty: nobody does.
+  static std::string textOfHolder(const std::string& file);
 
 private:
   std::string file_;

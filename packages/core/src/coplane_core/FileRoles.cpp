@@ -266,4 +266,71 @@ std::vector<std::string> FileRoles::hindrances() const
   }
   return hindrances;
 }
+
+std::set<std::string> FileRoles::folders() const
+{
+  std::set<std::string> folders;
+  for (const Role& role : roles_)
+    if (role.isOutput)
+      folders.insert(placeOf(role.pieces[0]).parent_path().string());
+  return folders;
+}
+
+std::string FileRoles::outputsText() const
+{
+  std::string text;
+  for (const Role& role : roles_)
+  {
+    if (!role.isOutput)
+      continue;
+    std::vector<std::string> fields{role.what};
+    fields.insert(fields.end(), role.pieces.begin(), role.pieces.end());
+    fields[1] = role.pieces.size() == 1
+                    ? placeOf(role.pieces[0]).string()
+                    : (placeOf(role.pieces[0]).parent_path() / fs::path(role.pieces[0]).filename())
+                          .string();
+    for (std::string& field : fields)
+      for (std::size_t at = 0; (at = field.find_first_of("\\\t\n", at)) != std::string::npos;
+           at += 2)
+        field.replace(at, 1, field[at] == '\t' ? "\\t" : field[at] == '\n' ? "\\n" : "\\\\");
+    text += fmt::format("{}\n", fmt::join(fields, "\t"));
+  }
+  return text;
+}
+
+FileRoles FileRoles::outputsIn(const std::string& text)
+{
+  FileRoles roles;
+  std::vector<std::string> fields(1);
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (text[i] == '\n')
+    {
+      if (fields.size() > 1)
+        roles.roles_.push_back({{fields.begin() + 1, fields.end()}, fields[0], true});
+      fields.assign(1, "");
+    }
+    else if (text[i] == '\t')
+      fields.emplace_back();
+    else if (text[i] == '\\' && i + 1 < text.size())
+    {
+      ++i;
+      fields.back() += text[i] == 't' ? '\t' : text[i] == 'n' ? '\n' : text[i];
+    }
+    else
+      fields.back() += text[i];
+  return roles;
+}
+
+std::vector<std::string> FileRoles::problemsWith(const FileRoles& others) const
+{
+  std::vector<std::string> problems;
+  std::set<std::string> said;
+  for (const Role& mine : roles_)
+    for (const Role& its : others.roles_)
+      if (mine.isOutput && its.isOutput && meet(look(mine.pieces), look(its.pieces)) &&
+          meetStill(mine.pieces, its.pieces) && said.insert(mine.what).second)
+        problems.push_back(fmt::format("{} '{}' is {} '{}' there.", mine.what, nameOf(mine.pieces),
+                                       its.what, nameOf(its.pieces)));
+  return problems;
+}
 } // namespace coplane

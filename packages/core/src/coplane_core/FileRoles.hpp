@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,15 @@ public:
   /// or because it is on a file system that is read only. Opens what is there for writing, and
   /// changes nothing: to be asked before the first output of an earlier run is replaced.
   std::vector<std::string> hindrances() const;
+
+  /// Folders of the outputs.
+  std::set<std::string> folders() const;
+  /// The outputs as lines of text, for other processes; read by outputsIn, which leaves out what it
+  /// does not understand.
+  std::string outputsText() const;
+  static FileRoles outputsIn(const std::string& text);
+  /// A sentence for each output that is one of the others' too.
+  std::vector<std::string> problemsWith(const FileRoles& others) const;
 
 private:
   struct Role

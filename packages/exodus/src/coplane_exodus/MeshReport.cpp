@@ -482,6 +482,14 @@ MeshReport reportMesh(const Mesh& mesh)
   return reportMesh(slice, partAtHome(slice, alone), alone);
 }
 
+bool MeshReport::tooFar() const
+{
+  Real most = 0;
+  for (int c = 0; c < 3; ++c)
+    most = std::max({most, std::abs(lowest[c]), std::abs(highest[c])});
+  return shortestEdge > 0 && most > farthest * shortestEdge;
+}
+
 std::vector<std::string> meshProblems(const MeshReport& report)
 {
   std::vector<std::string> problems;
@@ -562,6 +570,13 @@ std::vector<std::string> meshProblems(const MeshReport& report)
           "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
           "small time step and is stiff. Mesh there again.",
           block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
+  if (report.tooFar())
+    problems.push_back(fmt::format(
+        "coordinates from {} to {} m, with edges of {:.3g} m: sixteen digits cannot tell such "
+        "nodes "
+        "apart; accepted: up to {:.0e} times the shortest edge. Look at the outermost nodes and at "
+        "the units.",
+        at(report.lowest), at(report.highest), report.shortestEdge, MeshReport::farthest));
   if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
     problems.push_back(fmt::format(
         "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "

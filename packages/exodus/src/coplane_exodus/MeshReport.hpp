@@ -84,9 +84,14 @@ struct MeshReport
   Findings<SharedFace> overused;      ///< faces (2D: edges) of more than two elements
   std::vector<Joint> joints;          ///< side sets that hold both sides of a joint
 
-  /// No computation can start with inverted elements or repeated nodes; the other findings are for
-  /// the eye.
-  bool usable() const { return inverted.empty() && repeatedNodes.empty(); }
+  /// Largest coordinate as a multiple of the shortest edge up to which the sixteen digits of a
+  /// coordinate tell the nodes of an element apart.
+  static constexpr Real farthest = 1e12;
+  bool tooFar() const;
+
+  /// No computation can start with inverted elements, repeated nodes or coordinates that are too
+  /// far; the other findings are for the eye.
+  bool usable() const { return inverted.empty() && repeatedNodes.empty() && !tooFar(); }
 };
 
 /// Of a mesh of which every rank has a slice; the same on all ranks, and for any number of them.

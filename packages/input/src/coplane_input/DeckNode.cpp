@@ -50,6 +50,9 @@ DeckNode copyNode(const YAML::Node& node, Source& source, int depth)
   {
     copy.kind = DeckNode::Kind::Scalar;
     copy.text = node.Scalar();
+    if (copy.text.find('\0') != std::string::npos)
+      fail(ExitCode::Deck, "{}: a value with a zero byte (\\0); accepted: text without.",
+           copy.where);
     copy.quoted = node.Tag() == "!"; // yaml-cpp's mark of every scalar that is not plain
   }
   else if (node.IsSequence())

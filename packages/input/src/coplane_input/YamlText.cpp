@@ -49,6 +49,8 @@ void demandPlainText(const std::string& text, const std::string& file)
 {
   const auto isControl = [](unsigned char c)
   { return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f; };
+  if (text.rfind("\xff\xfe", 0) == 0 || text.rfind("\xfe\xff", 0) == 0)
+    fail(ExitCode::Deck, "{}:1: the text is UTF-16; accepted: UTF-8. Save it as UTF-8.", file);
   const auto found = std::find_if(text.begin(), text.end(), isControl);
   if (found != text.end())
     fail(ExitCode::Deck,

@@ -19,9 +19,9 @@ OutputSchedule::OutputSchedule(OutputTimes times) : times_(std::move(times))
   std::sort(times_.times.begin(), times_.times.end());
 }
 
-std::int64_t OutputSchedule::multiplesUntil(Real time) const
+Real OutputSchedule::multiplesUntil(Real time) const
 {
-  return times_.every > 0 ? std::int64_t(std::floor(reached(time) / times_.every)) : 0;
+  return times_.every > 0 ? std::floor(reached(time) / times_.every) : 0;
 }
 
 void OutputSchedule::startAt(Real time)
@@ -31,11 +31,11 @@ void OutputSchedule::startAt(Real time)
 
 bool OutputSchedule::isDue(Real time)
 {
-  const std::int64_t multiples = multiplesUntil(time);
+  const Real multiples = multiplesUntil(time);
   const auto& times = times_.times;
   const std::size_t single =
       std::upper_bound(times.begin(), times.end(), reached(time)) - times.begin();
-  const bool due = multiples > multiplesDone_ || single > timesDone_;
+  const bool due = multiples > multiplesDone_ || std::isinf(multiples) || single > timesDone_;
   multiplesDone_ = std::max(multiples, multiplesDone_);
   timesDone_ = std::max(single, timesDone_);
   return due;

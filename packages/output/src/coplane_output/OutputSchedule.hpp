@@ -30,10 +30,10 @@ public:
   bool isDue(Real time);
 
 private:
-  std::int64_t multiplesUntil(Real time) const;
+  Real multiplesUntil(Real time) const;
 
   OutputTimes times_;
-  std::int64_t multiplesDone_ = 0;
+  Real multiplesDone_ = 0;
   std::size_t timesDone_ = 0;
 };
 } // namespace coplane
