@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
+
 namespace coplane
 {
 namespace
@@ -35,16 +37,27 @@ void expectOutputError(const F& action, const std::string& file)
 
 struct Recorder : Observer
 {
+  enum class End
+  {
+    Well,
+    ErrorOfAllRanks,
+    OwnError,
+    OwnMemory
+  };
   std::string& calls;
-  bool fails;
-  Recorder(std::string& c, bool f) : calls(c), fails(f) {}
+  End end;
+  Recorder(std::string& c, End e) : calls(c), end(e) {}
   void start(const Solver&) override { calls += "s"; }
   void endOfCycle(const Solver&) override { calls += "c"; }
   void finish(const Solver&, const std::string&) override
   {
     calls += "f";
-    if (fails)
+    if (end == End::ErrorOfAllRanks)
+      failOnAllRanks(ExitCode::Output, "disk full");
+    if (end == End::OwnError)
       fail(ExitCode::Output, "disk full");
+    if (end == End::OwnMemory)
+      throw std::bad_alloc();
   }
 };
 } // namespace
@@ -119,11 +132,29 @@ TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)
   const Solver solver(cubesInContact(mesh, comm), comm);
   std::string calls;
   MultiObserver observers;
-  observers.add(std::make_unique<Recorder>(calls, true));
-  observers.add(std::make_unique<Recorder>(calls, false));
+  observers.add(std::make_unique<Recorder>(calls, Recorder::End::Well));
+  observers.add(
+      std::make_unique<Recorder>(calls, Recorder::End::ErrorOfAllRanks)); // is the first to finish
   observers.start(solver);
   observers.endOfCycle(solver);
   EXPECT_THROW(observers.finish(solver, "completed"), Error);
   EXPECT_EQ(calls, "ssccff");
+}
+
+TEST(MultiObserver, anErrorOfOneRankLeavesAtOnce)
+{
+  // The other ranks are still in this observer: what the next one would send is not for them.
+  const Comm comm;
+  const Mesh mesh = twoCubes();
+  const Solver solver(cubesInContact(mesh, comm), comm);
+  for (const Recorder::End end : {Recorder::End::OwnError, Recorder::End::OwnMemory})
+  {
+    std::string calls;
+    MultiObserver observers;
+    observers.add(std::make_unique<Recorder>(calls, Recorder::End::Well));
+    observers.add(std::make_unique<Recorder>(calls, end)); // is the first to finish
+    EXPECT_THROW(observers.finish(solver, "completed"), std::exception);
+    EXPECT_EQ(calls, "f");
+  }
 }
 } // namespace coplane

@@ -26,7 +26,7 @@ deck = {"materials": {"steel": steel}, "blocks": {"low": {"material": "steel"}, 
 DECK, MESH, OUTPUT, COMPUTATION, MACHINE = 3, 4, 5, 6, 10
 
 
-def attempt(name, code, words=(), changes=None, ranks=1, recipe=recipe, options=(), limits=None):
+def attempt(name, code, words=(), changes=None, ranks=1, recipe=recipe, options=(), deck=deck):
     folder = pathlib.Path(name.replace(" ", "_")).resolve()
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
@@ -63,6 +63,12 @@ up = [{"block": "high", "velocity": [0, -1e150, 0]}]
 for ranks in (1, 2, 3):
     attempt(f"velocity 1e150 on {ranks} ranks", COMPUTATION, ["far too large"], {"initial": up}, ranks)
     attempt(f"gravity 1e300 on {ranks} ranks", COMPUTATION, ["not finite"], {"gravity": [0, -1e300, 0]}, ranks)
+# The same where many bodies are near one another: on revision 4283725 the search ran out of memory, on one rank with code 70, and on two ranks without an end.
+scene = {"recipe": case.load("tests/parallel/same_bits/mesh_2d.yaml"), "deck": case.load("tests/parallel/same_bits/deck.yaml")}
+scene["deck"] = {**scene["deck"], "time": {"end": 2e-5}, "output": {"results": "none"}}
+for ranks in (1, 2, 3):
+    attempt(f"a bar at 1e150 on {ranks} ranks", COMPUTATION, ["far too large"], {"initial": [{"block": "bar", "velocity": [1e150, 2e149, 0]}]}, ranks, **scene)
+    attempt(f"bodies under gravity 1e150 on {ranks} ranks", COMPUTATION, ["far too large"], {"gravity": [0, -1e150, 0]}, ranks, **scene)
 attempt("fixed step 1e-300", COMPUTATION, ["time.fixed_step"], {"time.fixed_step": 1e-300})
 documents.save({"dimension": 3, "parts": [{**box, "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [10000, 10000, 10000]}]}, "huge.yaml")
 done = subprocess.run([program.binary("coplane_mesh"), "make", "huge.yaml", "-o", "huge.e"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)

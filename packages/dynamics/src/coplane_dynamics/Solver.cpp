@@ -656,6 +656,8 @@ void Solver::finishAfter(const Error& error, Observer& observer) const
   }
   catch (const Error& again)
   {
+    if (!again.onAllRanks())
+      throw;
     if (std::string(again.what()) != error.what())
       logError(again.what());
   }

@@ -129,7 +129,7 @@ void CheckpointObserver::endOfCycle(const Solver& solver)
   catch (const Error& error)
   {
     // The run is worth more than this checkpoint; those from before are still there.
-    if (error.code() != ExitCode::Output)
+    if (error.code() != ExitCode::Output || !error.onAllRanks())
       throw;
     logWarning("a checkpoint was not written", error.what());
   }

@@ -1,3 +1,4 @@
+#include <coplane_core/Error.hpp>
 #include <coplane_output/MultiObserver.hpp>
 
 #include <exception>
@@ -35,7 +36,8 @@ void MultiObserver::savePosition(std::map<std::string, std::string>& positions) 
 
 void MultiObserver::finish(const Solver& solver, const std::string& ending)
 {
-  // Errors are thrown on all ranks alike, so all ranks go on with the next observer.
+  // After an error of all ranks all go on with the next observer. One of this rank alone leaves at
+  // once: the others are still in this observer, and what the next one would send is not for them.
   std::exception_ptr first;
   // Backwards: a checkpoint at the end has to know where outputs ended before their last lines.
   for (auto observer = observers_.rbegin(); observer != observers_.rend(); ++observer)
@@ -43,8 +45,10 @@ void MultiObserver::finish(const Solver& solver, const std::string& ending)
     {
       (*observer)->finish(solver, ending);
     }
-    catch (...)
+    catch (const Error& error)
     {
+      if (!error.onAllRanks())
+        throw;
       if (!first)
         first = std::current_exception();
     }
