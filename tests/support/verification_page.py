@@ -122,5 +122,7 @@ def page(build, old=""):
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit(__doc__)
+    if not (pathlib.Path(sys.argv[1]) / "CTestTestfile.cmake").exists():
+        sys.exit(f"{sys.argv[1]}: no build folder (there is no CTestTestfile.cmake)\n\n{__doc__}")
     output = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else SOURCE / "docs/verification.md"
     output.write_text(page(sys.argv[1], output.read_text() if output.exists() else ""))

@@ -1,7 +1,7 @@
+#include <coplane_contact/EdgesOfSurfaces.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Inheritance.hpp>
 #include <coplane_contact/View.hpp>
-#include <coplane_contact/WaysOut.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>

@@ -83,7 +83,8 @@ void forEachMember(Plane& plane, F&& f)
   f("fracture_work", plane.fractureWork);
   f("damping_work", plane.dampingWork);
 }
-// A new member changes one of these sizes: it belongs into the list above.
+// A new member belongs into the list above, or is found anew at searches. It changes one of these
+// sizes, unless it fits into what is filled up today.
 static_assert(sizeof(Plane) == 8 * 64 && sizeof(JointState) == 8 * sizeof(Real) &&
               sizeof(JointFit) == 3 * sizeof(Real));
 } // namespace coplane

@@ -607,10 +607,8 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
           ExitCode::Computation,
           "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, faster than "
           "waves run in them, and faces lie deeper in them than contact.depth_max, or in each "
-          "other "
-          "before they were found: contact cannot "
-          "stop them. Raise joints.stiffness_fraction, or use a material that stiffens under "
-          "pressure. {}",
+          "other before they were found: contact cannot stop them. Raise "
+          "joints.stiffness_fraction, or use a material that stiffens under pressure. {}",
           clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
     }
     if (clock_.cycle % energyCheckEvery == 0 || isOver())

@@ -1,39 +1,14 @@
 #pragma once
 
+#include <coplane_contact/DirectionsOfNodes.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
-#include <coplane_core/NodeViews.hpp>
-#include <coplane_mesh/NodeLayout.hpp>
 
 #include <vector>
 
 namespace coplane
 {
-/// Up to three directions per node, each with a number; directions within 20 degrees are one.
-class DirectionsOfNodes
-{
-public:
-  static constexpr int most = 3;
-  static constexpr Real one = 0.94;
-
-  explicit DirectionsOfNodes(int nodes);
-  /// Unless the node has it already, or has three. The number of one that comes again with another
-  /// number is lost.
-  void add(int node, const Vec3& direction, int number);
-  void refresh(const NodeLayout& layout) const; ///< copies from the owners. Collective.
-
-  int count(int node) const; ///< zero vectors are no directions
-  Vec3 direction(int node, int i) const { return at(directions_[i], node); }
-  /// Place of a direction, -1: none.
-  int find(int node, const Vec3& direction) const;
-  /// The number of a direction; -1 if it came with several.
-  int number(int node, int i) const { return int(at(numbers_, node)[i]); }
-
-private:
-  NodeVectors directions_[most], numbers_;
-};
-
 /// What lies beyond the edges of faces, as they lie now. Where another body is flush, the surface
 /// goes on over the seam, and the sides that lie on each other there are hidden: nothing comes to
 /// them but through one of the two bodies.
