@@ -217,6 +217,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
         for (const auto& set : mesh.mine.sideSets)
           sideSets.push_back(set.name);
         auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
+        for (const std::string& problem : problemsOfDimension(deck, mesh.mine.dimension))
+          problems.push_back(problem);
         for (const std::string& problem : problemsOfLaws(deck))
           problems.push_back(problem);
         for (const std::string& problem : ofRigidBlocks)

@@ -100,6 +100,11 @@ for variable, value in (("KOKKOS_NUM_THREADS", "2"), ("KOKKOS_NUM_THREADS", "abc
     attempt(f"{variable} = {value}", 0, changes={"time.end": 1e-6})
     del os.environ[variable]
 
+for name, changes in (("gravity", {"gravity": [0, 0, 5]}), ("velocity", {"initial": [{"block": "high", "velocity": [0, -1, 2]}]}),
+                      ("angular_velocity", {"initial": [{"block": "high", "angular_velocity": [1, 0, 0]}]}),
+                      ("symmetry", {"conditions": [{"type": "symmetry", "node_set": "ground", "normal": [0, 0, 1]}]})):
+    attempt(f"{name} out of the plane", DECK, [name, "run.yaml", "two dimensions"], changes)
+
 # --- counts of cycles, free flight --------------------------------------------------------------------------
 folder, _ = attempt("fixed step", 0, changes={"time.end": 1e-5, "time.fixed_step": 1e-8, "history.every": 1e-6})
 names, lines = history(folder)

@@ -299,6 +299,41 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
           unknown(fmt::format("history.rigid.{}", i), name, "a rigid block, or \"*\"", rigid));
 }
 
+std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
+{
+  std::vector<std::string> messages;
+  const auto demand = [&](bool good, const std::string& where, const std::string& what)
+  {
+    if (!good)
+      messages.push_back(fmt::format(
+          "{}: {} has no effect: the mesh has two dimensions. Accepted: 0.", where, what));
+  };
+  const auto nothing = [](const TimeFunction& function)
+  {
+    return function.expression.empty() && function.constant == 0 &&
+           std::all_of(function.values.begin(), function.values.end(),
+                       [](Real value) { return value == 0; });
+  };
+  if (dimension == 3)
+    return messages;
+  demand(nothing(deck.gravity[2]),
+         deck.gravity[2].where.empty() ? deck.file : deck.gravity[2].where, "gravity along z");
+  for (const InitialCard& card : deck.initial)
+  {
+    demand(card.velocity.z == 0, card.where, "an initial velocity along z");
+    demand(card.angularVelocity.x == 0 && card.angularVelocity.y == 0, card.where,
+           "an initial angular_velocity about x or y");
+  }
+  for (const ConditionCard& card : deck.conditions)
+  {
+    demand(card.normal.z == 0, card.where, "the normal of a symmetry along z");
+    demand(nothing(card.traction[2]), card.where, "a traction along z");
+    demand(nothing(card.velocity[2]), card.where, "a velocity along z");
+    demand(nothing(card.displacement[2]), card.where, "a displacement along z");
+  }
+  return messages;
+}
+
 std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,
                                                const Names& nodeSetNames, const Names& sideSetNames)
 {

@@ -19,6 +19,9 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck,
                                                const std::vector<std::string>& nodeSetNames,
                                                const std::vector<std::string>& sideSetNames);
 
+/// Values out of the plane of a two-dimensional mesh, which would have no effect: one message each.
+std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension);
+
 /// What contact.pairs can tell of a face.
 struct ContactTraits
 {
