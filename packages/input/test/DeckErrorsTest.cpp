@@ -114,6 +114,17 @@ TEST(DeckErrors, controlCharactersAreRefusedWithTheirLine)
       "is no text. Write the line again.");
 }
 
+TEST(DeckErrors, whatIsNotSeenInAnEditorIsNamed)
+{
+  EXPECT_EQ(errorOf("\xff\xfet"),
+            "wall.yaml:1: the text is UTF-16; accepted: UTF-8. Save it as UTF-8.");
+  const std::string tabs = errorOf(leastDeck + std::string("output:\n\tevery: 1\n"));
+  EXPECT_NE(tabs.find("Line 6 is indented with a tab; accepted: blanks."), std::string::npos)
+      << tabs;
+  const std::string zero = errorOf(leastDeck + std::string("title: \"a\\0b\"\n"));
+  EXPECT_NE(zero.find("zero byte"), std::string::npos) << zero;
+}
+
 TEST(DeckErrors, anUnknownKeyBringsASuggestion)
 {
   EXPECT_EQ(errorWith("damping: {mas: 1}\n"),

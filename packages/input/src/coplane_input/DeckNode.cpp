@@ -179,8 +179,8 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
   {
     fail(ExitCode::Deck,
          "{}: this is not YAML: {}. Look at this line and the one before for a missing colon, "
-         "bracket or quote, or a wrong indentation.",
-         source.where(e.mark), e.msg);
+         "bracket or quote, or a wrong indentation.{}",
+         source.where(e.mark), e.msg, hintOfTabs(text));
   }
   if (yaml.rest)
     fail(ExitCode::Deck,
