@@ -18,13 +18,17 @@ std::string withoutExtension(const std::string& file)
   return std::filesystem::path(file).replace_extension().string();
 }
 
-/// One for each stem of the outputs: runs of other names may share the folder.
+/// One for each stem of the outputs: runs of other names may share the folder. Where a name is a
+/// link, one beside the file that it leads to, too.
 std::set<std::string> lockFiles(const Deck& deck)
 {
-  std::set<std::string> files{withoutExtension(deck.history.file) + ".lock",
-                              withoutExtension(deck.checkpoint.file) + ".lock"};
-  if (!deck.output.results.empty())
-    files.insert(withoutExtension(deck.output.results) + ".lock");
+  std::set<std::string> files, places;
+  for (const std::string& output : {deck.history.file, deck.checkpoint.file, deck.output.results})
+    if (!output.empty())
+      for (const std::string& name : {output, placeOfFile(output)})
+        if (const std::string file = withoutExtension(name) + ".lock";
+            places.insert(placeOfFile(file)).second)
+          files.insert(file);
   return files;
 }
 
@@ -45,20 +49,21 @@ void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedF
   roles.reads(restartedFrom, "the checkpoint (--restart)");
 }
 
-void addOutputs(FileRoles& roles, const Deck& deck)
+/// @param restarts the results go on in a part of their own
+void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
 {
   const std::string history = "the history (history.file)", record = "the record of the run",
                     tables = "a table (history.tables)", results = "the results (output.results)",
                     planes = "the planes (output.planes)",
                     checkpoint = "the checkpoint (checkpoint.file)", draft = ".part";
-  roles.writes(deck.history.file, history);
+  roles.writesInPlace(deck.history.file, history);
   roles.writes(recordFile(deck, 1), record);
   roles.writes(recordFile(deck, 1) + draft, record);
   const std::string base = withoutExtension(deck.history.file);
   roles.writesSeries({base + ".run-s", ".json"}, record);
   roles.writesSeries({base + ".run-s", ".json" + draft}, record);
   for (const std::string& table : deck.history.tables)
-    roles.writes(fmt::format("{}_{}.csv", base, table), tables + " " + table);
+    roles.writesInPlace(fmt::format("{}_{}.csv", base, table), tables + " " + table);
   if (!deck.output.results.empty())
   {
     const std::string& file = deck.output.results;
@@ -69,7 +74,10 @@ void addOutputs(FileRoles& roles, const Deck& deck)
     }
     else
     {
-      roles.writes(file, results);
+      if (restarts)
+        roles.writes(file, results);
+      else
+        roles.writesInPlace(file, results);
       roles.writesSeries({file + "-s", ""}, results);
     }
     if (deck.output.planes && deck.contact.enabled)
@@ -94,13 +102,15 @@ void demandNoOther(const std::string& folder, const std::set<std::string>& mine,
                    const FileRoles& roles, const Deck& deck)
 {
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
   {
-    const std::string file = entry.path().string();
-    if (entry.path().extension() != ".lock" ||
+    const std::string file = entry->path().string();
+    std::error_code ignored;
+    if (entry->path().extension() != ".lock" ||
         std::any_of(mine.begin(), mine.end(),
                     [&](const std::string& own)
-                    { return std::filesystem::equivalent(own, file, error); }))
+                    { return std::filesystem::equivalent(own, file, ignored); }))
       continue;
     const std::string text = FileLock::textOfHolder(file);
     const auto problems = roles.problemsWith(FileRoles::outputsIn(text));
@@ -137,18 +147,23 @@ std::string stopFile(const Deck& deck)
 void demandSameFiles(const Deck& deck, const Comm& comm)
 {
   std::error_code error;
+  struct stat file
+  {
+  };
+  // One folder may have several names on several machines.
   const std::string here = std::filesystem::current_path(error).string();
-  if (comm.max(std::int64_t(here.empty())) == 0) // it may have been removed
+  const std::string inode = std::to_string(::stat(".", &file) == 0 ? file.st_ino : 0);
+  const std::string first = comm.broadcast(here), firstInode = comm.broadcast(inode);
+  const bool other = here != first && inode != firstInode;
+  if (comm.max(std::int64_t(other && !here.empty() && !first.empty())) > 0)
     comm.demandSame("the working folder", here, ExitCode::Usage);
   const auto bytes = std::filesystem::file_size(deck.mesh, error);
   comm.demandSame("the mesh " + deck.mesh, error ? "not there" : fmt::format("{} bytes", bytes),
                   ExitCode::Mesh);
-  struct stat file
-  {
-  };
-  const bool there = ::stat(deck.mesh.c_str(), &file) == 0;
   const std::string identity =
-      there ? fmt::format("{} {} {}", file.st_dev, file.st_ino, file.st_mtim.tv_sec) : "";
+      ::stat(deck.mesh.c_str(), &file) == 0
+          ? fmt::format("{} {} {}", file.st_ino, file.st_mtim.tv_sec, file.st_mtim.tv_nsec)
+          : "";
   if (comm.max(std::int64_t(identity != comm.broadcast(identity))) > 0)
     comm.demandSame("the mesh " + deck.mesh, "SHA-256 " + sha256OfFile(deck.mesh), ExitCode::Mesh);
 }
@@ -180,7 +195,7 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
   return locks;
 }
 
-void demandWritableFiles(const Deck& deck, const Comm& comm)
+void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm)
 {
   comm.together(
       [&]
@@ -188,7 +203,7 @@ void demandWritableFiles(const Deck& deck, const Comm& comm)
         if (!comm.isRoot())
           return;
         FileRoles roles;
-        addOutputs(roles, deck);
+        addOutputs(roles, deck, restarts);
         const std::vector<std::string> hindrances = roles.hindrances();
         if (!hindrances.empty())
           fail(ExitCode::Output, "{}", fmt::join(hindrances, "\n"));

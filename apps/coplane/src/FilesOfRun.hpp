@@ -17,7 +17,8 @@ std::string stopFile(const Deck& deck);
 
 /// Ranks on machines of their own may find different files under one name. Throws Error on all
 /// ranks, ExitCode::Usage or Mesh, when they work in different folders or see different meshes.
-/// Where they do not all see one file, each reads the mesh once to compare it. Collective.
+/// Where they do not all see one file (inode and time), each reads the mesh once to compare it;
+/// parts of a split mesh are not compared. Collective.
 void demandSameFiles(const Deck& deck, const Comm& comm);
 
 /// Throws Error(ExitCode::Deck) on all ranks when an output of the run is an input of it, another
@@ -27,7 +28,7 @@ void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, con
 
 /// Throws Error(ExitCode::Output) on all ranks when an output cannot be written, before what an
 /// earlier run left is touched. Collective.
-void demandWritableFiles(const Deck& deck, const Comm& comm);
+void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm);
 
 /// Makes sure that no other run writes files of the same names. Throws Error(ExitCode::Output) on
 /// all ranks when one does. Rank 0 holds the locks for as long as the result lives. Collective.

@@ -187,6 +187,7 @@ void endAllRanksOnOwnError(const Work& work)
 
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
+  listenToRequests();
   RunSettings settings;
   settings.command = command;
   if (line.maxWall > 0)
@@ -200,7 +201,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   if (!line.check)
   {
     locks = lockOutputs(deck, comm);
-    demandWritableFiles(deck, comm);
+    demandWritableFiles(deck, line.restart, comm);
   }
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
@@ -267,6 +268,21 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   return int(code);
 }
 
+/// After something that does no more than to say something. Who stops reading has read enough.
+void demandTextWritten(const Comm& comm)
+{
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        const bool written = std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout);
+        if (!written && errno != EPIPE)
+          fail(ExitCode::Output, "the text cannot be written to the standard output: {}.",
+               std::strerror(errno));
+      });
+}
+
 /// Threads per rank; throws where the environment asks for too many.
 int threadsOf(const CommandLine& line)
 {
@@ -294,7 +310,10 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
                     optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""),
                     ExitCode::Usage);
     if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
+    {
+      demandTextWritten(comm);
       return int(comm.max(std::int64_t(parsed)));
+    }
     // Options and nothing else say what is used; Kokkos takes variables that contradict them, or
     // are no numbers, for errors of the program.
     for (const char* variable : {"KOKKOS_NUM_THREADS", "KOKKOS_NUMA", "KOKKOS_DEVICE_ID",
@@ -326,15 +345,8 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
       logSummary();
     };
     endAllRanksOnOwnError(work);
-    if (asksForHelp(line) || line.check) // what they say is all they do
-      comm.together(
-          [&]
-          {
-            if (comm.isRoot() &&
-                (!std::cout.flush() || std::fflush(stdout) != 0 || std::ferror(stdout)))
-              fail(ExitCode::Output, "the text cannot be written to the standard output: {}.",
-                   std::strerror(errno));
-          });
+    if (asksForHelp(line) || line.check)
+      demandTextWritten(comm);
     return code;
   }
   catch (const Error& error)

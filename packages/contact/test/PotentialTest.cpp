@@ -22,7 +22,7 @@ struct Evaluation
 
   Evaluation(const FaceNodes& a, const FaceNodes& b, Real stiffness, Real offset,
              const std::array<Real, 2>& birth = {0, 0}, unsigned exits = 0, Real oneEdge = 1e-3,
-             Real inverseDepth = 0)
+             Real inverseDepth = 0, unsigned turns = 0)
   {
     const HalfStepFace faceA = stepA_faceAtEnd<Dim>(a), faceB = stepA_faceAtEnd<Dim>(b);
     ContactPotentialScale scale(0.1);
@@ -35,7 +35,10 @@ struct Evaluation
       return;
     EdgesOf<Real> edges;
     for (int e = 0; e < 8; ++e)
-      edges.exits[e] = edges.turns[e] = exits >> e & 1;
+    {
+      edges.exits[e] = exits >> e & 1;
+      edges.turns[e] = (exits | turns) >> e & 1;
+    }
     pair.meet(offset, false, edges);
     if (!(pair.moments.volume > 0))
       return;
@@ -277,6 +280,35 @@ TEST(ContactPotential, forcesAndMomentsSumToZero)
     EXPECT_LE(norm(force), 1e-12 * size);
     EXPECT_LE(norm(moment), 1e-11 * size);
   }
+}
+
+TEST(ContactPotential, roundOffDoesNotDecideWhoOwnsARim)
+{
+  // A face that ends where the other one, of longer edges, has a line of its mesh; pressed less and
+  // less evenly, and moved over the line by round-off.
+  for (const Real tilt : {0.2, 0.5, 0.8, 1.1, 1.4})
+    for (const Real length : {1.5, 3.0})
+    {
+      const auto height = [&](Real x) { return 0.01 * (1 + tilt * (x - 0.5)); };
+      const FaceNodes ends =
+          face({{0, 0, height(0)}, {1, 0, height(1)}, {1, 1, height(1)}, {0, 1, height(0)}});
+      const auto at = [&](Real x)
+      {
+        const Real low = 0.5 - 0.5 * length, high = 0.5 + 0.5 * length;
+        return Evaluation<3>(ends, face({{x, low, 0}, {x, high, 0}, {2, high, 0}, {2, low, 0}}),
+                             1e9, 0, {1, 1}, 0, 1e-3, 0, 0x0f);
+      };
+      const Evaluation<3> before = at(-1e-13), after = at(1e-13);
+      Real largest = 0, difference = 0;
+      for (int f = 0; f < 2; ++f)
+        for (int n = 0; n < 4; ++n)
+        {
+          largest = std::max(largest, norm(before.gradient[f][n]));
+          difference = std::max(difference, norm(before.gradient[f][n] - after.gradient[f][n]));
+        }
+      EXPECT_GT(largest, 0) << tilt << " " << length;
+      EXPECT_LT(difference, 1e-9 * largest) << tilt << " " << length;
+    }
 }
 
 TEST(ContactPotential, matchedFacesUnderEvenClosureAreNotSqueezed)

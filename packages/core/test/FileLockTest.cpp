@@ -78,13 +78,33 @@ TEST(FileLock, LeavesFilesOfOthersAlone)
   const TestFolder folder(Comm::alone());
   const std::string file = folder / "run.lock", kept = folder / "kept.txt";
   std::ofstream(file) << "mine";
-  std::ofstream(kept) << "process 1 of my list";
+  std::ofstream(kept) << "process 1 on the list";
   EXPECT_THROW(FileLock(file, "the outputs"), Error);
   EXPECT_EQ(std::filesystem::file_size(file), 4u);
   std::filesystem::remove(file);
   std::filesystem::create_hard_link(kept, file);
+  {
+    const FileLock lock(file, "the outputs"); // a file of its own
+    EXPECT_TRUE(lock.isHeld());
+  }
+  EXPECT_EQ(std::filesystem::file_size(kept), 21u);
+  std::ofstream(file) << "process 1 of my list";
   EXPECT_THROW(FileLock(file, "the outputs"), Error);
-  EXPECT_EQ(std::filesystem::file_size(kept), 20u);
+  EXPECT_EQ(std::filesystem::file_size(file), 20u);
+}
+
+TEST(FileLock, RemovesNoOthers)
+{
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "run.lock";
+  {
+    const FileLock first(file, "the outputs");
+    EXPECT_EQ(FileLock::textOfHolder(file).rfind("process ", 0), 0u);
+    std::filesystem::remove(file);
+    std::ofstream(file) << "of another";
+  }
+  EXPECT_TRUE(std::filesystem::exists(file));
+  EXPECT_EQ(FileLock::textOfHolder(file), "");
 }
 
 } // namespace

@@ -38,6 +38,7 @@ def start(name, ranks, every):
     pids = [int(path.read_text()) for path in sorted(folder.glob("pid.*"))]
     case.check(f"{name}: ranks", len(pids), ranks, 0)
     for pid in pids:  # nothing beside a rank that could outlive it
+        case.check_equal(f"{name}: the system tells children", pathlib.Path(f"/proc/{pid}/task/{pid}/children").exists(), True)
         started = " ".join(path.read_text() for path in pathlib.Path(f"/proc/{pid}/task").glob("*/children"))
         case.check_equal(f"{name}: processes that a rank starts", started.split(), [])
     return folder, process, pids

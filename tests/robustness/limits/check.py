@@ -202,14 +202,17 @@ for options, code in ((["--schema"], OUTPUT), (["--help-deck"], OUTPUT), (["run.
         done = subprocess.run([program.binary("coplane"), *options], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
     case.check_equal(f"standard output to a full disk, {' '.join(options)}: exit code", done.returncode, code)
     case.check_equal(f"standard output to a full disk, {' '.join(options)}: a reason", "standard output" in done.stderr, code != 0)
-(folder / "run.csv").unlink()
 for ranks in (1, 2):
-    launch = "" if ranks == 1 else f"{os.environ.get('MPIEXEC', 'mpirun')} -np 2 --bind-to none "
-    command = f"set -o pipefail; {launch}{program.binary('coplane')} run.yaml | head -n 1"
-    done = subprocess.run(["bash", "-c", command], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
-    case.check_equal(f"who reads the log stops, {ranks} ranks: the run goes on to its end", float(history(folder)[1][-1][0]) >= 1e-5, True)
-    case.check_equal(f"who reads the log stops, {ranks} ranks: no lock is left", list(folder.glob("*.lock")), [])
     (folder / "run.csv").unlink()
+    launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
+    reading, writing = os.pipe()
+    os.close(reading)  # before the first line
+    done = subprocess.run([*launch, program.binary("coplane"), "run.yaml"], cwd=folder, stdout=writing, stderr=subprocess.PIPE, timeout=60)
+    os.close(writing)
+    if ranks == 1:  # mpirun may die of it itself
+        case.check_equal("nobody reads the log: exit code", done.returncode, 0)
+    case.check_equal(f"nobody reads the log, {ranks} ranks: the run goes on to its end", float(history(folder)[1][-1][0]) >= 1e-5, True)
+    case.check_equal(f"nobody reads the log, {ranks} ranks: no lock is left", list(folder.glob("*.lock")), [])
 
 # --- a folder that goes away --------------------------------------------------------------------------------
 folder = pathlib.Path("gone").resolve()
@@ -221,7 +224,7 @@ shutil.copy(folder / "run.yaml", "gone.yaml")
 for ranks in (1, 2):
     folder.mkdir(exist_ok=True)
     launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
-    command = " ".join([*launch, "sh", "-c", f"'cd {folder}; until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
+    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
                         f"exec {program.binary('coplane')} {pathlib.Path('gone.yaml').resolve()}'"])
     try:
         done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)

@@ -77,6 +77,35 @@ case.check_equal("the killed run has left its lock", (folder / "run.lock").exist
 run("a new run after the killed one", folder, 0, (), ["--set", "time.end=1e-7"], ranks=2)
 case.check_equal("no lock is left", list(folder.glob("*.lock")), [])
 
+# A first run through a link, and a second one where it leads to; two runs in two folders through two links.
+folder = folder_for("through links", time={"end": 10.0})
+for name in ("a", "b"):
+    (folder / name).mkdir()
+    shutil.copy(folder / "mesh.e", folder / name)
+    shutil.copy(folder / "run.yaml", folder / name)
+    os.symlink("../run.csv", folder / name / "run.csv")
+first = subprocess.Popen([program.binary("coplane"), "run.yaml", "--quiet"], cwd=folder / "a")
+while not ((folder / "run.csv").exists() and (folder / "run.csv").read_bytes().count(b"\n") > 3) and time.monotonic() < deadline + 60:
+    time.sleep(0.02)
+for name, place in (("where a link of the first leads", folder), ("through another link", folder / "b")):
+    run(f"a second run {name}", place, OUTPUT, ["another run", f"process {first.pid} on"])
+first.send_signal(signal.SIGKILL)
+first.wait()
+# Protected checkpoints, and parts of the results that are finished, do not hinder a restart.
+folder = folder_for("protected")
+run("protected: the first run", folder, 0, options=["--set", "checkpoint.at_end=true"])
+for name in ("run.chk.0", "run_planes_0000.vtp"):
+    (folder / name).chmod(0o444)
+run("protected: a restart", folder, 0, (), ["--restart", "--set", "time.end=1.2e-5"])
+folder = folder_for("many at once")
+many = []
+for i in range(8):
+    documents.save({"mesh": "mesh.e", **deck, "time": {"end": 1e-6}}, folder / f"run{i}.yaml")
+(folder / "left.lock").write_text("process 1 on nowhere, since 2000-01-01 00:00:00 UTC\n")
+for i in range(8):
+    many.append(subprocess.Popen([program.binary("coplane"), f"run{i}.yaml", "--quiet"], cwd=folder))
+case.check_equal("many runs at once, each with its names", [each.wait(timeout=120) for each in many], [0] * 8)
+
 # --- fresh starts by mistake --------------------------------------------------------------------------------
 folder = folder_for("fresh starts")
 run("the good run", folder, 0, options=["--set", "checkpoint.at_end=true"])

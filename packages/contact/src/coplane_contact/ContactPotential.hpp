@@ -575,6 +575,7 @@ private:
         const T second = density.square / 12.0 * (u * u + 2.0 * u * v + 3.0 * v * v) +
                          density.linear / 6.0 * (u + 2.0 * v) + 0.5 * density.constant;
         const Vec2Of<T> d = to - from;
+        const Vec2Of<T> own = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
         T kept(1.0);
         for (int o = 0; o < face_[g]->count; ++o)
         {
@@ -582,10 +583,13 @@ private:
           const Vec2Of<T> edge = shadow[g].p[nodeOfEdge(g, o, 1)] - start;
           const T near =
               larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
+          if (!anyOf(near < size_ * scale_.oneBorder))
+            continue;
           const T along = dot(edge, d);
+          const T longer = larger(dot(edge, edge), dot(own, own));
           const SharedRim<T> shared =
               shareRim(q.owner[k], 4 * g + o, along > 0.0,
-                       2.0 / kappa_ * cross(tilt_, edge) * size_ / dot(edge, edge));
+                       2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer));
           const auto close =
               near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
           if (!anyOf(close))
@@ -610,7 +614,8 @@ private:
   /// that what is pressed evenly rests; at a corner that dips into a face all of it belongs to the
   /// corner, for what pairs on both sides of a mesh line have there cancels. All of it is smooth,
   /// so that round-off decides nothing.
-  /// @param change of the closure over the size of a face, out over its edge [m]
+  /// @param change of the closure over the size of a face, out over its edge, the same whichever of
+  ///        both edges is the owner [m]
   KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,
                                                     const T& change) const
   {

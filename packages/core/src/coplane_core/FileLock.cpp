@@ -44,15 +44,13 @@ std::string ownerIn(int descriptor)
   return text.empty() ? "an unknown process" : text.substr(0, text.find('\n'));
 }
 
-/// Whether a file is what a lock leaves when its owner is killed, and not somebody's own.
-bool isLeftOver(int descriptor)
+/// Whether a text is what a lock says: "process 123 on ...".
+bool isOfLock(const std::string& text)
 {
-  struct stat open
-  {
-  };
-  const std::string text = ownerIn(descriptor);
-  return ::fstat(descriptor, &open) == 0 && open.st_nlink < 2 &&
-         (open.st_size == 0 || text.rfind(beginning, 0) == 0);
+  const std::size_t first = std::strlen(beginning);
+  const std::size_t end = text.find_first_not_of("0123456789", first);
+  return text.rfind(beginning, 0) == 0 && end > first && end != std::string::npos &&
+         text.compare(end, 4, " on ") == 0;
 }
 
 /// Whether the path still leads to the file that is open: its owner may just have removed it.
@@ -72,7 +70,7 @@ bool isStillThere(const std::string& file, int descriptor)
 FileLock::FileLock(const std::string& file, const std::string& what, const std::string& told)
     : file_(file)
 {
-  for (;;)
+  for (int tries = 0;;)
   {
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor < 0)
@@ -86,6 +84,12 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
     {
       const int reason = errno;
+      if (reason == EWOULDBLOCK && ++tries < 20) // somebody may just look whether it is held
+      {
+        ::close(descriptor);
+        ::usleep(25000);
+        continue;
+      }
       const std::string owner = ownerIn(descriptor);
       ::close(descriptor);
       if (reason == EINTR)
@@ -102,7 +106,11 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
       ::close(descriptor);
       continue;
     }
-    if (!isLeftOver(descriptor))
+    struct stat there
+    {
+    };
+    const bool isKnown = ::fstat(descriptor, &there) == 0;
+    if (isKnown && there.st_size > 0 && !isOfLock(textIn(descriptor)))
     {
       ::close(descriptor);
       fail(ExitCode::Output,
@@ -111,11 +119,18 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
            "history.file, checkpoint.file).",
            file, what);
     }
+    if (isKnown && there.st_nlink > 1) // a copy by links of what a killed run left
+    {
+      ::unlink(file.c_str());
+      ::close(descriptor);
+      continue;
+    }
     descriptor_ = descriptor;
     const std::string text = me() + told;
-    // Not being able to say who holds it does not make the lock less of one.
-    if (::ftruncate(descriptor, 0) != 0 || ::pwrite(descriptor, text.data(), text.size(), 0) < 0)
-      return;
+    // Not being able to say who holds it does not make the lock less of one. Other machines see
+    // the text only when it is on the disk.
+    if (::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, text.data(), text.size(), 0) > 0)
+      ::fsync(descriptor);
     return;
   }
 }
@@ -125,17 +140,20 @@ std::string FileLock::textOfHolder(const std::string& file)
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0)
     return "";
-  const bool isFree = ::flock(descriptor, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK;
-  const std::string text = isFree ? "" : textIn(descriptor);
+  std::string text = textIn(descriptor);
+  if (!isOfLock(text) || ::flock(descriptor, LOCK_SH | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    text.clear();
   ::close(descriptor);
-  return text.rfind(beginning, 0) == 0 ? text : "";
+  return text;
 }
 
 FileLock::~FileLock()
 {
   if (descriptor_ < 0)
     return;
-  ::unlink(file_.c_str()); // while it is held: nobody can have taken it
+  // While it is held nobody can have taken it; but somebody may have removed it and made another.
+  if (isStillThere(file_, descriptor_))
+    ::unlink(file_.c_str());
   ::close(descriptor_);
 }
 

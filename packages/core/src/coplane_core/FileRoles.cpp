@@ -72,8 +72,7 @@ struct Seen
 {
   fs::path folder;
   std::vector<std::string> pieces; ///< of the name without folder
-  std::set<fs::path> files;        ///< that are there
-  std::set<Inode> inodes;          ///< of these
+  std::set<Inode> inodes;          ///< of what is there
 
   bool isSeries() const { return pieces.size() > 1; }
   std::vector<std::string> examples() const
@@ -102,22 +101,17 @@ Seen look(const std::vector<std::string>& pieces)
     seen.folder = place.parent_path();
     seen.pieces[0] = place.filename().string();
     if (inodeOf(place, inode))
-    {
-      seen.files.insert(place);
       seen.inodes.insert(inode);
-    }
     return seen;
   }
   const fs::path first = pieces[0];
   seen.pieces[0] = first.filename().string();
   seen.folder = placeOf(first).parent_path();
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(seen.folder, error))
-    if (matches(entry.path().filename().string(), seen.pieces) && inodeOf(entry.path(), inode))
-    {
-      seen.files.insert(entry.path());
+  for (fs::directory_iterator entry(seen.folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (matches(entry->path().filename().string(), seen.pieces) && inodeOf(entry->path(), inode))
       seen.inodes.insert(inode);
-    }
   return seen;
 }
 
@@ -175,6 +169,11 @@ std::string kindOfSpecialFile(const std::string& file)
   }
 }
 
+std::string placeOfFile(const std::string& file)
+{
+  return placeOf(file).string();
+}
+
 std::string folderOf(const std::string& file)
 {
   std::error_code error;
@@ -195,6 +194,11 @@ void FileRoles::readsSeries(const std::vector<std::string>& pieces, const std::s
 void FileRoles::writes(const std::string& file, const std::string& what)
 {
   roles_.push_back({{file}, what, true});
+}
+
+void FileRoles::writesInPlace(const std::string& file, const std::string& what)
+{
+  roles_.push_back({{file}, what, true, true});
 }
 
 void FileRoles::writesSeries(const std::vector<std::string>& pieces, const std::string& what)
@@ -246,23 +250,22 @@ std::vector<std::string> FileRoles::hindrances() const
   {
     if (!role.isOutput)
       continue;
-    const Seen seen = look(role.pieces);
-    if (folders.insert(seen.folder).second && ::access(seen.folder.c_str(), W_OK | X_OK) != 0)
+    const fs::path place = placeOf(role.pieces[0]), folder = place.parent_path();
+    if (folders.insert(folder).second && ::access(folder.c_str(), W_OK | X_OK) != 0)
       hindrances.push_back(fmt::format(
           "{}: {} cannot be written: {}. Nothing was written. Check that the folder '{}' exists "
           "and can be written to, or give another name.",
-          nameOf(role.pieces), role.what, std::strerror(errno), seen.folder.string()));
-    for (const fs::path& file : seen.files)
-    {
-      const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
-      if (descriptor < 0)
-        hindrances.push_back(fmt::format(
-            "{}: {} cannot be written over it: {}. Nothing was written. Move the file away, make "
-            "it writable, or give another name.",
-            file.string(), role.what, std::strerror(errno)));
-      else
-        ::close(descriptor);
-    }
+          nameOf(role.pieces), role.what, std::strerror(errno), folder.string()));
+    if (!role.inPlace)
+      continue;
+    const int descriptor = ::open(place.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+    if (descriptor >= 0)
+      ::close(descriptor);
+    else if (errno != ENOENT)
+      hindrances.push_back(fmt::format(
+          "{}: {} cannot be written over it: {}. Nothing was written. Move the file away, make it "
+          "writable, or give another name.",
+          place.string(), role.what, std::strerror(errno)));
   }
   return hindrances;
 }
@@ -323,14 +326,27 @@ FileRoles FileRoles::outputsIn(const std::string& text)
 
 std::vector<std::string> FileRoles::problemsWith(const FileRoles& others) const
 {
+  const auto lookAll = [](const std::vector<Role>& roles)
+  {
+    std::vector<Seen> seen;
+    for (const Role& role : roles)
+      seen.push_back(role.isOutput ? look(role.pieces) : Seen());
+    return seen;
+  };
   std::vector<std::string> problems;
+  if (others.roles_.empty())
+    return problems;
+  const std::vector<Seen> here = lookAll(roles_), there = lookAll(others.roles_);
   std::set<std::string> said;
-  for (const Role& mine : roles_)
-    for (const Role& its : others.roles_)
-      if (mine.isOutput && its.isOutput && meet(look(mine.pieces), look(its.pieces)) &&
+  for (std::size_t i = 0; i < roles_.size(); ++i)
+    for (std::size_t k = 0; k < others.roles_.size(); ++k)
+    {
+      const Role &mine = roles_[i], &its = others.roles_[k];
+      if (mine.isOutput && its.isOutput && meet(here[i], there[k]) &&
           meetStill(mine.pieces, its.pieces) && said.insert(mine.what).second)
         problems.push_back(fmt::format("{} '{}' is {} '{}' there.", mine.what, nameOf(mine.pieces),
                                        its.what, nameOf(its.pieces)));
+    }
   return problems;
 }
 } // namespace coplane

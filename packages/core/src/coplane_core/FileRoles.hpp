@@ -14,6 +14,9 @@ std::string kindOfSpecialFile(const std::string& file);
 /// working folder has gone. Throws nothing.
 std::string folderOf(const std::string& file);
 
+/// Where a file is or would be: symbolic links are followed, also one to something that is missing.
+std::string placeOfFile(const std::string& file);
+
 /// The files that a program reads and those that it writes: the one place that knows whether they
 /// are distinct. Two names mean the same file when they lead to one place (relative parts, symbolic
 /// links, also of folders, also to something that is not there yet) or to one inode (hard links).
@@ -25,15 +28,18 @@ public:
   /// Names with numbers, as with writesSeries.
   void readsSeries(const std::vector<std::string>& pieces, const std::string& what);
   void writes(const std::string& file, const std::string& what);
+  /// The same of a file that is opened where it is; others are renamed over or removed, which takes
+  /// no more than its folder.
+  void writesInPlace(const std::string& file, const std::string& what);
   /// Files whose names have numbers between these pieces: {"wall.e-s", ""} is wall.e-s0002, ...
   void writesSeries(const std::vector<std::string>& pieces, const std::string& what);
 
   /// A sentence for each output that is an input, another output, or something that is not a plain
   /// file. Empty: all may be written. Looks at the file system, changes nothing.
   std::vector<std::string> problems() const;
-  /// A sentence for each output that cannot be written, by the file's or the folder's permissions,
-  /// or because it is on a file system that is read only. Opens what is there for writing, and
-  /// changes nothing: to be asked before the first output of an earlier run is replaced.
+  /// A sentence for each output that cannot be written, by permissions of its folder or, in place,
+  /// its own, or because it is on a file system that is read only. Opens what is written in place,
+  /// and changes nothing: to be asked before the first output of an earlier run is replaced.
   std::vector<std::string> hindrances() const;
 
   /// Folders of the outputs.
@@ -51,6 +57,7 @@ private:
     std::vector<std::string> pieces; ///< one: a single file
     std::string what;
     bool isOutput;
+    bool inPlace = false;
   };
   std::vector<Role> roles_;
 };

@@ -22,13 +22,21 @@ void onSignal(int signal)
 }
 } // namespace
 
+void listenToRequests()
+{
+  for (const int signal : {SIGUSR1, SIGUSR2})
+    std::signal(signal, onSignal);
+}
+
 void listenToSignals()
 {
-  for (const int signal : {SIGUSR1, SIGUSR2, SIGINT, SIGTERM, SIGXCPU})
+  listenToRequests();
+  for (const int signal : {SIGINT, SIGTERM, SIGXCPU})
     std::signal(signal, onSignal);
-  // A terminal that closes; nohup has it ignored already.
-  if (std::signal(SIGHUP, onSignal) == SIG_IGN)
-    std::signal(SIGHUP, SIG_IGN);
+  struct sigaction before = {};
+  ::sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) // as under nohup
+    std::signal(SIGHUP, onSignal);
 }
 
 void request(const Requests& wanted)

@@ -18,6 +18,8 @@ struct Requests
 /// Installs the handlers: SIGUSR1 asks for results and a checkpoint, SIGUSR2 for a checkpoint and
 /// the end, SIGINT and SIGTERM for the end.
 void listenToSignals();
+/// The same for SIGUSR1 and SIGUSR2 alone: a request that comes early is kept for the first cycle.
+void listenToRequests();
 /// Asks for something on this rank, as a signal would.
 void request(const Requests& wanted);
 /// All that was asked for on this rank since the last call.

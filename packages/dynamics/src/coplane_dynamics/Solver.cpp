@@ -655,7 +655,10 @@ void Solver::finishAfter(const Error& error, Observer& observer) const
   catch (const Error& again)
   {
     if (!again.onAllRanks())
+    {
+      logError(error.what());
       throw;
+    }
     if (std::string(again.what()) != error.what())
       logError(again.what());
   }

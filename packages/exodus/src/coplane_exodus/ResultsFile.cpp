@@ -230,7 +230,7 @@ void ResultsFile::endStep()
     attempt([&] { data_->setSteps(steps_ + 1); });
   failTogether(doing);
   ++steps_;
-  if ((filePerRank_ || comm_.isRoot()) && data_->isGone())
+  if (comm_.max(std::int64_t((filePerRank_ || comm_.isRoot()) && data_->isGone())) > 0)
     logWarning(
         "results are gone",
         fmt::format("{}: somebody removed the file while the run writes it: its {} steps, and "
