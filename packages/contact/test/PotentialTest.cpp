@@ -298,7 +298,9 @@ TEST(ContactPotential, roundOffDoesNotDecideWhoOwnsARim)
         return Evaluation<3>(ends, face({{x, low, 0}, {x, high, 0}, {2, high, 0}, {2, low, 0}}),
                              1e9, 0, {1, 1}, 0, 1e-3, 0, 0x0f);
       };
-      const Evaluation<3> before = at(-1e-13), after = at(1e-13);
+      // Where both edges have one shadow on the common plane.
+      const Real slope = 0.01 * tilt, line = slope * height(0) / (1 + std::sqrt(1 + slope * slope));
+      const Evaluation<3> before = at(line - 1e-12), after = at(line + 1e-12);
       Real largest = 0, difference = 0;
       for (int f = 0; f < 2; ++f)
         for (int n = 0; n < 4; ++n)
