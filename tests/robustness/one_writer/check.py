@@ -97,6 +97,10 @@ run("protected: the first run", folder, 0, options=["--set", "checkpoint.at_end=
 for name in ("run.chk.0", "run_planes_0000.vtp"):
     (folder / name).chmod(0o444)
 run("protected: a restart", folder, 0, (), ["--restart", "--set", "time.end=1.2e-5"])
+(folder / "user.csv").write_text("of the user\n")
+run("a restart with the history in a file of the user", folder, 0, (), ["--restart", "--set", "time.end=1.4e-5", "--set", "history.file=user.csv"])
+case.check_equal("a restart with the history in a file of the user: it is kept",
+                 [path.read_text() for path in folder.glob("user.csv.old-*")], ["of the user\n"])
 folder = folder_for("many at once")
 many = []
 for i in range(8):

@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Signals.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
+#include <coplane_output/TextFile.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -23,30 +24,6 @@ constexpr double lookEvery = 0.5; ///< for the stop file [s]
 std::string slotFile(const std::string& file, int slot)
 {
   return fmt::format("{}.{}", file, slot);
-}
-
-/// When a file was written, as 20261122-064405 (UTC).
-std::string timeOf(const std::string& file)
-{
-  struct stat status
-  {
-  };
-  std::tm utc{};
-  if (::stat(file.c_str(), &status) != 0 || !::gmtime_r(&status.st_mtime, &utc))
-    return "unknown";
-  char text[32];
-  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &utc);
-  return text;
-}
-
-/// The name, or the name with a number where that is taken.
-std::string freeName(const std::string& name)
-{
-  std::error_code error;
-  std::string free = name;
-  for (int n = 2; std::filesystem::exists(std::filesystem::symlink_status(free, error)); ++n)
-    free = fmt::format("{}-{}", name, n);
-  return free;
 }
 
 /// Checkpoints that were put aside, the latest last.
@@ -227,7 +204,7 @@ void putAside(const std::string& file, const Comm& comm)
           const std::string name = slotFile(file, s);
           if (!std::filesystem::exists(std::filesystem::symlink_status(name, error)))
             continue;
-          const std::string aside = freeName(fmt::format("{}.old-{}", name, timeOf(name)));
+          const std::string aside = nameAside(name);
           std::filesystem::rename(name, aside, error);
           if (error)
             fail(ExitCode::Output,

@@ -6,11 +6,45 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <sstream>
+#include <sys/stat.h>
 
 namespace coplane
 {
+namespace
+{
+/// When a file was written, as 20261122-064405 (UTC).
+std::string timeOf(const std::string& file)
+{
+  struct stat status
+  {
+  };
+  std::tm utc{};
+  if (::stat(file.c_str(), &status) != 0 || !::gmtime_r(&status.st_mtime, &utc))
+    return "unknown";
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &utc);
+  return text;
+}
+
+/// The name, or the name with a number where that is taken.
+std::string freeName(const std::string& name)
+{
+  std::error_code error;
+  std::string free = name;
+  for (int n = 2; std::filesystem::exists(std::filesystem::symlink_status(free, error)); ++n)
+    free = fmt::format("{}-{}", name, n);
+  return free;
+}
+} // namespace
+
+std::string nameAside(const std::string& file)
+{
+  return freeName(fmt::format("{}.old-{}", file, timeOf(file)));
+}
+
 void failToWrite(const std::string& file)
 {
   const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
@@ -67,6 +101,21 @@ bool openTable(std::ofstream& stream, const std::string& file, const TextPositio
       if (error)
         failToWrite(file);
     }
+  }
+  std::error_code ignored;
+  if (position.bytes > 0 && position.file != file &&
+      std::filesystem::is_regular_file(file, ignored) &&
+      std::filesystem::file_size(file, ignored) > 0)
+  {
+    const std::string aside = nameAside(file);
+    std::filesystem::rename(file, aside, ignored);
+    errno = ignored.value();
+    if (ignored)
+      failToWrite(file);
+    logWarning("a file is put aside",
+               fmt::format("{}: there was a file of this name, which the run did not write before; "
+                           "it is called {} now.",
+                           file, aside));
   }
   errno = 0;
   if (!goesOn && !std::ofstream(file, std::ios::trunc))

@@ -11,6 +11,9 @@ namespace coplane
 /// and reason; call it on one rank, within Comm::together.
 void replaceFile(const std::string& file, const std::string& text);
 
+/// A free name for a file that is put aside: with the time of its last change.
+std::string nameAside(const std::string& file);
+
 /// Where a table of text ended when a checkpoint was written.
 struct TextPosition
 {
@@ -25,7 +28,8 @@ struct TextPosition
 
 /// Opens a table for more lines and cuts off those after the position. Returns whether it has been
 /// continued; otherwise (another name, nothing to continue) it is new and empty, and a warning
-/// says so where lines are missing. On one rank, within Comm::together.
+/// says so where lines are missing. A restart under another name puts a file aside that has it, as
+/// it may be of somebody else. On one rank, within Comm::together.
 bool openTable(std::ofstream& stream, const std::string& file, const TextPosition& position);
 
 /// Bytes of a table that is being written. Throws Error(ExitCode::Output) when it is gone.
