@@ -97,6 +97,19 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
     roles.writes(file, "the lock of the run");
   roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");
 }
+
+/// Rank 0 alone looks at files; what it finds wrong is an error of all ranks. Collective.
+template <class Action>
+void onRoot(const Comm& comm, const Action& action)
+{
+  comm.together(
+      [&]
+      {
+        if (comm.isRoot())
+          action();
+      });
+}
+
 /// Looks for runs that hold a lock in this folder and write what this one writes.
 void demandNoOther(const std::string& folder, const std::set<std::string>& mine,
                    const FileRoles& roles, const Deck& deck)
@@ -171,58 +184,52 @@ void demandSameFiles(const Deck& deck, const Comm& comm)
 std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
 {
   std::vector<FileLock> locks;
-  comm.together(
-      [&]
-      {
-        if (!comm.isRoot())
-          return;
-        FileRoles roles;
-        addOutputs(roles, deck);
-        const std::set<std::string> files = lockFiles(deck);
-        for (const std::string& file : files)
-        {
-          locks.emplace_back(file, "the outputs of " + deck.file, roles.outputsText());
-          if (!locks.back().isHeld())
-            logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
-                                            "second run from writing the same files",
-                                            file));
-        }
-        // Runs of other names may write the same files all the same. Each says first what it
-        // writes, and looks then.
-        for (const std::string& folder : roles.folders())
-          demandNoOther(folder, files, roles, deck);
-      });
+  onRoot(comm,
+         [&]
+         {
+           FileRoles roles;
+           addOutputs(roles, deck);
+           const std::set<std::string> files = lockFiles(deck);
+           for (const std::string& file : files)
+           {
+             locks.emplace_back(file, "the outputs of " + deck.file, roles.outputsText());
+             if (!locks.back().isHeld())
+               logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
+                                               "second run from writing the same files",
+                                               file));
+           }
+           // Runs of other names may write the same files all the same. Each says first what it
+           // writes, and looks then.
+           for (const std::string& folder : roles.folders())
+             demandNoOther(folder, files, roles, deck);
+         });
   return locks;
 }
 
 void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm)
 {
-  comm.together(
-      [&]
-      {
-        if (!comm.isRoot())
-          return;
-        FileRoles roles;
-        addOutputs(roles, deck, restarts);
-        const std::vector<std::string> hindrances = roles.hindrances();
-        if (!hindrances.empty())
-          fail(ExitCode::Output, "{}", fmt::join(hindrances, "\n"));
-      });
+  onRoot(comm,
+         [&]
+         {
+           FileRoles roles;
+           addOutputs(roles, deck, restarts);
+           const std::vector<std::string> hindrances = roles.hindrances();
+           if (!hindrances.empty())
+             fail(ExitCode::Output, "{}", fmt::join(hindrances, "\n"));
+         });
 }
 
 void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, const Comm& comm)
 {
-  comm.together(
-      [&]
-      {
-        if (!comm.isRoot())
-          return;
-        FileRoles roles;
-        addInputs(roles, deck, restartedFrom);
-        addOutputs(roles, deck);
-        const std::vector<std::string> problems = roles.problems();
-        if (!problems.empty())
-          fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
-      });
+  onRoot(comm,
+         [&]
+         {
+           FileRoles roles;
+           addInputs(roles, deck, restartedFrom);
+           addOutputs(roles, deck);
+           const std::vector<std::string> problems = roles.problems();
+           if (!problems.empty())
+             fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
+         });
 }
 } // namespace coplane

@@ -120,6 +120,7 @@ TEST_F(FileRolesTest, SpecialFilesAreNotWritten)
   EXPECT_EQ(kindOfSpecialFile(at("missing")), "");
 }
 } // namespace
+
 TEST_F(FileRolesTest, FilesThatARunReplacesMeanwhileDoNotSeemToBeOne)
 {
   // Two files are replaced in turn; where the file system gives the inode of one that has gone to
@@ -142,6 +143,7 @@ TEST_F(FileRolesTest, FilesThatARunReplacesMeanwhileDoNotSeemToBeOne)
   writer.join();
   EXPECT_EQ(clashes, 0);
 }
+
 TEST_F(FileRolesTest, SaysWhatCannotBeWrittenAndChangesNothing)
 {
   const std::string there = at("there.csv");
@@ -158,6 +160,9 @@ TEST_F(FileRolesTest, SaysWhatCannotBeWrittenAndChangesNothing)
   roles.writesInPlace("/proc/self/exe", "the results");
   const auto busy = roles.hindrances(); // its folder may not be writable either
   ASSERT_FALSE(busy.empty());
+  for (const std::string& sentence : busy)
+    EXPECT_EQ(sentence.find("the planes, which are renamed over it cannot be written over"),
+              std::string::npos);
   EXPECT_NE(busy.back().find("the results cannot be written over it"), std::string::npos);
   roles.writes(at("missing/new.csv"), "the planes");
   ASSERT_EQ(roles.hindrances().size(), busy.size() + 1);

@@ -38,6 +38,7 @@ Model shortRun(const Comm& comm)
 
 TEST(TakeRequests, tellsEachSignalOnce)
 {
+  std::signal(SIGHUP, SIG_DFL); // the tests may run under nohup
   listenToSignals();
   const auto all = [](bool results, bool checkpoint, bool stop) {
     return Requests{results, checkpoint, stop};
@@ -54,6 +55,15 @@ TEST(TakeRequests, tellsEachSignalOnce)
     EXPECT_EQ(takeRequests(), all(false, false, true)) << "signal " << signal;
     EXPECT_EQ(takeRequests(), all(false, false, false));
   }
+}
+
+TEST(TakeRequests, aTerminalThatClosesIsIgnoredUnderNohup)
+{
+  const auto before = std::signal(SIGHUP, SIG_IGN);
+  listenToSignals();
+  std::raise(SIGHUP);
+  EXPECT_EQ(takeRequests(), Requests{});
+  std::signal(SIGHUP, before);
 }
 
 TEST(TakeRequests, addsUpWhatSignalsAndObserversAskFor)

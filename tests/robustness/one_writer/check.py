@@ -91,12 +91,8 @@ for name, place in (("where a link of the first leads", folder), ("through anoth
     run(f"a second run {name}", place, OUTPUT, ["another run", f"process {first.pid} on"])
 first.send_signal(signal.SIGKILL)
 first.wait()
-# Protected checkpoints, and parts of the results that are finished, do not hinder a restart.
-folder = folder_for("protected")
-run("protected: the first run", folder, 0, options=["--set", "checkpoint.at_end=true"])
-for name in ("run.chk.0", "run_planes_0000.vtp"):
-    (folder / name).chmod(0o444)
-run("protected: a restart", folder, 0, (), ["--restart", "--set", "time.end=1.2e-5"])
+folder = folder_for("a file of the user")
+run("a file of the user: the first run", folder, 0, options=["--set", "checkpoint.at_end=true"])
 (folder / "user.csv").write_text("of the user\n")
 run("a restart with the history in a file of the user", folder, 0, (), ["--restart", "--set", "time.end=1.4e-5", "--set", "history.file=user.csv"])
 case.check_equal("a restart with the history in a file of the user: it is kept",
@@ -203,9 +199,13 @@ deadline = time.monotonic() + 60
 while not any(folder.glob("run.chk.?")) and time.monotonic() < deadline:
     time.sleep(0.05)
 (folder / "run.csv").unlink()
+(folder / "run.e").unlink()
 while "not there any more" not in (folder / "run.log").read_text() and time.monotonic() < deadline:
     time.sleep(0.1)
 case.check_equal("history is removed: the run says so", "not there any more" in (folder / "run.log").read_text(), True)
+while "somebody removed the file" not in (folder / "run.log").read_text() and time.monotonic() < deadline:
+    time.sleep(0.1)
+case.check_equal("results are removed: the run says so", "run.e: somebody removed the file" in (folder / "run.log").read_text(), True)
 case.check_equal("history is removed: the run goes on", process.poll(), None)
 process.send_signal(signal.SIGUSR2)
 try:

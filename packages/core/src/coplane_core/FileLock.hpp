@@ -11,10 +11,11 @@ class FileLock
 {
 public:
   /// Throws Error(ExitCode::Output) with host, process and time of the owner when another process
-  /// has it. On a file system without locks it is taken as free; isHeld() then is false.
+  /// has it, also half a second later, and when the file is no lock. On a file system without locks
+  /// it is taken as free; isHeld() then is false.
   /// @param what for the message: "the outputs of wall.yaml"
-  /// @param text for others to read while the lock is held; a line with the owner goes before it
-  FileLock(const std::string& file, const std::string& what, const std::string& text = "");
+  /// @param told for others to read while the lock is held; a line with the owner goes before it
+  FileLock(const std::string& file, const std::string& what, const std::string& told = "");
   /// Removes the file.
   ~FileLock();
   FileLock(FileLock&& other) noexcept;

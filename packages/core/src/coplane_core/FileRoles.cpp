@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -46,6 +47,43 @@ bool inodeOf(const fs::path& file, Inode& inode)
   return true;
 }
 
+/// What a name leads to, held: as long as this lives, no other file is given its inode.
+class Held
+{
+public:
+  explicit Held(const fs::path& file) : descriptor_(::open(file.c_str(), O_PATH | O_CLOEXEC)) {}
+  ~Held()
+  {
+    if (descriptor_ >= 0)
+      ::close(descriptor_);
+  }
+  Held(const Held&) = delete;
+  Held& operator=(const Held&) = delete;
+
+  bool isSameAs(const Held& other) const
+  {
+    struct stat mine
+    {
+    };
+    struct stat its
+    {
+    };
+    return ::fstat(descriptor_, &mine) == 0 && ::fstat(other.descriptor_, &its) == 0 &&
+           mine.st_dev == its.st_dev && mine.st_ino == its.st_ino;
+  }
+
+private:
+  int descriptor_;
+};
+
+/// Whether two names lead to one file, beside runs that replace their files too: there the inode of
+/// a file that has just gone may become that of the next one made, and a file may be renamed.
+bool leadToOneFile(const fs::path& a, const fs::path& b)
+{
+  const Held before(a), other(b), after(a);
+  return before.isSameAs(other) && after.isSameAs(other);
+}
+
 /// Whether a name is of the series: numbers stand between the pieces.
 bool matches(const std::string& name, const std::vector<std::string>& pieces)
 {
@@ -71,8 +109,8 @@ bool matches(const std::string& name, const std::vector<std::string>& pieces)
 struct Seen
 {
   fs::path folder;
-  std::vector<std::string> pieces; ///< of the name without folder
-  std::set<Inode> inodes;          ///< of what is there
+  std::vector<std::string> pieces;  ///< of the name without folder
+  std::map<Inode, fs::path> inodes; ///< of what is there, with its name
 
   bool isSeries() const { return pieces.size() > 1; }
   std::vector<std::string> examples() const
@@ -101,7 +139,7 @@ Seen look(const std::vector<std::string>& pieces)
     seen.folder = place.parent_path();
     seen.pieces[0] = place.filename().string();
     if (inodeOf(place, inode))
-      seen.inodes.insert(inode);
+      seen.inodes.emplace(inode, place);
     return seen;
   }
   const fs::path first = pieces[0];
@@ -111,14 +149,15 @@ Seen look(const std::vector<std::string>& pieces)
   for (fs::directory_iterator entry(seen.folder, error), end; !error && entry != end;
        entry.increment(error))
     if (matches(entry->path().filename().string(), seen.pieces) && inodeOf(entry->path(), inode))
-      seen.inodes.insert(inode);
+      seen.inodes.emplace(inode, entry->path());
   return seen;
 }
 
 bool meet(const Seen& a, const Seen& b)
 {
-  for (const Inode& inode : a.inodes)
-    if (b.inodes.count(inode))
+  for (const auto& [inode, name] : a.inodes)
+    if (const auto same = b.inodes.find(inode);
+        same != b.inodes.end() && leadToOneFile(name, same->second))
       return true;
   if (a.folder != b.folder)
     return false;
@@ -129,19 +168,6 @@ bool meet(const Seen& a, const Seen& b)
     if (matches(name, a.pieces))
       return true;
   return false;
-}
-
-/// Whether two names that met do so when they are looked at again, and again. Beside a run that
-/// replaces its files, the inode of one that has just gone may have become that of the other.
-bool meetStill(const std::vector<std::string>& a, const std::vector<std::string>& b)
-{
-  for (int time = 0; time < 3; ++time)
-  {
-    const Seen before = look(a), other = look(b), after = look(a);
-    if (!meet(before, other) || !meet(after, other))
-      return false;
-  }
-  return true;
 }
 
 std::string nameOf(const std::vector<std::string>& pieces)
@@ -227,8 +253,7 @@ std::vector<std::string> FileRoles::problems() const
     for (std::size_t k = 0; k < roles_.size(); ++k)
     {
       const Role& other = roles_[k];
-      if (k == i || (other.isOutput && k < i) || !meet(seen[i], seen[k]) ||
-          !meetStill(output.pieces, other.pieces))
+      if (k == i || (other.isOutput && k < i) || !meet(seen[i], seen[k]))
         continue;
       if (!said.insert(output.what + "\n" + other.what).second)
         continue;
@@ -342,8 +367,7 @@ std::vector<std::string> FileRoles::problemsWith(const FileRoles& others) const
     for (std::size_t k = 0; k < others.roles_.size(); ++k)
     {
       const Role &mine = roles_[i], &its = others.roles_[k];
-      if (mine.isOutput && its.isOutput && meet(here[i], there[k]) &&
-          meetStill(mine.pieces, its.pieces) && said.insert(mine.what).second)
+      if (mine.isOutput && its.isOutput && meet(here[i], there[k]) && said.insert(mine.what).second)
         problems.push_back(fmt::format("{} '{}' is {} '{}' there.", mine.what, nameOf(mine.pieces),
                                        its.what, nameOf(its.pieces)));
     }

@@ -16,7 +16,7 @@ struct Requests
 };
 
 /// Installs the handlers: SIGUSR1 asks for results and a checkpoint, SIGUSR2 for a checkpoint and
-/// the end, SIGINT and SIGTERM for the end.
+/// the end, SIGINT, SIGTERM, SIGXCPU and, unless it is ignored, SIGHUP for the end.
 void listenToSignals();
 /// The same for SIGUSR1 and SIGUSR2 alone: a request that comes early is kept for the first cycle.
 void listenToRequests();

@@ -585,9 +585,11 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     if (!contact_ || 10 * relativeSpeed_ * clock_.nextStep < contact_->skin())
       return false;
     const StepControl control = stepControl();
-    return motionStep(control.thinnest) <
-               fasterThanWaves * model_.time.stepFactor * control.stableStep &&
-           (contact_->counts().tooDeep > 0 || contact_->counts().missed > 0);
+    if (!(motionStep(control.thinnest) <
+          fasterThanWaves * model_.time.stepFactor * control.stableStep))
+      return false;
+    const ContactCounts counts = contact_->counts();
+    return counts.tooDeep > 0 || counts.missed > 0;
   };
   observer.start(*this);
   std::string ending = "completed";

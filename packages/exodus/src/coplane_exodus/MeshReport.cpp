@@ -572,11 +572,11 @@ std::vector<std::string> meshProblems(const MeshReport& report)
           block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
   if (report.tooFar())
     problems.push_back(fmt::format(
-        "coordinates from {} to {} m, with edges of {:.3g} m: sixteen digits cannot tell such "
-        "nodes "
-        "apart; accepted: up to {:.0e} times the shortest edge. Look at the outermost nodes and at "
-        "the units.",
-        at(report.lowest), at(report.highest), report.shortestEdge, MeshReport::farthest));
+        "coordinates from {} to {} m, and an edge of {:.3g} m at {}: too few of sixteen digits are "
+        "left for it; accepted: up to {:.0e} times the shortest edge. Look at the outermost nodes, "
+        "at that edge and at the units.",
+        at(report.lowest), at(report.highest), report.shortestEdge, at(report.shortestPlace),
+        MeshReport::farthest));
   if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
     problems.push_back(fmt::format(
         "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "

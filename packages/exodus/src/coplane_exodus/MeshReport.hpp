@@ -85,7 +85,7 @@ struct MeshReport
   std::vector<Joint> joints;          ///< side sets that hold both sides of a joint
 
   /// Largest coordinate as a multiple of the shortest edge up to which the sixteen digits of a
-  /// coordinate tell the nodes of an element apart.
+  /// coordinate leave enough for the shape of an element [-]: 4 of them.
   static constexpr Real farthest = 1e12;
   bool tooFar() const;
 
