@@ -71,7 +71,7 @@ void reportCensus(const Contact& contact)
   printLengths(c.gaps, "gaps of pairs that face each other", "gap", contact.skin());
 }
 
-void reportInitialOverlaps(const Solver& solver, bool allowed)
+void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bool allowed)
 {
   const RankMesh& mesh = solver.mesh();
   std::vector<InitialOverlap> overlaps =
@@ -100,8 +100,8 @@ void reportInitialOverlaps(const Solver& solver, bool allowed)
   }
   if (overlaps.size() > named)
     lines.push_back(fmt::format("  and {} more pairs of blocks", overlaps.size() - named));
-  const std::string found =
-      fmt::format("bodies overlap before the first step:\n{}", fmt::join(lines, "\n"));
+  const std::string found = fmt::format("{}: bodies overlap before the first step:\n{}", meshFile,
+                                        fmt::join(lines, "\n"));
   if (!allowed)
     failOnAllRanks(ExitCode::Mesh,
                    "{}\nRepair the mesh, or declare the joint where faces lie on each other "

@@ -34,7 +34,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
   }
   reportCensus(solver.contact());
   if (solver.clock().cycle == 0)
-    reportInitialOverlaps(solver, deck.contact.initialOverlap == "allow");
+    reportInitialOverlaps(solver, deck.mesh, deck.contact.initialOverlap == "allow");
 }
 
 void reportEnd(const Solver& solver)

@@ -11,6 +11,7 @@
 #include <coplane_core/ExitCodes.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Memory.hpp>
+#include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
@@ -268,18 +269,14 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   return int(code);
 }
 
-/// After something that does no more than to say something. Who stops reading has read enough.
-void demandTextWritten(const Comm& comm)
+/// After something that does no more than to say something.
+void demandTextOfRoot(const Comm& comm)
 {
   comm.together(
       [&]
       {
-        if (!comm.isRoot())
-          return;
-        const bool written = std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout);
-        if (!written && errno != EPIPE)
-          fail(ExitCode::Output, "the text cannot be written to the standard output: {}.",
-               std::strerror(errno));
+        if (comm.isRoot())
+          demandTextWritten();
       });
 }
 
@@ -311,7 +308,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
                     ExitCode::Usage);
     if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
     {
-      demandTextWritten(comm);
+      demandTextOfRoot(comm);
       return int(comm.max(std::int64_t(parsed)));
     }
     // Options and nothing else say what is used; Kokkos takes variables that contradict them, or
@@ -346,7 +343,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
     };
     endAllRanksOnOwnError(work);
     if (asksForHelp(line) || line.check)
-      demandTextWritten(comm);
+      demandTextOfRoot(comm);
     return code;
   }
   catch (const Error& error)

@@ -5,7 +5,28 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
+
+namespace
+{
+/// What the ranks say that print no course of the tests.
+class FailuresOfRank : public testing::EmptyTestEventListener
+{
+public:
+  explicit FailuresOfRank(int rank) : rank_(rank) {}
+  void OnTestPartResult(const testing::TestPartResult& result) override
+  {
+    if (result.failed())
+      std::fprintf(stderr, "rank %d: %s:%d: %s\n", rank_,
+                   result.file_name() ? result.file_name() : "?", result.line_number(),
+                   result.message());
+  }
+
+private:
+  int rank_;
+};
+} // namespace
 
 int main(int argc, char** argv)
 {
@@ -30,6 +51,7 @@ int main(int argc, char** argv)
   {
     auto& listeners = ::testing::UnitTest::GetInstance()->listeners();
     delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new FailuresOfRank(rank));
   }
   int failed = RUN_ALL_TESTS();
   MPI_Allreduce(MPI_IN_PLACE, &failed, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);

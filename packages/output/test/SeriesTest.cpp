@@ -27,9 +27,13 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
     first.savePosition(positions);
     first.finish(solver, "completed");
   }
+  const std::string foreign = resultsPart(file, 4), text = "of the user, who calls files so";
   if (comm.isRoot())
-    for (const int part : {2, 3, 4})
-      replaceFile(resultsPart(file, part), "of a run that was left behind");
+  {
+    std::filesystem::copy_file(file, resultsPart(file, 2)); // of a run that was left behind
+    replaceFile(resultsPart(file, 3), "");                  // of one that was killed at once
+    replaceFile(foreign, text);
+  }
   comm.barrier();
   options.part = 3;
   options.position = positions.at("results");
@@ -38,5 +42,48 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
   EXPECT_TRUE(std::filesystem::exists(file));
   for (const int part : {2, 3, 4})
     EXPECT_FALSE(std::filesystem::exists(resultsPart(file, part))) << part;
+  int kept = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    if (entry.path().string().rfind(foreign + ".old-", 0) == 0)
+    {
+      EXPECT_EQ(contentOf(entry.path()), text);
+      ++kept;
+    }
+  EXPECT_EQ(kept, 1);
+}
+
+TEST(TextTable, tellsThatLinesWereCutOffAndGoesOnAtTheEnd)
+{
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "a.csv";
+  TextTable table;
+  EXPECT_FALSE(table.open(file, {}));
+  table.add("time\n");
+  table.add("0.5\n");
+  const TextPosition position = table.position(3);
+  EXPECT_EQ(position.bytes, 9u);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  table.position(3);
+  EXPECT_EQ(testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout(), "");
+  std::filesystem::resize_file(file, 2);
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(table.position(3).bytes, 2u);
+  const std::string said =
+      testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout();
+  const bool speaks = Comm().isRoot();
+  EXPECT_EQ(said.find("2 bytes of 9 are there") != std::string::npos, speaks) << said;
+  table.add("1\n");
+  EXPECT_EQ(contentOf(file), "ti1\n");
+
+  // A restart from the checkpoint before finds its lines gone; one under another name begins anew.
+  TextTable again;
+  EXPECT_FALSE(again.open(file, position));
+  EXPECT_EQ(contentOf(file), "");
+  again.add("time\n0.5\n1\n");
+  TextTable third;
+  EXPECT_TRUE(third.open(file, position));
+  EXPECT_EQ(contentOf(file), "time\n0.5\n");
 }
 } // namespace coplane

@@ -185,14 +185,21 @@ case.check_equal("a table is cut off: bytes of zero", (folder / "run.csv").read_
 
 # --- what is left of an earlier run -------------------------------------------------------------------------
 folder, _ = attempt("an earlier run", 0, changes={"output": {"every": 1e-5}, "time.end": 1e-4})
-(folder / "run.run-s0002.json").write_text("{}")
+shutil.copy(folder / "run.run.json", folder / "run.run-s0002.json")
+(folder / "run.run-s0003.json").write_text("{}")
+shutil.copy(folder / "run.e", folder / "run.e-s0002")
+(folder / "run.e-s0003").write_text("of the user")
+shutil.copy(folder / "mesh.e", folder / "run.e-s0004")
 (folder / "run.e-s0002.txt").write_text("of the user")
 (folder / "run_planes_0099.vtp").write_text("of the user")
 steps = len(list(folder.glob("run_planes_*.vtp")))
 code, _ = program.run_program(["run.yaml", "--set", "time.end=1e-6"], folder, timeout=60)
 case.check_equal("a new run takes away the steps that the series of the old one names",
                  sorted(path.name for path in folder.glob("run_planes_*.vtp")), ["run_planes_0000.vtp", "run_planes_0001.vtp", "run_planes_0099.vtp"])
-case.check_equal("a new run takes away old records", (folder / "run.run-s0002.json").exists(), False)
+for name in ("run.run-s0002.json", "run.e-s0002"):
+    case.check_equal(f"a new run takes away {name} of an old one", [path.name for path in folder.glob(name + "*") if path.suffix != ".txt"], [])
+for name, text in (("run.run-s0003.json", b"{}"), ("run.e-s0003", b"of the user"), ("run.e-s0004", (folder / "mesh.e").read_bytes())):
+    case.check_equal(f"{name}, which is none of its own: put aside as it is", [path.read_bytes() == text for path in folder.glob(name + ".old-*")], [True])
 case.check_equal("a file of the user with a similar name stays", (folder / "run.e-s0002.txt").exists(), True)
 
 # --- a standard output that takes nothing -------------------------------------------------------------------
@@ -202,6 +209,11 @@ for options, code in ((["--schema"], OUTPUT), (["--help-deck"], OUTPUT), (["run.
         done = subprocess.run([program.binary("coplane"), *options], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
     case.check_equal(f"standard output to a full disk, {' '.join(options)}: exit code", done.returncode, code)
     case.check_equal(f"standard output to a full disk, {' '.join(options)}: a reason", "standard output" in done.stderr, code != 0)
+for options in (["--help-recipe"], ["check", "mesh.e"]):
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([program.binary("coplane_mesh"), *options], cwd=folder, stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+    case.check_equal(f"standard output to a full disk, coplane_mesh {options[0]}: exit code", done.returncode, OUTPUT)
+    case.check_equal(f"standard output to a full disk, coplane_mesh {options[0]}: a reason", "standard output" in done.stderr, True)
 for ranks in (1, 2):
     (folder / "run.csv").unlink()
     launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]

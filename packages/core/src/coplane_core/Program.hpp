@@ -8,6 +8,10 @@
 
 namespace coplane
 {
+/// Throws Error(ExitCode::Output) when what was said so far did not reach the standard output (full
+/// disk). Who stops reading has read enough.
+void demandTextWritten();
+
 /// For main() of programs on one rank: the exit code of body(), or that of the error that it ends
 /// with, whose message goes to standard error.
 template <class Body>
@@ -15,7 +19,9 @@ int exitCodeOf(const Body& body)
 {
   try
   {
-    return body();
+    const int code = body();
+    demandTextWritten();
+    return code;
   }
   catch (const std::exception& error)
   {

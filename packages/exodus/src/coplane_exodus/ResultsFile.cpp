@@ -2,21 +2,29 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
+#include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/OwnPart.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
 
+#include <exodusII.h>
+
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <filesystem>
+#include <memory>
 #include <numeric>
 
 namespace coplane
 {
 namespace
 {
+constexpr const char* ownName = "coplane"; ///< in QA records
+
 std::array<std::string, 4> ownQaRecord(const Comm& comm)
 {
   const std::time_t now = std::time(nullptr);
@@ -24,7 +32,7 @@ std::array<std::string, 4> ownQaRecord(const Comm& comm)
   std::strftime(date, sizeof date, "%Y/%m/%d", std::localtime(&now));
   std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
   // Rank 0's clock: all ranks must write the same record.
-  return {"coplane", version().number, comm.broadcast(date), comm.broadcast(hour)};
+  return {ownName, version().number, comm.broadcast(date), comm.broadcast(hour)};
 }
 
 /// A plain open tells a missing folder or permission in the system's words, before any library call
@@ -41,6 +49,38 @@ void probeWritable(const std::string& file)
 }
 
 } // namespace
+
+bool isResultsOfCoplane(const std::string& file)
+{
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error) || !classicHeaderFitsFile(file))
+    return false;
+  quietExodus();
+  int computed = 8, stored = 0;
+  float version = 0;
+  const int exoid = ex_open(file.c_str(), EX_READ, &computed, &stored, &version);
+  if (exoid < 0)
+    return false;
+  int variables = 0;
+  const int records = int(ex_inquire_int(exoid, EX_INQ_QA));
+  bool isOurs =
+      records > 0 && ex_get_variable_param(exoid, EX_NODAL, &variables) >= 0 && variables > 0;
+  if (isOurs)
+  {
+    std::vector<std::array<char, MAX_STR_LENGTH + 1>> text(4 * std::size_t(records));
+    using Record = char* [4];
+    const auto pointers = std::make_unique<Record[]>(records);
+    for (std::size_t i = 0; i < text.size(); ++i)
+    {
+      text[i].fill('\0');
+      pointers[i / 4][i % 4] = text[i].data();
+    }
+    isOurs =
+        ex_get_qa(exoid, pointers.get()) >= 0 && std::string(pointers[records - 1][0]) == ownName;
+  }
+  ex_close(exoid);
+  return isOurs;
+}
 
 void cutResults(const std::string& file, int steps)
 {

@@ -24,6 +24,10 @@ struct ResultsVariables
 /// fewer steps, or without, stays as it is. Not collective.
 void cutResults(const std::string& file, int steps);
 
+/// Whether a file holds results that this program wrote: its last QA record says so, and it has
+/// nodal variables. Not collective.
+bool isResultsOfCoplane(const std::string& file);
+
 /// Name of a rank's file: wall.e.4.0
 std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
 

@@ -4,9 +4,6 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
-#include <coplane_output/TextFile.hpp>
-
-#include <cerrno>
 
 namespace coplane
 {
@@ -119,7 +116,7 @@ HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
         const TextPosition position = TextPosition::from(options_.position);
         lastCycle_ = position.cycle;
         if (comm.isRoot())
-          hasHeader_ = openTable(stream_, options_.file, position);
+          hasHeader_ = table_.open(options_.file, position);
       });
 }
 
@@ -145,10 +142,8 @@ void HistoryObserver::repartitioned(const Solver& solver)
 
 void HistoryObserver::savePosition(std::map<std::string, std::string>& positions) const
 {
-  TextPosition position{options_.file, 0, lastCycle_};
-  if (stream_.is_open()) // on rank 0, which speaks
-    position.bytes = endOfTable(options_.file);
-  positions["history"] = position.text();
+  if (table_.isOpen()) // on rank 0, which speaks
+    positions["history"] = table_.position(lastCycle_).text();
 }
 
 void HistoryObserver::finish(const Solver& solver, const std::string&)
@@ -261,12 +256,7 @@ void HistoryObserver::write(const Solver& solver)
       {
         if (!solver.comm().isRoot())
           return;
-        errno = 0;
-        if (!hasHeader_)
-          stream_ << line.names << '\n';
-        stream_ << line.values << '\n' << std::flush;
-        if (!stream_)
-          failToWrite(options_.file);
+        table_.add((hasHeader_ ? "" : line.names + "\n") + line.values + "\n");
         hasHeader_ = true;
       });
   lastCycle_ = solver.clock().cycle;

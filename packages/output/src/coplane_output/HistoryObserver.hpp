@@ -3,8 +3,8 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
+#include <coplane_output/TextFile.hpp>
 
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -61,7 +61,7 @@ private:
 
   HistoryOptions options_;
   OutputSchedule schedule_;
-  std::ofstream stream_;        ///< open on rank 0
+  TextTable table_;             ///< open on rank 0
   std::int64_t lastCycle_ = -1; ///< that was written
   bool hasHeader_ = false;
   Real initialKinetic_ = 0;                ///< [J]

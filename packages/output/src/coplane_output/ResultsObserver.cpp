@@ -3,6 +3,7 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/NodalContact.hpp>
 #include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/TextFile.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -84,7 +85,8 @@ struct ResultsPosition
 };
 
 /// Removes the parts of a series from number `first` on, which a run has left that went on from an
-/// earlier checkpoint: ParaView would read them as well.
+/// earlier checkpoint: ParaView would read them as well. What has such a name and holds no results
+/// is put aside.
 void removeParts(const std::string& file, int first)
 {
   const std::filesystem::path path(file);
@@ -103,10 +105,14 @@ void removeParts(const std::string& file, int first)
     if (std::regex_match(rest, match, number) && std::atoi(match[1].str().c_str()) >= first)
       old.push_back(entry.path());
   }
+  int removed = 0;
   for (const auto& one : old)
-    std::filesystem::remove(one, error);
-  if (!old.empty())
-    logInfo("removed {} parts of the series {}-s... from an earlier run", old.size(), file);
+    if (isResultsOfCoplane(one) || std::filesystem::is_empty(one, error))
+      removed += int(std::filesystem::remove(one, error));
+    else
+      putForeignFileAside(one);
+  if (removed > 0)
+    logInfo("removed {} parts of the series {}-s... from an earlier run", removed, file);
 }
 } // namespace
 
@@ -117,9 +123,13 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
   // Parts of restarts that were left behind. The checkpoint may be of a part that had no step yet:
   // what that part wrote afterwards has to go, too.
   const ResultsPosition position = ResultsPosition::from(options_.position);
-  if (comm.isRoot())
-    removeParts(options_.file,
-                position.file == options_.file ? position.part + 1 : std::max(2, options_.part));
+  comm.together(
+      [&]
+      {
+        if (comm.isRoot())
+          removeParts(options_.file, position.file == options_.file ? position.part + 1
+                                                                    : std::max(2, options_.part));
+      });
   if (options_.part == 1)
     open();
   else

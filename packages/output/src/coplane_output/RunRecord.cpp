@@ -13,6 +13,7 @@
 
 #include <ctime>
 #include <filesystem>
+#include <fstream>
 #include <sys/resource.h>
 
 namespace coplane
@@ -168,15 +169,30 @@ Json slowestTimers(const Comm& comm)
   return json;
 }
 
-/// Those of an earlier run, which belong to results that are not there any more.
+bool isRecord(const std::string& file)
+{
+  std::ifstream stream(file);
+  const Json json = Json::parse(stream, nullptr, false);
+  return json.is_object() && json.contains("software") && json["software"].contains("coplane");
+}
+
+/// Those of an earlier run, which belong to results that are not there any more. What has such a
+/// name and is none is put aside.
 void removeRecordsOfRestarts(const std::string& file)
 {
   std::filesystem::path base(file);
   base.replace_extension(); // wall.run
   std::error_code error;
   for (int part = 2;; ++part)
-    if (!std::filesystem::remove(fmt::format("{}-s{:04}.json", base.string(), part), error))
+  {
+    const std::string record = fmt::format("{}-s{:04}.json", base.string(), part);
+    if (!std::filesystem::is_regular_file(record, error))
       return;
+    if (!isRecord(record))
+      putForeignFileAside(record);
+    else if (!std::filesystem::remove(record, error))
+      return;
+  }
 }
 
 /// Largest resident memory of a rank so far [bytes].
@@ -199,13 +215,16 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
   placement_ = placement.dump();
   for (const std::string& problem : placementProblems(ranks))
     logWarning("threads share cores", problem);
-  if (comm.isRoot())
-  {
-    deckHash_ = sha256(options_.deckText);
-    meshHash_ = sha256OfFile(options_.meshFile);
-    if (options_.restartedFrom.empty())
-      removeRecordsOfRestarts(options_.file);
-  }
+  comm.together(
+      [&]
+      {
+        if (!comm.isRoot())
+          return;
+        deckHash_ = sha256(options_.deckText);
+        meshHash_ = sha256OfFile(options_.meshFile);
+        if (options_.restartedFrom.empty())
+          removeRecordsOfRestarts(options_.file);
+      });
 }
 
 void RunRecord::start(const Solver& solver)

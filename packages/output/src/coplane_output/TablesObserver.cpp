@@ -3,10 +3,8 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/TablesObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -23,14 +21,10 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
   };
   for (const char* table : {"blocks", "pairs", "materials"})
     lastCycle_ = std::max(lastCycle_, positionOf(table).cycle);
-  const auto open = [&](std::ofstream& stream, const char* table, const std::string& header)
+  const auto open = [&](TextTable& lines, const char* table, const std::string& header)
   {
-    const std::string file = fileOf(table);
-    if (openTable(stream, file, positionOf(table)))
-      return;
-    stream << header << '\n' << std::flush;
-    if (!stream)
-      failToWrite(file);
+    if (!lines.open(fileOf(table), positionOf(table)))
+      lines.add(header + "\n");
   };
   comm.together(
       [&]
@@ -78,19 +72,14 @@ std::string TablesObserver::fileOf(const char* table) const
 
 void TablesObserver::savePosition(std::map<std::string, std::string>& positions) const
 {
-  const auto save = [&](const std::ofstream& stream, const char* table)
+  const auto save = [&](const TextTable& lines, const char* table)
   {
-    TextPosition position{fileOf(table), 0, lastCycle_};
-    if (stream.is_open()) // on rank 0, which speaks
-      position.bytes = endOfTable(position.file);
-    positions[table] = position.text();
+    if (lines.isOpen()) // on rank 0, which speaks
+      positions[table] = lines.position(lastCycle_).text();
   };
-  if (options_.blocks)
-    save(blocks_, "blocks");
-  if (options_.pairs)
-    save(pairs_, "pairs");
-  if (options_.materials)
-    save(materials_, "materials");
+  save(blocks_, "blocks");
+  save(pairs_, "pairs");
+  save(materials_, "materials");
 }
 
 void TablesObserver::finish(const Solver& solver, const std::string&)
@@ -243,30 +232,24 @@ std::string TablesObserver::materialLines(const Solver& solver) const
   return text;
 }
 
-void TablesObserver::append(const Comm& comm, std::ofstream& stream, const std::string& file,
-                            const std::string& text) const
-{
-  comm.together(
-      [&]
-      {
-        if (!comm.isRoot())
-          return;
-        errno = 0;
-        stream << text << std::flush;
-        if (!stream)
-          failToWrite(file);
-      });
-}
-
 void TablesObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::tables");
+  const auto append = [&](TextTable& table, const std::string& lines)
+  {
+    solver.comm().together(
+        [&]
+        {
+          if (table.isOpen())
+            table.add(lines);
+        });
+  };
   if (options_.blocks)
-    append(solver.comm(), blocks_, fileOf("blocks"), blockLines(solver));
+    append(blocks_, blockLines(solver));
   if (options_.pairs)
-    append(solver.comm(), pairs_, fileOf("pairs"), pairLines(solver));
+    append(pairs_, pairLines(solver));
   if (options_.materials)
-    append(solver.comm(), materials_, fileOf("materials"), materialLines(solver));
+    append(materials_, materialLines(solver));
   lastCycle_ = solver.clock().cycle;
 }
 } // namespace coplane

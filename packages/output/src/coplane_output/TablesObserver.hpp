@@ -3,8 +3,8 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
+#include <coplane_output/TextFile.hpp>
 
-#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -50,14 +50,12 @@ private:
   std::string blockLines(const Solver& solver) const;
   std::string pairLines(const Solver& solver) const;
   std::string materialLines(const Solver& solver) const;
-  void append(const Comm& comm, std::ofstream& stream, const std::string& file,
-              const std::string& text) const;
 
   TablesOptions options_;
   OutputSchedule schedule_;
-  std::ofstream blocks_, pairs_, materials_; ///< open on rank 0
-  std::int64_t lastCycle_ = -1;              ///< that was written
-  std::vector<std::vector<Share>> shares_;   ///< per block, owned nodes
+  TextTable blocks_, pairs_, materials_;   ///< open on rank 0
+  std::int64_t lastCycle_ = -1;            ///< that was written
+  std::vector<std::vector<Share>> shares_; ///< per block, owned nodes
   /// Mass of each block over that of all rigid blocks of a body; [body * blocks + block]
   std::vector<Real> partOfBody_;
 };

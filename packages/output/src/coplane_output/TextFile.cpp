@@ -45,6 +45,20 @@ std::string nameAside(const std::string& file)
   return freeName(fmt::format("{}.old-{}", file, timeOf(file)));
 }
 
+void putForeignFileAside(const std::string& file)
+{
+  const std::string aside = nameAside(file);
+  std::error_code error;
+  std::filesystem::rename(file, aside, error);
+  errno = error.value();
+  if (error)
+    failToWrite(file);
+  logWarning("a file is put aside",
+             fmt::format("{}: there was a file of this name, which the run did not write before; "
+                         "it is called {} now.",
+                         file, aside));
+}
+
 void failToWrite(const std::string& file)
 {
   const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
@@ -52,18 +66,6 @@ void failToWrite(const std::string& file)
        "{}: the file cannot be written: {}. Check that the folder '{}' exists and can be written "
        "to, and that there is room (disk, quota, file-size limit).",
        file, reason, folderOf(file));
-}
-
-std::uint64_t endOfTable(const std::string& file)
-{
-  std::error_code error;
-  const auto bytes = std::filesystem::file_size(file, error);
-  if (error)
-    fail(ExitCode::Output,
-         "{}: lines of this run are not there any more: {}. A restart could not go on with them. "
-         "What is written to a file that was removed or moved away is lost.",
-         file, error.message());
-  return bytes;
 }
 
 std::string TextPosition::text() const
@@ -81,8 +83,9 @@ TextPosition TextPosition::from(const std::string& text)
   return position;
 }
 
-bool openTable(std::ofstream& stream, const std::string& file, const TextPosition& position)
+bool TextTable::open(const std::string& file, const TextPosition& position)
 {
+  file_ = file;
   bool goesOn = position.bytes > 0 && position.file == file;
   if (goesOn)
   {
@@ -106,25 +109,42 @@ bool openTable(std::ofstream& stream, const std::string& file, const TextPositio
   if (position.bytes > 0 && position.file != file &&
       std::filesystem::is_regular_file(file, ignored) &&
       std::filesystem::file_size(file, ignored) > 0)
-  {
-    const std::string aside = nameAside(file);
-    std::filesystem::rename(file, aside, ignored);
-    errno = ignored.value();
-    if (ignored)
-      failToWrite(file);
-    logWarning("a file is put aside",
-               fmt::format("{}: there was a file of this name, which the run did not write before; "
-                           "it is called {} now.",
-                           file, aside));
-  }
+    putForeignFileAside(file);
   errno = 0;
   if (!goesOn && !std::ofstream(file, std::ios::trunc))
     failToWrite(file);
   // Always at the end of what is there: a file that somebody cuts off gets no hole.
-  stream.open(file, std::ios::app);
-  if (!stream)
+  stream_.open(file, std::ios::app);
+  if (!stream_)
     failToWrite(file);
+  bytes_ = goesOn ? position.bytes : 0;
   return goesOn;
+}
+
+void TextTable::add(const std::string& lines)
+{
+  errno = 0;
+  stream_ << lines << std::flush;
+  if (!stream_)
+    failToWrite(file_);
+  bytes_ += lines.size();
+}
+
+TextPosition TextTable::position(std::int64_t cycle) const
+{
+  std::error_code error;
+  const auto bytes = std::filesystem::file_size(file_, error);
+  if (error)
+    fail(ExitCode::Output,
+         "{}: lines of this run are not there any more: {}. A restart could not go on with them. "
+         "What is written to a file that was removed or moved away is lost.",
+         file_, error.message());
+  if (bytes < bytes_)
+    logWarning("lines of a table are lost",
+               fmt::format("{}: {} bytes of {} are there: somebody has cut off lines of this run; "
+                           "it goes on at the end of what is there.",
+                           file_, bytes, bytes_));
+  return {file_, bytes, cycle};
 }
 
 void replaceFile(const std::string& file, const std::string& text)
