@@ -69,8 +69,11 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
     const std::string& file = deck.output.results;
     if (deck.output.filePerRank)
     {
-      roles.writesSeries({file + ".", ".", ""}, results);
-      roles.writesSeries({file + "-s", ".", ".", ""}, results);
+      for (const std::string& end : {std::string(), draft})
+      {
+        roles.writesSeries({file + ".", ".", end}, results);
+        roles.writesSeries({file + "-s", ".", ".", end}, results);
+      }
     }
     else
     {
@@ -78,7 +81,9 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
         roles.writes(file, results);
       else
         roles.writesInPlace(file, results);
-      roles.writesSeries({file + "-s", ""}, results);
+      roles.writes(file + draft, results);
+      for (const std::string& end : {std::string(), draft})
+        roles.writesSeries({file + "-s", end}, results);
     }
     if (deck.output.planes && deck.contact.enabled)
     {

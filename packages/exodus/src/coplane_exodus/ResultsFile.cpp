@@ -35,11 +35,22 @@ std::array<std::string, 4> ownQaRecord(const Comm& comm)
   return {ownName, version().number, comm.broadcast(date), comm.broadcast(hour)};
 }
 
+std::string draftOf(const std::string& file)
+{
+  return placeOfFile(file) + ".part";
+}
+
+void renameFile(const std::string& from, const std::string& to)
+{
+  if (std::rename(from.c_str(), to.c_str()) != 0)
+    throw ExodusFailure(fmt::format("renaming the draft: {}", std::strerror(errno)));
+}
+
 /// A plain open tells a missing folder or permission in the system's words, before any library call
 /// that all ranks must make.
 void probeWritable(const std::string& file)
 {
-  std::FILE* probe = std::fopen(file.c_str(), "wb");
+  std::FILE* probe = std::fopen(draftOf(file).c_str(), "wb");
   if (!probe)
     fail(ExitCode::Output,
          "{}: the results file cannot be created: {}. Check that the folder '{}' exists and can be "
@@ -159,8 +170,14 @@ void ResultsFile::create(const MeshSlice& slice, const ResultsVariables& variabl
                           splitInfoLines(infoLines)};
   const GlobalId largest = comm_.max(std::int64_t(largestId(slice)));
   const bool defines = filePerRank_ || comm_.isRoot();
+  // Whatever is at this place stays there until all of the header is written; links stay links.
   if (defines)
-    attempt([&] { defineFile(file_, slice, extras, creationMode(largest)); });
+  {
+    attempt([&] { defineFile(draftOf(file_), slice, extras, creationMode(largest)); });
+    attempt([&] { renameFile(draftOf(file_), placeOfFile(file_)); });
+    if (!failure_.empty())
+      std::remove(draftOf(file_).c_str());
+  }
   failTogether("defining the mesh");
   attempt([&] { data_.emplace(file_); });
   if (defines)

@@ -34,7 +34,8 @@ std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
 /// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
 /// variables by time step.
 ///
-/// One file shared by all ranks: CDF-5, defined by rank 0, then written by each rank at its own
+/// One file shared by all ranks: CDF-5, defined by rank 0 under another name (`.part`) that is
+/// renamed, so that a file of its name has a whole header, then written by each rank at its own
 /// places (SharedFile). Each rank writes contiguous ranges of the file order: items
 /// contiguousRange(n, rank, size) of nodes, of each block's elements and of each side set's sides.
 /// Data go to the file at once, and the number of steps in the header is raised last, in endStep: a
