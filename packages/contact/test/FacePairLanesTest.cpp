@@ -46,8 +46,8 @@ struct PairTable
       Plane plane;
       plane.face[0] = random() % 20 == 0 ? -1 : 2 * p;
       plane.face[1] = 2 * p + 1;
-      plane.born = random() % 3 != 0;
-      plane.fresh = random() % 2 == 0;
+      plane.state = random() % 3 != 0 ? PlaneState::Open : PlaneState::Slot;
+      plane.sighting = random() % 2 == 0 ? Sighting::New : Sighting::Known;
       plane.declared = random() % 5 == 0;
       plane.history.bonded = random() % 5 == 0;
       plane.joint = std::uint16_t(random() % 2);

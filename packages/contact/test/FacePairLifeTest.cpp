@@ -71,14 +71,14 @@ TEST(StepB_TrialPointOfContact, normalIsTheMeanOfTheFacesNormals)
 TEST(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
 {
   PairPlane plane = touchingPlane(1e3);
-  plane.born = false;
-  plane.fresh = true;
+  plane.state = PlaneState::Slot;
+  plane.sighting = Sighting::New;
   updatePlane<3>(plane, below(), above(-.01), {}, 1);
-  EXPECT_FALSE(plane.born);
+  EXPECT_FALSE(plane.isBorn());
   EXPECT_NEAR(plane.gap, .01, 1e-15);
   updatePlane<3>(plane, below(), above(.01), {}, 1);
-  EXPECT_TRUE(plane.born);
-  EXPECT_FALSE(plane.foundLate);
+  EXPECT_TRUE(plane.isBorn());
+  EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(plane.offset, 0.0);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
@@ -86,15 +86,15 @@ TEST(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
 TEST(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
 {
   PairPlane plane = touchingPlane(1e3);
-  plane.born = false;
-  plane.fresh = true;
+  plane.state = PlaneState::Slot;
+  plane.sighting = Sighting::New;
   updatePlane<3>(plane, below(), above(.01), {}, 1);
-  EXPECT_TRUE(plane.foundLate);
+  EXPECT_EQ(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
   EXPECT_EQ(plane.offset, plane.gap);
   // From there on it reacts as usual.
   updatePlane<3>(plane, below(), above(.011), {}, 1);
-  EXPECT_FALSE(plane.foundLate);
+  EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_NEAR(plane.forceOn(1).z, 1, 1e-12); // 1e3 * .001
 }
 
@@ -103,30 +103,30 @@ TEST(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
   // A wedge of overlap: no part of it may push, neither now nor in the next cycle.
   const FaceNodes b = moved(above(.05), rotation({0, 1, 0}, 5 * pi / 180));
   PairPlane plane = touchingPlane(1e3);
-  plane.born = false;
-  plane.fresh = true;
+  plane.state = PlaneState::Slot;
+  plane.sighting = Sighting::New;
   for (int cycle = 0; cycle < 3; ++cycle)
   {
     updatePlane<3>(plane, below(), b, {}, 1);
     EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << cycle;
   }
-  EXPECT_TRUE(plane.born);
+  EXPECT_TRUE(plane.isBorn());
   EXPECT_LT(plane.offset, -.05);
 }
 
 TEST(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPart)
 {
   PairPlane plane = touchingPlane(1e3);
-  plane.born = false;
-  plane.fresh = true;
+  plane.state = PlaneState::Slot;
+  plane.sighting = Sighting::New;
   plane.depthLimit = .1;
   updatePlane<3>(plane, below(), above(.2), {}, 1);
-  EXPECT_TRUE(plane.released);
-  EXPECT_FALSE(plane.born);
+  EXPECT_TRUE(plane.isRefused());
+  EXPECT_FALSE(plane.isBorn());
   updatePlane<3>(plane, below(), above(.05), {}, 1);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "not on the way out either";
   updatePlane<3>(plane, below(), above(-.01), {}, 1);
-  EXPECT_FALSE(plane.released);
+  EXPECT_FALSE(plane.isRefused());
   updatePlane<3>(plane, below(), above(.01), {}, 1);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
@@ -137,19 +137,20 @@ TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   const auto born = [](Real depth)
   {
     PairPlane plane = touchingPlane(1e3);
-    plane.born = false;
-    plane.fresh = plane.inherited = true;
+    plane.state = PlaneState::Slot;
+    plane.sighting = Sighting::New;
+    plane.lineage = Lineage::Inherited;
     plane.depthLimit = .1;
     plane.offset = -.05;
     plane.closure = .06; // the neighbours overlap by .11
     updatePlane<3>(plane, below(), above(depth), {}, 1);
-    EXPECT_EQ(plane.released, !plane.born);
+    EXPECT_EQ(plane.isRefused(), !plane.isBorn());
     return plane;
   };
   EXPECT_NEAR(born(.11).forceOn(1).z, 60, 1e-10); // 1e3 * (.11 - .05) * 1
   EXPECT_NEAR(born(.2).forceOn(1).z, 100, 1e-10); // at most that of the depth limit
   // The back of a thin body lies far behind the contact on its front, from which it inherits.
-  EXPECT_TRUE(born(.22).released);
+  EXPECT_TRUE(born(.22).isRefused());
   EXPECT_EQ(norm(born(.22).forceOn(1)), 0.0);
 }
 
@@ -157,13 +158,13 @@ TEST(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies
 {
   // A rough surface: the next face of it stands higher than the one that was touched.
   PairPlane plane = touchingPlane(1e3);
-  plane.born = false;
-  plane.inherited = plane.slidesOn = true;
-  plane.fresh = false;
+  plane.state = PlaneState::Slot;
+  plane.lineage = Lineage::SlidesOn;
+  plane.sighting = Sighting::Known;
   plane.depthLimit = .1;
   plane.closure = .01;
   updatePlane<3>(plane, below(), above(.08), {}, 1);
-  EXPECT_FALSE(plane.released);
+  EXPECT_FALSE(plane.isRefused());
   EXPECT_NEAR(plane.forceOn(1).z, 80, 1e-10); // 1e3 * .08 * 1
 }
 
@@ -186,9 +187,9 @@ TEST(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
   for (const Real offset : {0., -.05})
   {
     // Up to a quarter of the depth limit it meets the surface; its own offset tells where that is.
-    EXPECT_FALSE(after(.09, offset).released);
+    EXPECT_FALSE(after(.09, offset).isRefused());
     EXPECT_NEAR(after(.09, offset).forceOn(1).z, 90, 1e-10); // 1e3 * .09 * 1
-    EXPECT_TRUE(after(.11, offset).released);
+    EXPECT_TRUE(after(.11, offset).isRefused());
     EXPECT_EQ(norm(after(.11, offset).forceOn(1)), 0.0);
   }
 }
@@ -198,12 +199,13 @@ TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
   ContactOptions o;
   o.areaMin = .1;
   PairPlane plane = touchingPlane(1e3);
-  plane.born = plane.fresh = false;
+  plane.state = PlaneState::Slot;
+  plane.sighting = Sighting::Known;
   FaceNodes b = above(.01);
   for (int i = 0; i < 4; ++i)
     b.x[i].x += .95; // 5 % of the face overlap
   updatePlane<3>(plane, below(), b, o, 1);
-  EXPECT_FALSE(plane.born);
+  EXPECT_FALSE(plane.isBorn());
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
 }
 
@@ -406,7 +408,7 @@ TEST(OpenUp, clearsTheShearTractionAndKeepsTheLargestClosure)
   EXPECT_EQ(plane.state, PlaneState::Stick);
   updatePlane<3>(plane, below(), above(-.01), {}, 1);
   EXPECT_EQ(plane.state, PlaneState::Open);
-  EXPECT_TRUE(plane.born);
+  EXPECT_TRUE(plane.isBorn());
   EXPECT_EQ(norm(plane.history.shearTraction), 0.0);
   EXPECT_NEAR(plane.history.maximumClosure, .01, 1e-16);
   EXPECT_EQ(plane.area, 0.0);

@@ -82,8 +82,8 @@ struct PairPlane : coplane::Plane
 inline PairPlane touchingPlane(Real stiffness = 1, Real friction = 0)
 {
   PairPlane plane;
-  plane.born = true;
-  plane.fresh = false;
+  plane.state = PlaneState::Open;
+  plane.sighting = Sighting::Known;
   plane.law.penalty = false;
   plane.law.initialStiffness = stiffness;
   plane.law.friction = friction;

@@ -41,7 +41,7 @@ TEST(Inheritance, givesTheMeansOfTheDonorsByTheirAreas)
   std::vector<Donor> donors{planeOf10And(23, {7, 8, 9, 10}, 1, .04),
                             planeOf10And(21, {1, 2, 3, 4}, 3, .08)};
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, donors));
-  EXPECT_TRUE(plane.inherited);
+  EXPECT_TRUE(plane.isInherited());
   EXPECT_NEAR(plane.closure, .07, 1e-15);
   EXPECT_NEAR(plane.offset, -.07, 1e-15);
 }
@@ -51,15 +51,15 @@ TEST(Inheritance, tellsTheSameSurfaceFromAnotherBody)
   Plane plane = pairOf10And22();
   std::vector<Donor> other{planeOf10And(23, {7, 8, 9, 10}, 1, .04)};
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, other));
-  EXPECT_FALSE(plane.slidesOn);
+  EXPECT_NE(plane.lineage, Lineage::SlidesOn);
   std::vector<Donor> beside{planeOf10And(21, {1, 2, 3, 4}, 1, .04)};
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, beside));
-  EXPECT_TRUE(plane.slidesOn);
+  EXPECT_EQ(plane.lineage, Lineage::SlidesOn);
   // It has to be a donor that counts: one that looks elsewhere does not.
   beside[0].normal = {1, 0, 0};
   other.push_back(beside[0]);
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, other));
-  EXPECT_FALSE(plane.slidesOn);
+  EXPECT_NE(plane.lineage, Lineage::SlidesOn);
 }
 
 TEST(Inheritance, doesNotDependOnWhichFaceHasTheLowerId)
@@ -103,7 +103,7 @@ TEST(Inheritance, facesWithoutNodesAreOnNoSurface)
   Plane plane = pairOf10And22();
   std::vector<Donor> donors{planeOf10And(21, {0, 0, 0, 0}, 1, .04)};
   EXPECT_TRUE(inherit(plane, {0, 0, 1}, {{{101, 102, 0, 0}, {2, 5, 0, 0}}}, donors));
-  EXPECT_FALSE(plane.slidesOn);
+  EXPECT_NE(plane.lineage, Lineage::SlidesOn);
 }
 
 namespace

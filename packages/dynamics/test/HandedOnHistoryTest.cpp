@@ -57,7 +57,7 @@ PlaneOfBlocks planeOnFloor(const Solver& solver, int brick)
   const auto& planes = solver.contact().planes();
   for (std::size_t p = 0; p < planes.extent(0); ++p)
     if (planes(p).block[0] == 0 && planes(p).block[1] == brick && planes(p).area > 0)
-      found = {planes(p).area, planes(p).offset, Real(planes(p).inherited),
+      found = {planes(p).area, planes(p).offset, Real(planes(p).isInherited()),
                norm(planes(p).history.shearTraction)};
   solver.comm().max(found);
   if (found[0] < 0)
@@ -174,13 +174,13 @@ TEST(HandedOnHistory, aBlockCarriesItsShearTractionOverMeshLinesAndSeams)
         {
           const Plane& plane = planes(p);
           // Not the front of the slider against the hidden side behind the seam.
-          if (!plane.countedHere || !plane.born || plane.block[1] != sliding ||
+          if (!plane.countedHere || !plane.isBorn() || plane.block[1] != sliding ||
               std::abs(dot(plane.normal, upwards(dimension))) < 0.9)
             continue;
           if (known.insert({plane.faceId[0], plane.faceId[1]}).second && solver.clock().cycle > 20)
           {
             ++born;
-            alone += !plane.inherited;
+            alone += !plane.isInherited();
           }
         }
         solver.advance();

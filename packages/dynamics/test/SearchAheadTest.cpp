@@ -44,11 +44,12 @@ TEST(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
           for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
           {
             const Plane& plane = solver.contact().planes()(p);
-            if (!plane.countedHere || !(plane.born || plane.released || plane.foundLate))
+            if (!plane.countedHere || !(plane.isBorn() || plane.refusal == Refusal::Deep ||
+                                        plane.sighting == Sighting::FoundLate))
               continue;
             ++met[0];
             met[1] += !(plane.normalTraction > 0);
-            met[2] += plane.foundLate;
+            met[2] += plane.sighting == Sighting::FoundLate;
           }
           comm.sum(met);
         }

@@ -141,7 +141,7 @@ ContactCensus census(const Contact& contact)
     }
     else if (joint)
       ++n[Neighbours];
-    else if (plane.foundLate)
+    else if (plane.sighting == Sighting::FoundLate)
     {
       ++n[Overlapping];
       overlaps.push_back({{{pair.faceId[0], pair.faceId[1]}, -plane.gap}, -plane.gap});

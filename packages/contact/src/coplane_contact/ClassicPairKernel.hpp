@@ -72,16 +72,15 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
 {
   plane.overlap = 0;
   plane.nodeStiffness = 0;
-  plane.foundLate = false;
   if (!plane.leads)
   {
     openUp(plane, a, b, dt);
-    plane.fresh = false;
+    plane.sighting = Sighting::Known;
     return;
   }
   const ClassicPlane classic = classicCommonPlane<Dim>(
       elementA.blockBefore<Dim>(0.5 * dt), elementB.blockBefore<Dim>(0.5 * dt),
-      classicOptions(options), plane.born ? plane.normal : Vec3{});
+      classicOptions(options), plane.isBorn() ? plane.normal : Vec3{});
   const TrialPlane trial = trialPlaneOf(classic);
   const Shadow shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
   const Shadow shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
@@ -113,7 +112,7 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
   plane.overlap = patch.overlap;
 
   const bool inContact = patch.area > options.areaMin * (a.area < b.area ? a.area : b.area);
-  plane.foundLate = plane.fresh && !plane.declared && !plane.born && inContact;
+  const bool late = wasFoundLate(plane, inContact);
   if (inContact)
   {
     const Real gap = classic::separationAlong(classic.normal, elementA.blockBefore<Dim>(0),
@@ -134,7 +133,7 @@ KOKKOS_INLINE_FUNCTION void updateClassicPlane(Plane& plane, const HalfStepFace&
     openUp(plane, a, b, dt);
     plane.gap = classic.gap;
   }
-  plane.fresh = false;
+  plane.sighting = late ? Sighting::FoundLate : Sighting::Known;
   const Real ahead = options.lookAhead * approachSpeed(classic.normal, elementA, elementB);
   const bool near = plane.area > 0 || patch.leastGap <= ahead + 1e-8 * std::sqrt(patch.overlap);
   plane.nodeStiffness =

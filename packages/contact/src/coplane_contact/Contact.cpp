@@ -135,7 +135,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
       kept.push_back(p);
       continue;
     }
-    if (!plane.born || !plane.countedHere)
+    if (!plane.isBorn() || !plane.countedHere)
       continue;
     // What the last force still does in this step belongs to what is lost.
     Real eroded = plane.stored - plane.work;
@@ -321,7 +321,8 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
         });
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
-      if (planes_(p).foundLate && planes_(p).countedHere && planes_(p).face[0] >= 0)
+      if (planes_(p).sighting == Sighting::FoundLate && planes_(p).countedHere &&
+          planes_(p).face[0] >= 0)
         missed_ += wasMissed(planes_(p), x);
   searchedSinceUpdate_ = false;
 }
@@ -384,7 +385,7 @@ ContactEnergy Contact::energy() const
   for (const auto& [kind, sums] : ended_.byKind())
     mine.add(sums);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    if (planes_(p).countedHere && planes_(p).born)
+    if (planes_(p).countedHere && planes_(p).isBorn())
       mine.add(planes_(p), planes_(p).stored);
   std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
   return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
@@ -399,12 +400,12 @@ ContactCounts Contact::counts() const
     if (!plane.countedHere)
       continue;
     ++n[0];
-    n[1] += plane.born;
+    n[1] += plane.isBorn();
     n[2] += plane.state == PlaneState::Open;
     n[3] += plane.state == PlaneState::Stick;
     n[4] += plane.state == PlaneState::Slip;
     n[5] += plane.tooDeep;
-    n[6] += plane.released;
+    n[6] += plane.refusal == Refusal::Deep;
   }
   n[7] = missed_;
   comm_->sum(n);

@@ -114,7 +114,7 @@ public:
   /// overlap.
   bool isWrittenHere(const Plane& plane) const
   {
-    return plane.countedHere && plane.born && plane.face[0] >= 0;
+    return plane.countedHere && plane.isBorn() && plane.face[0] >= 0;
   }
 
   /// Default skin: a fraction of the smallest face [m]. Collective.

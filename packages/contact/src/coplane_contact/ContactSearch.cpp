@@ -25,7 +25,9 @@ void makeDormant(Plane& plane)
   plane.stored = 0;
   plane.history.shearTraction = {};
   plane.closure = 0;
-  plane.tooDeep = plane.released = plane.hidden = false;
+  plane.tooDeep = false;
+  plane.sighting = Sighting::Missed;
+  plane.refusal = Refusal::None;
   plane.state = PlaneState::Open;
   plane.leads = false;
 }
@@ -54,7 +56,7 @@ Slots slotsOf(std::vector<CandidatePair> candidates,
   const auto keep = [&](std::size_t p)
   {
     const Plane& plane = planes(p);
-    if (!plane.born)
+    if (!plane.isBorn())
       return;
     if (plane.area > 0)
     {
@@ -68,7 +70,7 @@ Slots slotsOf(std::vector<CandidatePair> candidates,
     }
     // Planes that are no candidates now are kept for two searches, joints for ever; their energy is
     // booked at their end.
-    if (plane.declared || !plane.missed)
+    if (plane.declared || plane.sighting != Sighting::Missed)
       slots.source.push_back(~std::int64_t(p));
     else if (plane.countedHere)
       ended.add(plane);
@@ -301,7 +303,6 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     if (source[slot] < 0)
     {
       plane = planes_(~source[slot]);
-      plane.missed = true;
       makeDormant(plane);
       return;
     }
@@ -329,12 +330,12 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
-    plane.missed = false;
     const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
     if (edges && (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset)))
       edges->look(a, b, plane);
-    plane.woke = known >= 0 && planes_(known).face[0] < 0;
+    if (plane.sighting == Sighting::Missed)
+      plane.sighting = Sighting::Woken;
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
     if (classic())
     {
@@ -350,7 +351,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     {
       NewPair now;
       now.normal = normal;
-      if (known >= 0 && !plane.fresh)
+      if (known >= 0 && !plane.isNew())
         now.sharedBefore = plane.overlap;
       const Face* const both[2] = {&a, &b};
       for (int side = 0; side < 2; ++side)
@@ -374,7 +375,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
         return;
       donors.clear();
     }
-    if (plane.born)
+    if (plane.isBorn())
       return;
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
     if (a.young || b.young)
@@ -382,7 +383,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     // Slots that have not touched yet look for donors again at every search.
     plane.offset = 0;
     plane.closure = 0;
-    plane.inherited = plane.slidesOn = false;
+    plane.lineage = Lineage::Own;
     plane.history = {};
     addDonors(pair.lower, donors);
     addDonors(pair.higher, donors);

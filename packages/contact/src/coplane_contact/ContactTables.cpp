@@ -54,7 +54,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
   {
     const Plane& plane = contact.planes()(p);
-    if (!plane.countedHere || !plane.born)
+    if (!plane.countedHere || !plane.isBorn())
       continue;
     energies[plane.joint].add(plane, plane.stored);
     ExactSum* mine = &sums[PerJoint * plane.joint];
@@ -106,7 +106,7 @@ std::vector<ContactTableRow> contactTable(const Contact& contact)
   for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
   {
     const Plane& plane = contact.planes()(p);
-    if (!plane.countedHere || !plane.born)
+    if (!plane.countedHere || !plane.isBorn())
       continue;
     Row& row = mine[PlaneKind(plane)];
     row.energies.add(plane, plane.stored);

@@ -90,7 +90,6 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
                         faceSize(std::min(a.area, b.area), dimension_)))
       continue;
     plane.declared = true;
-    plane.born = true;
     plane.state = PlaneState::Open;
     plane.normal = trial.normal;
     plane.overlap = patch.overlap;

@@ -15,7 +15,7 @@ std::vector<FaceContact> faceContact(const Contact& contact, const ConstNodeVect
   for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
   {
     const Plane& plane = contact.planes()(p);
-    if (!plane.born || plane.face[0] < 0 || !(plane.overlap > 0))
+    if (!plane.isBorn() || plane.face[0] < 0 || !(plane.overlap > 0))
       continue;
     for (int side = 0; side < 2; ++side)
     {

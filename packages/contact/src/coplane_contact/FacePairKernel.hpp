@@ -170,7 +170,7 @@ KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
   plane.stored = 0;
   plane.normalTraction = 0;
   plane.tooDeep = false;
-  if (plane.born)
+  if (plane.isBorn())
   {
     plane.closure = 0;
     plane.history.shearTraction = {};
@@ -352,6 +352,12 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
                                         stepC_projectOntoPlane<Dim>(trial, b, 0));
 }
 
+/// Before steps E and F of a pair: whether it penetrates when it is looked at for the first time.
+KOKKOS_INLINE_FUNCTION bool wasFoundLate(const Plane& plane, bool inContact)
+{
+  return plane.isNew() && !plane.declared && !plane.isBorn() && inContact;
+}
+
 /// Steps E and F: whether a pair that shares enough area touches, for which it becomes a plane if
 /// it is none yet.
 /// @param gap at the end of the step, deepest: where the faces are deepest in each other, motion:
@@ -368,19 +374,19 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
     const bool exists = stepE_planeExists(plane);
     const Real start =
         approach > deepestBirth * plane.depthLimit ? approach : deepestBirth * plane.depthLimit;
-    const Real limit = plane.fresh ? plane.depthLimit : start;
+    const Real limit = plane.isNew() ? plane.depthLimit : start;
     // Where faces slide from one body to the next, a pair may be born as deep as its neighbours
     // are, and they passed on their closure. Neighbours of the front and of the back of a thin body
     // explain nothing. An open plane has no closure: its surface is where its offset says.
-    const Real explained = exists || plane.inherited ? plane.offset - plane.closure : 0;
+    const Real explained = exists || plane.isInherited() ? plane.offset - plane.closure : 0;
     // A face that slides on over the same surface meets the next face of it as deep as it lies
     // there, also where the surface is rough.
-    if (!plane.declared && !plane.slidesOn && motion + explained - gap > limit)
-      plane.released = true;
-    if (!plane.released && !exists)
+    if (!plane.declared && plane.lineage != Lineage::SlidesOn && motion + explained - gap > limit)
+      plane.refusal = Refusal::Deep;
+    if (!plane.isRefused() && !exists)
       stepF_createPlane(plane, normal, deepest);
   }
-  return !plane.released;
+  return !plane.isRefused();
 }
 
 /// By which a stiffness per area bounds what a node of the pair feels, by Gershgorin's circles,
@@ -441,7 +447,8 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
   openUp(plane, a, b, dt);
   plane.overlap = 0;
   plane.nodeStiffness = 0;
-  plane.fresh = plane.foundLate = plane.released = plane.hidden = plane.woke = false;
+  plane.sighting = Sighting::Known;
+  plane.refusal = Refusal::None;
 }
 
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.
@@ -496,24 +503,25 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
     motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
                                                 weighted(patch.centroidWeights[0], a.v, a.count));
   }
-  const auto touching =
-      gathered<T>(
-          [&](int i) -> Real
-          {
-            if (i >= planes.count || !lane(done, i))
-              return 0;
-            Plane& plane = *planes.plane[i];
-            plane.overlap = lane(patch.overlap, i);
-            const bool isLarge = lane(large, i);
-            plane.foundLate = plane.fresh && !plane.declared && !plane.born && isLarge;
-            const bool inContact = isLarge &&
-                                   (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
-                                   touches(plane, lane(trial.normal, i), lane(gap, i),
-                                           lane(deepest, i), lane(motion, i), lane(approach, i));
-            if (!(lane(patch.area, i) > 0))
-              plane.released = false;
-            return inContact;
-          }) > 0.0;
+  bool late[widthOf<T>] = {};
+  const auto touching = gathered<T>(
+                            [&](int i) -> Real
+                            {
+                              if (i >= planes.count || !lane(done, i))
+                                return 0;
+                              Plane& plane = *planes.plane[i];
+                              plane.overlap = lane(patch.overlap, i);
+                              const bool isLarge = lane(large, i);
+                              late[i] = wasFoundLate(plane, isLarge);
+                              const bool inContact =
+                                  isLarge &&
+                                  (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
+                                  touches(plane, lane(trial.normal, i), lane(gap, i),
+                                          lane(deepest, i), lane(motion, i), lane(approach, i));
+                              if (!(lane(patch.area, i) > 0))
+                                plane.refusal = Refusal::None;
+                              return inContact;
+                            }) > 0.0;
   if (anyOf(touching))
   {
     const Vec3Of<T> point = stepG_placePointOfContact(patch, a, b);
@@ -538,7 +546,7 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
       if (plane.overlap > 0)
         plane.gap = lane(patch.leastGap, i) + plane.offset;
     }
-    plane.fresh = false;
+    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
     plane.nodeStiffness = plane.area > 0 || lane(near, i)
                               ? float(plane.weightInStep() * lane(share, i) *
                                       planes.law[i]->stiffnessBound(plane.fit, plane.history))

@@ -104,7 +104,7 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
 /// flag and not a lookup.
 KOKKOS_INLINE_FUNCTION bool stepE_planeExists(const Plane& plane)
 {
-  return plane.born;
+  return plane.isBorn();
 }
 
 /// Step F: the slot becomes a plane. A pair that was penetrated already when it was found starts
@@ -113,9 +113,10 @@ KOKKOS_INLINE_FUNCTION bool stepE_planeExists(const Plane& plane)
 ///        centre of gravity [m]
 KOKKOS_INLINE_FUNCTION void stepF_createPlane(Plane& plane, const Vec3& normal, Real gap)
 {
-  plane.born = true;
+  if (!plane.isBorn())
+    plane.state = PlaneState::Open;
   plane.normal = normal;
-  if (plane.fresh && !plane.declared && !plane.inherited && gap < plane.offset)
+  if (plane.isNew() && !plane.declared && !plane.isInherited() && gap < plane.offset)
     plane.offset = gap;
 }
 

@@ -11,7 +11,7 @@ namespace coplane
 {
 bool isDonor(const Plane& plane)
 {
-  return plane.born && (plane.area > 0 || (plane.declared && plane.fresh));
+  return plane.isBorn() && (plane.area > 0 || (plane.declared && plane.isNew()));
 }
 
 Donor donorOf(const Plane& plane)
@@ -182,8 +182,7 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
   }
   if (!(area > 0))
     return false;
-  plane.inherited = true;
-  plane.slidesOn = slidesOn;
+  plane.lineage = slidesOn ? Lineage::SlidesOn : Lineage::Inherited;
   plane.offset = mean.offset / area;
   plane.history.maximumClosure = mean.maximumClosure / area;
   plane.closure = mean.closure / area;

@@ -63,12 +63,39 @@ struct ContactOptions
   Real lookAhead = 0;
 };
 
+/// Life of a plane: a pair of faces that has not touched yet is none.
 enum class PlaneState : std::uint8_t
 {
   Slot, ///< candidate pair that has not touched yet
   Open, ///< has touched, carries nothing now
   Stick,
   Slip
+};
+
+/// What searches have done with a pair of faces. Each evaluation leaves Known, or FoundLate.
+enum class Sighting : std::uint8_t
+{
+  New,       ///< not evaluated since its slot was made
+  FoundLate, ///< was penetrated already when it was evaluated for the first time
+  Known,
+  Missed, ///< is a plane, but was no candidate in the last search: carries nothing
+  Woken   ///< was missed before the last search, and has not been evaluated since
+};
+
+/// Why a pair carries nothing until its faces part.
+enum class Refusal : std::uint8_t
+{
+  None,
+  Deep,  ///< came into overlap deep inside: did not meet at the surface
+  Hidden ///< came into overlap behind a face on which another body lies
+};
+
+/// Where the history of a plane comes from.
+enum class Lineage : std::uint8_t
+{
+  Own,
+  Inherited, ///< from living neighbours
+  SlidesOn   ///< from neighbours of which one touches the same surface: the face beside
 };
 
 /// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
@@ -84,20 +111,14 @@ struct alignas(64) Plane
   std::uint16_t joint = 0;         ///< index of the joint card
   std::uint16_t block[2] = {0, 0}; ///< element blocks behind the faces, in the order of the mesh
   PlaneState state = PlaneState::Slot;
+  Sighting sighting = Sighting::New;
+  Refusal refusal = Refusal::None;
+  Lineage lineage = Lineage::Own;
   bool countedHere : 1; ///< this rank books the plane's energy: it owns face 0
   bool declared : 1;    ///< a joint that was closed at the start
-  bool born : 1;        ///< steps E and F: a plane exists
-  bool fresh : 1;       ///< not evaluated since the slot was made
-  bool foundLate : 1;   ///< was penetrated already when the search found it
-  bool inherited : 1;   ///< took its history from living neighbours
-  bool slidesOn : 1;    ///< inherited, and some neighbour touches the same surface: a face beside
-  bool released : 1;    ///< came into overlap deep inside: carries nothing until its faces part
   bool tooDeep : 1;     ///< deeper than the limit
   bool leads : 1;       ///< CommonPlane: the plane of its two elements acts on these faces
-  bool woke : 1;   ///< was no candidate until the last search, and has not been evaluated since
-  bool stiff : 1;  ///< stiffer than the elements behind its faces: they chatter on it
-  bool missed : 1; ///< was no candidate in the last search
-  bool hidden : 1; ///< came into overlap behind a face that lies on one of these: carries nothing
+  bool stiff : 1;       ///< stiffer than the elements behind its faces: they chatter on it
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
@@ -132,11 +153,15 @@ struct alignas(64) Plane
   Real dampingWork = 0;
 
   KOKKOS_INLINE_FUNCTION Plane()
-      : countedHere(false), declared(false), born(false), fresh(true), foundLate(false),
-        inherited(false), slidesOn(false), released(false), tooDeep(false), leads(false),
-        woke(false), stiff(false), missed(false), hidden(false)
+      : countedHere(false), declared(false), tooDeep(false), leads(false), stiff(false)
   {
   }
+
+  /// Steps E and F: whether it is a plane.
+  KOKKOS_INLINE_FUNCTION bool isBorn() const { return state != PlaneState::Slot; }
+  KOKKOS_INLINE_FUNCTION bool isNew() const { return sighting == Sighting::New; }
+  KOKKOS_INLINE_FUNCTION bool isRefused() const { return refusal != Refusal::None; }
+  KOKKOS_INLINE_FUNCTION bool isInherited() const { return lineage != Lineage::Own; }
 
   /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a
   /// spring k, or leaves it, up to k (v dt)^2 / 8 of energy is made or lost. Nodes meet a soft

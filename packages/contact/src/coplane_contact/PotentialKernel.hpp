@@ -44,7 +44,7 @@ KOKKOS_INLINE_FUNCTION EdgesOf<T> edgesOf(const PlaneBatch<T>& planes)
 /// steps [m].
 KOKKOS_INLINE_FUNCTION Real smallestStart(const Plane& plane, Real approach)
 {
-  if (plane.fresh || plane.woke)
+  if (plane.isNew() || plane.sighting == Sighting::Woken)
     return plane.depthLimit;
   const Real start = deepestBirth * plane.depthLimit;
   return approach > start ? approach : start;
@@ -158,6 +158,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       done && overlaps && pair.moments.area > 0.0 && (bonded || pair.moments.volume > 0.0);
 
   // Steps E and F.
+  bool late[widthOf<T>] = {};
   const auto touching =
       gathered<T>(
           [&](int i) -> Real
@@ -166,16 +167,17 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
               return 0;
             Plane& plane = *planes.plane[i];
             plane.overlap = lane(overlap, i);
-            plane.foundLate = plane.fresh && !plane.declared && !plane.born && lane(inContact, i);
+            late[i] = wasFoundLate(plane, lane(inContact, i));
             if (!lane(inContact, i))
             {
-              plane.released = plane.hidden = false;
+              plane.refusal = Refusal::None;
               return 0;
             }
             const bool carried = plane.area > 0;
-            if (!carried && !(plane.declared && plane.fresh) && !plane.history.bonded)
+            if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
             {
-              plane.hidden = plane.hidden || lane(pair.hidden, i);
+              if (!plane.isRefused() && lane(pair.hidden, i))
+                plane.refusal = Refusal::Hidden;
               // A contact begins at the surface, and begins there anew after its faces had no area
               // in common. Faces that come to share area while one lies deep behind the other did
               // not meet: they carry nothing until they share none. They have no energy yet, so
@@ -183,25 +185,26 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
               const Real start = detail::smallestStart(plane, 2 * dt * lane(speed, i));
               // What slides on takes up where a neighbour leaves off, whose mean closure is no
               // less than a quarter of that at its border.
-              const Real explained = (plane.slidesOn                  ? 4
-                                      : plane.born || plane.inherited ? 1
-                                                                      : 0) *
+              const Real explained = (plane.lineage == Lineage::SlidesOn      ? 4
+                                      : plane.isBorn() || plane.isInherited() ? 1
+                                                                              : 0) *
                                      plane.closure;
-              plane.released = plane.released || lane(deepest, i) - explained > start;
+              if (lane(deepest, i) - explained > start)
+                plane.refusal = Refusal::Deep;
             }
-            if (plane.released || plane.hidden)
+            if (plane.isRefused())
               return 0;
             if (!(plane.birthArea[0] > 0))
             {
               plane.birthArea[0] = lane(a.area, i);
               plane.birthArea[1] = lane(b.area, i);
             }
-            if (stepE_planeExists(plane) && (carried || !plane.woke))
+            if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
               return 1;
             // Overlap that exists when a pair is found has no energy.
             stepF_createPlane(plane, lane(pair.plane.normal, i), plane.offset - lane(deepest, i));
             plane.maximumBefore = plane.history.maximumClosure;
-            return !((plane.foundLate || plane.woke) && !plane.inherited);
+            return !((late[i] || plane.sighting == Sighting::Woken) && !plane.isInherited());
           }) > 0.0;
 
   if (anyOf(touching))
@@ -385,7 +388,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
 
   // The overlap counts for the stable step as soon as the faces could touch within the look-ahead.
   const auto near = overlaps && -pair.mostClosure <= ahead + 1e-8 * squareRoot(overlap) &&
-                    !(planes.each([](const Plane& p) { return p.released || p.hidden; }) > 0.0);
+                    !(planes.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
   T nodeArea{};
   if (anyOf(near))
   {
@@ -413,7 +416,7 @@ updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
       if (plane.overlap > 0)
         plane.gap = plane.offset - lane(deepest, i);
     }
-    plane.fresh = plane.woke = false;
+    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
     plane.nodeStiffness =
         lane(near, i)
             ? float(plane.weightInStep() * planes.law[i]->stiffnessBound(plane.fit, plane.history) *

@@ -161,7 +161,7 @@ std::uint64_t Solver::stateHash() const
     for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
     {
       const Plane& plane = contact_->planes()(p);
-      if (!plane.countedHere || !plane.born)
+      if (!plane.countedHere || !plane.isBorn())
         continue;
       const Real values[] = {plane.area,
                              plane.offset,

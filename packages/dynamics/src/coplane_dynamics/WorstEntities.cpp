@@ -53,7 +53,7 @@ std::string Solver::worstByRemainder() const
   for (std::size_t p = 0; contact_ && p < contact_->planes().extent(0); ++p)
   {
     const Plane& plane = contact_->planes()(p);
-    if (!plane.countedHere || !plane.born)
+    if (!plane.countedHere || !plane.isBorn())
       continue;
     const Real rest = plane.remainder();
     planes.push_back({std::abs(rest), rest, plane.faceId[0], plane.faceId[1]});
@@ -70,7 +70,7 @@ std::string Solver::deepestPlanes() const
   for (std::size_t p = 0; contact_ && p < contact_->planes().extent(0); ++p)
   {
     const Plane& plane = contact_->planes()(p);
-    if (plane.countedHere && plane.born && depthOf(plane) > 0)
+    if (plane.countedHere && plane.isBorn() && depthOf(plane) > 0)
       planes.push_back({depthOf(plane), plane.closure, plane.faceId[0], plane.faceId[1]});
   }
   std::string text;

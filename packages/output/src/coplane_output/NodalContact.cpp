@@ -24,7 +24,7 @@ NodalContact nodalContact(const Solver& solver)
   {
     const Plane& plane = contact.planes()(p);
     // Without overlap the gap belongs to a moment long ago.
-    if (!plane.born || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
+    if (!plane.isBorn() || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
       continue;
     for (int side = 0; side < 2; ++side)
     {

@@ -127,8 +127,8 @@ void addStates(Columns& columns)
   columns.integer("state", [](const Record& r) { return int(r.plane.state); });
   columns.integer("bonded", [](const Record& r) { return r.plane.history.bonded; });
   columns.integer("declared", [](const Record& r) { return r.plane.declared; });
-  columns.integer("inherited", [](const Record& r) { return r.plane.inherited; });
-  columns.integer("released", [](const Record& r) { return r.plane.released; });
+  columns.integer("inherited", [](const Record& r) { return r.plane.isInherited(); });
+  columns.integer("released", [](const Record& r) { return r.plane.refusal == Refusal::Deep; });
   columns.integer("too_deep", [](const Record& r) { return r.plane.tooDeep; });
   columns.integer("joint", [](const Record& r) { return r.plane.joint; });
   for (int f = 0; f < 2; ++f)
