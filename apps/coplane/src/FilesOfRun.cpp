@@ -3,6 +3,7 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_output/Sha256.hpp>
+#include <coplane_output/TextFile.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -67,13 +68,13 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
   if (!deck.output.results.empty())
   {
     const std::string& file = deck.output.results;
+    // Parts of a file per rank, which an earlier run may have left, are removed in any case.
+    for (const std::string& end : {std::string(), draft})
+      roles.writesSeries({file + "-s", ".", ".", end}, results);
     if (deck.output.filePerRank)
     {
       for (const std::string& end : {std::string(), draft})
-      {
         roles.writesSeries({file + ".", ".", end}, results);
-        roles.writesSeries({file + "-s", ".", ".", end}, results);
-      }
     }
     else
     {
@@ -113,6 +114,18 @@ void onRoot(const Comm& comm, const Action& action)
         if (comm.isRoot())
           action();
       });
+}
+
+/// A draft is of a run that was killed, if its lock says so.
+void putForeignDraftsAside(const FileRoles& roles, const FileRoles& left)
+{
+  for (const std::string& file : roles.outputsThere(".part"))
+  {
+    FileRoles draft;
+    draft.writes(file, "a draft");
+    if (draft.problemsWith(left).empty())
+      putForeignFileAside(file);
+  }
 }
 
 /// Looks for runs that hold a lock in this folder and write what this one writes.
@@ -195,14 +208,17 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
            FileRoles roles;
            addOutputs(roles, deck);
            const std::set<std::string> files = lockFiles(deck);
+           FileRoles left; // of runs that were killed
            for (const std::string& file : files)
            {
              locks.emplace_back(file, "the outputs of " + deck.file, roles.outputsText());
+             left.add(FileRoles::outputsIn(locks.back().textFound()));
              if (!locks.back().isHeld())
                logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
                                                "second run from writing the same files",
                                                file));
            }
+           putForeignDraftsAside(roles, left);
            // Runs of other names may write the same files all the same. Each says first what it
            // writes, and looks then.
            for (const std::string& folder : roles.folders())

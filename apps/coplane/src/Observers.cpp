@@ -142,6 +142,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   checkpoint.maxWall = settings.maxWall;
   checkpoint.stopFile = stopFile(deck);
   checkpoint.restartedFrom = settings.restartedFrom;
+  checkpoint.positions = settings.positions;
   checkpoint.texts = fingerprintsOf(deck, mesh, settings.part, comm);
   checkpoint.begin = settings.begin;
   observers.add(std::make_unique<CheckpointObserver>(comm, checkpoint, observers));

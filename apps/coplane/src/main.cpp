@@ -90,8 +90,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", line.overrides,
                  "Overrides a deck value: --set time.end=0.1 (may be repeated)")
-      ->take_all()
-      ->expected(1);
+      ->allow_extra_args(false);
   app.add_option("--backend", line.backend, "Where kernels run: serial or threads")
       ->check(CLI::IsMember({"serial", "threads"}));
   app.add_option("--threads", line.threads,
@@ -258,7 +257,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       logInfo("check: deck and mesh are fine; nothing was run");
       return;
     }
-    if (!line.restart)
+    // Checkpoints that this run does not go on from are of another.
+    if (!isOneOfTwo(deck.checkpoint.file, settings.restartedFrom, comm))
       putAside(deck.checkpoint.file, comm);
     addObservers(observers, deck, mesh, comm, settings);
     listenToSignals();
@@ -363,11 +363,10 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
 
 int main(int argc, char** argv)
 {
+  coplane::beginProgram();
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();
   coplane::abortAllRanksOnTerminate();
-  // Who reads the log may stop reading; the run is no less wanted.
-  std::signal(SIGPIPE, SIG_IGN);
   // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When
   // the program is killed it may stay, and has been seen to fill the memory of the machine.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);

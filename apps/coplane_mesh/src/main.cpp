@@ -4,6 +4,7 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileLock.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
@@ -76,10 +77,17 @@ void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inpu
   FileRoles roles;
   for (const auto& [file, what] : inputs)
     roles.reads(file, what);
-  for (const char* end : {"", ".part"})
+  for (const char* end : {"", ".part", ".lock"})
     roles.writes(output + end, "the new mesh (-o)");
   if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
     fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
+}
+
+/// Nobody else writes the file meanwhile.
+void writeAlone(const Mesh& mesh, const std::string& output)
+{
+  const FileLock lock(output + ".lock", output);
+  writeMesh(mesh, output);
 }
 
 void make(const std::string& recipe, const std::string& output)
@@ -89,7 +97,7 @@ void make(const std::string& recipe, const std::string& output)
   const MeshReport report = reportMesh(mesh);
   printReport(mesh, report);
   judge(report, recipe);
-  writeMesh(mesh, output);
+  writeAlone(mesh, output);
   print("wrote " + output);
 }
 
@@ -121,7 +129,7 @@ void split(const std::string& file, const std::string& recipe, const std::string
   const MeshReport report = reportMesh(result.mesh);
   printReport(result.mesh, report);
   judge(report, file);
-  writeMesh(result.mesh, output);
+  writeAlone(result.mesh, output);
   print("wrote " + output);
 }
 
@@ -136,7 +144,7 @@ void convert(const std::string& file, const std::string& output)
   const MeshReport report = reportMesh(converted.mesh);
   printReport(converted.mesh, report);
   judge(report, file);
-  writeMesh(converted.mesh, output);
+  writeAlone(converted.mesh, output);
   print("wrote " + output);
 }
 
@@ -206,6 +214,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::beginProgram();
   coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

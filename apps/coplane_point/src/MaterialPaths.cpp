@@ -229,6 +229,13 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
       put(probe.history()[k]);
     stream << '\n';
     ++lines;
+    if (!std::isfinite(probe.pressure() + probe.vonMises() + probe.volumeRatio() + probe.energy() +
+                       probe.dissipation()))
+      fail(ExitCode::Computation,
+           "{}: at t = {:.6g} s stresses or energies are not finite: pressure {:g} Pa, von Mises "
+           "{:g} Pa, volume ratio {:g}, energy {:g} J/m^3. Look at the path and at the moduli.",
+           card.output, probe.time(), probe.pressure(), probe.vonMises(), probe.volumeRatio(),
+           probe.energy());
     const SymTensor& s = probe.stress();
     compression = std::max({compression, -s.xx, -s.yy, -s.zz});
     tension = std::max({tension, s.xx, s.yy, s.zz});

@@ -3,6 +3,7 @@
 #include "PointDeck.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileLock.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
 #include <coplane_core/Program.hpp>
@@ -33,18 +34,34 @@ void runPath(const PointDeck& deck, const JointPathCard& card)
   print(writer.summary());
 }
 
+/// Nobody else writes the outputs meanwhile.
+std::vector<FileLock> lockOutputs(const PointDeck& deck)
+{
+  std::vector<FileLock> locks;
+  for (const JointPathCard& card : deck.jointPaths)
+    locks.emplace_back(card.output + ".lock", card.output);
+  for (const MaterialPathCard& card : deck.materialPaths)
+    locks.emplace_back(card.output + ".lock", card.output);
+  return locks;
+}
+
 void demandDistinctFiles(const PointDeck& deck)
 {
   FileRoles roles;
   roles.reads(deck.file, "the deck");
+  const auto writes = [&](const std::string& file, const std::string& what)
+  {
+    for (const char* end : {"", ".lock"})
+      roles.writes(file + end, what);
+  };
   for (const JointPathCard& card : deck.jointPaths)
   {
     if (!card.file.empty())
       roles.reads(card.file, fmt::format("the path (joint_paths.{}.file)", card.name));
-    roles.writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
+    writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
   }
   for (const MaterialPathCard& card : deck.materialPaths)
-    roles.writes(card.output, fmt::format("the output of material_paths.{}", card.name));
+    writes(card.output, fmt::format("the output of material_paths.{}", card.name));
   if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
     fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
 }
@@ -72,8 +89,7 @@ int run(int argc, char** argv)
   app.add_option("deck", file, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", overrides,
                  "Overrides a deck value: --set joint_paths.test.steps=1000 (may be repeated)")
-      ->take_all()
-      ->expected(1);
+      ->allow_extra_args(false);
   app.add_flag("--check", check, "Check the deck and stop");
   app.add_flag("--help-deck", help, "Print every key of a deck and stop");
   app.add_flag("--help-deck-markdown", markdown, "The same as Markdown");
@@ -95,18 +111,20 @@ int run(int argc, char** argv)
   const PointDeck deck = readPointDeck(file, overrides);
   demandDistinctFiles(deck);
   if (check)
+  {
     print("check: the deck is fine; nothing was run");
-  else
-    for (const JointPathCard& card : deck.jointPaths)
-      runPath(deck, card);
-  if (!check)
-    for (const MaterialPathCard& card : deck.materialPaths)
-    {
-      const auto material =
-          std::find_if(deck.materials.begin(), deck.materials.end(),
-                       [&](const MaterialCard& one) { return one.name == card.material; });
-      print(runMaterialPath(card, materialOf(*material)));
-    }
+    return int(ExitCode::Success);
+  }
+  const std::vector<FileLock> locks = lockOutputs(deck);
+  for (const JointPathCard& card : deck.jointPaths)
+    runPath(deck, card);
+  for (const MaterialPathCard& card : deck.materialPaths)
+  {
+    const auto material =
+        std::find_if(deck.materials.begin(), deck.materials.end(),
+                     [&](const MaterialCard& one) { return one.name == card.material; });
+    print(runMaterialPath(card, materialOf(*material)));
+  }
   return int(ExitCode::Success);
 }
 } // namespace
@@ -114,6 +132,7 @@ int run(int argc, char** argv)
 
 int main(int argc, char** argv)
 {
+  coplane::beginProgram();
   coplane::limitMemoryToMachine();
   return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
 }

@@ -9,7 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <new>
+#include <sys/resource.h>
 
 namespace coplane
 {
@@ -103,26 +107,47 @@ TEST(ReplaceFile, leavesNoDraftBehind)
   }
 }
 
-TEST(ReplaceFile, fullDiskIsAnErrorAndKeepsTheOldText)
+TEST(ReplaceFile, aFileThatIsTooLargeIsAnErrorAndKeepsTheOldText)
 {
-  // /dev/full answers every write like a full disk; a link named as the draft leads there.
   const Comm comm;
   const TestFolder folder(comm);
   if (!comm.isRoot())
     GTEST_SKIP() << "rank 0 writes";
   replaceFile(folder / "a.txt", "old");
-  std::filesystem::create_symlink("/dev/full", folder / "a.txt.part");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto signalBefore = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 1000;
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string said;
   try
   {
-    replaceFile(folder / "a.txt", "new");
-    ADD_FAILURE() << "no error";
+    replaceFile(folder / "a.txt", std::string(100000, 'x'));
   }
   catch (const Error& error)
   {
-    EXPECT_NE(std::string(error.what()).find("No space left on device"), std::string::npos)
-        << error.what();
+    said = error.what();
   }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, signalBefore);
+  EXPECT_NE(said.find("File too large"), std::string::npos) << said;
   EXPECT_EQ(contentOf(folder / "a.txt"), "old");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt.part"));
+}
+
+TEST(ReplaceFile, aLinkOfTheNameOfTheDraftIsNotFollowed)
+{
+  const Comm comm;
+  const TestFolder folder(comm);
+  if (!comm.isRoot())
+    GTEST_SKIP() << "rank 0 writes";
+  std::ofstream(folder / "elsewhere") << "of somebody";
+  std::filesystem::create_symlink(folder / "elsewhere", folder / "a.txt.part");
+  replaceFile(folder / "a.txt", "new");
+  EXPECT_EQ(contentOf(folder / "a.txt"), "new");
+  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.txt"));
+  EXPECT_EQ(contentOf(folder / "elsewhere"), "of somebody");
 }
 
 TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)

@@ -117,7 +117,7 @@ for start in range(3):
     case.check_equal(f"mistake {start + 1}: checkpoints of the good run that are lost", len(good - there), 0)
 case.check_equal("it is said how to get rid of them", "rm run.chk.[01].old-*" in output, True)
 aside = sorted((path for path in folder.glob("run.chk.*") if path.read_bytes() in good), key=lambda path: path.stat().st_mtime)
-run("a restart from one that was put aside", folder, 0, (), ["--restart", aside[-1].name, "--set", "time.end=1.2e-5"])
+run("a restart from one that was put aside", folder, 0, (), ["--restart", aside[-1].name, "--set", "time.end=1.2e-5", "--set", "checkpoint.at_end=true"])
 before = {path.name: path.read_bytes() for path in folder.iterdir()}
 run("a restart that ends before its checkpoint", folder, DECK, ["time.end", "checkpoint"], ["--restart", "--set", "time.end=1e-7"])
 case.check_equal("a restart that ends before its checkpoint: nothing is touched", {path.name: path.read_bytes() for path in folder.iterdir()} == before, True)

@@ -260,6 +260,7 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
   std::optional<MemoryFile> skeleton; // of rank 0: everything but the rows of tables
   if (comm_->isRoot())
   {
+    std::remove(draft.c_str()); // a link would be followed
     failure = findRoom(draft, dataBytes());
     try
     {

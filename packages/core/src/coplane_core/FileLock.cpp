@@ -126,6 +126,7 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
       continue;
     }
     descriptor_ = descriptor;
+    textFound_ = textIn(descriptor);
     const std::string text = me() + told;
     // Not being able to say who holds it does not make the lock less of one. Other machines see
     // the text only when it is on the disk.
@@ -158,7 +159,8 @@ FileLock::~FileLock()
 }
 
 FileLock::FileLock(FileLock&& other) noexcept
-    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1))
+    : file_(std::move(other.file_)), textFound_(std::move(other.textFound_)),
+      descriptor_(std::exchange(other.descriptor_, -1))
 {
 }
 } // namespace coplane

@@ -16,6 +16,8 @@ public:
   /// @param what for the message: "the outputs of wall.yaml"
   /// @param told for others to read while the lock is held; a line with the owner goes before it
   FileLock(const std::string& file, const std::string& what, const std::string& told = "");
+  /// What a killed owner had left in the file; empty: nothing.
+  const std::string& textFound() const { return textFound_; }
   /// Removes the file.
   ~FileLock();
   FileLock(FileLock&& other) noexcept;
@@ -28,7 +30,7 @@ public:
   static std::string textOfHolder(const std::string& file);
 
 private:
-  std::string file_;
+  std::string file_, textFound_;
   int descriptor_ = -1;
 };
 } // namespace coplane

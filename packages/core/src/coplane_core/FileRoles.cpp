@@ -295,6 +295,38 @@ std::vector<std::string> FileRoles::hindrances() const
   return hindrances;
 }
 
+void FileRoles::add(const FileRoles& others)
+{
+  roles_.insert(roles_.end(), others.roles_.begin(), others.roles_.end());
+}
+
+std::vector<std::string> FileRoles::outputsThere(const std::string& end) const
+{
+  std::map<fs::path, std::vector<std::vector<std::string>>> names; // by folder
+  for (const Role& role : roles_)
+    if (const std::string& last = role.pieces.back();
+        role.isOutput && last.size() >= end.size() &&
+        last.compare(last.size() - end.size(), end.size(), end) == 0)
+    {
+      const fs::path first = role.pieces[0];
+      names[first.has_parent_path() ? first.parent_path() : "."].push_back(role.pieces);
+      names[first.has_parent_path() ? first.parent_path() : "."].back()[0] =
+          first.filename().string();
+    }
+  std::vector<std::string> there;
+  std::error_code error;
+  for (const auto& [folder, all] : names)
+    for (fs::directory_iterator entry(folder, error), none; !error && entry != none;
+         entry.increment(error))
+      for (const std::vector<std::string>& pieces : all)
+        if (matches(entry->path().filename().string(), pieces))
+        {
+          there.push_back(entry->path().string());
+          break;
+        }
+  return there;
+}
+
 std::set<std::string> FileRoles::folders() const
 {
   std::set<std::string> folders;

@@ -42,6 +42,10 @@ public:
   /// and changes nothing: to be asked before the first output of an earlier run is replaced.
   std::vector<std::string> hindrances() const;
 
+  /// Takes over the files of others.
+  void add(const FileRoles& others);
+  /// Names of outputs that are there and end so.
+  std::vector<std::string> outputsThere(const std::string& end) const;
   /// Folders of the outputs.
   std::set<std::string> folders() const;
   /// The outputs as lines of text, for other processes; read by outputsIn, which leaves out what it

@@ -1,11 +1,23 @@
 #include <coplane_core/Program.hpp>
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
+#include <fcntl.h>
 #include <iostream>
+#include <unistd.h>
 
 namespace coplane
 {
+void beginProgram()
+{
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) == -1) // open() takes the first that is free
+      (void)::open(stream == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR);
+}
+
 void demandTextWritten()
 {
   const bool written = std::cout.flush() && std::fflush(stdout) == 0 && !std::ferror(stdout);

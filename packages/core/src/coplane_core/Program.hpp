@@ -8,6 +8,12 @@
 
 namespace coplane
 {
+/// At the start of every program: a pipe without reader and a file that meets a limit are errors of
+/// the call, not the end of the program; and the three standard streams are open, so that no file
+/// that is opened later is taken for one of them. What goes to a closed standard output counts as
+/// not written.
+void beginProgram();
+
 /// Throws Error(ExitCode::Output) when what was said so far did not reach the standard output (full
 /// disk). Who stops reading has read enough.
 void demandTextWritten();
@@ -25,7 +31,7 @@ int exitCodeOf(const Body& body)
   }
   catch (const std::exception& error)
   {
-    fmt::print(stderr, "error: {}\n", textOf(error));
+    std::fputs(fmt::format("error: {}\n", textOf(error)).c_str(), stderr);
     return int(codeOf(error));
   }
 }

@@ -50,6 +50,7 @@ void renameFile(const std::string& from, const std::string& to)
 /// that all ranks must make.
 void probeWritable(const std::string& file)
 {
+  std::remove(draftOf(file).c_str()); // a link would be followed
   std::FILE* probe = std::fopen(draftOf(file).c_str(), "wb");
   if (!probe)
     fail(ExitCode::Output,
@@ -238,6 +239,12 @@ void ResultsFile::abandon()
 void ResultsFile::beginStep(Real time)
 {
   time_ = time;
+  const bool looks = filePerRank_ || comm_.isRoot();
+  if (comm_.max(std::int64_t(looks && data_ && data_->isCutOff(steps_))) > 0)
+    logWarning("results are cut off",
+               fmt::format("{}: somebody cut off the file while the run writes it: values of the "
+                           "steps before t = {:.6g} s are lost.",
+                           file_, time));
   if (filePerRank_ || comm_.isRoot())
   {
     attempt([&] { data_->reserveStep(steps_); });

@@ -147,12 +147,26 @@ void SharedFile::reserveMesh() const
 
 void SharedFile::reserveStep(int step) const
 {
+  if (layout_.recordBytes > 0)
+    reserve(beginOfStep(step), layout_.recordBytes);
+}
+
+std::uint64_t SharedFile::beginOfStep(int step) const
+{
   std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
   for (const auto& [name, variable] : layout_.variables)
     if (variable.isRecord)
       first = std::min(first, variable.begin);
-  if (layout_.recordBytes > 0)
-    reserve(first + std::uint64_t(step) * layout_.recordBytes, layout_.recordBytes);
+  return first + std::uint64_t(step) * layout_.recordBytes;
+}
+
+bool SharedFile::isCutOff(int steps) const
+{
+  struct stat file
+  {
+  };
+  return steps > 0 && layout_.recordBytes > 0 && ::fstat(descriptor_, &file) == 0 &&
+         std::uint64_t(file.st_size) < beginOfStep(steps - 1) + 1;
 }
 
 void SharedFile::setSteps(int steps) const

@@ -36,6 +36,8 @@ public:
   void setSteps(int steps) const;
   /// Whether no name leads to the file any more: what is written is lost when it is closed.
   bool isGone() const;
+  /// Whether somebody has cut off what the file has to hold after so many time steps.
+  bool isCutOff(int steps) const;
   /// Waits until the disk has what this rank wrote.
   void sync() const;
   /// Closes; here some file systems tell of writes that failed.
@@ -47,6 +49,7 @@ private:
   void putAny(const std::string& name, std::uint64_t first, const std::vector<T>& values, int step);
   void write(const std::string& what, std::uint64_t at, const unsigned char* bytes,
              std::size_t count) const;
+  std::uint64_t beginOfStep(int step) const;
   void reserve(std::uint64_t first, std::uint64_t bytes) const;
 
   ClassicLayout layout_;

@@ -51,6 +51,7 @@ void writeMesh(const Mesh& mesh, const std::string& file)
   const std::string draft = target.string() + ".part";
   try
   {
+    std::filesystem::remove(draft, error); // a link would be followed
     defineFile(draft, all, {}, creationMode(largestId(all)));
     SharedFile data(draft);
     data.reserveMesh();

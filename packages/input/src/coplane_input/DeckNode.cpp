@@ -3,6 +3,7 @@
 #include "YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Text.hpp>
 
 #include <yaml-cpp/yaml.h>
 
@@ -210,6 +211,8 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
   place.where = source.set;
   place.order = source.order(YAML::Mark());
 
+  if (!isUtf8(assignment))
+    return problems.add(place, "is not UTF-8, perhaps Latin-1; accepted: UTF-8.");
   const auto equals = assignment.find('=');
   const std::string path = assignment.substr(0, equals);
   if (equals == std::string::npos || path.empty() || path.front() == '.' || path.back() == '.' ||

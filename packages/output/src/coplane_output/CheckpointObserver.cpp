@@ -10,10 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 #include <limits>
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace coplane
 {
@@ -52,6 +55,21 @@ double secondsSince(std::chrono::steady_clock::time_point begin)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
+/// Removes the file; whether it was there. One that cannot be removed counts as well, with a
+/// warning: whoever made it wants the run to end.
+bool takeStopFile(const std::string& file)
+{
+  struct stat status
+  {
+  };
+  if (::lstat(file.c_str(), &status) != 0)
+    return false;
+  if (::unlink(file.c_str()) != 0)
+    logWarning("stop file", fmt::format("{}: the stop file cannot be removed: {}. Remove it before "
+                                        "the next run.",
+                                        file, std::strerror(errno)));
+  return true;
+}
 } // namespace
 
 CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions options,
@@ -74,9 +92,8 @@ CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions optio
         cycles[s] = std::numeric_limits<std::int64_t>::max();
     }
     slot = cycles[1] < cycles[0];
-    std::error_code error;
-    if (!options_.stopFile.empty() && std::filesystem::remove(options_.stopFile, error))
-      logInfo("removed {} of an earlier run", options_.stopFile);
+    if (!options_.stopFile.empty() && takeStopFile(options_.stopFile))
+      logInfo("{} is of an earlier run", options_.stopFile);
   }
   slot_ = int(comm.max(slot));
 }
@@ -133,8 +150,7 @@ void CheckpointObserver::askByClockAndFile()
   if (options_.stopFile.empty() || secondsSince(looked_) < lookEvery)
     return;
   looked_ = WallClock::now();
-  std::error_code error;
-  if (std::filesystem::remove(options_.stopFile, error))
+  if (takeStopFile(options_.stopFile))
     request({false, true, true});
 }
 
@@ -143,7 +159,7 @@ void CheckpointObserver::write(const Solver& solver)
   TimedRegion region("coplane::output::checkpoint");
   CheckpointWriter out(*comm_);
   solver.save(out);
-  std::map<std::string, std::string> positions;
+  std::map<std::string, std::string> positions = options_.positions;
   comm_->together([&] { outputs_->savePosition(positions); });
   // Names of files may have any bytes, and have to come back as they are: JSON keeps them as
   // Latin-1.
@@ -188,6 +204,16 @@ std::string newestCheckpoint(const std::string& file, const Comm& comm)
   if (!problems.empty() && problems.find("No such file") == std::string::npos)
     logWarning("a checkpoint is not used", problems);
   return slotFile(file, std::max_element(order.begin(), order.end())->second);
+}
+
+bool isOneOfTwo(const std::string& file, const std::string& checkpoint, const Comm& comm)
+{
+  std::error_code error;
+  std::int64_t isOne = 0;
+  if (comm.isRoot())
+    for (int s = 0; s < 2; ++s)
+      isOne |= std::int64_t(std::filesystem::equivalent(slotFile(file, s), checkpoint, error));
+  return comm.max(isOne) > 0;
 }
 
 void putAside(const std::string& file, const Comm& comm)

@@ -22,6 +22,8 @@ struct CheckpointOptions
   std::optional<Real> maxWall; ///< a checkpoint and the end after this time [s]
   std::string stopFile;        ///< the same as soon as this file is there; it is removed
   std::string restartedFrom;   ///< checkpoint, which is not the first to be overwritten
+  /// Where outputs stood in the checkpoint of the restart: handed on of those that are not written.
+  std::map<std::string, std::string> positions = {};
   /// What another run compares itself with, by name.
   std::vector<std::pair<std::string, std::string>> texts;
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
@@ -56,6 +58,9 @@ private:
 /// The newest checkpoint `file`.0 or .1 that is whole. Warns of one that is not. Throws
 /// Error(ExitCode::Checkpoint) when there is none. Collective.
 std::string newestCheckpoint(const std::string& file, const Comm& comm);
+
+/// Whether a checkpoint is `file`.0 or .1, by whatever name. Collective.
+bool isOneOfTwo(const std::string& file, const std::string& checkpoint, const Comm& comm);
 
 /// Puts checkpoints of an earlier run aside under a name with the time when they were written,
 /// `file`.0.old-20261122-064405, so that no number of new runs ever overwrites one. Says how to go

@@ -113,8 +113,10 @@ HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
   comm.together(
       [&]
       {
-        const TextPosition position = TextPosition::from(options_.position);
-        lastCycle_ = position.cycle;
+        std::optional<TextPosition> position;
+        if (!options_.position.empty())
+          position = TextPosition::from(options_.position);
+        lastCycle_ = position ? position->cycle : -1;
         if (comm.isRoot())
           hasHeader_ = table_.open(options_.file, position);
       });

@@ -157,6 +157,11 @@ std::string pointsOf(const std::vector<Record>& records, const std::vector<std::
   addStates(columns);
   return points.text();
 }
+/// 12 of wall_planes_0012.vtp
+int numberOfStep(const std::string& name)
+{
+  return std::atoi(name.substr(name.rfind('_') + 1).c_str());
+}
 } // namespace
 
 PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
@@ -172,14 +177,16 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
     lastCycle_ = std::strtoll(line.c_str(), nullptr, 10);
     while (std::getline(position, line))
       steps_.emplace_back(std::strtod(line.c_str(), nullptr), line.substr(line.find(' ') + 1));
+    if (!steps_.empty())
+      firstNumber_ = numberOfStep(steps_.front().second);
   }
   comm.together(
       [&]
       {
         if (!comm.isRoot())
           return;
-        if (!continues_)
-          removeOldSteps();
+        if (steps_.empty())
+          clearTheWay();
         writeSeries();
       });
 }
@@ -216,7 +223,8 @@ void PlanesObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::planes");
   const std::vector<Record> records = gatherRecords(solver);
-  const std::string file = fmt::format("{}_planes_{:04}.vtp", base_, steps_.size());
+  const std::string file =
+      fmt::format("{}_planes_{:04}.vtp", base_, firstNumber_ + int(steps_.size()));
   steps_.emplace_back(solver.clock().time, std::filesystem::path(file).filename().string());
   std::vector<std::string> joints;
   if (solver.hasContact())
@@ -233,21 +241,31 @@ void PlanesObserver::write(const Solver& solver)
   lastCycle_ = solver.clock().cycle;
 }
 
-/// The steps of an earlier run: those that its series names, and no others.
-void PlanesObserver::removeOldSteps() const
+/// Steps of an earlier run: those that its series names, and no others. A new run removes them. A
+/// restart that did not write this series before leaves them, and counts on from them.
+void PlanesObserver::clearTheWay()
 {
   const std::filesystem::path series(file());
   std::ifstream stream(series);
   std::ostringstream text;
   text << stream.rdbuf();
-  static const std::regex entry("file=\"([^\"/]*_planes_[0-9]+\\.vtp)\"");
+  static const std::regex entry("file=\"([^\"/]*_planes_[0-9]{1,9}\\.vtp)\"");
   const std::string all = text.str();
   const std::string mine = xmlText(std::filesystem::path(base_).filename().string()) + "_planes_";
   std::error_code error;
   for (auto step = std::sregex_iterator(all.begin(), all.end(), entry);
        step != std::sregex_iterator(); ++step)
-    if (const std::string name = (*step)[1]; name.rfind(mine, 0) == 0)
+  {
+    const std::string name = (*step)[1];
+    if (name.rfind(mine, 0) != 0)
+      continue;
+    if (!continues_)
       std::filesystem::remove(fmt::format("{}_planes_{}", base_, name.substr(mine.size())), error);
+    else
+      firstNumber_ = std::max(firstNumber_, numberOfStep(name) + 1);
+  }
+  if (continues_ && std::filesystem::exists(series, error))
+    putForeignFileAside(series);
 }
 
 void PlanesObserver::writeSeries() const

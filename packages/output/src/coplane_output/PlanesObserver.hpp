@@ -36,13 +36,14 @@ public:
 
 private:
   void write(const Solver& solver);
-  void removeOldSteps() const;
+  void clearTheWay();
   void writeSeries() const;
 
   std::string base_;
   bool continues_;
   OutputSchedule schedule_;
   std::int64_t lastCycle_ = -1;                     ///< that was written
+  int firstNumber_ = 0;                             ///< of the files of the steps
   std::vector<std::pair<Real, std::string>> steps_; ///< time [s] and file name without folder
 };
 } // namespace coplane

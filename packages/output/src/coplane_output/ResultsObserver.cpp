@@ -84,6 +84,12 @@ struct ResultsPosition
   }
 };
 
+bool isEmptyFile(const std::filesystem::path& file)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(file, error) && std::filesystem::is_empty(file, error);
+}
+
 /// Removes the parts of a series from number `first` on, which a run has left that went on from an
 /// earlier checkpoint: ParaView would read them as well. What has such a name and holds no results
 /// is put aside.
@@ -107,7 +113,7 @@ void removeParts(const std::string& file, int first)
   }
   int removed = 0;
   for (const auto& one : old)
-    if (isResultsOfCoplane(one) || std::filesystem::is_empty(one, error))
+    if (isResultsOfCoplane(one) || isEmptyFile(one))
       removed += int(std::filesystem::remove(one, error));
     else
       putForeignFileAside(one);

@@ -222,6 +222,9 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
           return;
         deckHash_ = sha256(options_.deckText);
         meshHash_ = sha256OfFile(options_.meshFile);
+        std::error_code error;
+        if (std::filesystem::is_regular_file(options_.file, error) && !isRecord(options_.file))
+          putForeignFileAside(options_.file);
         if (options_.restartedFrom.empty())
           removeRecordsOfRestarts(options_.file);
       });

@@ -23,7 +23,10 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
     lastCycle_ = std::max(lastCycle_, positionOf(table).cycle);
   const auto open = [&](TextTable& lines, const char* table, const std::string& header)
   {
-    if (!lines.open(fileOf(table), positionOf(table)))
+    std::optional<TextPosition> position;
+    if (!options_.positions.empty())
+      position = positionOf(table);
+    if (!lines.open(fileOf(table), position))
       lines.add(header + "\n");
   };
   comm.together(

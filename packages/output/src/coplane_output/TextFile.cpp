@@ -3,6 +3,7 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_output/TextFile.hpp>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include <filesystem>
 #include <sstream>
 #include <sys/stat.h>
+#include <vector>
 
 namespace coplane
 {
@@ -38,6 +40,30 @@ std::string freeName(const std::string& name)
     free = fmt::format("{}-{}", name, n);
   return free;
 }
+/// FNV-1a of some bytes that follow others.
+std::uint64_t hashOf(const char* bytes, std::size_t count, std::uint64_t hash)
+{
+  for (std::size_t i = 0; i < count; ++i)
+    hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3;
+  return hash;
+}
+
+/// Of the first bytes of a file; 0 when it has fewer.
+std::uint64_t hashOfFile(const std::string& file, std::uint64_t bytes)
+{
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> buffer(1 << 16);
+  std::uint64_t hash = hashOfNothing;
+  while (bytes > 0)
+  {
+    const auto next = std::min<std::uint64_t>(bytes, buffer.size());
+    if (!stream.read(buffer.data(), std::streamsize(next)))
+      return 0;
+    hash = hashOf(buffer.data(), std::size_t(next), hash);
+    bytes -= next;
+  }
+  return hash;
+}
 } // namespace
 
 std::string nameAside(const std::string& file)
@@ -53,10 +79,11 @@ void putForeignFileAside(const std::string& file)
   errno = error.value();
   if (error)
     failToWrite(file);
-  logWarning("a file is put aside",
-             fmt::format("{}: there was a file of this name, which the run did not write before; "
-                         "it is called {} now.",
-                         file, aside));
+  logWarning(
+      "a file is put aside",
+      fmt::format("{}: there was a file of this name that does not hold what this run wrote; "
+                  "it is called {} now.",
+                  file, aside));
 }
 
 void failToWrite(const std::string& file)
@@ -70,46 +97,53 @@ void failToWrite(const std::string& file)
 
 std::string TextPosition::text() const
 {
-  return fmt::format("{} {} {}", cycle, bytes, file);
+  return fmt::format("{} {} {} {}", cycle, bytes, contents, file);
 }
 
 TextPosition TextPosition::from(const std::string& text)
 {
   TextPosition position;
   std::istringstream stream(text);
-  stream >> position.cycle >> position.bytes;
+  stream >> position.cycle >> position.bytes >> position.contents;
   stream.ignore(1);
   std::getline(stream, position.file);
   return position;
 }
 
-bool TextTable::open(const std::string& file, const TextPosition& position)
+bool TextTable::open(const std::string& file, const std::optional<TextPosition>& position)
 {
   file_ = file;
-  bool goesOn = position.bytes > 0 && position.file == file;
-  if (goesOn)
+  bytes_ = 0;
+  contents_ = hashOfNothing;
+  bool goesOn = false;
+  if (position)
   {
-    std::error_code error;
-    const auto bytes = std::filesystem::file_size(file, error);
-    goesOn = !error && bytes >= position.bytes;
-    if (!goesOn)
-      logWarning("history cannot be continued",
-                 fmt::format("{}: lines that were written before the checkpoint are not there; the "
-                             "file begins anew with the restart.",
-                             file));
-    else
+    goesOn = position->bytes > 0 && position->file == file &&
+             hashOfFile(file, position->bytes) == position->contents;
+    if (goesOn)
     {
-      std::filesystem::resize_file(file, position.bytes, error);
+      std::error_code error;
+      std::filesystem::resize_file(file, position->bytes, error);
       errno = error.value();
       if (error)
         failToWrite(file);
+      bytes_ = position->bytes;
+      contents_ = position->contents;
+    }
+    else
+    {
+      if (position->bytes > 0 && position->file == file)
+        logWarning(
+            "a table cannot be continued",
+            fmt::format("{}: lines that were written before the checkpoint are not there, or "
+                        "have been changed; the file begins anew with the restart.",
+                        file));
+      std::error_code error;
+      if (std::filesystem::is_regular_file(file, error) &&
+          std::filesystem::file_size(file, error) > 0)
+        putForeignFileAside(file);
     }
   }
-  std::error_code ignored;
-  if (position.bytes > 0 && position.file != file &&
-      std::filesystem::is_regular_file(file, ignored) &&
-      std::filesystem::file_size(file, ignored) > 0)
-    putForeignFileAside(file);
   errno = 0;
   if (!goesOn && !std::ofstream(file, std::ios::trunc))
     failToWrite(file);
@@ -117,7 +151,6 @@ bool TextTable::open(const std::string& file, const TextPosition& position)
   stream_.open(file, std::ios::app);
   if (!stream_)
     failToWrite(file);
-  bytes_ = goesOn ? position.bytes : 0;
   return goesOn;
 }
 
@@ -128,6 +161,7 @@ void TextTable::add(const std::string& lines)
   if (!stream_)
     failToWrite(file_);
   bytes_ += lines.size();
+  contents_ = hashOf(lines.data(), lines.size(), contents_);
 }
 
 TextPosition TextTable::position(std::int64_t cycle) const
@@ -144,12 +178,13 @@ TextPosition TextTable::position(std::int64_t cycle) const
                fmt::format("{}: {} bytes of {} are there: somebody has cut off lines of this run; "
                            "it goes on at the end of what is there.",
                            file_, bytes, bytes_));
-  return {file_, bytes, cycle};
+  return {file_, bytes, cycle, contents_};
 }
 
 void replaceFile(const std::string& file, const std::string& text)
 {
   const std::string draft = file + ".part";
+  std::remove(draft.c_str()); // a link would be followed
   errno = 0;
   std::FILE* stream = std::fopen(draft.c_str(), "wb");
   if (!stream)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 
 namespace coplane
@@ -14,16 +15,19 @@ void replaceFile(const std::string& file, const std::string& text);
 /// A free name for a file that is put aside: with the time of its last change.
 std::string nameAside(const std::string& file);
 
-/// Renames a file that may be of somebody else, as no output of a run is what it holds, and warns
+/// Renames a file that may be of somebody else, as it does not hold what this run wrote, and warns
 /// of it. Throws Error(ExitCode::Output) when that fails; on one rank, within Comm::together.
 void putForeignFileAside(const std::string& file);
+
+constexpr std::uint64_t hashOfNothing = 0xcbf29ce484222325;
 
 /// Where a table of text ended when a checkpoint was written.
 struct TextPosition
 {
   std::string file;
   std::uint64_t bytes = 0;
-  std::int64_t cycle = -1; ///< of the last line
+  std::int64_t cycle = -1;    ///< of the last line
+  std::uint64_t contents = 0; ///< hash of these bytes
 
   std::string text() const; ///< one line
   /// Empty text: a file that does not exist yet.
@@ -35,11 +39,12 @@ struct TextPosition
 class TextTable
 {
 public:
-  /// Opens it for more lines and cuts off those after the position. Returns whether it has been
-  /// continued; otherwise (another name, nothing to continue) it is new and empty, and a warning
-  /// says so where lines are missing. A restart under another name puts a file aside that has it,
-  /// as it may be of somebody else.
-  bool open(const std::string& file, const TextPosition& position);
+  /// Opens a new table, or that of the run that goes on: then lines after the position are cut off,
+  /// if those before it are the bytes that were written. If not, or if the run did not write to
+  /// this file, what is there is put aside, and a warning says so. Returns whether the table goes
+  /// on; otherwise it is empty.
+  /// @param position of a restart: where the table ended, or TextPosition{} if it was not written
+  bool open(const std::string& file, const std::optional<TextPosition>& position);
   bool isOpen() const { return stream_.is_open(); }
   /// Writes whole lines to the end of what is there.
   void add(const std::string& lines);
@@ -49,7 +54,8 @@ public:
 private:
   std::string file_;
   std::ofstream stream_;
-  std::uint64_t bytes_ = 0; ///< that it has to have
+  std::uint64_t bytes_ = 0;                ///< that it has to have
+  std::uint64_t contents_ = hashOfNothing; ///< of these bytes
 };
 
 /// Throws Error(ExitCode::Output): the file, what the system says (errno) and what to check.

@@ -1,0 +1,192 @@
+"""Restarts whose files are not as they left them, or are of another run: nothing is lost (README.md)."""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import time
+
+from coplanetest import Case, documents, program
+
+case = Case("continued", __file__)
+recipe, deck = case.load("tests/parallel/same_bits/mesh_2d.yaml"), case.load("tests/parallel/same_bits/deck.yaml")
+deck["initial"] = [{"block": "bar", "velocity": [100, 20, 0]}]
+deck["time"] = {"end": 1e-5}
+deck["output"] = {"every": 2e-6}
+deck["history"] = {"tables": ["blocks", "pairs"]}
+deck["checkpoint"] = {"every_cycles": 10, "at_end": True}
+DECK, OUTPUT, COMPUTATION = 3, 5, 6
+documents.save({"title": "continued", **recipe}, "mesh.yaml")
+program.make_mesh("mesh.yaml", "mesh.e")
+aside = ".old-"
+
+
+def run(name, folder, *options, code=0, words=(), deck_file="run.yaml", ranks=1):
+    found, output = program.run_program([deck_file, *options], folder, ranks, timeout=60)
+    good = case.check_equal(f"{name}: exit code", found, code)
+    if not (case.check_equal(f"{name}: words missing", [word for word in words if word not in output], []) and good):
+        print(output[-3000:])
+    return output
+
+
+def folder_for(name, started=True):
+    folder = pathlib.Path(name.replace(" ", "_")).resolve()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    shutil.copy("mesh.e", folder)
+    documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")
+    if started:
+        run(f"{name}: the first part", folder)
+    return folder
+
+
+def on(end):
+    return ["--restart", "--set", f"time.end={end!r}"]
+
+
+def contents(folder, names):
+    return {name: (folder / name).read_bytes() for name in names if (folder / name).is_file()}
+
+
+def check_kept(name, folder, before):
+    """Every file of before is there under its name, as its beginning, or as a file that was put aside."""
+    now = {path.name: path.read_bytes() for path in folder.iterdir() if path.is_file()}
+    lost = [old for old, data in before.items()
+            if not any(found == data for other, found in now.items() if other == old or other.startswith(old + aside))]
+    case.check_equal(f"{name}: files that are lost", lost, [])
+
+
+def columns(file):
+    return {line.count(",") for line in file.read_text().splitlines()}
+
+
+# --- a history that is not as it was -------------------------------------------------------------------------
+changes = {
+    "a line is missing": lambda data: b"\n".join(line for i, line in enumerate(data.split(b"\n")) if i != 5),
+    "a name of a column is shorter": lambda data: data.replace(b"kinetic", b"kin", 1),
+    "other ends of lines": lambda data: data.replace(b"\n", b"\r\n"),
+    "a digit is another": lambda data: data[:-40] + (b"1" if data[-40:-39] != b"1" else b"2") + data[-39:],
+}
+for name, change in changes.items():
+    folder = folder_for(name)
+    for table in ("run.csv", "run_blocks.csv"):
+        (folder / table).write_bytes(change((folder / table).read_bytes()))
+    before = contents(folder, ["run.csv", "run_blocks.csv"])
+    run(name, folder, *on(1.4e-5), words=["have been changed", "is called"])
+    check_kept(name, folder, before)
+    case.check_equal(f"{name}: columns of the new lines", len(columns(folder / "run.csv")), 1)
+
+# --- outputs that one part does not write ----------------------------------------------------------------------
+folder = folder_for("left out in the second part")
+pairs, series = (folder / "run_pairs.csv").read_bytes(), (folder / "run_planes.pvd").read_text().count("DataSet")
+results = sorted(folder.glob("run_planes_*.vtp"))
+before = contents(folder, [path.name for path in results])
+run("a table and planes are left out", folder, *on(1.4e-5), "--set", "history.tables=[blocks]", "--set", "output.planes=false")
+case.check_equal("left out: the table stays as it is", (folder / "run_pairs.csv").read_bytes() == pairs, True)
+run("both are written again", folder, *on(1.8e-5))
+case.check_equal("written again: the table goes on", (folder / "run_pairs.csv").read_bytes().startswith(pairs), True)
+case.check_equal("written again: it has more", len((folder / "run_pairs.csv").read_bytes()) > len(pairs), True)
+check_kept("written again: planes", folder, before)
+case.check_equal("written again: the series has old steps and new ones", (folder / "run_planes.pvd").read_text().count("DataSet") > series, True)
+
+# --- names of another run ---------------------------------------------------------------------------------------
+def other_run(name):
+    """A folder with a run, and another of other names and another speed."""
+    folder = folder_for(name)
+    shutil.copy(folder / "run.yaml", folder / "other.yaml")
+    run(f"{name}: the other run", folder, "--set", "initial.0.velocity=[50,0,0]", deck_file="other.yaml")
+    return folder, contents(folder, [path.name for path in folder.glob("other*") if path.suffix != ".yaml"])
+
+
+folder, before = other_run("the deck of the other with the checkpoint of the first")
+run("the deck of the other with the checkpoint of the first", folder, "--restart", "run.chk.0", "--set", "time.end=1.4e-5", deck_file="other.yaml")
+check_kept("the deck of the other with the checkpoint of the first", folder, before)
+for key, value in (("checkpoint.file", "other.chk"), ("output.results", "other.e"), ("history.file", "other.csv")):
+    folder, before = other_run(f"a restart with {key} of the other")
+    run(f"a restart with {key} of the other", folder, "--restart", "run.chk.1", "--set", "time.end=1.4e-5", "--set", f"{key}={value}")
+    check_kept(f"a restart with {key} of the other", folder, before)
+    run(f"a restart with {key} of the other, again", folder, *on(1.8e-5), "--set", f"{key}={value}")
+    check_kept(f"a restart with {key} of the other, again", folder, before)
+
+# --- an old checkpoint where a newer run has been ----------------------------------------------------------------
+folder = folder_for("a checkpoint that was put aside")
+run("a newer run", folder, "--set", "initial.0.velocity=[50,0,0]")
+before = contents(folder, ["run.csv", "run_blocks.csv", "run.chk.0", "run.chk.1"])
+old = max(folder.glob("run.chk.?" + aside + "*"), key=lambda path: path.stat().st_mtime).name
+run("a restart of the older run", folder, "--restart", old, "--set", "time.end=1.4e-5", words=["is called"])
+check_kept("a restart of the older run", folder, before)
+
+# --- names of drafts and of what one derives ----------------------------------------------------------------------
+folder = folder_for("drafts of a user", started=False)
+names = [name + ".part" for name in ("run.chk.0", "run.run.json", "run_planes.pvd", "run_planes_0002.vtp", "run.e", "run.e-s0002", "run.run-s0003.json")]
+for name in names:
+    (folder / name).write_text("of the user: " + name)
+(folder / "elsewhere").write_text("of somebody")
+(folder / "run.chk.1.part").symlink_to("elsewhere")
+(folder / "run.run.json").write_text('{"software": "of the user"}')
+before = contents(folder, [*names, "elsewhere", "run.run.json"])
+run("drafts of a user", folder, words=["is called"])
+check_kept("drafts of a user", folder, before)
+(folder / "run.lock").write_text(f"process 1 on here, since 2026-11-22 00:00:00 UTC\nthe checkpoint\t{folder / 'run.chk.0.part'}\n")
+(folder / "run.chk.0.part").write_text("half a checkpoint")
+run("a draft of a killed run", folder)
+case.check_equal("a draft of a killed run: it is not kept", [path.name for path in folder.iterdir() if path.is_file() and path.read_bytes() == b"half a checkpoint"], [])
+(folder / "q.e.part").symlink_to("elsewhere")
+shutil.copy("mesh.yaml", folder)
+found = subprocess.run([program.binary("coplane_mesh"), "make", "mesh.yaml", "-o", "q.e"], cwd=folder, capture_output=True).returncode
+case.check_equal("a link of the name of the mesh's draft: exit code", found, 0)
+case.check_equal("a link of the name of the mesh's draft: it is not followed", (folder / "elsewhere").read_text(), "of somebody")
+for name in ("run.e-s0002.2.1", "run.e-s0002"):
+    folder = folder_for("the mesh is " + name, started=False)
+    os.rename(folder / "mesh.e", folder / name)
+    before = contents(folder, [name])
+    run(f"the mesh is {name}", folder, "--set", f"mesh={name}", code=DECK, words=["the mesh (mesh)", name])
+    check_kept(f"the mesh is {name}", folder, before)
+
+# --- results that somebody cuts off, a stop file that cannot be removed ---------------------------------------------
+folder = folder_for("results are cut off", started=False)
+with open(folder / "run.log", "w") as log:
+    process = subprocess.Popen([program.binary("coplane"), "run.yaml", "--set", "time.end=1"], cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+deadline = time.monotonic() + 60
+while not (folder / "run_planes_0003.vtp").exists() and time.monotonic() < deadline:
+    time.sleep(0.02)
+os.truncate(folder / "run.e", 20000)
+while "somebody cut off the file" not in (folder / "run.log").read_text() and time.monotonic() < deadline:
+    time.sleep(0.05)
+case.check_equal("results are cut off: the run says so", "somebody cut off the file" in (folder / "run.log").read_text(), True)
+(folder / "run.stop" / "within").mkdir(parents=True)
+case.check_equal("a stop file that cannot be removed: exit code", process.wait(timeout=60), 8)
+case.check_equal("a stop file that cannot be removed: the run says so", "stop file cannot be removed" in (folder / "run.log").read_text(), True)
+
+# --- programs without streams, with small files, with numbers that are none ------------------------------------------
+folder = folder_for("streams", started=False)
+shutil.copy("mesh.yaml", folder)
+documents.save({"joints": {"dry": {"model": "linear", "normal_stiffness": 1e10, "friction": 0.6}},
+                "materials": {"steel": {"model": "linear_elastic", "density": 8000, "youngs_modulus": 2e11, "poisson_ratio": 0.3}},
+                "joint_paths": {"one": {"type": "closing", "joint": "dry", "closures": [1e-4, 0]}},
+                "material_paths": {"two": {"type": "uniaxial_strain", "material": "steel", "strains": [-1e-3, 0]}}}, folder / "point.yaml")
+for command, code in (("coplane_mesh check missing.e 2>/dev/full", 4), ("coplane_mesh check missing.e 2>&-", 4), ("coplane_point missing.yaml 2>&-", DECK),
+                      ("coplane_mesh make mesh.yaml -o q.e >&- 2>&-", OUTPUT), ("coplane --help-deck >&- <&-", OUTPUT), ("coplane run.yaml --check >&- <&-", OUTPUT),
+                      ("coplane run.yaml >&- 2>&- <&-", 0), ("coplane --set time.end=1e-6 run.yaml", 0),
+                      ("coplane_point point.yaml", 0), ("coplane_point point.yaml --set joint_paths.one.steps=5000", OUTPUT),
+                      ("coplane_point point.yaml --set 'joint_paths.one.closures=[1e308, -1e308]'", COMPUTATION),
+                      ("coplane_point point.yaml --set 'material_paths.two.strains=[1e200]'", COMPUTATION),
+                      ("coplane run.yaml --set output.results=$(printf 'caf\\351.e')", DECK)):
+    words = command.split(" ", 1)
+    limit = "ulimit -f 4; " if "5000" in command else ""
+    try:
+        found = subprocess.run(["bash", "-c", f"{limit}{program.binary(words[0])} {words[1]}"], cwd=folder, capture_output=True, timeout=60).returncode
+    except subprocess.TimeoutExpired:
+        found = "no end"
+    case.check_equal(f"{command}: exit code", found, code)
+long = subprocess.Popen([program.binary("coplane_point"), "point.yaml", "--set", "joint_paths.one.steps=100000000"], cwd=folder,
+                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+deadline = time.monotonic() + 30
+while not list(folder.glob("*.lock")) and time.monotonic() < deadline:
+    time.sleep(0.01)
+second = subprocess.run([program.binary("coplane_point"), "point.yaml"], cwd=folder, capture_output=True, text=True, timeout=60)
+case.check_equal("two of coplane_point at once: exit code", second.returncode, OUTPUT)
+case.check_equal("two of coplane_point at once: the first is named", f"process {long.pid} on" in second.stderr, True)
+long.kill()
+long.wait()
+case.finish()
