@@ -2,6 +2,7 @@
 
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/OutputLocks.hpp>
 #include <coplane_output/Sha256.hpp>
 #include <coplane_output/TextFile.hpp>
 
@@ -56,49 +57,53 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
   const std::string history = "the history (history.file)", record = "the record of the run",
                     tables = "a table (history.tables)", results = "the results (output.results)",
                     planes = "the planes (output.planes)",
-                    checkpoint = "the checkpoint (checkpoint.file)", draft = ".part";
+                    checkpoint = "the checkpoint (checkpoint.file)";
+  const auto draft = [&](std::vector<std::string> pieces, const std::string& what)
+  {
+    pieces.back() += ".part";
+    roles.writesDraft(pieces, what);
+  };
+  const auto replaces = [&](const std::string& file, const std::string& what)
+  {
+    roles.writes(file, what);
+    draft({file}, what);
+  };
+  const auto replacesSeries = [&](const std::vector<std::string>& pieces, const std::string& what)
+  {
+    roles.writesSeries(pieces, what);
+    draft(pieces, what);
+  };
   roles.writesInPlace(deck.history.file, history);
-  roles.writes(recordFile(deck, 1), record);
-  roles.writes(recordFile(deck, 1) + draft, record);
+  replaces(recordFile(deck, 1), record);
   const std::string base = withoutExtension(deck.history.file);
-  roles.writesSeries({base + ".run-s", ".json"}, record);
-  roles.writesSeries({base + ".run-s", ".json" + draft}, record);
+  replacesSeries({base + ".run-s", ".json"}, record);
   for (const std::string& table : deck.history.tables)
     roles.writesInPlace(fmt::format("{}_{}.csv", base, table), tables + " " + table);
   if (!deck.output.results.empty())
   {
     const std::string& file = deck.output.results;
     // Parts of a file per rank, which an earlier run may have left, are removed in any case.
-    for (const std::string& end : {std::string(), draft})
-      roles.writesSeries({file + "-s", ".", ".", end}, results);
+    replacesSeries({file + "-s", ".", ".", ""}, results);
     if (deck.output.filePerRank)
-    {
-      for (const std::string& end : {std::string(), draft})
-        roles.writesSeries({file + ".", ".", end}, results);
-    }
+      replacesSeries({file + ".", ".", ""}, results);
     else
     {
       if (restarts)
         roles.writes(file, results);
       else
         roles.writesInPlace(file, results);
-      roles.writes(file + draft, results);
-      for (const std::string& end : {std::string(), draft})
-        roles.writesSeries({file + "-s", end}, results);
+      draft({placeOfFile(file)}, results);
+      replacesSeries({file + "-s", ""}, results);
     }
     if (deck.output.planes && deck.contact.enabled)
     {
       const std::string series = planesBase(deck) + "_planes";
-      for (const std::string& end : {std::string(), draft})
-      {
-        roles.writes(series + ".pvd" + end, planes);
-        roles.writesSeries({series + "_", ".vtp" + end}, planes);
-      }
+      replaces(series + ".pvd", planes);
+      replacesSeries({series + "_", ".vtp"}, planes);
     }
   }
   for (const char* slot : {".0", ".1"})
-    for (const std::string& end : {std::string(), draft})
-      roles.writes(deck.checkpoint.file + slot + end, checkpoint);
+    replaces(deck.checkpoint.file + slot, checkpoint);
   for (const std::string& file : lockFiles(deck))
     roles.writes(file, "the lock of the run");
   roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");
@@ -114,43 +119,6 @@ void onRoot(const Comm& comm, const Action& action)
         if (comm.isRoot())
           action();
       });
-}
-
-/// A draft is of a run that was killed, if its lock says so.
-void putForeignDraftsAside(const FileRoles& roles, const FileRoles& left)
-{
-  for (const std::string& file : roles.outputsThere(".part"))
-  {
-    FileRoles draft;
-    draft.writes(file, "a draft");
-    if (draft.problemsWith(left).empty())
-      putForeignFileAside(file);
-  }
-}
-
-/// Looks for runs that hold a lock in this folder and write what this one writes.
-void demandNoOther(const std::string& folder, const std::set<std::string>& mine,
-                   const FileRoles& roles, const Deck& deck)
-{
-  std::error_code error;
-  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
-       entry.increment(error))
-  {
-    const std::string file = entry->path().string();
-    std::error_code ignored;
-    if (entry->path().extension() != ".lock" ||
-        std::any_of(mine.begin(), mine.end(),
-                    [&](const std::string& own)
-                    { return std::filesystem::equivalent(own, file, ignored); }))
-      continue;
-    const std::string text = FileLock::textOfHolder(file);
-    const auto problems = roles.problemsWith(FileRoles::outputsIn(text));
-    if (!problems.empty())
-      fail(ExitCode::Output,
-           "{}: another run writes files of {}: {}. {} Wait for it or end it, or give this run "
-           "other names (output.results, history.file, checkpoint.file). Nothing was written.",
-           file, deck.file, text.substr(0, text.find('\n')), fmt::join(problems, " "));
-  }
 }
 } // namespace
 
@@ -205,26 +173,34 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
   onRoot(comm,
          [&]
          {
-           FileRoles roles;
+           FileRoles roles, left;
            addOutputs(roles, deck);
-           const std::set<std::string> files = lockFiles(deck);
-           FileRoles left; // of runs that were killed
-           for (const std::string& file : files)
+           locks = lockOutputs(roles, lockFiles(deck), deck.file);
+           // Drafts of a run that was killed: its lock names them.
+           for (const FileLock& lock : locks)
+             left.add(FileRoles::outputsIn(lock.textFound()));
+           std::error_code ignored;
+           for (const std::string& file : roles.draftsThere())
            {
-             locks.emplace_back(file, "the outputs of " + deck.file, roles.outputsText());
-             left.add(FileRoles::outputsIn(locks.back().textFound()));
-             if (!locks.back().isHeld())
-               logWarning("locks", fmt::format("{}: the file system has no locks: nothing keeps a "
-                                               "second run from writing the same files",
-                                               file));
+             FileRoles draft;
+             draft.writes(file, "a draft");
+             if (!draft.problemsWith(left).empty())
+               std::filesystem::remove(file, ignored);
            }
-           putForeignDraftsAside(roles, left);
-           // Runs of other names may write the same files all the same. Each says first what it
-           // writes, and looks then.
-           for (const std::string& folder : roles.folders())
-             demandNoOther(folder, files, roles, deck);
          });
   return locks;
+}
+
+void putForeignDraftsAside(const Deck& deck, const Comm& comm)
+{
+  onRoot(comm,
+         [&]
+         {
+           FileRoles roles;
+           addOutputs(roles, deck);
+           for (const std::string& file : roles.draftsThere())
+             putForeignFileAside(file);
+         });
 }
 
 void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm)

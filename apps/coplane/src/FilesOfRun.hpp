@@ -32,5 +32,9 @@ void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm);
 
 /// Makes sure that no other run writes files of the same names. Throws Error(ExitCode::Output) on
 /// all ranks when one does. Rank 0 holds the locks for as long as the result lives. Collective.
+/// Drafts that a killed run has left, by the word of its lock, are removed.
 std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm);
+
+/// Other files with the names of drafts are put aside. Collective.
+void putForeignDraftsAside(const Deck& deck, const Comm& comm);
 } // namespace coplane

@@ -67,7 +67,10 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   };
   const OutputTimes when{deck.output.every, deck.output.times};
 
+  const std::string run = identityOf(deck, mesh, comm);
+
   RunRecordOptions record;
+  record.run = run;
   record.file = recordFile(deck, settings.part);
   record.restartedFrom = settings.restartedFrom;
   record.title = deck.title;
@@ -125,12 +128,13 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
     results.history = historyVariables(deck, mesh);
     results.infoLines = linesOf(deck.text);
     results.infoLines.insert(results.infoLines.begin(), settings.command);
+    results.run = run;
     results.part = settings.part;
     results.position = lastTime("results");
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{planesBase(deck), when, lastTime("planes")}));
+          comm, PlanesOptions{planesBase(deck), when, lastTime("planes"), run}));
   }
   observers.add(std::make_unique<ProgressObserver>());
 

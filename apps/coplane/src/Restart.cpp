@@ -4,6 +4,7 @@
 #include <coplane_core/StateHash.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckFingerprint.hpp>
+#include <coplane_output/Sha256.hpp>
 
 #include <cstdlib>
 #include <map>
@@ -109,6 +110,11 @@ fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& co
   return {{"mesh", meshFingerprint(mesh, comm)},
           {"deck", deckFingerprint(deck.text, deck.file)},
           {"part", std::to_string(part)}};
+}
+
+std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm)
+{
+  return sha256(meshFingerprint(mesh, comm) + deckFingerprint(deck.text, deck.file)).substr(0, 16);
 }
 
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,

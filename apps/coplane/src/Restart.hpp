@@ -16,6 +16,10 @@ namespace coplane
 std::vector<std::pair<std::string, std::string>>
 fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm);
 
+/// Identity of a run: the same for all parts, ranks and repetitions of what has the same bits, by
+/// which a run knows what it may go on with or overwrite. Collective.
+std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm);
+
 /// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
 /// those of the checkpoint. Warns when another version of the program has written it. Collective.
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,

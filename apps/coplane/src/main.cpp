@@ -257,6 +257,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       logInfo("check: deck and mesh are fine; nothing was run");
       return;
     }
+    putForeignDraftsAside(deck, comm);
     // Checkpoints that this run does not go on from are of another.
     if (!isOneOfTwo(deck.checkpoint.file, settings.restartedFrom, comm))
       putAside(deck.checkpoint.file, comm);

@@ -4,9 +4,9 @@
 #include "RecipeMap.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_core/FileLock.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
+#include <coplane_core/OutputLocks.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -86,7 +86,11 @@ void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inpu
 /// Nobody else writes the file meanwhile.
 void writeAlone(const Mesh& mesh, const std::string& output)
 {
-  const FileLock lock(output + ".lock", output);
+  const std::string lock = placeOfFile(output) + ".lock";
+  FileRoles roles;
+  for (const std::string& file : {output, output + ".part", lock})
+    roles.writes(file, "the new mesh (-o)");
+  const auto locks = lockOutputs(roles, {lock}, output);
   writeMesh(mesh, output);
 }
 

@@ -3,9 +3,9 @@
 #include "PointDeck.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_core/FileLock.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
+#include <coplane_core/OutputLocks.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_input/DeckReference.hpp>
@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 
 namespace coplane
 {
@@ -34,34 +35,36 @@ void runPath(const PointDeck& deck, const JointPathCard& card)
   print(writer.summary());
 }
 
-/// Nobody else writes the outputs meanwhile.
-std::vector<FileLock> lockOutputs(const PointDeck& deck)
+/// One beside each output; beside what links lead to.
+std::set<std::string> lockFilesOf(const PointDeck& deck)
 {
-  std::vector<FileLock> locks;
+  std::set<std::string> files;
   for (const JointPathCard& card : deck.jointPaths)
-    locks.emplace_back(card.output + ".lock", card.output);
+    files.insert(placeOfFile(card.output) + ".lock");
   for (const MaterialPathCard& card : deck.materialPaths)
-    locks.emplace_back(card.output + ".lock", card.output);
-  return locks;
+    files.insert(placeOfFile(card.output) + ".lock");
+  return files;
+}
+
+FileRoles outputsOf(const PointDeck& deck)
+{
+  FileRoles roles;
+  for (const std::string& file : lockFilesOf(deck))
+    roles.writes(file, "the lock of an output");
+  for (const JointPathCard& card : deck.jointPaths)
+    roles.writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
+  for (const MaterialPathCard& card : deck.materialPaths)
+    roles.writes(card.output, fmt::format("the output of material_paths.{}", card.name));
+  return roles;
 }
 
 void demandDistinctFiles(const PointDeck& deck)
 {
-  FileRoles roles;
+  FileRoles roles = outputsOf(deck);
   roles.reads(deck.file, "the deck");
-  const auto writes = [&](const std::string& file, const std::string& what)
-  {
-    for (const char* end : {"", ".lock"})
-      roles.writes(file + end, what);
-  };
   for (const JointPathCard& card : deck.jointPaths)
-  {
     if (!card.file.empty())
       roles.reads(card.file, fmt::format("the path (joint_paths.{}.file)", card.name));
-    writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
-  }
-  for (const MaterialPathCard& card : deck.materialPaths)
-    writes(card.output, fmt::format("the output of material_paths.{}", card.name));
   if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
     fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
 }
@@ -115,7 +118,7 @@ int run(int argc, char** argv)
     print("check: the deck is fine; nothing was run");
     return int(ExitCode::Success);
   }
-  const std::vector<FileLock> locks = lockOutputs(deck);
+  const auto locks = lockOutputs(outputsOf(deck), lockFilesOf(deck), deck.file);
   for (const JointPathCard& card : deck.jointPaths)
     runPath(deck, card);
   for (const MaterialPathCard& card : deck.materialPaths)

@@ -95,6 +95,8 @@ def other_run(name):
     folder = folder_for(name)
     shutil.copy(folder / "run.yaml", folder / "other.yaml")
     run(f"{name}: the other run", folder, "--set", "initial.0.velocity=[50,0,0]", deck_file="other.yaml")
+    for part, end in ((2, 1.2e-5), (3, 1.4e-5)):
+        run(f"{name}: the other run, part {part}", folder, *on(end), "--set", "initial.0.velocity=[50,0,0]", deck_file="other.yaml")
     return folder, contents(folder, [path.name for path in folder.glob("other*") if path.suffix != ".yaml"])
 
 
@@ -108,10 +110,45 @@ for key, value in (("checkpoint.file", "other.chk"), ("output.results", "other.e
     run(f"a restart with {key} of the other, again", folder, *on(1.8e-5), "--set", f"{key}={value}")
     check_kept(f"a restart with {key} of the other, again", folder, before)
 
+# --- a part without steps of the planes, under the name of the other --------------------------------------------
+folder, before = other_run("no step of the planes")
+names = ["--set", "output.results=other.e"]
+run("no step of the planes: at first", folder, "--restart", "run.chk.1", "--set", "time.end=1.2e-5", "--set", "output.every=1", "--set", "checkpoint.every_cycles=3", *names,
+    "--max-wall", "0.001", code=8)
+run("no step of the planes: then some", folder, *on(1.8e-5), *names)
+check_kept("no step of the planes", folder, before)
+
+# --- a history that had no line yet, names that change and change back, links ---------------------------------------
+folder = folder_for("no line yet")
+run("no line yet: another history", folder, *on(1.2e-5), "--set", "history.file=new.csv", "--set", "history.every=1")
+run("no line yet: it goes on", folder, *on(1.6e-5), "--set", "history.file=new.csv", "--set", "history.every=1")
+case.check_equal("no line yet: nothing is put aside", [path.name for path in folder.glob("new.csv" + aside + "*")], [])
+folder = folder_for("a linked history")
+(folder / "far").mkdir()
+os.rename(folder / "run.csv", folder / "far" / "history.csv")
+(folder / "run.csv").symlink_to("far/history.csv")
+(folder / "far" / "history.csv").write_text("of the user\n")
+run("a linked history", folder, *on(1.4e-5))
+case.check_equal("a linked history: the link stays", (folder / "run.csv").is_symlink(), True)
+case.check_equal("a linked history: what it led to is kept", [path.read_text() for path in (folder / "far").glob("history.csv" + aside + "*")], ["of the user\n"])
+folder = folder_for("linked results", started=False)
+(folder / "far").mkdir()
+(folder / "run.e").symlink_to("far/real.e")
+(folder / "far" / "real.e.part").write_text("of the user")
+run("linked results", folder)
+case.check_equal("linked results: a file of the user beside them is kept", [path.read_text() for path in (folder / "far").glob("real.e.part*")], ["of the user"])
+case.check_equal("linked results: they are where the link leads", (folder / "far" / "real.e").exists(), True)
+folder = folder_for("outputs called part", started=False)
+names = ["--set", "output.results=wall.part", "--set", "history.file=h.part"]
+run("outputs called part", folder, *names)
+run("outputs called part: a restart", folder, *on(1.4e-5), *names)
+case.check_equal("outputs called part: nothing is put aside", [path.name for path in folder.glob("*" + aside + "*")], [])
+
 # --- an old checkpoint where a newer run has been ----------------------------------------------------------------
 folder = folder_for("a checkpoint that was put aside")
 run("a newer run", folder, "--set", "initial.0.velocity=[50,0,0]")
-before = contents(folder, ["run.csv", "run_blocks.csv", "run.chk.0", "run.chk.1"])
+run("a newer run goes on", folder, *on(1.6e-5), "--set", "initial.0.velocity=[50,0,0]")
+before = contents(folder, [path.name for path in folder.glob("run*") if path.suffix != ".yaml" and aside not in path.name])
 old = max(folder.glob("run.chk.?" + aside + "*"), key=lambda path: path.stat().st_mtime).name
 run("a restart of the older run", folder, "--restart", old, "--set", "time.end=1.4e-5", words=["is called"])
 check_kept("a restart of the older run", folder, before)
@@ -128,9 +165,17 @@ before = contents(folder, [*names, "elsewhere", "run.run.json"])
 run("drafts of a user", folder, words=["is called"])
 check_kept("drafts of a user", folder, before)
 (folder / "run.lock").write_text(f"process 1 on here, since 2026-11-22 00:00:00 UTC\nthe checkpoint\t{folder / 'run.chk.0.part'}\n")
-(folder / "run.chk.0.part").write_text("half a checkpoint")
+for name in ("run.chk.0.part", "run.e-s0007.part"):
+    (folder / name).write_text("half of something")
+with open(folder / "run.lock", "a") as lock:
+    lock.write(f"the results\t{folder / 'run.e-s'}\t.part\n")
+(folder / "run_planes_0900.vtp.part").write_text("of the user, too")
+before = contents(folder, [path.name for path in folder.iterdir() if path.name not in ("run.chk.0.part", "run.e-s0007.part", "run.lock")])
+run("a run that is refused beside drafts", folder, "--set", "blocks.nobody.material=steel", code=DECK)
+case.check_equal("a run that is refused beside drafts: nothing is touched", contents(folder, before) == before, True)
 run("a draft of a killed run", folder)
-case.check_equal("a draft of a killed run: it is not kept", [path.name for path in folder.iterdir() if path.is_file() and path.read_bytes() == b"half a checkpoint"], [])
+case.check_equal("a draft of a killed run: it is not kept", [path.name for path in folder.iterdir() if path.is_file() and path.read_bytes() == b"half of something"], [])
+check_kept("a draft of a user beside it", folder, {"run_planes_0900.vtp.part": b"of the user, too"})
 (folder / "q.e.part").symlink_to("elsewhere")
 shutil.copy("mesh.yaml", folder)
 found = subprocess.run([program.binary("coplane_mesh"), "make", "mesh.yaml", "-o", "q.e"], cwd=folder, capture_output=True).returncode
@@ -187,6 +232,9 @@ while not list(folder.glob("*.lock")) and time.monotonic() < deadline:
 second = subprocess.run([program.binary("coplane_point"), "point.yaml"], cwd=folder, capture_output=True, text=True, timeout=60)
 case.check_equal("two of coplane_point at once: exit code", second.returncode, OUTPUT)
 case.check_equal("two of coplane_point at once: the first is named", f"process {long.pid} on" in second.stderr, True)
+documents.save({"mesh": str(pathlib.Path("mesh.e").resolve()), **deck}, folder / "run.yaml")
+run("a run that writes what coplane_point writes", folder, "--set", "history.file=point_one.csv", code=OUTPUT,
+    words=[f"process {long.pid} on"])
 long.kill()
 long.wait()
 case.finish()

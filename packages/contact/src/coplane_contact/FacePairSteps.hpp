@@ -100,8 +100,8 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
   return a.count > 2 ? alongX || low[0].y >= high[1].y || low[1].y >= high[0].y : alongX;
 }
 
-/// Step E: whether the pair has its plane already. Every candidate pair has a slot, so this is a
-/// flag and not a lookup.
+/// Step E: whether the pair has its plane already. Every candidate pair has a slot, so this is
+/// its state and not a lookup.
 KOKKOS_INLINE_FUNCTION bool stepE_planeExists(const Plane& plane)
 {
   return plane.isBorn();

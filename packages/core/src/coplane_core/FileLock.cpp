@@ -97,8 +97,8 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
       if (reason != EWOULDBLOCK)
         return; // no locks here
       fail(ExitCode::Output,
-           "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder "
-           "or other names (output.results, history.file, checkpoint.file). Nothing was written.",
+           "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder, "
+           "or its outputs other names. Nothing was written.",
            file, what, owner);
     }
     if (!isStillThere(file, descriptor))

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -295,35 +296,39 @@ std::vector<std::string> FileRoles::hindrances() const
   return hindrances;
 }
 
+void FileRoles::writesDraft(const std::vector<std::string>& pieces, const std::string& what)
+{
+  roles_.push_back({pieces, what, true, false, true});
+}
+
 void FileRoles::add(const FileRoles& others)
 {
   roles_.insert(roles_.end(), others.roles_.begin(), others.roles_.end());
 }
 
-std::vector<std::string> FileRoles::outputsThere(const std::string& end) const
+std::vector<std::string> FileRoles::draftsThere() const
 {
   std::map<fs::path, std::vector<std::vector<std::string>>> names; // by folder
   for (const Role& role : roles_)
-    if (const std::string& last = role.pieces.back();
-        role.isOutput && last.size() >= end.size() &&
-        last.compare(last.size() - end.size(), end.size(), end) == 0)
+    if (role.isDraft)
     {
       const fs::path first = role.pieces[0];
-      names[first.has_parent_path() ? first.parent_path() : "."].push_back(role.pieces);
-      names[first.has_parent_path() ? first.parent_path() : "."].back()[0] =
-          first.filename().string();
+      std::vector<std::string> pieces = role.pieces;
+      pieces[0] = first.filename().string();
+      names[first.parent_path()].push_back(pieces);
     }
   std::vector<std::string> there;
   std::error_code error;
   for (const auto& [folder, all] : names)
-    for (fs::directory_iterator entry(folder, error), none; !error && entry != none;
-         entry.increment(error))
-      for (const std::vector<std::string>& pieces : all)
-        if (matches(entry->path().filename().string(), pieces))
-        {
-          there.push_back(entry->path().string());
-          break;
-        }
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), none;
+         !error && entry != none; entry.increment(error))
+    {
+      const std::string name = entry->path().filename().string();
+      if (std::any_of(all.begin(), all.end(),
+                      [&](const std::vector<std::string>& pieces)
+                      { return matches(name, pieces); }))
+        there.push_back((folder / name).string());
+    }
   return there;
 }
 

@@ -42,10 +42,12 @@ public:
   /// and changes nothing: to be asked before the first output of an earlier run is replaced.
   std::vector<std::string> hindrances() const;
 
+  /// What an output is called until it is whole: names as with writesSeries.
+  void writesDraft(const std::vector<std::string>& pieces, const std::string& what);
   /// Takes over the files of others.
   void add(const FileRoles& others);
-  /// Names of outputs that are there and end so.
-  std::vector<std::string> outputsThere(const std::string& end) const;
+  /// Names of drafts that are there.
+  std::vector<std::string> draftsThere() const;
   /// Folders of the outputs.
   std::set<std::string> folders() const;
   /// The outputs as lines of text, for other processes; read by outputsIn, which leaves out what it
@@ -61,7 +63,7 @@ private:
     std::vector<std::string> pieces; ///< one: a single file
     std::string what;
     bool isOutput;
-    bool inPlace = false;
+    bool inPlace = false, isDraft = false;
   };
   std::vector<Role> roles_;
 };

@@ -15,7 +15,8 @@ void beginProgram()
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) == -1) // open() takes the first that is free
-      (void)::open(stream == STDOUT_FILENO ? "/dev/full" : "/dev/null", O_RDWR);
+      if (stream != STDOUT_FILENO || ::open("/dev/full", O_RDWR) < 0)
+        (void)::open("/dev/null", O_RDWR);
 }
 
 void demandTextWritten()

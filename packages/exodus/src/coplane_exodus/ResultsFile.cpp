@@ -18,12 +18,30 @@
 #include <filesystem>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 namespace coplane
 {
 namespace
 {
 constexpr const char* ownName = "coplane"; ///< in QA records
+constexpr const char* infoBeginning = "coplane run ";
+
+/// Room for texts that Exodus copies, each with an end.
+template <int Length>
+struct Texts
+{
+  std::vector<std::array<char, Length + 1>> bytes;
+  std::vector<char*> pointers;
+  explicit Texts(int count) : bytes(std::size_t(count))
+  {
+    for (auto& text : bytes)
+    {
+      text.fill('\0');
+      pointers.push_back(text.data());
+    }
+  }
+};
 
 std::array<std::string, 4> ownQaRecord(const Comm& comm)
 {
@@ -58,40 +76,53 @@ void probeWritable(const std::string& file)
          "written to.",
          file, std::strerror(errno), folderOf(file));
   std::fclose(probe);
+  std::remove(draftOf(file).c_str());
 }
 
 } // namespace
 
-bool isResultsOfCoplane(const std::string& file)
+std::string infoLineOf(const std::string& run)
+{
+  return infoBeginning + run;
+}
+
+std::optional<std::string> runOfResults(const std::string& file)
 {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error) || !classicHeaderFitsFile(file))
-    return false;
+    return std::nullopt;
   quietExodus();
   int computed = 8, stored = 0;
   float version = 0;
   const int exoid = ex_open(file.c_str(), EX_READ, &computed, &stored, &version);
   if (exoid < 0)
-    return false;
+    return std::nullopt;
   int variables = 0;
   const int records = int(ex_inquire_int(exoid, EX_INQ_QA));
   bool isOurs =
       records > 0 && ex_get_variable_param(exoid, EX_NODAL, &variables) >= 0 && variables > 0;
   if (isOurs)
   {
-    std::vector<std::array<char, MAX_STR_LENGTH + 1>> text(4 * std::size_t(records));
+    Texts<MAX_STR_LENGTH> text(4 * records);
     using Record = char* [4];
     const auto pointers = std::make_unique<Record[]>(records);
-    for (std::size_t i = 0; i < text.size(); ++i)
-    {
-      text[i].fill('\0');
-      pointers[i / 4][i % 4] = text[i].data();
-    }
+    for (int i = 0; i < 4 * records; ++i)
+      pointers[i / 4][i % 4] = text.pointers[i];
     isOurs =
         ex_get_qa(exoid, pointers.get()) >= 0 && std::string(pointers[records - 1][0]) == ownName;
   }
+  std::string run;
+  const int lines = int(ex_inquire_int(exoid, EX_INQ_INFO));
+  if (isOurs && lines > 0)
+  {
+    Texts<MAX_LINE_LENGTH> text(lines);
+    const std::string beginning = infoBeginning;
+    if (ex_get_info(exoid, text.pointers.data()) >= 0)
+      if (const std::string first = text.pointers[0]; first.rfind(beginning, 0) == 0)
+        run = first.substr(beginning.size());
+  }
   ex_close(exoid);
-  return isOurs;
+  return isOurs ? std::optional<std::string>(run) : std::nullopt;
 }
 
 void cutResults(const std::string& file, int steps)
@@ -239,12 +270,13 @@ void ResultsFile::abandon()
 void ResultsFile::beginStep(Real time)
 {
   time_ = time;
-  const bool looks = filePerRank_ || comm_.isRoot();
-  if (comm_.max(std::int64_t(looks && data_ && data_->isCutOff(steps_))) > 0)
+  const bool isCut = (filePerRank_ || comm_.isRoot()) && data_ && data_->isCutOff(steps_);
+  if (const int rank = int(comm_.min(std::int64_t(isCut ? comm_.rank() : comm_.size())));
+      rank < comm_.size())
     logWarning("results are cut off",
                fmt::format("{}: somebody cut off the file while the run writes it: values of the "
                            "steps before t = {:.6g} s are lost.",
-                           file_, time));
+                           comm_.broadcast(file_, rank), time));
   if (filePerRank_ || comm_.isRoot())
   {
     attempt([&] { data_->reserveStep(steps_); });

@@ -24,9 +24,12 @@ struct ResultsVariables
 /// fewer steps, or without, stays as it is. Not collective.
 void cutResults(const std::string& file, int steps);
 
-/// Whether a file holds results that this program wrote: its last QA record says so, and it has
-/// nodal variables. Not collective.
-bool isResultsOfCoplane(const std::string& file);
+/// The first info line of results, which tells of which run they are.
+std::string infoLineOf(const std::string& run);
+
+/// The run of results that this program wrote: their last QA record says so, and they have nodal
+/// variables. Empty: they do not tell. Nothing: the file holds no such results. Not collective.
+std::optional<std::string> runOfResults(const std::string& file);
 
 /// Name of a rank's file: wall.e.4.0
 std::string resultsFileOfRank(const std::string& file, int rank, int ranks);

@@ -157,16 +157,60 @@ std::string pointsOf(const std::vector<Record>& records, const std::vector<std::
   addStates(columns);
   return points.text();
 }
+
 /// 12 of wall_planes_0012.vtp
 int numberOfStep(const std::string& name)
 {
   return std::atoi(name.substr(name.rfind('_') + 1).c_str());
 }
+
+std::string commentOf(const std::string& run)
+{
+  return "<!-- coplane run " + run + " -->";
+}
+
+std::string textOf(const std::filesystem::path& file)
+{
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// Files of the steps of a series, by its text, without folder.
+std::vector<std::string> stepsNamed(const std::string& series, const std::string& base)
+{
+  static const std::regex entry("file=\"([^\"/]*_planes_[0-9]{1,9}\\.vtp)\"");
+  const std::string stem = std::filesystem::path(base).filename().string() + "_planes_";
+  const std::string mine = xmlText(stem);
+  std::vector<std::string> names;
+  for (auto step = std::sregex_iterator(series.begin(), series.end(), entry);
+       step != std::sregex_iterator(); ++step)
+    if (const std::string name = (*step)[1]; name.rfind(mine, 0) == 0)
+      names.push_back(stem + name.substr(mine.size()));
+  return names;
+}
+
+/// Behind all files of steps that are there.
+int firstFreeNumber(const std::string& base)
+{
+  const std::filesystem::path path(base);
+  const std::string stem = path.filename().string() + "_planes_";
+  static const std::regex end(R"([0-9]{1,9}\.vtp)");
+  int first = 0;
+  std::error_code error;
+  for (const auto& file : std::filesystem::directory_iterator(
+           path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), error))
+    if (const std::string name = file.path().filename().string();
+        name.rfind(stem, 0) == 0 && std::regex_match(name.substr(stem.size()), end))
+      first = std::max(first, numberOfStep(name) + 1);
+  return first;
+}
 } // namespace
 
 PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
-    : base_(std::move(options.base)), continues_(!options.position.empty()),
-      schedule_(std::move(options.when))
+    : base_(std::move(options.base)), run_(std::move(options.run)),
+      continues_(!options.position.empty()), schedule_(std::move(options.when))
 {
   // The cycle of the last step, the base, then a line for each step: time and file.
   std::istringstream position(options.position);
@@ -185,8 +229,7 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
       {
         if (!comm.isRoot())
           return;
-        if (steps_.empty())
-          clearTheWay();
+        clearTheWay();
         writeSeries();
       });
 }
@@ -241,37 +284,34 @@ void PlanesObserver::write(const Solver& solver)
   lastCycle_ = solver.clock().cycle;
 }
 
-/// Steps of an earlier run: those that its series names, and no others. A new run removes them. A
-/// restart that did not write this series before leaves them, and counts on from them.
+/// A new run removes the steps of an earlier one: those that its series names, and no others. A
+/// restart goes on with its own series; if another run has written one of that name, or this one
+/// has not, that is put aside, its steps stay, and new ones are counted on from what is there.
 void PlanesObserver::clearTheWay()
 {
   const std::filesystem::path series(file());
-  std::ifstream stream(series);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  static const std::regex entry("file=\"([^\"/]*_planes_[0-9]{1,9}\\.vtp)\"");
-  const std::string all = text.str();
-  const std::string mine = xmlText(std::filesystem::path(base_).filename().string()) + "_planes_";
   std::error_code error;
-  for (auto step = std::sregex_iterator(all.begin(), all.end(), entry);
-       step != std::sregex_iterator(); ++step)
+  const bool isThere = std::filesystem::exists(series, error);
+  const std::string all = isThere ? textOf(series) : "";
+  if (!continues_)
   {
-    const std::string name = (*step)[1];
-    if (name.rfind(mine, 0) != 0)
-      continue;
-    if (!continues_)
-      std::filesystem::remove(fmt::format("{}_planes_{}", base_, name.substr(mine.size())), error);
-    else
-      firstNumber_ = std::max(firstNumber_, numberOfStep(name) + 1);
+    for (const std::string& name : stepsNamed(all, base_))
+      std::filesystem::remove(std::filesystem::path(base_).replace_filename(name), error);
+    return;
   }
-  if (continues_ && std::filesystem::exists(series, error))
+  const bool isOwn = !isThere || all.find(commentOf(run_)) != std::string::npos;
+  if (isOwn && !steps_.empty())
+    return;
+  steps_.clear();
+  firstNumber_ = firstFreeNumber(base_);
+  if (isThere)
     putForeignFileAside(series);
 }
 
 void PlanesObserver::writeSeries() const
 {
-  std::string text = "<?xml version=\"1.0\"?>\n"
-                     "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+  std::string text = "<?xml version=\"1.0\"?>\n" + commentOf(run_) +
+                     "\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
                      "  <Collection>\n";
   for (const auto& [time, name] : steps_)
     text +=

@@ -15,6 +15,7 @@ struct PlanesOptions
   std::string base;          ///< base_planes.pvd and base_planes_0000.vtp, ... are written
   OutputTimes when;          ///< as for the results
   std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
+  std::string run = {};      ///< identity, by which a restart knows whether a series is its own
 };
 
 /// Writes the common planes as points for ParaView: the point of contact of every plane that exists
@@ -39,7 +40,7 @@ private:
   void clearTheWay();
   void writeSeries() const;
 
-  std::string base_;
+  std::string base_, run_;
   bool continues_;
   OutputSchedule schedule_;
   std::int64_t lastCycle_ = -1;                     ///< that was written

@@ -90,17 +90,21 @@ bool isEmptyFile(const std::filesystem::path& file)
   return std::filesystem::is_regular_file(file, error) && std::filesystem::is_empty(file, error);
 }
 
-/// Removes the parts of a series from number `first` on, which a run has left that went on from an
-/// earlier checkpoint: ParaView would read them as well. What has such a name and holds no results
-/// is put aside.
-void removeParts(const std::string& file, int first)
+/// What is there of a series of results.
+struct PartThere
+{
+  std::filesystem::path file;
+  int number;
+};
+
+std::vector<PartThere> partsThere(const std::string& file)
 {
   const std::filesystem::path path(file);
-  const std::string stem = path.filename().string() + "-s";
-  std::error_code error;
+  const std::string stem = path.filename().string();
+  static const std::regex end(R"((?:-s([0-9]{4,9}))?(?:\.[0-9]+\.[0-9]+)?)"); // and no other name
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  static const std::regex number(R"(([0-9]{4,9})(\.[0-9]+\.[0-9]+)?)"); // and no other name
-  std::vector<std::filesystem::path> old;
+  std::error_code error;
+  std::vector<PartThere> parts;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
   {
     const std::string name = entry.path().filename().string();
@@ -108,17 +112,47 @@ void removeParts(const std::string& file, int first)
     if (name.rfind(stem, 0) != 0)
       continue;
     const std::string rest = name.substr(stem.size());
-    if (std::regex_match(rest, match, number) && std::atoi(match[1].str().c_str()) >= first)
-      old.push_back(entry.path());
+    if (std::regex_match(rest, match, end))
+      parts.push_back({entry.path(), match[1].matched ? std::atoi(match[1].str().c_str()) : 1});
   }
+  return parts;
+}
+
+/// Makes room for a new run, which replaces the series of an earlier one: its first part will be
+/// overwritten, later ones are removed, as ParaView would read them as well. What has such a name
+/// and holds no results is put aside.
+void removeSeries(const std::string& file)
+{
   int removed = 0;
-  for (const auto& one : old)
-    if (isResultsOfCoplane(one) || isEmptyFile(one))
-      removed += int(std::filesystem::remove(one, error));
+  std::error_code error;
+  for (const PartThere& part : partsThere(file))
+    if (part.number < 2)
+      continue;
+    else if (runOfResults(part.file) || isEmptyFile(part.file))
+      removed += int(std::filesystem::remove(part.file, error));
     else
-      putForeignFileAside(one);
+      putForeignFileAside(part.file);
   if (removed > 0)
     logInfo("removed {} parts of the series {}-s... from an earlier run", removed, file);
+}
+
+/// Makes room for a restart: parts from number `first` on were left by this run when it went on
+/// from an earlier checkpoint, and are removed; what is not of this run is put aside.
+void keepOwnParts(const std::string& file, const std::string& run, int first)
+{
+  int removed = 0;
+  std::error_code error;
+  for (const PartThere& part : partsThere(file))
+  {
+    const bool isOwn = isEmptyFile(part.file) || runOfResults(part.file) == run;
+    if (isOwn && part.number >= first)
+      removed += int(std::filesystem::remove(part.file, error));
+    else if (!isOwn)
+      putForeignFileAside(part.file);
+  }
+  if (removed > 0)
+    logInfo("removed {} parts of the series {}-s..., which are later than the checkpoint", removed,
+            file);
 }
 } // namespace
 
@@ -129,12 +163,17 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
   // Parts of restarts that were left behind. The checkpoint may be of a part that had no step yet:
   // what that part wrote afterwards has to go, too.
   const ResultsPosition position = ResultsPosition::from(options_.position);
+  options_.infoLines.insert(options_.infoLines.begin(), infoLineOf(options_.run));
   comm.together(
       [&]
       {
-        if (comm.isRoot())
-          removeParts(options_.file, position.file == options_.file ? position.part + 1
-                                                                    : std::max(2, options_.part));
+        if (!comm.isRoot())
+          return;
+        if (options_.part == 1)
+          removeSeries(options_.file);
+        else
+          keepOwnParts(options_.file, options_.run,
+                       position.file == options_.file ? position.part + 1 : options_.part);
       });
   if (options_.part == 1)
     open();

@@ -22,6 +22,7 @@ struct ResultsOptions
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
   int part = 1;              ///< of a series: 1 for a new run, one more with every restart
   std::string position = {}; ///< savePosition() of the run that is continued
+  std::string run = {};      ///< identity, by which restarts know what they may cut or remove
 };
 
 /// Name of a part of a series of results: wall.e, wall.e-s0002, ...

@@ -14,6 +14,7 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sys/resource.h>
 
 namespace coplane
@@ -169,11 +170,14 @@ Json slowestTimers(const Comm& comm)
   return json;
 }
 
-bool isRecord(const std::string& file)
+/// The identity of the run whose record a file is; nothing when it is no record.
+std::optional<std::string> runOfRecord(const std::string& file)
 {
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
-  return json.is_object() && json.contains("software") && json["software"].contains("coplane");
+  if (!json.is_object() || !json.contains("software") || !json["software"].contains("coplane"))
+    return std::nullopt;
+  return json.contains("run") && json["run"].is_string() ? json["run"].get<std::string>() : "";
 }
 
 /// Those of an earlier run, which belong to results that are not there any more. What has such a
@@ -188,7 +192,7 @@ void removeRecordsOfRestarts(const std::string& file)
     const std::string record = fmt::format("{}-s{:04}.json", base.string(), part);
     if (!std::filesystem::is_regular_file(record, error))
       return;
-    if (!isRecord(record))
+    if (!runOfRecord(record))
       putForeignFileAside(record);
     else if (!std::filesystem::remove(record, error))
       return;
@@ -223,9 +227,11 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
         deckHash_ = sha256(options_.deckText);
         meshHash_ = sha256OfFile(options_.meshFile);
         std::error_code error;
-        if (std::filesystem::is_regular_file(options_.file, error) && !isRecord(options_.file))
-          putForeignFileAside(options_.file);
-        if (options_.restartedFrom.empty())
+        const bool isNew = options_.restartedFrom.empty();
+        if (std::filesystem::is_regular_file(options_.file, error))
+          if (const auto run = runOfRecord(options_.file); !run || (!isNew && *run != options_.run))
+            putForeignFileAside(options_.file);
+        if (isNew)
           removeRecordsOfRestarts(options_.file);
       });
 }
@@ -249,6 +255,7 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   Json json{{"title", options_.title}, {"ending", ending}};
+  json["run"] = options_.run;
   json["software"] = softwareOf();
   if (!options_.restartedFrom.empty())
     json["restarted_from"] = options_.restartedFrom;

@@ -118,7 +118,8 @@ bool TextTable::open(const std::string& file, const std::optional<TextPosition>&
   bool goesOn = false;
   if (position)
   {
-    goesOn = position->bytes > 0 && position->file == file &&
+    std::error_code ignored;
+    goesOn = position->file == file && std::filesystem::exists(file, ignored) &&
              hashOfFile(file, position->bytes) == position->contents;
     if (goesOn)
     {
@@ -141,7 +142,7 @@ bool TextTable::open(const std::string& file, const std::optional<TextPosition>&
       std::error_code error;
       if (std::filesystem::is_regular_file(file, error) &&
           std::filesystem::file_size(file, error) > 0)
-        putForeignFileAside(file);
+        putForeignFileAside(placeOfFile(file)); // links stay links
     }
   }
   errno = 0;
@@ -151,7 +152,7 @@ bool TextTable::open(const std::string& file, const std::optional<TextPosition>&
   stream_.open(file, std::ios::app);
   if (!stream_)
     failToWrite(file);
-  return goesOn;
+  return bytes_ > 0;
 }
 
 void TextTable::add(const std::string& lines)

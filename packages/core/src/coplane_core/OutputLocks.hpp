@@ -1,0 +1,18 @@
+#pragma once
+
+#include <coplane_core/FileLock.hpp>
+#include <coplane_core/FileRoles.hpp>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// Holds locks with the names of all outputs in them, as long as it lives. Throws
+/// Error(ExitCode::Output) when another process writes one of the outputs, under whatever name.
+/// @param files names of the locks; those beside what links lead to belong among them
+/// @param whose for messages: "wall.yaml"
+std::vector<FileLock> lockOutputs(const FileRoles& outputs, const std::set<std::string>& files,
+                                  const std::string& whose);
+} // namespace coplane
