@@ -152,6 +152,29 @@ def corners(runs):
           ["square", "collisions", *(f"{what}, {when}" for when in ("before", "after") for what in ("median", "9 of 10 below", "largest", "stopped"))], rows)
 
 
+def near_end(tilt, end):
+    """A soft square falls with a corner on a rigid slab that ends so far to the left of it."""
+    recipe, deck, place = corner(tilt, 0.0, 1.0, False)
+    recipe["parts"][:2] = [box("slab", [-end, -0.1], [end + 0.6, 0.1], [6, 1])]
+    deck["materials"]["hard"] = SOFT
+    deck["blocks"]["slab"]["rigid"] = True
+    deck["conditions"] = [{"type": "rigid_motion", "block": "slab", "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]}]
+    deck["initial"][0]["velocity"] = [0.0, -1.0, 0.0]
+    return recipe, deck, place
+
+
+def ends(runs):
+    rows = []
+    for tilt in (-60, -40, -20, 20, 40):
+        cells = []
+        for end in (0.6, 9e-3, 3e-3):
+            recipe, deck, place = near_end(tilt, end)
+            cells.append([f"{lost(run):.1e}{ended(run)}" for run in runs.both(recipe, deck, change_mesh=place)])
+        rows.append([tilt, *(cells[i][which] for which in (0, 1) for i in range(3))])
+    table("A corner falls near the end of a slab, 1 m/s: remainder over kinetic energy, by the distance of the end",
+          ["tilt [degrees]", *(f"{end}, {when}" for when in ("before", "after") for end in ("0.6 m", "9 mm", "3 mm"))], rows)
+
+
 # --- bodies thrown on floors --------------------------------------------------------------------------------------
 def thrown(shape, floor):
     sizes = {"cube": [0.2, 0.2, 0.2], "plank": [0.5, 0.06, 0.15]}
@@ -201,7 +224,9 @@ def floors(runs):
 
 # --- a box of blocks ------------------------------------------------------------------------------------------------
 def tumbling(end, factor):
-    """Nine blocks fly in a box without friction or damping: kinetic and internal energy stay what they were."""
+    """Nine blocks fly in a box without friction, damping or viscosity: all energy can come back. The law has an energy: in a rate form, blocks
+    that vibrate for so long gain it (docs/theory/materials.md).
+    """
     walls = [box("walls", [-0.1, -0.1], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 1.2], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 0.0], [0.1, 1.2], [1, 6]),
              box("walls", [1.2, 0.0], [0.1, 1.2], [1, 6])]
     names, parts, initial = [], [], []
@@ -214,8 +239,8 @@ def tumbling(end, factor):
                         "angular_velocity": [0.0, 0.0, 3.0 * math.cos(i - 2 * j)], "center": [*center, 0.0]})
     recipe = {"dimension": 2, "parts": [*walls, *parts], "node_sets": {"walls": {"block": "walls"}}}
     deck = {
-        "materials": {"soft": SOFT}, "blocks": {name: {"material": "soft"} for name in ("walls", *names)},
-        "time": {"end": end, "step_factor": factor}, "conditions": [{"type": "fixed", "node_set": "walls"}], "initial": initial,
+        "materials": {"soft": {**SOFT, "model": "neo_hookean"}}, "blocks": {name: {"material": "soft"} for name in ("walls", *names)},
+        "time": {"end": end, "step_factor": factor, "energy_tolerance": 1e9}, "conditions": [{"type": "fixed", "node_set": "walls"}], "initial": initial,
         "viscosity": {"linear": 0, "quadratic": 0}, "output": {"planes": False}, "history": {"every": end / 200},
     }
     return recipe, deck
@@ -223,16 +248,9 @@ def tumbling(end, factor):
 
 def boxes(runs):
     rows = []
-    for factor in (0.8, 0.4):
-        cells = []
-        for run in runs.both(*tumbling(10.0, factor)):
-            h = run.history
-            start = h["kinetic"][0]
-            total = h["kinetic"] + h["internal"] + h["contact_stored"] + h["hourglass"]
-            cells += [f"{lost(run):.1e}", f"{float(numpy.max(numpy.abs(total - start)) / start):.1e}{ended(run)}"]
-        rows.append([factor, *cells])
-    table("Nine blocks in a box for 10 s: remainder, and change of all energy that can come back, over the energy of the start",
-          ["step factor", "remainder, before", "change, before", "remainder, after", "change, after"], rows)
+    for factor in (0.8, 0.4, 0.2, 0.1):
+        rows.append([factor, *(f"{lost(run):.1e}{ended(run)}" for run in runs.both(*tumbling(2.0, factor)))])
+    table("Nine blocks in a box for 2 s: remainder over the largest kinetic energy", ["step factor", "before", "after"], rows)
 
 
 # --- inclines -----------------------------------------------------------------------------------------------------
@@ -254,7 +272,7 @@ def inclines(runs):
     table("A block slides down an incline: way against g (sin - friction cos) t^2 / 2", ["slabs", "before", "after"], rows)
 
 
-TABLES = {"seams_2d": lambda runs: seams(runs, 2), "seams_3d": lambda runs: seams(runs, 3), "corners": corners, "floors": floors, "boxes": boxes,
+TABLES = {"seams_2d": lambda runs: seams(runs, 2), "seams_3d": lambda runs: seams(runs, 3), "corners": corners, "ends": ends, "floors": floors, "boxes": boxes,
           "inclines": inclines}
 if __name__ == "__main__":
     folders = [os.path.abspath(folder) for folder in sys.argv[1:3]]
