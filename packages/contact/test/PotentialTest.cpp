@@ -243,6 +243,33 @@ TEST(ContactPotential, gradientInThreeDimensionsAlsoWhereAWayOutIsNear)
   }
 }
 
+TEST(ContactPotential, aStripBeginsWithoutAJump)
+{
+  // A tilted face sinks into another one beside an edge of each. Where the closed part grows up to
+  // the second of these edges it lies between both from then on: half of the energy is at stake.
+  for (const Real tilt : {-1., 1.})
+  {
+    int part = 0;
+    Real before[2] = {0, 0};
+    for (Real down = 0; down < .2; down += 1e-5)
+    {
+      const Real left = (tilt > 0 ? 0 : .1) - down, right = left + 1.1 * tilt;
+      const Evaluation<2> flat(face({{1, 0, 0}, {0, 0, 0}}), face({{.9, left, 0}, {2, right, 0}}),
+                               1, 0, {0, 0}, 1u << 0 | 1u << 4);
+      const Evaluation<3> solid(face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+                                face({{.9, 0, left}, {.9, 1, left}, {2, 1, right}, {2, 0, right}}),
+                                1, 0, {0, 0}, 1u << 1 | 1u << 6);
+      part += flat.share > .01 && flat.share < .99;
+      EXPECT_LT(std::abs(flat.energy - before[0]), 2e-7) << down;
+      EXPECT_LT(std::abs(solid.energy - before[1]), 2e-7) << down;
+      EXPECT_NEAR(solid.share, flat.share, 1e-9) << down;
+      before[0] = flat.energy;
+      before[1] = solid.energy;
+    }
+    EXPECT_GT(part, 1000);
+  }
+}
+
 TEST(ContactPotential, forcesAreNumbersWhereAStripBecomesAFace)
 {
   // At three quarters of the smaller face in common a way out stops to count, also to the last bit.

@@ -68,6 +68,75 @@ for tilt, off, speed in (
         case.same_bits(folder, recipe, deck, run, ranks=3, threads=2, change_mesh=place)
 
 
+# --- A corner that lands near the end of a slab ---------------------------------------------------------------
+# A side of the square and the end of the slab face each other, one behind the other, and share what the corner dips in. Where the end is far
+# that is no contact, as the way out is up; where it is near, the corner slips over it. Both ways, nothing is made or lost.
+def near_end(end, tilt):
+    """As landing(), on a slab that ends so far to the left of the corner."""
+    recipe, deck, place = landing(False, tilt, 0.0, 1.0)
+    recipe["parts"][1].update(min=[-end, -0.1], size=[end + 0.4, 0.1], divisions=[5, 1])
+    deck["time"]["step_factor"] = 0.2 if end > 5e-3 else 0.1  # of the second order; slipping over takes few steps
+    return recipe, deck, place
+
+
+for tilt in (-80, -60, -40, -20, -8, 8, 20, 40):
+    after = []
+    for end in (0.4, 0.02, 9e-3, 3e-3):
+        name = f"corner {tilt} degrees, {1e3 * end:g} mm from the end"
+        recipe, deck, place = near_end(end, tilt)
+        run = case.run(f"end_{tilt}_{end:g}", recipe, deck, change_mesh=place, energy=2e-3)
+        h = run.history
+        case.check(f"{name}: contact remainder", h["contact_remainder"][-1] / h["kinetic"][0], 0, 2e-3)
+        after.append(numpy.array([h[f"falling_velocity_{axis}"][-1] for axis in "xy"]))
+        if end == 0.02 and tilt != -8:  # at -8 degrees the next corner, too, lands on the wide slab
+            case.check(f"{name}: against a wide slab", float(numpy.linalg.norm(after[-1] - after[0])), 0, 1e-3)
+    if tilt in (-40, 40):
+        case.same_bits(f"end_{tilt}_{end:g}", recipe, deck, run, ranks=3, threads=2, change_mesh=place)
+
+
+def near_corner(off, turns):
+    """The same in three dimensions: a cube of 0.3 m falls on its corner beside that of a rigid slab."""
+    recipe = {
+        "dimension": 3,
+        "parts": [
+            {"shape": "box", "block": "falling", "min": [0, 0, 10], "size": [0.3, 0.3, 0.3], "divisions": [2, 2, 2]},
+            {"shape": "box", "block": "slab", "min": [-off[0], -off[1], -0.1], "size": [0.4, 0.4, 0.1], "divisions": [3, 4, 1]},
+        ],
+    }
+
+    def place(x):
+        mine = x[:, 2] > 5
+        cube = x[mine] - [0.15, 0.15, 10.15]
+        cube[:, [0, 1]] = turned(cube[:, [0, 1]], turns[0])
+        cube[:, [1, 2]] = turned(cube[:, [1, 2]], turns[1])
+        cube[:, [2, 0]] = turned(cube[:, [2, 0]], turns[2])
+        x[mine] = cube - cube[numpy.argmin(cube[:, 2])] + [0, 0, 2e-3]
+        return x
+
+    deck = {
+        "materials": {"soft": soft},
+        "blocks": {"falling": {"material": "soft"}, "slab": {"material": "soft", "rigid": True}},
+        "conditions": [{"type": "rigid_motion", "block": "slab", "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]}],
+        "initial": [{"block": "falling", "velocity": [0, 0, -1]}],
+        "viscosity": quiet,
+        "time": {"end": 0.06, "step_factor": 0.4},
+    }
+    return recipe, deck, place
+
+
+for off, turns in (
+    ((0.004, 0.006), (10, 20, 30)), ((0.004, 0.1), (10, 30, 5)), ((0.01, 0.003), (30, 40, -15)), ((0.002, 0.002), (45, -25, 40)), ((0.1, 0.005), (0, 20, 0.5))
+):
+    recipe, deck, place = near_corner(off, turns)
+    folder = f"corner_3d_{off[0]:g}_{off[1]:g}"
+    run = case.run(folder, recipe, deck, change_mesh=place, energy=2e-3)
+    h = run.history
+    name = f"cube {1e3 * off[0]:g} mm and {1e3 * off[1]:g} mm from the edges of a slab, turned by {turns}"
+    case.check(f"{name}: contact remainder", h["contact_remainder"][-1] / h["kinetic"][0], 0, 2e-3)
+    if off == (0.004, 0.006):
+        case.same_bits(folder, recipe, deck, run, ranks=3, threads=2, change_mesh=place)
+
+
 # --- The seam of two blocks over a line of the mesh, all of it symmetric -------------------------------------
 # Corners pass each other and the line below them by round-off only, which must not decide what they feel.
 for friction in (0.0, 0.6):

@@ -61,7 +61,7 @@ public:
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
   Mask hidden{false};        ///< the part in contact begins at covered edges only
-  T ways[2]{};               ///< length of its border over which each body can be left sideways [m]
+  T ways[2]{};               ///< closure along the border over which each body can be left [m^2]
   T opposedness{};           ///< phi
   T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
   Vec3Of<T> gradient[2][4];  ///< of the energy [N]
@@ -101,7 +101,8 @@ public:
   /// The law: k/2 chi H Int c^2, as the density whose integral changes as that does when the
   /// moments change, and its value.
   /// chi: where the way out is sideways, over an edge of each body, nothing is in contact. Uniform
-  /// closure c over a strip of width w between such edges: a function of w / c.
+  /// closure c over a strip of width w between such edges: a function of w / 2c. An edge counts by
+  /// the closure along it, so that a strip begins smoothly when the closed part grows up to one.
   /// H: PenaltyHardening.
   /// @param inverseDepth 1 / depth, 0: no hardening [1/m]
   KOKKOS_INLINE_FUNCTION T press(const T& stiffness, const T& inverseDepth,
@@ -120,14 +121,14 @@ public:
       if (strip_)
       {
         const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
-        const Real ratio = v * v * v / (s * s * lengthOfStrip());
+        const Real ratio = v * v / (s * acrossStrip());
         const SmoothStep<Real> share((ratio - scale_.wayOutFrom) * width);
         wayOut = share.value;
         slope = share.slope * width * ratio;
         alongStrip_ = -0.5 * stiffness * hard * s * slope;
       }
-    density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - 2.0 * slope * hard);
-    density.linear = 0.5 * stiffness * mean * (3.0 * slope * hard - wayOut * hardSlope);
+    density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - slope * hard);
+    density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
     density.constant = T(0.0);
     return 0.5 * stiffness * wayOut * hard * s;
   }
@@ -462,7 +463,7 @@ private:
       for (int k = 0; k < 2; ++k)
         if (const int owner = q.owner[k]; owner >= 0)
         {
-          ways[owner / 4] += edges_.exits[owner];
+          ways[owner / 4] += edges_.exits[owner] * closureAt(q.sides.from[k]);
           addSide(owner, true);
         }
     }
@@ -504,7 +505,8 @@ private:
           addSide(q.owner[k], q.sides.isThere(k));
           const T& exit = edges_.exits[q.owner[k]];
           if (anyOf(exit > 0.0))
-            border[q.owner[k] / 4] += exit * squareRoot(dot(r - p, r - p));
+            border[q.owner[k] / 4] +=
+                0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureAt(p) + closureAt(r));
         }
       }
       const auto there = sum.area > 0.0 && plane.opposed && (whole || sum.volume > 0.0);
@@ -664,9 +666,9 @@ private:
     openSides_[owner / 4] += choose(isThere && !(covered > 0.0), edges_.turns[owner], none);
   }
 
-  /// Length of a strip between an edge of each face, twice; faces that share most of what they have
-  /// are no strip, however deep they lie in each other [m].
-  KOKKOS_FORCEINLINE_FUNCTION T lengthOfStrip() const
+  /// Closure along the edges that bound a strip, the harmonic mean of both faces, twice; faces that
+  /// share most of what they have are no strip, however deep they lie in each other [m^2].
+  KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const
   {
     return 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
            (1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value);
@@ -676,23 +678,21 @@ private:
   KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole)
   {
     const T& v = moments.volume;
-    const T& s = moments.squares;
     const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
-    strip_ = between && v * v * v < scale_.wayOutTo * (s * s) * lengthOfStrip();
+    strip_ = between && v * v < scale_.wayOutTo * moments.squares * acrossStrip();
     if constexpr (branchFree::widthOf<T> != 1)
       regular = regular && !strip_;
   }
 
-  /// Adds the gradient of what hangs on the length of the strip.
+  /// Adds the gradient of what hangs on the borders of the strip.
   KOKKOS_INLINE_FUNCTION void addStrip(const Real& scale, Real& push, Vec2& first,
                                        Vec2 (&rim)[2][4])
   {
-    if constexpr (Dim == 3)
-      for (int i = 0; i < pieces_; ++i)
-        for (int k = 0; k < piece_[i].sides.size; ++k)
-          if (const int owner = piece_[i].owner[k]; owner >= 0 && edges_.exits[owner] > 0)
-            addLength(piece_[i], k, alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])),
-                      push, first, rim);
+    for (int i = 0; i < pieces_; ++i)
+      for (int k = 0; k < piece_[i].sides.size; ++k)
+        if (const int owner = piece_[i].owner[k]; owner >= 0 && edges_.exits[owner] > 0)
+          addBorder(piece_[i], k, alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])),
+                    push, first, rim);
     const Real shared = overlap / size_;
     const SmoothStep<Real> together(4 * shared - 2);
     if (!(together.slope > 0))
@@ -704,15 +704,30 @@ private:
     byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
   }
 
-  /// The gradient of a side's length, which is bounded by the lines of its neighbours.
-  KOKKOS_INLINE_FUNCTION void addLength(const Owned& q, int k, Real perLength, Real& push,
-                                        Vec2& first, Vec2 (&rim)[2][4]) const
+  /// The gradient of the closure along a side, whose ends are where the lines of its neighbours
+  /// cross that of its edge; at a line of no closure the end counts nothing.
+  /// @param slope of the energy with that [N/m]
+  KOKKOS_INLINE_FUNCTION void addBorder(const Owned& q, int k, Real slope, Real& push, Vec2& first,
+                                        Vec2 (&rim)[2][4]) const
   {
+    const Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
+    const int owner = q.owner[k];
+    if constexpr (Dim == 2)
+    {
+      push += slope;
+      first = first + slope * q.sides.from[k];
+      rim[owner / 4][owner % 4].x -= slope * falls.x;
+      return;
+    }
     const Vec2 along = q.sides.to[k] - q.sides.from[k];
     const Real length = std::sqrt(dot(along, along));
     if (!(length > 0) || !q.sides.isThere(k))
       return;
     const Vec2 t = (1 / length) * along, n{t.y, -t.x};
+    const Vec2 middle = 0.5 * (q.sides.from[k] + q.sides.to[k]);
+    push += slope * length;
+    first = first + (slope * length) * middle;
+    pushEdge(owner, middle, (-slope * length * dot(falls, n)) * n, rim);
     for (int end = 0; end < 2; ++end)
     {
       const Vec2 p = end == 0 ? q.sides.from[k] : q.sides.to[k];
@@ -726,36 +741,24 @@ private:
         nearest = dot(r, r);
         next = j;
       }
-      if (next < 0 || q.owner[next] == Owned::noEdge)
+      if (next < 0 || q.owner[next] < 0)
         continue;
       const Vec2 other = outwardOf(q.owner[next]);
       const Real sine = dot(other, t);
       if (!(std::abs(sine) > 1e-6))
         continue;
-      const Real ofOther = (end == 0 ? -perLength : perLength) / sine;
-      pushEdge(q.owner[k], p, (-ofOther * dot(other, n)) * n, rim);
-      if (q.owner[next] >= 0)
-        pushEdge(q.owner[next], p, ofOther * other, rim);
-      else
-      {
-        const Real perClosure = ofOther * kappa_ / (2 * std::sqrt(dot(tilt_, tilt_)));
-        push += perClosure;
-        first = first + perClosure * p;
-      }
+      const Real ofOther = (end == 0 ? -slope : slope) * closureAt(p) / sine;
+      pushEdge(owner, p, (-ofOther * dot(other, n)) * n, rim);
+      pushEdge(q.owner[next], p, ofOther * other, rim);
     }
   }
 
-  /// Unit normal of the line that a side lies on, out of the polygon.
+  /// Unit normal of the line of an edge, out of the polygon.
   KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const
   {
-    Vec2 normal = tilt_; // closure falls along it
-    if (owner >= 0)
-    {
-      const int f = owner / 4, e = owner % 4;
-      const Vec2 d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
-      normal = {d.y, -d.x};
-    }
-    return (1 / std::sqrt(dot(normal, normal))) * normal;
+    const int f = owner / 4, e = owner % 4;
+    const Vec2 d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
+    return (1 / std::sqrt(dot(d, d))) * Vec2{d.y, -d.x};
   }
 
   /// A gradient with the motion of an edge at a place on it.

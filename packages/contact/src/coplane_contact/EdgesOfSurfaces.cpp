@@ -8,11 +8,12 @@ namespace coplane
 {
 namespace
 {
-/// Edges bound a strip if they face away from each other at least so much [-]: minus the cosine.
-/// Edges that cross bound none, bodies on them cannot leave each other sideways.
+/// Edges bound a strip if on the common plane they face away from each other at least so much [-]:
+/// minus the cosine. Edges that cross bound none, bodies on them cannot leave each other sideways.
 constexpr Real faceAway = 0.5;
-/// Beyond an edge a surface still faces the other one if its normal has more than this against it.
-constexpr Real stillOpposed = 0.1;
+/// Bodies can leave each other over an edge at which the normal beyond has less than this in common
+/// with the face's.
+constexpr Real sharp = 0.5;
 /// Faces lie on each other if they share more than this fraction of the smaller one.
 constexpr Real leastShare = 0.2;
 /// A surface turns outwards at an edge if its normal beyond has more than this in the outward
@@ -170,6 +171,7 @@ void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
 void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
 {
   const FacePlane planes[2] = {facePlane(a, x_, dimension_), facePlane(b, x_, dimension_)};
+  const Vec3 common = normalised(planes[0].normal - planes[1].normal);
   const bool onEachOther = lieOn(a, b, planes[0], planes[1]) > 0;
   unsigned turns = 0, exits = 0, covered = 0;
   Vec3 outward[8];
@@ -190,8 +192,8 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
       if (hides(edge.nodes, edge.beyond, planes[f].normal) >= 0) // goes on over the seam
         continue;
       turns |= bit;
-      outward[4 * f + e] = edge.outward;
-      if (dot(edge.beyond, planes[1 - f].normal) > -stillOpposed)
+      outward[4 * f + e] = normalised(edge.outward - dot(edge.outward, common) * common);
+      if (dot(edge.beyond, planes[f].normal) < sharp)
         exits |= bit;
     }
   }
