@@ -119,13 +119,14 @@ def near_corner(off, turns):
         "conditions": [{"type": "rigid_motion", "block": "slab", "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]}],
         "initial": [{"block": "falling", "velocity": [0, 0, -1]}],
         "viscosity": quiet,
-        "time": {"end": 0.06, "step_factor": 0.4},
+        "time": {"end": 0.06, "step_factor": 0.2},
     }
     return recipe, deck, place
 
 
 for off, turns in (
-    ((0.004, 0.006), (10, 20, 30)), ((0.004, 0.1), (10, 30, 5)), ((0.01, 0.003), (30, 40, -15)), ((0.002, 0.002), (45, -25, 40)), ((0.1, 0.005), (0, 20, 0.5))
+    ((0.004, 0.006), (10, 20, 30)), ((0.004, 0.1), (10, 30, 5)), ((0.01, 0.003), (30, 40, -15)), ((0.002, 0.002), (45, -25, 40)), ((0.1, 0.005), (0, 20, 0.5)),
+    ((0.0101, 0.0101), (1, -19, -40)), ((0.0052, 0.0101), (-17, -32, 18)), ((0.0091, 0.002), (0, -6, -27))
 ):
     recipe, deck, place = near_corner(off, turns)
     folder = f"corner_3d_{off[0]:g}_{off[1]:g}"
@@ -208,14 +209,19 @@ def roofs(angle, crossing):
     return recipe, deck, place
 
 
-for angle, crossing in ((90, 90), (90, 30), (75, 60), (60, 60), (60, 20), (38, 45), (30, 90), (20, 90), (10, 90)):
+for angle, crossing in (
+    (120, 50), (90, 90), (90, 60), (90, 30), (90, 16), (75, 90), (75, 60), (60, 90), (60, 60), (60, 40), (60, 20), (50, 90), (45, 75), (38, 45),
+    (30, 90), (20, 90), (10, 90)
+):
     recipe, deck, place = roofs(angle, crossing)
     run = case.run(f"roofs_{angle}_{crossing}", recipe, deck, change_mesh=place)
     h = run.history
     name = f"edges of {angle} degrees that cross at {crossing}"
     case.check(f"{name}: contact remainder", h["contact_remainder"][-1] / h["kinetic"][0], 0, 5e-3)
-    # Thin edges bend and ring; none goes through.
-    case.check_within(f"{name}: velocity apart over that before", (h["upper_velocity_z"][-1] - h["lower_velocity_z"][-1]) / 2, 0.2, 1.01)
+    # None goes through, and the edges are pushed along their common normal. Thin ones bend and ring.
+    apart = [(h[f"upper_velocity_{axis}"][-1] - h[f"lower_velocity_{axis}"][-1]) / 2 for axis in "xyz"]
+    case.check_within(f"{name}: velocity apart over that before", apart[2], 0.9, 1.01)
+    case.check(f"{name}: velocity aside", math.hypot(*apart[:2]), 0, 0.03)
     if (angle, crossing) in ((60, 20), (38, 45)):
         case.same_bits(f"roofs_{angle}_{crossing}", recipe, deck, run, ranks=3, threads=2, change_mesh=place)
 

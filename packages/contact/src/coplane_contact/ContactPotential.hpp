@@ -741,13 +741,23 @@ private:
         nearest = dot(r, r);
         next = j;
       }
-      if (next < 0 || q.owner[next] < 0)
+      if (next < 0 || q.owner[next] == Owned::closureLine)
         continue;
+      const Real further = (end == 0 ? -slope : slope) * closureAt(p);
+      if (q.owner[next] == Owned::noEdge)
+      {
+        // A diagonal: it ends at a node of its own face, and cuts the other face for both pieces.
+        const int node = nodeOfEdge(owner / 4, owner % 4, end);
+        const Vec2 off = p - shadow[owner / 4].p[node];
+        if (dot(off, off) < 1e-20 * length * length)
+          rim[owner / 4][node] = rim[owner / 4][node] + further * t;
+        continue;
+      }
       const Vec2 other = outwardOf(q.owner[next]);
       const Real sine = dot(other, t);
       if (!(std::abs(sine) > 1e-6))
         continue;
-      const Real ofOther = (end == 0 ? -slope : slope) * closureAt(p) / sine;
+      const Real ofOther = further / sine;
       pushEdge(owner, p, (-ofOther * dot(other, n)) * n, rim);
       pushEdge(q.owner[next], p, ofOther * other, rim);
     }
@@ -823,6 +833,7 @@ private:
   /// Before what is not closed is cut off.
   std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
   Mask strip_{false};
-  T alongStrip_{}; ///< what the energy changes with the logarithm of the strip's length [J]
+  T alongStrip_{}; ///< what the energy changes with the logarithm of the closure along its borders
+                   ///< [J]
 };
 } // namespace coplane

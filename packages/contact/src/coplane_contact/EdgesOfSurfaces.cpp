@@ -8,12 +8,13 @@ namespace coplane
 {
 namespace
 {
-/// Edges bound a strip if on the common plane they face away from each other at least so much [-]:
-/// minus the cosine. Edges that cross bound none, bodies on them cannot leave each other sideways.
-constexpr Real faceAway = 0.5;
+/// Edges bound a strip if on the common plane they face away from each other at least so much [-],
+/// minus the cosine, and in space have at least so much of their directions in common. Edges that
+/// cross bound none: bodies on them cannot leave each other sideways.
+constexpr Real faceAway = 0.5, parallel = 0.97;
 /// Bodies can leave each other over an edge at which the normal beyond has less than this in common
 /// with the face's.
-constexpr Real sharp = 0.5;
+constexpr Real sharp = 0.4;
 /// Faces lie on each other if they share more than this fraction of the smaller one.
 constexpr Real leastShare = 0.2;
 /// A surface turns outwards at an edge if its normal beyond has more than this in the outward
@@ -174,7 +175,7 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
   const Vec3 common = normalised(planes[0].normal - planes[1].normal);
   const bool onEachOther = lieOn(a, b, planes[0], planes[1]) > 0;
   unsigned turns = 0, exits = 0, covered = 0;
-  Vec3 outward[8];
+  Vec3 outward[8], along[8];
   for (int f = 0; f < 2; ++f)
   {
     const Face& face = f == 0 ? a : b;
@@ -193,6 +194,7 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
         continue;
       turns |= bit;
       outward[4 * f + e] = normalised(edge.outward - dot(edge.outward, common) * common);
+      along[4 * f + e] = cross(edge.outward, planes[f].normal);
       if (dot(edge.beyond, planes[f].normal) < sharp)
         exits |= bit;
     }
@@ -202,7 +204,8 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
   plane.exits = 0;
   for (int e = 0; e < 4; ++e)
     for (int o = 4; o < 8; ++o)
-      if ((exits >> e & exits >> o & 1u) != 0 && dot(outward[e], outward[o]) < -faceAway)
+      if ((exits >> e & exits >> o & 1u) != 0 && dot(outward[e], outward[o]) < -faceAway &&
+          (dimension_ == 2 || std::abs(dot(along[e], along[o])) > parallel))
         plane.exits = std::uint8_t(plane.exits | 1u << e | 1u << o);
 }
 } // namespace coplane

@@ -295,7 +295,10 @@ private:
     if constexpr (dim == 3)
     {
       if (byDefault)
+      {
         point.stress = rotated(stress, r);
+        point.strainIncrement = turnedToEnd(point.strainIncrement, r);
+      }
       for (int a = 0; a < M::hourglass; ++a)
         for (int i = 0; i < 3; ++i)
           hourglass[a][i] = r.a[i][0] * oldHourglass[a][0] + r.a[i][1] * oldHourglass[a][1] +
@@ -305,7 +308,10 @@ private:
     {
       const Lanes cosine = r(0, 0), sine = r(1, 0);
       if (byDefault)
+      {
         point.stress = rotatedInPlane(stress, cosine, sine);
+        point.strainIncrement = turnedToEndInPlane(point.strainIncrement, sine);
+      }
       for (int h = 0; h < M::hourglass; ++h)
       {
         hourglass[h][0] = cosine * oldHourglass[h][0] - sine * oldHourglass[h][1];

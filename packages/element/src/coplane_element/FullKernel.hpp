@@ -323,6 +323,8 @@ private:
         for (int j = 0; j < dim; ++j)
           store(f(i, j), row(i, j));
     }
+    else
+      point.strainIncrement = turnedToEnd(point.strainIncrement, point.rotation);
     point.stress = rotated(stress, point.rotation);
   }
 

@@ -28,6 +28,15 @@ KOKKOS_INLINE_FUNCTION Mat3Of<T> hughesWinget(const Vec3Of<T>& a)
   return r;
 }
 
+/// turnedToEnd() for a rotation about z.
+template <class T>
+KOKKOS_INLINE_FUNCTION SymTensorOf<T> turnedToEndInPlane(const SymTensorOf<T>& de, const T& sine)
+{
+  const T across = sine * de.xy;
+  return {de.xx - across, de.yy + across, de.zz, de.xy + T(0.5) * sine * (de.xx - de.yy),
+          de.yz,          de.zx};
+}
+
 /// rotated() for a rotation about z of a tensor without yz and zx.
 template <class T>
 KOKKOS_INLINE_FUNCTION SymTensorOf<T> rotatedInPlane(const SymTensorOf<T>& s, const T& cosine,

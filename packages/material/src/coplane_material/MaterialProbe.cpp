@@ -75,13 +75,14 @@ void MaterialProbe::advance(const Mat3& l, Real dt)
   const auto mean = [&](int i, int j) { return 0.5 * (l(i, j) + l(j, i)); };
   MaterialPoint<Real> point;
   point.dt = dt;
-  point.strainIncrement = {l(0, 0), l(1, 1), l(2, 2), mean(0, 1), mean(1, 2), mean(2, 0)};
+  const SymTensor de = {l(0, 0), l(1, 1), l(2, 2), mean(0, 1), mean(1, 2), mean(2, 0)};
   point.displacementGradient = l;
   Mat3 spin;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       spin(i, j) = 0.5 * (l(i, j) - l(j, i));
   point.rotation = inverse(identityPlus(-0.5, spin)) * identityPlus(0.5, spin);
+  point.strainIncrement = turnedToEnd(de, point.rotation);
   point.volumeRatio = next;
   point.halfVolumeRatio = half;
   point.energy = energy_;
@@ -91,7 +92,6 @@ void MaterialProbe::advance(const Mat3& l, Real dt)
   std::copy(history_.begin(), history_.end(), point.history);
   lawFunction(material_)(point);
   std::copy(point.history, point.history + maximumHistory, history_.begin());
-  const SymTensor& de = point.strainIncrement;
   energy_ += 0.5 * half * (contract(stress_, de) + contract(point.stress, de));
   dissipation_ += half * point.dissipation;
   stress_ = point.stress;
