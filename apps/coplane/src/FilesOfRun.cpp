@@ -3,6 +3,7 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/OutputLocks.hpp>
+#include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_output/Sha256.hpp>
 #include <coplane_output/TextFile.hpp>
 
@@ -189,6 +190,17 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
            }
          });
   return locks;
+}
+
+void removeOldStopFile(const Deck& deck, const Comm& comm)
+{
+  onRoot(comm,
+         [&]
+         {
+           if (takeStopFile(stopFile(deck)))
+             logInfo("{} was there before the start: it is removed, and does not end this run",
+                     stopFile(deck));
+         });
 }
 
 void putForeignDraftsAside(const Deck& deck, const Comm& comm)

@@ -14,6 +14,8 @@ std::string recordFile(const Deck& deck, int part);
 std::string planesBase(const Deck& deck);
 std::string tablesBase(const Deck& deck);
 std::string stopFile(const Deck& deck);
+/// One that was there before the start; what is put there from then on ends the run. Collective.
+void removeOldStopFile(const Deck& deck, const Comm& comm);
 
 /// Ranks on machines of their own may find different files under one name. Throws Error on all
 /// ranks, ExitCode::Usage or Mesh, when they work in different folders or see different meshes.

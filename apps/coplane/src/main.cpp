@@ -187,7 +187,6 @@ void endAllRanksOnOwnError(const Work& work)
 
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
-  listenToRequests();
   RunSettings settings;
   settings.command = command;
   if (line.maxWall > 0)
@@ -201,6 +200,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   if (!line.check)
   {
     locks = lockOutputs(deck, comm);
+    removeOldStopFile(deck, comm);
     demandWritableFiles(deck, line.restart, comm);
   }
   const MeshSlice mesh = readMesh(deck.mesh, comm);
@@ -371,7 +371,9 @@ int main(int argc, char** argv)
   // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When
   // the program is killed it may stay, and has been seen to fill the memory of the machine.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  coplane::holdRequests();
   MPI_Init(&argc, &argv);
+  coplane::listenToRequests();
   constexpr double patienceAfterErrors = 10, patience = 120; // [s]
   std::string failure;
   const Comm comm;

@@ -66,6 +66,17 @@ TEST(TakeRequests, aTerminalThatClosesIsIgnoredUnderNohup)
   std::signal(SIGHUP, before);
 }
 
+TEST(TakeRequests, whatIsHeldComesWhenItIsListenedTo)
+{
+  // As a library does that begins in between.
+  const auto lost = [](int) {};
+  holdRequests();
+  std::signal(SIGUSR2, lost);
+  std::raise(SIGUSR2);
+  listenToRequests();
+  EXPECT_EQ(takeRequests(), (Requests{false, true, true}));
+}
+
 TEST(TakeRequests, addsUpWhatSignalsAndObserversAskFor)
 {
   listenToSignals();
@@ -73,6 +84,19 @@ TEST(TakeRequests, addsUpWhatSignalsAndObserversAskFor)
   request({true, false, false});
   EXPECT_EQ(takeRequests(), (Requests{true, false, true}));
   EXPECT_EQ(takeRequests(), Requests{});
+}
+
+TEST(Run, doesInTheFirstCycleWhatWasAskedForBeforeIt)
+{
+  const Comm comm;
+  listenToRequests();
+  if (comm.rank() == comm.size() - 1)
+    std::raise(SIGUSR2);
+  Solver solver(shortRun(comm), comm);
+  solver.prepare();
+  Recorder observer;
+  EXPECT_EQ(solver.run(observer), ExitCode::Resumable);
+  EXPECT_EQ(solver.clock().cycle, 1);
 }
 
 TEST(Run, withoutSignalsCompletes)

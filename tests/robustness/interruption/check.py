@@ -28,10 +28,8 @@ def children(parent):
     return found
 
 
-def start(name, ranks, every):
-    """A run in a folder of its own; returns mpirun (or the program) and the process ids of the ranks, when it has
-    run for a while.
-    """
+def begin(name, ranks, every):
+    """A run in a folder of its own; returns the folder and mpirun, or the program."""
     folder = pathlib.Path(name.replace(" ", "_")).resolve()
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
@@ -43,6 +41,12 @@ def start(name, ranks, every):
         told = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(ranks), "--bind-to", "none"] + told
     with open(folder / "output.txt", "w") as output:
         process = subprocess.Popen(told, cwd=folder, stdout=output, stderr=subprocess.STDOUT)
+    return folder, process
+
+
+def start(name, ranks, every):
+    """The same when it has run for a while; returns the process ids of the ranks, too."""
+    folder, process = begin(name, ranks, every)
     history = folder / "run.csv"
     deadline = time.time() + 60
     while time.time() < deadline and not (history.exists() and history.read_bytes().count(b"\n") > 200):
@@ -90,6 +94,32 @@ time.sleep(1)
 os.kill(pids[0], signal.SIGTERM)
 case.check_equal(f"{name}: exit code", ends(name, process), INTERRUPTED)
 case.check(f"{name}: steps", len(read(folder)[0].times), 3, 0)
+
+# Requests that come while the libraries begin are done in the first cycle. The program holds them, or listens to them, as soon as SIGUSR2 is
+# among its blocked or caught signals.
+STOPPED = 8
+
+
+def cares(pid):
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return False
+    masks = [int(line.split()[1], 16) for line in status.splitlines() if line.startswith(("SigBlk", "SigCgt"))]
+    return any(mask >> (signal.SIGUSR2 - 1) & 1 for mask in masks)
+
+
+for what, delays in (("signal", (0, 0.01, 0.03, 0.1)), ("file", (0.05, 0.2))):
+    for delay in delays:
+        name = f"a {what} {delay:g} s after the start"
+        folder, process = begin(name, 1, 1.0)
+        deadline = time.time() + 60
+        lock = folder / "run.lock"
+        while time.time() < deadline and not (cares(process.pid) if what == "signal" else lock.exists()):
+            time.sleep(0.001)
+        time.sleep(delay)
+        process.send_signal(signal.SIGUSR2) if what == "signal" else (folder / "run.stop").touch()
+        case.check_equal(f"{name}: exit code", ends(name, process), STOPPED)
 
 # A killed rank: the others wait for it, and mpirun has to end them. Every step costs time, so that the kill falls
 # into the writing now and then.

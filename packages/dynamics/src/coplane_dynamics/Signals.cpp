@@ -20,12 +20,29 @@ void onSignal(int signal)
   if (signal == SIGUSR1 || signal == SIGUSR2)
     checkpointRequested = 1;
 }
+
+sigset_t requestSignals()
+{
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  ::sigaddset(&signals, SIGUSR1);
+  ::sigaddset(&signals, SIGUSR2);
+  return signals;
+}
 } // namespace
+
+void holdRequests()
+{
+  const sigset_t held = requestSignals();
+  ::sigprocmask(SIG_BLOCK, &held, nullptr);
+}
 
 void listenToRequests()
 {
   for (const int signal : {SIGUSR1, SIGUSR2})
     std::signal(signal, onSignal);
+  const sigset_t held = requestSignals();
+  ::sigprocmask(SIG_UNBLOCK, &held, nullptr);
 }
 
 void listenToSignals()

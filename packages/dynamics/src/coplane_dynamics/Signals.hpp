@@ -18,7 +18,11 @@ struct Requests
 /// Installs the handlers: SIGUSR1 asks for results and a checkpoint, SIGUSR2 for a checkpoint and
 /// the end, SIGINT, SIGTERM, SIGXCPU and, unless it is ignored, SIGHUP for the end.
 void listenToSignals();
-/// The same for SIGUSR1 and SIGUSR2 alone: a request that comes early is kept for the first cycle.
+/// SIGUSR1 and SIGUSR2 wait until listenToRequests(): libraries that begin have handlers of their
+/// own, in which requests would be lost.
+void holdRequests();
+/// The handlers of SIGUSR1 and SIGUSR2 alone: a request that comes early is kept for the first
+/// cycle.
 void listenToRequests();
 /// Asks for something on this rank, as a signal would.
 void request(const Requests& wanted);

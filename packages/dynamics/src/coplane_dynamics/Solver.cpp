@@ -385,7 +385,7 @@ void Solver::planNextCycle(bool first)
       });
   rigid_->sumForces(state_, contactStiffness_, [this](int n) { return leastElementStep(n); });
   // One reduction decides everything that must not differ between ranks.
-  const Requests mine = takeRequests();
+  const Requests mine = first ? Requests{} : takeRequests(); // early ones are for the first cycle
   std::vector<Real> extremes{-stableStep(), Real(mine.results), Real(mine.checkpoint),
                              Real(mine.stop), contact_ ? -contact_->thinnestElement() : -infinity};
   comm_->max(extremes);

@@ -55,8 +55,8 @@ double secondsSince(std::chrono::steady_clock::time_point begin)
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
-/// Removes the file; whether it was there. One that cannot be removed counts as well, with a
-/// warning: whoever made it wants the run to end.
+} // namespace
+
 bool takeStopFile(const std::string& file)
 {
   struct stat status
@@ -70,7 +70,6 @@ bool takeStopFile(const std::string& file)
                                         file, std::strerror(errno)));
   return true;
 }
-} // namespace
 
 CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions options,
                                        const Observer& outputs)
@@ -92,8 +91,6 @@ CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions optio
         cycles[s] = std::numeric_limits<std::int64_t>::max();
     }
     slot = cycles[1] < cycles[0];
-    if (!options_.stopFile.empty() && takeStopFile(options_.stopFile))
-      logInfo("{} is of an earlier run", options_.stopFile);
   }
   slot_ = int(comm.max(slot));
 }

@@ -29,6 +29,10 @@ struct CheckpointOptions
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
 
+/// Removes a stop file; whether it was there. One that cannot be removed counts as well, with a
+/// warning: whoever made it wants the run to end.
+bool takeStopFile(const std::string& file);
+
 /// Writes checkpoints: every so many cycles or seconds, when a signal asks for one, and before an
 /// end that was asked for. Comes after all outputs, whose positions go into the checkpoint. One
 /// that is not written in the middle of a run is a warning; before an end it is an error.
