@@ -224,8 +224,8 @@ def floors(runs):
 
 # --- a box of blocks ------------------------------------------------------------------------------------------------
 def tumbling(end, factor):
-    """Nine blocks fly in a box without friction, damping or viscosity: all energy can come back. The law has an energy: in a rate form, blocks
-    that vibrate for so long gain it (docs/theory/materials.md).
+    """Nine blocks fly in a box without friction, damping or viscosity: all energy can come back. The law has an energy
+    of its own, so that what is lost is lost by contact.
     """
     walls = [box("walls", [-0.1, -0.1], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 1.2], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 0.0], [0.1, 1.2], [1, 6]),
              box("walls", [1.2, 0.0], [0.1, 1.2], [1, 6])]
