@@ -1,11 +1,11 @@
 #include "FilesOfRun.hpp"
 
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/OutputLocks.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_output/Sha256.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -42,7 +42,10 @@ void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedF
   if (std::filesystem::exists(deck.mesh, error))
     roles.reads(deck.mesh, "the mesh (mesh)");
   else
+  {
+    roles.reads(deck.mesh, "the mesh (mesh)"); // beside its parts it would be taken for the mesh
     roles.readsSeries({deck.mesh + ".", ".", ""}, "a part of the mesh (mesh)");
+  }
   if (restartedFrom.empty())
     return;
   // The run goes on in its own checkpoints, and never overwrites the one that it came from first.
@@ -52,8 +55,7 @@ void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedF
   roles.reads(restartedFrom, "the checkpoint (--restart)");
 }
 
-/// @param restarts the results go on in a part of their own
-void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
+void addOutputs(FileRoles& roles, const Deck& deck)
 {
   const std::string history = "the history (history.file)", record = "the record of the run",
                     tables = "a table (history.tables)", results = "the results (output.results)",
@@ -61,25 +63,30 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
                     checkpoint = "the checkpoint (checkpoint.file)";
   const auto draft = [&](std::vector<std::string> pieces, const std::string& what)
   {
-    pieces.back() += ".part";
+    pieces.back() = draftOf(pieces.back());
     roles.writesDraft(pieces, what);
   };
   const auto replaces = [&](const std::string& file, const std::string& what)
   {
     roles.writes(file, what);
-    draft({file}, what);
+    draft({placeOfFile(file)}, what);
   };
   const auto replacesSeries = [&](const std::vector<std::string>& pieces, const std::string& what)
   {
     roles.writesSeries(pieces, what);
     draft(pieces, what);
   };
-  roles.writesInPlace(deck.history.file, history);
+  const auto appends = [&](const std::string& file, const std::string& what)
+  {
+    roles.writesInPlace(file, what);
+    draft({placeOfFile(file)}, what);
+  };
+  appends(deck.history.file, history);
   replaces(recordFile(deck, 1), record);
   const std::string base = withoutExtension(deck.history.file);
   replacesSeries({base + ".run-s", ".json"}, record);
   for (const std::string& table : deck.history.tables)
-    roles.writesInPlace(fmt::format("{}_{}.csv", base, table), tables + " " + table);
+    appends(fmt::format("{}_{}.csv", base, table), tables + " " + table);
   if (!deck.output.results.empty())
   {
     const std::string& file = deck.output.results;
@@ -89,10 +96,7 @@ void addOutputs(FileRoles& roles, const Deck& deck, bool restarts = false)
       replacesSeries({file + ".", ".", ""}, results);
     else
     {
-      if (restarts)
-        roles.writes(file, results);
-      else
-        roles.writesInPlace(file, results);
+      roles.writesInPlace(file, results); // at a restart: steps later than the checkpoint go
       draft({placeOfFile(file)}, results);
       replacesSeries({file + "-s", ""}, results);
     }
@@ -174,20 +178,10 @@ std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm)
   onRoot(comm,
          [&]
          {
-           FileRoles roles, left;
+           FileRoles roles;
            addOutputs(roles, deck);
            locks = lockOutputs(roles, lockFiles(deck), deck.file);
-           // Drafts of a run that was killed: its lock names them.
-           for (const FileLock& lock : locks)
-             left.add(FileRoles::outputsIn(lock.textFound()));
-           std::error_code ignored;
-           for (const std::string& file : roles.draftsThere())
-           {
-             FileRoles draft;
-             draft.writes(file, "a draft");
-             if (!draft.problemsWith(left).empty())
-               std::filesystem::remove(file, ignored);
-           }
+           removeDraftsOfKilled(roles, locks);
          });
   return locks;
 }
@@ -197,31 +191,27 @@ void removeOldStopFile(const Deck& deck, const Comm& comm)
   onRoot(comm,
          [&]
          {
-           if (takeStopFile(stopFile(deck)))
-             logInfo("{} was there before the start: it is removed, and does not end this run",
-                     stopFile(deck));
+           std::error_code error;
+           const bool wasThere = takeStopFile(stopFile(deck));
+           if (std::filesystem::exists(std::filesystem::symlink_status(stopFile(deck), error)))
+             fail(ExitCode::Output,
+                  "{}: the stop file of an earlier run cannot be removed, and would end this one. "
+                  "Remove it, or give the checkpoints another name (checkpoint.file).",
+                  stopFile(deck));
+           if (wasThere)
+             logInfo(
+                 "{} was there before the start: it does not end this run, and is out of the way",
+                 stopFile(deck));
          });
 }
 
-void putForeignDraftsAside(const Deck& deck, const Comm& comm)
+void demandWritableFiles(const Deck& deck, const Comm& comm)
 {
   onRoot(comm,
          [&]
          {
            FileRoles roles;
            addOutputs(roles, deck);
-           for (const std::string& file : roles.draftsThere())
-             putForeignFileAside(file);
-         });
-}
-
-void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm)
-{
-  onRoot(comm,
-         [&]
-         {
-           FileRoles roles;
-           addOutputs(roles, deck, restarts);
            const std::vector<std::string> hindrances = roles.hindrances();
            if (!hindrances.empty())
              fail(ExitCode::Output, "{}", fmt::join(hindrances, "\n"));

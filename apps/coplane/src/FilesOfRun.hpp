@@ -30,13 +30,10 @@ void demandDistinctFiles(const Deck& deck, const std::string& restartedFrom, con
 
 /// Throws Error(ExitCode::Output) on all ranks when an output cannot be written, before what an
 /// earlier run left is touched. Collective.
-void demandWritableFiles(const Deck& deck, bool restarts, const Comm& comm);
+void demandWritableFiles(const Deck& deck, const Comm& comm);
 
 /// Makes sure that no other run writes files of the same names. Throws Error(ExitCode::Output) on
 /// all ranks when one does. Rank 0 holds the locks for as long as the result lives. Collective.
 /// Drafts that a killed run has left, by the word of its lock, are removed.
 std::vector<FileLock> lockOutputs(const Deck& deck, const Comm& comm);
-
-/// Other files with the names of drafts are put aside. Collective.
-void putForeignDraftsAside(const Deck& deck, const Comm& comm);
 } // namespace coplane

@@ -144,6 +144,13 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
                            checkpoint.file(), checkpoint.head().program, version().number));
 }
 
+bool isOfRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
+             const Comm& comm)
+{
+  return meshDifferences(checkpoint.text("mesh"), meshFingerprint(mesh, comm)).empty() &&
+         deckDifferences(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file)).empty();
+}
+
 int partIn(const CheckpointReader& checkpoint)
 {
   return std::atoi(checkpoint.text("part").c_str());

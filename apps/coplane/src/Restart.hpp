@@ -25,6 +25,10 @@ std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
                    const Comm& comm);
 
+/// The same as an answer. Collective.
+bool isOfRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
+             const Comm& comm);
+
 /// Part of the series of results that the checkpoint belongs to. Collective.
 int partIn(const CheckpointReader& checkpoint);
 } // namespace coplane

@@ -8,6 +8,7 @@
 
 #include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/ExitCodes.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Memory.hpp>
@@ -201,7 +202,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   {
     locks = lockOutputs(deck, comm);
     removeOldStopFile(deck, comm);
-    demandWritableFiles(deck, line.restart, comm);
+    demandWritableFiles(deck, comm);
   }
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
@@ -257,10 +258,13 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       logInfo("check: deck and mesh are fine; nothing was run");
       return;
     }
-    putForeignDraftsAside(deck, comm);
-    // Checkpoints that this run does not go on from are of another.
+    // Checkpoints that this run does not go on from are of another, or may be.
     if (!isOneOfTwo(deck.checkpoint.file, settings.restartedFrom, comm))
       putAside(deck.checkpoint.file, comm);
+    else
+      putOtherAside(deck.checkpoint.file, settings.restartedFrom, comm,
+                    [&](const CheckpointReader& checkpoint)
+                    { return isOfRun(checkpoint, deck, mesh, comm); });
     addObservers(observers, deck, mesh, comm, settings);
     listenToSignals();
     code = solver.run(observers, &rebalancer);
@@ -303,6 +307,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
     CommandLine line;
     const int parsed = parse(argc, argv, comm.isRoot(), line);
     logSetup(comm.isRoot(), line.quiet);
+    setDraftToken(comm.broadcast(draftToken()));
     comm.demandSame("the program", build(), ExitCode::Usage);
     comm.demandSame("the command line",
                     optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""),
@@ -319,7 +324,13 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
                                  "KOKKOS_DISABLE_WARNINGS", "KOKKOS_TUNE_INTERNALS"})
       ::unsetenv(variable);
     Kokkos::InitArguments arguments;
-    comm.together([&] { arguments.num_threads = threadsOf(line); });
+    comm.together(
+        [&]
+        {
+          demandOpenFiles();
+          arguments.num_threads = threadsOf(line);
+          demandThreads(arguments.num_threads);
+        });
     arguments.disable_warnings = true;
     const Kokkos::ScopeGuard kokkos(arguments);
     setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
@@ -371,6 +382,10 @@ int main(int argc, char** argv)
   // Without mpirun Open MPI 4 starts a daemon beside the program, which only spawning needs. When
   // the program is killed it may stay, and has been seen to fill the memory of the machine.
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // All such programs would share one folder for the session, which each removes at its end, while
+  // another starts; a single rank needs none.
+  if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK") && !std::getenv("PMI_RANK"))
+    ::setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   coplane::holdRequests();
   MPI_Init(&argc, &argv);
   coplane::listenToRequests();

@@ -5,6 +5,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Version.hpp>
+#include <coplane_exodus/Provenance.hpp>
 
 #include <ctime>
 #include <filesystem>
@@ -66,7 +67,7 @@ std::array<std::string, 4> qaRecord()
   char date[32], hour[32];
   std::strftime(date, sizeof date, "%Y/%m/%d", std::localtime(&now));
   std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
-  return {"coplane_mesh", version().number, date, hour};
+  return {programOfMeshes, version().number, date, hour};
 }
 Mesh makeMeshFromText(const std::string& text, const std::string& name)
 {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -40,7 +41,10 @@ std::string textOfRecipe(const std::string& recipeFile, const std::string& help)
          kind);
   std::ifstream file(recipeFile);
   std::stringstream text;
-  if (!file || !(text << file.rdbuf()))
+  const bool isOpen = file.is_open();
+  if (isOpen && file.peek() != std::ifstream::traits_type::eof())
+    text << file.rdbuf();
+  if (!isOpen || file.bad() || !text)
     fail(ExitCode::Deck, "{}: the recipe cannot be read. Check its name; {} shows what it holds.",
          recipeFile, help);
   return text.str();
@@ -171,7 +175,8 @@ int RecipeMap::count(const std::string& key, int least) const
   int number = 0;
   if (!value.IsScalar() || !YAML::convert<int>::decode(value, number))
     refuse(key,
-           fmt::format("= '{}' is not a whole number.", value.IsScalar() ? value.Scalar() : "..."));
+           fmt::format("= '{}' is not a whole number up to {}.",
+                       value.IsScalar() ? value.Scalar() : "...", std::numeric_limits<int>::max()));
   if (number < least)
     refuse(key, fmt::format("= {} must be at least {}.", number, least));
   return number;

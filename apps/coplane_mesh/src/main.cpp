@@ -3,6 +3,7 @@
 #include "MakeMesh.hpp"
 #include "RecipeMap.hpp"
 
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
@@ -76,9 +77,13 @@ void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inpu
 {
   FileRoles roles;
   for (const auto& [file, what] : inputs)
+  {
     roles.reads(file, what);
-  for (const char* end : {"", ".part", ".lock"})
-    roles.writes(output + end, "the new mesh (-o)");
+    if (std::error_code error; !std::filesystem::exists(file, error))
+      roles.readsSeries({file + ".", ".", ""}, "a part of " + what);
+  }
+  roles.writes(output, "the new mesh (-o)");
+  roles.writes(placeOfFile(output) + ".lock", "the lock of the new mesh (-o)");
   if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
     fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
 }
@@ -88,9 +93,11 @@ void writeAlone(const Mesh& mesh, const std::string& output)
 {
   const std::string lock = placeOfFile(output) + ".lock";
   FileRoles roles;
-  for (const std::string& file : {output, output + ".part", lock})
-    roles.writes(file, "the new mesh (-o)");
+  roles.writes(output, "the new mesh (-o)");
+  roles.writes(lock, "the lock of the new mesh (-o)");
+  roles.writesDraft({draftOf(placeOfFile(output))}, "the new mesh (-o)");
   const auto locks = lockOutputs(roles, {lock}, output);
+  removeDraftsOfKilled(roles, locks);
   writeMesh(mesh, output);
 }
 
@@ -171,9 +178,11 @@ int run(int argc, char** argv)
   bool helpSplit = false;
   app.add_flag("--help-split", helpSplit, "Print the keys of recipes of joints");
   std::string recipe, output, file;
+  const auto isName = [](const std::string& name)
+  { return std::string(name.empty() ? "the name is empty; accepted: the name of a file" : ""); };
   CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
   making->add_option("recipe", recipe, "recipe, a YAML file")->required();
-  making->add_option("-o,--output", output, "Exodus II file to write")->required();
+  making->add_option("-o,--output", output, "Exodus II file to write")->required()->check(isName);
   CLI::App* checking = app.add_subcommand(
       "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
   checking->add_option("mesh", file, "Exodus II file")->required();
@@ -181,10 +190,14 @@ int run(int argc, char** argv)
       app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
   splitting->add_option("mesh", file, "Exodus II file")->required();
   splitting->add_option("recipe", recipe, "recipe of joints, a YAML file")->required();
-  splitting->add_option("-o,--output", output, "Exodus II file to write")->required();
+  splitting->add_option("-o,--output", output, "Exodus II file to write")
+      ->required()
+      ->check(isName);
   CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
   converting->add_option("mesh", file, "file of Gmsh, format 4.1")->required();
-  converting->add_option("-o,--output", output, "Exodus II file to write")->required();
+  converting->add_option("-o,--output", output, "Exodus II file to write")
+      ->required()
+      ->check(isName);
   app.require_subcommand(0, 1);
   try
   {
@@ -220,5 +233,10 @@ int main(int argc, char** argv)
 {
   coplane::beginProgram();
   coplane::limitMemoryToMachine();
-  return coplane::exitCodeOf([&] { return coplane::run(argc, argv); });
+  return coplane::exitCodeOf(
+      [&]
+      {
+        coplane::demandOpenFiles();
+        return coplane::run(argc, argv);
+      });
 }

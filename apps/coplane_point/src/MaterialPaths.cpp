@@ -1,13 +1,12 @@
 #include "MaterialPaths.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_input/SchemaBuilder.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fstream>
-#include <system_error>
 
 namespace coplane
 {
@@ -197,28 +196,26 @@ void followPath(const MaterialPathCard& card, MaterialProbe probe, const Record&
 
 std::string runMaterialPath(const MaterialPathCard& card, const Material& material)
 {
-  std::ofstream stream(card.output);
-  if (!stream)
-    fail(ExitCode::Output, "{}: cannot be written ({}). Check the folder and its permissions.",
-         card.output, std::generic_category().message(errno));
-  stream << "time[s]";
+  std::string header = "time[s]";
   for (const char* component : componentNames)
-    stream << ",strain_" << component << "[-]";
+    header += fmt::format(",strain_{}[-]", component);
   for (const char* component : componentNames)
-    stream << ",stress_" << component << "[Pa]";
-  stream << ",pressure[Pa],von_mises[Pa],volume_ratio[-],energy[J/m^3],dissipation[J/m^3],"
+    header += fmt::format(",stress_{}[Pa]", component);
+  header += ",pressure[Pa],von_mises[Pa],volume_ratio[-],energy[J/m^3],dissipation[J/m^3],"
             "stiffening[-]";
+  const std::string sameOfAll = header;
   const std::vector<std::string> names = historyNames(material);
   for (const std::string& name : names)
-    stream << ',' << name;
-  stream << '\n';
+    header += "," + name;
+  TextDraft draft(placeOfFile(card.output));
+  draft.add(header + "\n");
 
   int lines = 0;
   Real compression = 0, tension = 0, mises = 0, energy = 0, dissipation = 0;
   const auto write = [&](const MaterialProbe& probe)
   {
-    stream << fmt::format("{:.17g}", probe.time());
-    const auto put = [&](Real value) { stream << fmt::format(",{:.17g}", value); };
+    std::string line = fmt::format("{:.17g}", probe.time());
+    const auto put = [&](Real value) { line += fmt::format(",{:.17g}", value); };
     for (const SymTensor& tensor : {probe.strain(), probe.stress()})
       for (const Real value : componentsOf(tensor))
         put(value);
@@ -227,7 +224,7 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
       put(value);
     for (std::size_t k = 0; k < names.size(); ++k)
       put(probe.history()[k]);
-    stream << '\n';
+    draft.add(line + "\n");
     ++lines;
     if (!std::isfinite(probe.pressure() + probe.vonMises() + probe.volumeRatio() + probe.energy() +
                        probe.dissipation()))
@@ -244,9 +241,10 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
     dissipation = probe.dissipation();
   };
   followPath(card, MaterialProbe(material, card.size), write);
-  stream.close();
-  if (!stream)
-    fail(ExitCode::Output, "{}: writing failed. Is the disk full?", card.output);
+  draft.close();
+  makeWayFor(placeOfFile(card.output),
+             [&](const std::string& there) { return beginsWith(there, sameOfAll); });
+  draft.finish();
   return fmt::format("{}: {} of material '{}'\n"
                      "  peaks [Pa]: compression {:.6g}, tension {:.6g}, von Mises {:.6g}\n"
                      "  energy {:.6g} J/m^3, of which {:.6g} J/m^3 dissipated\n"

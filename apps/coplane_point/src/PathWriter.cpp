@@ -3,22 +3,22 @@
 #include <coplane_core/Error.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <system_error>
 
 namespace coplane
 {
-PathWriter::PathWriter(const std::string& file) : file_(file), stream_(file)
+namespace
 {
-  if (!stream_)
-    fail(ExitCode::Output, "{}: cannot be written ({}). Check the folder and its permissions.",
-         file_, std::generic_category().message(errno));
-  stream_
-      << "time[s],gap[m],closure[m],slip_x[m],slip_y[m],normal_traction[Pa],shear_traction_x[Pa],"
-         "shear_traction_y[Pa],shear_traction[Pa],slipping,slip_path[m],maximum_closure[m],"
-         "offset[m],inelastic_opening[m],inelastic_slip[m],bonded,damage,work[J/m^2],"
-         "stored[J/m^2],friction[J/m^2],fracture[J/m^2],hysteresis[J/m^2],balance[J/m^2]\n";
+constexpr const char* header =
+    "time[s],gap[m],closure[m],slip_x[m],slip_y[m],normal_traction[Pa],shear_traction_x[Pa],"
+    "shear_traction_y[Pa],shear_traction[Pa],slipping,slip_path[m],maximum_closure[m],"
+    "offset[m],inelastic_opening[m],inelastic_slip[m],bonded,damage,work[J/m^2],"
+    "stored[J/m^2],friction[J/m^2],fracture[J/m^2],hysteresis[J/m^2],balance[J/m^2]\n";
+} // namespace
+
+PathWriter::PathWriter(const std::string& file) : file_(file), draft_(placeOfFile(file))
+{
+  draft_.add(header);
 }
 
 void PathWriter::write(const JointPoint& point)
@@ -31,8 +31,8 @@ void PathWriter::write(const JointPoint& point)
   fracture_ = point.fracture();
   hysteresis_ = point.hysteresis();
   const Real balance = work_ - stored_ - friction_ - fracture_ - hysteresis_;
-  const auto put = [&](Real value) { stream_ << fmt::format(",{:.17g}", value); };
-  stream_ << fmt::format("{:.17g}", point.time());
+  std::string line = fmt::format("{:.17g}", point.time());
+  const auto put = [&](Real value) { line += fmt::format(",{:.17g}", value); };
   for (const Real value : {point.gap(), point.closure(), point.slip().x, point.slip().y, sigma,
                            state.shearTraction.x, state.shearTraction.y, shear})
     put(value);
@@ -41,7 +41,7 @@ void PathWriter::write(const JointPoint& point)
                            state.shearing, Real(state.bonded), point.law().damage(state), work_,
                            stored_, friction_, fracture_, hysteresis_, balance})
     put(value);
-  stream_ << '\n';
+  draft_.add(line + "\n");
   if (!std::isfinite(sigma + shear + balance))
     fail(
         ExitCode::Computation,
@@ -57,11 +57,12 @@ void PathWriter::write(const JointPoint& point)
   worstBalance_ = std::max(worstBalance_, std::abs(balance));
 }
 
-void PathWriter::close()
+void PathWriter::finish()
 {
-  stream_.close();
-  if (!stream_)
-    fail(ExitCode::Output, "{}: writing failed. Is the disk full?", file_);
+  draft_.close();
+  makeWayFor(placeOfFile(file_),
+             [](const std::string& there) { return beginsWith(there, header); });
+  draft_.finish();
 }
 
 std::string PathWriter::summary() const

@@ -2,6 +2,7 @@
 #include "PathWriter.hpp"
 #include "PointDeck.hpp"
 
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
@@ -30,7 +31,7 @@ void runPath(const PointDeck& deck, const JointPathCard& card)
 {
   PathWriter writer(card.output);
   followPath(card, pointOf(deck, card), [&](const JointPoint& point) { writer.write(point); });
-  writer.close();
+  writer.finish();
   print(fmt::format("{}: {} of joint '{}'", card.name, card.type, card.joint));
   print(writer.summary());
 }
@@ -51,10 +52,15 @@ FileRoles outputsOf(const PointDeck& deck)
   FileRoles roles;
   for (const std::string& file : lockFilesOf(deck))
     roles.writes(file, "the lock of an output");
+  const auto writes = [&](const std::string& file, const std::string& what)
+  {
+    roles.writes(file, what);
+    roles.writesDraft({draftOf(placeOfFile(file))}, what);
+  };
   for (const JointPathCard& card : deck.jointPaths)
-    roles.writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
+    writes(card.output, fmt::format("the output of joint_paths.{}", card.name));
   for (const MaterialPathCard& card : deck.materialPaths)
-    roles.writes(card.output, fmt::format("the output of material_paths.{}", card.name));
+    writes(card.output, fmt::format("the output of material_paths.{}", card.name));
   return roles;
 }
 
@@ -118,7 +124,9 @@ int run(int argc, char** argv)
     print("check: the deck is fine; nothing was run");
     return int(ExitCode::Success);
   }
-  const auto locks = lockOutputs(outputsOf(deck), lockFilesOf(deck), deck.file);
+  const FileRoles outputs = outputsOf(deck);
+  const auto locks = lockOutputs(outputs, lockFilesOf(deck), deck.file);
+  removeDraftsOfKilled(outputs, locks);
   for (const JointPathCard& card : deck.jointPaths)
     runPath(deck, card);
   for (const MaterialPathCard& card : deck.materialPaths)

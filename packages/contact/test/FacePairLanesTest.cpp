@@ -111,6 +111,30 @@ bool sameBits(const Plane& a, const Plane& b)
   return std::memcmp(static_cast<const void*>(&a), static_cast<const void*>(&b), sizeof(Plane)) ==
          0;
 }
+/// Planes with the tables beside them that the lanes work on.
+struct Slots
+{
+  explicit Slots(const std::vector<Plane>& of) : planes(of), faces(of.size()), asleep(of.size())
+  {
+    for (std::size_t p = 0; p < of.size(); ++p)
+      std::copy(of[p].face, of[p].face + 2, faces[p].face);
+  }
+  PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
+                  const ContactOptions& options)
+  {
+    return {planes.data(),
+            faces.data(),
+            reinterpret_cast<bool*>(asleep.data()),
+            halfStep.data(),
+            laws.data(),
+            options,
+            dt};
+  }
+
+  std::vector<Plane> planes;
+  std::vector<SlotFaces> faces;
+  std::vector<char> asleep;
+};
 } // namespace
 
 TEST(PairLanes, haveTheBitsOfOnePairAtATime)
@@ -127,9 +151,10 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
   for (const ContactOptions& o : all)
   {
     PairTable table(3000, 17);
-    std::vector<Plane> alone = table.planes, together = table.planes;
-    int carrying = 0, irregular = 0;
-    for (int cycle = 0; cycle < 5; ++cycle, table.move())
+    std::vector<Plane> alone = table.planes;
+    Slots together(table.planes);
+    int carrying = 0, irregular = 0, woken = 0;
+    for (int cycle = 0; cycle < 15; ++cycle, table.move())
     {
       const std::vector<HalfStepFace> faces = table.faces(o);
       for (Plane& plane : alone)
@@ -143,10 +168,16 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
           irregular +=
               trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
         }
-      PairLanes(together.data(), faces.data(), laws.data(), o, dt).update(0, int(together.size()));
+      const std::vector<char> before = together.asleep;
+      together.lanes(faces, laws, o).update(0, int(alone.size()));
       for (std::size_t p = 0; p < alone.size(); ++p)
-        ASSERT_TRUE(sameBits(alone[p], together[p])) << p << " in cycle " << cycle;
+      {
+        ASSERT_TRUE(sameBits(alone[p], together.planes[p])) << p << " in cycle " << cycle;
+        woken += before[p] && !together.asleep[p];
+      }
     }
+    EXPECT_GT(std::count(together.asleep.begin(), together.asleep.end(), true), 300);
+    EXPECT_GT(woken, 10);
     EXPECT_GT(carrying, 5000);
     EXPECT_GT(irregular, 100);
   }
@@ -162,15 +193,16 @@ TEST(PairLanes, doNotDependOnTheirNeighbours)
   std::vector<int> order(table.planes.size());
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), std::mt19937(3));
-  std::vector<Plane> sorted = table.planes, shuffled;
+  std::vector<Plane> inAnotherOrder;
   for (const int p : order)
-    shuffled.push_back(table.planes[p]);
-  PairLanes(sorted.data(), faces.data(), laws.data(), o, dt).update(0, int(sorted.size()));
-  for (int first = 0; first < int(shuffled.size()); first += 7) // stretches of another length
-    PairLanes(shuffled.data(), faces.data(), laws.data(), o, dt)
-        .update(first, std::min(first + 7, int(shuffled.size())));
-  for (std::size_t i = 0; i < order.size(); ++i)
-    ASSERT_TRUE(sameBits(sorted[order[i]], shuffled[i])) << order[i];
+    inAnotherOrder.push_back(table.planes[p]);
+  Slots sorted(table.planes), shuffled(inAnotherOrder);
+  const int count = int(order.size());
+  sorted.lanes(faces, laws, o).update(0, count);
+  for (int first = 0; first < count; first += 7) // stretches of another length
+    shuffled.lanes(faces, laws, o).update(first, std::min(first + 7, count));
+  for (int i = 0; i < count; ++i)
+    ASSERT_TRUE(sameBits(sorted.planes[order[i]], shuffled.planes[i])) << order[i];
 }
 
 TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)

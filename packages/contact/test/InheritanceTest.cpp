@@ -108,6 +108,12 @@ TEST(Inheritance, facesWithoutNodesAreOnNoSurface)
 
 namespace
 {
+bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach)
+{
+  const Continuation continuation(pair, dimension, reach);
+  return continuation.isNear(donor) && continuation.goesOn(donor);
+}
+
 /// In the plane z = 0 (two dimensions: y = 0): face 10, wide, faces upwards; face 21 lies on it
 /// from x = 0 to 1 and carries a plane. Face 22 looks down on it from x0 on, 1 m wide, `gap` above
 /// it, and shares a node with face 21, or none.

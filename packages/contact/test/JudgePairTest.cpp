@@ -49,6 +49,35 @@ TEST(Step5CandidatePairs, twoGhostsAreLeftToTheRanksThatOwnThem)
   EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face&) { a.local = false; }), Verdict::Candidate);
 }
 
+TEST(Step5CandidatePairs, onlyAPairThatWasACandidateBeforeWasMissed)
+{
+  // Two squares near each other that have become candidates while n0.n1 can have turned by 0.05.
+  const auto wasMissed = [](Real cosine, bool sharesNode, Real gap)
+  {
+    Scene scene;
+    scene.add(faceId(1, 0), {0, 0, 0}, {0, 0, 1}, 1, 1);
+    scene.add(faceId(2, 0), {0, 0, gap}, {std::sqrt(1 - cosine * cosine), 0, -cosine}, 1, 1);
+    if (sharesNode)
+      scene.faces[1].nodes[2] = scene.faces[0].nodes[0];
+    CandidateRules rules;
+    rules.skin = rules.reach = 0.1;
+    rules.declared = [](int, int) { return true; };
+    const NodeVectors x = positions(scene);
+    Scene apart = scene; // planes as if each had its own nodes
+    apart.faces[1].nodes[2] = 6;
+    const FacePlane planeA = facePlane(apart.faces[0], x, 3),
+                    planeB = facePlane(apart.faces[1], x, 3);
+    return hadToBeFound(scene.faces[0], scene.faces[1], planeA, planeB, rules, 0.1, 0.05);
+  };
+  EXPECT_TRUE(wasMissed(0.5, false, 0.05));
+  EXPECT_FALSE(wasMissed(0.12, false, 0.05));  // opposed by turning
+  EXPECT_FALSE(wasMissed(0.99, false, -0.55)); // risen from below the largest depth
+  EXPECT_TRUE(wasMissed(0.99, true, 0.05));    // the tip of a joint
+  EXPECT_FALSE(wasMissed(0.91, true, 0.05));   // just folded onto each other
+  EXPECT_FALSE(wasMissed(0.99, true, 0.55));   // just come near each other
+  EXPECT_FALSE(wasMissed(0.5, true, 0.05));    // neighbours
+}
+
 TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)
 {
   EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { b.nodes[2] = a.nodes[0]; }),

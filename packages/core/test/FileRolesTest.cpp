@@ -163,7 +163,7 @@ TEST_F(FileRolesTest, SaysWhatCannotBeWrittenAndChangesNothing)
   for (const std::string& sentence : busy)
     EXPECT_EQ(sentence.find("the planes, which are renamed over it cannot be written over"),
               std::string::npos);
-  EXPECT_NE(busy.back().find("the results cannot be written over it"), std::string::npos);
+  EXPECT_NE(busy.back().find("the results cannot replace this file"), std::string::npos);
   roles.writes(at("missing/new.csv"), "the planes");
   ASSERT_EQ(roles.hindrances().size(), busy.size() + 1);
   EXPECT_NE(roles.hindrances().back().find("the planes cannot be written"), std::string::npos);

@@ -1,6 +1,7 @@
 #include "SampleMeshes.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <functional>
 #include <sys/resource.h>
 
 namespace coplane
@@ -32,7 +34,8 @@ Real sideValue(int step, int set, int position)
   return 0.125 + 1000 * step + 100 * set + position;
 }
 
-void writeStep(ResultsFile& results, int step, int blocks)
+void writeStep(
+    ResultsFile& results, int step, int blocks, const std::function<void()>& afterTheNodes = [] {})
 {
   results.beginStep(0.25 * step);
   for (int variable = 0; variable < 2; ++variable)
@@ -42,6 +45,7 @@ void writeStep(ResultsFile& results, int step, int blocks)
       mine.push_back(nodalValue(step, variable, results.myNodes().first + i));
     results.putNodal(variable, mine);
   }
+  afterTheNodes();
   for (int block = 0; block < blocks; ++block)
   {
     std::vector<Real> mine;
@@ -351,5 +355,45 @@ TEST(ResultsFile, aFullDiskIsAnErrorWithAFilePerRankToo)
   EXPECT_NE(text.find("The file keeps 3 finished time steps."), std::string::npos) << text;
   EXPECT_EQ(Results(file).steps(), 3);
   std::filesystem::remove(file);
+}
+
+TEST(ResultsFile, aFileThatIsCutOffIsToldAlsoWhileAStepIsWritten)
+{
+  const Comm comm;
+  const std::string file = temporaryFile("cut.e");
+  const Mesh mesh = sampleMesh2d();
+  logSetup(comm.isRoot(), false);
+  enum class Cut
+  {
+    Never,
+    Between,
+    Within
+  };
+  for (const Cut when : {Cut::Never, Cut::Between, Cut::Within})
+  {
+    ResultsFile results(file, comm, sliceOf(mesh, comm.rank(), comm.size()), sampleVariables, {});
+    writeStep(results, 1, int(mesh.blocks.size()));
+    testing::internal::CaptureStderr();
+    const auto cutOff = [&]
+    {
+      comm.barrier();
+      if (comm.isRoot())
+        std::filesystem::resize_file(file, std::filesystem::file_size(file) / 4);
+      comm.barrier();
+    };
+    if (when == Cut::Between)
+      cutOff();
+    writeStep(
+        results, 2, int(mesh.blocks.size()),
+        when == Cut::Within ? std::function<void()>(cutOff) : [] {});
+    results.close();
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("somebody cut off the file") != std::string::npos,
+              comm.isRoot() && when != Cut::Never)
+        << int(when) << said;
+  }
+  if (comm.isRoot())
+    std::filesystem::remove(file);
+  comm.barrier();
 }
 } // namespace coplane

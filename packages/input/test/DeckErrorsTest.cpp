@@ -40,8 +40,8 @@ TEST(DeckErrors, tablesHaveAsManyTimesAsValuesAndTimesRise)
   EXPECT_EQ(errorOfGravity("{times: [0, 1], values: [0, -10]}"), "no error");
   EXPECT_EQ(
       errorOfGravity("{times: [0, 0], values: [0, -10]}"),
-      "wall.yaml:5:14: gravity.1 has 2 times and 2 values; accepted: as many of both, at least "
-      "2, with times that rise.");
+      "wall.yaml:5:14: gravity.1 has 2 times and 2 values, and 0 s comes after 0 s; accepted: as "
+      "many of both, at least 2, with times that rise.");
   EXPECT_EQ(
       errorOfGravity("{times: [0, 1, 2], values: [0, -10]}"),
       "wall.yaml:5:14: gravity.1 has 3 times and 2 values; accepted: as many of both, at least "
@@ -285,14 +285,14 @@ TEST(DeckErrors, aSearchIntervalOfZero)
 {
   EXPECT_EQ(errorWith("contact: {search_every: 0}\n"),
             "wall.yaml:5:25: contact.search_every = '0' is out of range; accepted: a whole number "
-            ">= 1 [cycles] or once.");
+            ">= 1 [cycles] or once or auto.");
 }
 
 TEST(DeckErrors, aSearchIntervalThatIsNotWhole)
 {
   EXPECT_EQ(errorWith("contact: {search_every: 1.5}\n"),
             "wall.yaml:5:25: contact.search_every = '1.5' is not a whole number; accepted: a whole "
-            "number >= 1 [cycles] or once.");
+            "number >= 1 [cycles] or once or auto.");
 }
 
 TEST(DeckErrors, aComponentGivenTwice)
@@ -477,8 +477,8 @@ TEST(DeckErrors, wrongYaml)
 TEST(DeckErrors, anEmptyDeck)
 {
   for (const std::string text : {"", "\n\n", "# only a remark\n", "---\n", "~\n"})
-    EXPECT_EQ(errorOf(text), "wall.yaml: the deck is empty; it needs at least mesh, materials, "
-                             "blocks and time. See --help-deck.");
+    EXPECT_EQ(errorOf(text),
+              "wall.yaml: the deck is empty; --help-deck lists the keys that it needs.");
 }
 
 TEST(DeckErrors, aDeckThatIsAList)
@@ -507,8 +507,9 @@ TEST(DeckErrors, anAliasOfItself)
 {
   EXPECT_EQ(
       errorWith("initial: &a [*a]\n"),
-      "wall.yaml:5:10: aliases (*name) make this part of the deck endless or enormous; "
-      "accepted: 50 levels and a million values more than are written. Write the values out.");
+      "wall.yaml:5:10: this part of the deck is nested too deeply or too large, as aliases (*name) "
+      "that contain themselves make it; accepted: 50 levels and a million values more than are "
+      "written. Write the values out.");
 }
 
 TEST(DeckErrors, aDeckThatDoesNotExist)

@@ -1,11 +1,12 @@
 #include "TwoCubes.hpp"
 
+#include <coplane_core/DraftName.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/MultiObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/TablesObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <gtest/gtest.h>
 
@@ -103,7 +104,7 @@ TEST(ReplaceFile, leavesNoDraftBehind)
     replaceFile(folder / "a.txt", "first");
     replaceFile(folder / "a.txt", "second");
     EXPECT_EQ(contentOf(folder / "a.txt"), "second");
-    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt.part"));
+    EXPECT_FALSE(std::filesystem::exists(draftOf(folder / "a.txt")));
   }
 }
 
@@ -133,21 +134,7 @@ TEST(ReplaceFile, aFileThatIsTooLargeIsAnErrorAndKeepsTheOldText)
   std::signal(SIGXFSZ, signalBefore);
   EXPECT_NE(said.find("File too large"), std::string::npos) << said;
   EXPECT_EQ(contentOf(folder / "a.txt"), "old");
-  EXPECT_FALSE(std::filesystem::exists(folder / "a.txt.part"));
-}
-
-TEST(ReplaceFile, aLinkOfTheNameOfTheDraftIsNotFollowed)
-{
-  const Comm comm;
-  const TestFolder folder(comm);
-  if (!comm.isRoot())
-    GTEST_SKIP() << "rank 0 writes";
-  std::ofstream(folder / "elsewhere") << "of somebody";
-  std::filesystem::create_symlink(folder / "elsewhere", folder / "a.txt.part");
-  replaceFile(folder / "a.txt", "new");
-  EXPECT_EQ(contentOf(folder / "a.txt"), "new");
-  EXPECT_FALSE(std::filesystem::is_symlink(folder / "a.txt"));
-  EXPECT_EQ(contentOf(folder / "elsewhere"), "of somebody");
+  EXPECT_FALSE(std::filesystem::exists(draftOf(folder / "a.txt")));
 }
 
 TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)

@@ -47,7 +47,7 @@ TEST(VtpPoints, nameTheirNumberInThePieceAndInEveryArray)
 {
   VtpPoints points({0, 0, 0, 1, 2, 3});
   points.addScalar("area", {0.5, 0.25});
-  const std::string text = points.text();
+  const std::string text = points.text("<!-- of a test -->");
   EXPECT_NE(text.find("NumberOfPoints=\"2\" NumberOfVerts=\"2\""), std::string::npos);
   // 16 bytes follow: 0x10 and seven zeros, then 0.5 = 0x3fe0000000000000 and 0.25 =
   // 0x3fd0000000000000, little-endian.
@@ -62,10 +62,11 @@ TEST(VtpPoints, keepNamesAsNumbersOfTheirCharacters)
   // ASCII: r 114, o 111, c 99, k 107; every name ends with a zero.
   VtpPoints points({0, 0, 0});
   points.addNames("joint_names", {"rock", "o"});
-  EXPECT_NE(points.text().find("<Array type=\"String\" Name=\"joint_names\" NumberOfTuples=\"2\" "
-                               "format=\"ascii\">114 111 99 107 0 111 0 </Array>"),
+  EXPECT_NE(points.text("<!-- of a test -->")
+                .find("<Array type=\"String\" Name=\"joint_names\" NumberOfTuples=\"2\" "
+                      "format=\"ascii\">114 111 99 107 0 111 0 </Array>"),
             std::string::npos)
-      << points.text();
+      << points.text("<!-- of a test -->");
 }
 
 TEST(CoreList, writesRanges)

@@ -1,7 +1,7 @@
 #include "TwoCubes.hpp"
 
+#include <coplane_core/TextFile.hpp>
 #include <coplane_output/ResultsObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ TEST(TextTable, tellsThatLinesWereCutOffAndGoesOnAtTheEnd)
   const TestFolder folder(Comm::alone());
   const std::string file = folder / "a.csv";
   TextTable table;
-  EXPECT_FALSE(table.open(file, {}));
+  EXPECT_FALSE(table.open(file, "a,b", {}));
   table.add("time\n");
   table.add("0.5\n");
   const TextPosition position = table.position(3);
@@ -73,17 +73,17 @@ TEST(TextTable, tellsThatLinesWereCutOffAndGoesOnAtTheEnd)
   const std::string said =
       testing::internal::GetCapturedStderr() + testing::internal::GetCapturedStdout();
   const bool speaks = Comm().isRoot();
-  EXPECT_EQ(said.find("2 bytes of 9 are there") != std::string::npos, speaks) << said;
+  EXPECT_EQ(said.find("(2 of 9 bytes)") != std::string::npos, speaks) << said;
   table.add("1\n");
   EXPECT_EQ(contentOf(file), "ti1\n");
 
   // A restart from the checkpoint before finds its lines gone; one under another name begins anew.
   TextTable again;
-  EXPECT_FALSE(again.open(file, position));
+  EXPECT_FALSE(again.open(file, "a,b", position));
   EXPECT_EQ(contentOf(file), "");
   again.add("time\n0.5\n1\n");
   TextTable third;
-  EXPECT_TRUE(third.open(file, position));
+  EXPECT_TRUE(third.open(file, "a,b", position));
   EXPECT_EQ(contentOf(file), "time\n0.5\n");
 }
 } // namespace coplane

@@ -3,6 +3,8 @@
 import os
 import pathlib
 import shutil
+import signal
+import socket
 import subprocess
 import time
 
@@ -154,6 +156,7 @@ run("a restart of the older run", folder, "--restart", old, "--set", "time.end=1
 check_kept("a restart of the older run", folder, before)
 
 # --- names of drafts and of what one derives ----------------------------------------------------------------------
+# Drafts have names that no user gives: run.e.part-1f2e3d4c.
 folder = folder_for("drafts of a user", started=False)
 names = [name + ".part" for name in ("run.chk.0", "run.run.json", "run_planes.pvd", "run_planes_0002.vtp", "run.e", "run.e-s0002", "run.run-s0003.json")]
 for name in names:
@@ -164,29 +167,101 @@ for name in names:
 before = contents(folder, [*names, "elsewhere", "run.run.json"])
 run("drafts of a user", folder, words=["is called"])
 check_kept("drafts of a user", folder, before)
-(folder / "run.lock").write_text(f"process 1 on here, since 2026-11-22 00:00:00 UTC\nthe checkpoint\t{folder / 'run.chk.0.part'}\n")
-for name in ("run.chk.0.part", "run.e-s0007.part"):
+case.check_equal("drafts of a user: they have their names", sorted(path.name for path in folder.glob("*.part")), sorted([*names, "run.chk.1.part"]))
+left = ["run.chk.0.part-00c0ffee", "run.e-s0007.part-00c0ffee"]
+(folder / "run.lock").write_text(f"process 1 on {socket.gethostname()}, since 2026-11-22 00:00:00 UTC\n"
+                                 f"a draft\t{folder / left[0]}\na draft\t{folder / 'run.e-s'}\t.part-00c0ffee\n")
+for name in left:
     (folder / name).write_text("half of something")
-with open(folder / "run.lock", "a") as lock:
-    lock.write(f"the results\t{folder / 'run.e-s'}\t.part\n")
-(folder / "run_planes_0900.vtp.part").write_text("of the user, too")
-before = contents(folder, [path.name for path in folder.iterdir() if path.name not in ("run.chk.0.part", "run.e-s0007.part", "run.lock")])
+(folder / "run_planes_0900.vtp.part-00000000").write_text("of the user, too")
+before = contents(folder, [path.name for path in folder.iterdir() if path.name not in (*left, "run.lock")])
 run("a run that is refused beside drafts", folder, "--set", "blocks.nobody.material=steel", code=DECK)
 case.check_equal("a run that is refused beside drafts: nothing is touched", contents(folder, before) == before, True)
 run("a draft of a killed run", folder)
 case.check_equal("a draft of a killed run: it is not kept", [path.name for path in folder.iterdir() if path.is_file() and path.read_bytes() == b"half of something"], [])
-check_kept("a draft of a user beside it", folder, {"run_planes_0900.vtp.part": b"of the user, too"})
-(folder / "q.e.part").symlink_to("elsewhere")
-shutil.copy("mesh.yaml", folder)
-found = subprocess.run([program.binary("coplane_mesh"), "make", "mesh.yaml", "-o", "q.e"], cwd=folder, capture_output=True).returncode
-case.check_equal("a link of the name of the mesh's draft: exit code", found, 0)
-case.check_equal("a link of the name of the mesh's draft: it is not followed", (folder / "elsewhere").read_text(), "of somebody")
+check_kept("a draft of a user beside it", folder, {"run_planes_0900.vtp.part-00000000": b"of the user, too"})
+case.check_equal("no draft is left", [path.name for path in folder.glob("*.part-*") if not path.name.endswith("-00000000")], [])
+
 for name in ("run.e-s0002.2.1", "run.e-s0002"):
     folder = folder_for("the mesh is " + name, started=False)
     os.rename(folder / "mesh.e", folder / name)
     before = contents(folder, [name])
     run(f"the mesh is {name}", folder, "--set", f"mesh={name}", code=DECK, words=["the mesh (mesh)", name])
     check_kept(f"the mesh is {name}", folder, before)
+
+# --- other spellings of a name, names that only look like parts, links ------------------------------------------------
+folder = folder_for("other spellings")
+before = contents(folder, [path.name for path in folder.glob("run*") if path.suffix in (".e", ".csv", ".pvd")])
+run("other spellings", folder, *on(1.4e-5), "--set", "output.results=./run.e", "--set", f"history.file={folder}/run.csv")
+case.check_equal("other spellings: nothing is put aside", [path.name for path in folder.glob("*" + aside + "*")], [])
+case.check_equal("other spellings: the history goes on", (folder / "run.csv").read_bytes().startswith(before["run.csv"]), True)
+folder = folder_for("inputs like parts", started=False)
+os.rename(folder / "mesh.e", folder / "run.e.2.0")
+names = ["--set", "mesh=run.e.2.0", "--set", "checkpoint.file=run.e.3"]
+run("inputs like parts", folder, *names)
+before = contents(folder, ["run.e.2.0", "run.e.3.0", "run.e.3.1"])
+run("inputs like parts: a restart", folder, *on(1.4e-5), *names)
+case.check_equal("inputs like parts: they have their names", [name for name in before if not (folder / name).is_file()], [])
+case.check_equal("inputs like parts: the mesh is as before", (folder / "run.e.2.0").read_bytes() == before["run.e.2.0"], True)
+folder = folder_for("a history without a line", started=False)
+names = ["--set", "history.file=notes.csv", "--set", "history.every=1", "--set", "history.tables=[]"]
+run("a history without a line", folder, *names, "--max-wall", "0.001", code=8)
+(folder / "notes.csv").write_text("notes of the user\n")
+run("a history without a line: a restart", folder, *on(1.4e-5), *names)
+check_kept("a history without a line", folder, {"notes.csv": b"notes of the user\n"})
+folder = folder_for("linked checkpoints")
+(folder / "far").mkdir()
+for name in ("run.chk.0", "run.chk.1", "run_planes.pvd"):
+    os.rename(folder / name, folder / "far" / name)
+    (folder / name).symlink_to("far/" + name)
+series = (folder / "run_planes.pvd").read_text().count("DataSet")
+run("linked checkpoints", folder, *on(1.8e-5))
+case.check_equal("linked checkpoints: links stay", [(folder / name).is_symlink() for name in ("run.chk.0", "run.chk.1", "run_planes.pvd")], [True] * 3)
+case.check_equal("linked checkpoints: the series goes on", (folder / "run_planes.pvd").read_text().count("DataSet") > series, True)
+run("linked checkpoints: once more", folder, *on(2.2e-5))
+
+# --- an editor, and somebody who moves the history away ------------------------------------------------------------------
+folder = folder_for("an editor", started=False)
+with open(folder / "run.log", "w") as log:
+    process = subprocess.Popen([program.binary("coplane"), "run.yaml", "--set", "time.end=1"], cwd=folder, stdout=log, stderr=subprocess.STDOUT)
+deadline = time.monotonic() + 60
+
+
+def wait_until(condition):
+    while not condition() and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.02)
+
+
+def lines_of(name):
+    return (folder / name).read_bytes().count(b"\n") if (folder / name).exists() else 0
+
+
+wait_until(lambda: lines_of("run.csv") > 5)
+shutil.copy(folder / "run.csv", folder / "edited")
+os.replace(folder / "edited", folder / "run.csv")  # as editors do
+there = lines_of("run.csv")
+wait_until(lambda: lines_of("run.csv") > there + 5)
+case.check_equal("an editor: lines go on in the file that has the name", lines_of("run.csv") > there + 5, True)
+case.check_equal("an editor: the run says so", "somebody has replaced the file" in (folder / "run.log").read_text(), True)
+os.rename(folder / "run.csv", folder / "moved.csv")
+wait_until(lambda: lines_of("run.csv") > 5)
+case.check_equal("moved away: a new history", (folder / "run.csv").read_text()[:13] if lines_of("run.csv") else "", "time[s],cycle")
+os.remove(folder / "run.csv")
+(folder / "run.csv").write_text("notes of the user\n")
+wait_until(lambda: lines_of("run.csv") > 5)
+(folder / "sub").mkdir()
+for make in (lambda file: os.mkfifo(file), lambda file: file.symlink_to("sub"), lambda file: file.write_text("")):
+    os.remove(folder / "run.csv")
+    make(folder / "run.csv")
+    wait_until(lambda: (folder / "run.csv").is_file() and not (folder / "run.csv").is_symlink() and lines_of("run.csv") > 5)
+    case.check_equal("a pipe, a linked folder, an empty file: lines go on", lines_of("run.csv") > 5, True)
+case.check_equal("a linked folder keeps its name", (folder / "sub").is_dir(), True)
+kinds = [(path.is_fifo(), path.is_symlink(), path.is_file() and path.stat().st_size == 0) for path in folder.glob("run.csv.old-*")]
+case.check_equal("a pipe, a linked folder, an empty file: are put aside", [any(kind[i] for kind in kinds) for i in range(3)], [True] * 3)
+process.send_signal(signal.SIGUSR2)
+case.check_equal("an editor: exit code", process.wait(timeout=60), 8)
+check_kept("an editor", folder, {"run.csv": b"notes of the user\n"})
+case.check_equal("an editor: there is a checkpoint", any((folder / f"run.chk.{slot}").exists() for slot in (0, 1)), True)
 
 # --- results that somebody cuts off, a stop file that cannot be removed ---------------------------------------------
 folder = folder_for("results are cut off", started=False)

@@ -379,6 +379,12 @@ extern "C"
     FAIL_IF(Rename, isMine(from));
     return theReal(from, to);
   }
+  int renameat2(int fromFolder, const char* from, int toFolder, const char* to, unsigned how)
+  {
+    REAL(renameat2);
+    FAIL_IF(Rename, isMine(from));
+    return theReal(fromFolder, from, toFolder, to, how);
+  }
   int close(int f)
   {
     REAL(close);

@@ -62,7 +62,7 @@ def kill(folder):
 
 def drafts(folder):
     """Checkpoints that are being written, or were when the run was killed."""
-    return list(folder.glob("run.chk.*.part"))
+    return list(folder.glob("run.chk.*.part-*"))
 
 
 def wait_and_kill(folder, process, how):

@@ -245,4 +245,15 @@ for ranks in (1, 2):
             print(done.stdout[-2000:])
     except subprocess.TimeoutExpired:
         case.check_equal(f"the folder is gone, {ranks} ranks: exit code", "no end", OUTPUT)
+
+# --- limits of the process ------------------------------------------------------------------------------------
+folder, _ = attempt("limits of the process", 0, options=["--check"])
+before = sorted(path.name for path in folder.iterdir())
+for limit, options, word in [("ulimit -n 16", "", "ulimit -n 64"), ("ulimit -v 300000", "--backend threads --threads 16", "threads")]:
+    done = subprocess.run(["bash", "-c", f"{limit}; exec {program.binary('coplane')} run.yaml {options}"], cwd=folder,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+    case.check_equal(f"{limit}: code and cause", (done.returncode, word in done.stdout), (MACHINE, True))
+case.check_equal("limits of the process: nothing was written", sorted(path.name for path in folder.iterdir()), before)
+done = subprocess.run(["bash", "-c", f"ulimit -Sn 16; exec {program.binary('coplane')} run.yaml --set history.tables=[]"], cwd=folder, timeout=60)
+case.check_equal("a soft limit of open files: is raised", done.returncode, 0)
 case.finish()

@@ -1,6 +1,7 @@
 #include <coplane_checkpoint/CheckpointFile.hpp>
 #include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_checkpoint/Hdf5Calls.hpp>
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Version.hpp>
 
@@ -43,9 +44,9 @@ std::string findRoom(const std::string& file, std::uint64_t bytes)
 /// Waits until the disk has the file, or the folder with its new name.
 std::string makeSafe(const std::string& path)
 {
-  const int descriptor = ::open(path.c_str(), O_RDONLY);
-  if (descriptor < 0)
-    return systemsReason();
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) // a folder may be written to and not read
+    return errno == EACCES && std::filesystem::is_directory(path) ? "" : systemsReason();
   const std::string reason = ::fsync(descriptor) == 0 || errno == EINVAL ? "" : systemsReason();
   ::close(descriptor);
   return reason;
@@ -236,11 +237,12 @@ void CheckpointWriter::forOwnRows(const std::vector<std::uint64_t>& places,
   }
 }
 
-void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real time) const
+void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real time,
+                             ReplacedFile* replaced) const
 {
   // Going beyond a file-size limit shall be an error of the call, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
-  const std::string draft = file + ".part";
+  const std::string draft = comm_->broadcast(draftOf(file));
   std::string failure;
   const auto failTogether = [&]
   {
@@ -260,7 +262,6 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
   std::optional<MemoryFile> skeleton; // of rank 0: everything but the rows of tables
   if (comm_->isRoot())
   {
-    std::remove(draft.c_str()); // a link would be followed
     failure = findRoom(draft, dataBytes());
     try
     {
@@ -323,10 +324,17 @@ void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real t
   failTogether();
   if (comm_->isRoot())
   {
-    if (std::rename(draft.c_str(), file.c_str()) != 0)
-      failure = systemsReason();
-    else
-      failure = makeSafe(folderOf(file));
+    try
+    {
+      errno = replaced                                        ? replaced->take(draft)
+              : std::rename(draft.c_str(), file.c_str()) == 0 ? 0
+                                                              : errno;
+      failure = errno != 0 ? systemsReason() : makeSafe(folderOf(file));
+    }
+    catch (const Error& error)
+    {
+      failure = error.what();
+    }
   }
   failTogether();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_core/TextFile.hpp>
 
 #include <cstdint>
 #include <string>
@@ -18,7 +19,9 @@ public:
   /// Writes beside the file, reads everything back and compares, makes it safe against a loss of
   /// power, and renames: whoever looks sees the old or the new file, whole. Throws
   /// Error(ExitCode::Output) on all ranks with the reason. Collective.
-  void write(const std::string& file, std::int64_t cycle, Real time) const;
+  /// @param replaced of rank 0: the file, when others may take its name
+  void write(const std::string& file, std::int64_t cycle, Real time,
+             ReplacedFile* replaced = nullptr) const;
 
 private:
   std::vector<std::uint64_t> makeFile(const std::string& name) const;

@@ -45,19 +45,28 @@ bool shareNode(const Face& a, const Face& b)
   return any != 0;
 }
 
+/// How far a pair must be within the bounds of candidates.
+struct Margin
+{
+  Real moved = 0;  ///< [m]
+  Real turned = 0; ///< [rad]
+};
+
 /// Faces of elements that share a node are neighbours on the surface of one body, or its front and
 /// its back where it is thin, and no pair. But at the tip of a joint that ends inside a body both
 /// faces have the tip's node: they lie on each other.
 bool mayShareNode(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
-                  const CandidateRules& rules)
+                  const CandidateRules& rules, const Margin& margin = {})
 {
+  constexpr Real cosFolded = 0.9;
   if (rules.sharedNodes)
     return true;
   if (!rules.declared || !rules.declared(a.group, b.group))
     return false;
-  const Vec3 apart = planeB.center - planeA.center;
-  const Real near = rules.depthMax * std::min(a.thickness, b.thickness);
-  return dot(planeA.normal, planeB.normal) < -0.9 && dot(apart, apart) < near * near;
+  const Real near = rules.depthMax * std::min(a.thickness, b.thickness) - margin.moved;
+  const Real most =
+      margin.turned > 0 ? std::cos(std::max(0.0, std::acos(cosFolded) - margin.turned)) : cosFolded;
+  return dot(planeA.normal, planeB.normal) < -most && norm(planeB.center - planeA.center) < near;
 }
 } // namespace
 
@@ -109,6 +118,15 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
       gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
     return Verdict::TooFarApart;
   return Verdict::Candidate;
+}
+
+bool hadToBeFound(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
+                  const CandidateRules& rules, Real moved, Real turned)
+{
+  const Real gap = dot(normalised(planeA.normal - planeB.normal), planeB.center - planeA.center);
+  const Real deepest = rules.depthMax * std::min(a.thickness, b.thickness);
+  return dot(planeA.normal, planeB.normal) < -rules.cosOpposed - turned && gap > moved - deepest &&
+         (!shareNode(a, b) || mayShareNode(a, b, planeA, planeB, rules, {moved, turned}));
 }
 
 namespace

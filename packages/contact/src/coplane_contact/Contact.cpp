@@ -203,10 +203,15 @@ void Contact::buildLists(int ownedNodes)
   halfStepFaces_ = decltype(halfStepFaces_)(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
   paired_ = Array<bool>("coplane::contact::paired", faces_.size());
+  slotFaces_ = decltype(slotFaces_)("coplane::contact::slotFaces", planes_.extent(0));
+  asleep_ = Array<bool>("coplane::contact::asleep", planes_.extent(0));
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (const int face : planes_(p).face)
+    for (int side = 0; side < 2; ++side)
+    {
+      const int face = slotFaces_(p).face[side] = planes_(p).face[side];
       if (face >= 0)
         paired_(face) = true;
+    }
   listPlanesOfFaces(
       [&](const Plane& plane, int side)
       {
@@ -245,6 +250,8 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   const auto planes = planes_;
+  const auto slots = slotFaces_;
+  const auto asleep = asleep_;
   const auto faces = faceTable_;
   const auto halfStep = halfStepFaces_;
   const auto paired = paired_;
@@ -290,26 +297,31 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const int planeCount = int(planes.extent(0));
   if (dimension == 3 && !classic)
   {
-    constexpr int stretch = 256; // long enough that few lanes stay empty at its end
+    constexpr int stretch = 512; // long enough that few lanes stay empty at its end
     parallelFor(
         "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
         KOKKOS_LAMBDA(const int s) {
           const int first = s * stretch;
           const int last = first + stretch < planeCount ? first + stretch : planeCount;
-          PairLanes(planes.data(), halfStep.data(), laws.data(), options, dt).update(first, last);
+          PairLanes(planes.data(), slots.data(), asleep.data(), halfStep.data(), laws.data(),
+                    options, dt)
+              .update(first, last);
         });
   }
   else
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
-          Plane& plane = planes(p);
-          if (plane.face[0] < 0)
+          if (slots(p).face[0] < 0)
             return;
-          const HalfStepFace& a = halfStep(plane.face[0]);
-          const HalfStepFace& b = halfStep(plane.face[1]);
+          Plane& plane = planes(p);
+          const HalfStepFace& a = halfStep(slots(p).face[0]);
+          const HalfStepFace& b = halfStep(slots(p).face[1]);
           if (!classic)
           {
+            if (asleep(p) && !mayMeet<2>(a, b))
+              return;
             updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
+            asleep(p) = isAsleep(plane);
             return;
           }
           const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
@@ -330,23 +342,19 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
 bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
 {
   // Between two searches nodes move by at most half a skin relative to each other, so a face turns
-  // by at most skin / size. A pair whose normals were not opposed enough, or that was too deep, at
-  // the last search became a candidate by turning or rising: the search has not missed it.
+  // by at most skin / size.
   const Face& faceA = faces_[plane.face[0]];
   const Face& faceB = faces_[plane.face[1]];
-  if (faceA.young || faceB.young)
-    return false;
-  const FacePlane a = facePlane(faceA, x, dimension_);
-  const FacePlane b = facePlane(faceB, x, dimension_);
-  const Real turn = 2 * skin_ / smallestFace_;
-  const Real gap = dot(normalised(a.normal - b.normal), b.center - a.center);
-  const Real deepest = candidates_.depthMax * std::min(faceA.thickness, faceB.thickness);
-  return dot(a.normal, b.normal) < -options_.cosOpposed - turn && gap > skin_ - deepest;
+  return !faceA.young && !faceB.young &&
+         hadToBeFound(faceA, faceB, facePlane(faceA, x, dimension_),
+                      facePlane(faceB, x, dimension_), candidateRules(), skin_,
+                      2 * skin_ / smallestFace_);
 }
 
 void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
 {
   const auto planes = planes_;
+  const auto asleep = asleep_;
   const auto loads = faceLoads_;
   const auto planesStart = planesStart_, planesEntry = planesEntry_;
   const auto facesStart = facesStart_, facesEntry = facesEntry_;
@@ -357,8 +365,10 @@ void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) cons
         FaceLoad& load = *new (&loads(n)) FaceLoad;
         for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
         {
-          if (i + ahead < entries)
+          if (i + ahead < entries && !asleep(planesEntry(i + ahead) / 2))
             prefetch(planes(planesEntry(i + ahead) / 2));
+          if (asleep(planesEntry(i) / 2))
+            continue;
           const Plane& plane = planes(planesEntry(i) / 2);
           if (plane.area > 0 || plane.nodeStiffness > 0)
             load.add(plane, planesEntry(i) % 2);

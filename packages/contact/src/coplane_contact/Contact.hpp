@@ -146,6 +146,7 @@ private:
   template <class FaceOf>
   void listPlanesOfFaces(const FaceOf& faceOf);
   void buildLists(int ownedNodes);
+  CandidateRules candidateRules() const; ///< with those of groups; while this lives
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
@@ -173,7 +174,9 @@ private:
   bool searchedSinceUpdate_ = false;
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
-  Array<JointLaw> laws_;                           ///< by joint card
+  Kokkos::View<SlotFaces*, Kokkos::HostSpace> slotFaces_;
+  Array<bool> asleep_;   ///< planes that isAsleep() holds for; none after a search
+  Array<JointLaw> laws_; ///< by joint card
   Array<Face> faceTable_;
   Array<FaceElement> elementTable_;
   Array<bool> paired_;                                           ///< faces that have a slot

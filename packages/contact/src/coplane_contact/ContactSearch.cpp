@@ -226,6 +226,14 @@ std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pair
   return leaders;
 }
 
+CandidateRules Contact::candidateRules() const
+{
+  CandidateRules rules = candidates_;
+  rules.declared = [this](int a, int b) { return rules_.between(a, b).declared; };
+  rules.excluded = [this](int a, int b) { return rules_.between(a, b).excluded; };
+  return rules;
+}
+
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again,
                      const ConstNodeVectors& v)
 {
@@ -234,11 +242,8 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   listFaces(layout);
 
   candidates_.motion.v = v;
-  CandidateRules candidates = candidates_;
-  candidates.declared = [&](int a, int b) { return rules_.between(a, b).declared; };
-  candidates.excluded = [&](int a, int b) { return rules_.between(a, b).excluded; };
   std::vector<CandidatePair> candidatePairs =
-      step5_candidatePairs(bins_, faces_, x, dimension_, candidates);
+      step5_candidatePairs(bins_, faces_, x, dimension_, candidateRules());
 
   const Slots slots = slotsOf(
       std::move(candidatePairs), planes_, faces_, [&](GlobalId id) { return faceHere(id); },
@@ -249,21 +254,26 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   // Donors of a face, from before this search: a local face has all its planes here, those of a
   // ghost have come with it.
   const std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost = byFace(ghosts_.donors);
-  const auto addDonors = [&](int face, std::vector<Donor>& donors)
+  std::vector<char> gives(planes_.extent(0)); // much smaller than the planes, which are asked often
+  parallelFor("coplane::contact::gives", int(gives.size()),
+              [&](const int p) { gives[p] = char(isDonor(planes_(p))); });
+  const auto addDonors =
+      [&](int face, const Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
   {
     if (faces_[face].local)
     {
       if (searches_ > 0)
         for (std::int32_t i = planesStart_(face); i < planesStart_(face + 1); ++i)
-          if (isDonor(planes_(planesEntry_(i) / 2)))
-            donors.push_back(donor(planes_(planesEntry_(i) / 2)));
+          if (const int p = planesEntry_(i) / 2; gives[p] && fits(planes_(p), plane, normal))
+            donors.push_back(donor(planes_(p)));
       return;
     }
     const GlobalId id = faces_[face].id;
     for (auto d = std::lower_bound(donorsOfGhost.begin(), donorsOfGhost.end(),
                                    std::make_pair(id, std::size_t(0)));
          d != donorsOfGhost.end() && d->first == id; ++d)
-      donors.push_back(ghosts_.donors[d->second]);
+      if (fits(ghosts_.donors[d->second], plane, normal))
+        donors.push_back(ghosts_.donors[d->second]);
   };
 
   // Method CommonPlane: which pairs lead, and what those that did not lead before take over from
@@ -292,9 +302,14 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
   }
 
+  const Array<FacePlane> facePlanes(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces_.size());
+  parallelFor("coplane::contact::facePlanes", int(faces_.size()),
+              [&](const int f)
+              { new (&facePlanes(f)) FacePlane(facePlane(faces_[f], x, dimension_)); });
   std::optional<EdgesOfSurfaces> edges;
   if (!classic())
-    edges.emplace(localFaces_, pairs, faces_, x, dimension_, layout);
+    edges.emplace(pairs, faces_, localFaces_.size(), facePlanes, x, dimension_, layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -330,10 +345,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     }
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
-    const FacePlane planeA = facePlane(a, x, dimension_), planeB = facePlane(b, x, dimension_);
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
     if (edges && (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset)))
-      edges->look(a, b, plane);
+      edges->look(std::size_t(source[slot]), plane);
     if (plane.sighting == Sighting::Missed)
       plane.sighting = Sighting::Woken;
     const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
@@ -385,21 +399,26 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.closure = 0;
     plane.lineage = Lineage::Own;
     plane.history = {};
-    addDonors(pair.lower, donors);
-    addDonors(pair.higher, donors);
-    if (!donors.empty())
+    const Vec3 normal =
+        classic() ? leaders[source[slot]].normal
+                  : normalised(facePlanes(pair.lower).normal - facePlanes(pair.higher).normal);
+    addDonors(pair.lower, plane, normal, donors);
+    addDonors(pair.higher, plane, normal, donors);
+    if (donors.empty())
+      return;
+    const NewPair now = newPair(normal);
+    const Continuation continuation(now, dimension_, skin_);
+    std::vector<Donor> heirlooms;
+    for (Donor& donor : donors)
     {
-      const NewPair now = newPair(classic() ? leaders[source[slot]].normal
-                                            : normalised(planeA.normal - planeB.normal));
+      if (!continuation.isNear(donor))
+        continue;
       if (!classic())
-        for (Donor& donor : donors)
-          donor.flush = isFlush(now, donor, dimension_);
-      donors.erase(std::remove_if(donors.begin(), donors.end(),
-                                  [&](const Donor& donor)
-                                  { return !continues(now, donor, dimension_, skin_); }),
-                   donors.end());
-      inherit(plane, now.normal, now.nodes, donors);
+        donor.flush = isFlush(now, donor, dimension_);
+      if (continuation.goesOn(donor))
+        heirlooms.push_back(donor);
     }
+    inherit(plane, normal, now.nodes, heirlooms);
   };
   parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
 

@@ -10,8 +10,10 @@ namespace
 {
 /// Edges bound a strip if on the common plane they face away from each other at least so much [-],
 /// minus the cosine, and in space have at least so much of their directions in common. Edges that
-/// cross bound none: bodies on them cannot leave each other sideways.
-constexpr Real faceAway = 0.5, parallel = 0.97;
+/// cross bound none, as bodies on them cannot leave each other sideways; unless the surfaces beyond
+/// them oppose each other and the faces do much less, like the ends of two bricks beside each
+/// other, and the top of one and the front of the other: the ends keep them apart.
+constexpr Real faceAway = 0.5, parallel = 0.97, muchLess = 0.3;
 /// Bodies can leave each other over an edge at which the normal beyond has less than this in common
 /// with the face's.
 constexpr Real sharp = 0.4;
@@ -24,18 +26,10 @@ constexpr Real convex = 0.1;
 constexpr Real sameWay = 0.7;
 } // namespace
 
-struct EdgesOfSurfaces::Edge
+/// Edge e of a face, in the order of its nodes.
+EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const Vec3& normal) const
 {
-  Vec3 outward; ///< in the face, away from it over the edge
-  int nodes[2]; ///< in two dimensions twice the same
-  bool turns = false;
-  Vec3 beyond; ///< normal of the surface beyond an edge at which it turns
-};
-
-EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
-                                            const Vec3& normal) const
-{
-  Edge edge;
+  Edge edge{};
   if (dimension_ == 2) // the "edge" is node e
   {
     edge.nodes[0] = edge.nodes[1] = face.nodes[e];
@@ -43,10 +37,8 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
   }
   else
   {
-    // Edge e of the outline: that of the higher face runs the other way.
-    const int next = e + 1 == face.count ? 0 : e + 1;
-    edge.nodes[0] = face.nodes[side == 0 ? e : face.count - 1 - next];
-    edge.nodes[1] = face.nodes[side == 0 ? next : face.count - 1 - e];
+    edge.nodes[0] = face.nodes[e];
+    edge.nodes[1] = face.nodes[e + 1 == face.count ? 0 : e + 1];
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
   // The surface beyond is the one that both nodes have beside this one, the sharpest turn if there
@@ -66,19 +58,53 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::edge(const Face& face, int side, int e,
   return edge;
 }
 
-EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<Face>& localFaces,
-                                 const std::vector<CandidatePair>& pairs,
-                                 const std::vector<Face>& faces, const ConstNodeVectors& x,
+EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs,
+                                 const std::vector<Face>& faces, std::size_t localFaces,
+                                 const Array<FacePlane>& planes, const ConstNodeVectors& x,
                                  int dimension, const NodeLayout& layout)
-    : x_(x), dimension_(dimension), normals_(layout.size()), hidden_(layout.size()),
-      flush_(layout.size())
+    : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
+      lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size())
 {
-  for (const Face& face : localFaces)
-    for (int k = 0; k < face.count; ++k)
-      if (face.nodes[k] < layout.owned())
-        normals_.add(face.nodes[k], facePlane(face, x, dimension).normal, 0);
+  for (std::size_t f = 0; f < localFaces; ++f)
+    for (int k = 0; k < faces[f].count; ++k)
+      if (faces[f].nodes[k] < layout.owned())
+        normals_.add(faces[f].nodes[k], planes(f).normal, 0);
   normals_.refresh(layout);
-  findHidden(pairs, faces, layout);
+  findEdges();
+  parallelFor("coplane::contact::lieOn", int(pairs.size()),
+              [&](const int p) { lieOn_[p] = lieOn(pairs[p].lower, pairs[p].higher); });
+  findHidden(layout);
+}
+
+void EdgesOfSurfaces::findEdges()
+{
+  firstEdge_.assign(faces_.size(), -1);
+  std::vector<std::int32_t> paired;
+  std::int32_t count = 0;
+  for (const CandidatePair& pair : pairs_)
+    for (const int face : {pair.lower, pair.higher})
+      if (firstEdge_[face] < 0)
+      {
+        firstEdge_[face] = count;
+        count += faces_[face].count;
+        paired.push_back(face);
+      }
+  edges_.resize(count);
+  parallelFor("coplane::contact::findEdges", int(paired.size()),
+              [&](const int i)
+              {
+                const std::int32_t f = paired[i];
+                for (int e = 0; e < faces_[f].count; ++e)
+                  edges_[firstEdge_[f] + e] = lookBeyond(faces_[f], e, planes_(f).normal);
+              });
+}
+
+const EdgesOfSurfaces::Edge& EdgesOfSurfaces::edge(int face, int side, int e) const
+{
+  // The outline of the higher face runs the other way.
+  const int count = faces_[face].count;
+  const int own = side == 0 || dimension_ == 2 ? e : e + 1 == count ? count - 1 : count - 2 - e;
+  return edges_[firstEdge_[face] + own];
 }
 
 int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const
@@ -95,9 +121,10 @@ int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3
   return bodies[0] == bodies[1] ? bodies[0] : -1; // two may have a gap between them
 }
 
-Real EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& planeA,
-                            const FacePlane& planeB) const
+Real EdgesOfSurfaces::lieOn(int lower, int higher) const
 {
+  const Face &a = faces_[lower], &b = faces_[higher];
+  const FacePlane &planeA = planes_(lower), &planeB = planes_(higher);
   if (!(dot(planeA.normal, planeB.normal) < -DirectionsOfNodes::one))
     return 0;
   const Vec3 normal = normalised(planeA.normal - planeB.normal);
@@ -124,26 +151,21 @@ Real EdgesOfSurfaces::lieOn(const Face& a, const Face& b, const FacePlane& plane
   return near ? size : 0;
 }
 
-void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
-                                 const std::vector<Face>& faces, const NodeLayout& layout)
+void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
 {
-  for (const CandidatePair& pair : pairs)
+  for (std::size_t p = 0; p < pairs_.size(); ++p)
   {
-    const Face* const both[2] = {&faces[pair.lower], &faces[pair.higher]};
-    const FacePlane planes[2] = {facePlane(*both[0], x_, dimension_),
-                                 facePlane(*both[1], x_, dimension_)};
-    const Real size = lieOn(*both[0], *both[1], planes[0], planes[1]);
+    const Real size = lieOn_[p];
     if (!(size > 0))
       continue;
-    Edge theirs[4];
-    for (int o = 0; o < both[1]->count; ++o)
-      theirs[o] = edge(*both[1], 1, o, planes[1].normal);
+    const int places[2] = {pairs_[p].lower, pairs_[p].higher};
+    const Face* const both[2] = {&faces_[places[0]], &faces_[places[1]]};
     for (int e = 0; e < both[0]->count; ++e)
     {
-      const Edge mine = edge(*both[0], 0, e, planes[0].normal);
+      const Edge& mine = edge(places[0], 0, e);
       for (int o = 0; o < both[1]->count && mine.turns; ++o)
       {
-        const Edge& its = theirs[o];
+        const Edge& its = edge(places[1], 1, o);
         if (!its.turns || !(dot(mine.outward, its.outward) > sameWay))
           continue;
         for (int f = 0; f < 2; ++f)
@@ -158,7 +180,7 @@ void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
             if (node >= layout.owned() || !(std::abs(dot(off, to.outward)) < flush * size) ||
                 !(part > -flush && part < 1 + flush))
               continue;
-            hidden_.add(node, planes[f].normal, both[1 - f]->body);
+            hidden_.add(node, planes_(places[f]).normal, both[1 - f]->body);
             flush_.add(node, from.outward, 0);
           }
         }
@@ -169,33 +191,37 @@ void EdgesOfSurfaces::findHidden(const std::vector<CandidatePair>& pairs,
   flush_.refresh(layout);
 }
 
-void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
+void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
 {
-  const FacePlane planes[2] = {facePlane(a, x_, dimension_), facePlane(b, x_, dimension_)};
-  const Vec3 common = normalised(planes[0].normal - planes[1].normal);
-  const bool onEachOther = lieOn(a, b, planes[0], planes[1]) > 0;
+  const int places[2] = {pairs_[pair].lower, pairs_[pair].higher};
+  const Vec3 normals[2] = {planes_(places[0]).normal, planes_(places[1]).normal};
+  const Vec3 common = normalised(normals[0] - normals[1]);
+  const bool onEachOther = lieOn_[pair] > 0, slanted = dot(normals[0], normals[1]) > -muchLess;
   unsigned turns = 0, exits = 0, covered = 0;
-  Vec3 outward[8], along[8];
+  Vec3 outward[8], along[8], beyond[8];
   for (int f = 0; f < 2; ++f)
   {
-    const Face& face = f == 0 ? a : b;
-    const Face& other = f == 0 ? b : a;
-    for (int e = 0; e < face.count; ++e)
+    const Face& other = faces_[places[1 - f]];
+    for (int e = 0; e < faces_[places[f]].count; ++e)
     {
-      const Edge edge = this->edge(face, f, e, planes[f].normal);
+      const Edge& edge = this->edge(places[f], f, e);
       if (!edge.turns)
         continue;
       const unsigned bit = 1u << (4 * f + e);
       // Not by the body of the other face: that one comes with what lies there.
-      const int third = onEachOther ? -1 : hides(edge.nodes, planes[f].normal, edge.beyond);
+      const int third = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond);
       if (third >= 0 && third != other.body)
         covered |= bit;
-      if (hides(edge.nodes, edge.beyond, planes[f].normal) >= 0) // goes on over the seam
+      // Goes on over the seam; but a body that opposes a face just so, past the seam, does not
+      // press upon itself there.
+      const int next = hides(edge.nodes, edge.beyond, normals[f]);
+      if (next >= 0 && !(slanted && next == other.body))
         continue;
       turns |= bit;
       outward[4 * f + e] = normalised(edge.outward - dot(edge.outward, common) * common);
-      along[4 * f + e] = cross(edge.outward, planes[f].normal);
-      if (dot(edge.beyond, planes[f].normal) < sharp)
+      along[4 * f + e] = cross(edge.outward, normals[f]);
+      beyond[4 * f + e] = edge.beyond;
+      if (dot(edge.beyond, normals[f]) < sharp)
         exits |= bit;
     }
   }
@@ -205,7 +231,8 @@ void EdgesOfSurfaces::look(const Face& a, const Face& b, Plane& plane) const
   for (int e = 0; e < 4; ++e)
     for (int o = 4; o < 8; ++o)
       if ((exits >> e & exits >> o & 1u) != 0 && dot(outward[e], outward[o]) < -faceAway &&
-          (dimension_ == 2 || std::abs(dot(along[e], along[o])) > parallel))
+          (dimension_ == 2 || std::abs(dot(along[e], along[o])) > parallel ||
+           (slanted && dot(beyond[e], beyond[o]) < -DirectionsOfNodes::one)))
         plane.exits = std::uint8_t(plane.exits | 1u << e | 1u << o);
 }
 } // namespace coplane

@@ -5,6 +5,7 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace coplane
@@ -19,28 +20,43 @@ public:
   /// size of the smaller face.
   static constexpr Real flush = 0.005;
 
-  /// `pairs` are the candidates of this rank, among them all with a local face; `localFaces` are
-  /// all that have an owned node, sorted by id. Collective.
-  EdgesOfSurfaces(const std::vector<Face>& localFaces, const std::vector<CandidatePair>& pairs,
-                  const std::vector<Face>& faces, const ConstNodeVectors& x, int dimension,
-                  const NodeLayout& layout);
+  /// `pairs` are the candidates of this rank, among them all with a local face; of the faces, all
+  /// that have an owned node come first, sorted by id. `planes` are those of the faces. All of this
+  /// has to live on. Collective.
+  EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
+                  std::size_t localFaces, const Array<FacePlane>& planes, const ConstNodeVectors& x,
+                  int dimension, const NodeLayout& layout);
 
-  /// Sets exits, turns and covered of a plane between two faces.
-  void look(const Face& a, const Face& b, Plane& plane) const;
+  /// Sets exits, turns and covered of the plane of a pair.
+  void look(std::size_t pair, Plane& plane) const;
 
 private:
-  struct Edge;
-  Edge edge(const Face& face, int side, int e, const Vec3& normal) const;
-  void findHidden(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
-                  const NodeLayout& layout);
+  struct Edge
+  {
+    Vec3 outward; ///< in the face, away from it over the edge
+    int nodes[2]; ///< in two dimensions twice the same
+    bool turns;   ///< outwards
+    Vec3 beyond;  ///< normal of the surface beyond an edge at which it turns
+  };
+  Edge lookBeyond(const Face& face, int e, const Vec3& normal) const;
+  void findEdges();
+  /// Edge e of the outline of face 0 or 1 of a pair.
+  const Edge& edge(int face, int side, int e) const;
+  void findHidden(const NodeLayout& layout);
   /// The body that hides the face with this normal up to its edge, beyond which lies one with the
   /// other normal; -1: none, or several.
   int hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const;
   /// Size of the smaller one of two faces that lie on each other [m]; 0 if they do not.
-  Real lieOn(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB) const;
+  Real lieOn(int a, int b) const;
 
+  const std::vector<CandidatePair>& pairs_;
+  const std::vector<Face>& faces_;
+  Array<FacePlane> planes_;
   ConstNodeVectors x_;
   int dimension_;
+  std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
+  std::vector<Edge> edges_;
+  std::vector<Real> lieOn_;   ///< by pair
   DirectionsOfNodes normals_; ///< of the surfaces around a node
   DirectionsOfNodes hidden_;  ///< normals of hidden faces that end at a node, and who lies on them
   DirectionsOfNodes flush_;   ///< out over the edges at which they end

@@ -451,6 +451,14 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
   plane.refusal = Refusal::None;
 }
 
+/// Whether passing by changes nothing more of a pair. Such pairs sleep: only their faces are looked
+/// at until their shadows meet.
+KOKKOS_INLINE_FUNCTION bool isAsleep(const Plane& plane)
+{
+  return !(plane.area > 0) && !(plane.overlap > 0) && !(plane.nodeStiffness > 0) &&
+         plane.sighting == Sighting::Known && !plane.isRefused();
+}
+
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.
 /// @returns the lanes that are done. With Lanes, planes whose patch is not regular are left
 ///          untouched; updatePlanes<Real> does them.

@@ -65,13 +65,15 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
 
 /// Steps B to H for a stretch of the table of planes. Pairs wait until as many of a kind, by the
 /// numbers of nodes of their faces, are there as fit side by side: those without traction first for
-/// the question whether their shadows can meet at all.
+/// the question whether their shadows can meet at all. Of those that sleep nothing but their faces
+/// is read.
 class PairLanes
 {
 public:
-  PairLanes(Plane* planes, const HalfStepFace* faces, const JointLaw* laws,
-            const ContactOptions& options, Real dt)
-      : planes_(planes), faces_(faces), laws_(laws), options_(options), dt_(dt)
+  PairLanes(Plane* planes, const SlotFaces* slots, bool* asleep, const HalfStepFace* faces,
+            const JointLaw* laws, const ContactOptions& options, Real dt)
+      : planes_(planes), slots_(slots), asleep_(asleep), faces_(faces), laws_(laws),
+        options_(options), dt_(dt)
   {
   }
 
@@ -80,19 +82,21 @@ public:
     for (int p = first; p < last; ++p)
     {
       prefetchAhead(p, last);
-      if (planes_[p].face[0] < 0)
+      if (slots_[p].face[0] < 0)
         continue;
-      const int kind = (face(p, 0).count == 4 ? 1 : 0) + (face(p, 1).count == 4 ? 2 : 0);
-      if (planes_[p].area > 0) // it met in the last cycle
+      const HalfStepFace &a = face(p, 0), &b = face(p, 1);
+      if (asleep_[p] && !(dot(a.normal, b.normal) < 0)) // edge neighbours at a right angle, say
+        continue;
+      const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
+      if (!asleep_[p] && planes_[p].area > 0) // it met in the last cycle
         put(p, kind);
       else if (toJudge_[kind].add(p))
         judge(kind);
     }
     for (int kind = 0; kind < kinds; ++kind)
-    {
       judge(kind);
-      updateMet(kind);
-    }
+    for (Queue& queue : toUpdate_)
+      updateMet(queue);
   }
 
 private:
@@ -116,9 +120,9 @@ private:
   void prefetchAhead(int p, int last) const
   {
     constexpr int planesAhead = 16, facesAhead = 8;
-    if (p + planesAhead < last)
+    if (p + planesAhead < last && !asleep_[p + planesAhead])
       prefetch(planes_[p + planesAhead]);
-    if (p + facesAhead < last && planes_[p + facesAhead].face[1] >= 0)
+    if (p + facesAhead < last && slots_[p + facesAhead].face[1] >= 0)
       prefetch(face(p + facesAhead, 1));
   }
   template <class Record>
@@ -129,7 +133,7 @@ private:
       __builtin_prefetch(line + at);
   }
 
-  const HalfStepFace& face(int p, int side) const { return faces_[planes_[p].face[side]]; }
+  const HalfStepFace& face(int p, int side) const { return faces_[slots_[p].face[side]]; }
 
   template <bool WithMotion>
   void gatherFaces(const Queue& queue)
@@ -154,23 +158,27 @@ private:
     for (int i = 0; i < queue.count; ++i)
     {
       const int p = queue.plane[i];
-      if (!meet[i])
-        passBy(planes_[p], face(p, 0), face(p, 1), dt_);
-      else
+      if (meet[i])
         put(p, kind);
+      else if (!asleep_[p])
+      {
+        passBy(planes_[p], face(p, 0), face(p, 1), dt_);
+        asleep_[p] = true;
+      }
     }
     queue.count = 0;
   }
 
   void put(int p, int kind)
   {
-    if (toUpdate_[kind].add(p))
-      updateMet(kind);
+    // Those that carry are packed together: most of the others are done when they do not touch.
+    Queue& queue = toUpdate_[kind + (planes_[p].area > 0 ? kinds : 0)];
+    if (queue.add(p))
+      updateMet(queue);
   }
 
-  void updateMet(int kind)
+  void updateMet(Queue& queue)
   {
-    Queue& queue = toUpdate_[kind];
     if (queue.count == 0)
       return;
     PlaneBatch<Lanes> batch;
@@ -186,15 +194,19 @@ private:
       if (!done[i])
         updateByForces<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
                           *batch.law[i], options_, dt_);
+    for (int i = 0; i < queue.count; ++i)
+      asleep_[queue.plane[i]] = isAsleep(*batch.plane[i]);
     queue.count = 0;
   }
 
   Plane* planes_;
+  const SlotFaces* slots_;
+  bool* asleep_;
   const HalfStepFace* faces_;
   const JointLaw* laws_;
   const ContactOptions& options_;
   Real dt_;
-  Queue toJudge_[kinds], toUpdate_[kinds];
+  Queue toJudge_[kinds], toUpdate_[2 * kinds];
   HalfStepFaceOf<Lanes> a_, b_; // of the pairs in work
 };
 } // namespace coplane

@@ -1,7 +1,6 @@
 #include <coplane_contact/EdgesOfSurfaces.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Inheritance.hpp>
-#include <coplane_contact/View.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>
@@ -71,31 +70,51 @@ constexpr Real sliver = 1e-6;
 /// Of heights, as a fraction of the size of a face.
 constexpr Real roundOff = 1e-9;
 
-Real toSegment(const Vec2& p, const Vec2& a, const Vec2& b)
+Real squareToSegment(const Vec2& p, const Vec2& a, const Vec2& b)
 {
   const Vec2 along = b - a, off = p - a;
-  const Real square = along.x * along.x + along.y * along.y;
-  const Real t = square > 0 ? (off.x * along.x + off.y * along.y) / square : 0;
+  const Real square = dot(along, along);
+  const Real t = square > 0 ? dot(off, along) / square : 0;
   const Vec2 apart = off - std::max(0.0, std::min(1.0, t)) * along;
-  return std::hypot(apart.x, apart.y);
+  return dot(apart, apart);
 }
 
-/// Distance of two convex polygons [m].
-Real distance(const ConvexPolygon& a, const ConvexPolygon& b)
+/// Whether no point of one polygon along an axis is within reach of the other.
+template <class Coordinate>
+bool isApart(const ConvexPolygon& a, const ConvexPolygon& b, Real reach,
+             const Coordinate& coordinate)
 {
+  Real low[2] = {infinity, infinity}, high[2] = {-infinity, -infinity};
+  for (int side = 0; side < 2; ++side)
+    for (int i = 0; i < (side == 0 ? a : b).size; ++i)
+    {
+      const Real at = coordinate((side == 0 ? a : b).vertex[i]);
+      low[side] = std::min(low[side], at);
+      high[side] = std::max(high[side], at);
+    }
+  return low[0] - high[1] > reach || low[1] - high[0] > reach;
+}
+
+/// Whether two convex polygons are not farther from each other than `reach` [m]. An empty one is
+/// far from everything.
+bool isWithin(Real reach, const ConvexPolygon& a, const ConvexPolygon& b)
+{
+  if (isApart(a, b, reach, [](const Vec2& p) { return p.x; }) ||
+      isApart(a, b, reach, [](const Vec2& p) { return p.y; }))
+    return false;
   if (intersection(a, b).size > 0)
-    return 0;
+    return true;
   Real least = infinity;
   const auto fromCorners = [&](const ConvexPolygon& from, const ConvexPolygon& to)
   {
     for (int i = 0; i < from.size; ++i)
-      for (int j = 0; j < to.size; ++j)
-        least =
-            std::min(least, toSegment(from.vertex[i], to.vertex[j], to.vertex[(j + 1) % to.size]));
+      for (int j = 0, next = 1; j < to.size; ++j, ++next)
+        least = std::min(least, squareToSegment(from.vertex[i], to.vertex[j],
+                                                to.vertex[next < to.size ? next : 0]));
   };
   fromCorners(a, b);
   fromCorners(b, a);
-  return least;
+  return least <= reach * reach;
 }
 } // namespace
 
@@ -120,30 +139,40 @@ bool isFlush(const NewPair& pair, const Donor& donor, int dimension)
     for (int k = 0; k < countB; ++k)
       step = std::min(step, std::abs(dot(normal, b[k] - a[0])));
     const View view(normal, a[0], dimension);
-    return step <= near && distance(view.shadow(a, countA), view.shadow(b, countB)) <= near;
+    return step <= near && isWithin(near, view.shadow(a, countA), view.shadow(b, countB));
   };
   return anyCommonFace(pair.faceId, donor, goesOn);
 }
 
-bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach)
+Continuation::Continuation(const NewPair& pair, int dimension, Real reach)
+    : pair_(pair), view_(pair.normal, pair.corners[0][0], dimension), reach_(reach)
 {
-  const View view(pair.normal, pair.corners[0][0], dimension);
-  const ConvexPolygon shadows[2] = {view.shadow(pair.corners[0], pair.count[0]),
-                                    view.shadow(pair.corners[1], pair.count[1])};
-  const ConvexPolygon carried = intersection(view.shadow(donor.corners[0], donor.count[0]),
-                                             view.shadow(donor.corners[1], donor.count[1]));
-  if (!anyCommonFace(pair.faceId, donor,
-                     [&](int mine, int) { return distance(carried, shadows[1 - mine]) <= reach; }))
-    return false;
+  for (int side = 0; side < 2; ++side)
+    shadows_[side] = view_.shadow(pair.corners[side], pair.count[side]);
+  const Real smaller =
+      std::min(areaAndCentroid(shadows_[0]).area, areaAndCentroid(shadows_[1]).area);
+  const AreaAndCentroid shared = areaAndCentroid(intersection(shadows_[0], shadows_[1]));
+  fromTheSide_ = !((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliver * smaller);
+  if (fromTheSide_)
+    return;
+  gap_ = view_.height(pair.corners[1], pair.count[1], shared.centroid) -
+         view_.height(pair.corners[0], pair.count[0], shared.centroid);
+  roundOff_ = roundOff * std::sqrt(smaller);
+}
 
-  const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
-  const AreaAndCentroid shared = areaAndCentroid(intersection(shadows[0], shadows[1]));
-  if (!((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliver * smaller))
-    return true; // it comes in from the side
-  const Real gap = view.height(pair.corners[1], pair.count[1], shared.centroid) -
-                   view.height(pair.corners[0], pair.count[0], shared.centroid);
-  return gap <= donor.offset + roundOff * std::sqrt(smaller) &&
-         isOnSameSurface(donor, pair.faceId, pair.nodes);
+bool Continuation::isNear(const Donor& donor) const
+{
+  const ConvexPolygon carried = intersection(view_.shadow(donor.corners[0], donor.count[0]),
+                                             view_.shadow(donor.corners[1], donor.count[1]));
+  return anyCommonFace(pair_.faceId, donor,
+                       [&](int mine, int)
+                       { return isWithin(reach_, carried, shadows_[1 - mine]); });
+}
+
+bool Continuation::goesOn(const Donor& donor) const
+{
+  return fromTheSide_ ||
+         (gap_ <= donor.offset + roundOff_ && isOnSameSurface(donor, pair_.faceId, pair_.nodes));
 }
 
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors)
@@ -157,14 +186,9 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
   for (std::size_t i = 0; i < donors.size(); ++i)
   {
     const Donor& donor = donors[i];
-    // Ids of faces say which way a normal points and on which face a traction acts: where the
-    // common face is the lower one of one plane and the higher one of the other, both are turned
-    // round.
-    const bool turned = donor.faceId[0] == plane.faceId[1] || donor.faceId[1] == plane.faceId[0];
-    const Real sign = turned ? -1 : 1;
-    if (donor.joint != plane.joint || !(sign * dot(donor.normal, normal) > 0.9) ||
-        (i > 0 && key(donors[i - 1]) == key(donor)))
+    if (!fits(donor, plane, normal) || (i > 0 && key(donors[i - 1]) == key(donor)))
       continue;
+    const Real sign = turned(donor.faceId, plane.faceId);
     area += donor.area;
     slidesOn = slidesOn || isOnSameSurface(donor, plane.faceId, nodes);
     mean.offset += donor.area * donor.offset;

@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_contact/View.hpp>
 
 #include <array>
 #include <vector>
@@ -15,6 +16,13 @@ bool isDonor(const Plane& plane);
 
 /// What a plane has to give; without the nodes of its faces.
 Donor donorOf(const Plane& plane);
+
+/// Ids of faces say which way a normal points and on which face a traction acts: where the common
+/// face is the lower one of one plane and the higher one of the other, both are turned round: -1.
+inline Real turned(const GlobalId* donorFaces, const GlobalId* planeFaces)
+{
+  return donorFaces[0] == planeFaces[1] || donorFaces[1] == planeFaces[0] ? -1 : 1;
+}
 
 /// The nodes of a new plane's faces, in its order; 0: none.
 using PairNodes = std::array<std::array<GlobalId, 4>, 2>;
@@ -35,17 +43,41 @@ struct NewPair
 /// the flush seam of two bodies.
 bool isFlush(const NewPair& pair, const Donor& donor, int dimension);
 
-/// Whether the area of a new plane goes on where that of a donor ends. The donor shares a face with
-/// the pair, and its area, which the faces have carried along, lies within `reach` of the pair's
-/// other face on the common plane. Where the pair shared area already, it has to be closed at the
-/// donor's offset and go on over the same surface: then it has not come down beside the donor.
-/// @param reach how far faces move between two searches [m]
-bool continues(const NewPair& pair, const Donor& donor, int dimension, Real reach);
+/// Whether the area of a new plane goes on where that of a donor ends.
+class Continuation
+{
+public:
+  /// @param reach how far faces move between two searches [m]
+  Continuation(const NewPair& pair, int dimension, Real reach);
+
+  /// Whether the donor shares a face with the pair, and its area, which the faces have carried
+  /// along, lies within the reach of the pair's other face on the common plane.
+  bool isNear(const Donor& donor) const;
+  /// Where the pair shared area already, it has to be closed at the donor's offset and go on over
+  /// the same surface: then it has not come down beside the donor. Asked of donors that are near.
+  bool goesOn(const Donor& donor) const;
+
+private:
+  const NewPair& pair_;
+  View view_;
+  ConvexPolygon shadows_[2]; ///< of the faces
+  Real reach_;
+  bool fromTheSide_;            ///< it has shared no area yet
+  Real gap_ = 0, roundOff_ = 0; ///< where the faces share area [m]
+};
+
+/// Whether a donor, or a plane that may become one, is of the joint of the new plane and has nearly
+/// its normal.
+template <class DonorOrPlane>
+bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
+{
+  return donor.joint == plane.joint &&
+         turned(donor.faceId, plane.faceId) * dot(donor.normal, normal) > 0.9;
+}
 
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
-/// their keys. Returns whether there were any that fit: of the same joint, with nearly the same
-/// normal. A donor that has one face in common with the plane, and whose other face shares a node
-/// with the plane's other one, shows that the plane only slides on over the same surface. The plane
-/// is bonded if most of the area is.
+/// their keys. Returns whether there were any that fit. A donor that has one face in common with
+/// the plane, and whose other face shares a node with the plane's other one, shows that the plane
+/// only slides on over the same surface. The plane is bonded if most of the area is.
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors);
 } // namespace coplane

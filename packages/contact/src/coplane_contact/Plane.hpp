@@ -200,6 +200,13 @@ struct alignas(64) Plane
 };
 static_assert(sizeof(Plane) == 8 * 64, "planes fill the memory bandwidth: whole cache lines");
 
+/// Positions of the faces of a slot, as in its plane; a table of these is looked through in every
+/// cycle.
+struct SlotFaces
+{
+  std::int32_t face[2] = {-1, -1};
+};
+
 /// Key of a plane: permanent, independent of the partition.
 inline bool keyLess(const Plane& a, const Plane& b)
 {

@@ -144,6 +144,13 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
                   const FacePlane& planeA, const FacePlane& planeB, const ConstNodeVectors& x,
                   const CandidateRules& rules);
 
+/// Whether a search that did not find this pair was wrong, when since then nodes have moved
+/// relative to each other by at most `moved` [m], and normals have turned by at most `turned`
+/// [rad]. It was not where the pair may have been no candidate yet: not opposed enough, too deep,
+/// or, on both sides of the tip of a joint, not folded onto each other.
+bool hadToBeFound(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
+                  const CandidateRules& rules, Real moved, Real turned);
+
 /// Step 5: all pairs of local and ghost faces that may touch before the next search, sorted by key.
 std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
                                                 const ConstNodeVectors& x, int dimension,

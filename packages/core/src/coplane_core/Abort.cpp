@@ -1,6 +1,8 @@
 #include <coplane_core/Abort.hpp>
 
+#include <atomic>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -61,8 +63,31 @@ thread_local bool memoryRanOut = false;
 }
 } // namespace
 
+namespace
+{
+std::atomic<int> codeOfAbort{0}; ///< 0: nothing aborts yet
+thread_local bool aborts = false;
+
+/// MPI may need memory to abort, and crashes where there is none: then this rank ends at once, and
+/// mpirun ends the others.
+void leaveAtOnce(int = 0)
+{
+  ::_exit(codeOfAbort);
+}
+} // namespace
+
 void abortAllRanks(ExitCode code, const char* text) noexcept
 {
+  if (aborts)
+    leaveAtOnce(); // aborting has failed
+  aborts = true;
+  if (int none = 0; !codeOfAbort.compare_exchange_strong(none, int(code)))
+  {
+    std::this_thread::sleep_for(std::chrono::seconds(10)); // another thread is about it
+    leaveAtOnce();
+  }
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL})
+    std::signal(signal, leaveAtOnce);
   int rank = 0;
   if (mpiRuns())
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -126,7 +151,7 @@ void leaveTogether(const Comm& comm, ExitCode code, const std::string& text, dou
     if (here)
       return;
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > seconds)
-      abortAllRanks(code, text.c_str());
+      abortAllRanks(code == ExitCode::Success ? ExitCode::Machine : code, text.c_str());
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }

@@ -17,15 +17,21 @@ namespace
 {
 constexpr const char* beginning = "process ";
 
+std::string thisHost()
+{
+  char host[256] = "unknown host";
+  ::gethostname(host, sizeof host - 1);
+  return host;
+}
+
 std::string me()
 {
-  char host[256] = "unknown host", date[64];
-  ::gethostname(host, sizeof host - 1);
+  char date[64];
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
   ::gmtime_r(&now, &utc);
   std::strftime(date, sizeof date, "%Y-%m-%d %H:%M:%S UTC", &utc);
-  return fmt::format("{}{} on {}, since {}\n", beginning, ::getpid(), host, date);
+  return fmt::format("{}{} on {}, since {}\n", beginning, ::getpid(), thisHost(), date);
 }
 
 constexpr std::size_t longestText = 1 << 20;
@@ -53,6 +59,16 @@ bool isOfLock(const std::string& text)
          text.compare(end, 4, " on ") == 0;
 }
 
+/// What a killed owner left, unless it was on another machine: on some file systems that one may
+/// live and hold its lock there.
+std::string leftIn(int descriptor)
+{
+  const std::string text = textIn(descriptor);
+  const bool isOfThisHost =
+      text.substr(0, text.find('\n')).find(fmt::format(" on {},", thisHost())) != std::string::npos;
+  return isOfThisHost ? text : "";
+}
+
 /// Whether the path still leads to the file that is open: its owner may just have removed it.
 bool isStillThere(const std::string& file, int descriptor)
 {
@@ -72,13 +88,25 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
 {
   for (int tries = 0;;)
   {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+    bool isOfOtherUser = false;
+    if (descriptor < 0 && errno == EACCES)
+    {
+      descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+      isOfOtherUser = descriptor >= 0;
+      errno = EACCES;
+    }
     if (descriptor < 0)
     {
+      if (errno == ELOOP)
+        fail(ExitCode::Output,
+             "{}: this is the lock that says who writes {}, but a link has that name. Nothing was "
+             "written. Move the link away, or give the outputs other names.",
+             file, what);
       const std::string reason = std::strerror(errno);
       fail(ExitCode::Output,
-           "{}: the file that says who writes {} cannot be made: {}. Check that the folder '{}' "
-           "exists and can be written to.",
+           "{}: the lock that says who writes {} cannot be made or opened: {}. Check that the "
+           "folder '{}' exists and can be written to, and whether the file is of another user.",
            file, what, reason, folderOf(file));
     }
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
@@ -94,8 +122,20 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
       ::close(descriptor);
       if (reason == EINTR)
         continue;
+      if (reason != EWOULDBLOCK && isOfOtherUser)
+        fail(ExitCode::Output,
+             "{}: the lock that says who writes {} is of another user, and whether it is held "
+             "cannot be told: {}. Ask its owner to remove it, or give the outputs other names.",
+             file, what, std::strerror(reason));
       if (reason != EWOULDBLOCK)
+      {
+        struct stat made
+        {
+        };
+        if (::stat(file.c_str(), &made) == 0 && made.st_size == 0)
+          ::unlink(file.c_str());
         return; // no locks here
+      }
       fail(ExitCode::Output,
            "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder, "
            "or its outputs other names. Nothing was written.",
@@ -114,19 +154,26 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
     {
       ::close(descriptor);
       fail(ExitCode::Output,
-           "{}: this is the name of the file that says who writes {}, but what is there is no such "
-           "file. Nothing was written. Move it away, or give the run other names (output.results, "
-           "history.file, checkpoint.file).",
+           "{}: this is the lock that says who writes {}, but a file with something else in it has "
+           "that name. Nothing was written. Move it away, or give the outputs other names.",
            file, what);
     }
-    if (isKnown && there.st_nlink > 1) // a copy by links of what a killed run left
+    // A copy by links of what a killed run left, or what another user's killed run left.
+    if ((isKnown && there.st_nlink > 1) || isOfOtherUser)
     {
-      ::unlink(file.c_str());
+      textFound_ = leftIn(descriptor); // names drafts that were left
+      const bool isRemoved = ::unlink(file.c_str()) == 0;
+      const std::string reason = std::strerror(errno);
       ::close(descriptor);
+      if (!isRemoved)
+        fail(ExitCode::Output,
+             "{}: this lock was left by a run that has ended, and cannot be removed: {}. Ask the "
+             "owner of the file to remove it, or give the outputs other names.",
+             file, reason);
       continue;
     }
     descriptor_ = descriptor;
-    textFound_ = textIn(descriptor);
+    textFound_ += leftIn(descriptor);
     const std::string text = me() + told;
     // Not being able to say who holds it does not make the lock less of one. Other machines see
     // the text only when it is on the disk.

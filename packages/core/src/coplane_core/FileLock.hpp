@@ -16,7 +16,7 @@ public:
   /// @param what for the message: "the outputs of wall.yaml"
   /// @param told for others to read while the lock is held; a line with the owner goes before it
   FileLock(const std::string& file, const std::string& what, const std::string& told = "");
-  /// What a killed owner had left in the file; empty: nothing.
+  /// What an owner that was killed on this machine had left in the file; empty: nothing.
   const std::string& textFound() const { return textFound_; }
   /// Removes the file.
   ~FileLock();

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using Inode = std::pair<dev_t, ino_t>;
 
 constexpr int longestChainOfLinks = 40;
+constexpr const char* draft = "a draft"; // in the text of locks
 
 /// Where a file is or would be: symbolic links are followed, also one to something that is missing.
 fs::path placeOf(const fs::path& name)
@@ -175,6 +176,36 @@ std::string nameOf(const std::vector<std::string>& pieces)
 {
   return fmt::format("{}", fmt::join(pieces, "<number>"));
 }
+
+/// Bytes that a name may get at its end: ".old-20261122-064405-12", ".part-1f2e3d4c".
+constexpr std::size_t mostBytesAtEnd = 23, mostBytesOfName = 255;
+
+/// By how many bytes the name of an output is longer than file systems take, with its numbers and
+/// what is added to it when it is put aside.
+std::size_t bytesTooMany(const std::vector<std::string>& pieces)
+{
+  constexpr std::size_t digits = 4;
+  std::size_t bytes = fs::path(pieces[0]).filename().string().size() + mostBytesAtEnd;
+  for (std::size_t p = 1; p < pieces.size(); ++p)
+    bytes += digits + pieces[p].size();
+  return bytes > mostBytesOfName ? bytes - mostBytesOfName : 0;
+}
+
+bool isControlCharacter(unsigned char c)
+{
+  return c < 0x20 || c == 0x7f;
+}
+
+bool hasControlCharacter(const std::string& name)
+{
+  return std::any_of(name.begin(), name.end(), isControlCharacter);
+}
+
+std::string printable(std::string name)
+{
+  std::replace_if(name.begin(), name.end(), isControlCharacter, '?');
+  return name;
+}
 } // namespace
 
 std::string kindOfSpecialFile(const std::string& file)
@@ -245,6 +276,24 @@ std::vector<std::string> FileRoles::problems() const
     const Role& output = roles_[i];
     if (!output.isOutput)
       continue;
+    if (hasControlCharacter(nameOf(output.pieces)))
+    {
+      if (said.insert("control").second)
+        problems.push_back(
+            fmt::format("{} '{}': names of outputs may not hold line breaks, tabs or "
+                        "other control characters. Give it another name.",
+                        output.what, printable(nameOf(output.pieces))));
+      continue;
+    }
+    if (const std::size_t bytes = output.isDraft ? 0 : bytesTooMany(output.pieces); bytes > 0)
+    {
+      if (said.insert("long").second)
+        problems.push_back(fmt::format(
+            "{} '{}': the name is too long: it can have {} bytes in all, {} of them for "
+            "what may be put aside. Make it shorter by {} bytes.",
+            output.what, nameOf(output.pieces), mostBytesOfName, mostBytesAtEnd, bytes));
+      continue;
+    }
     if (output.pieces.size() == 1)
       if (const std::string kind = kindOfSpecialFile(output.pieces[0]); !kind.empty())
         problems.push_back(fmt::format(
@@ -268,6 +317,44 @@ std::vector<std::string> FileRoles::problems() const
   return problems;
 }
 
+namespace
+{
+/// errno of opening a file to write, which changes nothing; 0: it can be opened. EPERM: it is
+/// immutable, and cannot be renamed over either.
+int errorOfOpening(const fs::path& file)
+{
+  const int descriptor = ::open(file.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0)
+    return errno;
+  ::close(descriptor);
+  return 0;
+}
+
+/// errno of renaming over a file, or removing it, as far as that can be told; 0: it can be.
+int errorOfReplacing(const fs::path& file)
+{
+  struct stat mine
+  {
+  };
+  struct stat folder
+  {
+  };
+  if (::lstat(file.c_str(), &mine) == 0 && ::stat(file.parent_path().c_str(), &folder) == 0 &&
+      (folder.st_mode & S_ISVTX) && ::geteuid() != 0 && mine.st_uid != ::geteuid() &&
+      folder.st_uid != ::geteuid())
+    return EPERM; // as in /tmp: of another user
+  std::error_code ignored;
+  return fs::is_regular_file(file, ignored) && errorOfOpening(file) == EPERM ? EPERM : 0;
+}
+
+std::string cannotBeReplaced(const fs::path& file, const std::string& what, int error)
+{
+  return fmt::format("{}: {} cannot replace this file: {}. Nothing was written. Move the file "
+                     "away, make it writable, or give another name.",
+                     file.string(), what, std::strerror(error));
+}
+} // namespace
+
 std::vector<std::string> FileRoles::hindrances() const
 {
   std::vector<std::string> hindrances;
@@ -283,15 +370,16 @@ std::vector<std::string> FileRoles::hindrances() const
           "and can be written to, or give another name.",
           nameOf(role.pieces), role.what, std::strerror(errno), folder.string()));
     if (!role.inPlace)
+    {
+      for (const auto& [inode, file] : look(role.pieces).inodes)
+        if (const int error = errorOfReplacing(file); error != 0)
+          hindrances.push_back(cannotBeReplaced(file, role.what, error));
       continue;
-    const int descriptor = ::open(place.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor >= 0)
-      ::close(descriptor);
-    else if (errno != ENOENT)
-      hindrances.push_back(fmt::format(
-          "{}: {} cannot be written over it: {}. Nothing was written. Move the file away, make it "
-          "writable, or give another name.",
-          place.string(), role.what, std::strerror(errno)));
+    }
+    const int opening = errorOfOpening(place);
+    const int error = opening != 0 && opening != ENOENT ? opening : errorOfReplacing(place);
+    if (error != 0)
+      hindrances.push_back(cannotBeReplaced(place, role.what, error));
   }
   return hindrances;
 }
@@ -306,28 +394,26 @@ void FileRoles::add(const FileRoles& others)
   roles_.insert(roles_.end(), others.roles_.begin(), others.roles_.end());
 }
 
-std::vector<std::string> FileRoles::draftsThere() const
+std::vector<std::string> FileRoles::draftsIn(const std::set<std::string>& folders) const
 {
-  std::map<fs::path, std::vector<std::vector<std::string>>> names; // by folder
+  std::vector<std::vector<std::string>> drafts; // names in pieces, without folder
   for (const Role& role : roles_)
     if (role.isDraft)
     {
-      const fs::path first = role.pieces[0];
-      std::vector<std::string> pieces = role.pieces;
-      pieces[0] = first.filename().string();
-      names[first.parent_path()].push_back(pieces);
+      drafts.push_back(role.pieces);
+      drafts.back()[0] = fs::path(role.pieces[0]).filename().string();
     }
   std::vector<std::string> there;
   std::error_code error;
-  for (const auto& [folder, all] : names)
-    for (fs::directory_iterator entry(folder.empty() ? "." : folder, error), none;
-         !error && entry != none; entry.increment(error))
+  for (const std::string& folder : folders)
+    for (fs::directory_iterator entry(folder, error), none; !error && entry != none;
+         entry.increment(error))
     {
       const std::string name = entry->path().filename().string();
-      if (std::any_of(all.begin(), all.end(),
+      if (std::any_of(drafts.begin(), drafts.end(),
                       [&](const std::vector<std::string>& pieces)
                       { return matches(name, pieces); }))
-        there.push_back((folder / name).string());
+        there.push_back(entry->path().string());
     }
   return there;
 }
@@ -348,7 +434,7 @@ std::string FileRoles::outputsText() const
   {
     if (!role.isOutput)
       continue;
-    std::vector<std::string> fields{role.what};
+    std::vector<std::string> fields{role.isDraft ? draft : role.what};
     fields.insert(fields.end(), role.pieces.begin(), role.pieces.end());
     fields[1] = role.pieces.size() == 1
                     ? placeOf(role.pieces[0]).string()
@@ -371,7 +457,8 @@ FileRoles FileRoles::outputsIn(const std::string& text)
     if (text[i] == '\n')
     {
       if (fields.size() > 1)
-        roles.roles_.push_back({{fields.begin() + 1, fields.end()}, fields[0], true});
+        roles.roles_.push_back(
+            {{fields.begin() + 1, fields.end()}, fields[0], true, false, fields[0] == draft});
       fields.assign(1, "");
     }
     else if (text[i] == '\t')
@@ -405,8 +492,9 @@ std::vector<std::string> FileRoles::problemsWith(const FileRoles& others) const
     {
       const Role &mine = roles_[i], &its = others.roles_[k];
       if (mine.isOutput && its.isOutput && meet(here[i], there[k]) && said.insert(mine.what).second)
-        problems.push_back(fmt::format("{} '{}' is {} '{}' there.", mine.what, nameOf(mine.pieces),
-                                       its.what, nameOf(its.pieces)));
+        problems.push_back(fmt::format("{} '{}' is what the other run writes as {} '{}'.",
+                                       mine.what, nameOf(mine.pieces), its.what,
+                                       nameOf(its.pieces)));
     }
   return problems;
 }

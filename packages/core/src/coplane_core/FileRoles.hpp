@@ -35,7 +35,8 @@ public:
   void writesSeries(const std::vector<std::string>& pieces, const std::string& what);
 
   /// A sentence for each output that is an input, another output, or something that is not a plain
-  /// file. Empty: all may be written. Looks at the file system, changes nothing.
+  /// file, and for the first whose name holds control characters. Empty: all may be written. Looks
+  /// at the file system, changes nothing.
   std::vector<std::string> problems() const;
   /// A sentence for each output that cannot be written, by permissions of its folder or, in place,
   /// its own, or because it is on a file system that is read only. Opens what is written in place,
@@ -46,8 +47,9 @@ public:
   void writesDraft(const std::vector<std::string>& pieces, const std::string& what);
   /// Takes over the files of others.
   void add(const FileRoles& others);
-  /// Names of drafts that are there.
-  std::vector<std::string> draftsThere() const;
+  /// Drafts of these names that are there, in other folders than the roles say: a lock may come
+  /// from a copy of a folder, in which somebody else goes on.
+  std::vector<std::string> draftsIn(const std::set<std::string>& folders) const;
   /// Folders of the outputs.
   std::set<std::string> folders() const;
   /// The outputs as lines of text, for other processes; read by outputsIn, which leaves out what it

@@ -56,6 +56,11 @@ void logWarning(const std::string& kind, const std::string& text)
                          kind);
 }
 
+void logWarningEachTime(const std::string& text)
+{
+  channels().err->warn("WARNING: {}", text);
+}
+
 void logError(const std::string& text)
 {
   channels().err->error("ERROR: {}", text);

@@ -12,6 +12,8 @@ void logSetup(bool isRoot, bool quiet);
 void logInfo(const std::string& text);
 /// `kind` is a short fixed text by which warnings are counted.
 void logWarning(const std::string& kind, const std::string& text);
+/// Of something that is done to a user's file: each is shown.
+void logWarningEachTime(const std::string& text);
 void logError(const std::string& text);
 void logSummary();
 

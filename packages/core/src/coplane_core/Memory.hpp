@@ -11,4 +11,11 @@ void keepFreedMemory();
 /// std::bad_alloc, instead of the slow death of everything on the machine. A lower limit of the
 /// user's stays.
 void limitMemoryToMachine();
+
+/// Throws Error(ExitCode::Machine) when the process may not have as many files open as a run needs;
+/// a soft limit below that is raised first.
+void demandOpenFiles();
+/// Throws Error(ExitCode::Machine) when the process cannot make so many threads: the library of
+/// threads would end the program.
+void demandThreads(int count);
 } // namespace coplane

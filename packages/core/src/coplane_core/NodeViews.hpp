@@ -17,6 +17,13 @@ KOKKOS_INLINE_FUNCTION Vec3 at(const ConstNodeVectors& vectors, int node)
   return {vectors(node, 0), vectors(node, 1), vectors(node, 2)};
 }
 
+/// Making a view of constants out of one of variables counts references, which costs far more than
+/// to look.
+KOKKOS_INLINE_FUNCTION Vec3 at(const NodeVectors& vectors, int node)
+{
+  return {vectors(node, 0), vectors(node, 1), vectors(node, 2)};
+}
+
 KOKKOS_INLINE_FUNCTION void set(const NodeVectors& vectors, int node, const Vec3& value)
 {
   vectors(node, 0) = value.x;

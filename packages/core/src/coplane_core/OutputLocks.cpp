@@ -55,4 +55,14 @@ std::vector<FileLock> lockOutputs(const FileRoles& outputs, const std::set<std::
     demandNoOther(folder, files, outputs, whose);
   return locks;
 }
+
+void removeDraftsOfKilled(const FileRoles& outputs, const std::vector<FileLock>& locks)
+{
+  FileRoles left;
+  for (const FileLock& lock : locks)
+    left.add(FileRoles::outputsIn(lock.textFound()));
+  std::error_code ignored;
+  for (const std::string& file : left.draftsIn(outputs.folders()))
+    fs::remove(file, ignored);
+}
 } // namespace coplane

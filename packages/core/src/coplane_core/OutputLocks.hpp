@@ -15,4 +15,7 @@ namespace coplane
 /// @param whose for messages: "wall.yaml"
 std::vector<FileLock> lockOutputs(const FileRoles& outputs, const std::set<std::string>& files,
                                   const std::string& whose);
+
+/// Removes drafts of a run that was killed, beside the outputs: the lock that it left names them.
+void removeDraftsOfKilled(const FileRoles& outputs, const std::vector<FileLock>& locks);
 } // namespace coplane

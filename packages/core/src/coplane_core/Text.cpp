@@ -42,6 +42,18 @@ std::string csvField(const std::string& text)
   return field + "\"";
 }
 
+std::string shellWord(const std::string& text)
+{
+  constexpr const char* plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/@%";
+  if (!text.empty() && text[0] != '-' && text.find_first_not_of(plain) == std::string::npos)
+    return text;
+  std::string word = text[0] == '-' ? "'./" : "'";
+  for (const char c : text)
+    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 std::string xmlText(const std::string& text)
 {
   const std::string utf8 = asUtf8(text);

@@ -7,6 +7,9 @@ namespace coplane
 /// A field of a table by RFC 4180: in quotes when it has a comma, a quote or a new line.
 std::string csvField(const std::string& text);
 
+/// A word of a command line: in single quotes where the shell would take it apart.
+std::string shellWord(const std::string& text);
+
 /// Text for an attribute in double quotes or for the content of an XML element. What XML 1.0 cannot
 /// hold becomes U+FFFD.
 std::string xmlText(const std::string& text);

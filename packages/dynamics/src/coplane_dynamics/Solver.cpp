@@ -599,18 +599,18 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     advance();
     if (failed_)
     {
-      observer.finish(*this, "failed");
+      finishBeforeFailing(observer);
       failTogether("element");
     }
     if (cannotStop())
     {
-      observer.finish(*this, "failed");
+      finishBeforeFailing(observer);
       failOnAllRanks(
           ExitCode::Computation,
           "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, faster than "
           "waves run in them, and faces lie deeper in them than contact.depth_max, or in each "
           "other before they were found: contact cannot stop them. Raise "
-          "joints.stiffness_fraction, or use a material that stiffens under pressure. {}",
+          "joints.<name>.stiffness_fraction, or use a material that stiffens under pressure. {}",
           clock_.cycle, clock_.time, relativeSpeed_, worstEntities());
     }
     if (clock_.cycle % energyCheckEvery == 0 || isOver())
@@ -619,7 +619,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
       const std::string broken = brokenBalance(balance);
       if (!broken.empty())
       {
-        observer.finish(*this, "failed");
+        finishBeforeFailing(observer);
         failOnAllRanks(ExitCode::Computation, "{}", broken);
       }
       warnOfTrouble(balance);
@@ -631,7 +631,7 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     catch (const Error& error)
     {
       if (error.onAllRanks())
-        finishAfter(error, observer);
+        finishBeforeFailing(observer, error.what());
       throw;
     }
     if (requests_.stop)
@@ -647,22 +647,23 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
   return code;
 }
 
-void Solver::finishAfter(const Error& error, Observer& observer) const
+void Solver::finishBeforeFailing(Observer& observer, const std::string& why) const
 {
-  // An output has failed: the others still close their files.
+  // Outputs that fail, too, are told of and do not hide why the run ends.
   try
   {
     observer.finish(*this, "failed");
   }
-  catch (const Error& again)
+  catch (const Error& error)
   {
-    if (!again.onAllRanks())
+    if (!error.onAllRanks())
     {
-      logError(error.what());
+      if (!why.empty())
+        logError(why);
       throw;
     }
-    if (std::string(again.what()) != error.what())
-      logError(again.what());
+    if (error.what() != why)
+      logError(error.what());
   }
 }
 
@@ -682,7 +683,7 @@ void Solver::failTogether(const std::string& what)
                  "cycle {}, t = {:.6e} s: element {} (block '{}') has turned inside out or has a "
                  "force that is not finite; its "
                  "volume is {:.3e} m^3. Refine the mesh there, lower time.step_factor, or raise "
-                 "hourglass.stiffness.",
+                 "blocks.<name>.hourglass.stiffness.",
                  clock_.cycle, clock_.time, model_.mesh.blocks[b].elementIds[e],
                  model_.blocks[b].name, blocks_[b].volume()(e));
         }

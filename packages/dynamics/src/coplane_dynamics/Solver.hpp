@@ -193,7 +193,8 @@ private:
   void warnOfCaps(const std::string& now);
   std::string brokenBalance(const EnergyBalance& balance) const;
   void warnOfTrouble(const EnergyBalance& balance);
-  void finishAfter(const Error& error, Observer& observer) const;
+  /// @param why what has been caught already; empty: the caller fails next, and says why
+  void finishBeforeFailing(Observer& observer, const std::string& why = "") const;
   [[noreturn]] void failTogether(const std::string& what);
   /// What only some ranks may find to be wrong with the deck, such as a function that is no number
   /// at one of their nodes: all hear of it in planNextCycle(), and the run ends with one message.

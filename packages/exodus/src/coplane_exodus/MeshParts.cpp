@@ -407,11 +407,15 @@ std::vector<std::string> partsOfMesh(const std::string& file)
   const fs::path folder = folderOf(file);
   const std::string start = fs::path(file).filename().string() + ".";
   std::map<int, std::map<int, std::string>> splits; // by number of parts: part -> name
-  if (!fs::is_directory(folder))
-    return {};
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+  std::error_code error;
+  fs::directory_iterator entry(folder, error);
+  if (error && error != std::errc::no_such_file_or_directory && error != std::errc::not_a_directory)
+    fail(ExitCode::Mesh,
+         "{}: the mesh does not exist, and the folder '{}' cannot be read for its parts: {}.", file,
+         folder.string(), error.message());
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
   {
-    const std::string name = entry.path().filename().string();
+    const std::string name = entry->path().filename().string();
     if (name.compare(0, start.size(), start) != 0)
       continue;
     const std::size_t dot = name.find('.', start.size());

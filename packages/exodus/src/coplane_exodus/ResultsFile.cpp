@@ -1,9 +1,12 @@
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/OwnPart.hpp>
+#include <coplane_exodus/Provenance.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
 
 #include <exodusII.h>
@@ -24,25 +27,6 @@ namespace coplane
 {
 namespace
 {
-constexpr const char* ownName = "coplane"; ///< in QA records
-constexpr const char* infoBeginning = "coplane run ";
-
-/// Room for texts that Exodus copies, each with an end.
-template <int Length>
-struct Texts
-{
-  std::vector<std::array<char, Length + 1>> bytes;
-  std::vector<char*> pointers;
-  explicit Texts(int count) : bytes(std::size_t(count))
-  {
-    for (auto& text : bytes)
-    {
-      text.fill('\0');
-      pointers.push_back(text.data());
-    }
-  }
-};
-
 std::array<std::string, 4> ownQaRecord(const Comm& comm)
 {
   const std::time_t now = std::time(nullptr);
@@ -50,12 +34,7 @@ std::array<std::string, 4> ownQaRecord(const Comm& comm)
   std::strftime(date, sizeof date, "%Y/%m/%d", std::localtime(&now));
   std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
   // Rank 0's clock: all ranks must write the same record.
-  return {ownName, version().number, comm.broadcast(date), comm.broadcast(hour)};
-}
-
-std::string draftOf(const std::string& file)
-{
-  return placeOfFile(file) + ".part";
+  return {programOfResults, version().number, comm.broadcast(date), comm.broadcast(hour)};
 }
 
 void renameFile(const std::string& from, const std::string& to)
@@ -68,69 +47,27 @@ void renameFile(const std::string& from, const std::string& to)
 /// that all ranks must make.
 void probeWritable(const std::string& file)
 {
-  std::remove(draftOf(file).c_str()); // a link would be followed
-  std::FILE* probe = std::fopen(draftOf(file).c_str(), "wb");
+  const std::string draft = draftOf(placeOfFile(file));
+  std::FILE* probe = std::fopen(draft.c_str(), "wb");
   if (!probe)
     fail(ExitCode::Output,
          "{}: the results file cannot be created: {}. Check that the folder '{}' exists and can be "
          "written to.",
          file, std::strerror(errno), folderOf(file));
   std::fclose(probe);
-  std::remove(draftOf(file).c_str());
+  std::remove(draft.c_str());
 }
 
 } // namespace
-
-std::string infoLineOf(const std::string& run)
-{
-  return infoBeginning + run;
-}
-
-std::optional<std::string> runOfResults(const std::string& file)
-{
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error) || !classicHeaderFitsFile(file))
-    return std::nullopt;
-  quietExodus();
-  int computed = 8, stored = 0;
-  float version = 0;
-  const int exoid = ex_open(file.c_str(), EX_READ, &computed, &stored, &version);
-  if (exoid < 0)
-    return std::nullopt;
-  int variables = 0;
-  const int records = int(ex_inquire_int(exoid, EX_INQ_QA));
-  bool isOurs =
-      records > 0 && ex_get_variable_param(exoid, EX_NODAL, &variables) >= 0 && variables > 0;
-  if (isOurs)
-  {
-    Texts<MAX_STR_LENGTH> text(4 * records);
-    using Record = char* [4];
-    const auto pointers = std::make_unique<Record[]>(records);
-    for (int i = 0; i < 4 * records; ++i)
-      pointers[i / 4][i % 4] = text.pointers[i];
-    isOurs =
-        ex_get_qa(exoid, pointers.get()) >= 0 && std::string(pointers[records - 1][0]) == ownName;
-  }
-  std::string run;
-  const int lines = int(ex_inquire_int(exoid, EX_INQ_INFO));
-  if (isOurs && lines > 0)
-  {
-    Texts<MAX_LINE_LENGTH> text(lines);
-    const std::string beginning = infoBeginning;
-    if (ex_get_info(exoid, text.pointers.data()) >= 0)
-      if (const std::string first = text.pointers[0]; first.rfind(beginning, 0) == 0)
-        run = first.substr(beginning.size());
-  }
-  ex_close(exoid);
-  return isOurs ? std::optional<std::string>(run) : std::nullopt;
-}
 
 void cutResults(const std::string& file, int steps)
 {
   unsigned char bytes[12] = {};
   std::FILE* header = std::fopen(file.c_str(), "rb");
-  if (!header)
+  if (!header && errno == ENOENT)
     return;
+  if (!header)
+    failToWrite(file);
   const bool read = std::fread(bytes, 1, sizeof bytes, header) == sizeof bytes;
   std::fclose(header);
   if (!read || std::memcmp(bytes, "CDF\5", 4) != 0)
@@ -140,6 +77,7 @@ void cutResults(const std::string& file, int steps)
     there = there << 8 | bytes[4 + i];
   if (there <= std::uint64_t(steps))
     return;
+  breakHardLinks(placeOfFile(file));
   try
   {
     SharedFile data(file);
@@ -205,10 +143,11 @@ void ResultsFile::create(const MeshSlice& slice, const ResultsVariables& variabl
   // Whatever is at this place stays there until all of the header is written; links stay links.
   if (defines)
   {
-    attempt([&] { defineFile(draftOf(file_), slice, extras, creationMode(largest)); });
-    attempt([&] { renameFile(draftOf(file_), placeOfFile(file_)); });
+    const std::string place = placeOfFile(file_), draft = draftOf(place);
+    attempt([&] { defineFile(draft, slice, extras, creationMode(largest)); });
+    attempt([&] { renameFile(draft, place); });
     if (!failure_.empty())
-      std::remove(draftOf(file_).c_str());
+      std::remove(draft.c_str());
   }
   failTogether("defining the mesh");
   attempt([&] { data_.emplace(file_); });
@@ -246,10 +185,11 @@ void ResultsFile::failTogether(const std::string& doing)
   abandon();
   failOnAllRanks(
       ExitCode::Output,
-      "{}: {} failed on rank {}: {}. The file keeps {} finished time steps. Make room (disk, "
-      "quota, file-size limit) and restart, "
-      "or write fewer variables or steps.",
-      file, doing, failed, reason, steps_);
+      "{}: {} failed on rank {}: {}.{} Make room (disk, quota, file-size limit){}, or write fewer "
+      "variables or steps.",
+      file, doing, failed, reason,
+      steps_ > 0 ? fmt::format(" The file keeps {} finished time steps.", steps_) : "",
+      steps_ > 0 ? " and restart" : "");
 }
 
 void ResultsFile::abandon()
@@ -269,20 +209,26 @@ void ResultsFile::abandon()
 
 void ResultsFile::beginStep(Real time)
 {
+  if (steps_ > 0)
+    warnIfCutOff(steps_ - 1);
   time_ = time;
-  const bool isCut = (filePerRank_ || comm_.isRoot()) && data_ && data_->isCutOff(steps_);
-  if (const int rank = int(comm_.min(std::int64_t(isCut ? comm_.rank() : comm_.size())));
-      rank < comm_.size())
-    logWarning("results are cut off",
-               fmt::format("{}: somebody cut off the file while the run writes it: values of the "
-                           "steps before t = {:.6g} s are lost.",
-                           comm_.broadcast(file_, rank), time));
   if (filePerRank_ || comm_.isRoot())
   {
     attempt([&] { data_->reserveStep(steps_); });
     attempt([&] { data_->put("time_whole", 0, std::vector<Real>{time}, steps_); });
   }
   failTogether(fmt::format("writing the step at t = {:.6g} s", time_));
+}
+
+void ResultsFile::warnIfCutOff(int step)
+{
+  const bool isCut = (filePerRank_ || comm_.isRoot()) && data_->isCutOff(step, time_);
+  const int rank = int(comm_.min(std::int64_t(isCut ? comm_.rank() : comm_.size())));
+  if (rank < comm_.size())
+    logWarning("results are cut off",
+               fmt::format("{}: somebody cut off the file while the run writes it: values of the "
+                           "steps up to t = {:.6g} s are lost.",
+                           comm_.broadcast(file_, rank), time_));
 }
 
 void ResultsFile::putNodal(int variable, const std::vector<Real>& myRange)
@@ -325,14 +271,17 @@ void ResultsFile::endStep()
   if (filePerRank_ || comm_.isRoot())
     attempt([&] { data_->setSteps(steps_ + 1); });
   failTogether(doing);
+  warnIfCutOff(steps_);
   ++steps_;
-  if (comm_.max(std::int64_t((filePerRank_ || comm_.isRoot()) && data_->isGone())) > 0)
+  const bool isGone = (filePerRank_ || comm_.isRoot()) && data_->isGone();
+  if (const int rank = int(comm_.min(std::int64_t(isGone ? comm_.rank() : comm_.size())));
+      rank < comm_.size())
     logWarning(
         "results are gone",
-        fmt::format("{}: somebody removed the file while the run writes it: its {} steps, and "
-                    "all that follow, are lost when the run ends. To keep them, stop the run "
-                    "with a checkpoint and restart it.",
-                    file_, steps_));
+        fmt::format("{}: somebody removed the file while the run writes it: its {} steps are "
+                    "lost when the run ends. To keep those that follow, stop the run with a "
+                    "checkpoint and restart it.",
+                    comm_.broadcast(file_, rank), steps_));
 }
 
 void ResultsFile::close()

@@ -24,20 +24,13 @@ struct ResultsVariables
 /// fewer steps, or without, stays as it is. Not collective.
 void cutResults(const std::string& file, int steps);
 
-/// The first info line of results, which tells of which run they are.
-std::string infoLineOf(const std::string& run);
-
-/// The run of results that this program wrote: their last QA record says so, and they have nodal
-/// variables. Empty: they do not tell. Nothing: the file holds no such results. Not collective.
-std::optional<std::string> runOfResults(const std::string& file);
-
 /// Name of a rank's file: wall.e.4.0
 std::string resultsFileOfRank(const std::string& file, int rank, int ranks);
 
 /// Exodus II results of a parallel run: the mesh (ids, names, sets and body ids of the input) and
 /// variables by time step.
 ///
-/// One file shared by all ranks: CDF-5, defined by rank 0 under another name (`.part`) that is
+/// One file shared by all ranks: CDF-5, defined by rank 0 under another name that is
 /// renamed, so that a file of its name has a whole header, then written by each rank at its own
 /// places (SharedFile). Each rank writes contiguous ranges of the file order: items
 /// contiguousRange(n, rank, size) of nodes, of each block's elements and of each side set's sides.
@@ -99,6 +92,8 @@ private:
   void put(const std::string& variable, int first, const std::vector<Real>& values);
   void failTogether(const std::string& doing);
   void abandon();
+  /// Looks at the step that was written last, or is being written.
+  void warnIfCutOff(int step);
 
   std::string file_;
   Comm comm_;

@@ -160,13 +160,21 @@ std::uint64_t SharedFile::beginOfStep(int step) const
   return first + std::uint64_t(step) * layout_.recordBytes;
 }
 
-bool SharedFile::isCutOff(int steps) const
+bool SharedFile::isCutOff(int step, Real time)
 {
   struct stat file
   {
   };
-  return steps > 0 && layout_.recordBytes > 0 && ::fstat(descriptor_, &file) == 0 &&
-         std::uint64_t(file.st_size) < beginOfStep(steps - 1) + 1;
+  if (::fstat(descriptor_, &file) != 0)
+    return false; // what cannot be asked is told by the next write
+  const std::uint64_t before = bytes_;
+  bytes_ = std::uint64_t(file.st_size);
+  const ClassicVariable& times = variable("time_whole");
+  unsigned char expected[8], found[8] = {};
+  putBigEndian(bitsOf(time), 8, expected);
+  const off_t at = off_t(times.begin + std::uint64_t(step) * layout_.recordBytes);
+  const ssize_t read = ::pread(descriptor_, found, sizeof found, at);
+  return bytes_ < before || (read >= 0 && std::memcmp(expected, found, sizeof found) != 0);
 }
 
 void SharedFile::setSteps(int steps) const

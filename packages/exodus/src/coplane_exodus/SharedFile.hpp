@@ -36,8 +36,10 @@ public:
   void setSteps(int steps) const;
   /// Whether no name leads to the file any more: what is written is lost when it is closed.
   bool isGone() const;
-  /// Whether somebody has cut off what the file has to hold after so many time steps.
-  bool isCutOff(int steps) const;
+  /// Whether somebody has cut off the file: it is shorter than when this was asked last, or its
+  /// time step `step` does not begin with `time` (s), which is written first in a step. The second
+  /// finds what was cut while later values were written: these make the file long again.
+  bool isCutOff(int step, Real time);
   /// Waits until the disk has what this rank wrote.
   void sync() const;
   /// Closes; here some file systems tell of writes that failed.
@@ -54,6 +56,7 @@ private:
 
   ClassicLayout layout_;
   int descriptor_ = -1;
+  std::uint64_t bytes_ = 0; // of the file, when isCutOff was asked last
   std::vector<unsigned char> buffer_;
 };
 } // namespace coplane

@@ -1,7 +1,10 @@
+#include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
 #include <coplane_exodus/MeshDefinition.hpp>
+#include <coplane_exodus/Provenance.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
 
 #include <csignal>
@@ -45,19 +48,16 @@ void writeMesh(const Mesh& mesh, const std::string& file)
   const MeshSlice all = sliceOf(mesh);
   // Beside it first: a mesh of this name that is there is lost only when the new one is whole.
   std::error_code error;
-  std::filesystem::path target = std::filesystem::canonical(file, error); // of a link
-  if (error)
-    target = file;
-  const std::string draft = target.string() + ".part";
+  const std::string target = placeOfFile(file), draft = draftOf(target);
   try
   {
-    std::filesystem::remove(draft, error); // a link would be followed
     defineFile(draft, all, {}, creationMode(largestId(all)));
     SharedFile data(draft);
     data.reserveMesh();
     writeMeshRanges(data, all);
     data.sync();
     data.close();
+    makeWayFor(target, isMeshOfCoplane);
     std::filesystem::rename(draft, target, error);
     if (error)
       throw ExodusFailure(error.message());
@@ -69,6 +69,11 @@ void writeMesh(const Mesh& mesh, const std::string& file)
          "{}: the mesh cannot be written ({}). Check that the folder '{}' exists, can be written "
          "to and is not full.",
          file, failure.what(), folderOf(file));
+  }
+  catch (...)
+  {
+    std::filesystem::remove(draft, error);
+    throw;
   }
 }
 } // namespace coplane

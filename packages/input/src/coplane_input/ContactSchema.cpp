@@ -285,12 +285,13 @@ Key contactKeys()
   const Key searchEvery =
       bound<int>("search_every", KeyKind::Integer, &ContactCard::searchEvery, takeInterval)
           .atLeast(1)
-          .oneOf({"once"})
+          .oneOf({"once", "auto"}) // 0 and -1
           .in("cycles")
           .like("2")
           .defaultIs(fmt::format("{}", ContactCard{}.searchEvery))
-          .means("largest number of cycles between searches; once: at the start, and again only if "
-                 "faces move so far that a contact might be missed");
+          .means("largest number of cycles between searches; auto: only when faces have moved so "
+                 "far that a contact might be missed; once: the same with a larger skin, for "
+                 "contacts that stay what they are");
   return group(
              "contact", &Deck::contact,
              {

@@ -40,8 +40,9 @@ DeckNode copyNode(const YAML::Node& node, Source& source, int depth)
   // An alias can contain itself, or double at each of many levels.
   if (depth > 50 || ++source.nodes > source.most)
     fail(ExitCode::Deck,
-         "{}: aliases (*name) make this part of the deck endless or enormous; accepted: 50 "
-         "levels and a million values more than are written. Write the values out.",
+         "{}: this part of the deck is nested too deeply or too large, as aliases (*name) that "
+         "contain themselves make it; accepted: 50 levels and a million values more than are "
+         "written. Write the values out.",
          source.where(node.Mark()));
   DeckNode copy;
   copy.where = source.where(node.Mark());
@@ -181,7 +182,8 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
     fail(ExitCode::Deck,
          "{}: this is not YAML: {}. Look at this line and the one before for a missing colon, "
          "bracket or quote, or a wrong indentation.{}",
-         source.where(e.mark), e.msg, hintOfTabs(text));
+         source.where(e.mark), e.msg == "bad file" ? "it is nested too deeply" : e.msg,
+         hintOfTabs(text));
   }
   if (yaml.rest)
     fail(ExitCode::Deck,
@@ -189,10 +191,7 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
          "Remove the line '---', or mend the indentation.",
          source.where(*yaml.rest));
   if (yaml.document.IsNull())
-    fail(ExitCode::Deck,
-         "{}: the deck is empty; it needs at least mesh, materials, blocks and time. See "
-         "--help-deck.",
-         file);
+    fail(ExitCode::Deck, "{}: the deck is empty; --help-deck lists the keys that it needs.", file);
   DeckNode root = copyNode(yaml.document, source, 0);
   if (root.kind != DeckNode::Kind::Map)
     fail(ExitCode::Deck,

@@ -317,13 +317,16 @@ private:
 
   std::optional<KeyValue> readInteger(const Key& key, const DeckNode& node, const std::string& path)
   {
-    if (std::find(key.choices.begin(), key.choices.end(), node.text) != key.choices.end())
-      return 0; // the word stands for zero
+    const auto word = std::find(key.choices.begin(), key.choices.end(), node.text);
+    if (word != key.choices.end())
+      return -int(word - key.choices.begin()); // words stand for 0, -1, ...
     int value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
-    if (node.quoted || stop != end || error != std::errc())
+    if (node.quoted || stop != end || error == std::errc::invalid_argument)
       wrong(node, path, " is not a whole number", acceptedText(key));
+    else if (error != std::errc())
+      wrong(node, path, " is beyond the largest whole numbers, +-2147483647", acceptedText(key));
     else if (key.lower && value < *key.lower)
       wrong(node, path, " is out of range", acceptedText(key));
     else
@@ -420,15 +423,17 @@ private:
     }
     if (problems_.size() > before)
       return std::nullopt;
-    const bool rising =
-        std::adjacent_find(function.times.begin(), function.times.end(),
-                           [](Real a, Real b) { return !(a < b); }) == function.times.end();
+    const auto falls = std::adjacent_find(function.times.begin(), function.times.end(),
+                                          [](Real a, Real b) { return !(a < b); });
+    const bool rising = falls == function.times.end();
     if (function.times.size() < 2 || function.times.size() != function.values.size() || !rising)
     {
-      problems_.add(node,
-                    fmt::format("{} has {} times and {} values; accepted: as many of both, at "
-                                "least 2, with times that rise.",
-                                path, function.times.size(), function.values.size()));
+      problems_.add(
+          node, fmt::format(
+                    "{} has {} times and {} values{}; accepted: as many of both, at "
+                    "least 2, with times that rise.",
+                    path, function.times.size(), function.values.size(),
+                    rising ? "" : fmt::format(", and {} s comes after {} s", falls[1], falls[0])));
       return std::nullopt;
     }
     return function;
@@ -475,7 +480,8 @@ private:
     if (key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions)
       return functions;
     if (!key.choices.empty() &&
-        (words.empty() || std::set<std::string>(words.begin(), words.end()).size() < words.size()))
+        ((words.empty() && key.defaultText != "[]") ||
+         std::set<std::string>(words.begin(), words.end()).size() < words.size()))
     {
       wrong(node, path, words.empty() ? " without items" : " with an item given twice",
             acceptedText(key));

@@ -29,7 +29,8 @@ std::string acceptedText(const Key& key)
   case KeyKind::Number:
     return "a number" + range + unit;
   case KeyKind::Integer:
-    return "a whole number" + range + unit + (words.empty() ? "" : " or " + words);
+    return "a whole number" + range + unit +
+           (words.empty() ? "" : fmt::format(" or {}", fmt::join(key.choices, " or ")));
   case KeyKind::Flag:
     return "true or false";
   case KeyKind::Numbers:

@@ -54,7 +54,8 @@ struct Key
       models; ///< only with these values of the group's discriminator; empty: always
 
   // values
-  std::vector<std::string> choices; ///< Text, Texts: accepted words; Integer: words beside numbers
+  std::vector<std::string>
+      choices; ///< Text, Texts: accepted words; Integer: words beside numbers, for 0, -1, ...
   std::optional<Real> lower, upper;
   bool lowerOpen = false, upperOpen = false; ///< the limit itself is refused
   std::size_t length = 0;                    ///< of a list; 0: any

@@ -1,11 +1,11 @@
 #include <coplane_checkpoint/CheckpointWriter.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Text.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Signals.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <limits>
 #include <sys/stat.h>
+#include <tuple>
 #include <unistd.h>
 
 namespace coplane
@@ -34,19 +35,22 @@ std::vector<std::string> oldCheckpoints(const std::string& file)
 {
   const std::filesystem::path path(file);
   const std::string stem = path.filename().string();
-  std::vector<std::pair<std::string, std::string>> olds; // time, name
+  std::vector<std::tuple<std::string, std::int64_t, std::string>> olds; // time, cycle, name
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(
            path.has_parent_path() ? path.parent_path() : std::filesystem::path("."), error))
   {
     const std::string name = entry.path().filename().string();
+    CheckpointHead head;
     for (const char* end : {".0.old-", ".1.old-"})
-      if (name.rfind(stem + end, 0) == 0)
-        olds.emplace_back(name.substr(stem.size() + 7), (path.parent_path() / name).string());
+      if (name.rfind(stem + end, 0) == 0 &&
+          inspectCheckpoint((path.parent_path() / name).string(), head).empty())
+        olds.emplace_back(name.substr(stem.size() + 7, 15), head.cycle,
+                          (path.parent_path() / name).string());
   }
   std::sort(olds.begin(), olds.end());
   std::vector<std::string> names;
-  for (const auto& [time, name] : olds)
+  for (const auto& [time, cycle, name] : olds)
     names.push_back(name);
   return names;
 }
@@ -64,10 +68,16 @@ bool takeStopFile(const std::string& file)
   };
   if (::lstat(file.c_str(), &status) != 0)
     return false;
-  if (::unlink(file.c_str()) != 0)
+  // What somebody has written into it is not ours to throw away.
+  const bool isEmpty = !S_ISREG(status.st_mode) || status.st_size == 0;
+  const std::string aside = isEmpty ? "" : nameAside(file);
+  if ((isEmpty ? ::unlink(file.c_str()) : std::rename(file.c_str(), aside.c_str())) != 0)
     logWarning("stop file", fmt::format("{}: the stop file cannot be removed: {}. Remove it before "
                                         "the next run.",
                                         file, std::strerror(errno)));
+  else if (!isEmpty)
+    logWarningEachTime(
+        fmt::format("{}: the stop file holds something; it is called {} now.", file, aside));
   return true;
 }
 
@@ -84,6 +94,8 @@ CheckpointObserver::CheckpointObserver(const Comm& comm, CheckpointOptions optio
     for (int s = 0; s < 2; ++s)
     {
       const std::string file = slotFile(options_.file, s);
+      slots_.emplace_back(placeOfFile(file), ReplacedFile::Edits::DoNot);
+      slots_.back().remember();
       CheckpointHead head;
       cycles[s] = inspectCheckpoint(file, head).empty() ? head.cycle : -1;
       std::error_code error;
@@ -166,7 +178,9 @@ void CheckpointObserver::write(const Solver& solver)
   for (const auto& [name, text] : options_.texts)
     out.text(name, text);
   const std::string file = slotFile(options_.file, slot_);
-  out.write(file, solver.clock().cycle, solver.clock().time);
+  ReplacedFile* const place = comm_->isRoot() ? &slots_[std::size_t(slot_)] : nullptr;
+  out.write(comm_->broadcast(place ? place->file() : file), solver.clock().cycle,
+            solver.clock().time, place);
   slot_ = 1 - slot_;
   lastCycle_ = solver.clock().cycle;
   last_ = WallClock::now();
@@ -228,26 +242,62 @@ void putAside(const std::string& file, const Comm& comm)
           if (!std::filesystem::exists(std::filesystem::symlink_status(name, error)))
             continue;
           const std::string aside = nameAside(name);
+          CheckpointHead head;
+          const bool isCheckpoint = inspectCheckpoint(name, head).empty();
           std::filesystem::rename(name, aside, error);
           if (error)
             fail(ExitCode::Output,
-                 "{}: this checkpoint of an earlier run cannot be put aside as {}: {}. Go on from "
-                 "it with --restart, or move it away.",
+                 "{}: this file, of an earlier run or of somebody else, has the name of a "
+                 "checkpoint and cannot be put aside as {}: {}. Go on from it with --restart, or "
+                 "move it away.",
                  name, aside, error.message());
-          logInfo("{} is of an earlier run; it is called {} now", name, aside);
+          if (isCheckpoint)
+            logInfo("{}: there was a checkpoint of an earlier run; it is kept and is called {} now",
+                    name, aside);
+          else
+            logWarningEachTime(fmt::format("{}: a file of this name was there that is no "
+                                           "checkpoint; it is kept and is called {} now.",
+                                           name, aside));
           some = true;
         }
         const std::vector<std::string> olds = oldCheckpoints(file);
-        if (!some)
+        if (!some || olds.empty())
           return;
         std::uintmax_t bytes = 0;
+        std::vector<std::string> inShell;
+        for (const std::string& old : olds)
+          inShell.push_back(shellWord(old));
         for (const std::string& old : olds)
           if (const auto size = std::filesystem::file_size(old, error); !error)
             bytes += size;
         logInfo("{} checkpoints of earlier runs take {:.1f} MB. To go on from one: --restart {}; "
-                "when none is wanted any more: rm {}.[01].old-*",
-                olds.size(), double(bytes) / 1e6, olds.back(), file);
+                "when none is wanted any more: rm {}",
+                olds.size(), double(bytes) / 1e6, inShell.back(), fmt::join(inShell, " "));
       });
+}
+
+void putOtherAside(const std::string& file, const std::string& restartedFrom, const Comm& comm,
+                   const std::function<bool(const CheckpointReader&)>& isOwn)
+{
+  for (int s = 0; s < 2; ++s)
+  {
+    const std::string name = slotFile(file, s);
+    std::error_code error;
+    std::int64_t isOther = 0;
+    if (comm.isRoot())
+      isOther = wouldBeLost(name) && !std::filesystem::equivalent(name, restartedFrom, error);
+    if (comm.max(isOther) == 0)
+      continue;
+    CheckpointHead head;
+    if (verifyCheckpoint(name, comm, head).empty() && isOwn(CheckpointReader(name, comm)))
+      continue;
+    comm.together(
+        [&]
+        {
+          if (comm.isRoot())
+            putForeignFileAside(name);
+        });
+  }
 }
 
 std::map<std::string, std::string> positionsIn(const CheckpointReader& checkpoint)

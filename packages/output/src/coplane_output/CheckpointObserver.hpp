@@ -2,9 +2,11 @@
 
 #include <coplane_checkpoint/CheckpointReader.hpp>
 #include <coplane_core/Comm.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_dynamics/Observer.hpp>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,7 +56,8 @@ private:
   const Comm* comm_;
   CheckpointOptions options_;
   const Observer* outputs_;
-  int slot_ = 0; ///< the next one
+  int slot_ = 0;                    ///< the next one
+  std::vector<ReplacedFile> slots_; ///< on rank 0
   std::int64_t lastCycle_ = -1;
   WallClock::time_point last_, looked_;
 };
@@ -71,6 +74,11 @@ bool isOneOfTwo(const std::string& file, const std::string& checkpoint, const Co
 /// on from them and how to get rid of them. Throws Error(ExitCode::Output) when that fails.
 /// Collective.
 void putAside(const std::string& file, const Comm& comm);
+
+/// At a restart from one of the two: puts the other one aside, with a warning, unless it is a whole
+/// checkpoint of which `isOwn` says yes. Collective, also isOwn.
+void putOtherAside(const std::string& file, const std::string& restartedFrom, const Comm& comm,
+                   const std::function<bool(const CheckpointReader&)>& isOwn);
 
 /// Positions of the outputs in a checkpoint. Collective.
 std::map<std::string, std::string> positionsIn(const CheckpointReader& checkpoint);

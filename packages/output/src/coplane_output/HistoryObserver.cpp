@@ -10,6 +10,7 @@ namespace coplane
 namespace
 {
 constexpr const char* axes = "xyz";
+constexpr const char* firstColumns = "time[s],cycle,dt[s],kinetic[J],";
 
 /// Names and values of one line, so that header and lines cannot differ.
 class Line
@@ -118,7 +119,7 @@ HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
           position = TextPosition::from(options_.position);
         lastCycle_ = position ? position->cycle : -1;
         if (comm.isRoot())
-          hasHeader_ = table_.open(options_.file, position);
+          hasHeader_ = table_.open(options_.file, firstColumns, position);
       });
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <coplane_core/Comm.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <string>
 #include <vector>

@@ -1,4 +1,5 @@
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_output/MultiObserver.hpp>
 
 #include <exception>
@@ -51,6 +52,8 @@ void MultiObserver::finish(const Solver& solver, const std::string& ending)
         throw;
       if (!first)
         first = std::current_exception();
+      else
+        logError(error.what());
     }
   if (first)
     std::rethrow_exception(first);

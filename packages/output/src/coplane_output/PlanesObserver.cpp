@@ -1,9 +1,9 @@
 #include <coplane_core/Text.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 #include <coplane_output/PlanesObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 #include <coplane_output/VtpFile.hpp>
 
 #include <algorithm>
@@ -142,7 +142,8 @@ void addStates(Columns& columns)
   }
 }
 
-std::string pointsOf(const std::vector<Record>& records, const std::vector<std::string>& joints)
+std::string pointsOf(const std::vector<Record>& records, const std::vector<std::string>& joints,
+                     const std::string& comment)
 {
   std::vector<Real> coordinates;
   for (const Record& record : records)
@@ -155,7 +156,7 @@ std::string pointsOf(const std::vector<Record>& records, const std::vector<std::
   addHistory(columns);
   addEnergies(columns);
   addStates(columns);
-  return points.text();
+  return points.text(comment);
 }
 
 /// 12 of wall_planes_0012.vtp
@@ -164,9 +165,24 @@ int numberOfStep(const std::string& name)
   return std::atoi(name.substr(name.rfind('_') + 1).c_str());
 }
 
+constexpr const char* beginningOfComment = "<!-- coplane run ";
+
 std::string commentOf(const std::string& run)
 {
-  return "<!-- coplane run " + run + " -->";
+  return beginningOfComment + run + " -->";
+}
+
+/// Series and steps say so at their beginning; nothing else is read as a whole. Steps that were
+/// written before they had a comment have names of joints there.
+bool isOfCoplane(const std::string& file)
+{
+  if (!isPlainFile(file))
+    return false; // opening a pipe would wait
+  std::string start(512, '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start.data(), std::streamsize(start.size()));
+  return start.find(beginningOfComment) != std::string::npos ||
+         start.find("Name=\"joint_names\"") != std::string::npos;
 }
 
 std::string textOf(const std::filesystem::path& file)
@@ -215,7 +231,7 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
   // The cycle of the last step, the base, then a line for each step: time and file.
   std::istringstream position(options.position);
   std::string line;
-  if (std::getline(position, line) && line == base_)
+  if (std::getline(position, line) && isSameName(line, base_))
   {
     std::getline(position, line);
     lastCycle_ = std::strtoll(line.c_str(), nullptr, 10);
@@ -230,6 +246,8 @@ PlanesObserver::PlanesObserver(const Comm& comm, PlanesOptions options)
         if (!comm.isRoot())
           return;
         clearTheWay();
+        series_.emplace(placeOfFile(file())); // a link stays one
+        series_->remember();
         writeSeries();
       });
 }
@@ -278,7 +296,9 @@ void PlanesObserver::write(const Solver& solver)
       {
         if (!solver.comm().isRoot())
           return;
-        replaceFile(file, pointsOf(records, joints));
+        // Those of this series have been removed.
+        makeWayNowFor(file, [](const std::string&) { return false; });
+        replaceFile(file, pointsOf(records, joints, commentOf(run_)));
         writeSeries();
       });
   lastCycle_ = solver.clock().cycle;
@@ -289,23 +309,41 @@ void PlanesObserver::write(const Solver& solver)
 /// has not, that is put aside, its steps stay, and new ones are counted on from what is there.
 void PlanesObserver::clearTheWay()
 {
-  const std::filesystem::path series(file());
+  const std::string series = file();
   std::error_code error;
-  const bool isThere = std::filesystem::exists(series, error);
-  const std::string all = isThere ? textOf(series) : "";
-  if (!continues_)
+  const bool isSeries = isOfCoplane(continues_ ? placeOfFile(series) : series);
+  const std::string all = isSeries ? textOf(series) : "";
+  const auto removeFrom = [&](int first)
   {
     for (const std::string& name : stepsNamed(all, base_))
-      std::filesystem::remove(std::filesystem::path(base_).replace_filename(name), error);
+      if (numberOfStep(name) >= first)
+      {
+        makeWayFor(fileOf(name), isOfCoplane);
+        std::filesystem::remove(fileOf(name), error);
+      }
+  };
+  if (!continues_)
+  {
+    removeFrom(0);
+    makeWayFor(series, [&](const std::string&) { return isSeries; });
     return;
   }
-  const bool isOwn = !isThere || all.find(commentOf(run_)) != std::string::npos;
+  const bool isOwn =
+      !wouldBeLost(placeOfFile(series)) || all.find(commentOf(run_)) != std::string::npos;
   if (isOwn && !steps_.empty())
+  {
+    removeFrom(firstNumber_ + int(steps_.size())); // later than the checkpoint
     return;
+  }
   steps_.clear();
   firstNumber_ = firstFreeNumber(base_);
-  if (isThere)
+  if (wouldBeLost(series))
     putForeignFileAside(series);
+}
+
+std::string PlanesObserver::fileOf(const std::string& step) const
+{
+  return std::filesystem::path(base_).replace_filename(step).string();
 }
 
 void PlanesObserver::writeSeries() const
@@ -317,6 +355,6 @@ void PlanesObserver::writeSeries() const
     text +=
         fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, xmlText(name));
   text += "  </Collection>\n</VTKFile>\n";
-  replaceFile(file(), text);
+  series_->replace(text);
 }
 } // namespace coplane

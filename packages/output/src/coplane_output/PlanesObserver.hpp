@@ -1,9 +1,11 @@
 #pragma once
 
 #include <coplane_core/Comm.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +36,7 @@ public:
 
   /// base + "_planes.pvd"
   std::string file() const { return base_ + "_planes.pvd"; }
+  std::string fileOf(const std::string& step) const; ///< with its folder
 
 private:
   void write(const Solver& solver);
@@ -41,6 +44,7 @@ private:
   void writeSeries() const;
 
   std::string base_, run_;
+  mutable std::optional<ReplacedFile> series_; ///< on rank 0
   bool continues_;
   OutputSchedule schedule_;
   std::int64_t lastCycle_ = -1;                     ///< that was written

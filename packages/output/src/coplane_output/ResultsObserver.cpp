@@ -1,9 +1,10 @@
 #include <coplane_core/Log.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_exodus/Provenance.hpp>
 #include <coplane_output/NodalContact.hpp>
 #include <coplane_output/ResultsObserver.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -84,24 +85,19 @@ struct ResultsPosition
   }
 };
 
-bool isEmptyFile(const std::filesystem::path& file)
-{
-  std::error_code error;
-  return std::filesystem::is_regular_file(file, error) && std::filesystem::is_empty(file, error);
-}
-
 /// What is there of a series of results.
 struct PartThere
 {
   std::filesystem::path file;
   int number;
+  bool ofOneRank; ///< a file per rank
 };
 
 std::vector<PartThere> partsThere(const std::string& file)
 {
   const std::filesystem::path path(file);
   const std::string stem = path.filename().string();
-  static const std::regex end(R"((?:-s([0-9]{4,9}))?(?:\.[0-9]+\.[0-9]+)?)"); // and no other name
+  static const std::regex end(R"((?:-s([0-9]{4,9}))?(\.[0-9]+\.[0-9]+)?)"); // and no other name
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   std::error_code error;
   std::vector<PartThere> parts;
@@ -113,7 +109,8 @@ std::vector<PartThere> partsThere(const std::string& file)
       continue;
     const std::string rest = name.substr(stem.size());
     if (std::regex_match(rest, match, end))
-      parts.push_back({entry.path(), match[1].matched ? std::atoi(match[1].str().c_str()) : 1});
+      parts.push_back({entry.path(), match[1].matched ? std::atoi(match[1].str().c_str()) : 1,
+                       match[2].matched});
   }
   return parts;
 }
@@ -121,33 +118,43 @@ std::vector<PartThere> partsThere(const std::string& file)
 /// Makes room for a new run, which replaces the series of an earlier one: its first part will be
 /// overwritten, later ones are removed, as ParaView would read them as well. What has such a name
 /// and holds no results is put aside.
-void removeSeries(const std::string& file)
+void removeSeries(const std::string& file, int ranksWithFiles)
 {
+  const auto isOwn = [](const std::string& part)
+  { return isPlainFile(part) && runOfResults(part).has_value(); };
+  if (ranksWithFiles == 0)
+    makeWayFor(placeOfFile(file), isOwn); // written through a link
+  for (int r = 0; r < ranksWithFiles; ++r)
+    makeWayFor(placeOfFile(resultsFileOfRank(file, r, ranksWithFiles)), isOwn);
   int removed = 0;
   std::error_code error;
   for (const PartThere& part : partsThere(file))
-    if (part.number < 2)
-      continue;
-    else if (runOfResults(part.file) || isEmptyFile(part.file))
+    if (part.number >= 2)
+    {
+      makeWayFor(part.file, isOwn);
       removed += int(std::filesystem::remove(part.file, error));
-    else
-      putForeignFileAside(part.file);
+    }
   if (removed > 0)
     logInfo("removed {} parts of the series {}-s... from an earlier run", removed, file);
 }
 
 /// Makes room for a restart: parts from number `first` on were left by this run when it went on
 /// from an earlier checkpoint, and are removed; what is not of this run is put aside.
-void keepOwnParts(const std::string& file, const std::string& run, int first)
+/// @param filePerRank this run has, or had, files like wall.e.4.0; others of such names are inputs,
+///        or somebody's
+void keepOwnParts(const std::string& file, const std::string& run, int first, bool filePerRank)
 {
   int removed = 0;
   std::error_code error;
   for (const PartThere& part : partsThere(file))
   {
-    const bool isOwn = isEmptyFile(part.file) || runOfResults(part.file) == run;
-    if (isOwn && part.number >= first)
+    if (part.ofOneRank && part.number == 1 && !filePerRank)
+      continue;
+    // The link to a part that is kept stays.
+    const bool isOwn = !wouldBeLost(part.file) || runOfResults(part.file) == run;
+    if (isOwn && part.number >= first && isPlainFile(part.file))
       removed += int(std::filesystem::remove(part.file, error));
-    else if (!isOwn)
+    else if (!isOwn || part.number >= first)
       putForeignFileAside(part.file);
   }
   if (removed > 0)
@@ -170,10 +177,11 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
         if (!comm.isRoot())
           return;
         if (options_.part == 1)
-          removeSeries(options_.file);
+          removeSeries(options_.file, options_.filePerRank ? comm.size() : 0);
         else
           keepOwnParts(options_.file, options_.run,
-                       position.file == options_.file ? position.part + 1 : options_.part);
+                       isSameName(position.file, options_.file) ? position.part + 1 : options_.part,
+                       options_.filePerRank || position.ranks > 0);
       });
   if (options_.part == 1)
     open();
@@ -194,9 +202,9 @@ void ResultsObserver::continueSeries()
   comm_->together(
       [&]
       {
-        if (!comm_->isRoot() || position.file != options_.file || position.steps == 0)
+        if (!comm_->isRoot() || !isSameName(position.file, options_.file) || position.steps == 0)
           return;
-        const std::string part = resultsPart(position.file, position.part);
+        const std::string part = resultsPart(options_.file, position.part);
         for (int r = 0; r < std::max(1, position.ranks); ++r)
           cutResults(position.ranks == 0 ? part : resultsFileOfRank(part, r, position.ranks),
                      position.steps);

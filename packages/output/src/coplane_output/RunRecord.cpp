@@ -1,13 +1,13 @@
 #include <coplane_contact/Census.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/Placement.hpp>
 #include <coplane_output/RunRecord.hpp>
 #include <coplane_output/Sha256.hpp>
-#include <coplane_output/TextFile.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -173,6 +173,8 @@ Json slowestTimers(const Comm& comm)
 /// The identity of the run whose record a file is; nothing when it is no record.
 std::optional<std::string> runOfRecord(const std::string& file)
 {
+  if (!isPlainFile(file))
+    return std::nullopt;
   std::ifstream stream(file);
   const Json json = Json::parse(stream, nullptr, false);
   if (!json.is_object() || !json.contains("software") || !json["software"].contains("coplane"))
@@ -190,12 +192,10 @@ void removeRecordsOfRestarts(const std::string& file)
   for (int part = 2;; ++part)
   {
     const std::string record = fmt::format("{}-s{:04}.json", base.string(), part);
-    if (!std::filesystem::is_regular_file(record, error))
+    if (!std::filesystem::exists(std::filesystem::symlink_status(record, error)))
       return;
-    if (!runOfRecord(record))
-      putForeignFileAside(record);
-    else if (!std::filesystem::remove(record, error))
-      return;
+    makeWayFor(record, [](const std::string& file) { return runOfRecord(file).has_value(); });
+    std::filesystem::remove(record, error);
   }
 }
 
@@ -209,7 +209,8 @@ std::int64_t peakMemory()
 } // namespace
 
 RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
-    : options_(std::move(options)), startDate_(dateNow()), begin_(std::chrono::steady_clock::now())
+    : options_(std::move(options)), file_(options_.file), startDate_(dateNow()),
+      begin_(std::chrono::steady_clock::now())
 {
   const std::vector<Placement> ranks = comm.allGather(std::vector<Placement>{myPlacement()});
   Json placement = Json::array();
@@ -226,11 +227,14 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
           return;
         deckHash_ = sha256(options_.deckText);
         meshHash_ = sha256OfFile(options_.meshFile);
-        std::error_code error;
         const bool isNew = options_.restartedFrom.empty();
-        if (std::filesystem::is_regular_file(options_.file, error))
-          if (const auto run = runOfRecord(options_.file); !run || (!isNew && *run != options_.run))
-            putForeignFileAside(options_.file);
+        makeWayFor(options_.file,
+                   [&](const std::string& file)
+                   {
+                     const auto run = runOfRecord(file);
+                     return run && (isNew || *run == options_.run);
+                   });
+        file_.remember();
         if (isNew)
           removeRecordsOfRestarts(options_.file);
       });
@@ -290,8 +294,7 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
       {
         // Text that is not UTF-8 (a deck in another encoding) must not stop a run at its end.
         if (comm.isRoot())
-          replaceFile(options_.file,
-                      json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+          file_.replace(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
       });
 }
 } // namespace coplane

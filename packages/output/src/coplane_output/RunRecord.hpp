@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/Comm.hpp>
+#include <coplane_core/TextFile.hpp>
 #include <coplane_dynamics/Observer.hpp>
 
 #include <chrono>
@@ -38,6 +39,7 @@ private:
   void write(const Solver& solver, const std::string& ending) const;
 
   RunRecordOptions options_;
+  mutable ReplacedFile file_;       ///< on rank 0
   std::string deckHash_, meshHash_; ///< on rank 0
   std::string placement_;           ///< JSON array: host, cores and threads of every rank
   std::string census_; ///< JSON object: contact before the first step; empty without contact

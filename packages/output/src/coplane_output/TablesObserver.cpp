@@ -26,7 +26,7 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
     std::optional<TextPosition> position;
     if (!options_.positions.empty())
       position = positionOf(table);
-    if (!lines.open(fileOf(table), position))
+    if (!lines.open(fileOf(table), header, position))
       lines.add(header + "\n");
   };
   comm.together(

@@ -77,7 +77,7 @@ void VtpPoints::addNames(const std::string& name, const std::vector<std::string>
                          name, texts.size(), numbers);
 }
 
-std::string VtpPoints::text() const
+std::string VtpPoints::text(const std::string& comment) const
 {
   std::vector<std::int64_t> connectivity(count_), offsets(count_);
   for (std::int64_t i = 0; i < count_; ++i)
@@ -86,7 +86,7 @@ std::string VtpPoints::text() const
     offsets[i] = i + 1;
   }
   return fmt::format(
-      "<?xml version=\"1.0\"?>\n"
+      "<?xml version=\"1.0\"?>\n{6}\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n  <PolyData>\n    <FieldData>\n{5}    </FieldData>\n"
       "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
@@ -94,6 +94,6 @@ std::string VtpPoints::text() const
       "      <Points>\n{1}      </Points>\n      <Verts>\n{2}{3}      </Verts>\n"
       "      <PointData>\n{4}      </PointData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n",
       count_, points_, dataArray("Int64", "connectivity", 1, connectivity),
-      dataArray("Int64", "offsets", 1, offsets), data_, fields_);
+      dataArray("Int64", "offsets", 1, offsets), data_, fields_, comment);
 }
 } // namespace coplane

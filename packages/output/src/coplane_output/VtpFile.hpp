@@ -22,7 +22,7 @@ public:
   /// Names that belong to the whole file (field data), such as those of numbers in an array.
   void addNames(const std::string& name, const std::vector<std::string>& texts);
 
-  std::string text() const;
+  std::string text(const std::string& comment) const; ///< XML; the comment in the second line
 
 private:
   std::int64_t count_;

@@ -1,0 +1,241 @@
+#include <coplane_contact/EdgesOfSurfaces.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// What lies beyond the edges of faces. Bodies are single hexahedra.
+
+namespace coplane
+{
+namespace
+{
+struct Body
+{
+  Vec3 low, size;
+  /// Turned about the x axis, then about the z axis [degrees], around its middle.
+  Real aboutX = 0, aboutZ = 0;
+};
+
+Vec3 turned(const Vec3& r, const Body& body)
+{
+  const Real x = body.aboutX * pi / 180, z = body.aboutZ * pi / 180;
+  const Vec3 once{r.x, std::cos(x) * r.y - std::sin(x) * r.z,
+                  std::sin(x) * r.y + std::cos(x) * r.z};
+  return {std::cos(z) * once.x - std::sin(z) * once.y, std::sin(z) * once.x + std::cos(z) * once.y,
+          once.z};
+}
+
+RankMesh meshOf(const std::vector<Body>& bodies)
+{
+  RankMesh mesh;
+  mesh.blocks.resize(1);
+  RankMesh::Block& block = mesh.blocks[0];
+  block.type = ElementType::Hex8;
+  for (int b = 0; b < int(bodies.size()); ++b)
+  {
+    const Body& body = bodies[b];
+    const Vec3 middle = body.low + 0.5 * body.size;
+    for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0},
+                               Vec3{0, 0, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}, Vec3{0, 1, 1}})
+    {
+      const Vec3 r{(corner.x - 0.5) * body.size.x, (corner.y - 0.5) * body.size.y,
+                   (corner.z - 0.5) * body.size.z};
+      block.connectivity.push_back(mesh.nodes());
+      mesh.coordinates.push_back(middle + turned(r, body));
+      mesh.nodePositions.push_back(mesh.nodes());
+      mesh.nodeIds.push_back(mesh.nodes() + 1);
+    }
+    block.elementIds.push_back(b + 1);
+    block.positions.push_back(b);
+    block.bodyIds.push_back(b);
+    block.owned.push_back(1);
+  }
+  mesh.ownedNodes = mesh.nodes();
+  return mesh;
+}
+
+/// Bodies and all pairs of their faces, as a search would have found them.
+class Scene
+{
+public:
+  /// @param numbers of the bodies; they are counted unless given
+  explicit Scene(const std::vector<Body>& bodies, const std::vector<int>& numbers = {})
+      : comm_(MPI_COMM_SELF), mesh_(meshOf(bodies)), layout_(comm_, mesh_), x_("x", mesh_.nodes())
+  {
+    for (int n = 0; n < mesh_.nodes(); ++n)
+      set(x_, n, mesh_.coordinates[n]);
+    for (const ExteriorFace& exterior : exteriorFaces(mesh_))
+    {
+      Face face;
+      face.id = exterior.id;
+      face.count = exterior.nodeCount;
+      const int place = int(elementOfFace(face.id)) - 1;
+      face.body = numbers.empty() ? place : numbers[place];
+      places_.push_back(place);
+      face.local = face.ownedHere = true;
+      face.thickness = 1;
+      for (int k = 0; k < face.count; ++k)
+        face.nodes[k] = exterior.nodes[k];
+      faces_.push_back(face);
+    }
+    planes_ = Array<FacePlane>(
+        Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces_.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      new (&planes_(f)) FacePlane(facePlane(faces_[f], x_, 3));
+    for (int a = 0; a < int(faces_.size()); ++a)
+      for (int b = a + 1; b < int(faces_.size()); ++b)
+        if (places_[a] != places_[b])
+          pairs_.push_back({a, b});
+    edges_.emplace(pairs_, faces_, faces_.size(), planes_, x_, 3, layout_);
+  }
+
+  /// The pair of the faces of body a and of body b > a whose normals are next to these.
+  Plane pair(int a, const Vec3& normalA, int b, const Vec3& normalB)
+  {
+    const int lower = face(a, normalA), higher = face(b, normalB);
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (pairs_[p].lower == lower && pairs_[p].higher == higher)
+      {
+        Plane plane;
+        edges_->look(p, plane);
+        pair_ = pairs_[p];
+        return plane;
+      }
+    ADD_FAILURE() << "no such pair";
+    return {};
+  }
+
+  /// Outward directions of the edges of face 0 or 1 of the pair looked at last, whose bits are set;
+  /// as words, sorted: "+x -z".
+  std::string edgesIn(std::uint8_t bits, int side) const
+  {
+    const Face& of = faces_[side == 0 ? pair_.lower : pair_.higher];
+    const Vec3 normal = planes_(side == 0 ? pair_.lower : pair_.higher).normal;
+    std::vector<std::string> words;
+    for (int e = 0; e < of.count; ++e)
+    {
+      if ((bits >> (4 * side + e) & 1) == 0)
+        continue;
+      // The outline of the higher face runs the other way.
+      const int i = side == 0 ? e : e == of.count - 1 ? e : of.count - 2 - e;
+      const Vec3 along = at(x_, of.nodes[(i + 1) % of.count]) - at(x_, of.nodes[i]);
+      const Vec3 out = normalised(cross(along, normal));
+      for (int c = 0; c < 3; ++c)
+        if (std::abs(out[c]) > 0.9)
+          words.push_back(std::string(out[c] > 0 ? "+" : "-") + "xyz"[c]);
+    }
+    std::sort(words.begin(), words.end());
+    std::string text;
+    for (const std::string& word : words)
+      text += (text.empty() ? "" : " ") + word;
+    return text;
+  }
+
+private:
+  int face(int body, const Vec3& normal) const
+  {
+    int best = -1;
+    for (int f = 0; f < int(faces_.size()); ++f)
+      if (places_[f] == body &&
+          (best < 0 || dot(planes_(f).normal, normal) > dot(planes_(best).normal, normal)))
+        best = f;
+    return best;
+  }
+
+  Comm comm_;
+  RankMesh mesh_;
+  NodeLayout layout_;
+  NodeVectors x_;
+  std::vector<Face> faces_;
+  std::vector<int> places_; ///< by face: its body in the list
+  Array<FacePlane> planes_;
+  std::vector<CandidatePair> pairs_;
+  std::optional<EdgesOfSurfaces> edges_;
+  CandidatePair pair_;
+};
+
+constexpr Vec3 right{1, 0, 0}, left{-1, 0, 0}, up{0, 1, 0}, down{0, -1, 0}, front{0, 0, 1};
+constexpr Vec3 cube{1, 1, 1};
+constexpr Real closed = 1e-5; ///< closure of joints [m]
+} // namespace
+
+TEST(EdgesOfSurfaces, aBlockThatHangsOverAnEndMayLeaveOverIt)
+{
+  Scene scene({{{0, 0, 0}, cube}, {{0.9, 1, 0}, cube}});
+  const Plane plane = scene.pair(0, up, 1, down);
+  EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+x +z -x -z");
+  EXPECT_EQ(scene.edgesIn(plane.turns, 1), "+x +z -x -z");
+  EXPECT_EQ(scene.edgesIn(plane.exits, 0),
+            "+x +z -x -z"); // the sides face away from each other, too
+  EXPECT_EQ(scene.edgesIn(plane.covered, 0), "");
+}
+
+TEST(EdgesOfSurfaces, aSurfaceGoesOnOverAFlushSeam)
+{
+  // 0 and 1 are flush, and 2 lies across the seam.
+  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  const Plane plane = scene.pair(0, up, 2, down);
+  EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
+  // A step of more than 0.005 of a face is an edge again.
+  Scene stepped({{{-1, 0, 0}, cube}, {{0, -0.01, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  const Plane above = stepped.pair(0, up, 2, down);
+  EXPECT_EQ(stepped.edgesIn(above.turns, 0), "+x +z -x -z");
+}
+
+TEST(EdgesOfSurfaces, aThirdBodyDoesNotComeToASideThatIsHidden)
+{
+  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.1, 0.9, 0}, cube}});
+  const Plane plane = scene.pair(0, right, 2, left);
+  EXPECT_EQ(scene.edgesIn(plane.covered, 0), "+y +z -y -z");
+  EXPECT_EQ(scene.edgesIn(plane.covered, 1), "");
+  // The one that lies on it is not hidden from it.
+  EXPECT_EQ(scene.pair(0, right, 1, left).covered, 0);
+}
+
+TEST(EdgesOfSurfaces, bricksBesideEachOtherPartOverTheEdgesThatCrossAtTheirJoint)
+{
+  // The top of one and the front of the other see each other through the corner: a sliver as wide
+  // as the joint is closed, and as deep as the bricks.
+  Scene scene({{{-1, 0, 0}, cube}, {{-closed, 0, 0}, cube}});
+  const Plane plane = scene.pair(0, up, 1, front);
+  EXPECT_NE(scene.edgesIn(plane.exits, 0).find("+x"), std::string::npos);
+  EXPECT_NE(scene.edgesIn(plane.exits, 1).find("-x"), std::string::npos);
+  EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+x +z -x -z"); // the other one's top is not its own
+  const Plane other = scene.pair(0, front, 1, down);
+  EXPECT_NE(scene.edgesIn(other.exits, 0).find("+x"), std::string::npos);
+  EXPECT_NE(scene.edgesIn(other.exits, 1).find("-x"), std::string::npos);
+}
+
+TEST(EdgesOfSurfaces, roofsThatCrossKeepEachOtherUp)
+{
+  // Ridges along x below and along z above, flanks at 45 degrees.
+  Scene scene({{{0, 0, 0}, cube, 45, 0}, {{0, 1.4, 0}, cube, 0, 45}});
+  const Vec3 flank = normalised(up + front), above = normalised(left + down);
+  EXPECT_EQ(scene.pair(0, flank, 1, above).exits, 0);
+  EXPECT_EQ(scene.pair(0, normalised(up - front), 1, normalised(right + down)).exits, 0);
+}
+
+TEST(EdgesOfSurfaces, bothFlanksOfAKeelAreAlike)
+{
+  // A cube that stands on an edge, its end 0.05 over the end of a table.
+  for (const Real angle : {44.0, 45.0, 46.0})
+  {
+    Scene scene({{{0, 0, 0}, cube}, {{0.95, 1.2, 0}, cube, angle, 0}});
+    const Plane one = scene.pair(0, up, 1, normalised(down + front));
+    const std::string exits = scene.edgesIn(one.exits, 0);
+    EXPECT_EQ(exits.find("x"), std::string::npos) << angle;
+    const Plane other = scene.pair(0, up, 1, normalised(down - front));
+    EXPECT_EQ(scene.edgesIn(other.exits, 0), exits) << angle;
+  }
+}
+
+TEST(EdgesOfSurfaces, aBodyOnItsOwnSeamSlidesOn)
+{
+  // 1 is flush with 0, and a fragment of it, which has its number, lies across the seam.
+  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.5, 1, 0}, cube}}, {0, 1, 1});
+  const Plane plane = scene.pair(0, up, 2, down);
+  EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
+}
+} // namespace coplane
