@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <TestFolder.hpp>
 #include <algorithm>
-#include <fstream>
 
 namespace coplane
 {
@@ -17,7 +17,8 @@ const std::string format = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
 
 ConvertedMesh converted(const std::string& text)
 {
-  const std::string file = testing::TempDir() + "coplane_convert.msh";
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "coplane_convert.msh";
   std::ofstream(file) << text;
   return convertGmsh(readGmshFile(file), "model.msh");
 }

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <TestFolder.hpp>
 #include <algorithm>
 #include <set>
 
@@ -383,7 +384,8 @@ TEST(Split, theFileHasTheSplitMesh)
   const SplitMesh split =
       cut(cube(", split: tetrahedra"),
           "{bedding: {planes: {point: [0, 0, 0], normal: [0, 0, 1], spacing: 1}}}");
-  const std::string file = testing::TempDir() + "coplane_split.e";
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "split.e";
   writeMesh(split.mesh, file);
   const Mesh read = readMesh(file);
   EXPECT_EQ(read.nodeIds, split.mesh.nodeIds);

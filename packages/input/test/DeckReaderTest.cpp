@@ -2,8 +2,7 @@
 
 #include <coplane_input/DeckChecks.hpp>
 
-#include <cstdio>
-#include <fstream>
+#include <TestFolder.hpp>
 
 namespace coplane
 {
@@ -99,10 +98,10 @@ TEST(DeckReader, cardsKnowTheirPlace)
 
 TEST(DeckReader, readsFromAFile)
 {
-  const std::string file = ::testing::TempDir() + "coplane_deck_reader_test.yaml";
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "deck.yaml";
   std::ofstream(file) << leastDeck;
   const Deck deck = readDeck(file, {"time.end=3"});
-  std::remove(file.c_str());
   EXPECT_EQ(deck.time.end, 3);
   EXPECT_EQ(deck.file, file);
 }
