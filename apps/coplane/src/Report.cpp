@@ -41,9 +41,10 @@ void reportEnd(const Solver& solver)
 {
   const EnergyBalance energy = solver.energy();
   const Momenta momenta = solver.momenta();
-  logInfo("energies [J]: kinetic {:.6e}, internal {:.6e} (plastic {:.3e}), hourglass {:.3e}, "
-          "viscous {:.3e}",
-          energy.kinetic, energy.internal, energy.plastic, energy.hourglass, energy.viscous);
+  logInfo("energies [J]: kinetic {:.6e}, internal {:.6e} (plastic {:.3e}, of it bending {:.3e}), "
+          "hourglass {:.3e}, viscous {:.3e}",
+          energy.kinetic, energy.internal, energy.plastic, energy.bending, energy.hourglass,
+          energy.viscous);
   logInfo("  contact: stored {:.3e}, friction {:.3e}, hysteresis {:.3e}, fracture {:.3e}, damping "
           "{:.3e}, remainder "
           "{:.3e}",

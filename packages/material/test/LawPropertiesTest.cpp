@@ -74,6 +74,7 @@ class LawProperties : public ::testing::TestWithParam<NamedLaw>
 protected:
   const Material& law() const { return GetParam().law; }
   Real strain() const { return GetParam().strain; }
+  Real shearModulus() const { return elasticity(law()).shearModulus; }
   int histories() const { return int(historyNames(law()).size()); }
 };
 } // namespace
@@ -145,6 +146,8 @@ TEST_P(LawProperties, everyLaneHasTheBitsOfTheScalar)
       EXPECT_EQ(Real(all.dissipation[lane]), p.dissipation);
       EXPECT_EQ(Real(all.stiffening[lane]), p.stiffening);
       EXPECT_EQ(Real(all.integrity[lane]), p.integrity);
+      EXPECT_EQ(Real(all.trialMises[lane]), p.trialMises);
+      EXPECT_EQ(Real(all.strength[lane]), p.strength);
       EXPECT_TRUE(std::isfinite(p.stress.xx));
     }
   }
@@ -229,6 +232,35 @@ TEST_P(LawProperties, nothingIsGainedOnTheWay)
       }
     }
   }
+}
+
+TEST_P(LawProperties, strengthBoundsTheStressAndSoDoesTheTrialStress)
+{
+  if (!lawFunction(law()).hasStrength)
+    GTEST_SKIP() << "has no strength";
+  if (const auto* kinematic = std::get_if<HardeningPlasticity>(&law());
+      kinematic && kinematic->kinematicModulus > 0)
+    GTEST_SKIP() << "its surface moves away from the origin";
+  std::mt19937 random(6);
+  int flowing = 0, elastic = 0;
+  for (int trial = 0; trial < 100; ++trial)
+  {
+    MaterialProbe probe(law(), 0.01);
+    const Real reach = strain() * std::pow(10, -trial % 4);
+    const Mat3 direction = randomGradient(random, 0.3 * reach);
+    for (int i = 0; i < 10; ++i)
+    {
+      MaterialPoint<Real> point = pointOf(probe, direction, 1e-6, 0.01);
+      lawFunction(law())(point);
+      const Real borne = vonMisesOf(deviatorOf(point.stress)), small = 1e-9 * shearModulus();
+      EXPECT_LE(borne, point.strength + small);
+      EXPECT_LE(borne, point.trialMises + small);
+      ++(point.trialMises > borne + small ? flowing : elastic);
+      probe.advance(direction, 1e-6);
+    }
+  }
+  EXPECT_GT(flowing, 50);
+  EXPECT_GT(elastic, 50);
 }
 
 TEST_P(LawProperties, nothingMovesWithoutMotion)

@@ -14,14 +14,15 @@ h = 1 / 8
 # Name, split, element, hourglass control, tolerance of the limit pressure (None: limits, or only reported).
 runs = (
     ("quadrilaterals", None, "one_point", {"stiffness": 0, "viscosity": 0.1}, 0.05),
-    ("quadrilaterals_hourglass_stiffness", None, "one_point", {}, "report"),
+    ("quadrilaterals_hourglass_stiffness", None, "one_point", {}, 0.05),
+    ("quadrilaterals", None, "assumed_strain", None, 0.05),
     ("quadrilaterals", None, "full_integration", None, 0.05),
     ("quadrilaterals", None, "full_integration_plain", None, None),
     ("triangles", "triangles", "nodal_pressure", None, 0.05),
     ("triangles", "triangles", "one_point", None, "report"),
 )
 if "all" not in sys.argv:
-    runs = [run for run in runs if run[0] == "quadrilaterals" and run[2] != "full_integration"]
+    runs = [run for run in runs if run[0].startswith("quadrilaterals") and run[2] not in ("full_integration", "assumed_strain")]
     h *= 2
 for shape, split, element, hourglass, tolerance in runs:
     recipe, deck = case.load("mesh.yaml"), case.load()

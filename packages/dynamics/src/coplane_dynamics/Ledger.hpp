@@ -11,6 +11,7 @@ struct EnergyBalance
   Real kinetic = 0;  ///< 1/2 sum m v(n-1/2).v(n+1/2)
   Real internal = 0; ///< of the elements: elastic and plastic work
   Real plastic = 0;  ///< part of internal that is lost
+  Real bending = 0;  ///< part of plastic: of bending within elements (HourglassReturn.hpp)
   Real hourglass = 0;
   Real viscous = 0;        ///< bulk viscosity
   Real eroded = 0;         ///< of elements that have died, when they died

@@ -12,6 +12,7 @@ EnergyBalance Solver::energy() const
     Kinetic,
     Internal,
     Plastic,
+    Bending,
     Hourglass,
     Viscous,
     Eroded,
@@ -41,6 +42,7 @@ EnergyBalance Solver::energy() const
       {
         sums[Internal].add(blocks_[b].energy(e, ElementEnergy::Internal));
         sums[Plastic].add(blocks_[b].energy(e, ElementEnergy::PlasticDissipation));
+        sums[Bending].add(blocks_[b].energy(e, ElementEnergy::PlasticBending));
         sums[Hourglass].add(blocks_[b].energy(e, ElementEnergy::Hourglass));
         sums[Viscous].add(blocks_[b].energy(e, ElementEnergy::Viscous));
       }
@@ -61,6 +63,7 @@ EnergyBalance Solver::energy() const
   balance.kinetic = totals[Kinetic];
   balance.internal = totals[Internal];
   balance.plastic = totals[Plastic];
+  balance.bending = totals[Bending];
   balance.hourglass = totals[Hourglass];
   balance.viscous = totals[Viscous];
   balance.eroded = totals[Eroded];

@@ -2,6 +2,7 @@
 
 #include <coplane_element/AssumedStrain.hpp>
 #include <coplane_element/ElementKernelData.hpp>
+#include <coplane_element/HourglassReturn.hpp>
 #include <coplane_element/ObjectiveRate.hpp>
 #include <coplane_element/OnePointStep.hpp>
 #include <coplane_element/VolumeDrift.hpp>
@@ -333,16 +334,6 @@ private:
 
     if constexpr (hasHourglass)
     {
-      // What a damaged element loses of its hourglass stiffness goes with the forces in it.
-      if (law.changesTangent)
-      {
-        const Lanes kept = point.integrity / load(&data.tangent(1, first));
-        for (int a = 0; a < M::hourglass; ++a)
-          for (int i = 0; i < dim; ++i)
-            hourglass[a][i] *= kept;
-        for (Lanes& force : hoopForce)
-          force *= kept;
-      }
       advanceHourglass(first, motion, point, v, oldHourglass, hourglass, hoopForce);
     }
     if (law.changesTangent)
@@ -360,12 +351,19 @@ private:
     const Lanes dt(data.dt), half(0.5);
     const Lanes &volume = motion.volume, &traceG = motion.traceG;
     const bool assumedStrain = data.options.form == ElementForm::AssumedStrain;
+    // What a damaged element loses of its hourglass stiffness goes with the forces in it.
+    Lanes whole(1.0), kept(1.0); // parts of the forces that damage and flow leave
+    if (law.changesTangent)
+    {
+      whole = point.integrity / load(&data.tangent(1, first));
+      scaleHourglass(whole, hourglass, hoopForce);
+    }
     // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
     const Lanes stiffness = point.integrity *
                             Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume *
                             traceG;
     HourglassVectors increment; // q dt [m]
-    Lanes hourglassWork(0.0);
+    Lanes slopes[2] = {Lanes(0.0), Lanes(0.0)};
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
       {
@@ -383,19 +381,14 @@ private:
       const BrickFrame<Lanes> frame = brickFrame<dim>(motion.middle);
       if constexpr (revolved)
       {
-        Lanes slopes[2], onSlopes[2];
+        Lanes onSlopes[2];
         hoopSlopes(motion.middle[0], motion.radius, v[0], motion.radialVelocity, slopes);
         for (Lanes& slope : slopes)
           slope *= dt;
         assumedStrainForcesOfRing(frame, moduli, volume, motion.radius, increment, slopes, forces,
                                   onSlopes);
         for (int k = 0; k < 2; ++k)
-        {
-          Real* const where = &data.hourglassForce(dim + k, first);
           hoopForce[k] += point.integrity * onSlopes[k];
-          hourglassWork += (load(where) + hoopForce[k]) * slopes[k];
-          store(hoopForce[k], where);
-        }
       }
       else
         assumedStrainForces(frame, moduli, volume, increment, forces);
@@ -403,15 +396,71 @@ private:
         for (int i = 0; i < dim; ++i)
           hourglass[a][i] += point.integrity * forces[a][i];
     }
+    Lanes oldHoopForce[2] = {Lanes(0.0), Lanes(0.0)};
+    if (hasHoopSlopes && assumedStrain)
+      for (int k = 0; k < 2; ++k)
+        oldHoopForce[k] = load(&data.hourglassForce(dim + k, first));
+    const Lanes before = half * workOf(oldHourglass, increment, oldHoopForce, slopes);
+    Lanes after = half * workOf(hourglass, increment, hoopForce, slopes);
+    const Lanes old = load(&data.energies(int(ElementEnergy::HourglassElastic), first));
+    Lanes elastic = whole * (old + before) + after, lost(0.0);
+    if (law.hasStrength)
+    {
+      Lanes bending = bendingSquared(motion.middle, volume, hourglass);
+      if (hasHoopSlopes && assumedStrain)
+        bending += Lanes(3.0) * (hoopForce[0] * hoopForce[0] + hoopForce[1] * hoopForce[1]) /
+                   (volume * volume);
+      kept = hourglassReturn(point.strength, point.trialMises, bending,
+                             leastStrength * data.pWaveModulus);
+      scaleHourglass(kept, hourglass, hoopForce);
+      after *= kept;
+      elastic *= kept * kept; // whatever their stiffness, forces store their square
+    }
+    if (law.hasStrength || law.changesTangent)
+    {
+      const auto loses = whole * kept < Lanes(1.0);
+      lost = branchFree::choose(loses, before + after - (elastic - old), Lanes(0.0));
+      for (const ElementEnergy kind : {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
+                                       ElementEnergy::PlasticBending})
+        addTo(data.energies, kind, first, lost);
+    }
+    store(elastic, &data.energies(int(ElementEnergy::HourglassElastic), first));
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
-      {
         store(hourglass[a][i], &data.hourglassForce(a * dim + i, first));
-        hourglassWork += (oldHourglass[a][i] + hourglass[a][i]) * increment[a][i];
-      }
+    if (hasHoopSlopes && assumedStrain)
+      for (int k = 0; k < 2; ++k)
+        store(hoopForce[k], &data.hourglassForce(dim + k, first));
+    Lanes work = before + after;
     if (data.hourglass.viscosity > 0)
-      hourglassWork += advanceHourglassViscosity(first, traceG, volume, increment);
-    addTo(data.energies, ElementEnergy::Hourglass, first, half * hourglassWork);
+      work += half * advanceHourglassViscosity(first, traceG, volume, increment);
+    addTo(data.energies, ElementEnergy::Hourglass, first, work - lost);
+  }
+
+  /// Least strength of bending over the modulus of P waves, where the law says less.
+  static constexpr Real leastStrength = 3e-5;
+
+  static Lanes workOf(const HourglassVectors& hourglass, const HourglassVectors& increment,
+                      const Lanes (&hoopForce)[2], const Lanes (&slopes)[2])
+  {
+    Lanes work(0.0);
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+        work += hourglass[a][i] * increment[a][i];
+    if (hasHoopSlopes)
+      work += hoopForce[0] * slopes[0] + hoopForce[1] * slopes[1];
+    return work;
+  }
+
+  static void scaleHourglass(const Lanes& factor, HourglassVectors& hourglass,
+                             Lanes (&hoopForce)[2])
+  {
+    for (int a = 0; a < M::hourglass; ++a)
+      for (int i = 0; i < dim; ++i)
+        hourglass[a][i] *= factor;
+    if (hasHoopSlopes)
+      for (Lanes& force : hoopForce)
+        force *= factor;
   }
 
   /// Viscous hourglass forces of the step, and twice their work.

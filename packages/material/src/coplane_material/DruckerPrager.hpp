@@ -17,7 +17,7 @@ struct DruckerPrager
   static constexpr int historyCount = 2;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain",
                                                  "plastic_volume_strain"};
-  static constexpr bool usesVolume = false, changesTangent = false;
+  static constexpr bool usesVolume = false, changesTangent = false, hasStrength = true;
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
@@ -44,6 +44,8 @@ struct DruckerPrager
         choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
         choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
         choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
+    point.trialMises = q;
+    point.strength = choose(yields, shear, q - over);
     point.history[0] += choose(yields, plastic, zero);
     point.history[1] += choose(yields, expansion, zero);
     point.dissipation = choose(yields, shear * plastic - pressure * expansion, zero);

@@ -13,7 +13,7 @@ struct Fluid
 
   static constexpr int historyCount = EquationOfState::rows;
   static constexpr const char* historyNames[] = {"pressure_offset", "distension"};
-  static constexpr bool usesVolume = true, changesTangent = true;
+  static constexpr bool usesVolume = true, changesTangent = true, hasStrength = false;
 
   void startFrom(const SymTensor& stress, Real* history) const { eos.startFrom(stress, history); }
 

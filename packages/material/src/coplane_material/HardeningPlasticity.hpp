@@ -39,7 +39,7 @@ struct HardeningPlasticity
                                                  "back_stress_zx",
                                                  "pressure_offset",
                                                  "distension"};
-  static constexpr bool usesVolume = true, changesTangent = true;
+  static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
   void startFrom(const SymTensor& stress, Real* history) const
   {
@@ -87,6 +87,8 @@ struct HardeningPlasticity
     b[4] = moved.yz;
     b[5] = moved.zx;
     h[PlasticStrain] = strain + plastic;
+    point.trialMises = q;
+    point.strength = choose(yields, base + hardening * plastic, yield);
     point.dissipation = (base + hardening * plastic) * plastic;
 
     T bulk;

@@ -41,7 +41,7 @@ struct HolmquistJohnsonCook
   static constexpr int historyCount = 4;
   static constexpr const char* historyNames[] = {"damage", "equivalent_plastic_strain",
                                                  "largest_compression", "pressure_offset"};
-  static constexpr bool usesVolume = true, changesTangent = true;
+  static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
   void startFrom(const SymTensor& stress, Real* history) const
   {
@@ -118,6 +118,8 @@ struct HolmquistJohnsonCook
     const auto yields = q > yield;
     const T plastic = choose(yields, (q - yield) * T(1 / (3 * elastic.shearModulus)), zero);
     point.stress = stressOf(trial, choose(yields, yield / q, one), -p);
+    point.trialMises = q;
+    point.strength = yield;
     h[PlasticStrain] += plastic;
     const T reach = branchFree::positivePart(p + T(tension)) * T(1 / strength);
     const T ductility =

@@ -17,7 +17,7 @@ struct J2Plasticity
 
   static constexpr int historyCount = 1;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain"};
-  static constexpr bool usesVolume = false, changesTangent = false;
+  static constexpr bool usesVolume = false, changesTangent = false, hasStrength = true;
 
   /// Dissipation: Y at the end of the step times the increment of plastic strain.
   template <class T>
@@ -49,7 +49,9 @@ struct J2Plasticity
     stress.yz -= reduction * stress.yz;
     stress.zx -= reduction * stress.zx;
     equivalentPlasticStrain += plasticStrain;
-    point.dissipation = (yield + T(hardeningModulus) * plasticStrain) * plasticStrain;
+    point.trialMises = q;
+    point.strength = yield + T(hardeningModulus) * plasticStrain;
+    point.dissipation = point.strength * plasticStrain;
   }
 };
 } // namespace coplane

@@ -35,7 +35,7 @@ struct JohnsonCook
   static constexpr int historyCount = State + EquationOfState::rows;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain", "temperature",
                                                  "damage", "pressure_offset", "distension"};
-  static constexpr bool usesVolume = true, changesTangent = true;
+  static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
   KOKKOS_INLINE_FUNCTION bool fractures() const { return damage[0] != 0 || damage[1] != 0; }
 
@@ -100,6 +100,8 @@ struct JohnsonCook
     const SymTensorOf<T> deviator = stressOf(trial, scale, zero);
     h[PlasticStrain] = strain + plastic;
     point.dissipation = stress * plastic;
+    point.trialMises = q;
+    point.strength = choose(plastic > zero, stress, q - over);
     h[Temperature] +=
         T(heatFraction / (elastic.density * heatCapacity)) * point.dissipation * point.volumeRatio;
 

@@ -12,7 +12,7 @@ struct LinearElastic
   Real shearModulus; ///< G [Pa]
 
   static constexpr int historyCount = 0;
-  static constexpr bool usesVolume = false, changesTangent = false;
+  static constexpr bool usesVolume = false, changesTangent = false, hasStrength = false;
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const

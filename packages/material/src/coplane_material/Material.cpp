@@ -97,7 +97,8 @@ LawFunction lawFunction(const Material& material)
                            &advance<Law, Real>,
                            Law::historyCount,
                            Law::usesVolume,
-                           Law::changesTangent};
+                           Law::changesTangent,
+                           Law::hasStrength};
       },
       material);
 }

@@ -35,7 +35,7 @@ struct MohrCoulomb
   static constexpr int historyCount = 3;
   static constexpr const char* historyNames[] = {"equivalent_plastic_strain", "plastic_shear",
                                                  "crack_opening"};
-  static constexpr bool usesVolume = true, changesTangent = false;
+  static constexpr bool usesVolume = true, changesTangent = false, hasStrength = true;
 
   template <class T>
   KOKKOS_INLINE_FUNCTION T cohesionAfter(const T& slip, const T& size) const
@@ -104,6 +104,8 @@ struct MohrCoulomb
 
     const T tolerance(1e-9 * (cohesion + tensileStrength));
     const auto yields = slope * s[0] - s[2] - bond > T(0.0) || s[0] > cut;
+    point.trialMises = vonMisesOf(s);
+    point.strength = strengthAt(s, slope, bond, cut);
     if (!branchFree::anyOf(yields))
       return;
     const T trial[3] = {s[0], s[1], s[2]};
@@ -155,6 +157,7 @@ struct MohrCoulomb
       }
       open = open && !good;
     }
+    point.strength = strengthAt(s, slope, bond, cut);
     const SymTensorOf<T> returned = tensorOf(principal);
     point.stress = {
         choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
@@ -173,6 +176,22 @@ struct MohrCoulomb
   }
 
 private:
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static T vonMisesOf(const T (&s)[3])
+  {
+    const T a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+    return branchFree::squareRoot(T(0.5) * (a * a + b * b + c * c));
+  }
+  /// Von Mises stress that is borne at the mean of principal stresses: in uniaxial compression
+  /// beside it, or tension up to the cut-off, whichever is less; but no less than there is.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static T strengthAt(const T (&s)[3], const T& slope, const T& bond,
+                                             const T& cut)
+  {
+    const T mean = T(1.0 / 3.0) * (s[0] + s[1] + s[2]);
+    const T sheared = T(3.0) * (bond - (slope - T(1.0)) * mean) / (slope + T(2.0));
+    return branchFree::larger(branchFree::smaller(sheared, T(1.5) * (cut - mean)), vonMisesOf(s));
+  }
   /// Direction of plastic flow, and the stress that it takes away.
   KOKKOS_INLINE_FUNCTION void flowOf(int surface, Real (&g)[3], Real (&dg)[3]) const
   {

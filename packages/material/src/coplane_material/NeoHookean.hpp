@@ -16,7 +16,7 @@ struct NeoHookean
   static constexpr const char* historyNames[] = {"left_cauchy_green_xx", "left_cauchy_green_yy",
                                                  "left_cauchy_green_zz", "left_cauchy_green_xy",
                                                  "left_cauchy_green_yz", "left_cauchy_green_zx"};
-  static constexpr bool usesVolume = false, changesTangent = true;
+  static constexpr bool usesVolume = false, changesTangent = true, hasStrength = false;
 
   /// The reference is the shape at the start.
   void startFrom(const SymTensor& stress, Real* history) const;

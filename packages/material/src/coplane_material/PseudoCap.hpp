@@ -6,7 +6,7 @@
 
 namespace coplane
 {
-/// Concrete that crushes, flows and cracks: one porosity-like state decides its strength.
+/// Concrete that crushes, yields and cracks: one porosity-like state decides its strength.
 /// Compaction of pores raises the cap; dilatancy opens porosity, and takes cohesion and tensile
 /// strength away. The cap only scales the shear strength and drives compaction: it is no associated
 /// surface. The idea is that of Rubin, Vorobiev and Glenn (2000); the strength on the compression
@@ -48,7 +48,7 @@ struct PseudoCap
                                                  "porosity",      "compaction",
                                                  "bulking",       "crack_opening",
                                                  "precompression"};
-  static constexpr bool usesVolume = true, changesTangent = true;
+  static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
   /// Pores are full of grains from here on: 1 - ec/ecm = exp(-closedPores).
   static constexpr Real closedPores = 25;
@@ -325,6 +325,8 @@ struct PseudoCap
     h[Opening] = et;
     point.stress = stressOf(s, scale, -p);
     point.dissipation = dissipation;
+    point.trialMises = q;
+    point.strength = choose(plastic > zero, scale * q, q - over);
     point.integrity = branchFree::larger(one - h[Damage], T(0.02));
     const T bulk = poreFactor(h[Porosity]) * grainTangent(ebar - v);
     const Real shear = 4.0 / 3.0 * elastic.shearModulus;

@@ -41,6 +41,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("kinetic[J]", energy.kinetic);
   line.add("internal[J]", energy.internal);
   line.add("plastic[J]", energy.plastic);
+  line.add("plastic_bending[J]", energy.bending);
   line.add("hourglass[J]", energy.hourglass);
   line.add("viscous[J]", energy.viscous);
   line.add("eroded[J]", energy.eroded);

@@ -127,6 +127,7 @@ Json energiesOf(const EnergyBalance& e)
   return {{"kinetic", e.kinetic},
           {"internal", e.internal},
           {"plastic", e.plastic},
+          {"plastic_bending", e.bending},
           {"hourglass", e.hourglass},
           {"viscous", e.viscous},
           {"contact_stored", e.contact.stored},

@@ -36,7 +36,8 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
           return;
         if (options_.blocks)
           open(blocks_, "blocks",
-               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],hourglass[J],viscous[J],"
+               "time[s],cycle,block,kinetic[J],internal[J],plastic[J],"
+               "plastic_bending[J],hourglass[J],viscous[J],"
                "eroded[J]");
         const std::string terms = "joint,planes,area[m^2],work[J],stored[J],friction[J],"
                                   "hysteresis[J],fracture[J],damping[J],eroded[J],remainder[J]";
@@ -132,9 +133,10 @@ void TablesObserver::findShares(const Solver& solver)
 
 std::string TablesObserver::blockLines(const Solver& solver) const
 {
-  constexpr int terms = 6;
   constexpr ElementEnergy kinds[] = {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
-                                     ElementEnergy::Hourglass, ElementEnergy::Viscous};
+                                     ElementEnergy::PlasticBending, ElementEnergy::Hourglass,
+                                     ElementEnergy::Viscous};
+  constexpr int terms = 2 + int(std::size(kinds));
   const NodalState& state = solver.state();
   const RigidBodies& bodies = solver.rigidBodies();
   const std::size_t blocks = shares_.size();
@@ -156,7 +158,7 @@ std::string TablesObserver::blockLines(const Solver& solver) const
     const RankMesh::Block& part = solver.mesh().blocks[b];
     for (int e = 0; e < part.elements(); ++e)
       if (part.owned[e])
-        for (int k = 0; k < elementEnergies; ++k)
+        for (std::size_t k = 0; k < std::size(kinds); ++k)
           sums[terms * b + 1 + k].add(solver.blocks()[b].energy(e, kinds[k]));
     sums[terms * b + terms - 1].add(solver.erodedEnergy(int(b)));
   }
