@@ -12,7 +12,7 @@ size = recipe["brick"][0] / recipe["divisions"][0]  # of elements [m]
 exit_time = 0.8e-3 if whole else h["time"][-1]
 
 # The coarsest wall has two elements across a layer, which bend by their hourglass modes.
-example.balances(hourglass={"coarse": 0.2, "S": 0.06}.get(example.size, 0.05))
+example.balances()
 example.check_within("deepest penetration on more than 1 % of a face, over h", example.deepest(0.01 * size) / size, 0, 0.3)
 
 # Contact dots line all joints at the start: between layers, and between blocks of a layer.
