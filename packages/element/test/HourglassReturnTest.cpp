@@ -25,6 +25,7 @@ struct Bending
   Real angle = 0;          ///< [rad]
   Vec3 size{1, 1, 1};      ///< edges of the brick [m]
   bool alongOther = false; ///< bends along y instead of x
+  bool twists = false;     ///< moves along z instead
 };
 void PrintTo(const Bending& bending, std::ostream* stream)
 {
@@ -46,7 +47,10 @@ public:
       const Vec3 p = at(mesh_.x, n);
       set(start_, n, turned({p.x * how.size.x, p.y * how.size.y, p.z * how.size.z}));
       const Real sign = (2 * p.x - 1) * (2 * p.y - 1);
-      set(mode_, n, turned(how.alongOther ? Vec3{0, sign, 0} : Vec3{sign, 0, 0}));
+      set(mode_, n,
+          turned(how.twists       ? Vec3{0, 0, sign}
+                 : how.alongOther ? Vec3{0, sign, 0}
+                                  : Vec3{sign, 0, 0}));
     }
     x_ = plus(start_, 0, mode_);
     block_.initialise(start_);
@@ -80,6 +84,9 @@ public:
   {
     const Real length = how_.alongOther ? how_.size.y : how_.size.x,
                volume = how_.size.x * how_.size.y * (isFlat(how_.type) ? 1 : how_.size.z);
+    if (how_.twists) // shears by its stiffness, c / Lx and c / Ly, with 3 (2/3 tau)^2 = Y^2
+      return volume / 3 * std::sqrt(0.75) * strength *
+             std::sqrt(4 / (how_.size.x * how_.size.x) + 4 / (how_.size.y * how_.size.y));
     // Without motion across: in plane strain half the stress there, in a hexahedron what Poisson's
     // ratio gives, if its control knows it.
     const Real across = isFlat(how_.type)                         ? 0.5
@@ -155,6 +162,15 @@ INSTANTIATE_TEST_SUITE_P(
                 {1, 2, 3},
                 1.1,
                 {1, 2, 1.5},
+                true},
+        Bending{"HexTwists",
+                ElementType::Hex8,
+                {},
+                ElementForm::AssumedStrain,
+                {1, 2, 3},
+                1.1,
+                {3, 1, 0.4},
+                false,
                 true}),
     [](const auto& info) { return info.param.name; });
 
@@ -178,11 +194,65 @@ TEST(BendingWithinElements, bendingRelaxesWithTheFlowOfTheElement)
                                    [&](const Vec3& p) {
                                      return Vec3{std::sqrt(3.0) * rate * p.y, 0, 0};
                                    });
-  const Real q = 1e-4;
+  const Real q = 1e-3;
   element.bend(q, 4000, beside);
   // K = V/3 E/(1 - nu^2) / L^2 on q
   const Real stiffness = 1.0 / 3 * young / (1 - 0.09) / 0.25;
   EXPECT_NEAR(element.force() / (stiffness * q * strength / (3 * shear * rate)), 1, 5e-3);
+}
+
+TEST(BendingWithinElements, flowBesideStretchDoesNotDependOnTheStep)
+{
+  // Both rates are alike: neither half of the strength is found twice, nor forgotten.
+  for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
+  {
+    Real before = 0;
+    for (const int steps : {250, 1000, 4000})
+    {
+      Bent element({"", type, {}, ElementForm::AssumedStrain});
+      const Real face = 0.02; // strain of bending at the faces
+      const NodeVectors beside = field(element.start(),
+                                       [&](const Vec3& p) {
+                                         return Vec3{0.3 * face * p.x, 0, 0};
+                                       });
+      element.bend(0.5 * face, steps, beside);
+      const Real bending = element.force() / element.limit(),
+                 mean = element.block().vonMises(0) / strength;
+      EXPECT_NEAR(bending * bending + mean * mean, 1, type == ElementType::Hex8 ? 0.1 : 0.03);
+      EXPECT_GT(bending, 0.5);
+      if (before != 0)
+      {
+        EXPECT_NEAR(bending, before, 0.01);
+      }
+      before = bending;
+    }
+  }
+}
+
+TEST(BendingWithinElements, hardensTheMaterial)
+{
+  // Half of the strain at the faces, on average, by the law that hardens with it.
+  const Real modulus = 2e9, face = 0.05;
+  Bent element({"", ElementType::Quad4, {}, ElementForm::AssumedStrain},
+               makeJ2Plasticity(young, 0.3, 7850, strength, modulus));
+  element.bend(0.5 * face, 1000);
+  const Real strain = element.block().history()(0, 0);
+  EXPECT_NEAR(strain / (0.5 * face), 1.15, 0.15);
+  EXPECT_NEAR(element.force() / element.limit(), 1 + modulus * strain / strength, 0.05);
+}
+
+TEST(BendingWithinElements, restsOnTheSurface)
+{
+  Bent element({"", ElementType::Hex8, {}});
+  const NodeVectors beside = field(element.start(),
+                                   [&](const Vec3& p) {
+                                     return Vec3{2e-3 * p.x, 0, 0};
+                                   });
+  element.bend(2e-3, 100, beside);
+  const Real held = element.force();
+  EXPECT_GT(held, 0);
+  element.bend(0, 1000);
+  EXPECT_NEAR(element.force(), held, 1e-9 * held);
 }
 
 TEST(BendingWithinElements, brokenConcreteGivesItsBendingEnergyUp)

@@ -321,6 +321,13 @@ private:
     }
     for (int k = 0; k < law.historyCount; ++k)
       point.history[k] = load(&data.history(k, first));
+    HourglassStep step;
+    if constexpr (hasHourglass)
+    {
+      step = tryHourglass(first, motion, point, v, hourglass, hoopForce);
+      if (law.hasStrength)
+        point.bendingSquared = bendingOf(motion, hourglass, hoopForce);
+    }
     law(point);
     for (int k = 0; k < law.historyCount; ++k)
       store(point.history[k], &data.history(k, first));
@@ -333,9 +340,7 @@ private:
           motion.volume * point.dissipation);
 
     if constexpr (hasHourglass)
-    {
-      advanceHourglass(first, motion, point, v, oldHourglass, hourglass, hoopForce);
-    }
+      settleHourglass(first, motion, point, step, oldHourglass, hourglass, hoopForce);
     if (law.changesTangent)
     {
       store(point.stiffening, &data.tangent(0, first));
@@ -343,34 +348,35 @@ private:
     }
   }
 
-  /// Hourglass forces, already turned with the element, from n to n + 1, and their work.
-  void advanceHourglass(int first, const Motion& motion, const MaterialPoint<Lanes>& point,
-                        const Lanes (&v)[dim][M::count], const HourglassVectors& oldHourglass,
-                        HourglassVectors& hourglass, Lanes (&hoopForce)[2]) const
+  /// Increments of the amplitudes of the modes, q dt [m], and of the hoop slopes of a ring.
+  struct HourglassStep
   {
-    const Lanes dt(data.dt), half(0.5);
-    const Lanes &volume = motion.volume, &traceG = motion.traceG;
-    const bool assumedStrain = data.options.form == ElementForm::AssumedStrain;
-    // What a damaged element loses of its hourglass stiffness goes with the forces in it.
-    Lanes whole(1.0), kept(1.0); // parts of the forces that damage and flow leave
-    if (law.changesTangent)
-    {
-      whole = point.integrity / load(&data.tangent(1, first));
-      scaleHourglass(whole, hourglass, hoopForce);
-    }
-    // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
-    const Lanes stiffness = point.integrity *
-                            Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * volume *
-                            traceG;
-    HourglassVectors increment; // q dt [m]
+    HourglassVectors increment;
     Lanes slopes[2] = {Lanes(0.0), Lanes(0.0)};
+    Lanes stiffness = Lanes(1.0); ///< that the law had left at the start, over the elastic one
+  };
+
+  /// Elastic step of hourglass forces that have turned with the element.
+  HourglassStep tryHourglass(int first, const Motion& motion, const MaterialPoint<Lanes>& point,
+                             const Lanes (&v)[dim][M::count], HourglassVectors& hourglass,
+                             Lanes (&hoopForce)[2]) const
+  {
+    const Lanes dt(data.dt);
+    const bool assumedStrain = data.options.form == ElementForm::AssumedStrain;
+    HourglassStep step;
+    if (law.changesTangent)
+      step.stiffness = load(&data.tangent(1, first));
+    // Hourglass rates q_ia = gamma_aI v_iI with gamma_aI = (h_aI - (h_a.x_j) b_jI) / n.
+    const Lanes stiffness = step.stiffness *
+                            Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) *
+                            motion.volume * motion.traceG;
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
       {
         Lanes sum = dt * v[i][dim + a];
         for (int j = 0; j < dim; ++j)
           sum -= motion.middle[j][dim + a] * point.displacementGradient(i, j);
-        increment[a][i] = sum;
+        step.increment[a][i] = sum;
         if (!assumedStrain)
           hourglass[a][i] += stiffness * sum;
       }
@@ -382,63 +388,97 @@ private:
       if constexpr (revolved)
       {
         Lanes onSlopes[2];
-        hoopSlopes(motion.middle[0], motion.radius, v[0], motion.radialVelocity, slopes);
-        for (Lanes& slope : slopes)
+        hoopSlopes(motion.middle[0], motion.radius, v[0], motion.radialVelocity, step.slopes);
+        for (Lanes& slope : step.slopes)
           slope *= dt;
-        assumedStrainForcesOfRing(frame, moduli, volume, motion.radius, increment, slopes, forces,
-                                  onSlopes);
+        assumedStrainForcesOfRing(frame, moduli, motion.volume, motion.radius, step.increment,
+                                  step.slopes, forces, onSlopes);
         for (int k = 0; k < 2; ++k)
-          hoopForce[k] += point.integrity * onSlopes[k];
+          hoopForce[k] += step.stiffness * onSlopes[k];
       }
       else
-        assumedStrainForces(frame, moduli, volume, increment, forces);
+        assumedStrainForces(frame, moduli, motion.volume, step.increment, forces);
       for (int a = 0; a < M::hourglass; ++a)
         for (int i = 0; i < dim; ++i)
-          hourglass[a][i] += point.integrity * forces[a][i];
+          hourglass[a][i] += step.stiffness * forces[a][i];
     }
+    return step;
+  }
+
+  static Lanes bendingOf(const Motion& motion, const HourglassVectors& hourglass,
+                         const Lanes (&hoopForce)[2])
+  {
+    if constexpr (revolved)
+      return bendingSquaredOfRing(motion.middle, motion.volume, hourglass, hoopForce);
+    else
+      return bendingSquared(motion.middle, motion.volume, hourglass);
+  }
+
+  /// What flow and damage leave of the forces, their work, and what of it is lost.
+  void settleHourglass(int first, const Motion& motion, const MaterialPoint<Lanes>& point,
+                       const HourglassStep& step, const HourglassVectors& oldHourglass,
+                       HourglassVectors& hourglass, Lanes (&hoopForce)[2]) const
+  {
+    const Lanes half(0.5);
+    const bool onSlopes = hasHoopSlopes && data.options.form == ElementForm::AssumedStrain;
     Lanes oldHoopForce[2] = {Lanes(0.0), Lanes(0.0)};
-    if (hasHoopSlopes && assumedStrain)
+    if (onSlopes)
       for (int k = 0; k < 2; ++k)
         oldHoopForce[k] = load(&data.hourglassForce(dim + k, first));
-    const Lanes before = half * workOf(oldHourglass, increment, oldHoopForce, slopes);
-    Lanes after = half * workOf(hourglass, increment, hoopForce, slopes);
-    const Lanes old = load(&data.energies(int(ElementEnergy::HourglassElastic), first));
-    Lanes elastic = whole * (old + before) + after, lost(0.0);
-    if (law.hasStrength)
-    {
-      Lanes bending = bendingSquared(motion.middle, volume, hourglass);
-      if (hasHoopSlopes && assumedStrain)
-        bending += Lanes(3.0) * (hoopForce[0] * hoopForce[0] + hoopForce[1] * hoopForce[1]) /
-                   (volume * volume);
-      kept = hourglassReturn(point.strength, point.trialMises, bending,
-                             leastStrength * data.pWaveModulus);
-      scaleHourglass(kept, hourglass, hoopForce);
-      after *= kept;
-      elastic *= kept * kept; // whatever their stiffness, forces store their square
-    }
+    const Lanes before = half * workOf(oldHourglass, step.increment, oldHoopForce, step.slopes);
+    const Lanes after = half * workOf(hourglass, step.increment, hoopForce, step.slopes);
+    Lanes work = before + after;
     if (law.hasStrength || law.changesTangent)
     {
-      const auto loses = whole * kept < Lanes(1.0);
-      lost = branchFree::choose(loses, before + after - (elastic - old), Lanes(0.0));
+      // Forces store their square, whatever their stiffness; damage takes stiffness with them.
+      Lanes flow(1.0), damage(1.0);
+      if (law.hasStrength)
+        flow = keptAtLeast(point.bendingScale, point.bendingSquared);
+      if (law.changesTangent)
+        damage = point.integrity / step.stiffness;
+      const Lanes kept = flow * damage;
+      for (int a = 0; a < M::hourglass; ++a)
+        for (int i = 0; i < dim; ++i)
+          hourglass[a][i] *= kept;
+      if (hasHoopSlopes)
+        for (Lanes& force : hoopForce)
+          force *= kept;
+      Real* const stored = &data.energies(int(ElementEnergy::HourglassElastic), first);
+      const Lanes old = load(stored);
+      const Lanes left = branchFree::positivePart((old + work) * flow * kept);
+      work = before + kept * after;
+      const Lanes lost = branchFree::choose(kept < Lanes(1.0), work - (left - old), Lanes(0.0));
+      store(left, stored);
       for (const ElementEnergy kind : {ElementEnergy::Internal, ElementEnergy::PlasticDissipation,
                                        ElementEnergy::PlasticBending})
         addTo(data.energies, kind, first, lost);
+      addTo(data.energies, ElementEnergy::Hourglass, first, -lost);
     }
-    store(elastic, &data.energies(int(ElementEnergy::HourglassElastic), first));
     for (int a = 0; a < M::hourglass; ++a)
       for (int i = 0; i < dim; ++i)
         store(hourglass[a][i], &data.hourglassForce(a * dim + i, first));
-    if (hasHoopSlopes && assumedStrain)
+    if (onSlopes)
       for (int k = 0; k < 2; ++k)
         store(hoopForce[k], &data.hourglassForce(dim + k, first));
-    Lanes work = before + after;
     if (data.hourglass.viscosity > 0)
-      work += half * advanceHourglassViscosity(first, traceG, volume, increment);
-    addTo(data.energies, ElementEnergy::Hourglass, first, work - lost);
+      work += half * advanceHourglassViscosity(first, motion.traceG, motion.volume, step.increment);
+    addTo(data.energies, ElementEnergy::Hourglass, first, work);
   }
 
-  /// Least strength of bending over the modulus of P waves, where the law says less.
-  static constexpr Real leastStrength = 3e-5;
+  /// Material that bears nothing still resists bending a little, so that modes do not run free.
+  Lanes keptAtLeast(const Lanes& kept, const Lanes& bendingSquared) const
+  {
+    const Lanes least(leastStrength * data.shearModulus);
+    const auto free = kept * kept * bendingSquared < least * least;
+    if (!branchFree::anyOf(free))
+      return kept;
+    const Lanes floor =
+        least / branchFree::squareRoot(branchFree::larger(bendingSquared, least * least));
+    return branchFree::choose(free, branchFree::larger(kept, floor), kept);
+  }
+
+  /// Least strength of bending over the shear modulus.
+  static constexpr Real leastStrength = 1e-5;
 
   static Lanes workOf(const HourglassVectors& hourglass, const HourglassVectors& increment,
                       const Lanes (&hoopForce)[2], const Lanes (&slopes)[2])
@@ -450,17 +490,6 @@ private:
     if (hasHoopSlopes)
       work += hoopForce[0] * slopes[0] + hoopForce[1] * slopes[1];
     return work;
-  }
-
-  static void scaleHourglass(const Lanes& factor, HourglassVectors& hourglass,
-                             Lanes (&hoopForce)[2])
-  {
-    for (int a = 0; a < M::hourglass; ++a)
-      for (int i = 0; i < dim; ++i)
-        hourglass[a][i] *= factor;
-    if (hasHoopSlopes)
-      for (Lanes& force : hoopForce)
-        force *= factor;
   }
 
   /// Viscous hourglass forces of the step, and twice their work.

@@ -27,7 +27,7 @@ struct DruckerPrager
     const Real threeG = 3 * elastic.shearModulus, bulk = elastic.bulkModulus;
     elastic.addElasticIncrement(point.strainIncrement, point.stress);
     const SymTensorOf<T> s = deviatorOf(point.stress);
-    const T p = -meanOf(point.stress), q = vonMisesOf(s);
+    const T p = -meanOf(point.stress), q = vonMisesOf(s, point.bendingSquared);
     const T over = q - T(strength) - T(frictionSlope) * p;
     const auto yields = over > zero;
     const T onCone = over * T(1 / (threeG + bulk * frictionSlope * dilationSlope));
@@ -44,11 +44,11 @@ struct DruckerPrager
         choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
         choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
         choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
-    point.trialMises = q;
-    point.strength = choose(yields, shear, q - over);
+    point.bendingScale = choose(q > zero, scale, one);
     point.history[0] += choose(yields, plastic, zero);
     point.history[1] += choose(yields, expansion, zero);
-    point.dissipation = choose(yields, shear * plastic - pressure * expansion, zero);
+    point.dissipation = choose(
+        yields, shear * plastic * partOfMean(q, point.bendingSquared) - pressure * expansion, zero);
   }
 };
 

@@ -58,7 +58,7 @@ struct HardeningPlasticity
     T* const b = h + BackStress;
     const SymTensorOf<T> back = rotated({b[0], b[1], b[2], b[3], b[4], b[5]}, point.rotation);
     const SymTensorOf<T> shifted = sumOf(trial, T(-1.0), back);
-    const T q = vonMisesOf(shifted), strain = h[PlasticStrain];
+    const T q = vonMisesOf(shifted, point.bendingSquared), strain = h[PlasticStrain];
 
     // The yield stress before the step, and the root on the last piece that it reaches.
     const auto onPiece = [&](int i)
@@ -87,9 +87,9 @@ struct HardeningPlasticity
     b[4] = moved.yz;
     b[5] = moved.zx;
     h[PlasticStrain] = strain + plastic;
-    point.trialMises = q;
-    point.strength = choose(yields, base + hardening * plastic, yield);
-    point.dissipation = (base + hardening * plastic) * plastic;
+    point.bendingScale = one - T(threeG) * perStress;
+    point.dissipation =
+        (base + hardening * plastic) * plastic * partOfMean(q, point.bendingSquared);
 
     T bulk;
     const T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);

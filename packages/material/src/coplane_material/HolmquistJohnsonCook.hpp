@@ -103,7 +103,7 @@ struct HolmquistJohnsonCook
 
     const SymTensorOf<T> trial =
         deviatorOf(sumOf(point.stress, T(2 * elastic.shearModulus), point.strainIncrement));
-    const T q = vonMisesOf(trial);
+    const T q = vonMisesOf(trial, point.bendingSquared);
     const SymTensorOf<T> shear = deviatorOf(point.strainIncrement);
     const T rate = branchFree::squareRoot(T(2.0 / 3.0) * contract(shear, shear)) * T(1 / point.dt);
     const T relative = branchFree::positivePart(p) * T(1 / strength);
@@ -118,8 +118,7 @@ struct HolmquistJohnsonCook
     const auto yields = q > yield;
     const T plastic = choose(yields, (q - yield) * T(1 / (3 * elastic.shearModulus)), zero);
     point.stress = stressOf(trial, choose(yields, yield / q, one), -p);
-    point.trialMises = q;
-    point.strength = yield;
+    point.bendingScale = choose(yields, yield / q, one);
     h[PlasticStrain] += plastic;
     const T reach = branchFree::positivePart(p + T(tension)) * T(1 / strength);
     const T ductility =
@@ -130,7 +129,8 @@ struct HolmquistJohnsonCook
     const T compression = branchFree::positivePart(p), former = unloadingSlope(before);
     const T ofPores = compression * compaction -
                       T(0.5) * compression * compression * (back - former) / (back * former);
-    point.dissipation = yield * plastic + branchFree::positivePart(ofPores) * point.volumeRatio;
+    point.dissipation = yield * plastic * partOfMean(q, point.bendingSquared) +
+                        branchFree::positivePart(ofPores) * point.volumeRatio;
     point.integrity = branchFree::larger(one - h[Damage], T(0.02));
     const T m = branchFree::positivePart((mu - T(lockCompression)) * T(1 / (1 + lockCompression)));
     const T ofLocked = (T(locked[0]) + m * (T(2 * locked[1]) + m * T(3 * locked[2]))) *

@@ -52,6 +52,22 @@ KOKKOS_INLINE_FUNCTION T vonMisesOf(const SymTensorOf<T>& deviator)
   return branchFree::squareRoot(T(1.5) * contract(deviator, deviator));
 }
 
+/// The same with bending within the element, MaterialPoint::bendingSquared.
+template <class T>
+KOKKOS_INLINE_FUNCTION T vonMisesOf(const SymTensorOf<T>& deviator, const T& bendingSquared)
+{
+  return branchFree::squareRoot(T(1.5) * contract(deviator, deviator) + bendingSquared);
+}
+
+/// Part of the plastic work that is not of bending.
+/// @param q of both [Pa]
+template <class T>
+KOKKOS_INLINE_FUNCTION T partOfMean(const T& q, const T& bendingSquared)
+{
+  return branchFree::choose(bendingSquared > T(0.0),
+                            branchFree::positivePart(T(1.0) - bendingSquared / (q * q)), T(1.0));
+}
+
 /// Third invariant of a symmetric tensor.
 template <class T>
 KOKKOS_INLINE_FUNCTION T determinantOf(const SymTensorOf<T>& s)

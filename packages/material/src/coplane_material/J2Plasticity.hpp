@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/BranchFree.hpp>
+#include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
 
 namespace coplane
@@ -31,8 +32,9 @@ struct J2Plasticity
     const T sxx = stress.xx - mean, syy = stress.yy - mean, szz = stress.zz - mean;
     const T q = branchFree::squareRoot(
         T(1.5) *
-        (sxx * sxx + syy * syy + szz * szz +
-         T(2.0) * (stress.xy * stress.xy + stress.yz * stress.yz + stress.zx * stress.zx)));
+            (sxx * sxx + syy * syy + szz * szz +
+             T(2.0) * (stress.xy * stress.xy + stress.yz * stress.yz + stress.zx * stress.zx)) +
+        point.bendingSquared);
     const T yield = T(yieldStress) + T(hardeningModulus) * equivalentPlasticStrain;
     const Real threeG = 3.0 * elastic.shearModulus;
 
@@ -49,9 +51,9 @@ struct J2Plasticity
     stress.yz -= reduction * stress.yz;
     stress.zx -= reduction * stress.zx;
     equivalentPlasticStrain += plasticStrain;
-    point.trialMises = q;
-    point.strength = yield + T(hardeningModulus) * plasticStrain;
-    point.dissipation = point.strength * plasticStrain;
+    point.bendingScale = T(1.0) - reduction;
+    point.dissipation = (yield + T(hardeningModulus) * plasticStrain) * plasticStrain *
+                        partOfMean(q, point.bendingSquared);
   }
 };
 } // namespace coplane

@@ -78,7 +78,7 @@ struct JohnsonCook
     const T zero(0.0), one(1.0), threeG(3 * elastic.shearModulus);
     const SymTensorOf<T> trial =
         deviatorOf(sumOf(point.stress, T(2 * elastic.shearModulus), point.strainIncrement));
-    const T q = vonMisesOf(trial), strain = h[PlasticStrain];
+    const T q = vonMisesOf(trial, point.bendingSquared), strain = h[PlasticStrain];
     const T hot = homologous(h[Temperature]);
     const T thermal = one - branchFree::power(hot, thermalExponent);
     const auto failed = h[Damage] >= one;
@@ -99,11 +99,10 @@ struct JohnsonCook
     const T scale = choose(q > zero, stress / q, one);
     const SymTensorOf<T> deviator = stressOf(trial, scale, zero);
     h[PlasticStrain] = strain + plastic;
-    point.dissipation = stress * plastic;
-    point.trialMises = q;
-    point.strength = choose(plastic > zero, stress, q - over);
+    point.bendingScale = scale;
+    point.dissipation = stress * plastic * partOfMean(q, point.bendingSquared);
     h[Temperature] +=
-        T(heatFraction / (elastic.density * heatCapacity)) * point.dissipation * point.volumeRatio;
+        T(heatFraction / (elastic.density * heatCapacity)) * stress * plastic * point.volumeRatio;
 
     T bulk;
     T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);

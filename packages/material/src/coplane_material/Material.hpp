@@ -52,7 +52,7 @@ struct LawFunction
   int historyCount = 0;
   bool usesVolume = false;     ///< reads volume ratios, energy and size of the point
   bool changesTangent = false; ///< writes stiffening and integrity
-  bool hasStrength = false;    ///< writes trialMises and strength
+  bool hasStrength = false;    ///< lets bending flow
 
   void operator()(MaterialPoint<Lanes>& point) const { advanceLanes(law, point); }
   void operator()(MaterialPoint<Real>& point) const { advanceOne(law, point); }

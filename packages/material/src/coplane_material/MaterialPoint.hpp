@@ -35,8 +35,10 @@ struct MaterialPoint
   T dissipation = T(0.0); ///< of the step, per volume now [J/m^3]
   T stiffening = T(1.0);  ///< tangent modulus over the elastic one, for the stable step
   T integrity = T(1.0);   ///< 1 intact, 0 destroyed: by which hourglass stiffness falls
-  // Out of laws with Law::hasStrength.
-  T trialMises = T(0.0); ///< von Mises stress if nothing had flowed in this step [Pa]
-  T strength = T(0.0);   ///< von Mises stress that it bears at the end [Pa]
+
+  // Of laws with Law::hasStrength: bending within the element is one more component of the
+  // deviator, which flows with the others.
+  T bendingSquared = T(0.0); ///< in: its part in the squared von Mises stress before flow [Pa^2]
+  T bendingScale = T(1.0);   ///< out: by which it falls; its work is not in `dissipation`
 };
 } // namespace coplane

@@ -104,10 +104,12 @@ struct MohrCoulomb
 
     const T tolerance(1e-9 * (cohesion + tensileStrength));
     const auto yields = slope * s[0] - s[2] - bond > T(0.0) || s[0] > cut;
-    point.trialMises = vonMisesOf(s);
-    point.strength = strengthAt(s, slope, bond, cut);
+    const T q = vonMisesOf(s), bending = branchFree::squareRoot(point.bendingSquared);
     if (!branchFree::anyOf(yields))
+    {
+      point.bendingScale = scaleOf(bending, T(1.0), s, slope, bond, cut);
       return;
+    }
     const T trial[3] = {s[0], s[1], s[2]};
     T slips(0.0), openings(0.0), flow[3] = {zero, zero, zero};
     auto open = yields;
@@ -157,7 +159,8 @@ struct MohrCoulomb
       }
       open = open && !good;
     }
-    point.strength = strengthAt(s, slope, bond, cut);
+    point.bendingScale =
+        scaleOf(bending, choose(q > zero, vonMisesOf(s) / q, T(1.0)), s, slope, bond, cut);
     const SymTensorOf<T> returned = tensorOf(principal);
     point.stress = {
         choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
@@ -182,15 +185,18 @@ private:
     const T a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
     return branchFree::squareRoot(T(0.5) * (a * a + b * b + c * c));
   }
-  /// Von Mises stress that is borne at the mean of principal stresses: in uniaxial compression
-  /// beside it, or tension up to the cut-off, whichever is less; but no less than there is.
+  /// Bending falls by the factor of the return, and ends where fibres beside the mean stress shear
+  /// in compression or reach the cut-off. It flows by itself: planes and edges know no other
+  /// component.
   template <class T>
-  KOKKOS_INLINE_FUNCTION static T strengthAt(const T (&s)[3], const T& slope, const T& bond,
-                                             const T& cut)
+  KOKKOS_INLINE_FUNCTION static T scaleOf(const T& bending, const T& factor, const T (&s)[3],
+                                          const T& slope, const T& bond, const T& cut)
   {
     const T mean = T(1.0 / 3.0) * (s[0] + s[1] + s[2]);
     const T sheared = T(3.0) * (bond - (slope - T(1.0)) * mean) / (slope + T(2.0));
-    return branchFree::larger(branchFree::smaller(sheared, T(1.5) * (cut - mean)), vonMisesOf(s));
+    const T most = branchFree::positivePart(branchFree::smaller(sheared, cut - s[0]));
+    const T kept = branchFree::smaller(factor, T(1.0));
+    return branchFree::choose(kept * bending > most, most / bending, kept);
   }
   /// Direction of plastic flow, and the stress that it takes away.
   KOKKOS_INLINE_FUNCTION void flowOf(int surface, Real (&g)[3], Real (&dg)[3]) const

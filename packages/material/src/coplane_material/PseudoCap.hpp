@@ -219,8 +219,10 @@ struct PseudoCap
     // Shear: the deviator returns along itself to the strength, and the volume follows.
     const SymTensorOf<T> s =
         deviatorOf(sumOf(point.stress, T(2.0 * elastic.shearModulus), point.strainIncrement));
-    const T q = vonMisesOf(s);
-    const T cosTheta = branchFree::cosine(T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(s, q)));
+    const T q = vonMisesOf(s, point.bendingSquared);
+    const T cosTheta =
+        branchFree::cosine(T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(s, vonMisesOf(s))));
+    const T mean = partOfMean(q, point.bendingSquared);
 
     // Fast strain makes the surface of strength larger about the origin, r Y(p / r): r is that of
     // tension up to no pressure, that of compression from a third of fc on. The cap stays.
@@ -283,7 +285,7 @@ struct PseudoCap
       p = choose(yields, pressure(ebar, v), p);
       pc = choose(yields, crushCurve(ec), pc);
       scale = choose(yields, one - threeG * plastic / q, one);
-      dissipation += scale * q * plastic + p * (compacted - dilated - opened);
+      dissipation += scale * q * plastic * mean + p * (compacted - dilated - opened);
     }
 
     // No mean tension above the strength: cracks open.
@@ -306,8 +308,9 @@ struct PseudoCap
     // strain is that at the mean stress of the step, as in the energy of the element.
     if (rates.counts())
     {
-      const T shear = choose(plastic > zero,
-                             plastic * (T(1.5) * contract(point.stress, s) / q + scale * q), zero);
+      const T shear =
+          choose(plastic > zero,
+                 plastic * (T(1.5) * contract(point.stress, s) / q + scale * q * mean), zero);
       const T volume = (p - meanOf(point.stress)) * (v - inelasticBefore);
       dissipation = branchFree::positivePart(T(0.5) * (shear + volume));
     }
@@ -325,8 +328,7 @@ struct PseudoCap
     h[Opening] = et;
     point.stress = stressOf(s, scale, -p);
     point.dissipation = dissipation;
-    point.trialMises = q;
-    point.strength = choose(plastic > zero, scale * q, q - over);
+    point.bendingScale = scale;
     point.integrity = branchFree::larger(one - h[Damage], T(0.02));
     const T bulk = poreFactor(h[Porosity]) * grainTangent(ebar - v);
     const Real shear = 4.0 / 3.0 * elastic.shearModulus;
