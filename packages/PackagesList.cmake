@@ -4,6 +4,7 @@ set(COPLANE_PACKAGES
   core
   checkpoint
   geometry
+  schema
   material
   joint
   mesh

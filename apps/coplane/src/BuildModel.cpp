@@ -6,7 +6,7 @@
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/MaterialCards.hpp>
-#include <coplane_input/TimeFunctionEvaluator.hpp>
+#include <coplane_schema/TimeFunctionEvaluator.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "Ogive.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_input/Suggestion.hpp>
+#include <coplane_schema/Suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>

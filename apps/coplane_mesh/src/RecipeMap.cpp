@@ -2,8 +2,8 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
-#include <coplane_input/Suggestion.hpp>
-#include <coplane_input/YamlText.hpp>
+#include <coplane_schema/Suggestion.hpp>
+#include <coplane_schema/YamlText.hpp>
 
 #include <algorithm>
 #include <cmath>

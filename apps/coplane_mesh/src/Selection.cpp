@@ -2,7 +2,7 @@
 
 #include "MeshFaces.hpp"
 
-#include <coplane_input/Suggestion.hpp>
+#include <coplane_schema/Suggestion.hpp>
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/TextFile.hpp>
-#include <coplane_input/SchemaBuilder.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
 
 #include <algorithm>
 #include <cmath>

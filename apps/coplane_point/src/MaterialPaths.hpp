@@ -1,8 +1,8 @@
 #pragma once
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_input/Schema.hpp>
 #include <coplane_material/MaterialProbe.hpp>
+#include <coplane_schema/Schema.hpp>
 
 #include <functional>
 #include <string>

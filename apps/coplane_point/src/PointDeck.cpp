@@ -7,9 +7,9 @@
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_input/MaterialCards.hpp>
-#include <coplane_input/SchemaBuilder.hpp>
-#include <coplane_input/SchemaReader.hpp>
-#include <coplane_input/Suggestion.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
+#include <coplane_schema/SchemaReader.hpp>
+#include <coplane_schema/Suggestion.hpp>
 
 #include <algorithm>
 #include <filesystem>

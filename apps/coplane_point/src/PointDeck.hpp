@@ -3,7 +3,7 @@
 #include "MaterialPaths.hpp"
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_input/Schema.hpp>
+#include <coplane_schema/Schema.hpp>
 
 namespace coplane
 {

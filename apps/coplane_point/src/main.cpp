@@ -9,8 +9,8 @@
 #include <coplane_core/OutputLocks.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
-#include <coplane_input/DeckReference.hpp>
 #include <coplane_input/MaterialCards.hpp>
+#include <coplane_schema/SchemaReference.hpp>
 
 #include <CLI/CLI.hpp>
 

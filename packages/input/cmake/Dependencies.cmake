@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES joint material core PRIVATE_LIBRARIES yaml-cpp::yaml-cpp nlohmann_json::nlohmann_json muparser::muparser)
+coplane_dependencies(PACKAGES schema joint material core)

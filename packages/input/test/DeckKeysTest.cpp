@@ -1,6 +1,7 @@
 #include "TestDecks.hpp"
 
-#include <coplane_input/Schema.hpp>
+#include <coplane_input/DeckSchema.hpp>
+#include <coplane_schema/Schema.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,6 +1,7 @@
 #include "ContactSchema.hpp"
 
-#include "SchemaBuilder.hpp"
+#include <coplane_input/Deck.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
 
 namespace coplane
 {

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_schema/TimeFunction.hpp>
 
 #include <array>
 #include <map>
@@ -14,20 +15,6 @@ namespace coplane
 // The deck as checked, typed values. Names are those of the YAML keys; defaults here are the
 // defaults of the schema. Units: SI. `where` is the place of a card for later messages:
 // "wall.yaml:12:5", or "--set a.b=value" when it came from there.
-
-/// A number, a muParser expression of t [s] (conditions that vary in time), or a table over t; of
-/// x, y, z [m] where a PlaceFunction is meant (states that vary in space).
-struct TimeFunction
-{
-  std::string expression; ///< empty: constant or table
-  Real constant = 0;
-  std::vector<Real> times;  ///< of a table, rising [s]; straight lines between, constant outside
-  std::vector<Real> values; ///< of a table
-  bool ofPlace = false;     ///< the expression has x, y or z beside t
-  std::string where;
-};
-
-using PlaceFunction = TimeFunction;
 
 struct MaterialCard
 {

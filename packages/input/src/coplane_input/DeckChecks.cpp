@@ -2,7 +2,8 @@
 
 #include "JointCards.hpp"
 #include "MaterialCards.hpp"
-#include "Suggestion.hpp"
+
+#include <coplane_schema/Suggestion.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_input/DeckNode.hpp>
+#include <coplane_schema/DeckNode.hpp>
 
 #include <string>
 #include <vector>

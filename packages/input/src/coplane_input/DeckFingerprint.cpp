@@ -1,6 +1,6 @@
 #include <coplane_input/DeckFingerprint.hpp>
-#include <coplane_input/DeckNode.hpp>
 #include <coplane_input/MaterialCards.hpp>
+#include <coplane_schema/DeckNode.hpp>
 
 #include <fmt/format.h>
 

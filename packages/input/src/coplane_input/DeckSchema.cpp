@@ -1,7 +1,11 @@
+#include "DeckSchema.hpp"
+
 #include "ContactSchema.hpp"
 #include "MaterialCards.hpp"
 #include "OutputSchema.hpp"
-#include "SchemaBuilder.hpp"
+
+#include <coplane_input/Deck.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_input/DeckNode.hpp>
 #include <coplane_joint/JointLaw.hpp>
+#include <coplane_schema/DeckNode.hpp>
 
 namespace coplane
 {

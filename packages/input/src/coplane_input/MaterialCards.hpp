@@ -1,9 +1,9 @@
 #pragma once
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_input/DeckNode.hpp>
-#include <coplane_input/Schema.hpp>
 #include <coplane_material/Material.hpp>
+#include <coplane_schema/DeckNode.hpp>
+#include <coplane_schema/Schema.hpp>
 
 namespace coplane
 {

@@ -1,5 +1,6 @@
 #include "MaterialCards.hpp"
-#include "SchemaBuilder.hpp"
+
+#include <coplane_schema/SchemaBuilder.hpp>
 
 namespace coplane
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_input/Schema.hpp>
+#include <coplane_schema/Schema.hpp>
 
 namespace coplane
 {

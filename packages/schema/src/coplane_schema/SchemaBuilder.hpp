@@ -1,16 +1,18 @@
 #pragma once
 
-#include <coplane_input/Schema.hpp>
+#include <coplane_core/Vec3.hpp>
+#include <coplane_schema/Schema.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace coplane::schema
 {
-// Words with which DeckSchema.cpp is written. A key's default is read from a default-made card, so
-// it is stated once, in Deck.hpp.
+// Words with which schemas are written. A key's default is read from a default-made card, so it is
+// stated once, where the card is.
 
 /// A key under construction; every word returns it for the next.
 class KeyBuilder

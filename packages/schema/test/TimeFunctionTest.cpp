@@ -1,5 +1,5 @@
 #include <coplane_core/Error.hpp>
-#include <coplane_input/TimeFunctionEvaluator.hpp>
+#include <coplane_schema/TimeFunctionEvaluator.hpp>
 
 #include <gtest/gtest.h>
 

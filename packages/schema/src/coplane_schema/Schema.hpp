@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_core/Real.hpp>
-#include <coplane_input/Deck.hpp>
+#include <coplane_schema/TimeFunction.hpp>
 
 #include <functional>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace coplane
 {
-/// What a key of the deck holds.
+/// What a key holds.
 enum class KeyKind
 {
   Text,
@@ -38,9 +38,9 @@ struct Alternatives
   bool oneNeeded = false;
 };
 
-/// One key of the deck: everything that is said about it anywhere is said here. The checks,
+/// One key of an input file: everything that is said about it anywhere is said here. The checks,
 /// --help-deck, the manual's page and the JSON Schema are made from it, and `store` or `enter`
-/// binds it to a field of Deck, so that no key can be without effect.
+/// binds it to a field of a card, so that no key can be without effect.
 struct Key
 {
   std::string name;
@@ -68,15 +68,12 @@ struct Key
   std::string discriminator; ///< the key (`model`, `type`) that decides which others there are
   std::vector<Alternatives> alternatives;
   std::string completedBy; ///< a key (`set`) that gives all required ones that are not given
-  /// The place in the Deck that the group's keys fill; lists grow by one item.
+  /// The card that the group's keys fill; lists grow by one item.
   std::function<void*(void* target, const std::string& name, const std::string& where)> enter;
 
   bool isGroup() const { return kind >= KeyKind::Group; }
   bool appliesTo(const std::string& model) const;
 };
-
-/// The whole deck: a Group whose target is a Deck.
-const Key& deckSchema();
 
 /// What may be written: "a number > 0 [kg/m^3]", "linear_elastic or j2", "a list of 3 numbers
 /// [m/s]".

@@ -2,7 +2,7 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
-#include <coplane_input/Deck.hpp>
+#include <coplane_schema/TimeFunction.hpp>
 
 #include <memory>
 #include <string>

@@ -1,0 +1,274 @@
+#include "SchemaReference.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+
+namespace coplane
+{
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+std::string pathOf(const std::string& path, const Key& key)
+{
+  std::string here = path + (path.empty() ? "" : ".") + key.name;
+  if (key.kind == KeyKind::NamedGroups)
+    here += ".<name>";
+  if (key.kind == KeyKind::GroupList)
+    here += ".<index>";
+  return here;
+}
+
+/// "model: j2", or an empty string for a key that is always there.
+std::string conditionText(const Key& group, const Key& key)
+{
+  return key.models.empty()
+             ? ""
+             : fmt::format("{}: {}", group.discriminator, fmt::join(key.models, ", "));
+}
+
+std::string alternativesText(const Key& group)
+{
+  std::string text;
+  for (const auto& one : group.alternatives)
+    text += fmt::format("{} one of {}.", one.oneNeeded ? "Exactly" : "At most",
+                        fmt::join(one.names, ", "));
+  return text;
+}
+
+std::string necessity(const Key& key)
+{
+  if (key.required)
+    return "required";
+  return key.defaultText.empty() ? "optional" : "default: " + key.defaultText;
+}
+
+void writeText(const Key& group, const std::string& path, std::string& out)
+{
+  for (const auto& key : group.keys)
+  {
+    const std::string here = pathOf(path, key);
+    const std::string condition = conditionText(group, key);
+    out += fmt::format("{}{}\n", here, condition.empty() ? "" : "   (" + condition + ")");
+    if (key.isGroup())
+    {
+      const std::string rules = alternativesText(key);
+      out += fmt::format("    {}{}{}\n\n", key.meaning, key.required ? "; required" : "",
+                         rules.empty() ? "" : ". " + rules);
+      writeText(key, here, out);
+    }
+    else
+      out += fmt::format("    {}; {}\n    {}. Example: {}\n\n", acceptedText(key), necessity(key),
+                         key.meaning, key.example);
+  }
+}
+
+std::string cell(std::string text)
+{
+  for (std::size_t at = 0; (at = text.find_first_of("|<>*", at)) != std::string::npos; at += 2)
+    text.insert(at, "\\");
+  return text;
+}
+
+void writeMarkdown(const Key& group, const std::string& path, std::string& out)
+{
+  std::string rows;
+  for (const auto& key : group.keys)
+  {
+    const std::string condition = conditionText(group, key);
+    const std::string limit = condition.empty() ? "" : " (" + condition + ")";
+    if (!key.isGroup())
+      rows += fmt::format(
+          "| `{}`{} | {} | {} | {} | `{}` |\n", key.name, limit, cell(acceptedText(key)),
+          key.required ? "required" : cell(key.defaultText), cell(key.meaning), key.example);
+  }
+  if (!rows.empty())
+    out +=
+        "| Key | Accepted | Default | Meaning | Example |\n|---|---|---|---|---|\n" + rows + "\n";
+  for (const auto& key : group.keys)
+    if (key.isGroup())
+    {
+      const std::string here = pathOf(path, key);
+      std::string meaning = key.meaning;
+      meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+      const std::string rules = alternativesText(key);
+      out += fmt::format("## `{}`\n\n{}{}.{}\n\n", here, cell(meaning),
+                         key.required ? " (required)" : "", rules.empty() ? "" : " " + rules);
+      writeMarkdown(key, here, out);
+    }
+}
+
+Json numberSchema(const Key& key, const char* type)
+{
+  Json schema{{"type", type}};
+  if (key.lower)
+    schema[key.lowerOpen ? "exclusiveMinimum" : "minimum"] = *key.lower;
+  if (key.upper)
+    schema[key.upperOpen ? "exclusiveMaximum" : "maximum"] = *key.upper;
+  return schema;
+}
+
+Json listSchema(const Key& key, const Json& item)
+{
+  Json schema{{"type", "array"}, {"items", item}};
+  if (key.length)
+  {
+    schema["minItems"] = key.length;
+    schema["maxItems"] = key.length;
+  }
+  if (!key.choices.empty())
+  {
+    schema["minItems"] = 1;
+    schema["uniqueItems"] = true;
+  }
+  return schema;
+}
+
+Json groupSchema(const Key& group);
+
+Json valueSchema(const Key& key)
+{
+  const Json word = key.choices.empty() ? Json{{"type", "string"}, {"minLength", 1}}
+                                        : Json{{"enum", key.choices}};
+  const Json function{{"type", {"number", "string"}}};
+  const Json numbers{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}};
+  const Json timeFunction{{"anyOf",
+                           {function,
+                            {{"type", "object"},
+                             {"properties", {{"times", numbers}, {"values", numbers}}},
+                             {"required", {"times", "values"}},
+                             {"additionalProperties", false}}}}};
+  switch (key.kind)
+  {
+  case KeyKind::Text:
+    // YAML reads a title such as 2024 as a number; the program takes it as text.
+    return key.choices.empty() ? Json{{"type", {"string", "number", "boolean"}}} : word;
+  case KeyKind::Number:
+    return numberSchema(key, "number");
+  case KeyKind::Integer:
+    return Json{{"anyOf", {numberSchema(key, "integer"), word}}};
+  case KeyKind::Flag:
+    return Json{{"type", "boolean"}};
+  case KeyKind::Numbers:
+    return listSchema(key, numberSchema(key, "number"));
+  case KeyKind::Texts:
+    return listSchema(key, word);
+  case KeyKind::TimeFunction:
+    return timeFunction;
+  case KeyKind::TimeFunctions:
+    return listSchema(key, timeFunction);
+  case KeyKind::PlaceFunctions:
+    return listSchema(key, function);
+  case KeyKind::Group:
+    return groupSchema(key);
+  case KeyKind::NamedGroups:
+  {
+    Json schema{{"type", "object"}, {"additionalProperties", groupSchema(key)}};
+    if (key.required)
+      schema["minProperties"] = 1;
+    return schema;
+  }
+  case KeyKind::GroupList:
+    return Json{{"type", "array"}, {"items", groupSchema(key)}};
+  }
+  return Json::object();
+}
+
+Json described(const Key& key)
+{
+  Json schema = valueSchema(key);
+  schema["description"] =
+      key.isGroup() ? key.meaning
+                    : fmt::format("{}: {}; {}", key.meaning, acceptedText(key), necessity(key));
+  return schema;
+}
+
+/// Demands keys; where another key completes the group, only without that one.
+Json demanding(const Key& group, const Json& required)
+{
+  const Json demand{{"required", required}};
+  if (group.completedBy.empty())
+    return demand;
+  return Json{{"anyOf", {demand, {{"required", Json::array({group.completedBy})}}}}};
+}
+
+/// What holds for one value of the discriminator: the keys of that model, and none of the others.
+Json modelSchema(const Key& group, const Key& discriminator, const std::string& model)
+{
+  Json properties = Json::object(), required = Json::array();
+  for (const auto& key : group.keys)
+  {
+    if (key.models.empty())
+      continue;
+    if (key.appliesTo(model))
+    {
+      properties[key.name] = described(key);
+      if (key.required)
+        required.push_back(key.name);
+    }
+    else if (!properties.contains(key.name))
+      properties[key.name] = false;
+  }
+  Json condition{{"properties", {{discriminator.name, {{"const", model}}}}}};
+  if (discriminator.defaultText != model) // without the key, the default's keys hold
+    condition["required"] = Json::array({discriminator.name});
+  Json then{{"properties", properties}};
+  then.update(demanding(group, required));
+  return Json{{"if", condition}, {"then", then}};
+}
+
+Json groupSchema(const Key& group)
+{
+  Json schema{{"type", "object"}, {"additionalProperties", false}};
+  Json properties = Json::object(), required = Json::array(), rules = Json::array();
+  for (const auto& key : group.keys)
+  {
+    properties[key.name] = key.models.empty() ? described(key) : Json::object();
+    if (key.required && key.models.empty())
+      required.push_back(key.name);
+    if (key.name == group.discriminator)
+      for (const auto& model : key.choices)
+        rules.push_back(modelSchema(group, key, model));
+  }
+  for (const auto& alternatives : group.alternatives)
+  {
+    rules.push_back({{"not", {{"required", alternatives.names}}}});
+    Json one = Json::array();
+    for (const auto& name : alternatives.names)
+      one.push_back({{"required", Json::array({name})}});
+    if (alternatives.oneNeeded)
+      rules.push_back({{"anyOf", one}});
+  }
+  schema["properties"] = properties;
+  schema.update(demanding(group, required));
+  if (!rules.empty())
+    schema["allOf"] = rules;
+  return schema;
+}
+} // namespace
+
+std::string referenceText(const Key& schema)
+{
+  std::string out;
+  writeText(schema, "", out);
+  return out;
+}
+
+std::string referenceMarkdown(const Key& schema)
+{
+  std::string out;
+  writeMarkdown(schema, "", out);
+  out.pop_back(); // one newline at the end
+  return out;
+}
+
+std::string jsonSchema(const Key& schema, const std::string& title)
+{
+  Json json{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", title}};
+  json.update(groupSchema(schema));
+  return json.dump(2) + "\n";
+}
+} // namespace coplane

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <coplane_schema/Schema.hpp>
+
+#include <string>
+
+namespace coplane
+{
+/// Every key with what it accepts, its default and its meaning, without an introduction.
+std::string referenceText(const Key& schema);
+
+/// The same as tables of Markdown.
+std::string referenceMarkdown(const Key& schema);
+
+/// A JSON Schema (draft 7), with which editors complete and check files while they are written.
+/// What one key demands of another (names that must exist, limits between values) is checked by the
+/// programs only.
+std::string jsonSchema(const Key& schema, const std::string& title);
+} // namespace coplane
