@@ -324,9 +324,11 @@ private:
     HourglassStep step;
     if constexpr (hasHourglass)
     {
+      const Lanes before = law.hasStrength ? bendingOf(motion, hourglass, hoopForce) : Lanes(0.0);
       step = tryHourglass(first, motion, point, v, hourglass, hoopForce);
       if (law.hasStrength)
-        point.bendingSquared = bendingOf(motion, hourglass, hoopForce);
+        point.bendingSquared =
+            aboveFloor(before, bendingOf(motion, hourglass, hoopForce), step.floor);
     }
     law(point);
     for (int k = 0; k < law.historyCount; ++k)
@@ -354,6 +356,7 @@ private:
     HourglassVectors increment;
     Lanes slopes[2] = {Lanes(0.0), Lanes(0.0)};
     Lanes stiffness = Lanes(1.0); ///< that the law had left at the start, over the elastic one
+    Lanes floor = Lanes(0.0);     ///< what of the bending the law is not told [Pa]
   };
 
   /// Elastic step of hourglass forces that have turned with the element.
@@ -433,7 +436,7 @@ private:
       // Forces store their square, whatever their stiffness; damage takes stiffness with them.
       Lanes flow(1.0), damage(1.0);
       if (law.hasStrength)
-        flow = keptAtLeast(point.bendingScale, point.bendingSquared);
+        flow = keptAtLeast(point.bendingScale, point.bendingSquared, step.floor);
       if (law.changesTangent)
         damage = point.integrity / step.stiffness;
       const Lanes kept = flow * damage;
@@ -465,16 +468,35 @@ private:
     addTo(data.energies, ElementEnergy::Hourglass, first, work);
   }
 
-  /// Material that bears nothing still resists bending a little, so that modes do not run free.
-  Lanes keptAtLeast(const Lanes& kept, const Lanes& bendingSquared) const
+  // Material that bears nothing still resists bending a little, so that modes do not run free.
+  // Where an element has no more than twice that, the law is told of what comes to it alone:
+  // bending at the floor would flow again in every step, at rest too.
+
+  /// The square of the bending that the law returns [Pa^2].
+  /// @param before, trial squares of the bending before and after the elastic step [Pa^2]
+  Lanes aboveFloor(const Lanes& before, const Lanes& trial, Lanes& floor) const
   {
-    const Lanes least(leastStrength * data.shearModulus);
-    const auto free = kept * kept * bendingSquared < least * least;
-    if (!branchFree::anyOf(free))
+    const Lanes least(leastStrength * data.shearModulus), zero(0.0);
+    const auto atFloor = before < Lanes(4.0) * least * least;
+    if (!branchFree::anyOf(atFloor))
+      return trial;
+    floor = branchFree::choose(atFloor, least, zero);
+    const Lanes over = branchFree::positivePart(branchFree::squareRoot(trial) - least);
+    return branchFree::choose(atFloor, over * over, trial);
+  }
+
+  /// The share of the bending that stays.
+  Lanes keptAtLeast(const Lanes& kept, const Lanes& bendingSquared, const Lanes& floor) const
+  {
+    const Lanes least(leastStrength * data.shearModulus), one(1.0);
+    const auto told = floor > Lanes(0.0);
+    const auto falls = kept < one && (told || kept * kept * bendingSquared < least * least);
+    if (!branchFree::anyOf(falls))
       return kept;
-    const Lanes floor =
-        least / branchFree::squareRoot(branchFree::larger(bendingSquared, least * least));
-    return branchFree::choose(free, branchFree::larger(kept, floor), kept);
+    const Lanes s = branchFree::squareRoot(branchFree::larger(bendingSquared, Lanes(0.0)));
+    const Lanes ofAll = branchFree::larger(kept, least / branchFree::larger(s, least));
+    return branchFree::choose(
+        falls, branchFree::choose(told, (least + kept * s) / (least + s), ofAll), kept);
   }
 
   /// Least strength of bending over the shear modulus.

@@ -87,7 +87,7 @@ struct HardeningPlasticity
     b[4] = moved.yz;
     b[5] = moved.zx;
     h[PlasticStrain] = strain + plastic;
-    point.bendingScale = one - T(threeG) * perStress;
+    point.bendingScale = one - T(threeG + kinematicModulus) * perStress; // it has no back stress
     point.dissipation =
         (base + hardening * plastic) * plastic * partOfMean(q, point.bendingSquared);
 

@@ -102,7 +102,7 @@ struct JohnsonCook
     point.bendingScale = scale;
     point.dissipation = stress * plastic * partOfMean(q, point.bendingSquared);
     h[Temperature] +=
-        T(heatFraction / (elastic.density * heatCapacity)) * stress * plastic * point.volumeRatio;
+        T(heatFraction / (elastic.density * heatCapacity)) * (stress * plastic) * point.volumeRatio;
 
     T bulk;
     T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);

@@ -186,15 +186,15 @@ private:
     return branchFree::squareRoot(T(0.5) * (a * a + b * b + c * c));
   }
   /// Bending falls by the factor of the return, and ends where fibres beside the mean stress shear
-  /// in compression or reach the cut-off. It flows by itself: planes and edges know no other
-  /// component.
+  /// in compression or reach the cut-off; along which axis it acts is not known here. It flows by
+  /// itself: planes and edges know no other component.
   template <class T>
   KOKKOS_INLINE_FUNCTION static T scaleOf(const T& bending, const T& factor, const T (&s)[3],
                                           const T& slope, const T& bond, const T& cut)
   {
     const T mean = T(1.0 / 3.0) * (s[0] + s[1] + s[2]);
     const T sheared = T(3.0) * (bond - (slope - T(1.0)) * mean) / (slope + T(2.0));
-    const T most = branchFree::positivePart(branchFree::smaller(sheared, cut - s[0]));
+    const T most = branchFree::positivePart(branchFree::smaller(sheared, cut - mean));
     const T kept = branchFree::smaller(factor, T(1.0));
     return branchFree::choose(kept * bending > most, most / bending, kept);
   }
