@@ -104,6 +104,13 @@ inline std::vector<NamedLaw> allLaws()
   };
   PseudoCapParameters fast = concreteC40();
   fast.largestRate = 300;
+  HoekBrownParameters mass{2500, 20e9, 0.25, 50e6, 10, 60};
+  mass.dilationTangent = 0.2;
+  HoekBrownParameters softening = mass;
+  softening.tensileStrength = 0.15e6;
+  softening.residualGsi = 25;
+  softening.shearEnergy = 5000;
+  softening.fractureEnergy = 20;
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
@@ -123,6 +130,8 @@ inline std::vector<NamedLaw> allLaws()
        makeMohrCoulomb(
            rock, {0, 0.2, 0, 0, 2e6, 0, 100, {0, 0.002, 0.01}, {5e6, 3e6, 1e6}, {0.7, 0.6, 0.4}}),
        0.005},
+      {"hoekBrown", makeLaw(mass), 0.005},
+      {"hoekBrownSoftening", makeLaw(softening), 0.005},
       {"johnsonCook", steel4340(), 0.05},
       {"johnsonCookMieGrueneisen", checked(hot), 0.05},
       {"pseudoCap", makePseudoCap(concreteC40()), 0.01},

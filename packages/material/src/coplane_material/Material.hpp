@@ -4,6 +4,7 @@
 #include <coplane_material/DruckerPrager.hpp>
 #include <coplane_material/Fluid.hpp>
 #include <coplane_material/HardeningPlasticity.hpp>
+#include <coplane_material/HoekBrown.hpp>
 #include <coplane_material/HolmquistJohnsonCook.hpp>
 #include <coplane_material/J2Plasticity.hpp>
 #include <coplane_material/JohnsonCook.hpp>
@@ -24,7 +25,7 @@ namespace coplane
 /// with the same bits in every lane.
 using Material =
     std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
-                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid>;
+                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid, HoekBrown>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded

@@ -1,0 +1,59 @@
+#include <coplane_material/Demand.hpp>
+#include <coplane_material/Material.hpp>
+
+#include <cmath>
+
+namespace coplane
+{
+HoekBrown::Constants hoekBrownConstants(Real intactConstant, Real gsi, Real disturbance)
+{
+  const Real m = intactConstant * std::exp((gsi - 100) / (28 - 14 * disturbance));
+  const Real s = std::exp((gsi - 100) / (9 - 3 * disturbance));
+  const Real a = 0.5 + (std::exp(-gsi / 15) - std::exp(-20.0 / 3.0)) / 6;
+  return {m, s, a, std::pow(s, a)};
+}
+
+HoekBrown makeLaw(const HoekBrownParameters& p)
+{
+  HoekBrown law{};
+  law.elastic = makeLinearElastic(p.youngsModulus, p.poissonRatio, p.density);
+  demand(p.intactStrength > 0 && std::isfinite(p.intactStrength), "intact strength",
+         p.intactStrength, "Pa", "positive, e.g. 50e6");
+  demand(p.intactConstant > 0 && std::isfinite(p.intactConstant), "intact constant m_i",
+         p.intactConstant, "", "positive, e.g. 10 (4 to 33 for rocks)");
+  demand(p.gsi > 0 && p.gsi <= 100, "GSI", p.gsi, "", "above 0 and at most 100");
+  demand(p.disturbance >= 0 && p.disturbance <= 1, "disturbance D", p.disturbance, "",
+         "0 (as found) to 1 (blasted)");
+  const Real residualGsi = p.residualGsi.value_or(p.gsi);
+  demand(residualGsi > 0 && residualGsi <= p.gsi, "residual GSI", residualGsi, "",
+         fmt::format("above 0 and at most the GSI ({:.6g})", p.gsi));
+  if (residualGsi < p.gsi)
+    demand(p.shearEnergy > 0 && std::isfinite(p.shearEnergy), "shear energy", p.shearEnergy,
+           "J/m^2", "positive where the residual GSI is below the GSI, e.g. 10e3");
+  else
+    demand(p.shearEnergy == 0, "shear energy", p.shearEnergy, "J/m^2",
+           "left out without a residual GSI below the GSI");
+  demand(p.fractureEnergy >= 0 && std::isfinite(p.fractureEnergy), "fracture energy",
+         p.fractureEnergy, "J/m^2", "0 (no softening) or more");
+
+  law.intactStrength = p.intactStrength;
+  law.peak = hoekBrownConstants(p.intactConstant, p.gsi, p.disturbance);
+  law.residual = hoekBrownConstants(p.intactConstant, residualGsi, p.disturbance);
+  law.shearEnergy = p.shearEnergy;
+  law.fractureEnergy = p.fractureEnergy;
+
+  const Real tip = law.tip(law.peak);
+  law.tensileStrength = p.tensileStrength.value_or(tip);
+  demand(law.tensileStrength >= 0 && law.tensileStrength <= tip, "tensile strength",
+         law.tensileStrength, "Pa",
+         fmt::format(
+             "0 or more, and at most s sigma_ci / m_b = {:.6g} Pa, the tip of the criterion", tip));
+  // N of the plane that touches the criterion in an unconfined test is (sqrt(1 + t^2) + t)^2.
+  const Real slope = 1 + law.peak.a * law.peak.m * std::pow(law.peak.s, law.peak.a - 1);
+  const Real friction = 0.5 * (slope - 1) / std::sqrt(slope), t = p.dilationTangent;
+  demand(t >= 0 && t <= friction, "dilation", t, "",
+         fmt::format("0 or more, and at most the friction without confinement ({:.6g})", friction));
+  law.dilation = std::pow(std::sqrt(1 + t * t) + t, 2);
+  return law;
+}
+} // namespace coplane
