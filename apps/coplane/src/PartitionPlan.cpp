@@ -1,6 +1,7 @@
 #include "PartitionPlan.hpp"
 
 #include <coplane_core/Log.hpp>
+#include <coplane_material/MaterialModel.hpp>
 #include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
 
@@ -25,9 +26,6 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
                                                   {"nodal_pressure", 1.25},
                                                   {"full_integration", 3.2},
                                                   {"full_integration_plain", 3.2}};
-  static const std::map<std::string, Real> ofLaw{{"neo_hookean", 1.4}, {"drucker_prager", 1.3},
-                                                 {"mohr_coulomb", 3},  {"johnson_cook", 3.4},
-                                                 {"hjc", 1.8},         {"pseudo_cap", 5.4}};
   PartitionCosts costs;
   for (const Mesh::Block& block : mesh.blocks)
   {
@@ -40,8 +38,7 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
           std::find_if(deck.materials.begin(), deck.materials.end(),
                        [&](const MaterialCard& m) { return m.name == card->material; });
       if (material != deck.materials.end())
-        if (const auto law = ofLaw.find(material->model); law != ofLaw.end())
-          cost *= law->second;
+        cost *= findMaterialModel(material->model)->cost;
       cost *= card->rigid ? 0.02 : ofForm.at(card->element);
     }
     costs.ofElement.push_back(cost);

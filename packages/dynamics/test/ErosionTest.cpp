@@ -117,7 +117,7 @@ TEST(Erosion, damageIsAGateForTheOtherLimits)
     Model model = stretchedColumn(comm);
     PseudoCapParameters concrete = concreteC40();
     concrete.fractureEnergy = 1000; // elements of 1 m shall not spring back
-    model.blocks[0].material = makePseudoCap(concrete);
+    model.blocks[0].material = makeLaw(concrete);
     model.blocks[0].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.5}; };
     model.blocks[0].erosion.volumeRatio = {0.5, 1 + 1e-9};
     model.blocks[0].erosion.damage = damage;

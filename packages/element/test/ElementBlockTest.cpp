@@ -145,7 +145,8 @@ TEST(ElementBlock, plasticElementStaysOnTheYieldSurfaceAndBooksWhatItDissipates)
   // Pure shear v_x = rate y of a unit cube with Y = 100 MPa, H = 0: tau = Y/sqrt(3), dissipation
   // about tau times plastic shear.
   const TestMesh mesh = distorted(ElementType::Hex8, 1, 0);
-  ElementBlock block(ElementType::Hex8, makeJ2Plasticity(200e9, 0.3, 7850, 100e6, 0), {},
+  ElementBlock block(ElementType::Hex8,
+                     makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 100e6, 0), {},
                      noViscosity, mesh.connectivity);
   block.initialise(mesh.x);
   const NodeVectors v = field(mesh.x, [](const Vec3& p) { return Vec3{p.y, 0, 0}; });
@@ -266,7 +267,7 @@ TEST(ElementBlock, anErodedElementGivesNoForceAndStaysAsItWas)
   for (const ElementType type : allTypes)
   {
     const TestMesh mesh = distorted(type, 3, 0.2);
-    const Material soft = makeJ2Plasticity(200e9, 0.3, 7850, 1e6, 0);
+    const Material soft = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 1e6, 0);
     ElementBlock block(type, soft, {0.1, 0.1}, {}, mesh.connectivity);
     ElementBlock whole(type, soft, {0.1, 0.1}, {}, mesh.connectivity);
     block.initialise(mesh.x);

@@ -10,7 +10,7 @@ using namespace coplane::testMeshes;
 
 namespace
 {
-const Material steel = makeJ2Plasticity(200e9, 0.3, 7850, 200e6, 1e9);
+const Material steel = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 200e6, 1e9);
 
 /// Some cycles of large motion; the same nodal history whatever the block is made of.
 void play(ElementBlock& block, const TestMesh& mesh)

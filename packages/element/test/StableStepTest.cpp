@@ -165,7 +165,7 @@ TEST(StableStep, ofAGasIsThatOfItsSound)
 {
   // Without shear only the volume vibrates: omega^2 = (n/rho) K tr(g), tr(g) = 2/h^2 (square, n =
   // 4) and 3/(2 h^2) (cube, n = 8), so dt = h/c over sqrt(2) and over sqrt(3).
-  const Material law = makeIdealGas(1.2, 1.4, 1e5);
+  const Material law = makeLaw(IdealGasParameters{1.2, 1.4, 1e5});
   for (const ElementType type : {ElementType::Quad4, ElementType::Hex8})
   {
     const TestMesh mesh = distorted(type, 1, 0);

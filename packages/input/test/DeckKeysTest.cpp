@@ -1,6 +1,7 @@
 #include "TestDecks.hpp"
 
 #include <coplane_input/DeckSchema.hpp>
+#include <coplane_material/MaterialModel.hpp>
 #include <coplane_schema/Schema.hpp>
 
 #include <fmt/format.h>
@@ -28,6 +29,8 @@ materials:
     dilation: 0.1}
   mohr_coulomb: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, cohesion: 4e6, friction: 0.5,
     tensile_strength: 1e6}
+  hoek_brown: {model: hoek_brown, density: 1, youngs_modulus: 1e9, poisson_ratio: 0, intact_strength: 60e6,
+               intact_constant: 10, gsi: 60, residual_gsi: 30, shear_energy: 5e3}
   rock: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, plastic_shears: [0, 0.1],
     cohesions: [3e6, 2e6], frictions: [0.6, 0.3]}
   johnson_cook: {model: johnson_cook, density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1, heat_capacity: 1}
@@ -141,18 +144,11 @@ std::string show(const Deck& d)
           d.rebalanceAbove, d.geometry, d.checkpoint.file, d.checkpoint.everyCycles,
           d.checkpoint.everySeconds, d.checkpoint.atEnd);
   for (const auto& m : d.materials)
-    showAll(out, m.name, m.set, m.model, m.density, m.youngsModulus, m.poissonRatio, m.shearModulus,
-            m.yieldStress, m.hardeningModulus, m.plasticStrains, m.yieldStresses,
-            m.kinematicModulus, m.hardeningExponent, m.rateFactor, m.thermalExponent,
-            m.meltingTemperature, m.roomTemperature, m.heatCapacity, m.heatFraction, m.fracture,
-            m.eos, m.soundSpeed, m.shockSlope, m.grueneisen, m.distension, m.crushStart, m.crushEnd,
-            m.heatRatio, m.pressure, m.cohesion, m.residualCohesion, m.friction, m.dilation, m.fit,
-            m.compressiveStrength, m.tensileStrength, m.fractureEnergy, m.shearEnergy,
-            m.plasticShears, m.cohesions, m.frictions, m.porosity, m.grainModulus, m.grainSlope,
-            m.crushPressure, m.crushHardening, m.capRatio, m.shearCompaction, m.rateEffects,
-            m.largestRate, m.cohesiveFactor, m.pressureFactor, m.pressureExponent,
-            m.largestStrength, m.leastFractureStrain, m.damageFactor, m.damageExponent,
-            m.crushCompression, m.lockPressure, m.lockCompression, m.lockModuli);
+  {
+    showAll(out, m.name, m.set, m.model);
+    for (const Key& key : findMaterialModel(m.model)->keys)
+      showAll(out, key.show(m.parameters.get()));
+  }
   for (const auto& b : d.blocks)
   {
     showAll(out, b.name, b.material, b.element, b.objectiveRate, b.hourglassStiffness,

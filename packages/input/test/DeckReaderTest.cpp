@@ -1,6 +1,7 @@
 #include "TestDecks.hpp"
 
 #include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/MaterialCards.hpp>
 
 #include <TestFolder.hpp>
 
@@ -50,7 +51,8 @@ TEST(DeckReader, readsTheManualsDeck)
   const Deck deck = parseDeck(wall, "decks/wall.yaml");
   ASSERT_EQ(deck.materials.size(), 2u);
   EXPECT_EQ(deck.materials[0].name, "steel");
-  EXPECT_EQ(deck.materials[0].youngsModulus, 200e9);
+  EXPECT_EQ(static_cast<const J2Parameters*>(deck.materials[0].parameters.get())->youngsModulus,
+            200e9);
   EXPECT_EQ(deck.materials[1].model, "linear_elastic");
   ASSERT_EQ(deck.joints.size(), 3u);
   EXPECT_EQ(deck.joints[0].stiffnessCap, 2e11);
@@ -170,7 +172,9 @@ TEST(DeckSet, reachesNamesWithDots)
                            "youngs_modulus: 200e9, poisson_ratio: 0.3}}\n"
                            "blocks: {bar: {material: steel.1}}\n"
                            "time: {end: 1}\n";
-  EXPECT_EQ(parseDeck(text, "wall.yaml", {"materials.steel.1.density=9"}).materials[0].density, 9);
+  EXPECT_EQ(density(materialOf(
+                parseDeck(text, "wall.yaml", {"materials.steel.1.density=9"}).materials[0])),
+            9);
 }
 
 TEST(DeckSet, changesOneOfTwoAliasedCards)
@@ -183,8 +187,8 @@ TEST(DeckSet, changesOneOfTwoAliasedCards)
                            "blocks: {bar: {material: a}}\n"
                            "time: {end: 1}\n";
   const Deck deck = parseDeck(text, "wall.yaml", {"materials.a.density=5"});
-  EXPECT_EQ(deck.materials[0].density, 5);
-  EXPECT_EQ(deck.materials[1].density, 1);
+  EXPECT_EQ(density(materialOf(deck.materials[0])), 5);
+  EXPECT_EQ(density(materialOf(deck.materials[1])), 1);
 }
 
 TEST(DeckPairs, theFirstItemThatFitsCountsInEitherOrder)

@@ -58,8 +58,9 @@ TEST(MaterialCards, valuesOfACardOverruleItsSet)
                               "1}\n",
                               "wall.yaml", {"materials.concrete_c40.fracture_energy=100"});
   ASSERT_EQ(deck.materials.size(), 1u);
-  EXPECT_EQ(deck.materials[0].fractureEnergy, 100);
-  EXPECT_EQ(deck.materials[0].compressiveStrength, 40e6);
+  const auto given = std::get<PseudoCap>(materialOf(deck.materials[0]));
+  EXPECT_EQ(given.fractureEnergy, 100);
+  EXPECT_EQ(given.strength, 40e6);
 }
 
 TEST(MaterialCards, aCardOfTheDeckHidesASetOfTheSameName)
@@ -70,7 +71,7 @@ TEST(MaterialCards, aCardOfTheDeckHidesASetOfTheSameName)
                     "1}\n",
                 "wall.yaml");
   ASSERT_EQ(deck.materials.size(), 1u);
-  EXPECT_EQ(deck.materials[0].density, 7850);
+  EXPECT_EQ(density(materialOf(deck.materials[0])), 7850);
 }
 
 TEST(MaterialCards, unknownSetsAreNamedWithASuggestion)
@@ -116,8 +117,7 @@ TEST(MaterialCards, impossibleConcretesAreRefused)
              "materials.m.poisson_ratio = '0.5' is out of range");
   expectPart(problemOf("set: concrete_hjc_48, crush_pressure: 900e6"),
              "materials.m: crush pressure is 900000000 Pa");
-  expectPart(problemOf("set: clay_brick, tensile_strength: 6e6"),
-             "at most cohesion / tan(friction angle)");
+  expectPart(problemOf("set: clay_brick, tensile_strength: 6e6"), "at most cohesion / friction");
 }
 
 TEST(MaterialCards, anglesAreGivenByTheirTangents)

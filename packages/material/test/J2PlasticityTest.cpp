@@ -12,8 +12,8 @@ using coplane::testing::advance;
 
 namespace
 {
-const J2Plasticity steel = makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9);
-const J2Plasticity perfect = makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 0);
+const J2Plasticity steel = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 1e9);
+const J2Plasticity perfect = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 0);
 
 Real vonMises(const SymTensor& s)
 {

@@ -3,6 +3,7 @@
 #include <coplane_material/Material.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -93,19 +94,62 @@ inline HolmquistJohnsonCook concreteHjc48()
   return completed(law);
 }
 
+/// Rock of 20 GPa with Mohr and Coulomb's strength; angles in radians.
+inline MohrCoulombParameters rockOf(Real frictionAngle, Real dilationAngle, Real cohesion,
+                                    Real residualCohesion, Real tensileStrength,
+                                    Real shearEnergy = 0, Real fractureEnergy = 0)
+{
+  MohrCoulombParameters p;
+  p.density = 2500;
+  p.youngsModulus = 20e9;
+  p.poissonRatio = 0.25;
+  p.friction = std::tan(frictionAngle);
+  p.dilation = std::tan(dilationAngle);
+  p.cohesion = cohesion;
+  p.residualCohesion = residualCohesion;
+  p.tensileStrength = tensileStrength;
+  p.shearEnergy = shearEnergy;
+  p.fractureEnergy = fractureEnergy;
+  return p;
+}
+
+/// The same rock with Drucker and Prager's cone.
+inline DruckerPrager coneOf(Real frictionAngle, Real dilationAngle, Real cohesion,
+                            DruckerPragerFit fit)
+{
+  DruckerPragerParameters p;
+  p.density = 2500;
+  p.youngsModulus = 20e9;
+  p.poissonRatio = 0.25;
+  p.friction = std::tan(frictionAngle);
+  p.dilation = std::tan(dilationAngle);
+  p.cohesion = cohesion;
+  p.fit = fit;
+  return makeLaw(p);
+}
+
 inline std::vector<NamedLaw> allLaws()
 {
   const LinearElastic steel = makeLinearElastic(200e9, 0.3, 7850);
-  const LinearElastic rock = makeLinearElastic(20e9, 0.25, 2500);
   const auto shocked = [&](const EquationOfState& eos)
   {
     return makeHardeningPlasticity(withBulkModulus(steel, eos.stiffness / eos.distension), eos, {0},
                                    {400e6}, 0);
   };
   PseudoCapParameters fast = concreteC40();
-  fast.largestRate = 300;
-  HoekBrownParameters mass{2500, 20e9, 0.25, 50e6, 10, 60};
-  mass.dilationTangent = 0.2;
+  fast.rateEffects = true;
+  MohrCoulombParameters table = rockOf(0, 0.2, 0, 0, 2e6, 0, 100);
+  table.plasticShears = {0, 0.002, 0.01};
+  table.cohesions = {5e6, 3e6, 1e6};
+  table.frictions = {0.7, 0.6, 0.4};
+  HoekBrownParameters mass;
+  mass.density = 2500;
+  mass.youngsModulus = 20e9;
+  mass.poissonRatio = 0.25;
+  mass.intactStrength = 50e6;
+  mass.intactConstant = 10;
+  mass.gsi = 60;
+  mass.dilation = 0.2;
   HoekBrownParameters softening = mass;
   softening.tensileStrength = 0.15e6;
   softening.residualGsi = 25;
@@ -114,28 +158,23 @@ inline std::vector<NamedLaw> allLaws()
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
-  return {
-      {"linearElastic", steel, 1e-3},
-      {"j2Plasticity", makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9), 0.01},
-      {"hardeningPlasticity",
-       makeHardeningPlasticity(steel, {}, {0, 0.002, 0.02}, {300e6, 350e6, 420e6}, 2e9), 0.01},
-      {"j2MieGrueneisen", shocked(steelShock()), 0.05},
-      {"j2PAlpha", shocked(porousShock()), 0.05},
-      {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
-      {"druckerPrager", makeDruckerPrager(rock, 0.6, 0.2, 2e6, DruckerPragerFit::Compression),
-       0.005},
-      {"mohrCoulomb", makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 1e6, 2e6, 500, 100}), 0.005},
-      {"mohrCoulombTresca", makeMohrCoulomb(rock, {0, 0, 5e6, 5e6, 20e6}), 0.005},
-      {"mohrCoulombTable",
-       makeMohrCoulomb(
-           rock, {0, 0.2, 0, 0, 2e6, 0, 100, {0, 0.002, 0.01}, {5e6, 3e6, 1e6}, {0.7, 0.6, 0.4}}),
-       0.005},
-      {"hoekBrown", makeLaw(mass), 0.005},
-      {"hoekBrownSoftening", makeLaw(softening), 0.005},
-      {"johnsonCook", steel4340(), 0.05},
-      {"johnsonCookMieGrueneisen", checked(hot), 0.05},
-      {"pseudoCap", makePseudoCap(concreteC40()), 0.01},
-      {"pseudoCapRates", makePseudoCap(fast), 0.01},
-      {"hjc", concreteHjc48(), 0.01}};
+  return {{"linearElastic", steel, 1e-3},
+          {"j2Plasticity", makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 1e9), 0.01},
+          {"hardeningPlasticity",
+           makeHardeningPlasticity(steel, {}, {0, 0.002, 0.02}, {300e6, 350e6, 420e6}, 2e9), 0.01},
+          {"j2MieGrueneisen", shocked(steelShock()), 0.05},
+          {"j2PAlpha", shocked(porousShock()), 0.05},
+          {"neoHookean", NeoHookean{makeLinearElastic(3e6, 0.4, 1000)}, 0.3},
+          {"druckerPrager", coneOf(0.6, 0.2, 2e6, DruckerPragerFit::Compression), 0.005},
+          {"mohrCoulomb", makeLaw(rockOf(0.6, 0.2, 5e6, 1e6, 2e6, 500, 100)), 0.005},
+          {"mohrCoulombTresca", makeLaw(rockOf(0, 0, 5e6, 5e6, 20e6)), 0.005},
+          {"mohrCoulombTable", makeLaw(table), 0.005},
+          {"hoekBrown", makeLaw(mass), 0.005},
+          {"hoekBrownSoftening", makeLaw(softening), 0.005},
+          {"johnsonCook", steel4340(), 0.05},
+          {"johnsonCookMieGrueneisen", checked(hot), 0.05},
+          {"pseudoCap", makeLaw(concreteC40()), 0.01},
+          {"pseudoCapRates", makeLaw(fast), 0.01},
+          {"hjc", concreteHjc48(), 0.01}};
 }
 } // namespace coplane::testing

@@ -19,7 +19,7 @@ TEST(Material, modulusOfCompressionWavesFollowsFromYoungAndPoisson)
 
 TEST(Material, plasticLawsHaveTheElasticPartOfTheirConstants)
 {
-  const Material plastic = makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 0);
+  const Material plastic = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 0);
   EXPECT_EQ(soundSpeed(plastic), soundSpeed(makeLinearElastic(200e9, 0.3, 7850)));
 }
 
@@ -39,6 +39,6 @@ TEST(Material, impossibleConstantsAreRefusedWithTheNumberAndTheRange)
   EXPECT_THROW(makeLinearElastic(-1, 0.3, 7850), Error);
   EXPECT_THROW(makeLinearElastic(200e9, 0.3, 0), Error);
   EXPECT_THROW(makeLinearElastic(std::nan(""), 0.3, 1), Error);
-  EXPECT_THROW(makeJ2Plasticity(200e9, 0.3, 7850, 0, 0), Error);
-  EXPECT_THROW(makeJ2Plasticity(200e9, 0.3, 7850, 1, -1), Error);
+  EXPECT_THROW(makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 0, 0), Error);
+  EXPECT_THROW(makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 1, -1), Error);
 }

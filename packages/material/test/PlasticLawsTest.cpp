@@ -17,7 +17,6 @@ namespace
 {
 const Record nobody = [](const MaterialProbe&) {};
 const LinearElastic steel = makeLinearElastic(200e9, 0.3, 7850);
-const LinearElastic rock = makeLinearElastic(20e9, 0.25, 2500);
 constexpr Real degree = pi / 180;
 
 /// The stress after one step of plain strain increments from a stress.
@@ -32,7 +31,7 @@ MaterialProbe after(const Material& law, const SymTensor& start, const Mat3& l)
 TEST(HardeningPlasticity, withOneSlopeIsTheLinearLaw)
 {
   const Material table = makeHardeningPlasticity(steel, {}, {0, 1}, {400e6, 400e6 + 1e9}, 0);
-  const Material linear = makeJ2Plasticity(200e9, 0.3, 7850, 400e6, 1e9);
+  const Material linear = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 1e9);
   MaterialProbe a(table, 1), b(linear, 1);
   std::mt19937 random(1);
   std::uniform_real_distribution<Real> uniform(-2e-3, 2e-3);
@@ -153,8 +152,7 @@ TEST(DruckerPrager, fitToCompressionHasMohrCoulombsStrengthThere)
 {
   // phi = 30 deg: N = 3. sigma_1 = 2 c sqrt(N) + N sigma_3.
   const Real c = 2e6;
-  const Material law =
-      makeDruckerPrager(rock, 30 * degree, 10 * degree, c, DruckerPragerFit::Compression);
+  const Material law = coneOf(30 * degree, 10 * degree, c, DruckerPragerFit::Compression);
   for (const Real lateral : {0.0, 5e6})
   {
     MaterialProbe probe(law, 1, {-lateral, -lateral, -lateral, 0, 0, 0});
@@ -170,7 +168,7 @@ TEST(DruckerPrager, fitToPlaneStrainHasMohrCoulombsLimitThere)
 {
   // psi = phi, plane strain: at the limit (s1 - s3)/2 = c cos phi + (s1 + s3)/2 sin phi.
   const Real c = 2e6, phi = 30 * degree;
-  MaterialProbe probe(makeDruckerPrager(rock, phi, phi, c, DruckerPragerFit::PlaneStrain), 1);
+  MaterialProbe probe(coneOf(phi, phi, c, DruckerPragerFit::PlaneStrain), 1);
   ProbeStep step;
   step.stressGiven = {false, true, false, false, false, false};
   step.value = {-1e-4, 0, 0, 0, 0, 0};
@@ -181,8 +179,7 @@ TEST(DruckerPrager, fitToPlaneStrainHasMohrCoulombsLimitThere)
 
 TEST(DruckerPrager, tensionEndsAtTheTip)
 {
-  const DruckerPrager law =
-      makeDruckerPrager(rock, 30 * degree, 10 * degree, 2e6, DruckerPragerFit::Compression);
+  const DruckerPrager law = coneOf(30 * degree, 10 * degree, 2e6, DruckerPragerFit::Compression);
   const auto probe = after(law, {}, Mat3{{{2e-3, 1e-4, 0}, {1e-4, 2e-3, 0}, {0, 0, 2.1e-3}}});
   EXPECT_NEAR(-probe.pressure(), law.strength / law.frictionSlope, 1e-3);
   EXPECT_NEAR(probe.vonMises(), 0, 1e-3);
@@ -191,7 +188,7 @@ TEST(DruckerPrager, tensionEndsAtTheTip)
 TEST(MohrCoulomb, uniaxialAndTriaxialStrengthsFollowTheAngles)
 {
   const Real c = 5e6;
-  const Material law = makeMohrCoulomb(rock, {30 * degree, 10 * degree, c, c, 2e6});
+  const Material law = makeLaw(rockOf(30 * degree, 10 * degree, c, c, 2e6));
   for (const Real lateral : {0.0, 5e6})
   {
     MaterialProbe probe(law, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0});
@@ -217,7 +214,7 @@ TEST(MohrCoulomb, everyTrialStressReturnsToTheSurface)
   for (const auto& [phi, psi, ft] :
        {std::array<Real, 3>{35, 10, 2e6}, {35, 35, 2e6}, {0, 0, 3e6}, {20, 0, 13e6}, {45, 5, 0}})
   {
-    const MohrCoulomb law = makeMohrCoulomb(rock, {phi * degree, psi * degree, 5e6, 5e6, ft});
+    const MohrCoulomb law = makeLaw(rockOf(phi * degree, psi * degree, 5e6, 5e6, ft));
     std::mt19937 random(7);
     std::uniform_real_distribution<Real> uniform(-2e-3, 2e-3);
     int onPlane = 0, onCut = 0, onBoth = 0;
@@ -253,7 +250,7 @@ TEST(MohrCoulomb, everyTrialStressReturnsToTheSurface)
 TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
 {
   // Tension: G_I. Exact in the limit of small steps: 2000 of them, 1 %.
-  const Material law = makeMohrCoulomb(rock, {30 * degree, 0, 5e6, 5e6, 2e6, 0, 100});
+  const Material law = makeLaw(rockOf(30 * degree, 0, 5e6, 5e6, 2e6, 0, 100));
   for (const Real size : {0.01, 0.05, 0.2})
   {
     MaterialProbe probe(law, size);
@@ -262,7 +259,7 @@ TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
     EXPECT_LT(probe.stress().xx, 2e6 * 1e-3);
   }
   // Shear without friction: tau = c on the slip plane, G_II.
-  const Material clay = makeMohrCoulomb(rock, {0, 0, 5e6, 0, 20e6, 1000, 0});
+  const Material clay = makeLaw(rockOf(0, 0, 5e6, 0, 20e6, 1000, 0));
   for (const Real size : {0.01, 0.1})
   {
     MaterialProbe probe(clay, size);
@@ -273,8 +270,8 @@ TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
 
 MohrCoulombParameters softening()
 {
-  MohrCoulombParameters p{0, 0, 0, 0, 2e6};
-  p.shears = {0, 0.01, 0.03};
+  MohrCoulombParameters p = rockOf(0, 0, 0, 0, 2e6);
+  p.plasticShears = {0, 0.01, 0.03};
   p.cohesions = {5e6, 2e6, 1e6};
   p.frictions = {0.7, 0.6, 0.4};
   return p;
@@ -284,7 +281,7 @@ TEST(MohrCoulomb, cohesionAndFrictionFollowTheirTable)
 {
   // Without dilation the plastic shear of uniaxial compression is that between its axes; strengths
   // are those at the start of a step, so half a step's shear off.
-  const MohrCoulomb table = makeMohrCoulomb(rock, softening());
+  const MohrCoulomb table = makeLaw(softening());
   const Material law = table;
   MaterialProbe probe(law, 0.1);
   Real before = 0;
@@ -313,8 +310,8 @@ TEST(MohrCoulomb, cohesionAndFrictionFollowTheirTable)
   MohrCoulombParameters constant = softening();
   constant.cohesions = {5e6, 5e6, 5e6};
   constant.frictions = {0.7, 0.7, 0.7};
-  const Material flat = makeMohrCoulomb(rock, constant),
-                 plain = makeMohrCoulomb(rock, {std::atan(0.7), 0, 5e6, 5e6, 2e6});
+  const Material flat = makeLaw(constant),
+                 plain = makeLaw(rockOf(std::atan(0.7), 0, 5e6, 5e6, 2e6));
   for (const Real lateral : {0.0, 5e6})
   {
     MaterialProbe a(flat, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0}),
@@ -331,23 +328,23 @@ TEST(MohrCoulomb, badTablesAreRefused)
   {
     MohrCoulombParameters p = softening();
     change(p);
-    EXPECT_THROW(makeMohrCoulomb(rock, p), Error);
+    EXPECT_THROW(makeLaw(p), Error);
   };
-  refused([](auto& p) { p.shears = {0}; });
-  refused([](auto& p) { p.shears = {0.1, 0.2, 0.3}; });
-  refused([](auto& p) { p.shears = {0, 0.2, 0.1}; });
+  refused([](auto& p) { p.plasticShears = {0}; });
+  refused([](auto& p) { p.plasticShears = {0.1, 0.2, 0.3}; });
+  refused([](auto& p) { p.plasticShears = {0, 0.2, 0.1}; });
   refused([](auto& p) { p.cohesions = {5e6, 2e6}; });
   refused([](auto& p) { p.frictions = {0.7, -0.1, 0.2}; });
-  refused([](auto& p) { p.dilationAngle = 0.5; }); // above the last friction
+  refused([](auto& p) { p.dilation = 0.5; }); // above the last friction
   refused([](auto& p) { p.shearEnergy = 100; });
 }
 
 TEST(MohrCoulomb, badParametersAreRefused)
 {
-  EXPECT_THROW(makeMohrCoulomb(rock, {0.6, 0.7, 5e6, 5e6, 2e6}), Error); // dilation > friction
-  EXPECT_THROW(makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 6e6, 2e6}), Error);
-  EXPECT_THROW(makeMohrCoulomb(rock, {0.6, 0.2, 5e6, 5e6, 8e6}), Error); // beyond the tip
-  EXPECT_THROW(makeMohrCoulomb(rock, {0.6, 0.2, 0, 0, 0}), Error);
+  EXPECT_THROW(makeLaw(rockOf(0.6, 0.7, 5e6, 5e6, 2e6)), Error); // dilation > friction
+  EXPECT_THROW(makeLaw(rockOf(0.6, 0.2, 5e6, 6e6, 2e6)), Error);
+  EXPECT_THROW(makeLaw(rockOf(0.6, 0.2, 5e6, 5e6, 8e6)), Error); // beyond the tip
+  EXPECT_THROW(makeLaw(rockOf(0.6, 0.2, 0, 0, 0)), Error);
 }
 
 TEST(Principal, valuesAndAxesRebuildTheTensor)

@@ -17,7 +17,7 @@ using namespace coplane::testing;
 
 namespace
 {
-const PseudoCap c40 = makePseudoCap(concreteC40());
+const PseudoCap c40 = makeLaw(concreteC40());
 const Material concrete = c40;
 constexpr Real size = 0.01; // [m]
 
@@ -298,7 +298,7 @@ TEST(PseudoCap, badParametersAreRefusedWithTheNumber)
     change(parameters);
     try
     {
-      makePseudoCap(parameters);
+      makeLaw(parameters);
       ADD_FAILURE() << part;
     }
     catch (const Error& error)
@@ -306,7 +306,7 @@ TEST(PseudoCap, badParametersAreRefusedWithTheNumber)
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
     }
   };
-  refused([](auto& p) { p.strength = -40e6; }, "compressive strength is -40000000 Pa");
+  refused([](auto& p) { p.compressiveStrength = -40e6; }, "compressive strength is -40000000 Pa");
   refused([](auto& p) { p.tensileStrength = 50e6; }, "tensile strength is 50000000 Pa");
   refused([](auto& p) { p.porosity = 0; }, "porosity is 0");
   refused([](auto& p) { p.grainModulus = 10e9; }, "bulk modulus of the grains is 10000000000 Pa");

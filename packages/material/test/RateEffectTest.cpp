@@ -40,6 +40,7 @@ Real ceb(Real rate, Real megapascals)
 PseudoCapParameters fastC40(Real largestRate = 1000)
 {
   PseudoCapParameters parameters = concreteC40();
+  parameters.rateEffects = true;
   parameters.largestRate = largestRate;
   return parameters;
 }
@@ -130,7 +131,7 @@ TEST(RateEffect, uniaxialStrengthsGrowAsTheFactorsSay)
   // as fast compression would reach it: pl = 2 GPa.
   PseudoCapParameters parameters = fastC40();
   parameters.crushPressure = 4e9;
-  const Material law = makePseudoCap(parameters);
+  const Material law = makeLaw(parameters);
   for (const Real rate : ratesOfTests())
   {
     const Real tension = 4e6 * malvarAndRoss(rate, 40), compression = 40e6 * ceb(rate, 40);
@@ -145,7 +146,7 @@ TEST(RateEffect, uniaxialStrengthsGrowAsTheFactorsSay)
 
 TEST(RateEffect, meanTensionAndShearGrowAsTension)
 {
-  const Material law = makePseudoCap(fastC40());
+  const Material law = makeLaw(fastC40());
   for (const Real rate : {1e-6, 1e-2, 1.0, 100.0})
   {
     const Real factor = malvarAndRoss(rate, 40);
@@ -181,13 +182,13 @@ TEST(RateEffect, aCrackTakesTheFactorTimesTheFractureEnergy)
   for (const Real rate : {1e-6, 1e-2, 10.0})
   {
     const Real factor = malvarAndRoss(rate, 40);
-    MaterialProbe probe(makePseudoCap(fastC40()), size);
+    MaterialProbe probe(makeLaw(fastC40()), size);
     const int steps = 12000;
     for (int i = 0; i < steps; ++i)
       probe.advance(alongX(0.03 / steps, rate));
     // Opening by 1 - exp(-w ft / G_F) of it; the opening is the strain less what is elastic.
     EXPECT_NEAR(probe.energy() * size, factor * 120, 0.01 * factor * 120) << rate;
-    EXPECT_NEAR(probe.dissipation() + storedBy(probe, makePseudoCap(fastC40())), probe.energy(),
+    EXPECT_NEAR(probe.dissipation() + storedBy(probe, makeLaw(fastC40())), probe.energy(),
                 2e-4 * probe.energy());
   }
 }
@@ -196,7 +197,7 @@ TEST(RateEffect, energyClosesWhenTheRateChangesOnTheWay)
 {
   // Loaded fast, then held, unloaded and loaded again slowly and fast: when the rate falls the
   // stress falls at once, and what it loses has to be found in the dissipation.
-  const PseudoCap law = makePseudoCap(fastC40());
+  const PseudoCap law = makeLaw(fastC40());
   struct Leg
   {
     Real strain, rate; // at the end [-], [1/s]
@@ -243,7 +244,7 @@ TEST(RateEffect, energyClosesWhenTheRateChangesOnTheWay)
 TEST(RateEffect, slowLoadingHasTheBitsOfTheLawWithoutRates)
 {
   // Below 1e-6/s both factors are 1; p / 1 and 1 Y are exact.
-  const Material plain = makePseudoCap(concreteC40()), fast = makePseudoCap(fastC40());
+  const Material plain = makeLaw(concreteC40()), fast = makeLaw(fastC40());
   MaterialProbe a(plain, size), b(fast, size);
   const SymTensor strains[] = {{1e-4, -2e-4, 3e-4, 2e-4, 0, -1e-4},
                                {-4e-3, -2e-3, -3e-3, 1e-3, 2e-3, 0},

@@ -64,7 +64,7 @@ TEST(EquationOfState, fluidReachesTheShockLineWithoutStrength)
 
 TEST(EquationOfState, idealGasFollowsItsAdiabatToTheSecondOrder)
 {
-  const Material law = makeIdealGas(1.2, 1.4, 1e5);
+  const Material law = makeLaw(IdealGasParameters{1.2, 1.4, 1e5});
   const auto error = [&](int steps)
   {
     MaterialProbe probe(law, 1, {-1e5, -1e5, -1e5, 0, 0, 0});

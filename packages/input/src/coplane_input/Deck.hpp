@@ -6,6 +6,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,71 +20,9 @@ namespace coplane
 struct MaterialCard
 {
   std::string name, where;
-  std::string set;        ///< of the library, from which keys that are not given come
-  std::string model;      ///< linear_elastic | j2 | neo_hookean | drucker_prager | mohr_coulomb |
-                          ///< johnson_cook | pseudo_cap | hjc | fluid | ideal_gas
-  Real density = 0;       ///< [kg/m^3]
-  Real youngsModulus = 0; ///< [Pa]
-  Real poissonRatio = 0;  ///< [-]
-  Real shearModulus = 0;  ///< hjc [Pa]
-
-  // metals
-  Real yieldStress = 0; ///< j2, johnson_cook (A) [Pa]
-  Real hardeningModulus =
-      0; ///< j2, linear isotropic: slope over plastic strain; johnson_cook: B [Pa]
-  std::vector<Real> plasticStrains, yieldStresses; ///< j2: a table [-], [Pa]
-  Real kinematicModulus = 0;                       ///< j2 [Pa]
-  Real hardeningExponent = 1;                      ///< johnson_cook: n [-]
-  Real rateFactor = 0;                             ///< johnson_cook, hjc: C [-]
-  Real thermalExponent = 1;                        ///< johnson_cook: m [-]
-  Real meltingTemperature = 0;                     ///< [K]; 0: no thermal softening
-  Real roomTemperature = 293;                      ///< [K]
-  Real heatCapacity = 0;                           ///< [J/(kg K)]
-  Real heatFraction = 0.9;                         ///< of plastic work [-]
-  std::vector<Real> fracture;                      ///< johnson_cook: D1...D5 [-]
-
-  // equation of state
-  std::string eos = "none"; ///< none | linear | mie_grueneisen | p_alpha
-  Real soundSpeed = 0;      ///< c0 [m/s]
-  Real shockSlope = 0;      ///< s [-]
-  Real grueneisen = 0;      ///< Gamma0 [-]
-  Real distension = 1;      ///< alpha0 [-]
-  Real crushStart = 0;      ///< p_e [Pa]
-  Real crushEnd = 0;        ///< p_s [Pa]
-  Real heatRatio = 0;       ///< ideal_gas: gamma [-]
-  Real pressure = 0;        ///< ideal_gas: of the first sound speed [Pa]
-
-  // rock and concrete
-  Real cohesion = 0;               ///< [Pa]
-  Real residualCohesion = 0;       ///< [Pa]
-  Real friction = 0;               ///< tan(phi) [-]
-  Real dilation = 0;               ///< tan(psi) [-]
-  std::string fit = "compression"; ///< drucker_prager: compression | plane_strain
-  Real compressiveStrength = 0;    ///< fc [Pa]
-  Real tensileStrength = 0;        ///< ft; hjc: T [Pa]
-  Real fractureEnergy = 0;         ///< G_F or G_I [J/m^2]
-  Real shearEnergy = 0;            ///< mohr_coulomb: G_II [J/m^2]
-  std::vector<Real> plasticShears, cohesions, frictions; ///< mohr_coulomb: a table [-], [Pa], [-]
-  Real porosity = 0;                                     ///< pseudo_cap [-]
-  Real grainModulus = 0;                                 ///< pseudo_cap: Ks [Pa]
-  Real grainSlope = 1.5;                                 ///< pseudo_cap: s [-]
-  Real crushPressure = 0;                                ///< pseudo_cap, hjc [Pa]
-  Real crushHardening = 0;                               ///< pseudo_cap: Ph [Pa]
-  Real capRatio = 0.5;                                   ///< pseudo_cap: Rc [-]
-  Real shearCompaction = 2;                              ///< pseudo_cap: mu_c [-]
-  bool rateEffects = false;                              ///< pseudo_cap
-  Real largestRate = 300;                                ///< pseudo_cap: of rate effects [1/s]
-  Real cohesiveFactor = 0;                               ///< hjc: A [-]
-  Real pressureFactor = 0;                               ///< hjc: B [-]
-  Real pressureExponent = 0;                             ///< hjc: N [-]
-  Real largestStrength = 0;                              ///< hjc: Smax [-]
-  Real leastFractureStrain = 0;                          ///< hjc: EFmin [-]
-  Real damageFactor = 0;                                 ///< hjc: D1 [-]
-  Real damageExponent = 1;                               ///< hjc: D2 [-]
-  Real crushCompression = 0;                             ///< hjc: mucrush [-]
-  Real lockPressure = 0;                                 ///< hjc: plock [Pa]
-  Real lockCompression = 0;                              ///< hjc: mulock [-]
-  std::vector<Real> lockModuli;                          ///< hjc: K1, K2, K3 [Pa]
+  std::string set;                  ///< of the library, from which keys that are not given come
+  std::string model;                ///< one of materialModels()
+  std::shared_ptr<void> parameters; ///< of the model; copies of a card share them
 };
 
 /// A limit on a variable of the law, by its name.

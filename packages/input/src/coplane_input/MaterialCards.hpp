@@ -13,9 +13,7 @@ std::vector<Key> materialCardKeys();
 /// The part `materials` of the deck's schema; its target is the Deck.
 Key materialKeys();
 
-/// Named sets of parameters, documented in docs/user/materials.md: cards as a deck would have them,
-/// as YAML.
-const char* materialLibrary();
+/// Named sets of parameters, documented in docs/user/materials.md.
 std::vector<std::string> materialSetNames();
 
 /// Fills cards that name a set with the keys of the set that they do not give themselves, and makes

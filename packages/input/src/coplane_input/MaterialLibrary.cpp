@@ -1,48 +1,24 @@
 #include "MaterialCards.hpp"
 
+#include <coplane_material/MaterialModel.hpp>
+
 namespace coplane
 {
-// Sources are in docs/user/materials.md.
-const char* materialLibrary()
+namespace
 {
-  return R"(
-steel_generic: {model: j2, density: 7850, youngs_modulus: 200e9, poisson_ratio: 0.3,
-                yield_stress: 1e9, hardening_modulus: 1e9}
-steel_4340: {model: johnson_cook, density: 7830, youngs_modulus: 201e9, poisson_ratio: 0.3,
-             yield_stress: 792e6, hardening_modulus: 510e6, hardening_exponent: 0.26,
-             rate_factor: 0.014, thermal_exponent: 1.03, melting_temperature: 1793,
-             heat_capacity: 477, fracture: [0.05, 3.44, -2.12, 0.002, 0.61],
-             eos: mie_grueneisen, sound_speed: 4570, shock_slope: 1.49, grueneisen: 1.93}
-copper_ofhc: {model: johnson_cook, density: 8960, youngs_modulus: 124e9, poisson_ratio: 0.34,
-              yield_stress: 90e6, hardening_modulus: 292e6, hardening_exponent: 0.31,
-              rate_factor: 0.025, thermal_exponent: 1.09, melting_temperature: 1356,
-              heat_capacity: 383, fracture: [0.54, 4.89, -3.03, 0.014, 1.12],
-              eos: mie_grueneisen, sound_speed: 3940, shock_slope: 1.489, grueneisen: 2.02}
-iron_armco: {model: johnson_cook, density: 7890, youngs_modulus: 207e9, poisson_ratio: 0.29,
-             yield_stress: 175e6, hardening_modulus: 380e6, hardening_exponent: 0.32,
-             rate_factor: 0.06, thermal_exponent: 0.55, melting_temperature: 1811,
-             heat_capacity: 452, fracture: [-2.2, 5.43, -0.47, 0.016, 0.63],
-             eos: mie_grueneisen, sound_speed: 4570, shock_slope: 1.49, grueneisen: 1.93}
-concrete_c40: {model: pseudo_cap, density: 2300, youngs_modulus: 33e9, poisson_ratio: 0.2,
-               compressive_strength: 40e6, tensile_strength: 4e6, fracture_energy: 120,
-               porosity: 0.08, grain_modulus: 40e9, grain_slope: 1.5, crush_pressure: 80e6,
-               crush_hardening: 300e6, cap_ratio: 0.5, shear_compaction: 2}
-concrete_hjc_48: {model: hjc, density: 2440, shear_modulus: 14.86e9, compressive_strength: 48e6,
-                  cohesive_factor: 0.79, pressure_factor: 1.6, pressure_exponent: 0.61,
-                  rate_factor: 0.007, largest_strength: 7, tensile_strength: 4e6,
-                  least_fracture_strain: 0.01, damage_factor: 0.04, damage_exponent: 1,
-                  crush_pressure: 16e6, crush_compression: 0.001, lock_pressure: 800e6,
-                  lock_compression: 0.1, lock_moduli: [85e9, -171e9, 208e9]}
-granite: {model: linear_elastic, density: 2650, youngs_modulus: 60e9, poisson_ratio: 0.25}
-clay_brick: {model: mohr_coulomb, density: 1800, youngs_modulus: 10e9, poisson_ratio: 0.15,
-             cohesion: 4.66e6, friction: 0.84, dilation: 0.18, tensile_strength: 2e6,
-             fracture_energy: 60, shear_energy: 600}
-)";
+/// Cards as a deck would have them; sources are in docs/user/materials.md.
+DeckNode libraryOfSets()
+{
+  std::string sets;
+  for (const MaterialModel& model : materialModels())
+    sets += model.sets;
+  return parseYaml(sets, "library of materials");
 }
+} // namespace
 
 std::vector<std::string> materialSetNames()
 {
-  const DeckNode library = parseYaml(materialLibrary(), "library of materials");
+  const DeckNode library = libraryOfSets();
   std::vector<std::string> names;
   for (const auto& [name, card] : library.entries)
     names.push_back(name.text);
@@ -51,7 +27,7 @@ std::vector<std::string> materialSetNames()
 
 void insertMaterialSets(DeckNode& root)
 {
-  const DeckNode library = parseYaml(materialLibrary(), "library of materials");
+  const DeckNode library = libraryOfSets();
   const auto child = [](DeckNode& node, const std::string& key) -> DeckNode*
   {
     for (auto& [name, value] : node.entries)

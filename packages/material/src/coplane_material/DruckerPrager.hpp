@@ -59,8 +59,15 @@ enum class DruckerPragerFit : int
   PlaneStrain  ///< the same limit load in plane strain, for equal friction and dilation
 };
 
-/// @param frictionAngle, dilationAngle [rad]; 0 <= dilation <= friction < pi/2
-/// @param cohesion [Pa]
-DruckerPrager makeDruckerPrager(const LinearElastic& elastic, Real frictionAngle,
-                                Real dilationAngle, Real cohesion, DruckerPragerFit fit);
+struct DruckerPragerParameters : ElasticParameters
+{
+  Real cohesion = 0; ///< [Pa]
+  Real friction = 0; ///< tan(phi) [-]
+  Real dilation = 0; ///< tan(psi) [-]; at most the friction
+  DruckerPragerFit fit = DruckerPragerFit::Compression;
+
+  static MaterialModel model();
+};
+/// Throws Error(ExitCode::Deck) with what is wrong.
+DruckerPrager makeLaw(const DruckerPragerParameters& parameters);
 } // namespace coplane

@@ -3,6 +3,10 @@
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/MaterialPoint.hpp>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace coplane
 {
 /// Pressure of volume and internal energy. Energies are per reference volume, so that of a unit of
@@ -135,4 +139,23 @@ struct EquationOfState
     return p;
   }
 };
+
+/// What a user says of an equation of state.
+struct EosParameters
+{
+  EquationOfState::Kind eos = EquationOfState::Kind::None;
+  Real soundSpeed = 0; ///< c0 of the solid [m/s]
+  Real shockSlope = 0; ///< s [-]
+  Real grueneisen = 0; ///< Gamma0 [-]
+  Real distension = 1; ///< alpha0 [-]
+  Real crushStart = 0; ///< p_e [Pa]
+  Real crushEnd = 0;   ///< p_s [Pa]
+};
+
+/// Their words in decks.
+const std::vector<std::pair<std::string, EquationOfState::Kind>>& eosWords();
+
+/// Throws Error(ExitCode::Deck) with what is missing.
+/// @param bulkModulus of the linear form of a solid [Pa]; 0: from density and sound speed
+EquationOfState equationOfState(const EosParameters& parameters, Real density, Real bulkModulus);
 } // namespace coplane

@@ -28,8 +28,24 @@ struct Fluid
   }
 };
 
-/// @param pressure of the initial stress of its blocks, from which the first sound speed comes [Pa]
-Fluid makeIdealGas(Real density, Real ratioOfSpecificHeats, Real pressure);
+struct IdealGasParameters
+{
+  Real density = 0;   ///< [kg/m^3]
+  Real heatRatio = 0; ///< gamma, ratio of specific heats [-]
+  Real pressure = 0;  ///< of the initial stress of its blocks, for the first sound speed [Pa]
+
+  static MaterialModel model();
+};
+/// Throws Error(ExitCode::Deck) with what is wrong.
+Fluid makeLaw(const IdealGasParameters& parameters);
+
+struct FluidParameters : EosParameters
+{
+  Real density = 0; ///< [kg/m^3]
+
+  static MaterialModel model();
+};
+Fluid makeLaw(const FluidParameters& parameters);
 
 /// @param eos any but None and IdealGas
 Fluid makeFluid(Real density, const EquationOfState& eos);

@@ -1,6 +1,7 @@
 #include <coplane_material/Demand.hpp>
-#include <coplane_material/Material.hpp>
+#include <coplane_material/MaterialModel.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace coplane
@@ -16,7 +17,7 @@ HoekBrown::Constants hoekBrownConstants(Real intactConstant, Real gsi, Real dist
 HoekBrown makeLaw(const HoekBrownParameters& p)
 {
   HoekBrown law{};
-  law.elastic = makeLinearElastic(p.youngsModulus, p.poissonRatio, p.density);
+  law.elastic = makeLaw(static_cast<const ElasticParameters&>(p));
   demand(p.intactStrength > 0 && std::isfinite(p.intactStrength), "intact strength",
          p.intactStrength, "Pa", "positive, e.g. 50e6");
   demand(p.intactConstant > 0 && std::isfinite(p.intactConstant), "intact constant m_i",
@@ -50,10 +51,91 @@ HoekBrown makeLaw(const HoekBrownParameters& p)
              "0 or more, and at most s sigma_ci / m_b = {:.6g} Pa, the tip of the criterion", tip));
   // N of the plane that touches the criterion in an unconfined test is (sqrt(1 + t^2) + t)^2.
   const Real slope = 1 + law.peak.a * law.peak.m * std::pow(law.peak.s, law.peak.a - 1);
-  const Real friction = 0.5 * (slope - 1) / std::sqrt(slope), t = p.dilationTangent;
+  const Real friction = 0.5 * (slope - 1) / std::sqrt(slope), t = p.dilation;
   demand(t >= 0 && t <= friction, "dilation", t, "",
          fmt::format("0 or more, and at most the friction without confinement ({:.6g})", friction));
   law.dilation = std::pow(std::sqrt(1 + t * t) + t, 2);
   return law;
+}
+
+namespace
+{
+/// By either softening: G E / (fall of the strength)^2.
+Real largestElement(const HoekBrownParameters& p)
+{
+  const HoekBrown law = makeLaw(p);
+  const auto limit = [&](Real energy, Real fall)
+  { return energy > 0 && fall > 0 ? energy * p.youngsModulus / (fall * fall) : infinity; };
+  return std::min(
+      limit(p.shearEnergy, law.uniaxialStrength(law.peak) - law.uniaxialStrength(law.residual)),
+      limit(p.fractureEnergy, law.tensileStrength));
+}
+} // namespace
+
+MaterialModel HoekBrownParameters::model()
+{
+  using P = HoekBrownParameters;
+  using namespace schema;
+  return MaterialModelOf<P>("hoek_brown", "Hoek and Brown's rock mass")
+      .costs(4)
+      .has(elasticKeys<P>())
+      .has({
+          number("intact_strength", &P::intactStrength)
+              .needed()
+              .in("Pa")
+              .above(0)
+              .like("50e6")
+              .means("sigma_ci, uniaxial strength of pieces without joints"),
+          number("intact_constant", &P::intactConstant)
+              .needed()
+              .in("-")
+              .above(0)
+              .like("12")
+              .means("m_i, 4 to 33 for rocks"),
+          number("gsi", &P::gsi)
+              .needed()
+              .in("-")
+              .above(0)
+              .atMost(100)
+              .like("50")
+              .means("geological strength index of the rock mass"),
+          number("disturbance", &P::disturbance)
+              .in("-")
+              .atLeast(0)
+              .atMost(1)
+              .like("0.5")
+              .means("D: 0 as found, 1 blasted"),
+          number("dilation", &P::dilation)
+              .in("-")
+              .atLeast(0)
+              .like("0.1")
+              .means("tangent of the dilation angle; flow is never more than normal to the "
+                     "criterion"),
+          number("tensile_strength", &P::tensileStrength)
+              .in("Pa")
+              .atLeast(0)
+              .defaultIs("the tip of the criterion")
+              .like("20e3")
+              .means("cut-off of the largest principal stress; at most the tip"),
+          number("residual_gsi", &P::residualGsi)
+              .in("-")
+              .above(0)
+              .atMost(100)
+              .defaultIs("gsi")
+              .like("20")
+              .means("geological strength index after much slip; needs shear_energy"),
+          number("shear_energy", &P::shearEnergy)
+              .in("J/m^2")
+              .atLeast(0)
+              .like("6e3")
+              .means("by which the uniaxial strength falls to the residual one, per area of a slip "
+                     "plane"),
+          number("fracture_energy", &P::fractureEnergy)
+              .in("J/m^2")
+              .atLeast(0)
+              .like("50")
+              .means("by which the cut-off falls, per area of a crack; 0: it stays"),
+      })
+      .softensUpTo(largestElement);
 }
 } // namespace coplane

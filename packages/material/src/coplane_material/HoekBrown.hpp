@@ -360,20 +360,19 @@ private:
 HoekBrown::Constants hoekBrownConstants(Real intactConstant, Real gsi, Real disturbance);
 
 /// What a user says of a rock mass.
-struct HoekBrownParameters
+struct HoekBrownParameters : ElasticParameters ///< of the rock mass
 {
-  Real density;                             ///< [kg/m^3]
-  Real youngsModulus;                       ///< of the rock mass [Pa]
-  Real poissonRatio;                        ///< [-]
-  Real intactStrength;                      ///< sigma_ci [Pa]
-  Real intactConstant;                      ///< m_i [-]
-  Real gsi;                                 ///< geological strength index [-]
-  Real disturbance = 0;                     ///< D: 0 as found, 1 blasted [-]
-  Real dilationTangent = 0;                 ///< tan(psi) [-]
-  std::optional<Real> tensileStrength = {}; ///< [Pa]; without: the tip of the criterion
-  std::optional<Real> residualGsi = {};     ///< [-]; without: gsi, no softening
-  Real shearEnergy = 0;                     ///< G_II, with a residual GSI below the first [J/m^2]
-  Real fractureEnergy = 0;                  ///< G_I [J/m^2]; 0: the cut-off does not fall
+  Real intactStrength = 0;             ///< sigma_ci [Pa]
+  Real intactConstant = 0;             ///< m_i [-]
+  Real gsi = 0;                        ///< geological strength index [-]
+  Real disturbance = 0;                ///< D: 0 as found, 1 blasted [-]
+  Real dilation = 0;                   ///< tan(psi) [-]
+  std::optional<Real> tensileStrength; ///< [Pa]; without: the tip of the criterion
+  std::optional<Real> residualGsi;     ///< [-]; without: gsi, no softening
+  Real shearEnergy = 0;                ///< G_II, with a residual GSI below the first [J/m^2]
+  Real fractureEnergy = 0;             ///< G_I [J/m^2]; 0: the cut-off does not fall
+
+  static MaterialModel model();
 };
 /// Throws Error(ExitCode::Deck) with what is wrong.
 HoekBrown makeLaw(const HoekBrownParameters& parameters);

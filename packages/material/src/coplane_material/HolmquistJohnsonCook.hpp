@@ -144,4 +144,29 @@ struct HolmquistJohnsonCook
 
 /// Finds what follows from the parameters and checks them: Error(ExitCode::Deck).
 HolmquistJohnsonCook completed(HolmquistJohnsonCook law);
+
+struct HolmquistJohnsonCookParameters
+{
+  Real density = 0;             ///< [kg/m^3]
+  Real shearModulus = 0;        ///< [Pa]
+  Real compressiveStrength = 0; ///< fc [Pa]
+  Real tensileStrength = 0;     ///< T [Pa]
+  Real cohesiveFactor = 0;      ///< A [-]
+  Real pressureFactor = 0;      ///< B [-]
+  Real pressureExponent = 0;    ///< N [-]
+  Real rateFactor = 0;          ///< C [-]
+  Real largestStrength = 0;     ///< Smax [-]
+  Real leastFractureStrain = 0; ///< EFmin [-]
+  Real damageFactor = 0;        ///< D1 [-]
+  Real damageExponent = 1;      ///< D2 [-]
+  Real crushPressure = 0;       ///< [Pa]
+  Real crushCompression = 0;    ///< mucrush [-]
+  Real lockPressure = 0;        ///< plock [Pa]
+  Real lockCompression = 0;     ///< mulock [-]
+  std::vector<Real> lockModuli; ///< K1, K2, K3 [Pa]
+
+  static MaterialModel model();
+};
+/// Throws Error(ExitCode::Deck) with what is wrong.
+HolmquistJohnsonCook makeLaw(const HolmquistJohnsonCookParameters& parameters);
 } // namespace coplane

@@ -56,4 +56,9 @@ struct J2Plasticity
                         partOfMean(q, point.bendingSquared);
   }
 };
+
+/// @param yieldStress [Pa], positive
+/// @param hardeningModulus [Pa], not negative
+J2Plasticity makeJ2Plasticity(const LinearElastic& elastic, Real yieldStress,
+                              Real hardeningModulus);
 } // namespace coplane

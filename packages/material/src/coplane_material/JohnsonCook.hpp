@@ -128,4 +128,22 @@ struct JohnsonCook
 
 /// The law itself, or Error(ExitCode::Deck) with what is wrong.
 JohnsonCook checked(const JohnsonCook& law);
+
+struct JohnsonCookParameters : ElasticParameters, EosParameters
+{
+  Real yieldStress = 0;        ///< A [Pa]
+  Real hardeningModulus = 0;   ///< B [Pa]
+  Real hardeningExponent = 1;  ///< n [-]
+  Real rateFactor = 0;         ///< C [-]
+  Real thermalExponent = 1;    ///< m [-]
+  Real meltingTemperature = 0; ///< [K]; 0: no thermal softening
+  Real roomTemperature = 293;  ///< [K]
+  Real heatCapacity = 0;       ///< [J/(kg K)]
+  Real heatFraction = 0.9;     ///< of plastic work [-]
+  std::vector<Real> fracture;  ///< D1...D5 [-]; empty: none
+
+  static MaterialModel model();
+};
+/// Throws Error(ExitCode::Deck) with what is wrong.
+JohnsonCook makeLaw(const JohnsonCookParameters& parameters);
 } // namespace coplane

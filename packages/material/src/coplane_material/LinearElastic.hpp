@@ -4,6 +4,8 @@
 
 namespace coplane
 {
+struct MaterialModel;
+
 /// Isotropic linear elasticity in rate form: stress increment = (K - 2G/3) tr(de) I + 2 G de.
 struct LinearElastic
 {
@@ -35,5 +37,19 @@ struct LinearElastic
     stress.yz += twoG * de.yz;
     stress.zx += twoG * de.zx;
   }
+};
+
+struct ElasticParameters
+{
+  Real density = 0;       ///< [kg/m^3]
+  Real youngsModulus = 0; ///< [Pa]
+  Real poissonRatio = 0;  ///< [-]
+};
+/// Throws Error(ExitCode::Deck) with what is wrong.
+LinearElastic makeLaw(const ElasticParameters& parameters);
+
+struct LinearElasticParameters : ElasticParameters
+{
+  static MaterialModel model();
 };
 } // namespace coplane

@@ -7,41 +7,6 @@
 
 namespace coplane
 {
-LinearElastic makeLinearElastic(Real youngsModulus, Real poissonRatio, Real density)
-{
-  if (!(youngsModulus > 0) || !std::isfinite(youngsModulus))
-    fail(ExitCode::Deck,
-         "material: Young's modulus is {} Pa, but must be positive. Give E in pascals, e.g. 200e9.",
-         youngsModulus);
-  if (!(poissonRatio > -1 && poissonRatio < 0.5))
-    fail(ExitCode::Deck,
-         "material: Poisson's ratio is {}, but must lie between -1 and 0.5 (0.5 would be "
-         "incompressible). Use 0.49 at most for nearly incompressible solids.",
-         poissonRatio);
-  if (!(density > 0) || !std::isfinite(density))
-    fail(ExitCode::Deck,
-         "material: density is {} kg/m^3, but must be positive. Give it in SI units, e.g. 7850.",
-         density);
-  return {density, youngsModulus / (3 * (1 - 2 * poissonRatio)),
-          youngsModulus / (2 * (1 + poissonRatio))};
-}
-
-J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real density, Real yieldStress,
-                              Real hardeningModulus)
-{
-  if (!(yieldStress > 0))
-    fail(ExitCode::Deck,
-         "material: yield stress is {} Pa, but must be positive. Use the model linear_elastic for "
-         "a material that does not yield.",
-         yieldStress);
-  if (!(hardeningModulus >= 0) || !std::isfinite(hardeningModulus))
-    fail(ExitCode::Deck,
-         "material: hardening modulus is {} Pa, but must not be negative. Softening depends on the "
-         "mesh and is not offered; use 0 for perfect plasticity.",
-         hardeningModulus);
-  return {makeLinearElastic(youngsModulus, poissonRatio, density), yieldStress, hardeningModulus};
-}
-
 namespace
 {
 template <class Law, class T>

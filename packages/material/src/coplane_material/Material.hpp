@@ -3,10 +3,9 @@
 #include <coplane_core/Real.hpp>
 #include <coplane_material/DruckerPrager.hpp>
 #include <coplane_material/Fluid.hpp>
-#include <coplane_material/HardeningPlasticity.hpp>
 #include <coplane_material/HoekBrown.hpp>
 #include <coplane_material/HolmquistJohnsonCook.hpp>
-#include <coplane_material/J2Plasticity.hpp>
+#include <coplane_material/J2.hpp>
 #include <coplane_material/JohnsonCook.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
@@ -32,10 +31,8 @@ using Material =
 /// @param density [kg/m^3], positive
 LinearElastic makeLinearElastic(Real youngsModulus, Real poissonRatio, Real density);
 
-/// @param yieldStress [Pa], positive
-/// @param hardeningModulus [Pa], not negative
-J2Plasticity makeJ2Plasticity(Real youngsModulus, Real poissonRatio, Real density, Real yieldStress,
-                              Real hardeningModulus);
+/// Throws Error(ExitCode::Deck) with what is wrong.
+Material makeLaw(const J2Parameters& parameters);
 
 /// Names of the law's history variables, in their order.
 std::vector<std::string> historyNames(const Material& material);

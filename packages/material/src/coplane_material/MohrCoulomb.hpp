@@ -246,16 +246,22 @@ private:
   }
 };
 
-struct MohrCoulombParameters
+struct MohrCoulombParameters : ElasticParameters
 {
-  Real frictionAngle, dilationAngle;        // [rad]
-  Real cohesion, residualCohesion;          // [Pa]
-  Real tensileStrength;                     // [Pa]; at most c cot(phi)
-  Real shearEnergy = 0, fractureEnergy = 0; // [J/m^2]; 0: no softening
-  /// A table in place of cohesion, friction angle and residual cohesion: plastic shears from 0 [-],
-  /// cohesions [Pa], tangents of friction angles [-]; empty: none.
-  std::vector<Real> shears = {}, cohesions = {}, frictions = {};
+  Real cohesion = 0;         ///< [Pa]
+  Real friction = 0;         ///< tan(phi) [-]
+  Real dilation = 0;         ///< tan(psi) [-]; at most the friction
+  Real residualCohesion = 0; ///< [Pa]
+  Real tensileStrength = 0;  ///< [Pa]; at most c cot(phi)
+  Real shearEnergy = 0;      ///< G_II [J/m^2]; 0: no softening
+  Real fractureEnergy = 0;   ///< G_I [J/m^2]; 0: no softening
+  /// A table in place of cohesion, friction and residual cohesion; empty: none.
+  std::vector<Real> plasticShears; ///< rising from 0 [-]
+  std::vector<Real> cohesions;     ///< [Pa]
+  std::vector<Real> frictions;     ///< tan(phi) [-]
+
+  static MaterialModel model();
 };
 /// Throws Error(ExitCode::Deck) with what is wrong.
-MohrCoulomb makeMohrCoulomb(const LinearElastic& elastic, const MohrCoulombParameters& parameters);
+MohrCoulomb makeLaw(const MohrCoulombParameters& parameters);
 } // namespace coplane

@@ -66,4 +66,10 @@ struct NeoHookean
                        T(1 / (elastic.bulkModulus + 4.0 / 3.0 * elastic.shearModulus));
   }
 };
+
+struct NeoHookeanParameters : ElasticParameters
+{
+  static MaterialModel model();
+};
+NeoHookean makeLaw(const NeoHookeanParameters& parameters);
 } // namespace coplane

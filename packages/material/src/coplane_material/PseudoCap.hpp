@@ -341,19 +341,27 @@ struct PseudoCap
 };
 
 /// What a user says of a concrete.
-struct PseudoCapParameters
+struct PseudoCapParameters : ElasticParameters
 {
-  Real density, youngsModulus, poissonRatio;      // [kg/m^3], [Pa], [-]
-  Real strength, tensileStrength, fractureEnergy; // [Pa], [Pa], [J/m^2]
-  Real porosity, grainModulus, grainSlope;        // [-], [Pa], [-]
-  Real crushPressure, crushHardening;             // [Pa]
-  Real capRatio = 0.5, shearCompaction = 2;       // [-]
-  Real largestRate = 0;                           // of rate effects [1/s]; 0: none
+  Real compressiveStrength = 0; ///< fc [Pa]
+  Real tensileStrength = 0;     ///< ft [Pa]
+  Real fractureEnergy = 0;      ///< G_F [J/m^2]
+  Real porosity = 0;            ///< [-]
+  Real grainModulus = 0;        ///< Ks [Pa]
+  Real grainSlope = 1.5;        ///< s [-]
+  Real crushPressure = 0;       ///< [Pa]
+  Real crushHardening = 0;      ///< Ph [Pa]
+  Real capRatio = 0.5;          ///< Rc [-]
+  Real shearCompaction = 2;     ///< mu_c [-]
+  bool rateEffects = false;
+  Real largestRate = 300; ///< of rate effects [1/s]
+
+  static MaterialModel model();
 };
 
 /// Concrete of 40 MPa, the set C40 of docs/theory/materials.md.
 PseudoCapParameters concreteC40();
 
 /// Throws Error(ExitCode::Deck) with what is wrong.
-PseudoCap makePseudoCap(const PseudoCapParameters& parameters);
+PseudoCap makeLaw(const PseudoCapParameters& parameters);
 } // namespace coplane

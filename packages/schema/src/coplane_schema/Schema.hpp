@@ -62,6 +62,7 @@ struct Key
   bool notAllZero = false;                   ///< Numbers: a direction
   bool ofPlaceToo = false; ///< TimeFunction(s): expressions may have x, y, z beside t
   std::function<void(void* target, const KeyValue&)> store;
+  std::function<std::string(const void* target)> show; ///< the value there, if it can be shown
 
   // groups
   std::vector<Key> keys;

@@ -50,6 +50,14 @@ public:
     return *this;
   }
 
+  /// How the value in a card reads.
+  template <class Card>
+  KeyBuilder& shownBy(std::function<std::string(const Card&)> text)
+  {
+    key_.show = [text](const void* card) { return text(*static_cast<const Card*>(card)); };
+    return *this;
+  }
+
   KeyBuilder& notAllZero() { return set(key_.notAllZero, true); }
   KeyBuilder& ofPlaceToo() { return set(key_.ofPlaceToo, true); }
   KeyBuilder& decidedBy(const std::string& name) { return set(key_.discriminator, name); }
@@ -85,31 +93,31 @@ private:
   Key key_;
 };
 
-inline std::string defaultOf(Real value)
+inline std::string textOf(Real value)
 {
   return fmt::format("{}", value);
 }
-inline std::string defaultOf(bool value)
+inline std::string textOf(bool value)
 {
   return value ? "true" : "false";
 }
-inline std::string defaultOf(const std::string& value)
+inline std::string textOf(const std::string& value)
 {
   return value;
 }
-inline std::string defaultOf(const std::optional<Real>&)
+inline std::string textOf(const std::optional<Real>& value)
 {
-  return "";
+  return value ? fmt::format("{}", *value) : "";
 }
-inline std::string defaultOf(const std::vector<Real>&)
+inline std::string textOf(const std::vector<Real>& v)
 {
-  return "[]";
+  return fmt::format("[{}]", fmt::join(v, ", "));
 }
-inline std::string defaultOf(const Vec3& v)
+inline std::string textOf(const Vec3& v)
 {
   return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
 }
-inline std::string defaultOf(const std::array<Real, 6>& v)
+inline std::string textOf(const std::array<Real, 6>& v)
 {
   return fmt::format("[{}]", fmt::join(v, ", "));
 }
@@ -139,33 +147,67 @@ KeyBuilder bound(const std::string& name, KeyKind kind, Field Card::*member, Ass
   return KeyBuilder(key);
 }
 
+/// The same for fields that can be shown, with the default of a fresh card.
+template <class Value, class Card, class Field, class Assign>
+KeyBuilder shown(const std::string& name, KeyKind kind, Field Card::*member, Assign assignValue)
+{
+  return bound<Value>(name, kind, member, assignValue)
+      .template shownBy<Card>([member](const Card& card) { return textOf(card.*member); })
+      .defaultIs(textOf(Card{}.*member));
+}
+
 const auto copyTo = [](auto& field, const auto& value) { field = value; };
 
 template <class Card, class Field> // Real or std::optional<Real>
 KeyBuilder number(const std::string& name, Field Card::*member)
 {
-  return bound<Real>(name, KeyKind::Number, member, copyTo).defaultIs(defaultOf(Card{}.*member));
+  return shown<Real>(name, KeyKind::Number, member, copyTo);
 }
 
 template <class Card>
 KeyBuilder flag(const std::string& name, bool Card::*member)
 {
-  return bound<bool>(name, KeyKind::Flag, member, copyTo).defaultIs(defaultOf(Card{}.*member));
+  return shown<bool>(name, KeyKind::Flag, member, copyTo);
 }
 
 template <class Card>
 KeyBuilder text(const std::string& name, std::string Card::*member)
 {
-  return bound<std::string>(name, KeyKind::Text, member, copyTo)
-      .defaultIs(defaultOf(Card{}.*member));
+  return shown<std::string>(name, KeyKind::Text, member, copyTo);
+}
+
+/// A word that stands for a value of an enumeration.
+template <class Card, class Enum>
+KeyBuilder choice(const std::string& name, Enum Card::*member,
+                  const std::vector<std::pair<std::string, Enum>>& words)
+{
+  std::vector<std::string> names;
+  for (const auto& [word, value] : words)
+    names.push_back(word);
+  const auto wordOf = [words](const Enum& value)
+  {
+    for (const auto& [word, one] : words)
+      if (one == value)
+        return word;
+    return std::string();
+  };
+  KeyBuilder key = bound<std::string>(name, KeyKind::Text, member,
+                                      [words](Enum& field, const std::string& word)
+                                      {
+                                        for (const auto& [name, value] : words)
+                                          if (name == word)
+                                            field = value;
+                                      });
+  return key.shownBy<Card>([member, wordOf](const Card& card) { return wordOf(card.*member); })
+      .oneOf(names)
+      .defaultIs(wordOf(Card{}.*member));
 }
 
 template <class Card, class Field> // Vec3, std::array<Real, 6> or std::vector<Real>
 KeyBuilder numbers(const std::string& name, Field Card::*member, std::size_t length = 0)
 {
-  Key key = bound<std::vector<Real>>(name, KeyKind::Numbers, member,
-                                     [](auto& field, const auto& value) { assign(field, value); })
-                .defaultIs(defaultOf(Card{}.*member));
+  Key key = shown<std::vector<Real>>(name, KeyKind::Numbers, member,
+                                     [](auto& field, const auto& value) { assign(field, value); });
   key.length = length;
   return KeyBuilder(key);
 }

@@ -1,0 +1,213 @@
+#pragma once
+
+#include <coplane_core/Real.hpp>
+#include <coplane_material/Material.hpp>
+#include <coplane_schema/DeckNode.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// A card where it stands in its file, for what one of its keys demands of another.
+struct CardPlace
+{
+  const DeckNode& node;
+  std::string path; ///< such as materials.steel
+  Problems& problems;
+
+  bool gives(const std::string& key) const { return node.find(key) != nullptr; }
+  /// "materials.steel.key text", at the key or, where it is not given, at the card.
+  void problem(const std::string& key, const std::string& text) const;
+};
+
+/// A model that cards in `materials` may name. Schema, references, checks, laws, costs of the
+/// partition and sets of the library come from here; a law's own file makes it.
+struct MaterialModel
+{
+  std::string name;      ///< the word of the deck
+  std::string meaning;   ///< a few words for the reference
+  Real cost = 1;         ///< time of an element's update over that with linear_elastic
+  std::vector<Key> keys; ///< their target is what `parameters` makes
+  std::string sets;      ///< of the library: YAML, cards by their names; sources in the manual
+  std::function<std::shared_ptr<void>()> parameters; ///< with their defaults
+  /// What one key demands of another; empty: nothing.
+  std::function<void(const void* parameters, const CardPlace&)> check;
+  /// Throws Error(ExitCode::Deck) with what is wrong.
+  std::function<Material(const void* parameters)> law;
+  /// The largest element that can follow the law's softening [m]; empty: any.
+  std::function<Real(const void* parameters)> largestElement;
+};
+
+/// Every model, in the order of the manual.
+const std::vector<MaterialModel>& materialModels();
+
+/// The model of that name, or nullptr.
+const MaterialModel* findMaterialModel(const std::string& name);
+
+/// A model under construction, whose keys fill a P; makeLaw(const P&) makes its law.
+template <class P>
+class MaterialModelOf
+{
+public:
+  MaterialModelOf(const std::string& name, const std::string& meaning)
+  {
+    model_.name = name;
+    model_.meaning = meaning;
+    model_.parameters = [] { return std::make_shared<P>(); };
+    model_.law = [](const void* parameters) -> Material
+    { return makeLaw(*static_cast<const P*>(parameters)); };
+  }
+  operator MaterialModel() const { return model_; }
+
+  MaterialModelOf& costs(Real factor)
+  {
+    model_.cost = factor;
+    return *this;
+  }
+  MaterialModelOf& has(const std::vector<Key>& keys)
+  {
+    model_.keys.insert(model_.keys.end(), keys.begin(), keys.end());
+    return *this;
+  }
+  MaterialModelOf& comesAs(const std::string& sets)
+  {
+    model_.sets = sets;
+    return *this;
+  }
+  MaterialModelOf& demands(void (*check)(const P&, const CardPlace&))
+  {
+    model_.check = [check](const void* parameters, const CardPlace& place)
+    { check(*static_cast<const P*>(parameters), place); };
+    return *this;
+  }
+  MaterialModelOf& softensUpTo(Real (*size)(const P&))
+  {
+    model_.largestElement = [size](const void* parameters)
+    { return size(*static_cast<const P*>(parameters)); };
+    return *this;
+  }
+
+private:
+  MaterialModel model_;
+};
+
+namespace schema
+{
+// Keys that several laws have. P has to have the members.
+
+template <class P>
+Key density()
+{
+  return number<P, Real>("density", &P::density)
+      .needed()
+      .in("kg/m^3")
+      .above(0)
+      .like("7850")
+      .means("mass per reference volume");
+}
+
+/// Of P, a struct with the members of ElasticParameters.
+template <class P>
+std::vector<Key> elasticKeys()
+{
+  return {
+      density<P>(),
+      number<P, Real>("youngs_modulus", &P::youngsModulus)
+          .needed()
+          .in("Pa")
+          .above(0)
+          .like("210e9")
+          .means("Young's modulus"),
+      number<P, Real>("poisson_ratio", &P::poissonRatio)
+          .needed()
+          .in("-")
+          .above(-1)
+          .below(0.5)
+          .like("0.3")
+          .means("Poisson's ratio"),
+  };
+}
+
+/// Of P, a struct with the members of EosParameters.
+template <class P>
+std::vector<Key> equationOfStateKeys()
+{
+  using Kind = EquationOfState::Kind;
+  return {
+      choice<P, Kind>("eos", &P::eos, eosWords())
+          .like("linear")
+          .means("equation of state for the pressure: rate form with the elastic bulk modulus; "
+                 "linear in density; about the shock line; the same with pores that close"),
+      number<P, Real>("sound_speed", &P::soundSpeed)
+          .in("m/s")
+          .atLeast(0)
+          .like("4570")
+          .means("c0 of the shock speed c0 + s up of the solid"),
+      number<P, Real>("shock_slope", &P::shockSlope)
+          .in("-")
+          .atLeast(0)
+          .like("1.49")
+          .means("s of the shock speed"),
+      number<P, Real>("grueneisen", &P::grueneisen)
+          .in("-")
+          .atLeast(0)
+          .like("1.93")
+          .means("Grueneisen's Gamma at the reference density"),
+      number<P, Real>("distension", &P::distension)
+          .in("-")
+          .atLeast(1)
+          .like("1.5")
+          .means("p_alpha: density of the solid over that of the porous material"),
+      number<P, Real>("crush_start", &P::crushStart)
+          .in("Pa")
+          .atLeast(0)
+          .like("0.2e9")
+          .means("p_alpha: pressure from which pores close"),
+      number<P, Real>("crush_end", &P::crushEnd)
+          .in("Pa")
+          .atLeast(0)
+          .like("2e9")
+          .means("p_alpha: pressure at which none is left"),
+  };
+}
+
+/// Of P, a struct with cohesion, friction and dilation.
+template <class P>
+std::vector<Key> frictionKeys()
+{
+  return {
+      number<P, Real>("cohesion", &P::cohesion).in("Pa").atLeast(0).like("5e6").means("c"),
+      number<P, Real>("friction", &P::friction)
+          .in("-")
+          .atLeast(0)
+          .like("0.6")
+          .means("tangent of the friction angle"),
+      number<P, Real>("dilation", &P::dilation)
+          .in("-")
+          .atLeast(0)
+          .like("0.2")
+          .means("tangent of the dilation angle; at most friction"),
+  };
+}
+} // namespace schema
+
+/// G_F E / ft^2 [m]: a larger element would have to spring back when it cracks.
+template <class P>
+Real largestSofteningElement(const P& p)
+{
+  return p.fractureEnergy > 0 && p.tensileStrength > 0
+             ? p.fractureEnergy * p.youngsModulus / (p.tensileStrength * p.tensileStrength)
+             : infinity;
+}
+
+/// The elastic constants with the bulk modulus of the equation of state, if there is one.
+LinearElastic withPressureOf(const EquationOfState& eos, LinearElastic elastic);
+
+/// Keys that have no effect with this equation of state.
+/// @param alone the material has no elastic constants
+void checkEquationOfState(const EosParameters& parameters, bool alone, const CardPlace& place);
+} // namespace coplane
