@@ -302,7 +302,7 @@ void setStart(const InitialCard& card, BlockSetup& setup)
 }
 } // namespace
 
-std::vector<std::string> problemsOfLaws(const Deck& deck)
+std::vector<std::string> problemsOfLaws(const Deck& deck, int dimension)
 {
   std::vector<std::string> problems;
   for (const BlockCard& card : deck.blocks)
@@ -310,6 +310,9 @@ std::vector<std::string> problemsOfLaws(const Deck& deck)
     const auto material =
         std::find_if(deck.materials.begin(), deck.materials.end(),
                      [&](const MaterialCard& m) { return m.name == card.material; });
+    if (const std::string problem = problemInTheFlat(*material); dimension == 2 && !problem.empty())
+      problems.push_back(
+          fmt::format("{}: materials.{}: {}.", material->where, material->name, problem));
     const std::vector<std::string> names = historyNames(materialOf(*material));
     for (const std::string& wanted : erosionOf(card.erosion).variableNames())
       if (std::find(names.begin(), names.end(), wanted) == names.end())

@@ -7,8 +7,9 @@
 
 namespace coplane
 {
-/// What blocks ask of their material's law that it does not have.
-std::vector<std::string> problemsOfLaws(const Deck& deck);
+/// What blocks ask of their material's law that it does not have, or that it is not in two
+/// dimensions.
+std::vector<std::string> problemsOfLaws(const Deck& deck, int dimension);
 
 /// What a deck asks of rigid blocks that they cannot do. Names have been checked before.
 std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice& mesh,

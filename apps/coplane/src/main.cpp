@@ -221,7 +221,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
         auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
         for (const std::string& problem : problemsOfDimension(deck, mesh.mine.dimension))
           problems.push_back(problem);
-        for (const std::string& problem : problemsOfLaws(deck))
+        for (const std::string& problem : problemsOfLaws(deck, mesh.mine.dimension))
           problems.push_back(problem);
         for (const std::string& problem : ofRigidBlocks)
           problems.push_back(problem);

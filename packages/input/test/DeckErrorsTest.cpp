@@ -94,7 +94,7 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
                     "tilte: x\n"),
             "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
             "Accepted: one of linear_elastic, j2, neo_hookean, drucker_prager, mohr_coulomb, "
-            "hoek_brown, johnson_cook, pseudo_cap, hjc, fluid, ideal_gas.\n"
+            "ubiquitous_joints, hoek_brown, johnson_cook, pseudo_cap, hjc, fluid, ideal_gas.\n"
             "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
             "0 [kg/m^3].\n"
             "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
@@ -342,11 +342,13 @@ TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
 {
   EXPECT_EQ(errorOfMaterial("density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1"),
             "wall.yaml:6:6: materials.m.model is missing; accepted: one of linear_elastic, j2, "
-            "neo_hookean, drucker_prager, mohr_coulomb, hoek_brown, johnson_cook, pseudo_cap, hjc, "
+            "neo_hookean, drucker_prager, mohr_coulomb, ubiquitous_joints, hoek_brown, "
+            "johnson_cook, pseudo_cap, hjc, "
             "fluid, "
             "ideal_gas: "
             "law of the continuum: Hooke; von Mises with hardening; rubber; Drucker and Prager; "
-            "Mohr and Coulomb; Hoek and Brown's rock mass; Johnson and Cook; concrete with a "
+            "Mohr and Coulomb; weak planes of one direction in such a matrix; Hoek and Brown's "
+            "rock mass; Johnson and Cook; concrete with a "
             "pseudo-cap; concrete of "
             "Holmquist, Johnson and Cook; an equation of state without strength; gas.");
 }

@@ -29,6 +29,8 @@ materials:
     dilation: 0.1}
   mohr_coulomb: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, cohesion: 4e6, friction: 0.5,
     tensile_strength: 1e6}
+  ubiquitous_joints: {model: ubiquitous_joints, density: 1, youngs_modulus: 1, poisson_ratio: 0, cohesion: 4e6,
+                      friction: 0.5, joint_normal: [1, 1, 0], joint_cohesion: 2e6, joint_friction: 0.4}
   hoek_brown: {model: hoek_brown, density: 1, youngs_modulus: 1e9, poisson_ratio: 0, intact_strength: 60e6,
                intact_constant: 10, gsi: 60, residual_gsi: 30, shear_energy: 5e3}
   rock: {model: mohr_coulomb, density: 1, youngs_modulus: 1, poisson_ratio: 0, plastic_shears: [0, 0.1],

@@ -128,6 +128,28 @@ inline DruckerPrager coneOf(Real frictionAngle, Real dilationAngle, Real cohesio
   return makeLaw(p);
 }
 
+/// Cohesive planes that are weaker than the matrix, and dilate.
+inline UbiquitousJointParameters jointedRock()
+{
+  UbiquitousJointParameters p;
+  static_cast<MohrCoulombParameters&>(p) = rockOf(0.6, 0.2, 5e6, 5e6, 2e6);
+  p.jointNormal = {1, -2, 3};
+  p.jointCohesion = 1e6;
+  p.jointFriction = 0.5;
+  p.jointDilation = 0.2;
+  p.jointTensileStrength = 0.5e6;
+  return p;
+}
+
+/// The law with its directions turned: of a body that is turned before it is led along a path.
+inline Material turnedLaw(const Material& law, const Mat3& rotation)
+{
+  Material turned = law;
+  if (auto* joints = std::get_if<UbiquitousJoints>(&turned))
+    joints->normal = rotation * joints->normal;
+  return turned;
+}
+
 inline std::vector<NamedLaw> allLaws()
 {
   const LinearElastic steel = makeLinearElastic(200e9, 0.3, 7850);
@@ -158,6 +180,11 @@ inline std::vector<NamedLaw> allLaws()
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
+  UbiquitousJointParameters loose = jointedRock(); // and a matrix that softens
+  loose.residualCohesion = 1e6;
+  loose.shearEnergy = 500;
+  loose.fractureEnergy = 100;
+  loose.jointCohesion = loose.jointDilation = loose.jointTensileStrength = 0;
   return {{"linearElastic", steel, 1e-3},
           {"j2Plasticity", makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 400e6, 1e9), 0.01},
           {"hardeningPlasticity",
@@ -171,6 +198,8 @@ inline std::vector<NamedLaw> allLaws()
           {"mohrCoulombTable", makeLaw(table), 0.005},
           {"hoekBrown", makeLaw(mass), 0.005},
           {"hoekBrownSoftening", makeLaw(softening), 0.005},
+          {"ubiquitousJoints", makeLaw(jointedRock()), 0.005},
+          {"ubiquitousJointsLoose", makeLaw(loose), 0.001},
           {"johnsonCook", steel4340(), 0.05},
           {"johnsonCookMieGrueneisen", checked(hot), 0.05},
           {"pseudoCap", makeLaw(concreteC40()), 0.01},

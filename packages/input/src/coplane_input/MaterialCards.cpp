@@ -145,6 +145,12 @@ void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& 
   }
 }
 
+std::string problemInTheFlat(const MaterialCard& card)
+{
+  const MaterialModel& model = modelOf(card);
+  return model.problemInTheFlat ? model.problemInTheFlat(card.parameters.get()) : "";
+}
+
 Real largestElement(const MaterialCard& card)
 {
   const MaterialModel& model = modelOf(card);

@@ -27,6 +27,9 @@ Material materialOf(const MaterialCard& card);
 void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& root,
                     Problems& problems);
 
+/// What is wrong with a card in a mesh of two dimensions; empty: nothing.
+std::string problemInTheFlat(const MaterialCard& card);
+
 /// The largest element that can follow the softening of a material, G_F E / ft^2: a larger one
 /// would have to spring back [m]. Infinity for laws without fracture energy.
 Real largestElement(const MaterialCard& card);

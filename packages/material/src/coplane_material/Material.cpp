@@ -75,6 +75,8 @@ const LinearElastic& elasticity(const Material& material)
       {
         if constexpr (std::is_same_v<std::decay_t<decltype(law)>, LinearElastic>)
           return law;
+        else if constexpr (std::is_same_v<std::decay_t<decltype(law)>, UbiquitousJoints>)
+          return law.matrix.elastic;
         else
           return law.elastic;
       },

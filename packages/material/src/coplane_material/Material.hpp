@@ -11,6 +11,7 @@
 #include <coplane_material/MohrCoulomb.hpp>
 #include <coplane_material/NeoHookean.hpp>
 #include <coplane_material/PseudoCap.hpp>
+#include <coplane_material/UbiquitousJoints.hpp>
 
 #include <array>
 #include <string>
@@ -22,9 +23,9 @@ namespace coplane
 /// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
 /// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
 /// with the same bits in every lane.
-using Material =
-    std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
-                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid, HoekBrown>;
+using Material = std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean,
+                              DruckerPrager, MohrCoulomb, JohnsonCook, PseudoCap,
+                              HolmquistJohnsonCook, Fluid, HoekBrown, UbiquitousJoints>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded

@@ -38,6 +38,8 @@ struct MaterialModel
   std::function<void(const void* parameters, const CardPlace&)> check;
   /// Throws Error(ExitCode::Deck) with what is wrong.
   std::function<Material(const void* parameters)> law;
+  /// What is wrong with the parameters in two dimensions; empty: never anything.
+  std::function<std::string(const void* parameters)> problemInTheFlat;
   /// The largest element that can follow the law's softening [m]; empty: any.
   std::function<Real(const void* parameters)> largestElement;
 };
@@ -82,6 +84,12 @@ public:
   {
     model_.check = [check](const void* parameters, const CardPlace& place)
     { check(*static_cast<const P*>(parameters), place); };
+    return *this;
+  }
+  MaterialModelOf& refusesInTheFlat(std::string (*problem)(const P&))
+  {
+    model_.problemInTheFlat = [problem](const void* parameters)
+    { return problem(*static_cast<const P*>(parameters)); };
     return *this;
   }
   MaterialModelOf& softensUpTo(Real (*size)(const P&))
@@ -193,7 +201,55 @@ std::vector<Key> frictionKeys()
           .means("tangent of the dilation angle; at most friction"),
   };
 }
+
+/// What Mohr and Coulomb's law has beside them: of P, derived from MohrCoulombParameters.
+template <class P>
+std::vector<Key> mohrCoulombKeys()
+{
+  return {
+      number<P, Real>("residual_cohesion", &P::residualCohesion)
+          .in("Pa")
+          .atLeast(0)
+          .like("1e6")
+          .means("c after much slip, when shear_energy is given"),
+      number<P, Real>("tensile_strength", &P::tensileStrength)
+          .in("Pa")
+          .atLeast(0)
+          .like("2e6")
+          .means("cut-off of the largest principal stress; at most cohesion / friction"),
+      number<P, Real>("shear_energy", &P::shearEnergy)
+          .in("J/m^2")
+          .atLeast(0)
+          .like("500")
+          .means("by which cohesion falls, per area of a slip plane; 0: it stays"),
+      number<P, Real>("fracture_energy", &P::fractureEnergy)
+          .in("J/m^2")
+          .atLeast(0)
+          .like("100")
+          .means("by which tensile strength falls, per area of a crack; 0: it stays"),
+      numbers<P, std::vector<Real>>("plastic_shears", &P::plasticShears)
+          .in("-")
+          .atLeast(0)
+          .like("[0, 0.02]")
+          .means("plastic shears of a table of cohesion and friction, rising from 0; 2 to 8; "
+                 "the last values stay beyond it. The softening depends on the size of "
+                 "elements"),
+      numbers<P, std::vector<Real>>("cohesions", &P::cohesions)
+          .in("Pa")
+          .atLeast(0)
+          .like("[5e6, 1e6]")
+          .means("c at plastic_shears"),
+      numbers<P, std::vector<Real>>("frictions", &P::frictions)
+          .in("-")
+          .atLeast(0)
+          .like("[0.7, 0.5]")
+          .means("tangents of the friction angle at plastic_shears; not below dilation"),
+  };
+}
 } // namespace schema
+
+/// The table of cohesion and friction beside the keys that it replaces.
+void checkTable(const MohrCoulombParameters& parameters, const CardPlace& place);
 
 /// G_F E / ft^2 [m]: a larger element would have to spring back when it cracks.
 template <class P>

@@ -15,9 +15,9 @@ const std::vector<MaterialModel>& materialModels()
 {
   static const auto models =
       modelsOf<LinearElasticParameters, J2Parameters, NeoHookeanParameters, DruckerPragerParameters,
-               MohrCoulombParameters, HoekBrownParameters, JohnsonCookParameters,
-               PseudoCapParameters, HolmquistJohnsonCookParameters, FluidParameters,
-               IdealGasParameters>();
+               MohrCoulombParameters, UbiquitousJointParameters, HoekBrownParameters,
+               JohnsonCookParameters, PseudoCapParameters, HolmquistJohnsonCookParameters,
+               FluidParameters, IdealGasParameters>();
   return models;
 }
 

@@ -77,9 +77,7 @@ MohrCoulomb makeLaw(const MohrCoulombParameters& p)
   return law;
 }
 
-namespace
-{
-void check(const MohrCoulombParameters& p, const CardPlace& card)
+void checkTable(const MohrCoulombParameters& p, const CardPlace& card)
 {
   const bool table = !p.plasticShears.empty() || !p.cohesions.empty() || !p.frictions.empty();
   for (const char* key : {"cohesion", "friction", "residual_cohesion", "shear_energy"})
@@ -90,7 +88,6 @@ void check(const MohrCoulombParameters& p, const CardPlace& card)
     card.problem("plastic_shears", "is missing; accepted: 2 to 8 numbers that rise from 0, one for "
                                    "each of cohesions and frictions.");
 }
-} // namespace
 
 MaterialModel MohrCoulombParameters::model()
 {
@@ -100,46 +97,8 @@ MaterialModel MohrCoulombParameters::model()
       .costs(3)
       .has(elasticKeys<P>())
       .has(frictionKeys<P>())
-      .has({
-          number("residual_cohesion", &P::residualCohesion)
-              .in("Pa")
-              .atLeast(0)
-              .like("1e6")
-              .means("c after much slip, when shear_energy is given"),
-          number("tensile_strength", &P::tensileStrength)
-              .in("Pa")
-              .atLeast(0)
-              .like("2e6")
-              .means("cut-off of the largest principal stress; at most cohesion / friction"),
-          number("shear_energy", &P::shearEnergy)
-              .in("J/m^2")
-              .atLeast(0)
-              .like("500")
-              .means("by which cohesion falls, per area of a slip plane; 0: it stays"),
-          number("fracture_energy", &P::fractureEnergy)
-              .in("J/m^2")
-              .atLeast(0)
-              .like("100")
-              .means("by which tensile strength falls, per area of a crack; 0: it stays"),
-          numbers("plastic_shears", &P::plasticShears)
-              .in("-")
-              .atLeast(0)
-              .like("[0, 0.02]")
-              .means("plastic shears of a table of cohesion and friction, rising from 0; 2 to 8; "
-                     "the last values stay beyond it. The softening depends on the size of "
-                     "elements"),
-          numbers("cohesions", &P::cohesions)
-              .in("Pa")
-              .atLeast(0)
-              .like("[5e6, 1e6]")
-              .means("c at plastic_shears"),
-          numbers("frictions", &P::frictions)
-              .in("-")
-              .atLeast(0)
-              .like("[0.7, 0.5]")
-              .means("tangents of the friction angle at plastic_shears; not below dilation"),
-      })
-      .demands(check)
+      .has(mohrCoulombKeys<P>())
+      .demands(checkTable)
       .softensUpTo(largestSofteningElement)
       .comesAs(R"(
 clay_brick: {model: mohr_coulomb, density: 1800, youngs_modulus: 10e9, poisson_ratio: 0.15,
