@@ -64,6 +64,17 @@ plot.PANELS = {
             [("compression", "free"), ("tension", "tension"), ("confined", "5 MPa")],
         ),
     ],
+    "rock_masses": [
+        (
+            "Hoek and Brown, GSI 45", AXIAL, (MILLI, MPA), AXIAL_TEXT,
+            [("mass_0", "free"), ("mass_5", "5 MPa"), ("mass_10", "10 MPa")],
+        ),
+        ("From GSI 75 to 30", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("softening", "")]),
+        (
+            "Weak planes, confined by 2 MPa", AXIAL, (MILLI, MPA), AXIAL_TEXT,
+            [("steep_2", "dip 60 degrees"), ("flat_2", "dip 20 degrees")],
+        ),
+    ],
     "rubber": [
         ("Rubber", AXIAL, (1, MPA), ("strain", "stress [MPa]"), [("stretch", "sides free"), ("squeeze", "sides held")]),
     ],

@@ -8,6 +8,7 @@ import subprocess
 import sys
 
 import numpy
+import yaml
 from coplanetest import Case, program
 
 case = Case("V46", __file__)
@@ -52,7 +53,7 @@ class Path:
 
 
 decks = sorted(path.stem for path in examples.glob("*.yaml"))
-case.check_equal("decks", decks, ["clay_brick", "concrete_c40", "concrete_hjc", "concrete_rates", "metals", "rubber"])
+case.check_equal("decks", decks, ["clay_brick", "concrete_c40", "concrete_hjc", "concrete_rates", "metals", "rock_masses", "rubber"])
 for deck in decks:
     code, output = point(examples / f"{deck}.yaml")
     case.check_equal(f"{deck}: exit code", code, 0)
@@ -206,6 +207,72 @@ J = squeeze.volume_ratio[-1]
 K, G = 3e6 / 0.6, 3e6 / 2.8
 squeeze.check("stress [MPa]", squeeze.stress_xx[-1] / 1e6,
               (K / 2 * (J - 1 / J) + 2 / 3 * G * J ** (-5 / 3) * (J * J - 1)) / 1e6, 1e-6)
+
+# --- rock masses: Hoek and Brown 2002, Jaeger 1960 --------------------------------------------------------
+
+
+def hoek_brown(gsi, confinement, strength=50.0, constant=10.0):
+    """sigma_1 [MPa] of a rock mass without disturbance."""
+    m, s = constant * math.exp((gsi - 100) / 28), math.exp((gsi - 100) / 9)
+    a = 0.5 + (math.exp(-gsi / 15) - math.exp(-20 / 3)) / 6
+    return confinement + strength * (m * confinement / strength + s) ** a
+
+
+for confinement in (0, 5, 10):
+    mass = Path("rock_masses", f"mass_{confinement}")
+    mass.check("strength [MPa]", max(mass.axial), hoek_brown(45, confinement), 1e-6)
+    mass.dissipates()
+softening = Path("rock_masses", "softening")
+softening.check("peak [MPa]", max(softening.axial), hoek_brown(75, 0), 1e-3)
+softening.check("residual strength [MPa]", softening.axial[-1], hoek_brown(30, 0), 0.02)
+softening.dissipates()
+
+
+def jaeger(dip, confinement, cohesion=1.0, friction=0.45):
+    """sigma_1 [MPa] at which planes slip whose dip is the angle between normal and load."""
+    return confinement + 2 * (cohesion + confinement * friction) / ((1 - friction / math.tan(dip)) * math.sin(2 * dip))
+
+
+steep, flat = Path("rock_masses", "steep_2"), Path("rock_masses", "flat_2")
+first = int(numpy.argmax(steep.plane_slip > 0))
+normal = numpy.array([steep.plane_normal_x[first], steep.plane_normal_y[first]])
+dip = math.acos(normal[0])
+steep.check("dip when it slips [degrees]", math.degrees(dip), 60, 0.01)
+steep.check("strength when it slips [MPa]", steep.axial[first], jaeger(dip, 2), 1e-6)
+steep.dissipates()
+angle = math.atan(0.7)
+passive = (1 + math.sin(angle)) / (1 - math.sin(angle))
+flat.check("strength, of the matrix [MPa]", max(flat.axial), 2 * 5 * math.sqrt(passive) + 2 * passive, 1e-6)
+flat.check("slip of planes too flat to slip", float(flat.plane_slip[-1]), 0, 0, relative=False)
+
+# In an element of a mesh that is pressed the same way.
+recipe = {
+    "dimension": 3,
+    "parts": [{"shape": "box", "block": "rock", "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [1, 1, 1]}],
+    "node_sets": {"all": {"block": "rock"}, "left": {"block": "rock", "where": {"x": 0}}, "right": {"block": "rock", "where": {"x": 1}}},
+}
+with open(examples / "rock_masses.yaml") as file:
+    cards = yaml.safe_load(file)["materials"]
+for name in ("mass", "steep"):
+    pressed = Path("rock_masses", f"pressed_{name}")
+    run = case.run(
+        f"pressed_{name}",
+        recipe,
+        {
+            "materials": {name: cards[name]},
+            "blocks": {"rock": {"material": name}},
+            "conditions": [
+                {"type": "fixed", "node_set": "all", "components": ["y", "z"]},
+                {"type": "fixed", "node_set": "left", "components": ["x"]},
+                {"type": "velocity", "node_set": "right", "components": ["x"], "value": [-0.1, 0, 0]},
+            ],
+            "viscosity": {"linear": 0, "quadratic": 0},
+            "time": {"end": 0.02 * (1 - math.exp(-0.002)) / 0.002, "fixed_step": 1e-5},
+        },
+    )
+    for component in ("xx", "yy", "xy"):
+        found = float(run.results.element("rock", f"stress_{component}")[0])
+        case.check(f"pressed {name}: stress_{component} in a mesh [MPa]", found / 1e6, getattr(pressed, f"stress_{component}")[-1] / 1e6, 0.01)
 
 # --- what is refused --------------------------------------------------------------------------------------
 
