@@ -38,7 +38,7 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
           std::find_if(deck.materials.begin(), deck.materials.end(),
                        [&](const MaterialCard& m) { return m.name == card->material; });
       if (material != deck.materials.end())
-        cost *= findMaterialModel(material->model)->cost;
+        cost *= findModel(materialModels(), material->model)->cost;
       cost *= card->rigid ? 0.02 : ofForm.at(card->element);
     }
     costs.ofElement.push_back(cost);

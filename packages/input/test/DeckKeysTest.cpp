@@ -1,6 +1,7 @@
 #include "TestDecks.hpp"
 
 #include <coplane_input/DeckSchema.hpp>
+#include <coplane_joint/JointModel.hpp>
 #include <coplane_material/MaterialModel.hpp>
 #include <coplane_schema/Schema.hpp>
 
@@ -148,7 +149,7 @@ std::string show(const Deck& d)
   for (const auto& m : d.materials)
   {
     showAll(out, m.name, m.set, m.model);
-    for (const Key& key : findMaterialModel(m.model)->keys)
+    for (const Key& key : findModel(materialModels(), m.model)->keys)
       showAll(out, key.show(m.parameters.get()));
   }
   for (const auto& b : d.blocks)
@@ -161,11 +162,11 @@ std::string show(const Deck& d)
       showAll(out, v.name, v.above, v.below);
   }
   for (const auto& j : d.joints)
-    showAll(out, j.name, j.model, j.stiffnessFraction, j.normalStiffness, j.initialStiffness,
-            j.maximumClosure, j.closures, j.tractions, j.stiffnessCap, j.shearStiffness,
-            j.shearRatio, j.friction, j.dynamicFriction, j.slipSpeed, j.cohesion, j.dilation,
-            j.dilationSlip, j.tensileStrength, j.tensionEnergy, j.shearEnergy, j.roughness,
-            j.wallStrength, j.rockStrength, j.residualFriction, j.peakSlip);
+  {
+    showAll(out, j.name, j.model);
+    for (const Key& key : findModel(jointModels(), j.model)->keys)
+      showAll(out, key.show(j.parameters.get()));
+  }
   const auto& c = d.contact;
   showAll(out, c.enabled, c.preset, c.method, c.planeSearch, c.forces, c.area, c.weights, c.closure,
           c.couple, c.areaRule, c.inherit, c.shareNode, c.initialOverlap, c.cosOpposed, c.depthMax,

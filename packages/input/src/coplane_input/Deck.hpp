@@ -61,36 +61,13 @@ struct BlockCard
   bool rigid = false;
 };
 
-/// A joint law. `penalty` takes its stiffness from the elements behind the faces.
 struct JointCard
 {
+  JointCard(); ///< of the first model
+
   std::string name, where;
-  std::string model =
-      "penalty"; ///< penalty | linear | closure_curve | table | barton_bandis | mortar | bilinear
-  Real stiffnessFraction = 2;  ///< penalty: alpha of k_n = alpha / (h1/M1 + h2/M2) [-]
-  Real normalStiffness = 0;    ///< linear, mortar, bilinear [Pa/m]
-  Real initialStiffness = 0;   ///< slope of a hyperbola at zero closure [Pa/m]; 0: estimated
-  Real maximumClosure = 0;     ///< asymptote of a hyperbola [m]; 0: straight, or estimated
-  std::vector<Real> closures;  ///< table [m]
-  std::vector<Real> tractions; ///< table [Pa]
-  std::optional<Real>
-      stiffnessCap; ///< curves: largest slope [Pa/m]; default 0.5 M/h of the softer element
-  std::optional<Real> shearStiffness;  ///< [Pa/m]; default: shear_ratio times the normal stiffness
-  Real shearRatio = 0.5;               ///< k_s / k_n when shear_stiffness is not given [-]
-  Real friction = 0;                   ///< coefficient of friction, at rest [-]
-  std::optional<Real> dynamicFriction; ///< of fast slip [-]; default: as at rest
-  Real slipSpeed = 0;                  ///< at which most of the difference is gone [m/s]
-  Real cohesion = 0;                   ///< [Pa]
-  Real dilation = 0;                   ///< tangent of the dilation angle [-]
-  std::optional<Real> dilationSlip;    ///< slip after which nothing dilates [m]; default: no limit
-  Real tensileStrength = 0;            ///< linear, mortar, bilinear [Pa]
-  Real tensionEnergy = 0;              ///< mortar, bilinear: G_I [J/m^2]
-  Real shearEnergy = 0;                ///< mortar, bilinear: G_II [J/m^2]
-  Real roughness = 0;                  ///< barton_bandis: JRC [-]
-  Real wallStrength = 0;               ///< barton_bandis: JCS [Pa]
-  std::optional<Real> rockStrength;    ///< barton_bandis: sigma_c [Pa]; default JCS
-  Real residualFriction = 0;           ///< barton_bandis: tan(phi_r) [-]
-  Real peakSlip = 0;                   ///< barton_bandis [m]
+  std::string model;                ///< one of jointModels()
+  std::shared_ptr<void> parameters; ///< of the model; copies of a card share them
 };
 
 /// Which joint law acts between faces of two blocks, of two materials or of two side sets, or

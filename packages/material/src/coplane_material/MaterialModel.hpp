@@ -2,42 +2,19 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_material/Material.hpp>
-#include <coplane_schema/DeckNode.hpp>
-#include <coplane_schema/SchemaBuilder.hpp>
+#include <coplane_schema/CardModel.hpp>
 
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace coplane
 {
-/// A card where it stands in its file, for what one of its keys demands of another.
-struct CardPlace
+/// A model that cards in `materials` may name, and what other parts ask of it.
+struct MaterialModel : CardModel<Material>
 {
-  const DeckNode& node;
-  std::string path; ///< such as materials.steel
-  Problems& problems;
-
-  bool gives(const std::string& key) const { return node.find(key) != nullptr; }
-  /// "materials.steel.key text", at the key or, where it is not given, at the card.
-  void problem(const std::string& key, const std::string& text) const;
-};
-
-/// A model that cards in `materials` may name. Schema, references, checks, laws, costs of the
-/// partition and sets of the library come from here; a law's own file makes it.
-struct MaterialModel
-{
-  std::string name;      ///< the word of the deck
-  std::string meaning;   ///< a few words for the reference
-  Real cost = 1;         ///< time of an element's update over that with linear_elastic
-  std::vector<Key> keys; ///< their target is what `parameters` makes
-  std::string sets;      ///< of the library: YAML, cards by their names; sources in the manual
-  std::function<std::shared_ptr<void>()> parameters; ///< with their defaults
-  /// What one key demands of another; empty: nothing.
-  std::function<void(const void* parameters, const CardPlace&)> check;
-  /// Throws Error(ExitCode::Deck) with what is wrong.
-  std::function<Material(const void* parameters)> law;
+  Real cost = 1;    ///< time of an element's update over that with linear_elastic
+  std::string sets; ///< of the library: YAML, cards by their names; sources in the manual
   /// What is wrong with the parameters in two dimensions; empty: never anything.
   std::function<std::string(const void* parameters)> problemInTheFlat;
   /// The largest element that can follow the law's softening [m]; empty: any.
@@ -47,60 +24,34 @@ struct MaterialModel
 /// Every model, in the order of the manual.
 const std::vector<MaterialModel>& materialModels();
 
-/// The model of that name, or nullptr.
-const MaterialModel* findMaterialModel(const std::string& name);
-
-/// A model under construction, whose keys fill a P; makeLaw(const P&) makes its law.
 template <class P>
-class MaterialModelOf
+class MaterialModelOf : public CardModelBuilder<MaterialModelOf<P>, MaterialModel, P>
 {
 public:
-  MaterialModelOf(const std::string& name, const std::string& meaning)
-  {
-    model_.name = name;
-    model_.meaning = meaning;
-    model_.parameters = [] { return std::make_shared<P>(); };
-    model_.law = [](const void* parameters) -> Material
-    { return makeLaw(*static_cast<const P*>(parameters)); };
-  }
-  operator MaterialModel() const { return model_; }
+  using CardModelBuilder<MaterialModelOf<P>, MaterialModel, P>::CardModelBuilder;
 
   MaterialModelOf& costs(Real factor)
   {
-    model_.cost = factor;
-    return *this;
-  }
-  MaterialModelOf& has(const std::vector<Key>& keys)
-  {
-    model_.keys.insert(model_.keys.end(), keys.begin(), keys.end());
+    this->model_.cost = factor;
     return *this;
   }
   MaterialModelOf& comesAs(const std::string& sets)
   {
-    model_.sets = sets;
-    return *this;
-  }
-  MaterialModelOf& demands(void (*check)(const P&, const CardPlace&))
-  {
-    model_.check = [check](const void* parameters, const CardPlace& place)
-    { check(*static_cast<const P*>(parameters), place); };
+    this->model_.sets = sets;
     return *this;
   }
   MaterialModelOf& refusesInTheFlat(std::string (*problem)(const P&))
   {
-    model_.problemInTheFlat = [problem](const void* parameters)
+    this->model_.problemInTheFlat = [problem](const void* parameters)
     { return problem(*static_cast<const P*>(parameters)); };
     return *this;
   }
   MaterialModelOf& softensUpTo(Real (*size)(const P&))
   {
-    model_.largestElement = [size](const void* parameters)
+    this->model_.largestElement = [size](const void* parameters)
     { return size(*static_cast<const P*>(parameters)); };
     return *this;
   }
-
-private:
-  MaterialModel model_;
 };
 
 namespace schema

@@ -20,18 +20,4 @@ const std::vector<MaterialModel>& materialModels()
                FluidParameters, IdealGasParameters>();
   return models;
 }
-
-const MaterialModel* findMaterialModel(const std::string& name)
-{
-  for (const MaterialModel& model : materialModels())
-    if (model.name == name)
-      return &model;
-  return nullptr;
-}
-
-void CardPlace::problem(const std::string& key, const std::string& text) const
-{
-  const DeckNode* const given = node.find(key);
-  problems.add(given ? *given : node, path + "." + key + " " + text);
-}
 } // namespace coplane

@@ -1,0 +1,51 @@
+#include "JointKeys.hpp"
+
+namespace coplane
+{
+JointLaw makeLaw(const LinearParameters& p)
+{
+  JointLaw law = coulombLaw(p);
+  law.initialStiffness = p.normalStiffness;
+  if (p.tensileStrength > 0)
+  {
+    law.bond.kind = Bond::Kind::Brittle;
+    law.bond.tensileStrength = p.tensileStrength;
+  }
+  return law;
+}
+
+namespace
+{
+void check(const LinearParameters& p, const CardPlace& card)
+{
+  checkCoulomb(p, card);
+}
+} // namespace
+
+JointModel LinearParameters::model()
+{
+  using P = LinearParameters;
+  using namespace schema;
+  return JointModelOf<P>("linear", "a given stiffness")
+      .has({
+          number("normal_stiffness", &P::normalStiffness)
+              .needed()
+              .in("Pa/m")
+              .above(0)
+              .means("traction per closure, and per opening of a bond")
+              .like("2e10"),
+      })
+      .has(coulombKeys<P>())
+      .has({
+          cohesionKey<P>(),
+          number("tensile_strength", &P::tensileStrength)
+              .in("Pa")
+              .atLeast(0)
+              .like("2e5")
+              .means("of a declared joint, until it breaks at once: in tension, or when it slips; "
+                     "0: no "
+                     "bond"),
+      })
+      .demands(check);
+}
+} // namespace coplane

@@ -1,0 +1,38 @@
+#include "JointKeys.hpp"
+
+namespace coplane
+{
+JointLaw makeLaw(const PenaltyParameters& p)
+{
+  JointLaw law = coulombLaw(p);
+  law.penalty = true;
+  law.stiffnessFraction = p.stiffnessFraction;
+  return law;
+}
+
+namespace
+{
+void check(const PenaltyParameters& p, const CardPlace& card)
+{
+  checkCoulomb(p, card);
+}
+} // namespace
+
+JointModel PenaltyParameters::model()
+{
+  using P = PenaltyParameters;
+  using namespace schema;
+  return JointModelOf<P>("penalty", "stiffness from the elements behind the faces")
+      .has({
+          number("stiffness_fraction", &P::stiffnessFraction)
+              .in("-")
+              .above(0)
+              .like("0.7")
+              .means("normal stiffness over 1 / (h1/M1 + h2/M2), with thickness h and "
+                     "wave modulus M of the two elements"),
+      })
+      .has(coulombKeys<P>())
+      .has({cohesionKey<P>()})
+      .demands(check);
+}
+} // namespace coplane

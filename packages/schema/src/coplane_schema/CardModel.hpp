@@ -1,0 +1,148 @@
+#pragma once
+
+#include <coplane_schema/DeckNode.hpp>
+#include <coplane_schema/SchemaBuilder.hpp>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace coplane
+{
+/// A card where it stands in its file, for what one of its keys demands of another.
+struct CardPlace
+{
+  const DeckNode& node;
+  std::string path; ///< such as materials.steel
+  Problems& problems;
+
+  bool gives(const std::string& key) const { return node.find(key) != nullptr; }
+  /// "materials.steel.key text", at the key or, where it is not given, at the card.
+  void problem(const std::string& key, const std::string& text) const;
+};
+
+/// A model that the cards of a group may name. Schema, references, checks and laws come from here;
+/// a law's own file makes it.
+template <class LawType>
+struct CardModel
+{
+  using Law = LawType;
+
+  std::string name;                                  ///< the word of the deck
+  std::string meaning;                               ///< a few words for the reference
+  std::vector<Key> keys;                             ///< their target is what `parameters` makes
+  std::function<std::shared_ptr<void>()> parameters; ///< with their defaults
+  /// What one key demands of another; empty: nothing.
+  std::function<void(const void* parameters, const CardPlace&)> check;
+  /// Throws Error(ExitCode::Deck) with what is wrong.
+  std::function<Law(const void* parameters)> law;
+};
+
+/// A model under construction, whose keys fill a P; makeLaw(const P&) makes its law. Derived adds
+/// words of its own.
+template <class Derived, class Model, class P>
+class CardModelBuilder
+{
+public:
+  CardModelBuilder(const std::string& name, const std::string& meaning)
+  {
+    model_.name = name;
+    model_.meaning = meaning;
+    model_.parameters = [] { return std::make_shared<P>(); };
+    model_.law = [](const void* parameters) -> typename Model::Law
+    { return makeLaw(*static_cast<const P*>(parameters)); };
+  }
+  operator Model() const { return model_; }
+
+  Derived& has(const std::vector<Key>& keys)
+  {
+    model_.keys.insert(model_.keys.end(), keys.begin(), keys.end());
+    return self();
+  }
+  Derived& demands(void (*check)(const P&, const CardPlace&))
+  {
+    model_.check = [check](const void* parameters, const CardPlace& place)
+    { check(*static_cast<const P*>(parameters), place); };
+    return self();
+  }
+
+protected:
+  Derived& self() { return static_cast<Derived&>(*this); }
+
+  Model model_;
+};
+
+/// The model of that name, or nullptr.
+template <class Model>
+const Model* findModel(const std::vector<Model>& models, const std::string& name)
+{
+  for (const Model& model : models)
+    if (model.name == name)
+      return &model;
+  return nullptr;
+}
+
+/// Whether references say the same of two keys.
+bool sameTexts(const Key& a, const Key& b);
+
+/// The keys of a group of cards whose `model` decides what they have: the key `model` itself, and
+/// those of all models, each once: what several models say alike is one key, which goes to the
+/// parameters of the card's own model.
+/// @param Card has `std::string model` and `std::shared_ptr<void> parameters`
+template <class Card, class Model>
+std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::string& meaning,
+                              const std::string& example)
+{
+  std::vector<std::string> names, meanings;
+  for (const Model& model : models)
+  {
+    names.push_back(model.name);
+    meanings.push_back(model.meaning);
+  }
+  std::vector<Key> keys{schema::text("model", &Card::model)
+                            .oneOf(names)
+                            .means(fmt::format("{}: {}", meaning, fmt::join(meanings, "; ")))
+                            .like(example)
+                            .template andThen<Card>(
+                                [&models](Card& card) {
+                                  card.parameters = findModel(models, card.model)->parameters();
+                                })};
+  using OfModel = std::map<std::string, Key>;
+  std::vector<std::shared_ptr<OfModel>> owners(1);
+  for (const Model& model : models)
+    for (const Key& key : model.keys)
+    {
+      const auto same = std::find_if(keys.begin() + 1, keys.end(),
+                                     [&](const Key& one) { return sameTexts(one, key); });
+      const auto at = std::size_t(same - keys.begin());
+      if (same == keys.end())
+      {
+        const auto owner = std::make_shared<OfModel>();
+        Key shared = key;
+        shared.store = [owner](void* target, const KeyValue& value)
+        {
+          const auto& card = *static_cast<const Card*>(target);
+          if (const auto own = owner->find(card.model); own != owner->end())
+            own->second.store(card.parameters.get(), value);
+        };
+        shared.show = [owner](const void* target)
+        {
+          const auto& card = *static_cast<const Card*>(target);
+          const auto own = owner->find(card.model);
+          return own == owner->end() ? "" : own->second.show(card.parameters.get());
+        };
+        keys.push_back(shared);
+        owners.push_back(owner);
+      }
+      keys[at].models.push_back(model.name);
+      owners[at]->emplace(model.name, key);
+    }
+  for (Key& key : keys)
+    if (key.models.size() == models.size())
+      key.models.clear();
+  return keys;
+}
+} // namespace coplane
