@@ -48,7 +48,8 @@ if whole:
 step = int(numpy.argmin(numpy.abs(results.times - 1.3e-3)))
 damage, centre = results.element("bricks", "damage", step), results.centres("bricks")
 near = (numpy.abs(centre[:, 0]) < 0.5) & (numpy.abs(centre[:, 1] - 3.25) < 0.5)
-example.check_within("largest damage at the point of impact at 1.3 ms", float(damage[near].max()), 0.9, 1)
+# With full integration it is the mean of eight points, and may round to a bit more than 1.
+example.check_within("largest damage at the point of impact at 1.3 ms", float(damage[near].max()), 0.9, 1 + 1e-12)
 ends = (numpy.abs(centre[:, 0]) > 2.5) & (centre[:, 1] < 1)
 example.check_within("mean damage at the lower corners at 1.3 ms", float(damage[ends].mean()), 0, 0.2)
 # The pressure wave, 3993 m/s, has reached all of the wall by then: 3.2 m take 0.8 ms.

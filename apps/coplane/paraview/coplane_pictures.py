@@ -188,7 +188,8 @@ class Picture:
         shown.ColorArrayName = ["POINTS", ""]
         shown.AmbientColor = shown.DiffuseColor = color
         shown.PointSize = size
-        shown.RenderPointsAsSpheres = 1
+        # In the plane of a flat mesh some renderers hide spheres behind it.
+        shown.RenderPointsAsSpheres = 0 if self.flat else 1
         shown.Ambient, shown.Diffuse = 1.0, 0.0
 
     def points(self, source, color, range, title, size=6, **more):
@@ -198,7 +199,7 @@ class Picture:
             return
         shown = self.surface(source, color, range, title, representation="Points", **more)
         shown.PointSize = size
-        shown.RenderPointsAsSpheres = 1
+        shown.RenderPointsAsSpheres = 0 if self.flat else 1
 
     def save(self, name):
         file = os.path.join(self.run.pictures, f"{name}_{round(1e6 * self.time):06d}us.png")

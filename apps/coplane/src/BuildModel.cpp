@@ -310,9 +310,11 @@ std::vector<std::string> problemsOfLaws(const Deck& deck, int dimension)
     const auto material =
         std::find_if(deck.materials.begin(), deck.materials.end(),
                      [&](const MaterialCard& m) { return m.name == card.material; });
-    if (const std::string problem = problemInTheFlat(*material); dimension == 2 && !problem.empty())
-      problems.push_back(
-          fmt::format("{}: materials.{}: {}.", material->where, material->name, problem));
+    if (const std::string problem =
+            dimension == 2 ? problemInTheFlat(*material, deck.geometry == "axisymmetric") : "";
+        !problem.empty())
+      problems.push_back(fmt::format("{}: blocks.{}: material '{}': {}.", card.where, card.name,
+                                     material->name, problem));
     const std::vector<std::string> names = historyNames(materialOf(*material));
     for (const std::string& wanted : erosionOf(card.erosion).variableNames())
       if (std::find(names.begin(), names.end(), wanted) == names.end())

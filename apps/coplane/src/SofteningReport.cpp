@@ -20,8 +20,8 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
     const auto material =
         std::find_if(deck.materials.begin(), deck.materials.end(),
                      [&](const MaterialCard& m) { return m.name == card->material; });
-    const Real limit = largestElement(*material);
-    if (limit == infinity)
+    const SofteningLimit limit = softeningLimit(*material);
+    if (limit.size == infinity)
       continue; // the same on every rank
     const bool flat = topology(block.type()).dimension == 2;
     Real largest = 0;
@@ -31,13 +31,14 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
       largest = std::max(largest, flat ? std::sqrt(volume) : std::cbrt(volume));
     }
     largest = comm.max(largest);
-    if (largest >= limit)
+    if (largest >= limit.size)
       logWarning("softening",
                  fmt::format("block '{}' has elements of up to {:.4g} m, but material '{}' can be "
-                             "followed up to G_F E / ft^2 = {:.4g} m: larger elements have to "
-                             "spring back when they crack, and take more energy than they should. "
-                             "Refine the mesh, or lower tensile_strength for large elements.",
-                             name, largest, material->name, limit));
+                             "followed up to E {} / ({})^2 = {:.4g} m: larger elements have to "
+                             "spring back when they soften, and take more energy than they should. "
+                             "Refine the mesh, or lower {} for large elements.",
+                             name, largest, material->name, limit.energy, limit.strength,
+                             limit.size, limit.strength));
   }
 }
 } // namespace coplane

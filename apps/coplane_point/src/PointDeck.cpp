@@ -301,7 +301,8 @@ PointDeck parsePointDeck(const std::string& text, const std::string& file,
   Problems problems;
   PointDeck deck;
   deck.file = file;
-  const DeckNode root = readBySchema(pointSchema(), text, file, overrides, &deck, problems);
+  const DeckNode root =
+      readBySchema(pointSchema(), text, file, overrides, &deck, problems, insertMaterialSets);
   checkJoints(deck.joints, root, problems);
   for (JointPathCard& card : deck.jointPaths)
   {

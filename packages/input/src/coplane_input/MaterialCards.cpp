@@ -73,15 +73,15 @@ void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& 
   }
 }
 
-std::string problemInTheFlat(const MaterialCard& card)
+std::string problemInTheFlat(const MaterialCard& card, bool revolved)
 {
   const MaterialModel& model = modelOf(card);
-  return model.problemInTheFlat ? model.problemInTheFlat(card.parameters.get()) : "";
+  return model.problemInTheFlat ? model.problemInTheFlat(card.parameters.get(), revolved) : "";
 }
 
-Real largestElement(const MaterialCard& card)
+SofteningLimit softeningLimit(const MaterialCard& card)
 {
   const MaterialModel& model = modelOf(card);
-  return model.largestElement ? model.largestElement(card.parameters.get()) : infinity;
+  return model.softening ? model.softening(card.parameters.get()) : SofteningLimit{};
 }
 } // namespace coplane

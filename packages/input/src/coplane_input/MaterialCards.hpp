@@ -1,7 +1,7 @@
 #pragma once
 
 #include <coplane_input/Deck.hpp>
-#include <coplane_material/Material.hpp>
+#include <coplane_material/MaterialModel.hpp>
 #include <coplane_schema/DeckNode.hpp>
 #include <coplane_schema/Schema.hpp>
 
@@ -28,9 +28,8 @@ void checkMaterials(const std::vector<MaterialCard>& materials, const DeckNode& 
                     Problems& problems);
 
 /// What is wrong with a card in a mesh of two dimensions; empty: nothing.
-std::string problemInTheFlat(const MaterialCard& card);
+std::string problemInTheFlat(const MaterialCard& card, bool revolved);
 
-/// The largest element that can follow the softening of a material, G_F E / ft^2: a larger one
-/// would have to spring back [m]. Infinity for laws without fracture energy.
-Real largestElement(const MaterialCard& card);
+/// The largest element that can follow the softening of a material.
+SofteningLimit softeningLimit(const MaterialCard& card);
 } // namespace coplane

@@ -33,6 +33,9 @@ namespace
 {
 void check(const FluidParameters& p, const CardPlace& card)
 {
+  const DeckNode* const given = card.node.find("eos");
+  if (p.eos == EquationOfState::Kind::None && given && given->text != "none")
+    return; // was reported where it was read
   if (p.eos == EquationOfState::Kind::None)
     card.problem("eos", "is missing; a fluid has nothing else. Accepted: one of linear, "
                         "mie_grueneisen, p_alpha, with sound_speed.");

@@ -1,7 +1,6 @@
 #include <coplane_material/Demand.hpp>
 #include <coplane_material/MaterialModel.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace coplane
@@ -45,8 +44,8 @@ HoekBrown makeLaw(const HoekBrownParameters& p)
 
   const Real tip = law.tip(law.peak);
   law.tensileStrength = p.tensileStrength.value_or(tip);
-  demand(law.tensileStrength >= 0 && law.tensileStrength <= tip, "tensile strength",
-         law.tensileStrength, "Pa",
+  demand(law.tensileStrength >= 0 && law.tensileStrength <= tip && std::isfinite(tip),
+         "tensile strength", law.tensileStrength, "Pa",
          fmt::format(
              "0 or more, and at most s sigma_ci / m_b = {:.6g} Pa, the tip of the criterion", tip));
   // N of the plane that touches the criterion in an unconfined test is (sqrt(1 + t^2) + t)^2.
@@ -60,15 +59,15 @@ HoekBrown makeLaw(const HoekBrownParameters& p)
 
 namespace
 {
-/// By either softening: G E / (fall of the strength)^2.
-Real largestElement(const HoekBrownParameters& p)
+SofteningLimit limit(const HoekBrownParameters& p)
 {
   const HoekBrown law = makeLaw(p);
-  const auto limit = [&](Real energy, Real fall)
-  { return energy > 0 && fall > 0 ? energy * p.youngsModulus / (fall * fall) : infinity; };
-  return std::min(
-      limit(p.shearEnergy, law.uniaxialStrength(law.peak) - law.uniaxialStrength(law.residual)),
-      limit(p.fractureEnergy, law.tensileStrength));
+  const Real fall = law.uniaxialStrength(law.peak) - law.uniaxialStrength(law.residual);
+  const SofteningLimit cracks = limitOf(p.fractureEnergy, p.youngsModulus, law.tensileStrength,
+                                        "fracture_energy", "tensile_strength"),
+                       slips = limitOf(p.shearEnergy, p.youngsModulus, fall, "shear_energy",
+                                       "the fall to residual_gsi");
+  return cracks.size < slips.size ? cracks : slips;
 }
 } // namespace
 
@@ -136,6 +135,6 @@ MaterialModel HoekBrownParameters::model()
               .like("50")
               .means("by which the cut-off falls, per area of a crack; 0: it stays"),
       })
-      .softensUpTo(largestElement);
+      .softensUpTo(limit);
 }
 } // namespace coplane

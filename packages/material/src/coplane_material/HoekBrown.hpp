@@ -242,7 +242,7 @@ private:
       const T next = r - (u + third * r - room) / (curve.inverse * (u / r) + third);
       r = branchFree::choose(r > T(0.0), branchFree::positivePart(next), r);
     }
-    const T most = branchFree::positivePart(branchFree::smaller(r * curve.unit, cut - s[0]));
+    const T most = branchFree::positivePart(branchFree::smaller(r * curve.unit, cut - mean));
     return branchFree::choose(kept * bending > most, most / bending, kept);
   }
   /// N_psi of the flow where the strength is r unit: work at the stress on a convex surface that

@@ -52,6 +52,7 @@ HolmquistJohnsonCook makeLaw(const HolmquistJohnsonCookParameters& p)
   law.crushCompression = p.crushCompression;
   law.lockPressure = p.lockPressure;
   law.lockCompression = p.lockCompression;
+  demand(p.lockModuli.size() == 3, "number of locked moduli", Real(p.lockModuli.size()), "", "3");
   std::copy(p.lockModuli.begin(), p.lockModuli.end(), law.locked);
   return completed(law);
 }

@@ -37,6 +37,8 @@ JohnsonCook makeLaw(const JohnsonCookParameters& p)
   law.roomTemperature = p.roomTemperature;
   law.heatCapacity = p.heatCapacity;
   law.heatFraction = p.heatFraction;
+  demand(p.fracture.empty() || p.fracture.size() == 5, "number of fracture constants",
+         Real(p.fracture.size()), "", "0 or 5");
   std::copy(p.fracture.begin(), p.fracture.end(), law.damage);
   return checked(law);
 }

@@ -10,15 +10,22 @@
 
 namespace coplane
 {
+/// The largest element that can follow the softening of a material.
+struct SofteningLimit
+{
+  Real size = infinity;      ///< [m]
+  std::string energy = "";   ///< the key of the energy that softening takes
+  std::string strength = ""; ///< what falls
+};
+
 /// A model that cards in `materials` may name, and what other parts ask of it.
 struct MaterialModel : CardModel<Material>
 {
   Real cost = 1;    ///< time of an element's update over that with linear_elastic
   std::string sets; ///< of the library: YAML, cards by their names; sources in the manual
-  /// What is wrong with the parameters in two dimensions; empty: never anything.
-  std::function<std::string(const void* parameters)> problemInTheFlat;
-  /// The largest element that can follow the law's softening [m]; empty: any.
-  std::function<Real(const void* parameters)> largestElement;
+  /// What is wrong with the parameters in two dimensions, plane or revolved; empty: never anything.
+  std::function<std::string(const void* parameters, bool revolved)> problemInTheFlat;
+  std::function<SofteningLimit(const void* parameters)> softening; ///< empty: does not soften
 };
 
 /// Every model, in the order of the manual.
@@ -40,16 +47,16 @@ public:
     this->model_.sets = sets;
     return *this;
   }
-  MaterialModelOf& refusesInTheFlat(std::string (*problem)(const P&))
+  MaterialModelOf& refusesInTheFlat(std::string (*problem)(const P&, bool revolved))
   {
-    this->model_.problemInTheFlat = [problem](const void* parameters)
-    { return problem(*static_cast<const P*>(parameters)); };
+    this->model_.problemInTheFlat = [problem](const void* parameters, bool revolved)
+    { return problem(*static_cast<const P*>(parameters), revolved); };
     return *this;
   }
-  MaterialModelOf& softensUpTo(Real (*size)(const P&))
+  MaterialModelOf& softensUpTo(SofteningLimit (*limit)(const P&))
   {
-    this->model_.largestElement = [size](const void* parameters)
-    { return size(*static_cast<const P*>(parameters)); };
+    this->model_.softening = [limit](const void* parameters)
+    { return limit(*static_cast<const P*>(parameters)); };
     return *this;
   }
 };
@@ -202,13 +209,20 @@ std::vector<Key> mohrCoulombKeys()
 /// The table of cohesion and friction beside the keys that it replaces.
 void checkTable(const MohrCoulombParameters& parameters, const CardPlace& place);
 
-/// G_F E / ft^2 [m]: a larger element would have to spring back when it cracks.
-template <class P>
-Real largestSofteningElement(const P& p)
+/// G E / (fall of strength)^2: larger elements would have to spring back while they soften.
+inline SofteningLimit limitOf(Real energy, Real youngsModulus, Real fall, const char* energyKey,
+                              const char* strengthKey)
 {
-  return p.fractureEnergy > 0 && p.tensileStrength > 0
-             ? p.fractureEnergy * p.youngsModulus / (p.tensileStrength * p.tensileStrength)
-             : infinity;
+  return {energy > 0 && fall > 0 ? energy * youngsModulus / (fall * fall) : infinity, energyKey,
+          strengthKey};
+}
+
+/// Of a P that cracks with a fracture energy.
+template <class P>
+SofteningLimit elementThatCracks(const P& p)
+{
+  return limitOf(p.fractureEnergy, p.youngsModulus, p.tensileStrength, "fracture_energy",
+                 "tensile_strength");
 }
 
 /// The elastic constants with the bulk modulus of the equation of state, if there is one.

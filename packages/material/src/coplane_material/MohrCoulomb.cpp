@@ -31,8 +31,8 @@ MohrCoulomb withTable(const MohrCoulombParameters& p)
     demand(i == 0 || p.plasticShears[i] > p.plasticShears[i - 1], "plastic shear",
            p.plasticShears[i], "", "above the one before");
     demand(p.cohesions[i] >= 0, "cohesion", p.cohesions[i], "Pa", "0 or more");
-    demand(p.frictions[i] >= p.dilation, "friction", p.frictions[i], "",
-           fmt::format("at least the dilation ({:.6g})", p.dilation));
+    demand(p.frictions[i] >= p.dilation && p.frictions[i] <= 14, "friction", p.frictions[i], "",
+           fmt::format("at least the dilation ({:.6g}), and at most 14", p.dilation));
     law.shears[i] = p.plasticShears[i];
     law.cohesions[i] = p.cohesions[i];
     law.frictionTangents[i] = p.frictions[i];
@@ -45,7 +45,8 @@ MohrCoulomb makeLaw(const MohrCoulombParameters& p)
 {
   if (!p.plasticShears.empty())
     return withTable(p);
-  demand(p.friction >= 0 && std::isfinite(p.friction), "friction", p.friction, "", "0 or more");
+  demand(p.friction >= 0 && p.friction <= 14, "friction", p.friction, "",
+         "0 or more, and at most 14 (86 degrees)");
   demand(p.dilation >= 0 && p.dilation <= p.friction, "dilation", p.dilation, "",
          fmt::format("0 or more, and at most the friction ({:.6g})", p.friction));
   demand(p.cohesion > 0, "cohesion", p.cohesion, "Pa", "positive");
@@ -99,7 +100,7 @@ MaterialModel MohrCoulombParameters::model()
       .has(frictionKeys<P>())
       .has(mohrCoulombKeys<P>())
       .demands(checkTable)
-      .softensUpTo(largestSofteningElement)
+      .softensUpTo(elementThatCracks)
       .comesAs(R"(
 clay_brick: {model: mohr_coulomb, density: 1800, youngs_modulus: 10e9, poisson_ratio: 0.15,
              cohesion: 4.66e6, friction: 0.84, dilation: 0.18, tensile_strength: 2e6,

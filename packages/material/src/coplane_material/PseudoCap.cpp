@@ -170,7 +170,7 @@ MaterialModel PseudoCapParameters::model()
               .means("strain rate from which rate_effects grow no more; tests go to about 300"),
       })
       .demands(check)
-      .softensUpTo(largestSofteningElement)
+      .softensUpTo(elementThatCracks)
       .comesAs(R"(
 concrete_c40: {model: pseudo_cap, density: 2300, youngs_modulus: 33e9, poisson_ratio: 0.2,
                compressive_strength: 40e6, tensile_strength: 4e6, fracture_energy: 120,

@@ -46,12 +46,17 @@ void check(const UbiquitousJointParameters& p, const CardPlace& card)
   checkTable(p, card);
 }
 
-std::string problemInTheFlat(const UbiquitousJointParameters& p)
+std::string problemInTheFlat(const UbiquitousJointParameters& p, bool revolved)
 {
-  return p.jointNormal.z == 0 ? ""
-                              : fmt::format("joint_normal has {} along z; accepted in two "
-                                            "dimensions: 0, planes at right angles to the mesh",
-                                            p.jointNormal.z);
+  if (p.jointNormal.z != 0)
+    return fmt::format("joint_normal has {} along z; accepted in two dimensions: 0, planes at "
+                       "right angles to the mesh",
+                       p.jointNormal.z);
+  if (revolved && p.jointNormal.x != 0)
+    return fmt::format("joint_normal has {} along the radius; accepted in a body of revolution: "
+                       "[0, 1, 0], planes across its axis",
+                       p.jointNormal.x);
+  return "";
 }
 } // namespace
 
@@ -96,6 +101,6 @@ MaterialModel UbiquitousJointParameters::model()
       })
       .demands(check)
       .refusesInTheFlat(problemInTheFlat)
-      .softensUpTo(largestSofteningElement);
+      .softensUpTo(elementThatCracks);
 }
 } // namespace coplane

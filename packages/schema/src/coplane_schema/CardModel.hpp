@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/Error.hpp>
 #include <coplane_schema/DeckNode.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 
@@ -59,7 +60,14 @@ public:
 
   Derived& has(const std::vector<Key>& keys)
   {
-    model_.keys.insert(model_.keys.end(), keys.begin(), keys.end());
+    for (const Key& key : keys)
+    {
+      // A member of a base is bound as number<P, Real>("x", &P::x), or the target is not the base.
+      if (*key.card != typeid(P))
+        fail(ExitCode::Internal, "key {} of model {} is bound to another card", key.name,
+             model_.name);
+      model_.keys.push_back(key);
+    }
     return self();
   }
   Derived& demands(void (*check)(const P&, const CardPlace&))

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <typeinfo>
 #include <variant>
 #include <vector>
 
@@ -63,6 +64,7 @@ struct Key
   bool ofPlaceToo = false; ///< TimeFunction(s): expressions may have x, y, z beside t
   std::function<void(void* target, const KeyValue&)> store;
   std::function<std::string(const void* target)> show; ///< the value there, if it can be shown
+  const std::type_info* card = nullptr; ///< what `store` takes its target for; none: a group
 
   // groups
   std::vector<Key> keys;

@@ -142,6 +142,7 @@ KeyBuilder bound(const std::string& name, KeyKind kind, Field Card::*member, Ass
   Key key;
   key.name = name;
   key.kind = kind;
+  key.card = &typeid(Card);
   key.store = [member, assignValue](void* target, const KeyValue& value)
   { assignValue(static_cast<Card*>(target)->*member, std::get<Value>(value)); };
   return KeyBuilder(key);

@@ -13,8 +13,8 @@ namespace coplane
 /// collected; text that is no YAML throws Error(ExitCode::Deck). The tree is returned for checks
 /// that take more than one key.
 /// @param overrides "path=value", applied to the tree before it is read
-/// @param prepare completes the tree before it is read, such as from a library
+/// @param prepare completes the tree before it is read, such as from a library; may be empty
 DeckNode readBySchema(const Key& schema, const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides, void* target, Problems& problems,
-                      const std::function<void(DeckNode&)>& prepare = {});
+                      const std::function<void(DeckNode&)>& prepare);
 } // namespace coplane
