@@ -84,6 +84,25 @@ TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)
             Verdict::SharedNode);
 }
 
+TEST(Step5CandidatePairs, onlyFacesAtTheTipOfADeclaredJointShareNodes)
+{
+  CandidateRules rules;
+  rules.declared = [](int, int) { return true; };
+  const auto judge = [&](const std::function<void(Face&, Face&)>& change) {
+    return judgeSquares(0.05, 1, change, {0, 0, -1}, rules);
+  };
+  const auto tip = [](Face& a, Face& b) { b.nodes[2] = a.nodes[0]; };
+  EXPECT_EQ(judge(tip), Verdict::Candidate);
+  // Neighbours on a surface that has folded: their elements share nodes below it, too.
+  EXPECT_EQ(judge(
+                [&](Face& a, Face& b)
+                {
+                  tip(a, b);
+                  a.far[0] = b.far[2] = 77;
+                }),
+            Verdict::SharedNode);
+}
+
 TEST(Step5CandidatePairs, frontAndBackOfAThinBodyAreNoPair)
 {
   // Elements beside each other, whose faces have no node in common.

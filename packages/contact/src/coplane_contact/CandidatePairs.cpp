@@ -45,6 +45,17 @@ bool shareNode(const Face& a, const Face& b)
   return any != 0;
 }
 
+/// Whether every node that the elements behind two faces have in common is a node of both faces.
+bool shareNoOtherNode(const Face& a, const Face& b)
+{
+  const auto node = [](const Face& face, int k) { return k < 4 ? face.nodes[k] : face.far[k - 4]; };
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      if (node(a, i) >= 0 && node(a, i) == node(b, j) && (i >= 4 || j >= 4))
+        return false;
+  return true;
+}
+
 /// How far a pair must be within the bounds of candidates.
 struct Margin
 {
@@ -53,15 +64,17 @@ struct Margin
 };
 
 /// Faces of elements that share a node are neighbours on the surface of one body, or its front and
-/// its back where it is thin, and no pair. But at the tip of a joint that ends inside a body both
-/// faces have the tip's node: they lie on each other.
+/// its back where it is thin, and no pair: neighbours on a surface that is crushed until it folds
+/// oppose each other, deep in one another. But at the tip of a joint that ends inside a body both
+/// faces have the tip's nodes, which are all that their elements have in common: they lie on each
+/// other.
 bool mayShareNode(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
                   const CandidateRules& rules, const Margin& margin = {})
 {
   constexpr Real cosFolded = 0.9;
   if (rules.sharedNodes)
     return true;
-  if (!rules.declared || !rules.declared(a.group, b.group))
+  if (!rules.declared || !rules.declared(a.group, b.group) || !shareNoOtherNode(a, b))
     return false;
   const Real near = rules.depthMax * std::min(a.thickness, b.thickness) - margin.moved;
   const Real most =
