@@ -115,6 +115,54 @@ def check_links():
     assert not broken, "\n".join(broken)
 
 
+# What pages name as an example of the reader's own, or of another program.
+NAMES_OF_OTHERS = {
+    "NewLaw", "NewLawParameters", "NewParameters", "NewLaw.hpp", "NewLaw.cpp", "run_my_experiments.sh",
+    "rock_tri3", "rock_quad4", "odls_base_sigkill_timeout",
+}  # fmt: skip
+
+
+def check_names():
+    """What pages name in `code` is there: files, functions and types, keys of decks, columns, options of programs."""
+    files = tracked()
+    basenames = {pathlib.PurePath(name).name for name in files}
+    words, options = set(), set()
+    for name in files:
+        if re.search(r"\.(cpp|hpp|py|sh|cmake|txt|yaml|in)$", name) and not name.startswith(("docs/", "tests/documents/")):
+            text = (SOURCE / name).read_text(errors="replace")
+            words.update(re.findall(r"[A-Za-z_]\w*", text))
+            options.update(re.findall(r"--[a-z][\w-]*", text))
+    reference = (SOURCE / "docs/user/deck.md").read_text()
+    keys = set(re.findall(r"^\| `(\w+)`", reference, flags=re.M))
+    sections = re.findall(r"^## `(.*)`$", reference, flags=re.M)
+    keys.update(part for section in sections for part in section.split("."))
+    groups = {section.split(".")[0] for section in sections if ".<" not in section}
+
+    def is_word(word):
+        # Columns are put together: lower and _block, velocity and _x.
+        parts = word.split("_")
+        joined = any("_".join(parts[:i]) in words and "_" + "_".join(parts[i:]) in words for i in range(1, len(parts)))
+        return word in words or joined
+
+    wrong = []
+    for page in tracked("*.md"):
+        if page in ("docs/CHANGELOG.md", "docs/verification.md"):  # of the past, of results
+            continue
+        text = re.sub(r"```.*?```", "", (SOURCE / page).read_text(), flags=re.S)
+        for span in re.findall(r"(?<!`)`([^`\n]+)`(?!`)", text):
+            if re.search(r"[<>*{}$…]|\.\.\.", span):
+                continue
+            named = [path for path in re.findall(r"[\w./-]+\.(?:cpp|hpp|py|sh|cmake)\b", span) if pathlib.PurePath(path).name not in basenames]
+            named += [part for pair in re.findall(r"\b(?!std::|Kokkos::|Tpetra::|Zoltan2::)\w+::\w+\b", span) for part in pair.split("::") if part not in words]
+            named += [word for word in re.findall(r"(?<![\w.-])(?:[a-z]+|[A-Z][a-z]+)[A-Z]\w*", span) if word not in words]
+            named += [word for word in re.findall(r"(?<![\w-])--[a-z][\w-]*", span) if word not in options]
+            named += [word for word in re.findall(r"(?<![\w/.-])[a-z]+(?:_[a-z0-9]+)+(?![\w/.-])", span) if not is_word(word)]
+            if re.fullmatch(r"[a-z_]+(\.[a-z_]+)+", span) and span.split(".")[0] in groups and not span.endswith(".yaml"):
+                named += [key for key in (span.split(".")[0], span.split(".")[-1]) if key not in keys]
+            wrong += [f"{page}: `{span}`: no {word}" for word in named if word not in NAMES_OF_OTHERS]
+    assert not wrong, "\n".join(wrong)
+
+
 def readme_commands():
     text = (SOURCE / "README.md").read_text()
     return [line for block in re.findall(r"```bash\n(.*?)```", text, flags=re.S) for line in block.splitlines() if line]
