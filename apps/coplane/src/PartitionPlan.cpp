@@ -59,7 +59,7 @@ RankMesh partOf(const MeshSlice& mesh, RankMesh home, const Deck& deck, const Co
   home = RankMesh(); // makes room
   RankMesh part = distribute(mesh, owners, comm);
   const PartitionQuality quality = qualityOf(part, nodeCosts(part, costs), comm);
-  logInfo("partition by {}: the dearest rank has {:.3f} times the mean cost; {} to {} nodes a "
+  logInfo("partition by {}: the most loaded rank has {:.3f} times the mean cost; {} to {} nodes a "
           "rank, and up to {} of others; {} of {} elements on several ranks",
           deck.partitionMethod, quality.imbalance, quality.fewest, quality.most,
           quality.mostOfOthers, quality.cutElements, mesh.elements());

@@ -196,7 +196,7 @@ private:
   /// @param why what has been caught already; empty: the caller fails next, and says why
   void finishBeforeFailing(Observer& observer, const std::string& why = "") const;
   [[noreturn]] void failTogether(const std::string& what);
-  /// What only some ranks may find to be wrong with the deck, such as a function that is no number
+  /// What only some ranks may find to be wrong with the deck, such as a function without a value
   /// at one of their nodes: all hear of it in planNextCycle(), and the run ends with one message.
   template <class F>
   void attempt(const F& action)
