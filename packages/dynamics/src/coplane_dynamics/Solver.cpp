@@ -377,25 +377,41 @@ Real speedOf(const Real* extremes)
 }
 } // namespace
 
-void Solver::planNextCycle(bool first)
+void Solver::sumLoads()
 {
   attempt(
       [&] {
         model_.conditions.applyLoads(model_.mesh.dimension, layout_.owned(), clock_.time, state_);
       });
   rigid_->sumForces(state_, contactStiffness_, [this](int n) { return leastElementStep(n); });
+}
+
+std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
+{
   // One reduction decides everything that must not differ between ranks.
-  const Requests mine = first ? Requests{} : takeRequests(); // early ones are for the first cycle
   std::vector<Real> extremes{-stableStep(), Real(mine.results), Real(mine.checkpoint),
                              Real(mine.stop), contact_ ? -contact_->thinnestElement() : -infinity};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
   if (failed_)
-    return;
+    return std::nullopt;
+  const Real step = nextStep(-extremes[0], -extremes[4]);
+  largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
+  if (step * mostCycles < model_.time.end)
+    failOnAllRanks(
+        ExitCode::Computation,
+        "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
+        "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
+        "time.maximum_step, elements that are far too small or stiff, and velocities that "
+        "are far too large.",
+        clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
+  return step;
+}
 
-  Real step = model_.time.stepFactor * -extremes[0];
-  step = std::min(step, motionStep(-extremes[4]));
+Real Solver::nextStep(Real stable, Real thinnest)
+{
+  Real step = std::min(model_.time.stepFactor * stable, motionStep(thinnest));
   if (model_.time.maximumStep)
     step = std::min(step, *model_.time.maximumStep);
   if (model_.time.fixedStep)
@@ -409,26 +425,14 @@ void Solver::planNextCycle(bool first)
   }
   if (!(step < infinity))
     step = stepOfFreeBodies();
-  if (!model_.time.fixedStep)
-    step = growth_.next(step, clock_.nextStep);
-  largestNextStep_ = model_.time.fixedStep ? step : StepGrowth::perCycle * step;
-  if (step * mostCycles < model_.time.end)
-    failOnAllRanks(
-        ExitCode::Computation,
-        "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
-        "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
-        "time.maximum_step, elements that are far too small or stiff, and velocities that "
-        "are far too large.",
-        clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
-  attempt([&] { kick(step); });
-  clock_.nextStep = step;
-  if (first) // energies at t = 0 are those of the given velocities
-    mirrorVelocities();
-  else
-    relax(step);
+  return model_.time.fixedStep ? step : growth_.next(step, clock_.nextStep);
+}
 
+void Solver::planSearch()
+{
   // The next positions are known now: a search falls due when one may be needed by then, from an
   // exact bound on the relative displacement of any two nodes since the last search.
+  const Real step = clock_.nextStep;
   std::vector<Real> range(13, -infinity); // max, -min per axis of way and velocity; trouble
   range[12] = trouble_ ? 1 : 0;
   for (int n = 0; n < layout_.owned() && contact_; ++n)
@@ -509,7 +513,14 @@ void Solver::prepare()
       search(true);
   }
   findForces(0);
-  planNextCycle(true);
+  sumLoads();
+  if (const auto step = agreeOnNextStep({})) // requests are for the first cycle
+  {
+    attempt([&] { kick(*step); });
+    clock_.nextStep = *step;
+    mirrorVelocities(); // energies at t = 0 are those of the given velocities
+    planSearch();
+  }
   if (failed_)
     failTogether("before the first cycle");
   initialEnergy_ = {};
@@ -532,8 +543,15 @@ void Solver::advance()
   ++clock_.cycle;
   clock_.time += dt;
   clock_.step = dt;
-  planNextCycle(false);
   ++work_.cycles;
+  sumLoads();
+  if (const auto step = agreeOnNextStep(takeRequests()))
+  {
+    attempt([&] { kick(*step); });
+    clock_.nextStep = *step;
+    relax(*step);
+    planSearch();
+  }
 }
 
 WorkTimes Solver::takeWorkTimes()

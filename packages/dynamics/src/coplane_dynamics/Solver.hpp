@@ -185,7 +185,16 @@ private:
   void mirrorVelocities();        ///< v(n-1/2) of a start: mirrors v(n+1/2) about v(n)
   void kick(Real step);
   void drift(Real dt);
-  void planNextCycle(bool first);
+  /// Forces of conditions at the end of the cycle, and those on rigid bodies.
+  void sumLoads();
+  /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
+  /// or a force has failed. Collective.
+  std::optional<Real> agreeOnNextStep(const Requests& mine);
+  /// @param stable of all ranks, without its safety factor [s]; thinnest element behind a face [m]
+  Real nextStep(Real stable, Real thinnest);
+  /// Whether contact needs a search before the forces of the next cycle, and how fast nodes move
+  /// relative to each other; tells all ranks of trouble. Collective.
+  void planSearch();
   bool isRigid(std::size_t block) const { return model_.blocks[block].rigid; }
   void nameWhatLimits(int node, StepControl& control) const;
   std::string worstByRemainder() const;
@@ -197,7 +206,7 @@ private:
   void finishBeforeFailing(Observer& observer, const std::string& why = "") const;
   [[noreturn]] void failTogether(const std::string& what);
   /// What only some ranks may find to be wrong with the deck, such as a function without a value
-  /// at one of their nodes: all hear of it in planNextCycle(), and the run ends with one message.
+  /// at one of their nodes: all hear of it in planSearch(), and the run ends with one message.
   template <class F>
   void attempt(const F& action)
   {
