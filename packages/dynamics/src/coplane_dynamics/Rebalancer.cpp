@@ -200,7 +200,6 @@ void Rebalancer::rebalance(Solver& solver, const RebalancePlan& plan)
   solver.repartition(modelOf_(distribute(*mesh_, plan.owners, comm)));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   ledger_.done(comm.max(took.count()));
-  solver.repartitions_.seconds += ledger_.cost();
-  solver.repartitions_.nodesMoved += plan.moved;
+  solver.bookRepartition(ledger_.cost(), plan.moved);
 }
 } // namespace coplane

@@ -118,6 +118,12 @@ public:
   std::string worstEntities() const;
 
   const Repartitions& repartitions() const { return repartitions_; }
+  /// What the last change of the partition took [s], and how many nodes went to another rank.
+  void bookRepartition(double seconds, std::int64_t nodesMoved)
+  {
+    repartitions_.seconds += seconds;
+    repartitions_.nodesMoved += nodesMoved;
+  }
   /// What this rank has worked since the last call, or since the last change of the partition.
   WorkTimes takeWorkTimes();
 
@@ -131,7 +137,6 @@ private:
         entry; ///< entries of node n: element * corners + corner, in the order of element ids
   };
 
-  friend class Rebalancer; // books what it does
   void search(bool again = false);
   void findForces(Real dt);
   ConstArray<Real> nodalDilatation(std::size_t block, Real dt);
@@ -146,8 +151,8 @@ private:
   void restoreElements(const StateSource& in);
   void restoreNodes(const StateSource& in);
   void restoreErosion(const StateSource& in);
-  template <class F>
-  void forEachNumber(F&& f);
+  template <class Self, class F>
+  static void forEachNumber(Self& solver, F&& number);
   /// Whether all elements of an owned node have died.
   bool isFree(int node) const { return erodes_ && livingElements_[node] == 0; }
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned

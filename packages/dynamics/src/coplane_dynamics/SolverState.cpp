@@ -81,36 +81,30 @@ std::string nameOfBlock(const RankMesh::Block& block)
 }
 } // namespace
 
-/// The numbers of the solver itself.
-template <class F>
-void Solver::forEachNumber(F&& f)
+/// The numbers of the solver itself, for f(value).
+template <class Self, class F>
+void Solver::forEachNumber(Self& solver, F&& number)
 {
-  const auto number = [&](auto& value)
-  {
-    Real real = Real(value);
-    f(real);
-    value = static_cast<std::decay_t<decltype(value)>>(real);
-  };
-  number(clock_.cycle);
-  number(clock_.time);
-  number(clock_.step);
-  number(clock_.nextStep);
-  number(growth_.calm);
-  number(largestNextStep_);
-  number(relativeSpeed_);
-  number(searchSkin_);
-  number(searchIsDue_);
-  number(massDampingActs_);
-  number(localDampingActs_);
-  number(relaxation_.ended);
-  number(relaxation_.kineticBefore);
-  number(relaxation_.work);
-  number(relaxation_.stops);
-  number(relaxation_.below);
-  number(warned_.error);
-  number(warned_.remainder);
-  number(warned_.tooDeep);
-  number(warned_.capped);
+  number(solver.clock_.cycle);
+  number(solver.clock_.time);
+  number(solver.clock_.step);
+  number(solver.clock_.nextStep);
+  number(solver.growth_.calm);
+  number(solver.largestNextStep_);
+  number(solver.relativeSpeed_);
+  number(solver.searchSkin_);
+  number(solver.searchIsDue_);
+  number(solver.massDampingActs_);
+  number(solver.localDampingActs_);
+  number(solver.relaxation_.ended);
+  number(solver.relaxation_.kineticBefore);
+  number(solver.relaxation_.work);
+  number(solver.relaxation_.stops);
+  number(solver.relaxation_.below);
+  number(solver.warned_.error);
+  number(solver.warned_.remainder);
+  number(solver.warned_.tooDeep);
+  number(solver.warned_.capped);
 }
 
 void Solver::save(StateTables& out) const
@@ -151,7 +145,7 @@ void Solver::save(StateTables& out) const
       eroded.push_back(digit);
   out.numbers("solver/eroded", eroded);
   std::vector<Real> numbers;
-  const_cast<Solver*>(this)->forEachNumber([&](Real& value) { numbers.push_back(value); });
+  forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
   out.numbers("solver/numbers", numbers);
   out.numbers("solver/initial_energy", numbersOf(initialEnergy_));
   out.numbers("solver/initial_momenta", numbersOf(initialMomenta_));
@@ -180,13 +174,13 @@ void Solver::restore(const StateSource& in)
       blocks_[b].update(state_.x, state_.v, 0);
   const std::vector<Real> numbers = in.numbers("solver/numbers");
   std::size_t at = 0;
-  forEachNumber(
-      [&](Real& value)
-      {
-        if (at < numbers.size())
-          value = numbers[at];
-        ++at;
-      });
+  forEachNumber(*this,
+                [&](auto& value)
+                {
+                  if (at < numbers.size())
+                    value = static_cast<std::decay_t<decltype(value)>>(numbers[at]);
+                  ++at;
+                });
   if (at != numbers.size())
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: the clock has {} numbers and should have {}. Restart with the program that "
