@@ -22,6 +22,16 @@ LAWS = {
     "j2_table": {"model": "j2", **elastic, "plastic_strains": [0, 0.01, 0.1], "yield_stresses": [2e7, 3e7, 4e7]},
     "drucker_prager": {"model": "drucker_prager", **elastic, "cohesion": 4e6, "friction": 0.5, "dilation": 0.1},
     "mohr_coulomb": {"set": "clay_brick"},
+    "ubiquitous_joints": {
+        "model": "ubiquitous_joints", **elastic, "cohesion": 5e6, "friction": 0.7, "dilation": 0.1, "tensile_strength": 2e6,
+        "shear_energy": 500, "fracture_energy": 50,
+        "joint_normal": [0, 1, 0] if dimension == "rings" else [1, 2, 0] if flat else [1, 2, 3],
+        "joint_cohesion": 1e6, "joint_friction": 0.45, "joint_dilation": 0.1, "joint_tensile_strength": 0.5e6,
+    },
+    "hoek_brown": {
+        "model": "hoek_brown", **elastic, "intact_strength": 50e6, "intact_constant": 10, "gsi": 60, "dilation": 0.1,
+        "residual_gsi": 30, "shear_energy": 5e3, "tensile_strength": 0.1e6, "fracture_energy": 20,
+    },
     "johnson_cook": {"set": "copper_ofhc"},
     "pseudo_cap": {"set": "concrete_c40"},
     "pseudo_cap_rates": {"set": "concrete_c40", "rate_effects": True},
