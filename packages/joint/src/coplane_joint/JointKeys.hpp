@@ -6,6 +6,7 @@
 
 namespace coplane
 {
+/// A model of a joint under construction.
 template <class P>
 class JointModelOf : public CardModelBuilder<JointModelOf<P>, JointModel, P>
 {

@@ -14,14 +14,6 @@ JointLaw makeLaw(const LinearParameters& p)
   return law;
 }
 
-namespace
-{
-void check(const LinearParameters& p, const CardPlace& card)
-{
-  checkCoulomb(p, card);
-}
-} // namespace
-
 JointModel LinearParameters::model()
 {
   using P = LinearParameters;
@@ -46,6 +38,6 @@ JointModel LinearParameters::model()
                      "0: no "
                      "bond"),
       })
-      .demands(check);
+      .demands(checkCoulomb);
 }
 } // namespace coplane

@@ -10,14 +10,6 @@ JointLaw makeLaw(const PenaltyParameters& p)
   return law;
 }
 
-namespace
-{
-void check(const PenaltyParameters& p, const CardPlace& card)
-{
-  checkCoulomb(p, card);
-}
-} // namespace
-
 JointModel PenaltyParameters::model()
 {
   using P = PenaltyParameters;
@@ -33,6 +25,6 @@ JointModel PenaltyParameters::model()
       })
       .has(coulombKeys<P>())
       .has({cohesionKey<P>()})
-      .demands(check);
+      .demands(checkCoulomb);
 }
 } // namespace coplane

@@ -68,7 +68,10 @@ LinearElastic withPressureOf(const EquationOfState& eos, LinearElastic elastic)
   return elastic;
 }
 
-void checkEquationOfState(const EosParameters& p, bool alone, const CardPlace& card)
+namespace
+{
+/// @param alone without elastic constants: linear takes the sound speed
+void checkKeys(const EosParameters& p, bool alone, const CardPlace& card)
 {
   if (p.eos != Kind::MieGrueneisen && p.eos != Kind::PAlpha)
     for (const char* key : {"sound_speed", "shock_slope", "grueneisen"})
@@ -81,5 +84,16 @@ void checkEquationOfState(const EosParameters& p, bool alone, const CardPlace& c
       if (card.gives(key))
         card.problem(key, fmt::format("has no effect with eos: {}; remove it or choose p_alpha.",
                                       wordOf(p.eos)));
+}
+} // namespace
+
+void checkEquationOfState(const EosParameters& p, const CardPlace& card)
+{
+  checkKeys(p, false, card);
+}
+
+void checkEquationOfStateAlone(const EosParameters& p, const CardPlace& card)
+{
+  checkKeys(p, true, card);
 }
 } // namespace coplane

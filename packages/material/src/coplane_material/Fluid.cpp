@@ -40,7 +40,7 @@ void check(const FluidParameters& p, const CardPlace& card)
     card.problem("eos", "is missing; a fluid has nothing else. Accepted: one of linear, "
                         "mie_grueneisen, p_alpha, with sound_speed.");
   else
-    checkEquationOfState(p, true, card);
+    checkEquationOfStateAlone(p, card);
 }
 } // namespace
 

@@ -87,7 +87,7 @@ void check(const J2Parameters& p, const CardPlace& card)
                                   card.path, table ? "stands beside a table" : "is missing"));
   else if (table && card.gives("hardening_modulus"))
     card.problem("hardening_modulus", "has no effect beside a table; remove it.");
-  checkEquationOfState(p, false, card);
+  checkEquationOfState(p, card);
 }
 } // namespace
 

@@ -43,14 +43,6 @@ JohnsonCook makeLaw(const JohnsonCookParameters& p)
   return checked(law);
 }
 
-namespace
-{
-void check(const JohnsonCookParameters& p, const CardPlace& card)
-{
-  checkEquationOfState(p, false, card);
-}
-} // namespace
-
 MaterialModel JohnsonCookParameters::model()
 {
   using P = JohnsonCookParameters;
@@ -114,7 +106,7 @@ MaterialModel JohnsonCookParameters::model()
               .means("D1 to D5 of the strain at fracture; none: it does not fracture"),
       })
       .has(equationOfStateKeys<P>())
-      .demands(check)
+      .demands(checkEquationOfState)
       .comesAs(R"(
 steel_4340: {model: johnson_cook, density: 7830, youngs_modulus: 201e9, poisson_ratio: 0.3,
              yield_stress: 792e6, hardening_modulus: 510e6, hardening_exponent: 0.26,

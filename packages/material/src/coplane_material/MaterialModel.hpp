@@ -31,6 +31,7 @@ struct MaterialModel : CardModel<Material>
 /// Every model, in the order of the manual.
 const std::vector<MaterialModel>& materialModels();
 
+/// A model under construction (CardModelBuilder), with the words of materials.
 template <class P>
 class MaterialModelOf : public CardModelBuilder<MaterialModelOf<P>, MaterialModel, P>
 {
@@ -228,7 +229,7 @@ SofteningLimit elementThatCracks(const P& p)
 /// The elastic constants with the bulk modulus of the equation of state, if there is one.
 LinearElastic withPressureOf(const EquationOfState& eos, LinearElastic elastic);
 
-/// Keys that have no effect with this equation of state.
-/// @param alone the material has no elastic constants
-void checkEquationOfState(const EosParameters& parameters, bool alone, const CardPlace& place);
+/// Keys that have no effect with this equation of state: beside elastic constants, and alone.
+void checkEquationOfState(const EosParameters& parameters, const CardPlace& place);
+void checkEquationOfStateAlone(const EosParameters& parameters, const CardPlace& place);
 } // namespace coplane

@@ -41,11 +41,6 @@ UbiquitousJoints makeLaw(const UbiquitousJointParameters& p)
 
 namespace
 {
-void check(const UbiquitousJointParameters& p, const CardPlace& card)
-{
-  checkTable(p, card);
-}
-
 std::string problemInTheFlat(const UbiquitousJointParameters& p, bool revolved)
 {
   if (p.jointNormal.z != 0)
@@ -99,7 +94,7 @@ MaterialModel UbiquitousJointParameters::model()
               .means("cut-off of the traction across the planes; at most joint_cohesion / "
                      "joint_friction"),
       })
-      .demands(check)
+      .demands(checkTable)
       .refusesInTheFlat(problemInTheFlat)
       .softensUpTo(elementThatCracks);
 }

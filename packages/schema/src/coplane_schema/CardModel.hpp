@@ -70,7 +70,9 @@ public:
     }
     return self();
   }
-  Derived& demands(void (*check)(const P&, const CardPlace&))
+  /// @param check of P or of a base of it
+  template <class Checked>
+  Derived& demands(void (*check)(const Checked&, const CardPlace&))
   {
     model_.check = [check](const void* parameters, const CardPlace& place)
     { check(*static_cast<const P*>(parameters), place); };
