@@ -1,5 +1,6 @@
 #include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_mesh/ElementTopology.hpp>
 
 #include <algorithm>
 #include <map>
@@ -137,6 +138,20 @@ std::vector<Conditions::Projection> Conditions::projections() const
     for (const Vec3& normal : normals)
       result.push_back({node, normal});
   return result;
+}
+
+void Conditions::endLoadsOn(const std::vector<GlobalId>& dead)
+{
+  const auto isDead = [&](const LoadedSide& side)
+  { return std::binary_search(dead.begin(), dead.end(), elementOfFace(side.id)); };
+  const auto forget = [](auto& sides, const auto& gone)
+  { sides.erase(std::remove_if(sides.begin(), sides.end(), gone), sides.end()); };
+  for (FacePressure& load : pressures)
+    forget(load.sides, isDead);
+  for (FaceTraction& load : tractions)
+    forget(load.sides, isDead);
+  for (AbsorbingBoundary& boundary : absorbing)
+    forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
 }
 
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const

@@ -2,7 +2,7 @@
 
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/NodalState.hpp>
-#include <coplane_dynamics/Relaxation.hpp>
+#include <coplane_dynamics/RelaxationOptions.hpp>
 
 #include <array>
 #include <functional>
@@ -180,6 +180,10 @@ struct Conditions
   /// @param t in the middle of the step [s]; dt: its length [s]
   void prescribeVelocities(Real t, Real dt, const NodeVectors& v,
                            const std::vector<Projection>& fromSymmetry) const;
+
+  /// Loads end with the elements that carried them.
+  /// @param deadElements ids, sorted
+  void endLoadsOn(const std::vector<GlobalId>& deadElements);
 
   /// Copies the prescribed components of velocities.
   void keepPrescribed(const ConstNodeVectors& from, const NodeVectors& to) const;

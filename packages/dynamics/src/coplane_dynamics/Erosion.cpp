@@ -1,79 +1,23 @@
-// Elements that die: they leave the mesh at the end of the cycle in which they meet their
-// criterion, and the faces behind them take part in contact from the same cycle on.
+#include <coplane_core/Error.hpp>
 #include <coplane_core/Timers.hpp>
-#include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Erosion.hpp>
-#include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace coplane
 {
-std::vector<std::string> ErosionCriteria::variableNames() const
+Erosion::Erosion(const Model& model, const ElementForces& elements)
+    : rules_(elements.blocks().size()), energies_(elements.blocks().size())
 {
-  std::vector<std::string> names;
-  if (damage)
-    names.push_back("damage");
-  for (const Limit& limit : variables)
-    names.push_back(limit.variable);
-  return names;
-}
-
-ErosionRule::ErosionRule(const ErosionCriteria& criteria, const ElementBlock& block)
-    : criteria_(criteria)
-{
-  const auto rowOf = [&](const std::string& variable)
-  {
-    const int row = block.historyRow(variable);
-    if (row < 0)
-      fail(ExitCode::Internal, "erosion: the law has no variable '{}'", variable);
-    return row;
-  };
-  if (criteria.damage)
-    damageRow_ = rowOf("damage");
-  for (const ErosionCriteria::Limit& limit : criteria.variables)
-    rows_.push_back(rowOf(limit.variable));
-}
-
-bool ErosionRule::exceedsLimit(const ElementBlock& block, int e) const
-{
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-  {
-    const Real value = block.history()(rows_[i], e);
-    if (!(value <= criteria_.variables[i].above && value >= criteria_.variables[i].below))
-      return true;
-  }
-  if (criteria_.volumeRatio)
-  {
-    const Real ratio = block.volume()(e) / block.referenceVolume()(e);
-    if (!(ratio >= (*criteria_.volumeRatio)[0] && ratio <= (*criteria_.volumeRatio)[1]))
-      return true;
-  }
-  return criteria_.stableStep && !(block.stableStep()(e) >= *criteria_.stableStep);
-}
-
-bool ErosionRule::kills(const ElementBlock& block, int e) const
-{
-  if (!block.isAlive(e) ||
-      (damageRow_ >= 0 && !(block.history()(damageRow_, e) > *criteria_.damage)))
-    return false;
-  return !criteria_.hasLimits() || exceedsLimit(block, e);
-}
-
-void Solver::prepareErosion()
-{
-  const RankMesh& mesh = model_.mesh;
-  erosionRules_.resize(blocks_.size());
-  erodedEnergy_.resize(blocks_.size());
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    if (model_.blocks[b].erosion.any())
+  for (std::size_t b = 0; b < rules_.size(); ++b)
+    if (model.blocks[b].erosion.any())
     {
-      erosionRules_[b].emplace(model_.blocks[b].erosion, blocks_[b]);
-      erodes_ = true;
+      rules_[b].emplace(model.blocks[b].erosion, elements.blocks()[b]);
+      acts_ = true;
     }
-  if (!erodes_)
+  if (!acts_)
     return;
+  const RankMesh& mesh = model.mesh;
   sides_.emplace(mesh);
   livingElements_.assign(mesh.ownedNodes, 0);
   for (const RankMesh::Block& part : mesh.blocks)
@@ -85,107 +29,131 @@ void Solver::prepareErosion()
   }
 }
 
-bool Solver::erode(Real dt)
+/// Block and element of those that meet their criterion. Ranks that hold the same element decide
+/// alike, from the same bits.
+std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements) const
 {
-  if (!erodes_)
-    return false;
-  TimedRegion region("coplane::dynamics::erode");
-  std::vector<std::pair<int, int>> dying; // block, element
-  for (int b = 0; b < int(blocks_.size()); ++b)
+  std::vector<std::pair<int, int>> found;
+  for (std::size_t b = 0; b < rules_.size(); ++b)
   {
-    if (!erosionRules_[b])
+    if (!rules_[b])
       continue;
-    const ElementBlock& block = blocks_[b];
-    const ErosionRule& rule = *erosionRules_[b];
+    const ElementBlock& block = elements.blocks()[b];
+    const ErosionRule& rule = *rules_[b];
     const Real first =
         parallelMin("coplane::dynamics::erode", block.count(),
                     [&](const int e) { return rule.kills(block, e) ? Real(e) : infinity; });
     for (int e = first < infinity ? int(first) : block.count(); e < block.count(); ++e)
       if (rule.kills(block, e))
-        dying.emplace_back(b, e);
+        found.emplace_back(int(b), e);
   }
-  // Ranks that hold the same element have decided alike, from the same bits.
-  if (comm_->max(std::int64_t(!dying.empty())) == 0)
-    return false;
+  return found;
+}
 
+std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elements,
+                                     const NodeVectors& v, Real dt, const Comm& comm)
+{
+  if (!acts_)
+    return {};
+  TimedRegion region("coplane::dynamics::erode");
+  const std::vector<std::pair<int, int>> mine = dying(elements);
+  if (comm.max(std::int64_t(!mine.empty())) == 0)
+    return {};
   std::vector<GlobalId> dead;
-  for (const auto& [b, e] : dying)
-    if (model_.mesh.blocks[b].owned[e])
-      dead.push_back(model_.mesh.blocks[b].elementIds[e]);
-  dead = comm_->allGather(dead);
+  for (const auto& [b, e] : mine)
+    if (mesh.blocks[b].owned[e])
+      dead.push_back(mesh.blocks[b].elementIds[e]);
+  dead = comm.allGather(dead);
   std::sort(dead.begin(), dead.end());
-  for (const auto& [b, e] : dying)
-    kill(b, e, dt);
-
-  endLoadsOn(dead);
-  if (contact_)
+  for (const auto& [b, e] : mine)
   {
-    contact_->endPlanesOf(dead, state_.x, state_.v, dt);
-    findContactFaces(&contact_->localFaces());
+    const RankMesh::Block& part = mesh.blocks[b];
+    if (part.owned[e])
+      book(part, elements.blocks()[b], b, e, v, dt);
+    elements.block(b).erode(e);
+    forget(part, b, e);
   }
-  return true;
+  return dead;
 }
 
-void Solver::findContactFaces(const std::vector<Face>* known)
+void Erosion::book(const RankMesh::Block& part, const ElementBlock& block, int b, int e,
+                   const NodeVectors& v, Real dt)
 {
-  const std::vector<ExteriorFace> exterior = sides_->exterior(alive_);
-  std::vector<FaceElement> elements;
-  if (model_.contact.method == ContactOptions::Method::CommonPlane)
-    elements = elementsOfFaces(model_.mesh, exterior);
-  contact_->replaceLocalFaces(
-      contactFaces(model_.mesh, blocks_, model_.faceGroups, bodyOfNode_, exterior, state_.x, known),
-      std::move(elements));
-}
-
-/// Loads end with the element that carried them.
-void Solver::endLoadsOn(const std::vector<GlobalId>& dead)
-{
-  const auto isDead = [&](const LoadedSide& side)
-  { return std::binary_search(dead.begin(), dead.end(), elementOfFace(side.id)); };
-  const auto forget = [](auto& sides, const auto& gone)
-  { sides.erase(std::remove_if(sides.begin(), sides.end(), gone), sides.end()); };
-  for (FacePressure& load : model_.conditions.pressures)
-    forget(load.sides, isDead);
-  for (FaceTraction& load : model_.conditions.tractions)
-    forget(load.sides, isDead);
-  for (AbsorbingBoundary& boundary : model_.conditions.absorbing)
-    forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
-}
-
-void Solver::kill(int b, int e, Real dt)
-{
-  const RankMesh::Block& part = model_.mesh.blocks[b];
-  ElementBlock& block = blocks_[b];
+  // The element gives no force at the end of this step: what its energy got from that force over
+  // the second half of the step has not been taken from the nodes.
   const int corners = topology(part.type).nodes;
-  if (part.owned[e])
-  {
-    // The element gives no force at the end of this step: what its energy got from that force over
-    // the second half of the step has not been taken from the nodes.
-    Real power = 0;
-    for (int k = 0; k < corners; ++k)
-    {
-      const auto force = block.cornerForce();
-      power += dot(Vec3{force(e, k, 0), force(e, k, 1), force(e, k, 2)},
-                   at(state_.v, part.connectivity[e * corners + k]));
-    }
-    ExactSum& sum = erodedEnergy_[b];
-    sum.add(0.5 * dt * power);
-    for (const ElementEnergy kind :
-         {ElementEnergy::Internal, ElementEnergy::Hourglass, ElementEnergy::Viscous})
-      sum.add(block.energy(e, kind));
-    erodedMass_.add(block.mass(e));
-    ++erodedElements_;
-  }
-  block.erode(e);
-  alive_[b][e] = 0;
+  const auto force = block.cornerForce();
+  Real power = 0;
   for (int k = 0; k < corners; ++k)
-    if (const int node = part.connectivity[e * corners + k]; node < layout_.owned())
+    power += dot(Vec3{force(e, k, 0), force(e, k, 1), force(e, k, 2)},
+                 at(v, part.connectivity[e * corners + k]));
+  ExactSum& sum = energies_[b];
+  sum.add(0.5 * dt * power);
+  for (const ElementEnergy kind :
+       {ElementEnergy::Internal, ElementEnergy::Hourglass, ElementEnergy::Viscous})
+    sum.add(block.energy(e, kind));
+  mass_.add(block.mass(e));
+  ++count_;
+}
+
+void Erosion::forget(const RankMesh::Block& part, int b, int e)
+{
+  alive_[b][e] = 0;
+  const int corners = topology(part.type).nodes;
+  for (int k = 0; k < corners; ++k)
+    if (const std::size_t node = part.connectivity[e * corners + k]; node < livingElements_.size())
       --livingElements_[node];
 }
 
-ErosionTotals Solver::erosion() const
+ErosionTotals Erosion::totals(const Comm& comm) const
 {
-  std::vector<ExactSum> mass{erodedMass_};
-  return {comm_->sum(erodedElements_), ExactSum::overRanks(mass, *comm_)[0]};
+  std::vector<ExactSum> mass{mass_};
+  return {comm.sum(count_), ExactSum::overRanks(mass, comm)[0]};
+}
+
+void Erosion::save(StateTables& out, const Comm& comm) const
+{
+  std::vector<ExactSum> sums = energies_;
+  sums.push_back(mass_);
+  std::vector<Real> eroded{Real(comm.sum(count_))};
+  for (const ExactSum& sum : ExactSum::totals(sums, comm))
+    for (const Real digit : sum.digits())
+      eroded.push_back(digit);
+  out.numbers("solver/eroded", eroded);
+}
+
+std::vector<GlobalId> Erosion::restore(const RankMesh& mesh, const ElementForces& elements,
+                                       const StateSource& in, const Comm& comm)
+{
+  const std::vector<Real> eroded = in.numbers("solver/eroded");
+  if (eroded.size() != 1 + (energies_.size() + 1) * ExactSum::digitCount)
+    failOnAllRanks(ExitCode::Checkpoint, "{}: the checkpoint has another number of blocks.",
+                   in.name());
+  if (comm.isRoot()) // sums over ranks
+  {
+    const auto sumAt = [&](std::size_t i)
+    { return ExactSum::fromDigits(&eroded[1 + i * ExactSum::digitCount]); };
+    count_ = std::int64_t(eroded[0]);
+    for (std::size_t b = 0; b < energies_.size(); ++b)
+      energies_[b] = sumAt(b);
+    mass_ = sumAt(energies_.size());
+  }
+  if (!acts_)
+    return {};
+  std::vector<GlobalId> dead;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[b];
+    for (int e = 0; e < part.elements(); ++e)
+      if (!elements.blocks()[b].isAlive(e))
+      {
+        forget(part, int(b), e);
+        if (part.owned[e])
+          dead.push_back(part.elementIds[e]);
+      }
+  }
+  dead = comm.allGather(dead);
+  std::sort(dead.begin(), dead.end());
+  return dead;
 }
 } // namespace coplane

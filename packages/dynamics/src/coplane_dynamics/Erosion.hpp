@@ -1,55 +1,66 @@
 #pragma once
 
-#include <coplane_element/ElementBlock.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/ErosionRule.hpp>
+#include <coplane_mesh/RankMesh.hpp>
 
-#include <array>
 #include <optional>
-#include <string>
+#include <utility>
 #include <vector>
 
 namespace coplane
 {
-/// When an element of a block dies: as soon as its damage, if that is asked for, is above a value,
-/// and one of the limits, if there are any, is exceeded.
-struct ErosionCriteria
-{
-  /// A variable of the law, by its name.
-  struct Limit
-  {
-    std::string variable;
-    Real above = infinity, below = -infinity; ///< exceeded above the one or below the other
-  };
-  std::optional<Real> damage; ///< of the law's variable `damage` [-]
-  std::vector<Limit> variables;
-  std::optional<std::array<Real, 2>> volumeRatio; ///< exceeded outside: volume over the first one
-  std::optional<Real> stableStep;                 ///< exceeded below [s]
-
-  bool hasLimits() const { return !variables.empty() || volumeRatio || stableStep; }
-  bool any() const { return damage || hasLimits(); }
-  /// Names of the law's variables that are asked for.
-  std::vector<std::string> variableNames() const;
-};
-
-/// The criteria of one block with the places of its law's variables.
-class ErosionRule
-{
-public:
-  ErosionRule(const ErosionCriteria& criteria, const ElementBlock& block);
-  /// Whether a living element dies. A value that is not a number exceeds its limit.
-  bool kills(const ElementBlock& block, int element) const;
-
-private:
-  bool exceedsLimit(const ElementBlock& block, int element) const;
-
-  ErosionCriteria criteria_;
-  int damageRow_ = -1;
-  std::vector<int> rows_;
-};
-
 /// What erosion has taken so far, over all ranks.
 struct ErosionTotals
 {
   std::int64_t elements = 0;
   Real mass = 0; ///< of the elements; their nodes keep it [kg]
+};
+
+/// Elements that die: they leave the mesh at the end of the cycle in which they meet their
+/// criterion, and the faces behind them take part in contact from the same cycle on.
+class Erosion
+{
+public:
+  Erosion(const Model& model, const ElementForces& elements);
+
+  /// Takes out the elements that meet their criterion. Returns their ids, sorted, on all ranks;
+  /// empty when there are none on any. Collective when some block has a criterion.
+  /// @param v velocities at n - 1/2, by which the elements came here [m/s]; dt: that step [s]
+  std::vector<GlobalId> erode(const RankMesh& mesh, ElementForces& elements, const NodeVectors& v,
+                              Real dt, const Comm& comm);
+
+  bool acts() const { return acts_; } ///< some block has a criterion
+  /// Whether all elements of an owned node have died.
+  bool isFree(int node) const { return acts_ && livingElements_[node] == 0; }
+  /// Exterior faces of what is alive; only when erosion acts.
+  std::vector<ExteriorFace> exterior() const { return sides_->exterior(alive_); }
+  ErosionTotals totals(const Comm& comm) const; ///< collective
+  /// Energy of a block's elements on this rank that have died [J].
+  const std::vector<ExactSum>& energies() const { return energies_; }
+
+  // Part of a checkpoint. Collective.
+  void save(StateTables& out, const Comm& comm) const;
+  /// After the elements have been restored. Returns the ids of the dead, sorted, on all ranks.
+  std::vector<GlobalId> restore(const RankMesh& mesh, const ElementForces& elements,
+                                const StateSource& in, const Comm& comm);
+
+private:
+  std::vector<std::pair<int, int>> dying(const ElementForces& elements) const;
+  void book(const RankMesh::Block& part, const ElementBlock& block, int b, int e,
+            const NodeVectors& v, Real dt);
+  void forget(const RankMesh::Block& part, int b, int e);
+
+  bool acts_ = false;
+  std::vector<std::optional<ErosionRule>> rules_; ///< by block
+  std::optional<ElementSides> sides_;
+  std::vector<std::vector<char>> alive_; ///< [block][element]
+  std::vector<int> livingElements_;      ///< around each owned node
+  // Of this rank, since the start.
+  std::vector<ExactSum> energies_; ///< by block [J]
+  ExactSum mass_;
+  std::int64_t count_ = 0;
 };
 } // namespace coplane

@@ -48,4 +48,31 @@ struct Momenta
   Vec3 angularError() const { return angular - initialAngular - angularImpulse; }
   Real magnitude = 0; ///< sum m |v|, by which errors are judged
 };
+
+struct Parts;
+struct RelaxationState;
+
+/// Sums energies and momenta, and keeps what they were at first.
+class Ledger
+{
+public:
+  /// At the end of the start, after the first kick. Collective.
+  void open(const Parts& parts, const RelaxationState& relaxation);
+  // Over all ranks, the same bits on all. Collective.
+  EnergyBalance energy(const Parts& parts, const RelaxationState& relaxation) const;
+  Momenta momenta(const Parts& parts) const;
+  const EnergyBalance& initialEnergy() const { return initialEnergy_; }
+
+  /// Calls f(name, struct) for what a restart needs: structs of nothing but numbers.
+  template <class Self, class F>
+  static void forEachStruct(Self& self, F&& f)
+  {
+    f("solver/initial_energy", self.initialEnergy_);
+    f("solver/initial_momenta", self.initialMomenta_);
+  }
+
+private:
+  EnergyBalance initialEnergy_;
+  Momenta initialMomenta_;
+};
 } // namespace coplane

@@ -3,7 +3,7 @@
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_dynamics/Conditions.hpp>
-#include <coplane_dynamics/Erosion.hpp>
+#include <coplane_dynamics/ErosionRule.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/RankMesh.hpp>

@@ -30,8 +30,10 @@ struct NodalState
   Array<Real> dampingWork;      ///< taken out by mass-proportional damping [J]
   Array<Real> localDampingWork; ///< by local damping [J]
   Array<Real> totalWork;        ///< of all forces [J]
+  Array<Real> contactStiffness; ///< what planes add to the stiffness of the node, a bound [N/m]
 
   explicit NodalState(const RankMesh& mesh);
+  int owned() const { return int(force.extent(0)); }
   /// Follows a layout whose ghost nodes have changed; the values of ghosts come with the next
   /// refresh.
   void resize(const NodeLayout& layout);

@@ -1,22 +1,12 @@
 #pragma once
 
-#include <coplane_core/Real.hpp>
+#include <coplane_dynamics/Parts.hpp>
+#include <coplane_dynamics/RelaxationOptions.hpp>
 
 #include <cstdint>
 
 namespace coplane
 {
-/// When damping ends before its time, and whether all motion stops at peaks of the kinetic energy
-/// (kinetic damping: Cundall 1976, Barnes 1988).
-struct RelaxationOptions
-{
-  bool kinetic = false;
-  /// Largest kinetic over internal energy (elements and contact) at which damping ends; 0: none [-]
-  Real energyRatio = 0;
-  /// Largest sum of |force out of balance| over sum of |loads and reactions|; 0: none [-]
-  Real forceRatio = 0;
-};
-
 /// State of dynamic relaxation, the same bits on all ranks.
 struct RelaxationState
 {
@@ -25,5 +15,44 @@ struct RelaxationState
   Real work = 0;          ///< kinetic energy taken out by stops since the start [J]
   std::int64_t stops = 0; ///< peaks passed
   std::int64_t below = 0; ///< checks in a row at which the ratios were small enough
+};
+
+/// Decides when all motion stops, and when damping ends.
+class Relaxation
+{
+public:
+  explicit Relaxation(const RelaxationOptions& options) : wanted_(options) {}
+
+  const RelaxationState& state() const { return state_; }
+  /// For the dampings: a time at which none acts when relaxation has ended them.
+  Real dampingTime(const Clock& clock) const { return state_.ended ? infinity : clock.time; }
+
+  struct Verdict
+  {
+    bool stop = false; ///< a peak of the kinetic energy has been passed: all motion stops
+    bool rest = false; ///< at rest within the ratios: damping ends
+  };
+  /// After a kick. Collective.
+  Verdict look(const Parts& parts);
+  /// A stop has been made. @param lost kinetic energy [J]; left: at n + 1/2 after it [J]
+  void bookStop(Real lost, Real left);
+  void end(const Clock& clock);
+
+  /// Calls f(number) for all that a restart needs, in the order of checkpoints.
+  template <class Self, class F>
+  static void forEachNumber(Self& self, F&& number)
+  {
+    number(self.state_.ended);
+    number(self.state_.kineticBefore);
+    number(self.state_.work);
+    number(self.state_.stops);
+    number(self.state_.below);
+  }
+
+private:
+  bool isAtRest(const Parts& parts) const;
+
+  RelaxationOptions wanted_;
+  RelaxationState state_;
 };
 } // namespace coplane

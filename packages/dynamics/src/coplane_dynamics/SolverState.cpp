@@ -1,6 +1,6 @@
-// The solver's part of a checkpoint, and those of what it is made of.
+// The solver's part of a checkpoint, and those of what it is made of; the hash of the state.
+#include <coplane_core/StateHash.hpp>
 #include <coplane_core/Timers.hpp>
-#include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ struct NodeColumns
 };
 
 /// What changes of the owned nodes. Masses and places at the start come from the mesh.
-NodeColumns nodeColumns(const NodalState& state, const Array<Real>& contactStiffness)
+NodeColumns nodeColumns(const NodalState& state)
 {
   NodeColumns columns;
   const auto vector = [&](const char* name, const NodeVectors& values)
@@ -47,7 +47,7 @@ NodeColumns nodeColumns(const NodalState& state, const Array<Real>& contactStiff
   scalar("damping_work", state.dampingWork);
   scalar("local_damping_work", state.localDampingWork);
   scalar("total_work", state.totalWork);
-  scalar("contact_stiffness", contactStiffness);
+  scalar("contact_stiffness", state.contactStiffness);
   return columns;
 }
 
@@ -74,104 +74,60 @@ void setNumbers(Numbers& to, const StateSource& in, const std::string& name)
         in.name(), name, numbers.size(), sizeof(Numbers) / sizeof(Real), in.program());
   __builtin_memcpy(static_cast<void*>(&to), numbers.data(), sizeof(Numbers));
 }
-
-std::string nameOfBlock(const RankMesh::Block& block)
-{
-  return fmt::format("elements/block_{}", block.id);
-}
 } // namespace
 
-/// The numbers of the solver itself, for f(value).
+/// The numbers of the solver and of those that it is made of, for f(value).
 template <class Self, class F>
-void Solver::forEachNumber(Self& solver, F&& number)
+void Solver::forEachNumber(Self& self, F&& number)
 {
-  number(solver.clock_.cycle);
-  number(solver.clock_.time);
-  number(solver.clock_.step);
-  number(solver.clock_.nextStep);
-  number(solver.growth_.calm);
-  number(solver.largestNextStep_);
-  number(solver.relativeSpeed_);
-  number(solver.searchSkin_);
-  number(solver.searchIsDue_);
-  number(solver.massDampingActs_);
-  number(solver.localDampingActs_);
-  number(solver.relaxation_.ended);
-  number(solver.relaxation_.kineticBefore);
-  number(solver.relaxation_.work);
-  number(solver.relaxation_.stops);
-  number(solver.relaxation_.below);
-  number(solver.warned_.error);
-  number(solver.warned_.remainder);
-  number(solver.warned_.tooDeep);
-  number(solver.warned_.capped);
+  Clock::forEachNumber(self.clock_, number);
+  TimeStep::forEachNumber(self.step_, number);
+  SearchPlan::forEachNumber(self.searches_, number);
+  NodalMotion::forEachNumber(*self.motion_, number);
+  Relaxation::forEachNumber(self.relaxation_, number);
+  BalanceWatch::forEachNumber(self.watch_, number);
 }
 
 void Solver::save(StateTables& out) const
 {
-  const NodeColumns columns = nodeColumns(state_, contactStiffness_);
-  KeyedRows nodes;
-  nodes.columns = columns.names;
-  for (int n = 0; n < layout_.owned(); ++n)
-  {
-    Real* row = nodes.add({layout_.ids()[n]});
-    for (const NodeVectors& vectors : columns.vectors)
-      for (int c = 0; c < 3; ++c)
-        *row++ = vectors(n, c);
-    for (const Array<Real>& scalars : columns.scalars)
-      *row++ = scalars(n);
-  }
-  out.rows("nodes", nodes);
-
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-  {
-    const RankMesh::Block& part = model_.mesh.blocks[b];
-    KeyedRows elements;
-    elements.columns = blocks_[b].stateColumns();
-    for (int e = 0; e < part.elements(); ++e)
-      if (part.owned[e])
-        blocks_[b].saveState(e, elements.add({part.elementIds[e]}));
-    out.rows(nameOfBlock(part), elements);
-  }
+  saveNodes(out);
+  elements_.save(mesh(), out);
   if (contact_)
     contact_->save(out);
-  rigid_->save(out);
-
-  std::vector<ExactSum> sums = erodedEnergy_;
-  sums.push_back(erodedMass_);
-  std::vector<Real> eroded{Real(comm_->sum(erodedElements_))};
-  for (const ExactSum& sum : ExactSum::totals(sums, *comm_))
-    for (const Real digit : sum.digits())
-      eroded.push_back(digit);
-  out.numbers("solver/eroded", eroded);
+  motion_->save(out);
+  erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
   out.numbers("solver/numbers", numbers);
-  out.numbers("solver/initial_energy", numbersOf(initialEnergy_));
-  out.numbers("solver/initial_momenta", numbersOf(initialMomenta_));
+  Ledger::forEachStruct(ledger_, [&](const char* name, const auto& values)
+                        { out.numbers(name, numbersOf(values)); });
 }
 
 void Solver::restore(const StateSource& in)
 {
-  restoreElements(in);
+  elements_.restore(mesh(), in);
   restoreNodes(in);
-  restoreErosion(in);
+  const std::vector<GlobalId> dead = erosion_->restore(mesh(), elements_, in, *comm_);
+  if (erosion_->acts())
+    leaveWithoutElements(dead, nullptr);
   layout_.refresh(state_.x, state_.v);
   if (contact_)
   {
-    if (layout_.setGhostNodes(contact_->restoreFaces(in, layout_.ids())))
-    {
-      state_.resize(layout_);
-      layout_.refresh(state_.x, state_.v);
-      layout_.refresh(state_.mass);
-    }
+    takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));
     contact_->restorePlanes(in, layout_);
   }
-  rigid_->restore(in);
+  motion_->restore(in);
   // What follows from positions and stresses: forces of the elements and their stable steps.
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    if (!isRigid(b))
-      blocks_[b].update(state_.x, state_.v, 0);
+  elements_.update(state_, layout_, 0, work_);
+  restoreNumbers(in);
+  if (contact_)
+    contact_->setSkin(searches_.skin());
+  Ledger::forEachStruct(ledger_,
+                        [&](const char* name, auto& values) { setNumbers(values, in, name); });
+}
+
+void Solver::restoreNumbers(const StateSource& in)
+{
   const std::vector<Real> numbers = in.numbers("solver/numbers");
   std::size_t at = 0;
   forEachNumber(*this,
@@ -186,10 +142,6 @@ void Solver::restore(const StateSource& in)
                    "{}: the clock has {} numbers and should have {}. Restart with the program that "
                    "wrote it ({}).",
                    in.name(), numbers.size(), at, in.program());
-  if (contact_)
-    contact_->setSkin(searchSkin_);
-  setNumbers(initialEnergy_, in, "solver/initial_energy");
-  setNumbers(initialMomenta_, in, "solver/initial_momenta");
 }
 
 void Solver::repartition(Model model)
@@ -201,27 +153,32 @@ void Solver::repartition(Model model)
   ++repartitions.count;
   // The largest parts of the old state go before the new one comes.
   contact_.reset();
-  blocks_.clear();
-  gathers_.clear();
+  elements_ = {};
   *this = Solver(std::move(model), *comm_);
   restore(state);
   repartitions_ = repartitions;
 }
 
-void Solver::restoreElements(const StateSource& in)
+void Solver::saveNodes(StateTables& out) const
 {
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  const NodeColumns columns = nodeColumns(state_);
+  KeyedRows nodes;
+  nodes.columns = columns.names;
+  for (int n = 0; n < layout_.owned(); ++n)
   {
-    const RankMesh::Block& part = model_.mesh.blocks[b];
-    const KeyedRows rows = in.rowsOf(nameOfBlock(part), blocks_[b].stateColumns(), part.elementIds);
-    for (int e = 0; e < part.elements(); ++e)
-      blocks_[b].restoreState(e, rows.row(std::size_t(e)));
+    Real* row = nodes.add({layout_.ids()[n]});
+    for (const NodeVectors& vectors : columns.vectors)
+      for (int c = 0; c < 3; ++c)
+        *row++ = vectors(n, c);
+    for (const Array<Real>& scalars : columns.scalars)
+      *row++ = scalars(n);
   }
+  out.rows("nodes", nodes);
 }
 
 void Solver::restoreNodes(const StateSource& in)
 {
-  const NodeColumns columns = nodeColumns(state_, contactStiffness_);
+  const NodeColumns columns = nodeColumns(state_);
   const KeyedRows rows = in.rowsOf(
       "nodes", columns.names,
       std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + layout_.owned()));
@@ -236,43 +193,71 @@ void Solver::restoreNodes(const StateSource& in)
   }
 }
 
-/// What follows from the elements that have died, and the sums of what they took with them.
-void Solver::restoreErosion(const StateSource& in)
+std::uint64_t Solver::stateHash() const
 {
-  const std::vector<Real> eroded = in.numbers("solver/eroded");
-  if (eroded.size() != 1 + (blocks_.size() + 1) * ExactSum::digitCount)
-    failOnAllRanks(ExitCode::Checkpoint, "{}: the checkpoint has another number of blocks.",
-                   in.name());
-  if (comm_->isRoot()) // sums over ranks
+  StateHash hash;
+  enum Field : std::uint64_t
   {
-    erodedElements_ = std::int64_t(eroded[0]);
-    for (std::size_t b = 0; b < blocks_.size(); ++b)
-      erodedEnergy_[b] = ExactSum::fromDigits(&eroded[1 + b * ExactSum::digitCount]);
-    erodedMass_ = ExactSum::fromDigits(&eroded[1 + blocks_.size() * ExactSum::digitCount]);
-  }
-  if (!erodes_)
-    return;
-  std::vector<GlobalId> dead;
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-  {
-    const RankMesh::Block& part = model_.mesh.blocks[b];
-    const int corners = topology(part.type).nodes;
-    for (int e = 0; e < part.elements(); ++e)
+    Position = 1,
+    Velocity,
+    Element = 100,
+    PlaneField = 200,
+    Time = 300
+  };
+  for (int n = 0; n < layout_.owned(); ++n)
+    for (int c = 0; c < 3; ++c)
     {
-      if (blocks_[b].isAlive(e))
-        continue;
-      alive_[b][e] = 0;
-      for (int k = 0; k < corners; ++k)
-        if (const int node = part.connectivity[e * corners + k]; node < layout_.owned())
-          --livingElements_[node];
-      if (part.owned[e])
-        dead.push_back(part.elementIds[e]);
+      hash.add(Position, layout_.ids()[n], c, state_.x(n, c));
+      hash.add(Velocity, layout_.ids()[n], c, state_.v(n, c));
     }
+  for (std::size_t b = 0; b < blocks().size(); ++b)
+  {
+    const RankMesh::Block& part = mesh().blocks[b];
+    std::uint64_t field = Element;
+    blocks()[b].forEachState(
+        [&](const char*, int components, const auto& values)
+        {
+          for (int e = 0; e < part.elements(); ++e)
+            if (part.owned[e])
+              for (int c = 0; c < components; ++c)
+                hash.add(field, part.elementIds[e], c, values(c, e));
+          ++field;
+        });
   }
-  dead = comm_->allGather(dead);
-  std::sort(dead.begin(), dead.end());
-  endLoadsOn(dead);
   if (contact_)
-    findContactFaces(nullptr);
+    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
+    {
+      const Plane& plane = contact_->planes()(p);
+      if (!plane.countedHere || !plane.isBorn())
+        continue;
+      const Real values[] = {plane.area,
+                             plane.offset,
+                             plane.closure,
+                             plane.history.maximumClosure,
+                             plane.history.shearTraction.x,
+                             plane.history.shearTraction.y,
+                             plane.history.shearTraction.z,
+                             plane.history.slip,
+                             plane.forceOn(1).x,
+                             plane.forceOn(1).y,
+                             plane.forceOn(1).z,
+                             plane.work,
+                             plane.frictionWork,
+                             plane.hysteresisWork,
+                             plane.fractureWork,
+                             plane.history.opening,
+                             plane.history.shearing};
+      std::uint64_t component = mix(std::uint64_t(plane.faceId[1]));
+      for (const Real value : values)
+        hash.add(PlaneField, plane.faceId[0], component++, value);
+    }
+  if (comm_->isRoot())
+  {
+    hash.add(Time, clock_.cycle, 0, clock_.time);
+    hash.add(Time, clock_.cycle, 1, clock_.nextStep);
+  }
+  std::vector<std::uint64_t> total{hash.part()};
+  comm_->sum(total);
+  return total[0];
 }
 } // namespace coplane

@@ -1,0 +1,101 @@
+#include <coplane_core/Log.hpp>
+#include <coplane_dynamics/BalanceWatch.hpp>
+#include <coplane_dynamics/WorstEntities.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+// When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
+// the energy in play that contact has lost or gained by the remainder.
+constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
+
+std::string now(const Clock& clock)
+{
+  return fmt::format("cycle {}, t = {:.6e} s", clock.cycle, clock.time);
+}
+} // namespace
+
+std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& parts) const
+{
+  const Real scale = balance.scale();
+  if (!(std::abs(balance.error()) <= parts.model.time.energyTolerance * scale))
+    return fmt::format(
+        "{}: the energy balance is off by {:.3e} J of {:.3e} J in play (accepted: {} of it, "
+        "time.energy_tolerance). {}\nLower time.step_factor or refine the mesh there.",
+        now(parts.clock), balance.error(), scale, parts.model.time.energyTolerance,
+        worstEntities(parts));
+  // Areas that grow under load bring energy that no other term shows.
+  const Real gain = -balance.contact.remainder();
+  if (!(gain <= parts.model.time.contactGainTolerance * scale))
+    return fmt::format(
+        "{}: contact has made {:.3e} J out of nothing, of {:.3e} J in play (accepted: {} of it, "
+        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: bodies that lie deep in "
+        "each other want stiffer joints, smaller elements or a smaller contact.depth_max.",
+        now(parts.clock), gain, scale, parts.model.time.contactGainTolerance,
+        worstByRemainder(parts));
+  return "";
+}
+
+namespace
+{
+/// Whether to warn: every warning waits until things are twice as bad as at the last of its kind.
+bool isWorse(Real value, Real first, Real& warned)
+{
+  if (!(value >= std::max(first, 2 * warned)))
+    return false;
+  warned = value;
+  return true;
+}
+} // namespace
+
+void BalanceWatch::warn(const EnergyBalance& balance, const Parts& parts)
+{
+  if (balance.scale() > 0)
+    warnOfBalance(balance, parts);
+  if (parts.contact)
+    warnOfPlanes(parts);
+}
+
+void BalanceWatch::warnOfBalance(const EnergyBalance& balance, const Parts& parts)
+{
+  const Real scale = balance.scale();
+  const Real tolerance = parts.model.time.energyTolerance;
+  const Real error = std::abs(balance.error()) / scale;
+  if (isWorse(error, errorToWarn * tolerance, warned_.error))
+    logWarning("energy balance",
+               fmt::format("{}: the energy balance is off by {:.2e} of the energy in play; the run "
+                           "stops at {} (time.energy_tolerance). {}",
+                           now(parts.clock), error, tolerance, worstEntities(parts)));
+  // What contact gains is worse than what it loses.
+  const Real remainder = balance.contact.remainder() / scale;
+  if (isWorse(remainder > 0 ? remainder / lossToWarn : -remainder / gainToWarn, 1,
+              warned_.remainder))
+    logWarning("contact remainder",
+               fmt::format("{}: contact has {} {:.2e} J, {:.2e} of the energy in play, by areas "
+                           "that changed under load. Worst:{}",
+                           now(parts.clock), remainder > 0 ? "lost" : "gained",
+                           std::abs(balance.contact.remainder()), std::abs(remainder),
+                           worstByRemainder(parts)));
+}
+
+void BalanceWatch::warnOfPlanes(const Parts& parts)
+{
+  const CappedPlanes capped = cappedPlanes(parts);
+  if (isWorse(Real(capped.count), 1, warned_.capped))
+    logWarning("stiffness cap",
+               fmt::format("{}: {} planes have reached joints.stiffness_cap: beyond it they are "
+                           "softer than their closure curve. Give a larger one where that matters; "
+                           "the step gets shorter. First:{}",
+                           now(parts.clock), capped.count, capped.first));
+  const std::int64_t tooDeep = parts.contact->counts().tooDeep;
+  if (isWorse(Real(tooDeep), 1, warned_.tooDeep))
+    logWarning("planes too deep",
+               fmt::format("{}: {} planes are deeper than contact.depth_max. Raise the stiffness "
+                           "of the joint or lower time.step_factor. Worst:{}",
+                           now(parts.clock), tooDeep, deepestPlanes(parts)));
+}
+} // namespace coplane

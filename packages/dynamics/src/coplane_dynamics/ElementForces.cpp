@@ -1,0 +1,244 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Timers.hpp>
+#include <coplane_core/WorkWatch.hpp>
+#include <coplane_dynamics/ElementForces.hpp>
+
+#include <algorithm>
+#include <numeric>
+
+namespace coplane
+{
+ElementForces::ElementForces(const RankMesh& mesh, const std::vector<BlockSetup>& setups,
+                             const BulkViscosity& viscosity, NodalState& state)
+{
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[b];
+    const BlockSetup& setup = setups[b];
+    blocks_.emplace_back(part.type, setup.material, setup.hourglass, viscosity, part.connectivity,
+                         setup.element);
+    ElementBlock& block = blocks_.back();
+    block.initialise(state.x);
+    gathers_.push_back(gatherOf(part, mesh.ownedNodes));
+    rigid_.push_back(setup.rigid);
+    const Gather& gather = gathers_.back();
+    const int corners = topology(part.type).nodes;
+    for (int n = 0; n < mesh.ownedNodes; ++n)
+      for (int i = gather.start(n); i < gather.start(n + 1); ++i)
+        state.mass(n) += block.cornerMass(gather.entry(i) / corners, gather.entry(i) % corners);
+  }
+}
+
+/// Node to corners, in the order of element ids, so that sums have the same order on every rank.
+ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int owned)
+{
+  const int corners = topology(part.type).nodes;
+  std::vector<int> order(part.elements());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int p, int q) { return part.elementIds[p] < part.elementIds[q]; });
+  Gather gather;
+  gather.start = Array<int>("coplane::dynamics::gatherStart", owned + 1);
+  for (const int node : part.connectivity)
+    if (node < owned)
+      ++gather.start(node + 1);
+  for (int n = 0; n < owned; ++n)
+    gather.start(n + 1) += gather.start(n);
+  gather.entry = Array<int>("coplane::dynamics::gatherEntry", gather.start(owned));
+  std::vector<int> next(gather.start.data(), gather.start.data() + owned);
+  for (const int e : order)
+    for (int k = 0; k < corners; ++k)
+      if (const int node = part.connectivity[e * corners + k]; node < owned)
+        gather.entry(next[node]++) = e * corners + k;
+  return gather;
+}
+
+void ElementForces::setInitialStress(const Model& model)
+{
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    for (int e = 0; e < blocks_[b].count() && !isRigid(b); ++e)
+      blocks_[b].setInitialStress(e, model.blocks[b].stressOfElement(model.mesh, int(b), e));
+}
+
+void ElementForces::update(const NodalState& state, const NodeLayout& layout, Real dt,
+                           WorkTimes& work)
+{
+  TimedRegion region("coplane::element::update");
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    if (isRigid(b))
+      continue;
+    const ConstArray<Real> dilatation = nodalDilatation(b, state, layout, dt, work);
+    const WorkWatch watch(work.elements[b]);
+    blocks_[b].update(state.x, state.v, dt, dilatation);
+  }
+}
+
+/// Dilatation of the step at every node from the elements of one block around it; empty where the
+/// block does not ask for it. Collective when it does.
+ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState& state,
+                                                const NodeLayout& layout, Real dt, WorkTimes& work)
+{
+  ElementBlock& block = blocks_[b];
+  if (block.options().form != ElementForm::NodalPressure || dt == 0)
+    return {};
+  {
+    const WorkWatch watch(work.elements[b]);
+    block.findVolumeChanges(state.x, state.v, dt);
+  }
+  if (int(dilatation_.extent(0)) != layout.size())
+    dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout.size());
+  const auto start = gathers_[b].start;
+  const auto entry = gathers_[b].entry;
+  const auto changes = block.volumeChanges();
+  const auto dilatation = dilatation_;
+  const ElementBlock* const elements = &block;
+  const int corners = topology(block.type()).nodes;
+  parallelFor(
+      "coplane::dynamics::nodalDilatation", layout.owned(), KOKKOS_LAMBDA(const int n) {
+        Real change = 0, volume = 0;
+        for (int i = start(n); i < start(n + 1); ++i)
+          if (elements->isAlive(entry(i) / corners))
+          {
+            change += changes(0, entry(i) / corners);
+            volume += changes(1, entry(i) / corners);
+          }
+        dilatation(n) = volume > 0 ? change / volume : 0;
+      });
+  layout.refresh(dilatation_);
+  return dilatation_;
+}
+
+namespace
+{
+/// Adds the forces of the elements of a block to owned nodes.
+void gatherBlock(const Array<int>& start, const Array<int>& entry, const ElementBlock& block,
+                 bool first, const NodeVectors& force)
+{
+  // Corners of all elements one after another, as the entries count them.
+  const Real* const cornerForce = block.cornerForce().data();
+  parallelFor(
+      "coplane::dynamics::gatherForces", int(force.extent(0)), KOKKOS_LAMBDA(const int n) {
+        Vec3 sum = first ? Vec3{} : at(force, n);
+        for (int i = start(n); i < start(n + 1); ++i)
+        {
+          const Real* const f = cornerForce + 3 * std::size_t(entry(i));
+          sum += {f[0], f[1], f[2]};
+        }
+        set(force, n, sum);
+      });
+}
+} // namespace
+
+void ElementForces::gather(const NodeVectors& force) const
+{
+  TimedRegion region("coplane::dynamics::gatherForces");
+  bool first = true;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    if (isRigid(b))
+      continue;
+    gatherBlock(gathers_[b].start, gathers_[b].entry, blocks_[b], first, force);
+    first = false;
+  }
+  if (first)
+    Kokkos::deep_copy(force, 0.0);
+}
+
+Real ElementForces::smallestStep() const
+{
+  Real least = infinity;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    if (!isRigid(b))
+      least = std::min(least, blocks_[b].smallestStableStep());
+  return least;
+}
+
+/// Calls f(block, element) for the elements around an owned node that deform.
+template <class F>
+void ElementForces::forEachAround(int node, F&& f) const
+{
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    if (isRigid(b))
+      continue;
+    const int corners = topology(blocks_[b].type()).nodes;
+    for (int i = gathers_[b].start(node); i < gathers_[b].start(node + 1); ++i)
+      f(b, gathers_[b].entry(i) / corners);
+  }
+}
+
+Real ElementForces::leastStepAround(int node) const
+{
+  Real least = infinity;
+  forEachAround(node,
+                [&](std::size_t b, int e) { least = std::min(least, blocks_[b].stableStep()(e)); });
+  return least;
+}
+
+GlobalId ElementForces::limitingElement(const RankMesh& mesh, int node) const
+{
+  Real least = infinity;
+  GlobalId limiting = 0;
+  forEachAround(node,
+                [&](std::size_t b, int e)
+                {
+                  const Real step = blocks_[b].stableStep()(e);
+                  const GlobalId id = mesh.blocks[b].elementIds[e];
+                  if (step < least || (step == least && id < limiting))
+                  {
+                    least = step;
+                    limiting = id;
+                  }
+                });
+  return limiting;
+}
+
+void ElementForces::throwIfInverted(const Model& model, const Clock& clock) const
+{
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const int e = isRigid(b) ? -1 : blocks_[b].invertedElement();
+    if (e >= 0)
+      fail(ExitCode::Computation,
+           "cycle {}, t = {:.6e} s: element {} (block '{}') has turned inside out or has a force "
+           "that is not finite; its volume is {:.3e} m^3. Refine the mesh there, lower "
+           "time.step_factor, or raise blocks.<name>.hourglass.stiffness.",
+           clock.cycle, clock.time, model.mesh.blocks[b].elementIds[e], model.blocks[b].name,
+           blocks_[b].volume()(e));
+  }
+}
+
+namespace
+{
+std::string nameOfBlock(const RankMesh::Block& block)
+{
+  return fmt::format("elements/block_{}", block.id);
+}
+} // namespace
+
+void ElementForces::save(const RankMesh& mesh, StateTables& out) const
+{
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[b];
+    KeyedRows elements;
+    elements.columns = blocks_[b].stateColumns();
+    for (int e = 0; e < part.elements(); ++e)
+      if (part.owned[e])
+        blocks_[b].saveState(e, elements.add({part.elementIds[e]}));
+    out.rows(nameOfBlock(part), elements);
+  }
+}
+
+void ElementForces::restore(const RankMesh& mesh, const StateSource& in)
+{
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[b];
+    const KeyedRows rows = in.rowsOf(nameOfBlock(part), blocks_[b].stateColumns(), part.elementIds);
+    for (int e = 0; e < part.elements(); ++e)
+      blocks_[b].restoreState(e, rows.row(std::size_t(e)));
+  }
+}
+} // namespace coplane

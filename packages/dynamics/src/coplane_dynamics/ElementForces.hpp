@@ -1,0 +1,71 @@
+#pragma once
+
+#include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/NodeViews.hpp>
+#include <coplane_dynamics/Clock.hpp>
+#include <coplane_dynamics/Model.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_dynamics/WorkTimes.hpp>
+#include <coplane_element/ElementBlock.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// The element blocks of a rank, and how their forces come to the nodes. Blocks of rigid bodies
+/// have mass and nothing else.
+class ElementForces
+{
+public:
+  /// No blocks: until the real ones come.
+  ElementForces() = default;
+  /// Blocks without stress; adds their masses to those of the owned nodes.
+  ElementForces(const RankMesh& mesh, const std::vector<BlockSetup>& setups,
+                const BulkViscosity& viscosity, NodalState& state);
+
+  void setInitialStress(const Model& model);
+
+  const std::vector<ElementBlock>& blocks() const { return blocks_; }
+  ElementBlock& block(std::size_t b) { return blocks_[b]; }
+  bool isRigid(std::size_t b) const { return rigid_[b] != 0; }
+
+  /// Stress, history, energies and corner forces over dt [s]; ElementBlock::update. Collective when
+  /// a block has ElementForm::NodalPressure.
+  void update(const NodalState& state, const NodeLayout& layout, Real dt, WorkTimes& work);
+  /// Sums of the corner forces at the owned nodes, in the order of element ids [N].
+  void gather(const NodeVectors& force) const;
+
+  Real smallestStep() const;            ///< stable, of this rank's elements [s]
+  Real leastStepAround(int node) const; ///< of the elements around an owned node [s]
+  /// The lowest id among those with that step.
+  GlobalId limitingElement(const RankMesh& mesh, int node) const;
+
+  /// Throws Error(ExitCode::Computation) that names the first element that has turned inside out,
+  /// or has a force that is not finite.
+  void throwIfInverted(const Model& model, const Clock& clock) const;
+
+  // Part of a checkpoint; restoring one advances nothing. Collective.
+  void save(const RankMesh& mesh, StateTables& out) const;
+  void restore(const RankMesh& mesh, const StateSource& in);
+
+private:
+  struct Gather
+  {
+    Array<int> start,
+        entry; ///< entries of node n: element * corners + corner, in the order of element ids
+  };
+  static Gather gatherOf(const RankMesh::Block& part, int ownedNodes);
+  ConstArray<Real> nodalDilatation(std::size_t block, const NodalState& state,
+                                   const NodeLayout& layout, Real dt, WorkTimes& work);
+  template <class F>
+  void forEachAround(int node, F&& f) const;
+
+  std::vector<ElementBlock> blocks_; ///< in the order of the mesh file
+  std::vector<Gather> gathers_;
+  std::vector<char> rigid_;
+  Array<Real> dilatation_; ///< of the step, per node of the layout
+};
+} // namespace coplane

@@ -1,0 +1,276 @@
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/NodalMotion.hpp>
+
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+std::vector<char> rigidBlocksOf(const Model& model)
+{
+  std::vector<char> rigid;
+  for (const BlockSetup& setup : model.blocks)
+    rigid.push_back(setup.rigid);
+  return rigid;
+}
+
+Real kickOf(const NodalMotion::Times& times)
+{
+  return 0.5 * (times.before + times.after);
+}
+} // namespace
+
+NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const NodalState& state,
+                         const Comm& comm)
+    : dimension_(model.mesh.dimension),
+      bodies_(model.mesh, model.rigidBodyOfNode, rigidBlocksOf(model), elements.blocks(), state,
+              comm),
+      followsBody_("coplane::dynamics::followsBody", model.mesh.ownedNodes),
+      dashpots_(model.conditions, model.mesh.ownedNodes)
+{
+  bodies_.takeConditions(model.conditions);
+  for (int n = 0; n < model.mesh.ownedNodes; ++n)
+    followsBody_(n) = bodies_.holds(n);
+  constrained_ = model.conditions.constrainedNodes();
+  projections_ = model.conditions.projections();
+  beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
+}
+
+void NodalMotion::drift(Real dt, const NodalState& state)
+{
+  const auto x = state.x;
+  const ConstNodeVectors v = state.v;
+  parallelFor(
+      "coplane::dynamics::drift", state.owned(),
+      KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
+  bodies_.drift(dt);
+}
+
+void NodalMotion::applyLoads(const Conditions& conditions, Real t, NodalState& state) const
+{
+  conditions.applyLoads(dimension_, state.owned(), t, state);
+}
+
+void NodalMotion::sumForcesOnBodies(const NodalState& state, const ElementForces& elements)
+{
+  bodies_.sumForces(state, state.contactStiffness,
+                    [&](int n) { return elements.leastStepAround(n); });
+}
+
+void NodalMotion::applyLocalDamping(Real fraction, const Conditions& conditions,
+                                    const NodalState& state)
+{
+  const NodeVectors damping = state.localDamping;
+  if (fraction == 0)
+  {
+    if (localDampingActs_)
+      Kokkos::deep_copy(damping, 0.0);
+    localDampingActs_ = false;
+    return;
+  }
+  localDampingActs_ = true;
+  const ConstNodeVectors force = state.force, external = state.external, v = state.v;
+  parallelFor(
+      "coplane::dynamics::unbalancedForces", state.owned(),
+      KOKKOS_LAMBDA(const int n) { set(damping, n, at(force, n) + at(external, n)); });
+  conditions.clearConstrained(projections_, damping);
+  const auto followsBody = followsBody_;
+  parallelFor(
+      "coplane::dynamics::localDamping", state.owned(), KOKKOS_LAMBDA(const int n) {
+        for (int c = 0; c < 3; ++c)
+        {
+          const Real size = followsBody(n) ? 0 : fraction * std::abs(damping(n, c));
+          damping(n, c) = v(n, c) > 0 ? -size : v(n, c) < 0 ? size : 0;
+        }
+      });
+}
+
+void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalState& state)
+{
+  TimedRegion region("coplane::dynamics::kick");
+  const Real massDamping = conditions.massDampingAt(times.damping);
+  const Real localDamping = conditions.localDampingAt(times.damping);
+  applyLocalDamping(localDamping, conditions, state);
+  kickNodes(times, conditions, state);
+  prescribe(times, conditions, state);
+  dashpots_.book(state.vPrevious, state.v, state.external);
+  bodies_.kick(kickOf(times), times.after, times.t, massDamping, localDamping, state);
+  bookForces(times, massDamping, state);
+  bodies_.bookSecondHalf(times.before);
+}
+
+/// Mass damping takes v at n as the mean of both half steps, like dashpots do: second order, and
+/// the stable step stays that of the undamped body.
+void NodalMotion::kickNodes(const Times& times, const Conditions& conditions, NodalState& state)
+{
+  const Real dt = kickOf(times), alpha = conditions.massDampingAt(times.damping);
+  const Real half = 0.5 * dt * alpha;
+  const NodeVectors v = state.v, vPrevious = state.vPrevious;
+  const ConstNodeVectors force = state.force, external = state.external,
+                         localDamping = state.localDamping;
+  const ConstArray<Real> mass = state.mass;
+  const bool locally = localDampingActs_;
+  const auto given = [=](int n) // all forces at n that do not depend on v(n+1/2)
+  {
+    const Vec3 sum = at(force, n) + at(external, n);
+    return locally ? sum + at(localDamping, n) : sum;
+  };
+  parallelFor(
+      "coplane::dynamics::kickVelocities", state.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 total = given(n);
+        const Vec3 old = at(v, n);
+        set(vPrevious, n, old);
+        if (mass(n) > 0)
+          set(v, n, (1 / (1 + half)) * ((1 - half) * old + (dt / mass(n)) * total));
+      });
+  if (dashpots_.empty())
+    return;
+  dashpots_.find(dimension_, conditions, state.x);
+  dashpots_.kick(dt, alpha, mass, given, vPrevious, v);
+}
+
+/// Velocities that conditions give; the force that this takes, and what the dampings no longer
+/// give, is external.
+void NodalMotion::prescribe(const Times& times, const Conditions& conditions, NodalState& state)
+{
+  const Real dt = kickOf(times), half = 0.5 * dt * conditions.massDampingAt(times.damping);
+  const NodeVectors v = state.v, external = state.external;
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+    set(beforeConstraint_, int(i), at(v, constrained_[i]));
+  conditions.prescribeVelocities(times.t + 0.5 * times.after, times.after, v, projections_);
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+  {
+    const int n = constrained_[i];
+    const Vec3 change = at(v, n) - at(beforeConstraint_, int(i));
+    set(external, n,
+        at(external, n) + (state.mass(n) / dt * (1 + half)) * change +
+            0.5 * dashpots_.drag(n, change));
+  }
+}
+
+void NodalMotion::bookForces(const Times& times, Real alpha, const NodalState& state)
+{
+  const Real dt = kickOf(times), before = 0.5 * times.before, after = 0.5 * times.after;
+  const NodeVectors damping = state.damping, impulse = state.impulse,
+                    angularImpulse = state.angularImpulse;
+  const ConstNodeVectors x = state.x, v = state.v, vPrevious = state.vPrevious, force = state.force,
+                         external = state.external, localDamping = state.localDamping;
+  const ConstArray<Real> mass = state.mass;
+  const auto externalWork = state.externalWork, dampingWork = state.dampingWork,
+             localDampingWork = state.localDampingWork, totalWork = state.totalWork;
+  const auto followsBody = followsBody_;
+  if (alpha == 0 && massDampingActs_)
+    Kokkos::deep_copy(damping, 0.0);
+  massDampingActs_ = alpha > 0;
+  const bool massive = massDampingActs_, locally = localDampingActs_;
+  const auto acts = [](const Vec3& f) { return f.x != 0 || f.y != 0 || f.z != 0; };
+  // This pass is bound by memory: it leaves alone what does not change.
+  parallelFor(
+      "coplane::dynamics::bookForces", state.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 path = before * at(vPrevious, n) + after * at(v, n);
+        Vec3 outer = at(external, n);
+        if (acts(outer))
+          externalWork(n) += dot(outer, path);
+        if (massive)
+        {
+          const Real drag = followsBody(n) ? 0 : -0.5 * alpha * mass(n);
+          const Vec3 dragged = drag * (at(vPrevious, n) + at(v, n));
+          set(damping, n, dragged);
+          dampingWork(n) -= dot(dragged, path);
+          outer += dragged;
+        }
+        if (locally)
+        {
+          localDampingWork(n) -= dot(at(localDamping, n), path);
+          outer += at(localDamping, n);
+        }
+        if (acts(outer))
+        {
+          set(impulse, n, at(impulse, n) + dt * outer);
+          set(angularImpulse, n, at(angularImpulse, n) + dt * cross(at(x, n), outer));
+        }
+        totalWork(n) += dot(at(force, n) + outer, path);
+      });
+}
+
+/// Works are booked to n + 1/2 in the kick; this motion ends at n.
+void NodalMotion::takeBackWorkAhead(Real step, const NodalState& state) const
+{
+  const Real half = 0.5 * step;
+  parallelFor(
+      "coplane::dynamics::takeBackWorkAhead", state.owned(), KOKKOS_LAMBDA(const int n) {
+        const Vec3 path = half * at(state.v, n);
+        const Vec3 external = at(state.external, n), damping = at(state.damping, n),
+                   localDamping = at(state.localDamping, n);
+        state.externalWork(n) -= dot(external, path);
+        state.dampingWork(n) += dot(damping, path);
+        state.localDampingWork(n) += dot(localDamping, path);
+        state.totalWork(n) -= dot(at(state.force, n) + external + damping + localDamping, path);
+      });
+}
+
+Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalState& state,
+                       const Comm& comm)
+{
+  const Real kinetic = kineticAtFullStep(state, comm);
+  takeBackWorkAhead(times.after, state);
+  const NodeVectors v = state.v, vPrevious = state.vPrevious;
+  const NodeVectors impulse = state.impulse, angularImpulse = state.angularImpulse;
+  const ConstNodeVectors x = state.x;
+  const ConstArray<Real> mass = state.mass;
+  const auto followsBody = followsBody_;
+  const auto copy = vPrevious; // what the velocities are before the stop
+  parallelFor(
+      "coplane::dynamics::stopMotion", state.owned(), KOKKOS_LAMBDA(const int n) {
+        set(copy, n, at(v, n));
+        set(v, n, {});
+      });
+  conditions.keepPrescribed(copy, v);
+  parallelFor(
+      "coplane::dynamics::bookStop", state.owned(), KOKKOS_LAMBDA(const int n) {
+        if (followsBody(n))
+          return;
+        const Vec3 lost = mass(n) * (at(v, n) - at(copy, n));
+        set(impulse, n, at(impulse, n) + lost);
+        set(angularImpulse, n, at(angularImpulse, n) + cross(at(x, n), lost));
+      });
+  bodies_.stop(state);
+  applyLoads(conditions, times.t, state);
+  kick({times.t, 0, times.after, times.damping}, conditions, state); // a start
+  mirrorVelocities(state);
+  return kinetic - kineticAtFullStep(state, comm);
+}
+
+void NodalMotion::mirrorVelocities(NodalState& state)
+{
+  const auto v = state.v;
+  const auto vPrevious = state.vPrevious;
+  parallelFor(
+      "coplane::dynamics::mirrorVelocities", state.owned(),
+      KOKKOS_LAMBDA(const int n) { set(vPrevious, n, 2.0 * at(vPrevious, n) - at(v, n)); });
+  bodies_.mirrorVelocities();
+}
+
+Real NodalMotion::kineticAtHalfStep(const NodalState& state, const Comm& comm) const
+{
+  std::vector<ExactSum> sums(1);
+  for (int n = 0; n < state.owned(); ++n)
+    if (!followsBody(n))
+      sums[0].add(0.5 * state.mass(n) * dot(at(state.v, n), at(state.v, n)));
+  if (comm.isRoot()) // every rank has all bodies
+    sums[0].add(bodies_.kineticAtHalfStep());
+  return ExactSum::overRanks(sums, comm)[0];
+}
+
+Real NodalMotion::kineticAtFullStep(const NodalState& state, const Comm& comm) const
+{
+  std::vector<ExactSum> sums(1);
+  for (int n = 0; n < state.owned(); ++n)
+    if (!followsBody(n))
+      sums[0].add(0.5 * state.mass(n) * dot(at(state.vPrevious, n), at(state.v, n)));
+  if (comm.isRoot())
+    sums[0].add(bodies_.kinetic());
+  return ExactSum::overRanks(sums, comm)[0];
+}
+} // namespace coplane

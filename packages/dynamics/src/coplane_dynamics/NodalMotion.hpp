@@ -1,0 +1,86 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_dynamics/Clock.hpp>
+#include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/Dashpots.hpp>
+#include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/Model.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_dynamics/RigidBodies.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// How the nodes of a rank and the rigid bodies move under given forces: drift, kick, what
+/// conditions prescribe, dampings, and the books of works and impulses.
+class NodalMotion
+{
+public:
+  /// Takes conditions on nodes of rigid bodies out of those of the model.
+  NodalMotion(Model& model, const ElementForces& elements, const NodalState& state,
+              const Comm& comm);
+
+  const RigidBodies& bodies() const { return bodies_; }
+  bool followsBody(int node) const { return followsBody_(node); } ///< an owned node
+
+  /// Momenta of bodies from the velocities of their nodes.
+  void start(NodalState& state) { bodies_.start(state); }
+  /// x(n) to x(n+1) with v(n+1/2), owned nodes.
+  void drift(Real dt, const NodalState& state);
+  /// Forces of conditions at t into state.external [N].
+  void applyLoads(const Conditions& conditions, Real t, NodalState& state) const;
+  /// Forces on bodies, and their steps. Collective.
+  void sumForcesOnBodies(const NodalState& state, const ElementForces& elements);
+
+  /// When a kick happens.
+  struct Times
+  {
+    Real t;       ///< at n [s]
+    Real before;  ///< dt(n-1/2); 0 at a start [s]
+    Real after;   ///< dt(n+1/2) [s]
+    Real damping; ///< for the dampings; infinity: none acts any more [s]
+  };
+  /// v(n-1/2) to v(n+1/2) under all forces at n, dampings, dashpots and conditions; books them.
+  void kick(const Times& times, const Conditions& conditions, NodalState& state);
+  /// At n, after a kick that has been booked: velocities that nothing prescribes are zero, and the
+  /// first half step from there follows. What the motion had is booked as work and as an impulse.
+  /// Collective. Returns the kinetic energy that this took [J].
+  Real stop(const Times& times, const Conditions& conditions, NodalState& state, const Comm& comm);
+  /// v(n-1/2) of a start: mirrors v(n+1/2) about v(n).
+  void mirrorVelocities(NodalState& state);
+
+  Real kineticAtHalfStep(const NodalState& state,
+                         const Comm& comm) const; ///< sum m v(n+1/2)^2/2 [J]
+  Real kineticAtFullStep(const NodalState& state,
+                         const Comm& comm) const; ///< sum m v(n-1/2).v(n+1/2)/2 [J]
+
+  /// The bodies' part of a checkpoint. Collective.
+  void save(StateTables& out) const { bodies_.save(out); }
+  void restore(const StateSource& in) { bodies_.restore(in); }
+  /// Calls f(number) for all else that a restart needs, in the order of checkpoints.
+  template <class Self, class F>
+  static void forEachNumber(Self& self, F&& number)
+  {
+    number(self.massDampingActs_);
+    number(self.localDampingActs_);
+  }
+
+private:
+  void applyLocalDamping(Real fraction, const Conditions& conditions, const NodalState& state);
+  void kickNodes(const Times& times, const Conditions& conditions, NodalState& state);
+  void prescribe(const Times& times, const Conditions& conditions, NodalState& state);
+  void bookForces(const Times& times, Real massDamping, const NodalState& state);
+  void takeBackWorkAhead(Real step, const NodalState& state) const;
+
+  int dimension_;
+  RigidBodies bodies_;
+  Array<bool> followsBody_; ///< owned nodes of rigid bodies
+  Dashpots dashpots_;
+  std::vector<int> constrained_;
+  std::vector<Conditions::Projection> projections_;
+  NodeVectors beforeConstraint_;
+  bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero
+};
+} // namespace coplane

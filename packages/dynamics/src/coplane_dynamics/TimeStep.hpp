@@ -1,0 +1,76 @@
+#pragma once
+
+#include <coplane_dynamics/Parts.hpp>
+#include <coplane_dynamics/StepGrowth.hpp>
+
+#include <string>
+
+namespace coplane
+{
+/// What limits the time step.
+struct StepControl
+{
+  Real stableStep = infinity;           ///< without the safety factor [s]
+  GlobalId node = 0;                    ///< the node with it (the lowest id when several have)
+  bool motion = false;                  ///< the motion of faces limits it, see TimeStep::motionStep
+  Real relativeSpeed = 0, thinnest = 0; ///< with motion [m/s], [m]
+  bool rigid = false;                   ///< a rigid body, which has the node, is what limits it
+  bool contact = false;        ///< whether contact adds more than elements to its frequency
+  GlobalId element = 0;        ///< of those around the node the one with the smallest step
+  GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
+  /// "element 12 at node 7", or "contact at node 7, most by side 1 of element 3 against side ..."
+  std::string text() const;
+};
+
+/// Chooses the time step.
+class TimeStep
+{
+public:
+  /// @param contactDamping the larger damping ratio of planes [-]
+  TimeStep(const TimeOptions& options, Real contactDamping)
+      : options_(options), contactDamping_(contactDamping)
+  {
+  }
+
+  /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
+  /// inside out, or a force or stiffness is no number.
+  Real stable(const Parts& parts) const;
+  /// The step of the next cycle. The arguments are the same on all ranks. Collective.
+  /// @param stable of all ranks [s]
+  /// @param thinnest of the elements behind faces [m]
+  /// @param relativeSpeed bound on the speed of any two nodes relative to each other [m/s]
+  Real choose(Real stable, Real thinnest, Real relativeSpeed, const Parts& parts);
+  /// A bound of the first step, for what looks ahead before it is known, from `elements`, the
+  /// stable step of the elements of all ranks [s].
+  void boundFirst(Real elements, Real thinnest, Real relativeSpeed);
+  /// Bound for the step after the one in progress [s].
+  Real largestNext() const { return largestNext_; }
+  StepControl control(const Parts& parts, Real relativeSpeed) const; ///< collective
+  /// In which faces move by a fraction of the thinnest element behind one, relative to each other:
+  /// no face may jump over an element, nor deep into it, between two looks at their closure [s].
+  static Real motionStep(Real thinnest, Real relativeSpeed)
+  {
+    return relativeSpeed > 0 ? motionPerStep * thinnest / relativeSpeed : infinity;
+  }
+
+  /// Calls f(number) for all that a restart needs, in the order of checkpoints.
+  template <class Self, class F>
+  static void forEachNumber(Self& self, F&& number)
+  {
+    number(self.growth_.calm);
+    number(self.largestNext_);
+  }
+
+private:
+  Real nodeStep(const Parts& parts, int node) const; ///< of elements and contacts there [s]
+  Real bodyStep(const Parts& parts) const;           ///< of rigid bodies [s]
+  Real dampingRate(Real frequency) const;
+
+  static constexpr Real motionPerStep = 0.2; ///< of the thickness of an element
+
+  TimeOptions options_;
+  Real contactDamping_;
+  StepGrowth growth_;
+  Real largestNext_ = 0;
+};
+} // namespace coplane
