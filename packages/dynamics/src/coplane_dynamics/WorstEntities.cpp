@@ -112,8 +112,8 @@ std::string Solver::brokenBalance(const EnergyBalance& balance) const
   if (!(gain <= model_.time.contactGainTolerance * scale))
     return fmt::format(
         "{}: contact has made {:.3e} J out of nothing, of {:.3e} J in play (accepted: {} of it, "
-        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: bodies that lie deep in "
-        "each other want stiffer joints, smaller elements or a smaller contact.depth_max.",
+        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: where bodies "
+        "penetrate deeply, use stiffer joints, smaller elements or a smaller contact.depth_max.",
         now, gain, scale, model_.time.contactGainTolerance, worstByRemainder());
   return "";
 }
