@@ -1,5 +1,5 @@
 # coplane_package(<name> SOURCES <file> ...)
-#   Makes the library coplane_<name> (target coplane::<name>) from packages/<name>/src, linked with exactly what
+#   Makes the library libcoplane_<name> (target coplane::<name>) from packages/<name>/src, linked with exactly what
 #   packages/<name>/cmake/Dependencies.cmake declares. Stops when a dependency is not earlier in packages/PackagesList.cmake.
 #   Headers in a folder detail/ are of this package only: they are not installed.
 # Dependencies.cmake holds
@@ -24,24 +24,26 @@ function(coplane_package name)
     endif()
   endforeach()
 
+  set(_library coplane_package_${name}) # coplane_<name> may be a program: coplane_mesh is one
   set(_kind PUBLIC)
   if(P_SOURCES)
-    add_library(coplane_${name} STATIC ${P_SOURCES})
+    add_library(${_library} STATIC ${P_SOURCES})
+    set_target_properties(${_library} PROPERTIES OUTPUT_NAME coplane_${name})
   else()
-    add_library(coplane_${name} INTERFACE)
+    add_library(${_library} INTERFACE)
     set(_kind INTERFACE)
   endif()
-  add_library(coplane::${name} ALIAS coplane_${name})
-  set_target_properties(coplane_${name} PROPERTIES EXPORT_NAME ${name})
-  target_include_directories(coplane_${name} ${_kind}
+  add_library(coplane::${name} ALIAS ${_library})
+  set_target_properties(${_library} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${_library} ${_kind}
     "$<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src>" "$<INSTALL_INTERFACE:include>")
   list(TRANSFORM _D_PACKAGES PREPEND coplane::)
-  target_link_libraries(coplane_${name} ${_kind} coplane::flags ${_D_PACKAGES} ${_D_LIBRARIES})
+  target_link_libraries(${_library} ${_kind} coplane::flags ${_D_PACKAGES} ${_D_LIBRARIES})
   if(P_SOURCES)
-    target_link_libraries(coplane_${name} PRIVATE ${_D_PRIVATE_LIBRARIES})
+    target_link_libraries(${_library} PRIVATE ${_D_PRIVATE_LIBRARIES})
   endif()
 
-  install(TARGETS coplane_${name} EXPORT CoplaneTargets)
+  install(TARGETS ${_library} EXPORT CoplaneTargets)
   install(DIRECTORY src/ DESTINATION include FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
 
   if(COPLANE_TESTS)
