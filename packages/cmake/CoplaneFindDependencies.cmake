@@ -124,7 +124,7 @@ else()
   _coplane_missing("HDF5 (parallel)" "${_fix} (Debian package libhdf5-openmpi-dev)")
 endif()
 
-foreach(_row IN ITEMS "CLI11:libcli11-dev" "yaml-cpp:libyaml-cpp-dev" "fmt:libfmt-dev" "spdlog:libspdlog-dev" "nlohmann_json:nlohmann-json3-dev")
+foreach(_row IN ITEMS "CLI11:libcli11-dev" "yaml-cpp:libyaml-cpp-dev" "fmt:libfmt-dev" "spdlog:libspdlog-dev" "nlohmann_json:nlohmann-json3-dev" "OpenSSL:libssl-dev")
   string(REPLACE ":" ";" _row "${_row}")
   list(GET _row 0 _name)
   list(GET _row 1 _debian)

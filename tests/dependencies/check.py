@@ -28,6 +28,7 @@ LIBRARIES = [
     (r"yaml-cpp/.*", ["yaml-cpp::yaml-cpp"]),
     (r"nlohmann/.*", ["nlohmann_json::nlohmann_json"]),
     (r"muParser\.h", ["muparser::muparser"]),
+    (r"openssl/.*", ["OpenSSL::Crypto"]),
     (r"CLI/.*", ["CLI11::CLI11"]),
     (r"gtest/.*", ["GTest::gtest"]),
     (r"benchmark/.*", ["benchmark::benchmark"]),
