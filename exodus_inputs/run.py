@@ -7,7 +7,8 @@
     exodus_inputs/run.py jointed_rock_2d --variant a b c --no-pictures
 
 An example is a folder beside this file with an `example.yaml` that names its sizes and variants: what they change in the mesh recipe
-and in the deck. A run makes, in its folder (default build/examples/NAME/SIZE or SIZE-VARIANT),
+and in the deck. A run makes, in its folder (default NAME/SIZE or NAME/SIZE-VARIANT in build/examples; of an installed run.py in
+coplane-examples, in the working folder),
 
     mesh.yaml, mesh.e    the recipe with all changes, and its mesh
     run.yaml             the deck with all changes
@@ -34,10 +35,14 @@ import time
 
 INPUTS = pathlib.Path(__file__).resolve().parent
 TOP = INPUTS.parent
-sys.path.insert(0, str(TOP / "tests/support"))
+# In the source tree, or installed in PREFIX/share/coplane.
+IS_INSTALLED = not (TOP / "CMakeLists.txt").exists()
+BINARIES = TOP.parents[1] / "bin" if IS_INSTALLED else TOP / "build/bin"
+RUNS = pathlib.Path("coplane-examples").resolve() if IS_INSTALLED else TOP / "build/examples"
+PARAVIEW = TOP / "paraview" if IS_INSTALLED else TOP / "apps/coplane/paraview"
 sys.dont_write_bytecode = True
 try:
-    from coplanetest import documents, program
+    from coplanetools import documents, program
 except ImportError as error:
     sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
 
@@ -186,7 +191,7 @@ class ExampleRun:
         self.overwrite = options.overwrite
         label = size + ("-" + variant if variant else "")
         if options.output is None:
-            self.folder = TOP / "build/examples" / name / label
+            self.folder = RUNS / name / label
         elif len(options.variant) > 1:
             self.folder = options.output.resolve() / label
         else:
@@ -272,8 +277,7 @@ class ExampleRun:
         script = INPUTS / self.name / self.example.get("pictures", "pictures.py")
         if not script.exists():
             return
-        common = TOP / "apps/coplane/paraview"
-        key = self.key(self.run_key.encode(), script, *sorted(common.glob("*.py")))
+        key = self.key(self.run_key.encode(), script, *sorted(PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
         missing = [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)]
@@ -283,7 +287,7 @@ class ExampleRun:
         self.say("drawing")
         before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
-        environment = dict(os.environ, PYTHONPATH=str(common), PYTHONDONTWRITEBYTECODE="1")
+        environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
         for attempt in range(3):
             # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
             # display may not be there in time; then once more.
@@ -306,7 +310,7 @@ class ExampleRun:
 
 
 def python(script, parameters, folder):
-    path = os.pathsep.join([str(TOP / "tests/support"), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
+    path = os.pathsep.join([str(INPUTS), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
     environment = dict(os.environ, PYTHONPATH=path, PYTHONDONTWRITEBYTECODE="1", COPLANE_SOURCE=str(TOP))
     return subprocess.run([sys.executable, str(script), *map(str, parameters)], cwd=folder, env=environment).returncode
 
@@ -319,7 +323,7 @@ def main():
             print(f"{name}: {example['title']}\n    sizes: {', '.join(example['sizes'])}"
                   + (f"; variants: {', '.join(example['variants'])}" if example.get("variants") else ""))
         return
-    os.environ.setdefault("COPLANE_BIN", str(TOP / "build/bin"))
+    os.environ.setdefault("COPLANE_BIN", str(BINARIES))
     name = pathlib.Path(options.name).name
     example = read_example(name)
     size = options.size or example.get("default", next(iter(example["sizes"])))

@@ -1,5 +1,6 @@
 # The packages of Coplane, bottom to top. A package may use only packages above its own line: that order is the proof that there
-# is no cycle. coplane_package() checks it at configure time; docs/developer/packages.svg is drawn from the same files.
+# is no cycle. coplane_package() checks it at configure time, tests/dependencies what sources include; docs/developer/packages.svg
+# is drawn from the same files.
 set(COPLANE_PACKAGES
   core
   checkpoint

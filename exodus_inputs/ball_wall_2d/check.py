@@ -4,7 +4,7 @@ import re
 
 import numpy
 
-from coplanetest import Example
+from coplanetools import Example
 
 example = Example()
 h = example.history

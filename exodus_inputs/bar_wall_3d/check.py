@@ -6,7 +6,7 @@ each other a little, and a joint that is closed by a hair gives them a sliver of
 
 import numpy
 
-from coplanetest import Example, documents
+from coplanetools import Example, documents
 
 example = Example()
 h, results = example.history, example.results

@@ -2,7 +2,7 @@
 
 import numpy
 
-from coplanetest import Example
+from coplanetools import Example
 
 example = Example()
 h = example.history

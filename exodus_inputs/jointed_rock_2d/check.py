@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from coplanetest import Example, documents, waves
+from coplanetools import Example, documents, waves
 
 example = Example()
 h, results, variant = example.history, example.results, example.variant

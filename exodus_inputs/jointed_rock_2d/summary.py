@@ -4,7 +4,7 @@ import json
 import pathlib
 import sys
 
-from coplanetest import Example, differences
+from coplanetools import Example, differences
 
 runs = {json.loads((pathlib.Path(folder) / "example.json").read_text())["variant"]: folder for folder in sys.argv[1:]}
 if {"", "every4"} <= set(runs):

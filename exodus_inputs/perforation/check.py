@@ -4,7 +4,7 @@ import re
 
 import numpy
 
-from coplanetest import Example
+from coplanetools import Example
 from slab import MEASURED, forrestal, numbers
 
 example = Example()

@@ -5,7 +5,7 @@ import pathlib
 
 import numpy
 
-from coplanetest import documents
+from coplanetools import documents
 
 MEASURED = dict(numpy.loadtxt(pathlib.Path(__file__).with_name("measured.csv"), delimiter=",", skiprows=2))
 

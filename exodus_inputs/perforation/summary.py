@@ -3,7 +3,7 @@
 import pathlib
 import sys
 
-from coplanetest.program import Run
+from coplanetools.program import Run
 from slab import MEASURED, forrestal, numbers
 
 found = [(folder, numbers(Run(folder, 0, ""), folder)) for folder in map(pathlib.Path, sys.argv[1:])]

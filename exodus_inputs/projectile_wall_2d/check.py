@@ -2,8 +2,8 @@
 
 import numpy
 
-from coplanetest import Example, documents
-from coplanetest.results import planes
+from coplanetools import Example, documents
+from coplanetools.results import planes
 
 example = Example()
 h, results, whole = example.history, example.results, example.size != "coarse"

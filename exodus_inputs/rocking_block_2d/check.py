@@ -4,7 +4,7 @@ import math
 
 import numpy
 
-from coplanetest import Example
+from coplanetools import Example
 
 WIDTH, HEIGHT, TILT = 0.3, 1.2, 0.5  # tilt at the start over the one that topples the block
 example = Example()

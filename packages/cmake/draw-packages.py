@@ -6,36 +6,15 @@
 A package stands one level above the highest package that it uses. A dependency that another one implies is not drawn: the
 picture shows the least set of arrows from which all declared ones follow. Needs the Python standard library only.
 """
-import re
 import sys
 from pathlib import Path
 
-PACKAGES = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+from declared import PACKAGES, declared, packages_bottom_to_top
+
 PICTURE = PACKAGES.parent / "docs" / "developer" / "packages.svg"
 BOX_WIDTH, BOX_HEIGHT = 120, 34
 COLUMN, ROW, MARGIN = 150, 96, 30
-
-
-def without_comments(text):
-    return re.sub(r"#[^\n]*", "", text)
-
-
-def packages_bottom_to_top():
-    text = without_comments((PACKAGES / "PackagesList.cmake").read_text())
-    return re.search(r"set\(COPLANE_PACKAGES\s+([^)]*)\)", text).group(1).split()
-
-
-def uses_of(package):
-    """Packages that a package declares: the words after PACKAGES, up to the next keyword."""
-    text = without_comments((PACKAGES / package / "cmake" / "Dependencies.cmake").read_text())
-    words = " ".join(re.findall(r"coplane_dependencies\(([^)]*)\)", text)).split()
-    uses, keyword = [], None
-    for word in words:
-        if word in ("PACKAGES", "LIBRARIES", "PRIVATE_LIBRARIES"):
-            keyword = word
-        elif keyword == "PACKAGES":
-            uses.append(word)
-    return uses
 
 
 def reachable(start, uses):
@@ -50,7 +29,7 @@ def reachable(start, uses):
 
 def picture():
     packages = packages_bottom_to_top()
-    uses = {package: uses_of(package) for package in packages}
+    uses = {package: declared(package)["PACKAGES"] for package in packages}
     level = {}
     for package in packages:  # bottom to top, so the levels of what it uses are known
         level[package] = 1 + max((level[other] for other in uses[package]), default=-1)

@@ -32,7 +32,7 @@ arguments=()
 COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" "${arguments[@]}" | tail -n 1)
 export COPLANE_TRILINOS
 say "building (log: build/build.log)"
-coplane_configure_and_build coplane coplane_mesh_program
+coplane_configure_and_build coplane coplane_mesh
 
 arguments=()
 [ -z "$end" ] || arguments+=(--set "time.end=$end")

@@ -192,8 +192,9 @@ def check_readme():
 
 
 def check_install():
-    """The install target gives a package that another project finds, links and runs."""
+    """The install target gives a package that another project finds, links and runs, and examples that run."""
     prefix = pathlib.Path("prefix").absolute()
+    shutil.rmtree(prefix, ignore_errors=True)
     done = run(["cmake", "--install", str(BUILD), "--prefix", str(prefix)])
     assert done.returncode == 0, done.stdout[-3000:]
     user = pathlib.Path("user")
@@ -214,8 +215,19 @@ def check_install():
     assert done.returncode == 0, done.stdout[-3000:]
     printed = run(["user-build/user"]).stdout
     assert printed.split()[1:] == ["6"], printed
+    assert not list(prefix.glob("include/*/detail")), "headers of a package alone are installed"
     version = run([str(prefix / "bin/coplane"), "--version"])
     assert version.returncode == 0 and version.stdout.startswith("coplane "), version.stdout
+
+    # An example runs and is checked with what is installed: the programs, run.py and its modules.
+    shutil.rmtree("coplane-examples", ignore_errors=True)
+    alone = {name: value for name, value in os.environ.items() if name not in ("COPLANE_BIN", "COPLANE_SOURCE", "PYTHONPATH")}
+    tool = prefix / "share/coplane/exodus_inputs/run.py"
+    done = run([sys.executable, str(tool), "rocking_block_2d", "--size", "coarse", "--no-pictures"], env=alone)
+    assert done.returncode == 0, done.stdout[-3000:]
+    assert str(SOURCE) not in done.stdout.replace(os.getcwd(), ""), done.stdout[-3000:]
+    checks = pathlib.Path("coplane-examples/rocking_block_2d/coarse/checks.jsonl").read_text().splitlines()
+    assert checks and all(json.loads(line)["passed"] for line in checks), checks
 
 
 if __name__ == "__main__":

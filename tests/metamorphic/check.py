@@ -5,7 +5,7 @@ import itertools
 import sys
 
 import numpy
-from coplanetest import Case, documents, retold
+from coplanetest import Case, retold, rotation
 
 from scenes import SCENES, spin
 
@@ -189,7 +189,7 @@ parts = range(len(original.recipe["parts"]))
 if kind == "rest":
     still = max(largest(base.motion), largest(base.nodal[0])) / length, max(largest(base.velocity), largest(base.nodal[1])) / speed
     case.check("original: stays at rest", max(still), 0, 1e-9)
-exact("turned", retold.in_frame(plain, documents.rotation(angles)), 1e-8)
+exact("turned", retold.in_frame(plain, rotation(angles)), 1e-8)
 if everything or scene.thorough:
     exact("renumbered", retold.renumbered(plain, len(base.nodal[0])), 1e-9)
     near("blocks in another order", retold.reordered(plain, list(parts)[::-1]), 1e-9)
@@ -231,5 +231,5 @@ if kind in ("bars", "settle"):
 if kind == "spin" and rough:  # round-off decides about gaps of exactly zero: README.md
     touching = spin(3, 0.3, gap=0.0).problem()
     first = look("touching at the start", touching)
-    exact("touching at the start, turned", retold.in_frame(touching, documents.rotation(angles)), 1e-8, report=True, other=first)
+    exact("touching at the start, turned", retold.in_frame(touching, rotation(angles)), 1e-8, report=True, other=first)
 case.finish()

@@ -4,7 +4,7 @@ import copy
 import dataclasses
 
 import numpy
-from coplanetest import documents
+from coplanetest import rotation
 from coplanetest.retold import Problem
 
 DENSITY, G = 2000.0, 9.81
@@ -80,7 +80,7 @@ def slide(dimension, friction):
 def corner(dimension, friction, end=0.03, spin=3.0, height=0.005):
     """A tilted block, turning, is thrown with a corner on a slab, where the slab is cut in two."""
     angles = [0, 0, 30] if dimension == 2 else [20, 0, 30]
-    lowest = 0.1 * numpy.abs(documents.rotation(angles)[1][:dimension]).sum()
+    lowest = 0.1 * numpy.abs(rotation(angles)[1][:dimension]).sum()
     center = [0.0, height + float(lowest), 0.0]
     omega = [0.0, 0.0, spin] if dimension == 2 else [2.0, -1.0, spin]
     rider = box("rider", [-0.1] * dimension, [0.2] * dimension, [4, 4] if dimension == 2 else [3, 3, 3],

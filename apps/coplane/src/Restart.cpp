@@ -123,8 +123,8 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
   const auto texts = meshDifferences(checkpoint.text("mesh"), meshFingerprint(mesh, comm));
   if (!texts.empty())
     failOnAllRanks(ExitCode::Checkpoint,
-                   "{}: the mesh {} is not that of the checkpoint: {}. Restart with the mesh of "
-                   "then, or start without --restart.",
+                   "{}: the mesh {} is not that of the checkpoint: {}. Restart with the mesh that "
+                   "the checkpoint was written with, or start without --restart.",
                    checkpoint.file(), deck.mesh, fmt::join(texts, "; "));
   const auto changes =
       deckDifferences(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file));
@@ -135,12 +135,12 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
         "are title, mesh (its path), time.end, time.energy_tolerance, "
         "time.contact_gain_tolerance, output, history.every, history.file, history.tables, "
         "checkpoint and partition. Restart "
-        "with the deck of then, or start without --restart.",
+        "with the deck that the checkpoint was written with, or start without --restart.",
         checkpoint.file(), deck.file, fmt::join(changes, "; "));
   if (checkpoint.head().program != version().number)
     logWarning("version",
-               fmt::format("{} was written by coplane {}; this is {}: the bits of the "
-                           "rest of the run may be others",
+               fmt::format("{} was written by coplane {}; this is {}: the results from here "
+                           "on may differ in the last digits",
                            checkpoint.file(), checkpoint.head().program, version().number));
 }
 

@@ -394,7 +394,7 @@ int main(int argc, char** argv)
   const Comm comm;
   const int code = runProgram(argc, argv, comm, failure);
   leaveTogether(comm, ExitCode(code),
-                failure.empty() ? "the other ranks do not come to the end; all are stopped"
+                failure.empty() ? "the other ranks did not finish in time; all ranks are stopped"
                                 : failure,
                 failure.empty() ? patience : patienceAfterErrors);
   MPI_Finalize();

@@ -63,6 +63,6 @@ void readPathFile(const std::string& file, JointPathCard& card)
     card.slipsY.push_back(y);
   }
   if (card.times.empty())
-    fail(ExitCode::Deck, "{}: there is no point in it; {}.", file, accepted);
+    fail(ExitCode::Deck, "{}: the file has no row of values after time 0; {}.", file, accepted);
 }
 } // namespace coplane

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES core PRIVATE_LIBRARIES ${HDF5_C_LIBRARIES})
+coplane_dependencies(PACKAGES core PRIVATE_LIBRARIES coplane::hdf5)

@@ -1,1 +1,1 @@
-coplane_dependencies(LIBRARIES coplane::trilinos fmt::fmt PRIVATE_LIBRARIES spdlog::spdlog)
+coplane_dependencies(LIBRARIES coplane::kokkos MPI::MPI_CXX fmt::fmt PRIVATE_LIBRARIES spdlog::spdlog)

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES mesh material core)
+coplane_dependencies(PACKAGES mesh material core PRIVATE_LIBRARIES coplane::kokkos)

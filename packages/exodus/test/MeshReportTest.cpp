@@ -64,7 +64,7 @@ TEST(MeshReport, anInvertedElementIsNamedWithItsBlock)
   EXPECT_EQ(meshProblems(report).at(0),
             "1 elements are inside out or flat (area zero or negative): element 8 of block 'shot' "
             "(-1 m^2). Correct the order of "
-            "their nodes, or mesh there again.");
+            "their nodes, or remesh that region.");
 }
 
 TEST(MeshReport, aNodeTwiceInAnElementIsFound)
@@ -213,7 +213,7 @@ TEST(MeshReport, aFoldedQuadrilateralIsNamed)
   EXPECT_EQ(
       meshProblems(report)[0],
       "1 elements are folded at a corner: element 8 of block 'shot'. Their area is positive, but "
-      "they are not convex; mesh there again.");
+      "they are not convex; remesh that region.");
 }
 
 TEST(MeshReport, aJointHasPairsOfFacesAndTellsThoseAlone)

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES core)
+coplane_dependencies(PACKAGES core LIBRARIES coplane::kokkos)

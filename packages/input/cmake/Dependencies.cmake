@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES schema joint material core)
+coplane_dependencies(PACKAGES schema joint material core PRIVATE_LIBRARIES fmt::fmt)

@@ -44,7 +44,7 @@ TEST(CheckNamesAgainstMesh, aCardNeedsABlock)
   EXPECT_EQ(messagesOf(text),
             (std::vector<std::string>{
                 "wall.yaml:3:9: blocks has no card for the element block 'bricks' of the mesh; add "
-                "'bricks: {material: ...}'. The card 'brick' is near.",
+                "'bricks: {material: ...}'. The most similar card is 'brick'.",
                 "wall.yaml:3:34: blocks = 'brick' is not an element block of the mesh. Did you "
                 "mean 'bricks'? There is: bar, bricks."}));
 }

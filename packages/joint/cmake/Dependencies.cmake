@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES schema core)
+coplane_dependencies(PACKAGES schema core LIBRARIES coplane::kokkos PRIVATE_LIBRARIES fmt::fmt)

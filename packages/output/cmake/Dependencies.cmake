@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES dynamics exodus checkpoint core PRIVATE_LIBRARIES nlohmann_json::nlohmann_json)
+coplane_dependencies(PACKAGES dynamics contact exodus checkpoint mesh core PRIVATE_LIBRARIES fmt::fmt nlohmann_json::nlohmann_json OpenSSL::Crypto)

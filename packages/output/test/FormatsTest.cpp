@@ -30,6 +30,11 @@ TEST(Base64, givesTheVectorsOfRfc4648)
   EXPECT_EQ(base64("foo"), "Zm9v");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
   EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
+  // In pieces, each a multiple of three bytes.
+  std::string groups;
+  for (int i = 0; i < 2 << 20; ++i)
+    groups += "ZmZm";
+  EXPECT_EQ(base64(std::string(6 << 20, 'f') + "o"), groups + "bw==");
 }
 
 TEST(Sha256, givesTheVectorsOfFips180)

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES core mesh)
+coplane_dependencies(PACKAGES core mesh PRIVATE_LIBRARIES coplane::zoltan2)

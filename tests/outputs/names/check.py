@@ -6,8 +6,7 @@ import shutil
 import subprocess
 import sys
 
-from coplanetest import Case, documents, program
-from coplanetest.results import Results
+from coplanetest import Case, Results, documents, program
 
 case = Case("names", __file__)
 try:

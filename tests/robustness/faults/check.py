@@ -186,7 +186,7 @@ run("both damaged", folder, CHECKPOINT, ["run.chk.0", "run.chk.1", "checksum"], 
 folder = folder_for("no checkpoint")
 run("no checkpoint", folder, CHECKPOINT, ["run.chk.0", "No such file"], ["--restart"], ranks=2)
 
-# --- mesh and deck of then ------------------------------------------------------------------------------------
+# --- a mesh or a deck that has changed ---------------------------------------------------------------------------
 folder = stopped("changes")
 
 

@@ -1,6 +1,5 @@
 """A verification case: runs it needs and checks it makes."""
 
-import json
 import os
 import pathlib
 import shutil
@@ -8,10 +7,11 @@ import sys
 
 import numpy
 
-from . import documents, program
+from coplanetools import documents, program
+from coplanetools.checks import Checks
 
 
-class Case:
+class Case(Checks):
     """`folder_of` is the check's __file__: recipes and decks stand beside it. Runs are made in the
     working folder, each in a folder of its own.
     """
@@ -130,61 +130,3 @@ class Case:
         kept("missed contacts", int(numpy.max(h["missed"])), 0)
         if remainder is not None:
             kept("contact remainder", numpy.max(numpy.abs(h["contact_remainder"])) / in_play, remainder)
-
-    # --- checks ------------------------------------------------------------------------------------
-
-    def check(self, quantity, value, reference, tolerance, relative=False, report=False, kept=None):
-        """One JSON line. `tolerance` is absolute, or relative to the reference. `report`: the line is
-        printed, but does not fail the case. `kept`: the balance that this line is about.
-        """
-        error = abs(value - reference)
-        if relative:
-            error /= abs(reference)
-        passed = bool(error <= tolerance)  # false for NaN
-        self.line(quantity, value, reference, error, tolerance, passed, report, kept, relative)
-        return passed
-
-    def check_equal(self, quantity, value, reference, kept=None):
-        """For texts, lists and counts."""
-        same = value == reference
-        self.line(quantity, value, reference, 0 if same else 1, 0, same, kept=kept)
-        return same
-
-    def check_within(self, quantity, value, low, high):
-        """One-sided or unsymmetric limits; the reference is the nearer end of the interval."""
-        passed = bool(low <= value <= high)
-        self.line(quantity, value, [low, high], 0 if passed else min(abs(value - low), abs(value - high)), 0, passed)
-        return passed
-
-    def line(
-        self, quantity, value, reference, error, tolerance, passed, report=False, kept=None, relative=False
-    ):
-        def plain(x):
-            return x.item() if isinstance(x, numpy.generic) else x
-
-        record = {
-            "case": self.name,
-            "quantity": quantity,
-            "value": plain(value),
-            "reference": plain(reference),
-            "error": plain(error),
-            "tolerance": plain(tolerance),
-            "passed": passed,
-        }
-        if report:
-            record["reported"] = True
-        elif not passed:
-            self.failures += 1
-        print(json.dumps(record), flush=True)
-        record["folder"] = self.source.name
-        if kept:
-            record["kept"] = kept
-        if relative:
-            record["relative"] = True
-        with open(self.record, "a") as file:
-            file.write(json.dumps(record) + "\n")
-
-    def finish(self):
-        """Call last: the exit code tells whether all checks passed."""
-        if self.failures:
-            sys.exit(f"{self.name}: {self.failures} checks failed")

@@ -11,7 +11,7 @@ import typing
 import netCDF4
 import numpy
 
-from . import documents
+from .frames import turned_deck
 
 
 @dataclasses.dataclass
@@ -119,7 +119,7 @@ def reordered(problem, parts):
 def in_frame(problem, matrix=None, offset=(0, 0, 0), velocity=(0, 0, 0)):
     """Turned (or mirrored) about the origin by the matrix, then moved, with a common velocity."""
     matrix = numpy.eye(3) if matrix is None else matrix
-    deck = documents.turned_deck(problem.deck, matrix, offset, velocity)
+    deck = turned_deck(problem.deck, matrix, offset, velocity)
     return problem.copy(deck=deck, edit=(*problem.edit, moved_mesh(matrix, offset)), matrix=matrix, drift=tuple(velocity))
 
 

@@ -4,7 +4,7 @@ import math
 import sys
 
 import numpy
-from coplanetest import Case, documents, turned_deck
+from coplanetest import Case, rotation, turned_deck
 
 case = Case("V30", __file__)
 full = "all" in sys.argv[1:]
@@ -93,7 +93,7 @@ for dimension in ("2d", "3d"):
         if dimension == "3d" and frame != "turned" and not full:
             continue
         recipe, deck = problem(dimension)
-        matrix = documents.rotation(angles)
+        matrix = rotation(angles)
         if dimension == "2d":
             offset = (*offset[:2], 0)
         deck = turned_deck(deck, matrix, offset, drift)

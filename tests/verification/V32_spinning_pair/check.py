@@ -4,7 +4,7 @@ import math
 import sys
 
 import numpy
-from coplanetest import Case, documents, turned_deck
+from coplanetest import Case, rotation, turned_deck
 
 case = Case("V32", __file__)
 lean, pressure = math.radians(15), 2e6
@@ -23,7 +23,7 @@ for name in ("2d", "3d") if "all" in sys.argv[1:] else ("2d",):
     recipe, deck = case.load("mesh.yaml" if name == "2d" else "mesh_3d.yaml"), case.load()
     change = slanted
     if name == "3d":  # about an axis that is none of the mesh's
-        matrix = documents.rotation([30, 20, 50])
+        matrix = rotation([30, 20, 50])
         deck = turned_deck(deck, matrix)
         change = lambda coordinates: slanted(coordinates, matrix)
     beginning = {**deck, "time": {**deck["time"], "end": 0.01}}

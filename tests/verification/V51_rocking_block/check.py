@@ -5,7 +5,7 @@ import math
 import sys
 
 import numpy
-from coplanetest import Case, documents, turned_deck
+from coplanetest import Case, rotation, turned_deck
 
 case = Case("V51", __file__)
 width, height, g = 0.3, 1.2, 9.81
@@ -115,7 +115,7 @@ deck = case.load("exodus_inputs/rocking_block_2d/deck.yaml")
 deck["time"]["end"] = 0.3
 plain = case.run("plain", tilted(0.5), deck).results
 for frame, angles_of_frame, offset in (("turned", 30, (0, 0, 0)), ("moved by 1 km", 0, (1000, -1000, 0))):
-    matrix = documents.rotation(angles_of_frame)
+    matrix = rotation(angles_of_frame)
 
     def change(coordinates):
         return coordinates @ matrix[:2, :2].T + numpy.array(offset[:2])

@@ -161,7 +161,7 @@ std::string verifyCheckpoint(const std::string& file, const Comm& comm, Checkpoi
   if (failed < comm.size())
     return comm.broadcast(problem, failed);
   if (!same)
-    return "its bytes are damaged: the checksum is another one";
+    return "its bytes are damaged: they do not have the checksum that is written in it";
   return "";
 }
 } // namespace coplane

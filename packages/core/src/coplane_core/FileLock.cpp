@@ -100,13 +100,15 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
     {
       if (errno == ELOOP)
         fail(ExitCode::Output,
-             "{}: this is the lock that says who writes {}, but a link has that name. Nothing was "
+             "{}: this is the name of the lock file of {}, but a link has that name. Nothing "
+             "was "
              "written. Move the link away, or give the outputs other names.",
              file, what);
       const std::string reason = std::strerror(errno);
       fail(ExitCode::Output,
-           "{}: the lock that says who writes {} cannot be made or opened: {}. Check that the "
-           "folder '{}' exists and can be written to, and whether the file is of another user.",
+           "{}: the lock file of {} cannot be created or opened: {}. Check that the folder '{}' "
+           "exists "
+           "and can be written to, and that the file does not belong to another user.",
            file, what, reason, folderOf(file));
     }
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
@@ -124,8 +126,9 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
         continue;
       if (reason != EWOULDBLOCK && isOfOtherUser)
         fail(ExitCode::Output,
-             "{}: the lock that says who writes {} is of another user, and whether it is held "
-             "cannot be told: {}. Ask its owner to remove it, or give the outputs other names.",
+             "{}: the lock file of {} belongs to another user, and it is not known whether a "
+             "program "
+             "holds it: {}. Ask its owner to remove it, or give the outputs other names.",
              file, what, std::strerror(reason));
       if (reason != EWOULDBLOCK)
       {
@@ -153,10 +156,11 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
     if (isKnown && there.st_size > 0 && !isOfLock(textIn(descriptor)))
     {
       ::close(descriptor);
-      fail(ExitCode::Output,
-           "{}: this is the lock that says who writes {}, but a file with something else in it has "
-           "that name. Nothing was written. Move it away, or give the outputs other names.",
-           file, what);
+      fail(
+          ExitCode::Output,
+          "{}: this is the name of the lock file of {}, but the file with that name is not a lock. "
+          "Nothing was written. Move it away, or give the outputs other names.",
+          file, what);
     }
     // A copy by links of what a killed run left, or what another user's killed run left.
     if ((isKnown && there.st_nlink > 1) || isOfOtherUser)

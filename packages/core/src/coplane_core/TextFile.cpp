@@ -91,12 +91,12 @@ void putForeignFileAside(const std::string& file, const std::string& now)
     return; // gone meanwhile
   if (error)
     fail(ExitCode::Output,
-         "{}: a file of this name is there that this run did not write, and it cannot be renamed "
-         "to {}: {}. Move it away, or give the output another name.",
+         "{}: there is already a file of this name, which this run did not write, and it cannot be "
+         "renamed to {}: {}. Move it away, or give the output another name.",
          file, aside, error.message());
   logWarningEachTime(fmt::format(
-      "{}: a file of this name was there that this run did not write, or cannot know again; it "
-      "is kept and is called {} now.",
+      "{}: there was already a file of this name, which this run did not write or does not "
+      "recognize; it is kept under the name {}.",
       file, aside));
 }
 

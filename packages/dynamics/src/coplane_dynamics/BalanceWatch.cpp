@@ -33,8 +33,8 @@ std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& part
   if (!(gain <= parts.model.time.contactGainTolerance * scale))
     return fmt::format(
         "{}: contact has made {:.3e} J out of nothing, of {:.3e} J in play (accepted: {} of it, "
-        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: bodies that lie deep in "
-        "each other want stiffer joints, smaller elements or a smaller contact.depth_max.",
+        "time.contact_gain_tolerance). Worst:{}\nLook at the planes named: where bodies "
+        "penetrate deeply, use stiffer joints, smaller elements or a smaller contact.depth_max.",
         now(parts.clock), gain, scale, parts.model.time.contactGainTolerance,
         worstByRemainder(parts));
   return "";

@@ -53,8 +53,8 @@ void RigidBodies::restore(const StateSource& in)
                   });
   if (at != numbers.size())
     failOnAllRanks(ExitCode::Checkpoint,
-                   "{}: the checkpoint has {} numbers of rigid bodies, this run {}. Restart with "
-                   "the mesh, the deck and the program of then.",
+                   "{}: the checkpoint has {} numbers of rigid bodies, this run needs {}. Restart "
+                   "with the mesh, the deck and the program that it was written with.",
                    in.name(), numbers.size(), at);
 }
 } // namespace coplane

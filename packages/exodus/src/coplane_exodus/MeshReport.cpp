@@ -497,8 +497,8 @@ std::vector<std::string> meshProblems(const MeshReport& report)
   const char* unit = report.dimension == 2 ? "m^2" : "m^3";
   if (!report.inverted.empty())
     problems.push_back(fmt::format("{} elements are inside out or flat ({} zero or negative): {}. "
-                                   "Correct the order of their nodes, or mesh "
-                                   "there again.",
+                                   "Correct the order of their nodes, or remesh "
+                                   "that region.",
                                    report.inverted.count, measure,
                                    firstOf(report.inverted,
                                            [&](const MeshReport::BadElement& e)
@@ -510,15 +510,15 @@ std::vector<std::string> meshProblems(const MeshReport& report)
   if (!report.repeatedNodes.empty())
     problems.push_back(fmt::format(
         "{} elements use a node twice: {}. Quadrilaterals and hexahedra may not be collapsed to "
-        "other shapes; mesh there again.",
+        "other shapes; remesh that region.",
         report.repeatedNodes.count,
         firstOf(report.repeatedNodes, [](const MeshReport::BadElement& e)
                 { return fmt::format("element {} of block '{}'", e.element, e.block); })));
   if (!report.folded.empty())
     problems.push_back(fmt::format(
         "{} elements are folded at a corner: {}. Their {} is positive, but they are not convex; "
-        "mesh "
-        "there again.",
+        "remesh "
+        "that region.",
         report.folded.count,
         firstOf(report.folded, [](const MeshReport::BadElement& e)
                 { return fmt::format("element {} of block '{}'", e.element, e.block); }),
@@ -568,7 +568,7 @@ std::vector<std::string> meshProblems(const MeshReport& report)
     if (block.worstQuality > 0 && block.worstQuality < poorQuality)
       problems.push_back(fmt::format(
           "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
-          "small time step and is stiff. Mesh there again.",
+          "small time step and is stiff. Remesh that region.",
           block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
   if (report.tooFar())
     problems.push_back(fmt::format(
@@ -580,7 +580,7 @@ std::vector<std::string> meshProblems(const MeshReport& report)
   if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
     problems.push_back(fmt::format(
         "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "
-        "time step of all. If it is not meant, mesh there again.",
+        "time step of all. If that is not intended, remesh that region.",
         report.shortestEdge, at(report.shortestPlace), report.longestEdge / report.shortestEdge));
   const Real extent = norm(report.highest - report.lowest);
   if (report.elements > 0 && (extent > largestExtent || extent < smallestExtent))

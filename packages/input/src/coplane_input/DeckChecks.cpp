@@ -350,12 +350,13 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
   const Names cards = namesOf(deck.blocks);
   for (const auto& name : blockNames)
     if (!contains(cards, name))
-      messages.push_back(fmt::format("{}: blocks has no card for the element block '{}' of the "
-                                     "mesh; add '{}: {{material: ...}}'.{}",
-                                     deck.blocksWhere, name, name,
-                                     didYouMean(name, cards).empty()
-                                         ? ""
-                                         : " The card '" + nearest(name, cards) + "' is near."));
+      messages.push_back(
+          fmt::format("{}: blocks has no card for the element block '{}' of the "
+                      "mesh; add '{}: {{material: ...}}'.{}",
+                      deck.blocksWhere, name, name,
+                      didYouMean(name, cards).empty()
+                          ? ""
+                          : " The most similar card is '" + nearest(name, cards) + "'."));
   for (const auto& card : deck.blocks)
     check(card.where, "blocks", card.name, block, blockNames);
   for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)

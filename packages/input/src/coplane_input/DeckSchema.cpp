@@ -91,7 +91,9 @@ Key blocks()
                                    .in("-")
                                    .atLeast(0)
                                    .like("0.1")
-                                   .means("elastic resistance to hourglass modes"),
+                                   .means("stiffness against hourglass modes, relative to the "
+                                          "P-wave modulus; "
+                                          "the resistance yields with the material"),
                                number("viscosity", &BlockCard::hourglassViscosity)
                                    .in("-")
                                    .atLeast(0)

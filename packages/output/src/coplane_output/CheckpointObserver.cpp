@@ -252,12 +252,13 @@ void putAside(const std::string& file, const Comm& comm)
                  "move it away.",
                  name, aside, error.message());
           if (isCheckpoint)
-            logInfo("{}: there was a checkpoint of an earlier run; it is kept and is called {} now",
+            logInfo("{}: there was a checkpoint of an earlier run; it is kept under the name {}",
                     name, aside);
           else
-            logWarningEachTime(fmt::format("{}: a file of this name was there that is no "
-                                           "checkpoint; it is kept and is called {} now.",
-                                           name, aside));
+            logWarningEachTime(
+                fmt::format("{}: there was already a file of this name, which is not a "
+                            "checkpoint; it is kept under the name {}.",
+                            name, aside));
           some = true;
         }
         const std::vector<std::string> olds = oldCheckpoints(file);

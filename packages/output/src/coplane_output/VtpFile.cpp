@@ -1,6 +1,9 @@
 #include <coplane_output/VtpFile.hpp>
 
 #include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <algorithm>
 
 namespace coplane
 {
@@ -26,18 +29,13 @@ std::string dataArray(const char* type, const std::string& name, int components,
 
 std::string base64(const std::string& bytes)
 {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3)
-  {
-    std::uint32_t group = 0;
-    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
-    for (std::size_t k = 0; k < 3; ++k)
-      group = (group << 8) | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += k <= here ? digits[(group >> (18 - 6 * k)) & 63] : '=';
-  }
+  // OpenSSL counts in ints; only the last piece is filled up.
+  constexpr std::size_t piece = 3 << 20;
+  std::string text((bytes.size() + 2) / 3 * 4, '\0');
+  for (std::size_t i = 0; i < bytes.size(); i += piece)
+    EVP_EncodeBlock(reinterpret_cast<unsigned char*>(&text[i / 3 * 4]),
+                    reinterpret_cast<const unsigned char*>(&bytes[i]),
+                    int(std::min(piece, bytes.size() - i)));
   return text;
 }
 

@@ -7,12 +7,12 @@ import sys
 
 import numpy
 
-from .case import Case
+from .checks import Checks
 from .program import Run
 from .results import planes
 
 
-class Example(Case):
+class Example(Checks):
     """The run in the folder that the command line names; `size` and `variant` say which.
 
         example = Example()
