@@ -15,4 +15,5 @@ set(COPLANE_PACKAGES
   element
   contact
   dynamics
+  setup
   output)

@@ -1,10 +1,7 @@
-#include "BuildModel.hpp"
 #include "FilesOfRun.hpp"
 #include "Observers.hpp"
-#include "PartitionPlan.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
-#include "SofteningReport.hpp"
 
 #include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
@@ -23,6 +20,11 @@
 #include <coplane_input/DeckReference.hpp>
 #include <coplane_mesh/Distribute.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
+#include <coplane_setup/BuildModel.hpp>
+#include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/DeckProblems.hpp>
+#include <coplane_setup/PartitionPlan.hpp>
+#include <coplane_setup/SofteningReport.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -1,7 +1,7 @@
-#include "ContactRulesOfDeck.hpp"
-
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/JointCards.hpp>
+#include <coplane_setup/ContactRulesOfDeck.hpp>
+#include <coplane_setup/Lookups.hpp>
 
 #include <algorithm>
 #include <map>
@@ -109,11 +109,7 @@ void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model
 
   std::vector<ContactTraits> groups;
   for (const Mesh::Block& block : mesh.blocks)
-  {
-    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
-                                   [&](const BlockCard& b) { return b.name == block.name; });
-    groups.push_back({block.name, card->material, {}});
-  }
+    groups.push_back({block.name, cardOf(deck, block).material, {}});
   const FacesOfSets faces = facesOfNamedSets(deck, mesh, model.mesh);
   std::map<FaceTraits, int> groupOf;
   for (const FaceTraits& face : kindsOfFaces(faces, comm))

@@ -1,9 +1,9 @@
-#include "PartitionPlan.hpp"
-
 #include <coplane_core/Log.hpp>
 #include <coplane_material/MaterialModel.hpp>
 #include <coplane_mesh/Distribute.hpp>
 #include <coplane_partition/Partition.hpp>
+#include <coplane_setup/Lookups.hpp>
+#include <coplane_setup/PartitionPlan.hpp>
 
 #include <algorithm>
 #include <map>
@@ -30,16 +30,12 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
   for (const Mesh::Block& block : mesh.blocks)
   {
     Real cost = ofType.at(block.type);
-    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
-                                   [&](const BlockCard& c) { return c.name == block.name; });
-    if (card != deck.blocks.end())
+    if (const int card = indexOf(deck.blocks, block.name); card >= 0)
     {
-      const auto material =
-          std::find_if(deck.materials.begin(), deck.materials.end(),
-                       [&](const MaterialCard& m) { return m.name == card->material; });
-      if (material != deck.materials.end())
-        cost *= findModel(materialModels(), material->model)->cost;
-      cost *= card->rigid ? 0.02 : ofForm.at(card->element);
+      const BlockCard& ofBlock = deck.blocks[card];
+      if (const int material = indexOf(deck.materials, ofBlock.material); material >= 0)
+        cost *= findModel(materialModels(), deck.materials[material].model)->cost;
+      cost *= ofBlock.rigid ? 0.02 : ofForm.at(ofBlock.element);
     }
     costs.ofElement.push_back(cost);
   }

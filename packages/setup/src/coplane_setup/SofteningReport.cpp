@@ -1,7 +1,7 @@
-#include "SofteningReport.hpp"
-
 #include <coplane_core/Log.hpp>
 #include <coplane_input/MaterialCards.hpp>
+#include <coplane_setup/Lookups.hpp>
+#include <coplane_setup/SofteningReport.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,12 +15,8 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
   {
     const ElementBlock& block = solver.blocks()[b];
     const std::string& name = mesh.mine.blocks[b].name;
-    const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
-                                   [&](const BlockCard& c) { return c.name == name; });
-    const auto material =
-        std::find_if(deck.materials.begin(), deck.materials.end(),
-                     [&](const MaterialCard& m) { return m.name == card->material; });
-    const SofteningLimit limit = softeningLimit(*material);
+    const MaterialCard& material = materialCardOf(deck, cardOf(deck, mesh.mine.blocks[b]));
+    const SofteningLimit limit = softeningLimit(material);
     if (limit.size == infinity)
       continue; // the same on every rank
     const bool flat = topology(block.type()).dimension == 2;
@@ -37,8 +33,8 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
                              "followed up to E {} / ({})^2 = {:.4g} m: larger elements have to "
                              "spring back when they soften, and take more energy than they should. "
                              "Refine the mesh, or lower {} for large elements.",
-                             name, largest, material->name, limit.energy, limit.strength,
-                             limit.size, limit.strength));
+                             name, largest, material.name, limit.energy, limit.strength, limit.size,
+                             limit.strength));
   }
 }
 } // namespace coplane

@@ -1,0 +1,1 @@
+coplane_dependencies(PACKAGES dynamics partition input material schema mesh core)

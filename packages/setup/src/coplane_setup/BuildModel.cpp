@@ -1,0 +1,80 @@
+#include <coplane_dynamics/RigidBodies.hpp>
+#include <coplane_input/DeckChecks.hpp>
+#include <coplane_setup/BlocksOfDeck.hpp>
+#include <coplane_setup/BuildModel.hpp>
+#include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/ContactRulesOfDeck.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+namespace
+{
+ContactOptions optionsOf(const Deck& deck)
+{
+  const ContactCard& card = deck.contact;
+  ContactOptions options;
+  options.method = card.method == "common_plane" ? ContactOptions::Method::CommonPlane
+                                                 : ContactOptions::Method::SimpleCommonPlane;
+  options.planeSearch = card.planeSearch == "rotations" ? ContactOptions::PlaneSearch::Rotations
+                                                        : ContactOptions::PlaneSearch::Candidates;
+  options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
+                       ? ContactOptions::Forces::Potential
+                       : ContactOptions::Forces::CommonNormal;
+  options.area =
+      card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
+  options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
+                    : card.weights == "average" ? ContactOptions::Weights::Average
+                                                : ContactOptions::Weights::Pressure;
+  options.closure = card.closure == "incremental" ? ContactOptions::Closure::Incremental
+                                                  : ContactOptions::Closure::Total;
+  options.couple = card.couple;
+  options.areaRule = card.areaRule;
+  options.inherit = card.inherit;
+  options.sharedNodes = card.shareNode == "allow";
+  options.cosOpposed =
+      card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential ? 0.004 : 0.1);
+  options.depthMax = card.depthMax;
+  options.areaMin = card.areaMin;
+  options.dampNormal = card.dampNormal;
+  options.dampShear = card.dampShear;
+  return options;
+}
+
+} // namespace
+
+Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const Comm& comm)
+{
+  const Mesh& mesh = slice.mine; // names and shapes of blocks and sets
+  Model model;
+  std::vector<char> rigidBlocks;
+  for (const Mesh::Block& block : mesh.blocks)
+  {
+    model.blocks.push_back(setupOf(deck, block));
+    rigidBlocks.push_back(model.blocks.back().rigid);
+  }
+  if (std::count(rigidBlocks.begin(), rigidBlocks.end(), 1) > 0)
+    model.rigidBodyOfNode = rigidBodiesOf(part, rigidBlocks, comm);
+  model.conditions = conditionsOf(deck, mesh, part, model.blocks);
+  model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
+  model.contactEnabled = deck.contact.enabled;
+  model.contact = optionsOf(deck);
+  if (deck.geometry == "axisymmetric")
+  {
+    revolve(part, deck, comm, model.conditions);
+    model.contact.axisymmetric = true;
+  }
+  model.mesh = std::move(part);
+  addContactRules(deck, mesh, comm, model);
+  model.skin = deck.contact.skin;
+  model.searchEvery = deck.contact.searchEvery;
+  model.time.end = deck.time.end;
+  model.time.stepFactor = deck.time.stepFactor;
+  model.time.maximumStep = deck.time.maximumStep;
+  model.time.fixedStep = deck.time.fixedStep;
+  model.time.energyTolerance = deck.time.energyTolerance;
+  model.time.contactGainTolerance = deck.time.contactGainTolerance;
+  return model;
+}
+} // namespace coplane

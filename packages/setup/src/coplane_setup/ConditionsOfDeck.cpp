@@ -1,0 +1,262 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Log.hpp>
+#include <coplane_schema/TimeFunctionEvaluator.hpp>
+#include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/Lookups.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace coplane
+{
+namespace
+{
+OfTime functionOf(const TimeFunction& card)
+{
+  if (card.expression.empty() && card.times.empty())
+    return [value = card.constant](Real) { return value; };
+  const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
+  return [evaluator](Real t) { return (*evaluator)(t); };
+}
+
+OfTimeAndPlace fieldOf(const TimeFunction& card)
+{
+  const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
+  return [evaluator](Real t, const Vec3& place) { return (*evaluator)(t, place); };
+}
+
+VectorOfTime vectorOf(const std::array<TimeFunction, 3>& card)
+{
+  return VectorOfTime({functionOf(card[0]), functionOf(card[1]), functionOf(card[2])});
+}
+
+LoadedSide loadedSide(const RankMesh& part, const RankMesh::Side& side)
+{
+  const RankMesh::Block& block = part.blocks[side.block];
+  const ElementTopology& shape = topology(block.type);
+  LoadedSide face{
+      faceId(block.elementIds[side.element], side.side), shape.nodesPerSide, {-1, -1, -1, -1}, {}};
+  for (int k = 0; k < face.count; ++k)
+  {
+    face.nodes[k] = block.connectivity[side.element * shape.nodes + shape.sideNodes[side.side][k]];
+    face.place += (1.0 / face.count) * part.coordinates[face.nodes[k]];
+  }
+  return face;
+}
+
+std::vector<LoadedSide> sidesOf(const RankMesh& part, const std::vector<RankMesh::Side>& set)
+{
+  std::vector<LoadedSide> sides;
+  for (const RankMesh::Side& side : set)
+    sides.push_back(loadedSide(part, side));
+  std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
+  return sides;
+}
+
+std::vector<AbsorbingSide> absorbingSidesOf(const RankMesh& part,
+                                            const std::vector<RankMesh::Side>& set,
+                                            const std::vector<BlockSetup>& blocks)
+{
+  std::vector<AbsorbingSide> sides;
+  for (const RankMesh::Side& side : set)
+  {
+    const BlockSetup& setup = blocks[side.block];
+    const LinearElastic& elastic = elasticity(setup.material);
+    sides.push_back({loadedSide(part, side), std::sqrt(elastic.density * pWaveModulus(elastic)),
+                     std::sqrt(elastic.density * elastic.shearModulus),
+                     setup.stressOfSide(part, side)});
+  }
+  std::sort(sides.begin(), sides.end(),
+            [](const auto& a, const auto& b) { return a.side.id < b.side.id; });
+  return sides;
+}
+
+std::function<Real(Real)> dampingOf(const TimeFunction& card)
+{
+  if (card.expression.empty() && card.constant == 0)
+    return {};
+  return [alpha = functionOf(card), card](Real t)
+  {
+    const Real value = alpha(t);
+    if (value < 0)
+      fail(ExitCode::Computation,
+           "{}: damping.mass = '{}' is {} 1/s at t = {} s; accepted: not negative. Use max(0, "
+           "...).",
+           card.where, card.expression, value, t);
+    return value;
+  };
+}
+
+FacePressure pressureOf(const ConditionCard& card, const RankMesh& part,
+                        const std::vector<RankMesh::Side>& set)
+{
+  FacePressure load{sidesOf(part, set), {}, {}};
+  if (card.pressure.ofPlace)
+    load.field = fieldOf(card.pressure);
+  else
+    load.pressure = functionOf(card.pressure);
+  return load;
+}
+
+FaceTraction tractionOf(const ConditionCard& card, const RankMesh& part,
+                        const std::vector<RankMesh::Side>& set)
+{
+  FaceTraction load{sidesOf(part, set), {}, {}};
+  if (std::any_of(card.traction.begin(), card.traction.end(),
+                  [](const TimeFunction& f) { return f.ofPlace; }))
+    for (int c = 0; c < 3; ++c)
+      load.field[c] = fieldOf(card.traction[c]);
+  else
+    load.traction = vectorOf(card.traction);
+  return load;
+}
+
+RigidMotion rigidMotionOf(const ConditionCard& card, const Mesh& mesh)
+{
+  RigidMotion motion;
+  motion.block = indexOf(mesh.blocks, card.set);
+  for (int c = 0; c < 3 && card.translation; ++c)
+    if (card.components[c])
+    {
+      motion.components[c] = true;
+      motion.velocity[c] = functionOf((*card.translation)[c]);
+    }
+  if (card.spin)
+    motion.spin = vectorOf(*card.spin);
+  return motion;
+}
+
+PrescribedVelocity prescribedOf(const ConditionCard& card, const RankMesh& part,
+                                const std::vector<int>& nodes)
+{
+  PrescribedVelocity condition;
+  condition.nodes = nodes;
+  condition.components = card.components;
+  condition.isDisplacement = card.type == "displacement";
+  const auto& motion = condition.isDisplacement ? card.displacement : card.velocity;
+  for (int c = 0; c < 3 && card.type != "fixed"; ++c)
+    if (motion[c].ofPlace && condition.components[c])
+      condition.field[c] = fieldOf(motion[c]);
+    else
+      condition.velocity[c] = functionOf(motion[c]);
+  if (condition.hasField())
+    for (const int n : nodes)
+      condition.places.push_back(part.coordinates[n]);
+  return condition;
+}
+} // namespace
+
+Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                        const std::vector<BlockSetup>& blocks)
+{
+  Conditions conditions;
+  conditions.gravity = vectorOf(deck.gravity);
+  conditions.massDamping = dampingOf(deck.massDamping);
+  conditions.localDamping = deck.localDamping;
+  conditions.dampingFrom = deck.dampingFrom;
+  conditions.dampingUntil = deck.dampingUntil.value_or(infinity);
+  conditions.relaxation = {deck.kineticDamping, deck.dampingEnergyRatio.value_or(0),
+                           deck.dampingForceRatio.value_or(0)};
+  for (const ConditionCard& card : deck.conditions)
+    if (card.onSides())
+    {
+      const auto& set = part.sideSets[indexOf(mesh.sideSets, card.set)];
+      if (card.type == "pressure")
+        conditions.pressures.push_back(pressureOf(card, part, set));
+      else if (card.type == "traction")
+        conditions.tractions.push_back(tractionOf(card, part, set));
+      else
+        conditions.absorbing.push_back(
+            {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
+    }
+    else if (card.type == "rigid_motion")
+      conditions.rigidMotions.push_back(rigidMotionOf(card, mesh));
+    else
+    {
+      const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
+      if (card.type == "symmetry")
+        conditions.symmetries.push_back({nodes, normalised(card.normal)});
+      else
+        conditions.velocities.push_back(prescribedOf(card, part, nodes));
+    }
+  return conditions;
+}
+
+void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
+{
+  if (part.dimension != 2)
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
+        "plane x, y with x >= 0, or leave the key out.",
+        deck.meshWhere);
+  int wrong = 0; // first owned node beyond the axis
+  while (wrong < part.ownedNodes && !(part.coordinates[wrong].x < 0))
+    ++wrong;
+  const std::int64_t mine = wrong < part.ownedNodes ? part.nodePositions[wrong] : INT64_MAX;
+  if (const std::int64_t first = comm.min(mine); first < INT64_MAX)
+    failOnAllRanks(
+        ExitCode::Deck,
+        "{}: geometry = 'axisymmetric', but node {} is at x = {:.6g} m; accepted: x >= 0, the "
+        "distance from the axis. Move the mesh, or keep the half with x >= 0.",
+        deck.meshWhere, comm.max(mine == first ? part.nodeIds[wrong] : 0),
+        comm.min(mine == first ? part.coordinates[wrong].x : 0));
+  conditions.axisymmetric = true;
+  SymmetryPlane axis;
+  axis.normal = {1, 0, 0};
+  for (int n = 0; n < part.ownedNodes; ++n)
+    if (part.coordinates[n].x == 0)
+      axis.nodes.push_back(n);
+  conditions.symmetries.insert(conditions.symmetries.begin(), axis);
+}
+
+void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                            const Comm& comm)
+{
+  const auto prescribes = [](const ConditionCard& card)
+  { return card.type == "fixed" || card.type == "velocity" || card.type == "displacement"; };
+  const std::size_t count = deck.conditions.size();
+  std::vector<std::array<int, 3>> last(std::size_t(part.nodes()), {-1, -1, -1}); // condition
+  std::vector<std::int64_t> nodes(count * count, 0);
+  std::vector<std::int64_t> lowest(count * count, INT64_MAX);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const ConditionCard& card = deck.conditions[i];
+    if (!prescribes(card))
+      continue;
+    for (const int node : part.nodeSets[std::size_t(indexOf(mesh.nodeSets, card.set))])
+    {
+      std::int64_t with = -1; // the condition whose component is taken over
+      for (int c = 0; c < part.dimension; ++c)
+        if (card.components[c])
+        {
+          int& before = last[std::size_t(node)][std::size_t(c)];
+          if (before >= 0 &&
+              !(card.type == "fixed" && deck.conditions[std::size_t(before)].type == "fixed"))
+            with = before;
+          before = int(i);
+        }
+      if (with < 0 || node >= part.ownedNodes)
+        continue;
+      const std::size_t pair = std::size_t(with) * count + i;
+      ++nodes[pair];
+      lowest[pair] = std::min(lowest[pair], std::int64_t(part.nodeIds[node]));
+    }
+  }
+  comm.sum(nodes);
+  for (std::size_t pair = 0; pair < nodes.size(); ++pair)
+    if (nodes[pair] > 0)
+    {
+      const ConditionCard &first = deck.conditions[pair / count],
+                          &second = deck.conditions[pair % count];
+      logWarning("two conditions on one node",
+                 fmt::format("{} ({} of '{}') and {} ({} of '{}') prescribe the same component of "
+                             "{} nodes, the first of which is node {}: the second acts there. Take "
+                             "these nodes out of one of the sets.",
+                             first.where, first.type, first.set, second.where, second.type,
+                             second.set, nodes[pair], comm.min(lowest[pair])));
+    }
+}
+
+} // namespace coplane

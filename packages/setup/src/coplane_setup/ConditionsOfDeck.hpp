@@ -1,0 +1,28 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/Model.hpp>
+#include <coplane_input/Deck.hpp>
+#include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// What acts on this rank's part of the mesh, beside contact. Names have been checked before.
+/// @param blocks as they start, for absorbing sides
+Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                        const std::vector<BlockSetup>& blocks);
+
+/// Makes the conditions those of a body of revolution: x is the radius, and nodes on the axis stay
+/// there. Fails on all ranks when the mesh is not the section of one. Collective.
+void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
+
+/// Warns of conditions that prescribe one component of one node differently: the later one acts.
+/// Collective.
+/// @param part with every node of this rank
+void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                            const Comm& comm);
+} // namespace coplane

@@ -1,0 +1,117 @@
+#include "WallOfTwo.hpp"
+
+#include <coplane_setup/ConditionsOfDeck.hpp>
+
+namespace coplane
+{
+namespace
+{
+TEST(ConditionsOfDeck, prescribedMotionOfNodes)
+{
+  const Model model = modelOf(blocksOfTwo + R"(
+conditions:
+  - {type: fixed, node_set: base, components: [y]}
+  - {type: velocity, node_set: lid, value: ["3*t", "x + t", 0]}
+  - {type: displacement, node_set: lid, value: [0, {times: [0, 2], values: [0, 1]}, 0], components: [y]}
+  - {type: symmetry, node_set: base, normal: [3, 0, 0]}
+)");
+  const Conditions& conditions = model.conditions;
+  ASSERT_EQ(conditions.velocities.size(), 3u);
+  const PrescribedVelocity &fixed = conditions.velocities[0], &moved = conditions.velocities[1],
+                           &displaced = conditions.velocities[2];
+  EXPECT_EQ(countOnAllRanks(fixed.nodes), 3);
+  EXPECT_EQ(fixed.components, (std::array<bool, 3>{false, true, false}));
+  EXPECT_FALSE(fixed.velocity[1]); // nothing given is zero
+  EXPECT_DOUBLE_EQ(moved.velocity[0](2), 6);
+  ASSERT_TRUE(moved.field[1]);
+  for (std::size_t i = 0; i < moved.nodes.size(); ++i)
+  {
+    EXPECT_EQ(moved.places[i].x, model.mesh.coordinates[moved.nodes[i]].x);
+    EXPECT_DOUBLE_EQ(moved.field[1](2, moved.places[i]), moved.places[i].x + 2);
+  }
+  EXPECT_TRUE(displaced.isDisplacement);
+  EXPECT_DOUBLE_EQ(displaced.speed(displaced.velocity[1], 1, 0.1), 0.5);
+  ASSERT_EQ(conditions.symmetries.size(), 1u);
+  EXPECT_DOUBLE_EQ(conditions.symmetries[0].normal.x, 1); // made a unit vector
+}
+
+TEST(ConditionsOfDeck, loadsOnSides)
+{
+  const Model model = modelOf(blocksOfTwo + R"(
+gravity: [0, "-10*t", 0]
+conditions:
+  - {type: pressure, side_set: load, value: "1e5*t"}
+  - {type: pressure, side_set: load, value: "1e5*x*t"}
+  - {type: traction, side_set: load, value: [2e4, 0, 0]}
+  - {type: absorbing, side_set: floor}
+initial: [{block: lower, stress: [0, -5e5, 0, 0, 0, 0]}]
+)");
+  const Conditions& conditions = model.conditions;
+  EXPECT_DOUBLE_EQ(conditions.gravity(2).y, -20);
+  ASSERT_EQ(conditions.pressures.size(), 2u);
+  EXPECT_DOUBLE_EQ(conditions.pressures[0].pressure(2), 2e5);
+  ASSERT_TRUE(conditions.pressures[1].field);
+  for (const LoadedSide& side : conditions.pressures[1].sides)
+  {
+    EXPECT_DOUBLE_EQ(side.place.y, 2); // of the middle of the side
+    EXPECT_TRUE(side.place.x == 0.25 || side.place.x == 0.75) << side.place.x;
+    EXPECT_DOUBLE_EQ(conditions.pressures[1].field(2, side.place), 2e5 * side.place.x);
+  }
+  ASSERT_EQ(conditions.tractions.size(), 1u);
+  EXPECT_DOUBLE_EQ(conditions.tractions[0].traction(0).x, 2e4);
+  ASSERT_EQ(conditions.absorbing.size(), 1u);
+  for (const AbsorbingSide& side : conditions.absorbing[0].sides)
+  {
+    EXPECT_NEAR(side.normalImpedance, std::sqrt(2000 * 1.2e9), 1e-6);
+    EXPECT_NEAR(side.shearImpedance, std::sqrt(2000 * 0.4e9), 1e-6);
+    EXPECT_DOUBLE_EQ(side.stress[0].yy, -5e5);
+  }
+}
+
+TEST(ConditionsOfDeck, bodiesOfRevolutionStayOnTheirAxis)
+{
+  const Model model = modelOf("geometry: axisymmetric\n" + blocksOfTwo);
+  EXPECT_TRUE(model.conditions.axisymmetric);
+  EXPECT_TRUE(model.contact.axisymmetric);
+  ASSERT_EQ(model.conditions.symmetries.size(), 1u);
+  EXPECT_EQ(countOnAllRanks(model.conditions.symmetries[0].nodes), 6);
+
+  Mesh beyond = wallOfTwo();
+  for (Vec3& x : beyond.coordinates)
+    x.x -= 0.25;
+  try
+  {
+    modelOf("geometry: axisymmetric\n" + blocksOfTwo, beyond);
+    FAIL() << "accepted";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("node 1 is at x = -0.25 m"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(ConditionsOfDeck, rigidMotionNamesItsBlock)
+{
+  const Model model = modelOf(R"(
+blocks: {lower: {material: rock}, upper: {material: rock, rigid: true}}
+conditions: [{type: rigid_motion, block: upper, velocity: [0, "-t", 0], angular_velocity: [0, 0, 4], components: [y]}]
+)");
+  ASSERT_EQ(model.conditions.rigidMotions.size(), 1u);
+  const RigidMotion& motion = model.conditions.rigidMotions[0];
+  EXPECT_EQ(motion.block, 1);
+  EXPECT_EQ(motion.components, (std::array<bool, 3>{false, true, false}));
+  EXPECT_DOUBLE_EQ(motion.velocity[1](3), -3);
+  ASSERT_TRUE(motion.spin);
+  EXPECT_DOUBLE_EQ((*motion.spin)(0).z, 4);
+}
+
+TEST(ConditionsOfDeck, massDampingMustNotBeNegative)
+{
+  const Model model = modelOf(blocksOfTwo + "damping: {mass: \"10 - t\", until: 50}\n");
+  EXPECT_DOUBLE_EQ(model.conditions.massDampingAt(4), 6);
+  EXPECT_DOUBLE_EQ(model.conditions.massDampingAt(60), 0);
+  EXPECT_THROW(model.conditions.massDampingAt(11), Error);
+}
+} // namespace
+} // namespace coplane
