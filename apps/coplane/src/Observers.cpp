@@ -11,6 +11,7 @@
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/RunRecord.hpp>
 #include <coplane_output/TablesObserver.hpp>
+#include <coplane_setup/Lookups.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -28,15 +29,6 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
-template <class Items>
-int positionOf(const Items& items, const std::string& name)
-{
-  for (int i = 0; i < int(items.size()); ++i)
-    if (items[i].name == name)
-      return i;
-  return -1;
-}
-
 /// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
 /// are written anyway are left out.
 std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
@@ -44,9 +36,7 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
   std::vector<std::string> names;
   for (const Mesh::Block& block : mesh.mine.blocks)
   {
-    const BlockCard& card = deck.blocks[std::size_t(positionOf(deck.blocks, block.name))];
-    const MaterialCard& material =
-        deck.materials[std::size_t(positionOf(deck.materials, card.material))];
+    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
     for (const std::string& name : historyNames(materialOf(material)))
       if (name != "equivalent_plastic_strain" &&
           std::find(names.begin(), names.end(), name) == names.end())
@@ -54,21 +44,18 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
   }
   return names;
 }
-} // namespace
 
-void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
-                  const Comm& comm, const RunSettings& settings)
+/// Where an output stands, for those that go on from a checkpoint.
+std::string positionOfOutput(const RunSettings& settings, const char* output)
 {
-  const auto lastTime = [&](const char* output)
-  {
-    const auto found = settings.positions.find(output);
-    // What was not written before begins with the restart, but not with a line of its own.
-    return found != settings.positions.end() ? found->second : settings.part > 1 ? "-1 0 " : "";
-  };
-  const OutputTimes when{deck.output.every, deck.output.times};
+  const auto found = settings.positions.find(output);
+  // What was not written before begins with the restart, but not with a line of its own.
+  return found != settings.positions.end() ? found->second : settings.part > 1 ? "-1 0 " : "";
+}
 
-  const std::string run = identityOf(deck, mesh, comm);
-
+RunRecordOptions recordOptions(const Deck& deck, const std::string& run,
+                               const RunSettings& settings)
+{
   RunRecordOptions record;
   record.run = run;
   record.file = recordFile(deck, settings.part);
@@ -78,66 +65,70 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   record.deckFile = deck.file;
   record.deckText = deck.text;
   record.meshFile = deck.mesh;
-  observers.add(std::make_unique<RunRecord>(comm, record));
+  return record;
+}
 
+/// Whether a list of names has this one, or "*" for all.
+bool isListed(const std::vector<std::string>& list, const std::string& name)
+{
+  return std::any_of(list.begin(), list.end(),
+                     [&](const std::string& item) { return item == "*" || item == name; });
+}
+
+HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSettings& settings)
+{
   HistoryOptions history;
   history.file = deck.history.file;
   history.every = deck.history.every;
-  history.position = lastTime("history");
+  history.position = positionOfOutput(settings, "history");
   for (const ProbeCard& card : deck.history.probes)
   {
     Probe probe;
     probe.name = card.name;
-    probe.nodeSet = positionOf(mesh.mine.nodeSets, card.nodeSet);
-    probe.block = positionOf(mesh.mine.blocks, card.block);
+    probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
+    probe.block = indexOf(mesh.blocks, card.block);
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)
-    if (std::any_of(deck.history.joints.begin(), deck.history.joints.end(),
-                    [&](const std::string& name) { return name == "*" || name == card.name; }))
+    if (isListed(deck.history.joints, card.name))
       history.joints.push_back(card.name);
-  for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
-    for (const std::string& name : deck.history.rigid)
-    {
-      const BlockCard& card =
-          deck.blocks[std::size_t(positionOf(deck.blocks, mesh.mine.blocks[b].name))];
-      if (card.rigid && (name == "*" || name == card.name))
-      {
-        history.rigidBlocks.push_back(int(b));
-        break;
-      }
-    }
-  observers.add(std::make_unique<HistoryObserver>(comm, history));
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    if (const BlockCard& card = cardOf(deck, mesh.blocks[b]);
+        card.rigid && isListed(deck.history.rigid, card.name))
+      history.rigidBlocks.push_back(int(b));
+  return history;
+}
 
+TablesOptions tablesOptions(const Deck& deck, const RunSettings& settings)
+{
   const auto wants = [&](const char* table)
   {
     const auto& tables = deck.history.tables;
     return std::find(tables.begin(), tables.end(), table) != tables.end();
   };
-  if (!deck.history.tables.empty())
-    observers.add(std::make_unique<TablesObserver>(
-        comm, TablesOptions{tablesBase(deck), deck.history.every, wants("blocks"), wants("pairs"),
-                            wants("materials"), settings.positions}));
+  return {tablesBase(deck), deck.history.every, wants("blocks"),
+          wants("pairs"),   wants("materials"), settings.positions};
+}
 
-  if (!deck.output.results.empty())
-  {
-    ResultsOptions results;
-    results.file = deck.output.results;
-    results.when = when;
-    results.filePerRank = deck.output.filePerRank;
-    results.history = historyVariables(deck, mesh);
-    results.infoLines = linesOf(deck.text);
-    results.infoLines.insert(results.infoLines.begin(), settings.command);
-    results.run = run;
-    results.part = settings.part;
-    results.position = lastTime("results");
-    observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
-    if (deck.output.planes && deck.contact.enabled)
-      observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{planesBase(deck), when, lastTime("planes"), run}));
-  }
-  observers.add(std::make_unique<ProgressObserver>());
+ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std::string& run,
+                              const RunSettings& settings)
+{
+  ResultsOptions results;
+  results.file = deck.output.results;
+  results.when = {deck.output.every, deck.output.times};
+  results.filePerRank = deck.output.filePerRank;
+  results.history = historyVariables(deck, mesh);
+  results.infoLines = linesOf(deck.text);
+  results.infoLines.insert(results.infoLines.begin(), settings.command);
+  results.run = run;
+  results.part = settings.part;
+  results.position = positionOfOutput(settings, "results");
+  return results;
+}
 
+CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, const Comm& comm,
+                                    const RunSettings& settings)
+{
   CheckpointOptions checkpoint;
   checkpoint.file = deck.checkpoint.file;
   checkpoint.everyCycles = deck.checkpoint.everyCycles;
@@ -149,6 +140,30 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   checkpoint.positions = settings.positions;
   checkpoint.texts = fingerprintsOf(deck, mesh, settings.part, comm);
   checkpoint.begin = settings.begin;
-  observers.add(std::make_unique<CheckpointObserver>(comm, checkpoint, observers));
+  return checkpoint;
+}
+} // namespace
+
+void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
+                  const Comm& comm, const RunSettings& settings)
+{
+  const std::string run = identityOf(deck, mesh, comm);
+  observers.add(std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings)));
+  observers.add(std::make_unique<HistoryObserver>(comm, historyOptions(deck, mesh.mine, settings)));
+  if (!deck.history.tables.empty())
+    observers.add(std::make_unique<TablesObserver>(comm, tablesOptions(deck, settings)));
+  if (!deck.output.results.empty())
+  {
+    const ResultsOptions results = resultsOptions(deck, mesh, run, settings);
+    observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
+    if (deck.output.planes && deck.contact.enabled)
+      observers.add(std::make_unique<PlanesObserver>(
+          comm, PlanesOptions{planesBase(deck), results.when, positionOfOutput(settings, "planes"),
+                              run}));
+  }
+  observers.add(std::make_unique<ProgressObserver>());
+  // The last: it asks the others where they stand.
+  observers.add(std::make_unique<CheckpointObserver>(
+      comm, checkpointOptions(deck, mesh, comm, settings), observers));
 }
 } // namespace coplane

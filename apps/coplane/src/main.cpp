@@ -188,17 +188,70 @@ void endAllRanksOnOwnError(const Work& work)
   }
 }
 
+/// Reads the deck, and demands that all ranks have the same one.
+Deck deckOf(const CommandLine& line, const Comm& comm)
+{
+  Deck deck;
+  comm.together([&] { deck = readDeck(line.deck, line.overrides); });
+  comm.demandSame("the deck", deck.text, ExitCode::Deck);
+  demandSameFiles(deck, comm);
+  demandDistinctFiles(deck, line.checkpoint, comm);
+  return deck;
+}
+
+template <class Items>
+std::vector<std::string> namesOf(const Items& items)
+{
+  std::vector<std::string> names;
+  for (const auto& item : items)
+    names.push_back(item.name);
+  return names;
+}
+
+/// Throws, with all problems, when deck and mesh do not fit or the mesh is of no use; warns of what
+/// is odd in the mesh. Collective.
+void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home, const Comm& comm)
+{
+  const MeshReport report = reportMesh(mesh, home, comm);
+  const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
+  const Mesh& known = mesh.mine;
+  comm.together(
+      [&]
+      {
+        auto problems = checkNamesAgainstMesh(deck, namesOf(known.blocks), namesOf(known.nodeSets),
+                                              namesOf(known.sideSets));
+        for (const std::vector<std::string>& more :
+             {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
+              ofRigidBlocks})
+          problems.insert(problems.end(), more.begin(), more.end());
+        if (!problems.empty())
+          fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
+        if (!report.usable())
+          fail(ExitCode::Mesh, "{}: {}", deck.mesh, fmt::join(meshProblems(report), "\n"));
+        for (const std::string& note : meshProblems(report))
+          logWarning("mesh", fmt::format("{}: {}", deck.mesh, note));
+      });
+}
+
+/// Checkpoints that this run does not go on from are of another, or may be.
+void putAsideOtherCheckpoints(const Deck& deck, const MeshSlice& mesh, const std::string& from,
+                              const Comm& comm)
+{
+  if (!isOneOfTwo(deck.checkpoint.file, from, comm))
+    putAside(deck.checkpoint.file, comm);
+  else
+    putOtherAside(deck.checkpoint.file, from, comm,
+                  [&](const CheckpointReader& checkpoint)
+                  { return isOfRun(checkpoint, deck, mesh, comm); });
+}
+
 int runDeck(const CommandLine& line, const Comm& comm, const std::string& command)
 {
   RunSettings settings;
   settings.command = command;
   if (line.maxWall > 0)
     settings.maxWall = line.maxWall;
-  Deck deck;
-  comm.together([&] { deck = readDeck(line.deck, line.overrides); });
-  comm.demandSame("the deck", deck.text, ExitCode::Deck);
-  demandSameFiles(deck, comm);
-  demandDistinctFiles(deck, line.checkpoint, comm);
+  const Deck deck = deckOf(line, comm);
   std::vector<FileLock> locks;
   if (!line.check)
   {
@@ -208,38 +261,12 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   }
   const MeshSlice mesh = readMesh(deck.mesh, comm);
   RankMesh home = partAtHome(mesh, comm);
-  const MeshReport report = reportMesh(mesh, home, comm);
-  const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
-  comm.together(
-      [&]
-      {
-        std::vector<std::string> blocks, nodeSets, sideSets;
-        for (const auto& block : mesh.mine.blocks)
-          blocks.push_back(block.name);
-        for (const auto& set : mesh.mine.nodeSets)
-          nodeSets.push_back(set.name);
-        for (const auto& set : mesh.mine.sideSets)
-          sideSets.push_back(set.name);
-        auto problems = checkNamesAgainstMesh(deck, blocks, nodeSets, sideSets);
-        for (const std::string& problem : problemsOfDimension(deck, mesh.mine.dimension))
-          problems.push_back(problem);
-        for (const std::string& problem : problemsOfLaws(deck, mesh.mine.dimension))
-          problems.push_back(problem);
-        for (const std::string& problem : ofRigidBlocks)
-          problems.push_back(problem);
-        if (!problems.empty())
-          fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
-        if (!report.usable())
-          fail(ExitCode::Mesh, "{}: {}", deck.mesh, fmt::join(meshProblems(report), "\n"));
-        for (const std::string& note : meshProblems(report))
-          logWarning("mesh", fmt::format("{}: {}", deck.mesh, note));
-      });
-
+  checkTogether(deck, mesh, home, comm);
   logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number,
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
-
   warnOfDoubleConditions(deck, mesh.mine, home, comm);
+
   const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part), comm); };
   const auto begin = std::chrono::steady_clock::now();
   Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
@@ -260,13 +287,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       logInfo("check: deck and mesh are fine; nothing was run");
       return;
     }
-    // Checkpoints that this run does not go on from are of another, or may be.
-    if (!isOneOfTwo(deck.checkpoint.file, settings.restartedFrom, comm))
-      putAside(deck.checkpoint.file, comm);
-    else
-      putOtherAside(deck.checkpoint.file, settings.restartedFrom, comm,
-                    [&](const CheckpointReader& checkpoint)
-                    { return isOfRun(checkpoint, deck, mesh, comm); });
+    putAsideOtherCheckpoints(deck, mesh, settings.restartedFrom, comm);
     addObservers(observers, deck, mesh, comm, settings);
     listenToSignals();
     code = solver.run(observers, &rebalancer);

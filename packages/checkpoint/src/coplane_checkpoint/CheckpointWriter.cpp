@@ -13,6 +13,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <unistd.h>
 #include <vector>
@@ -237,105 +238,128 @@ void CheckpointWriter::forOwnRows(const std::vector<std::uint64_t>& places,
   }
 }
 
+namespace
+{
+/// Steps of writing a file under another name; after each the ranks hear whether all have done it.
+class Steps
+{
+public:
+  /// @param message of the error, with room for the reason
+  Steps(const Comm& comm, std::string draft, std::function<std::string(const std::string&)> message)
+      : comm_(comm), draft_(std::move(draft)), message_(std::move(message))
+  {
+  }
+
+  /// Throws on all ranks, without the draft, when one has a reason why the step has failed.
+  void end(const std::string& failure) const
+  {
+    const int rank = int(comm_.min(std::int64_t(failure.empty() ? comm_.size() : comm_.rank())));
+    if (rank == comm_.size())
+      return;
+    const std::string reason = comm_.broadcast(failure, rank);
+    if (comm_.isRoot())
+      std::remove(draft_.c_str());
+    failOnAllRanks(ExitCode::Output, "{}", message_(reason));
+  }
+
+private:
+  const Comm& comm_;
+  std::string draft_;
+  std::function<std::string(const std::string&)> message_;
+};
+
+/// Why a draft cannot take a name; empty: it has, and that is safe.
+std::string rename(const std::string& draft, const std::string& file, ReplacedFile* replaced)
+{
+  try
+  {
+    errno = replaced                                        ? replaced->take(draft)
+            : std::rename(draft.c_str(), file.c_str()) == 0 ? 0
+                                                            : errno;
+    return errno != 0 ? systemsReason() : makeSafe(folderOf(file));
+  }
+  catch (const Error& error)
+  {
+    return error.what();
+  }
+}
+} // namespace
+
+/// Makes the draft with everything but the rows of tables; rank 0 alone.
+/// @param places gets where these come to lie
+/// @return why it failed; empty: it did not
+std::string CheckpointWriter::writeSkeleton(const std::string& draft,
+                                            std::vector<std::uint64_t>& places) const
+{
+  std::optional<MemoryFile> skeleton;
+  std::string failure = findRoom(draft, dataBytes());
+  try
+  {
+    if (failure.empty())
+      places = makeFile(skeleton.emplace().name());
+  }
+  catch (const hdf5::Failure& reason)
+  {
+    failure = reason.what();
+  }
+  if (skeleton)
+    skeleton->forgetName();
+  if (!failure.empty())
+    return failure;
+  PlaceWriter out(draft);
+  out.resize(skeleton->size());
+  skeleton->forEachPiece([&](auto... piece) { out.write(piece...); });
+  // Now, because pieces are whole pages, on which rows of tables come to lie.
+  skeleton->forEachPiece([&](auto... piece) { out.compare(piece...); });
+  out.close();
+  return out.reason();
+}
+
 void CheckpointWriter::write(const std::string& file, std::int64_t cycle, Real time,
                              ReplacedFile* replaced) const
 {
   // Going beyond a file-size limit shall be an error of the call, like a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   const std::string draft = comm_->broadcast(draftOf(file));
-  std::string failure;
-  const auto failTogether = [&]
-  {
-    const int rank = int(comm_->min(std::int64_t(failure.empty() ? comm_->size() : comm_->rank())));
-    if (rank == comm_->size())
-      return;
-    const std::string reason = comm_->broadcast(failure, rank);
-    if (comm_->isRoot())
-      std::remove(draft.c_str());
-    failOnAllRanks(
-        ExitCode::Output,
-        "{}: the checkpoint of cycle {} cannot be written: {}. Check that the folder '{}' exists "
-        "and can be written to, and that there is room (disk, quota, file-size limit): {} bytes.",
-        file, cycle, reason, folderOf(file), dataBytes());
-  };
+  const Steps step(*comm_, draft,
+                   [&](const std::string& reason)
+                   {
+                     return fmt::format(
+                         "{}: the checkpoint of cycle {} cannot be written: {}. Check that the "
+                         "folder '{}' exists and can be written to, and that there is room (disk, "
+                         "quota, file-size limit): {} bytes.",
+                         file, cycle, reason, folderOf(file), dataBytes());
+                   });
   std::vector<std::uint64_t> places;
-  std::optional<MemoryFile> skeleton; // of rank 0: everything but the rows of tables
-  if (comm_->isRoot())
-  {
-    failure = findRoom(draft, dataBytes());
-    try
-    {
-      if (failure.empty())
-        places = makeFile(skeleton.emplace().name());
-    }
-    catch (const hdf5::Failure& reason)
-    {
-      failure = reason.what();
-    }
-    if (skeleton)
-      skeleton->forgetName();
-    if (failure.empty())
-    {
-      PlaceWriter out(draft);
-      out.resize(skeleton->size());
-      skeleton->forEachPiece([&](auto... piece) { out.write(piece...); });
-      // Now, because pieces are whole pages, on which rows of tables come to lie.
-      skeleton->forEachPiece([&](auto... piece) { out.compare(piece...); });
-      out.close();
-      failure = out.reason();
-    }
-  }
-  failTogether();
+  step.end(comm_->isRoot() ? writeSkeleton(draft, places) : "");
   places = comm_->allGather(places);
   {
     PlaceWriter out(draft);
     forOwnRows(places, [&](auto... row) { out.write(row...); });
     out.close();
-    failure = out.reason();
+    step.end(out.reason());
   }
-  failTogether();
   {
     PlaceWriter in(draft);
     forOwnRows(places, [&](auto... row) { in.compare(row...); });
-    failure = in.reason();
+    step.end(in.reason());
   }
-  failTogether();
 
   CheckpointHead head;
   head.cycle = cycle;
   head.time = time;
   head.program = version().number;
   std::int64_t bytes = 0;
+  std::error_code error;
   if (comm_->isRoot())
-  {
-    std::error_code error;
     bytes = std::int64_t(std::filesystem::file_size(draft, error));
-    if (error)
-      failure = error.message();
-  }
-  failTogether();
+  step.end(error ? error.message() : "");
   head.bytes = std::uint64_t(comm_->max(bytes));
+  std::string failure;
   head.checksum = checksumOfCheckpoint(draft, head.bytes, *comm_, failure);
-  failTogether();
-  if (comm_->isRoot())
-    failure = writeHead(draft, head.text());
-  failTogether();
-  failure = makeSafe(draft);
-  failTogether();
-  if (comm_->isRoot())
-  {
-    try
-    {
-      errno = replaced                                        ? replaced->take(draft)
-              : std::rename(draft.c_str(), file.c_str()) == 0 ? 0
-                                                              : errno;
-      failure = errno != 0 ? systemsReason() : makeSafe(folderOf(file));
-    }
-    catch (const Error& error)
-    {
-      failure = error.what();
-    }
-  }
-  failTogether();
+  step.end(failure);
+  step.end(comm_->isRoot() ? writeHead(draft, head.text()) : "");
+  step.end(makeSafe(draft));
+  step.end(comm_->isRoot() ? rename(draft, file, replaced) : "");
 }
 } // namespace coplane

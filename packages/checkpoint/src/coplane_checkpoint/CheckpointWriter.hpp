@@ -25,6 +25,7 @@ public:
 
 private:
   std::vector<std::uint64_t> makeFile(const std::string& name) const;
+  std::string writeSkeleton(const std::string& draft, std::vector<std::uint64_t>& places) const;
   template <class Action>
   void forOwnRows(const std::vector<std::uint64_t>& places, const Action& action) const;
   std::uint64_t dataBytes() const;

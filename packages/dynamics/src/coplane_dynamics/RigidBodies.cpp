@@ -64,93 +64,107 @@ void RigidBodies::start(NodalState& state)
   }
 }
 
+namespace
+{
+constexpr std::size_t forceTerms = 16; // force, torque; stiffness k of nodes: k, k r, k r r^T
+
+/// Adds the terms of a node.
+/// @param r from the centre; k: stiffness against which it moves [N/m]
+void addNode(const Vec3& r, const Vec3& f, Real k, ExactSum* sum)
+{
+  const Vec3 t = cross(r, f);
+  for (int c = 0; c < 3; ++c)
+  {
+    if (f[c] != 0)
+      sum[c].add(f[c]);
+    if (t[c] != 0)
+      sum[3 + c].add(t[c]);
+  }
+  if (k == 0)
+    return;
+  const Real values[10] = {k,
+                           k * r.x,
+                           k * r.y,
+                           k * r.z,
+                           k * r.x * r.x,
+                           k * r.y * r.y,
+                           k * r.z * r.z,
+                           k * r.x * r.y,
+                           k * r.y * r.z,
+                           k * r.z * r.x};
+  for (int i = 0; i < 10; ++i)
+    sum[6 + i].add(values[i]);
+}
+} // namespace
+
 void RigidBodies::sumForces(const NodalState& state, const Array<Real>& contactStiffness,
                             const std::function<Real(int)>& elementStep)
 {
   if (empty())
     return;
-  constexpr std::size_t terms = 16; // force, torque; stiffness k of nodes: k, k r, k r r^T
-  std::vector<ExactSum> sums(terms * bodies_.size());
+  std::vector<ExactSum> sums(forceTerms * bodies_.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b)
     for (const int n : bodies_[b].nodes)
     {
-      ExactSum* const sum = &sums[terms * b];
-      const Vec3 r = at(state.x, n) - bodies_[b].center;
-      const Vec3 f = at(state.force, n) + at(state.external, n), t = cross(r, f);
-      for (int c = 0; c < 3; ++c)
-      {
-        if (f[c] != 0)
-          sum[c].add(f[c]);
-        if (t[c] != 0)
-          sum[3 + c].add(t[c]);
-      }
       const Real omega = 2 / elementStep(n); // of deformable elements that share the node
-      const Real k = contactStiffness(n) + state.mass(n) * omega * omega;
-      if (k == 0)
-        continue;
-      const Real values[10] = {k,
-                               k * r.x,
-                               k * r.y,
-                               k * r.z,
-                               k * r.x * r.x,
-                               k * r.y * r.y,
-                               k * r.z * r.z,
-                               k * r.x * r.y,
-                               k * r.y * r.z,
-                               k * r.z * r.x};
-      for (int i = 0; i < 10; ++i)
-        sum[6 + i].add(values[i]);
+      addNode(at(state.x, n) - bodies_[b].center, at(state.force, n) + at(state.external, n),
+              contactStiffness(n) + state.mass(n) * omega * omega, &sums[forceTerms * b]);
     }
   const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
   for (std::size_t b = 0; b < bodies_.size(); ++b)
   {
     Body& body = bodies_[b];
-    const Real* total = &totals[terms * b];
+    const Real* total = &totals[forceTerms * b];
     body.given = {{total[0], total[1], total[2]}, {total[3], total[4], total[5]}};
-    // Springs at the nodes give the energy sum k |V + w x r|^2 / 2. Its largest frequency is
-    // bounded by that of the matrix of the norms of its blocks.
-    const Mat3 stiffness = inertiaFromMoments(total + 10);
-    const Real translation = total[6] / body.mass;
-    Real turning = 0, coupling = 0;
-    const Vec3 moment{total[7], total[8], total[9]};
-    if (dimension_ == 2)
-    {
-      turning = stiffness(2, 2) * body.inverseInertia(2, 2);
-      coupling = dot(moment, moment) / body.mass * body.inverseInertia(2, 2);
-    }
-    else
-    {
-      // Largest eigenvalue of J^-1 K: at most its trace, and at most a norm of rows.
-      Mat3 turned; // J^-1 in the present turn
-      for (int c = 0; c < 3; ++c)
-      {
-        Vec3 axis{};
-        axis[c] = 1;
-        const Vec3 column = body.turn(body.inverseInertia * body.turn.back()(axis));
-        for (int i = 0; i < 3; ++i)
-          turned(i, c) = column[i];
-      }
-      const Mat3 product = turned * stiffness;
-      Real trace = 0, rows = 0, largestInverse = 0;
-      for (int i = 0; i < 3; ++i)
-      {
-        trace += product(i, i);
-        rows = std::max(rows, std::abs(product(i, 0)) + std::abs(product(i, 1)) +
-                                  std::abs(product(i, 2)));
-        largestInverse = std::max(largestInverse, std::abs(turned(i, 0)) + std::abs(turned(i, 1)) +
-                                                      std::abs(turned(i, 2)));
-      }
-      turning = std::min(trace, rows);
-      coupling = dot(moment, moment) / body.mass * largestInverse;
-    }
-    const Real difference = translation - turning;
-    body.frequencySquared =
-        0.5 * (translation + turning + std::sqrt(difference * difference + 4 * coupling));
+    body.frequencySquared = frequencyBound(body, total + 6);
     const Real sum = dot(body.given.force, body.given.force) +
                      dot(body.given.torque, body.given.torque) + body.frequencySquared;
     if (!std::isfinite(sum))
       body.frequencySquared = infinity;
   }
+}
+
+/// Springs k at the nodes give the energy sum k |V + w x r|^2 / 2. Its largest frequency is bounded
+/// by that of the matrix of the norms of its blocks [1/s^2].
+/// @param spring sums of k, k r, k r r^T
+Real RigidBodies::frequencyBound(const Body& body, const Real* spring) const
+{
+  const Mat3 stiffness = inertiaFromMoments(spring + 4);
+  const Real translation = spring[0] / body.mass;
+  Real turning = 0, coupling = 0;
+  const Vec3 moment{spring[1], spring[2], spring[3]};
+  if (dimension_ == 2)
+  {
+    turning = stiffness(2, 2) * body.inverseInertia(2, 2);
+    coupling = dot(moment, moment) / body.mass * body.inverseInertia(2, 2);
+  }
+  else
+  {
+    // Largest eigenvalue of J^-1 K: at most its trace, and at most a norm of rows.
+    Mat3 turned; // J^-1 in the present turn
+    for (int c = 0; c < 3; ++c)
+    {
+      Vec3 axis{};
+      axis[c] = 1;
+      const Vec3 column = body.turn(body.inverseInertia * body.turn.back()(axis));
+      for (int i = 0; i < 3; ++i)
+        turned(i, c) = column[i];
+    }
+    const Mat3 product = turned * stiffness;
+    const auto rowNorm = [](const Mat3& m, int i)
+    { return std::abs(m(i, 0)) + std::abs(m(i, 1)) + std::abs(m(i, 2)); };
+    Real trace = 0, rows = 0, largestInverse = 0;
+    for (int i = 0; i < 3; ++i)
+    {
+      trace += product(i, i);
+      rows = std::max(rows, rowNorm(product, i));
+      largestInverse = std::max(largestInverse, rowNorm(turned, i));
+    }
+    turning = std::min(trace, rows);
+    coupling = dot(moment, moment) / body.mass * largestInverse;
+  }
+  const Real difference = translation - turning;
+  return 0.5 * (translation + turning + std::sqrt(difference * difference + 4 * coupling));
 }
 
 Real RigidBodies::stableStep() const

@@ -191,6 +191,8 @@ private:
   static void forEachNumber(Body& body, F&& f);
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
+  void findCentres(const NodalState& state);
+  Real frequencyBound(const Body& body, const Real* spring) const;
   void takeMotions(const std::vector<RigidMotion>& motions);
   void constrain(Body& body, const Constraint& constraint);
   void applyConstraints(Body& body, Real t, Real dt) const;

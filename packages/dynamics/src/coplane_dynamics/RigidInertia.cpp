@@ -99,15 +99,12 @@ std::vector<int> rigidBodiesOf(const RankMesh& part, const std::vector<char>& ri
   return bodies;
 }
 
-void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
-                              const std::vector<ElementBlock>& blocks, const NodalState& state)
+/// Mass and centre are those of the nodes, so that momenta and weights of nodes are those of the
+/// body.
+void RigidBodies::findCentres(const NodalState& state)
 {
-  // Mass and centre are those of the nodes, so that momenta and weights of nodes are those of the
-  // body; moments of inertia are those of the solid.
-  const std::size_t bodies = bodies_.size(), blockCount = mesh.blocks.size();
-  std::vector<std::int64_t> held(bodies * blockCount, 0);
-  std::vector<ExactSum> sums(5 * bodies);
-  for (std::size_t b = 0; b < bodies; ++b)
+  std::vector<ExactSum> sums(5 * bodies_.size());
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
     for (const int n : bodies_[b].nodes)
     {
       const Real m = state.mass(n);
@@ -116,8 +113,8 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
         sums[5 * b + 1 + c].add(m * state.x(n, c));
       sums[5 * b + 4].add(1);
     }
-  std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
-  for (std::size_t b = 0; b < bodies; ++b)
+  const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
   {
     Body& body = bodies_[b];
     const Real* total = &totals[5 * b];
@@ -127,8 +124,16 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
     for (const int n : body.nodes)
       body.arms.push_back(at(state.x, n) - body.center);
   }
+}
 
-  sums.assign(6 * bodies, ExactSum{});
+/// Moments of inertia are those of the solid.
+void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
+                              const std::vector<ElementBlock>& blocks, const NodalState& state)
+{
+  findCentres(state);
+  const std::size_t bodies = bodies_.size(), blockCount = mesh.blocks.size();
+  std::vector<std::int64_t> held(bodies * blockCount, 0);
+  std::vector<ExactSum> sums(6 * bodies);
   const auto add = [&](int body, Real m, const Vec3& r)
   {
     const Real moments[6] = {r.x * r.x, r.y * r.y, r.z * r.z, r.x * r.y, r.y * r.z, r.z * r.x};
@@ -167,7 +172,7 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
     for (std::size_t i = 0; i < bodies_[b].nodes.size(); ++i)
       if (const Real m = others[bodies_[b].nodes[i]]; m > 0)
         add(int(b), m, bodies_[b].arms[i]);
-  totals = ExactSum::overRanks(sums, *comm_);
+  const std::vector<Real> totals = ExactSum::overRanks(sums, *comm_);
   comm_->sum(held);
   for (std::size_t b = 0; b < bodies; ++b)
   {

@@ -490,39 +490,48 @@ bool MeshReport::tooFar() const
   return shortestEdge > 0 && most > farthest * shortestEdge;
 }
 
-std::vector<std::string> meshProblems(const MeshReport& report)
+namespace
 {
-  std::vector<std::string> problems;
+using Problems = std::vector<std::string>;
+
+std::string nameOf(const MeshReport::BadElement& e)
+{
+  return fmt::format("element {} of block '{}'", e.element, e.block);
+}
+
+void addProblemsOfElements(const MeshReport& report, Problems& problems)
+{
   const char* measure = report.dimension == 2 ? "area" : "volume";
   const char* unit = report.dimension == 2 ? "m^2" : "m^3";
   if (!report.inverted.empty())
-    problems.push_back(fmt::format("{} elements are inside out or flat ({} zero or negative): {}. "
-                                   "Correct the order of their nodes, or remesh "
-                                   "that region.",
-                                   report.inverted.count, measure,
-                                   firstOf(report.inverted,
-                                           [&](const MeshReport::BadElement& e)
-                                           {
-                                             return fmt::format(
-                                                 "element {} of block '{}' ({:.3g} {})", e.element,
-                                                 e.block, e.volume, unit);
-                                           })));
+    problems.push_back(
+        fmt::format("{} elements are inside out or flat ({} zero or negative): {}. "
+                    "Correct the order of their nodes, or remesh "
+                    "that region.",
+                    report.inverted.count, measure,
+                    firstOf(report.inverted, [&](const MeshReport::BadElement& e)
+                            { return fmt::format("{} ({:.3g} {})", nameOf(e), e.volume, unit); })));
   if (!report.repeatedNodes.empty())
     problems.push_back(fmt::format(
         "{} elements use a node twice: {}. Quadrilaterals and hexahedra may not be collapsed to "
         "other shapes; remesh that region.",
-        report.repeatedNodes.count,
-        firstOf(report.repeatedNodes, [](const MeshReport::BadElement& e)
-                { return fmt::format("element {} of block '{}'", e.element, e.block); })));
+        report.repeatedNodes.count, firstOf(report.repeatedNodes, nameOf)));
   if (!report.folded.empty())
     problems.push_back(fmt::format(
         "{} elements are folded at a corner: {}. Their {} is positive, but they are not convex; "
         "remesh "
         "that region.",
-        report.folded.count,
-        firstOf(report.folded, [](const MeshReport::BadElement& e)
-                { return fmt::format("element {} of block '{}'", e.element, e.block); }),
-        measure));
+        report.folded.count, firstOf(report.folded, nameOf), measure));
+  for (const MeshReport::BlockSummary& block : report.blocks)
+    if (block.worstQuality > 0 && block.worstQuality < poorQuality)
+      problems.push_back(fmt::format(
+          "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
+          "small time step and is stiff. Remesh that region.",
+          block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
+}
+
+void addProblemsOfJoints(const MeshReport& report, Problems& problems)
+{
   for (const MeshReport::Joint& joint : report.joints)
     if (!joint.alone.empty())
       problems.push_back(fmt::format(
@@ -532,6 +541,10 @@ std::vector<std::string> meshProblems(const MeshReport& report)
           joint.name, joint.pairs, joint.alone.count,
           firstOf(joint.alone, [](const std::pair<GlobalId, int>& side)
                   { return fmt::format("side {} of element {}", side.second, side.first); })));
+}
+
+void addProblemsOfConnection(const MeshReport& report, Problems& problems)
+{
   if (!report.unusedNodes.empty())
     problems.push_back(fmt::format(
         "{} nodes belong to no element: {}. They have no mass; remove them from the mesh.",
@@ -564,12 +577,10 @@ std::vector<std::string> meshProblems(const MeshReport& report)
                   return fmt::format("of {} elements, among them {} and {}, at {}", f.count,
                                      f.elements[0], f.elements[1], at(f.place));
                 })));
-  for (const MeshReport::BlockSummary& block : report.blocks)
-    if (block.worstQuality > 0 && block.worstQuality < poorQuality)
-      problems.push_back(fmt::format(
-          "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
-          "small time step and is stiff. Remesh that region.",
-          block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
+}
+
+void addProblemsOfLengths(const MeshReport& report, Problems& problems)
+{
   if (report.tooFar())
     problems.push_back(fmt::format(
         "coordinates from {} to {} m, and an edge of {:.3g} m at {}: too few of sixteen digits are "
@@ -588,6 +599,15 @@ std::vector<std::string> meshProblems(const MeshReport& report)
         "the mesh measures {:.3g} m from corner to corner. Are its lengths in metres? Scale its "
         "coordinates if not.",
         extent));
+}
+} // namespace
+
+std::vector<std::string> meshProblems(const MeshReport& report)
+{
+  Problems problems;
+  for (const auto add :
+       {addProblemsOfElements, addProblemsOfJoints, addProblemsOfConnection, addProblemsOfLengths})
+    add(report, problems);
   return problems;
 }
 
