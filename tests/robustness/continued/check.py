@@ -74,7 +74,7 @@ for name, change in changes.items():
     for table in ("run.csv", "run_blocks.csv"):
         (folder / table).write_bytes(change((folder / table).read_bytes()))
     before = contents(folder, ["run.csv", "run_blocks.csv"])
-    run(name, folder, *on(1.4e-5), words=["have been changed", "is called"])
+    run(name, folder, *on(1.4e-5), words=["have been changed", "is kept under the name"])
     check_kept(name, folder, before)
     case.check_equal(f"{name}: columns of the new lines", len(columns(folder / "run.csv")), 1)
 
@@ -152,7 +152,7 @@ run("a newer run", folder, "--set", "initial.0.velocity=[50,0,0]")
 run("a newer run goes on", folder, *on(1.6e-5), "--set", "initial.0.velocity=[50,0,0]")
 before = contents(folder, [path.name for path in folder.glob("run*") if path.suffix != ".yaml" and aside not in path.name])
 old = max(folder.glob("run.chk.?" + aside + "*"), key=lambda path: path.stat().st_mtime).name
-run("a restart of the older run", folder, "--restart", old, "--set", "time.end=1.4e-5", words=["is called"])
+run("a restart of the older run", folder, "--restart", old, "--set", "time.end=1.4e-5", words=["is kept under the name"])
 check_kept("a restart of the older run", folder, before)
 
 # --- names of drafts and of what one derives ----------------------------------------------------------------------
@@ -165,7 +165,7 @@ for name in names:
 (folder / "run.chk.1.part").symlink_to("elsewhere")
 (folder / "run.run.json").write_text('{"software": "of the user"}')
 before = contents(folder, [*names, "elsewhere", "run.run.json"])
-run("drafts of a user", folder, words=["is called"])
+run("drafts of a user", folder, words=["is kept under the name"])
 check_kept("drafts of a user", folder, before)
 case.check_equal("drafts of a user: they have their names", sorted(path.name for path in folder.glob("*.part")), sorted([*names, "run.chk.1.part"]))
 left = ["run.chk.0.part-00c0ffee", "run.e-s0007.part-00c0ffee"]

@@ -96,7 +96,7 @@ void putForeignFileAside(const std::string& file, const std::string& now)
          file, aside, error.message());
   logWarningEachTime(fmt::format(
       "{}: there was already a file of this name, which this run did not write or does not "
-      "recognize; it is kept under the name {}.",
+      "recognise; it is kept under the name {}.",
       file, aside));
 }
 

@@ -77,7 +77,7 @@ bool takeStopFile(const std::string& file)
                                         file, std::strerror(errno)));
   else if (!isEmpty)
     logWarningEachTime(
-        fmt::format("{}: the stop file holds something; it is called {} now.", file, aside));
+        fmt::format("{}: the stop file is not empty; it is kept under the name {}.", file, aside));
   return true;
 }
 
