@@ -61,11 +61,9 @@ void demandFewKinds(const Comm& comm, const std::vector<Face>& faces, const Cont
 } // namespace
 
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
-                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace,
-                 std::vector<FaceElement> localElements)
+                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
     : comm_(&comm), dimension_(dimension), localFaces_(std::move(localFaces)), faces_(localFaces_),
-      localElements_(std::move(localElements)), elements_(localElements_), options_(options),
-      rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
+      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
       laws_("coplane::contact::laws", rules_.joints.size())
 {
   demandFewKinds(comm, localFaces_, rules_);
@@ -151,11 +149,9 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
   planes_ = next;
 }
 
-void Contact::replaceLocalFaces(std::vector<Face> localFaces,
-                                std::vector<FaceElement> localElements)
+void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 {
   localFaces_ = std::move(localFaces);
-  localElements_ = std::move(localElements);
   // Donors are looked up by places in the new list.
   listPlanesOfFaces(
       [&](const Plane& plane, int side)
@@ -256,8 +252,6 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const auto halfStep = halfStepFaces_;
   const auto paired = paired_;
   const auto laws = laws_;
-  const auto elements = elementTable_;
-  const bool classic = this->classic();
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
   const int dimension = dimension_;
@@ -295,7 +289,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
         stepA_faces(nodes, options.forces, dt, &halfStep(first));
       });
   const int planeCount = int(planes.extent(0));
-  if (dimension == 3 && !classic)
+  if (dimension == 3)
   {
     constexpr int stretch = 512; // long enough that few lanes stay empty at its end
     parallelFor(
@@ -316,20 +310,10 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
           Plane& plane = planes(p);
           const HalfStepFace& a = halfStep(slots(p).face[0]);
           const HalfStepFace& b = halfStep(slots(p).face[1]);
-          if (!classic)
-          {
-            if (asleep(p) && !mayMeet<2>(a, b))
-              return;
-            updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
-            asleep(p) = isAsleep(plane);
+          if (asleep(p) && !mayMeet<2>(a, b))
             return;
-          }
-          const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
-          const ElementNodes nodesB = elementNodes(elements(plane.face[1]), x, v);
-          if (dimension == 2)
-            updateClassicPlane<2>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
-          else
-            updateClassicPlane<3>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
+          updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
+          asleep(p) = isAsleep(plane);
         });
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)

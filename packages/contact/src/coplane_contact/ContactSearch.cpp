@@ -5,7 +5,6 @@
 #include <coplane_core/WorkWatch.hpp>
 
 #include <algorithm>
-#include <optional>
 
 namespace coplane
 {
@@ -29,7 +28,6 @@ void makeDormant(Plane& plane)
   plane.sighting = Sighting::Missed;
   plane.refusal = Refusal::None;
   plane.state = PlaneState::Open;
-  plane.leads = false;
 }
 
 /// The slots after a search, sorted by key, and where each comes from.
@@ -166,8 +164,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   }
   {
     TimedRegion region("coplane::contact::step4_copyGhostFaces");
-    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_,
-                                   localElements_);
+    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_);
   }
   addGhostsOfLivingPlanes(nodeIds);
   return nodesOfGhosts();
@@ -177,10 +174,7 @@ std::vector<GlobalId> Contact::nodesOfGhosts() const
 {
   std::vector<GlobalId> nodes;
   for (const GhostFace& face : ghosts_.faces)
-  {
     nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
-    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
-  }
   return nodes;
 }
 
@@ -210,20 +204,6 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
     failOnAllRanks(ExitCode::Internal, "A contact plane has lost one of its faces.");
   const auto middle = ghosts_.faces.insert(ghosts_.faces.end(), fetched.begin(), fetched.end());
   std::inplace_merge(ghosts_.faces.begin(), middle, ghosts_.faces.end(), less);
-}
-
-std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pairs,
-                                          const ConstNodeVectors& x) const
-{
-  std::vector<Leader> leaders(pairs.size());
-  parallelFor("coplane::contact::leaders", int(pairs.size()),
-              [&](const int i)
-              {
-                const int a = pairs[i].lower, b = pairs[i].higher;
-                leaders[i] = leaderOf(faces_[a], faces_[b], elements_[a], elements_[b], x,
-                                      dimension_, options_);
-              });
-  return leaders;
 }
 
 CandidateRules Contact::candidateRules() const
@@ -276,40 +256,12 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
         donors.push_back(ghosts_.donors[d->second]);
   };
 
-  // Method CommonPlane: which pairs lead, and what those that did not lead before take over from
-  // the pair of faces that carried the plane of their elements until now.
-  const auto leadsAlready = [&](std::size_t i)
-  { return existing[i] >= 0 && planes_(existing[i]).leads; };
-  std::vector<Leader> leaders;
-  std::vector<Donor> planesOfOthers;
-  if (classic())
-  {
-    leaders = leadersAmong(pairs, x);
-    std::vector<ElementPair> wanted;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (leaders[i].leads && !leadsAlready(i))
-      {
-        wanted.push_back(
-            {elementOfFace(faces_[pairs[i].lower].id), elementOfFace(faces_[pairs[i].higher].id)});
-      }
-    if (searches_ > 0 && options_.inherit)
-    {
-      std::vector<Donor> counted;
-      for (std::size_t q = 0; q < planes_.extent(0); ++q)
-        if (planes_(q).countedHere && isDonor(planes_(q)))
-          counted.push_back(donorOf(planes_(q)));
-      planesOfOthers = planesOfElements(wanted, counted, *comm_);
-    }
-  }
-
   const Array<FacePlane> facePlanes(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces_.size());
   parallelFor("coplane::contact::facePlanes", int(faces_.size()),
               [&](const int f)
               { new (&facePlanes(f)) FacePlane(facePlane(faces_[f], x, dimension_)); });
-  std::optional<EdgesOfSurfaces> edges;
-  if (!classic())
-    edges.emplace(pairs, faces_, localFaces_.size(), facePlanes, x, dimension_, layout);
+  EdgesOfSurfaces edges(pairs, faces_, localFaces_.size(), facePlanes, x, dimension_, layout);
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
   const auto fillSlot = [&](const int slot)
@@ -346,19 +298,10 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
-    if (edges && (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset)))
-      edges->look(std::size_t(source[slot]), plane);
+    if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
+      edges.look(std::size_t(source[slot]), plane);
     if (plane.sighting == Sighting::Missed)
       plane.sighting = Sighting::Woken;
-    const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
-    if (classic())
-    {
-      plane.leads = leaders[source[slot]].leads;
-      if (newLeader)
-        plane.normal = leaders[source[slot]].normal;
-      else if (!plane.leads)
-        return;
-    }
     if (!options_.inherit)
       return;
     const auto newPair = [&](const Vec3& normal)
@@ -381,14 +324,6 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       return now;
     };
     std::vector<Donor> donors;
-    if (newLeader)
-    {
-      const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
-      donors.assign(mine.first, mine.second);
-      if (inherit(plane, plane.normal, newPair(plane.normal).nodes, donors))
-        return;
-      donors.clear();
-    }
     if (plane.isBorn())
       return;
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
@@ -399,9 +334,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     plane.closure = 0;
     plane.lineage = Lineage::Own;
     plane.history = {};
-    const Vec3 normal =
-        classic() ? leaders[source[slot]].normal
-                  : normalised(facePlanes(pair.lower).normal - facePlanes(pair.higher).normal);
+    const Vec3 normal = normalised(facePlanes(pair.lower).normal - facePlanes(pair.higher).normal);
     addDonors(pair.lower, plane, normal, donors);
     addDonors(pair.higher, plane, normal, donors);
     if (donors.empty())
@@ -413,8 +346,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     {
       if (!continuation.isNear(donor))
         continue;
-      if (!classic())
-        donor.flush = isFlush(now, donor, dimension_);
+      donor.flush = isFlush(now, donor, dimension_);
       if (continuation.goesOn(donor))
         heirlooms.push_back(donor);
     }

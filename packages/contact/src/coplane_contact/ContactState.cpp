@@ -200,9 +200,7 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   {
     const auto found = std::lower_bound(localFaces_.begin(), localFaces_.end(), one.face,
                                         [](const Face& face, GlobalId id) { return face.id < id; });
-    const std::size_t place = std::size_t(found - localFaces_.begin());
-    answer[one.byRank].push_back(
-        toGhostFace(*found, nodeIds, classic() ? localElements_[place] : FaceElement{}));
+    answer[one.byRank].push_back(toGhostFace(*found, nodeIds));
   }
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),

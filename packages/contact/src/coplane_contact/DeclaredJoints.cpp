@@ -53,24 +53,17 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     const Face& faceA = faces_[plane.face[0]];
     const Face& faceB = faces_[plane.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared || (classic() && !plane.leads))
+    if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
     const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
     const HalfStepFace a =
         dimension_ == 2 ? stepA_halfStepFace<2>(nodesA, 0) : stepA_halfStepFace<3>(nodesA, 0);
     const HalfStepFace b =
         dimension_ == 2 ? stepA_halfStepFace<2>(nodesB, 0) : stepA_halfStepFace<3>(nodesB, 0);
-    TrialPlane trial =
+    const TrialPlane trial =
         dimension_ == 2 ? stepB_trialPointOfContact<2>(a, b) : stepB_trialPointOfContact<3>(a, b);
     if (!trial.opposed)
       continue;
-    ClassicPlane between;
-    if (classic())
-    {
-      between =
-          planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
-      trial = trialPlaneOf(between);
-    }
     Patch patch;
     Real meanGap = 0;
     if (options_.forces == ContactOptions::Forces::Potential)
@@ -81,8 +74,7 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
     if (!(patch.area > options_.areaMin * std::min(a.area, b.area) *
                            depthOf(trial, options_).at(patch.centroid.x)))
       continue;
-    const Real gap = classic() ? between.gap
-                     : options_.forces == ContactOptions::Forces::Potential
+    const Real gap = options_.forces == ContactOptions::Forces::Potential
                          ? meanGap
                          : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
                                                  weighted(patch.centroidWeights[0], a.x, a.count));

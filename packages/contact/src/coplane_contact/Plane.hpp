@@ -11,16 +11,6 @@ namespace coplane
 /// How contact is computed; the manual says when to change each (docs/user/contact.md).
 struct ContactOptions
 {
-  enum class Method : std::uint8_t
-  {
-    SimpleCommonPlane, ///< a plane for each pair of faces (Vorobiev 2006)
-    CommonPlane        ///< a plane for each pair of elements (Cundall 1988), for comparison
-  };
-  enum class PlaneSearch : std::uint8_t
-  {
-    Candidates, ///< of CommonPlane: among normals of faces, edges, vertices (Nezami et al. 2004)
-    Rotations   ///< by ever smaller turns (Cundall 1988)
-  };
   enum class Area : std::uint8_t
   {
     Penetrating, ///< only the part of the overlap where the faces penetrate
@@ -43,9 +33,7 @@ struct ContactOptions
     CommonNormal ///< along the normal of the common plane, as in the paper
   };
   bool axisymmetric = false; ///< two dimensions: areas are those of the whole turn about x = 0
-  Method method = Method::SimpleCommonPlane;
   Forces forces = Forces::CommonNormal;
-  PlaneSearch planeSearch = PlaneSearch::Candidates;
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
   Closure closure = Closure::Total;
@@ -117,7 +105,6 @@ struct alignas(64) Plane
   bool countedHere : 1; ///< this rank books the plane's energy: it owns face 0
   bool declared : 1;    ///< a joint that was closed at the start
   bool tooDeep : 1;     ///< deeper than the limit
-  bool leads : 1;       ///< CommonPlane: the plane of its two elements acts on these faces
   bool stiff : 1;       ///< stiffer than the elements behind its faces: they chatter on it
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
@@ -152,8 +139,7 @@ struct alignas(64) Plane
   Real fractureWork = 0;
   Real dampingWork = 0;
 
-  KOKKOS_INLINE_FUNCTION Plane()
-      : countedHere(false), declared(false), tooDeep(false), leads(false), stiff(false)
+  KOKKOS_INLINE_FUNCTION Plane() : countedHere(false), declared(false), tooDeep(false), stiff(false)
   {
   }
 

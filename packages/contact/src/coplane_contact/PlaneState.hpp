@@ -32,7 +32,6 @@ void forEachMember(Plane& plane, F&& f)
   f("lineage", plane.lineage);
   plane.declared = flag("declared", plane.declared);
   plane.tooDeep = flag("too_deep", plane.tooDeep);
-  plane.leads = flag("leads", plane.leads);
   plane.stiff = flag("stiff", plane.stiff);
   f("exits", plane.exits);
   f("turns", plane.turns);

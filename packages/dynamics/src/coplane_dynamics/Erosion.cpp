@@ -129,12 +129,8 @@ bool Solver::erode(Real dt)
 void Solver::findContactFaces(const std::vector<Face>* known)
 {
   const std::vector<ExteriorFace> exterior = sides_->exterior(alive_);
-  std::vector<FaceElement> elements;
-  if (model_.contact.method == ContactOptions::Method::CommonPlane)
-    elements = elementsOfFaces(model_.mesh, exterior);
-  contact_->replaceLocalFaces(
-      contactFaces(model_.mesh, blocks_, model_.faceGroups, bodyOfNode_, exterior, state_.x, known),
-      std::move(elements));
+  contact_->replaceLocalFaces(contactFaces(model_.mesh, blocks_, model_.faceGroups, bodyOfNode_,
+                                           exterior, state_.x, known));
 }
 
 /// Loads end with the element that carried them.

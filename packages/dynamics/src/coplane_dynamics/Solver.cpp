@@ -92,11 +92,8 @@ Solver::Solver(Model model, const Comm& comm)
         contactFaces(mesh, blocks_, model_.faceGroups, bodyOfNode_, exterior, state_.x);
     const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh.dimension, comm);
     const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
-    std::vector<FaceElement> elements;
-    if (model_.contact.method == ContactOptions::Method::CommonPlane)
-      elements = elementsOfFaces(mesh, exterior);
     contact_ = std::make_unique<Contact>(comm, mesh.dimension, std::move(faces), model_.contact,
-                                         model_.contactRules, skin, smallest, std::move(elements));
+                                         model_.contactRules, skin, smallest);
   }
 }
 
