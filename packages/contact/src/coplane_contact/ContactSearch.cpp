@@ -18,16 +18,11 @@ std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
 /// Carries nothing until its faces are candidates again.
 void makeDormant(Plane& plane)
 {
+  carryNothing(plane);
   plane.face[0] = plane.face[1] = -1;
-  plane.area = plane.overlap = plane.normalTraction = plane.nodeStiffness = 0;
-  plane.dropForces();
-  plane.stored = 0;
-  plane.history.shearTraction = {};
-  plane.closure = 0;
-  plane.tooDeep = false;
+  plane.overlap = plane.nodeStiffness = 0;
   plane.sighting = Sighting::Missed;
   plane.refusal = Refusal::None;
-  plane.state = PlaneState::Open;
 }
 
 /// The slots after a search, sorted by key, and where each comes from.
@@ -330,10 +325,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
     if (a.young || b.young)
       return;
     // Slots that have not touched yet look for donors again at every search.
-    plane.offset = 0;
-    plane.closure = 0;
-    plane.lineage = Lineage::Own;
-    plane.history = {};
+    forgetPassed(plane);
     const Vec3 normal = normalised(facePlanes(pair.lower).normal - facePlanes(pair.higher).normal);
     addDonors(pair.lower, plane, normal, donors);
     addDonors(pair.higher, plane, normal, donors);

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_joint/JointState.hpp>
 
 #include <vector>
 
@@ -90,16 +91,12 @@ struct Donor
   int count[2] = {0, 0};     ///< nodes of its faces; 0: not known
   Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
-  bool bonded = false;
   bool flush = false; ///< with the pair that looks for donors; not sent
   Vec3 normal{};
   Real area = 0;
+  // What is passed on (PlaneState.hpp), as in its plane.
   Real offset = 0;
-  Real maximumClosure = 0;
   Real closure = 0;
-  Vec3 shearTraction{};
-  Real slip = 0;
-  Real opening = 0;  ///< of a bond that softens [m]
-  Real shearing = 0; ///< the same in shear [m]
+  JointState history;
 };
 } // namespace coplane
