@@ -134,6 +134,7 @@ private:
   void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
   void takeFaceTables();
   bool potential() const { return options_.forces == ContactOptions::Forces::Potential; }
+  class SlotFiller; ///< makes the slots of a search
   std::vector<Donor> livingPlanes() const;
   Donor donor(const Plane& plane) const;
   template <class FaceOf>
