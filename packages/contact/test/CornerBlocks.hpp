@@ -1,8 +1,7 @@
 #pragma once
 
+#include "ClassicCommonPlane.hpp"
 #include "FacePairs.hpp"
-
-#include <coplane_contact/ClassicCommonPlane.hpp>
 
 #include <algorithm>
 

@@ -72,7 +72,7 @@ TEST(Inheritance, doesNotDependOnWhichFaceHasTheLowerId)
     donor.faceId[0] = lower;
     donor.faceId[1] = higher;
     donor.normal = {0, 0, sign};
-    donor.shearTraction = {sign * 5e6, 0, 0};
+    donor.history.shearTraction = {sign * 5e6, 0, 0};
     donor.area = 1;
     donor.closure = .04;
     Plane plane;
@@ -254,9 +254,9 @@ TEST(Inheritance, bondsGoOnWhereMostOfTheAreaIsBonded)
     Plane plane = pairOf10And22();
     std::vector<Donor> donors{planeOf10And(21, {1, 2, 3, 4}, bondedArea, .04),
                               planeOf10And(23, {7, 8, 9, 10}, 2, .04)};
-    donors[0].bonded = true;
-    donors[0].opening = 3e-4;
-    donors[0].shearing = 2e-4;
+    donors[0].history.bonded = true;
+    donors[0].history.opening = 3e-4;
+    donors[0].history.shearing = 2e-4;
     EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, donors));
     EXPECT_EQ(plane.history.bonded, bondedArea > 2);
     EXPECT_EQ(plane.history.opening, bondedArea > 2 ? 3e-4 : 0);

@@ -100,18 +100,6 @@ TEST(Repartition, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRu
   expectSameBits(everything, 60, 1);
 }
 
-TEST(Repartition, underTheClassicCommonPlaneHasTheBitsOfTheStraightRun)
-{
-  expectSameBits(
-      [](const Comm& comm, const std::string& method)
-      {
-        Model model = slidingCubes(comm, method);
-        model.contact.method = ContactOptions::Method::CommonPlane;
-        return model;
-      },
-      40, 3);
-}
-
 TEST(CostsOfOwnedNodes, addUpToTheWorkOfTheRank)
 {
   const Comm comm;

@@ -79,18 +79,6 @@ TEST(Restart, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRun)
   expectSameBits(everything, 60, {2, 23, 45, 58});
 }
 
-TEST(Restart, underTheClassicCommonPlaneHasTheBitsOfTheStraightRun)
-{
-  expectSameBits(
-      [](const Comm& comm, const std::string& method)
-      {
-        Model model = slidingCubes(comm, method);
-        model.contact.method = ContactOptions::Method::CommonPlane;
-        return model;
-      },
-      40, {6, 27});
-}
-
 TEST(Restart, readsACheckpointOfManyRanksOnOne)
 {
   const Comm comm, alone(MPI_COMM_SELF);

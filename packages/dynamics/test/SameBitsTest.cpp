@@ -75,25 +75,6 @@ TEST(SameBits, platesInTwoDimensionsOnAnyRanks)
   EXPECT_EQ(hashAfter(slidingPlates(world), world, 50), hashAfter(slidingPlates(alone), alone, 50));
 }
 
-TEST(SameBits, underTheClassicCommonPlaneOnAnyRanks)
-{
-  // Elements, and planes that pass from one pair of faces to another, are spread over the ranks.
-  const Comm world, alone(MPI_COMM_SELF);
-  const auto classic = [](Model model)
-  {
-    model.contact.method = ContactOptions::Method::CommonPlane;
-    return model;
-  };
-  const Mesh mesh = twoCubes();
-  Model scattered = slidingCubes(world);
-  scattered.mesh = distribute(mesh, scatteredOwners(mesh, world.size()), world.rank());
-  const std::uint64_t expected = hashAfter(classic(slidingCubes(alone)), alone, 25);
-  EXPECT_EQ(hashAfter(classic(std::move(scattered)), world, 25), expected);
-  EXPECT_NE(hashAfter(slidingCubes(alone), alone, 25), expected);
-  EXPECT_EQ(hashAfter(classic(slidingPlates(world)), world, 50),
-            hashAfter(classic(slidingPlates(alone)), alone, 50));
-}
-
 TEST(SameBits, onBothBackEnds)
 {
   const Comm comm;

@@ -531,15 +531,20 @@ TEST(DeckErrors, aDeckThatDoesNotExist)
   }
 }
 
-TEST(DeckErrors, contactThatBodiesOfRevolutionDoNotHave)
+TEST(DeckErrors, keysThatAreGoneSayWhyAndWhatToDo)
 {
-  EXPECT_EQ(errorOf("mesh: wall.e\ngeometry: axisymmetric\n"
-                    "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
-                    "poisson_ratio: 0}}\n"
-                    "blocks: {bar: {material: steel, element: assumed_strain}}\n"
-                    "contact: {method: common_plane}\ntime: {end: 1}\n"),
-            "wall.yaml:5:19: contact.method = 'common_plane' is not offered with geometry = "
-            "'axisymmetric'; use simple_common_plane.");
+  EXPECT_EQ(
+      errorOf("mesh: wall.e\n"
+              "materials: {steel: {model: linear_elastic, density: 1, youngs_modulus: 1, "
+              "poisson_ratio: 0}}\n"
+              "blocks: {bar: {material: steel}}\n"
+              "contact: {method: common_plane, plane_search: rotations}\ntime: {end: 1}\n"),
+      "wall.yaml:4:11: contact.method is no longer a key. There is one kind of contact left, "
+      "a Simple Common Plane for each pair of faces. Cundall's plane between elements "
+      "(common_plane) was there for comparison only; docs/theory/scp.md compares the two. "
+      "Remove the key; forces: common_normal is the contact nearest to Cundall's.\n"
+      "wall.yaml:4:33: contact.plane_search is no longer a key. It said how common_plane found "
+      "Cundall's plane between elements, which whole runs no longer have. Remove the key.");
 }
 
 /// A deck with a rigid block `tool` and a deformable one, and these lines from line 9 on.

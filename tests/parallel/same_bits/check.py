@@ -1,6 +1,6 @@
 """V59, V60: one run, bit for bit, on any number of ranks and threads and on either back end.
 
-Usage: check.py 2d|3d|tiny [all] [common_plane]
+Usage: check.py 2d|3d|tiny [all] [common_normal]
 """
 
 import itertools
@@ -16,14 +16,14 @@ deck["initial"] = [{"block": "bar", "velocity": velocity}]
 deck["time"] = {"end": end}
 deck["output"] = {"every": end / 4}
 
-if "common_plane" in sys.argv[2:]:
-    deck["contact"]["method"] = "common_plane"
+if "common_normal" in sys.argv[2:]:
+    deck["contact"]["forces"] = "common_normal"
 
 # (ranks, threads, back end): covers more ranks than cores, odd counts, and ranks times threads.
 covering = [(2, 1, "serial"), (3, 1, "threads"), (4, 2, "threads"), (7, 1, "serial"), (1, 4, "threads"), (1, 2, "threads")]
 if dimension == "tiny":  # two elements: most ranks have none
     covering = [(2, 1, "serial"), (7, 1, "serial"), (7, 1, "threads")]
-if "common_plane" in sys.argv[2:]:
+if "common_normal" in sys.argv[2:]:
     covering = [(2, 1, "serial"), (3, 1, "serial"), (4, 2, "threads"), (1, 2, "threads")]
 product = list(itertools.product((1, 2, 3, 4, 7, 8), (1, 2, 4), ("serial", "threads")))
 

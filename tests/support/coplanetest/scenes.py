@@ -2,7 +2,7 @@
 
 import sys
 
-NAMES = ("2d", "3d", "sliding", "erosion", "erosion_3d", "everything", "rigid", "rings", "joints", "common_plane")
+NAMES = ("2d", "3d", "sliding", "erosion", "erosion_3d", "everything", "rigid", "rings", "joints")
 
 
 def scene_of(case, name):
@@ -14,14 +14,12 @@ def scene_of(case, name):
     def of(folder, mesh="mesh.yaml", deck="deck.yaml"):
         return case.load(f"tests/{folder}/{mesh}"), case.load(f"tests/{folder}/{deck}")
 
-    if name in ("2d", "3d", "common_plane"):
+    if name in ("2d", "3d"):
         recipe, deck = of("parallel/same_bits", "mesh_3d.yaml" if name == "3d" else "mesh_2d.yaml")
         velocity, end = ([5, -40, 90], 5e-4) if name == "3d" else ([100, 20, 0], 1.2e-4)
         deck["initial"] = [{"block": "bar", "velocity": velocity}]
         deck["time"] = {"end": end}
         deck["output"] = {"every": end / 9}
-        if name == "common_plane":
-            deck["contact"]["method"] = "common_plane"
         happened = ["stick", "slip", "contact_friction", "contact_damping", "contact_hysteresis", "plastic", "open"]
     elif name == "sliding":
         recipe, deck = of("verification/V64_life_of_planes")

@@ -39,6 +39,12 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
   }
 }
 
+/// With the potential, pairs are candidates up to this depth, as a fraction of the thinner element.
+constexpr Real deepestOfPotential = 0.9;
+/// By which faces are taken to turn until the next search, at most [rad]: with large skins 2 skin /
+/// size bounds nothing.
+constexpr Real mostTurning = 0.2;
+
 /// Planes keep the numbers of joint cards and blocks in 16 bits.
 void demandFewKinds(const Comm& comm, const std::vector<Face>& faces, const ContactRules& rules)
 {
@@ -61,18 +67,17 @@ void demandFewKinds(const Comm& comm, const std::vector<Face>& faces, const Cont
 } // namespace
 
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
-                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace,
-                 std::vector<FaceElement> localElements)
+                 ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
     : comm_(&comm), dimension_(dimension), localFaces_(std::move(localFaces)), faces_(localFaces_),
-      localElements_(std::move(localElements)), elements_(localElements_), options_(options),
-      rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
+      options_(options), rules_(std::move(rules)), skin_(skin), smallestFace_(smallestFace),
       laws_("coplane::contact::laws", rules_.joints.size())
 {
   demandFewKinds(comm, localFaces_, rules_);
   setSkin(skin_);
   candidates_.cosOpposed = options_.cosOpposed;
   // With the potential the force has no end.
-  candidates_.depthMax = potential() ? std::max(0.9, options_.depthMax) : options_.depthMax;
+  candidates_.depthMax =
+      potential() ? std::max(deepestOfPotential, options_.depthMax) : options_.depthMax;
   candidates_.sharedNodes = options_.sharedNodes;
   for (std::size_t j = 0; j < rules_.joints.size(); ++j)
     laws_(j) = rules_.joints[j].law;
@@ -83,7 +88,7 @@ void Contact::setSkin(Real skin)
   candidates_.skin = candidates_.reach = skin;
   // Nodes move by at most half a skin against each other until the next search, so each face turns
   // by at most a skin over its size. What begins to oppose meanwhile should be known.
-  candidates_.turning = potential() ? std::min(0.2, 2 * skin / smallestFace_) : 0;
+  candidates_.turning = potential() ? std::min(mostTurning, 2 * skin / smallestFace_) : 0;
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,
@@ -151,11 +156,9 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
   planes_ = next;
 }
 
-void Contact::replaceLocalFaces(std::vector<Face> localFaces,
-                                std::vector<FaceElement> localElements)
+void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 {
   localFaces_ = std::move(localFaces);
-  localElements_ = std::move(localElements);
   // Donors are looked up by places in the new list.
   listPlanesOfFaces(
       [&](const Plane& plane, int side)
@@ -245,35 +248,36 @@ Real Contact::thinnestElement() const
   return least;
 }
 
-void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                       const ConstArray<Real>& mass, Real dt, Real lookAhead)
+namespace
 {
-  TimedRegion region("coplane::contact::step6_updateCommonPlanes");
-  const auto planes = planes_;
-  const auto slots = slotFaces_;
-  const auto asleep = asleep_;
-  const auto faces = faceTable_;
-  const auto halfStep = halfStepFaces_;
-  const auto paired = paired_;
-  const auto laws = laws_;
-  const auto elements = elementTable_;
-  const bool classic = this->classic();
-  ContactOptions options = options_;
-  options.lookAhead = lookAhead;
-  const int dimension = dimension_;
+using HalfStepFaces = Kokkos::View<HalfStepFace*, Kokkos::HostSpace>;
+
+/// Step A for one face.
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void putFace(const FaceNodes& nodes, ContactOptions::Forces forces, Real dt,
+                                    HalfStepFace& face)
+{
+  new (&face) HalfStepFace(forces == ContactOptions::Forces::Potential
+                               ? stepA_faceAtEnd<Dim>(nodes)
+                               : stepA_halfStepFace<Dim>(nodes, dt));
+}
+
+/// Step A for the faces that have a slot; in three dimensions several side by side where they have
+/// the same number of nodes.
+void stepA(const Array<Face>& faces, const Array<bool>& paired, int dimension,
+           const ConstNodeVectors& x, const ConstNodeVectors& v, const ConstArray<Real>& mass,
+           ContactOptions::Forces forces, Real dt, const HalfStepFaces& halfStep)
+{
   const auto halfStepOf = KOKKOS_LAMBDA(const int f)
   {
     if (!paired(f))
       return;
     FaceNodes nodes;
     gatherNodes(&faces(f), x, v, mass, nodes);
-    const bool atEnd = options.forces == ContactOptions::Forces::Potential;
     if (dimension == 2)
-      new (&halfStep(f))
-          HalfStepFace(atEnd ? stepA_faceAtEnd<2>(nodes) : stepA_halfStepFace<2>(nodes, dt));
+      putFace<2>(nodes, forces, dt, halfStep(f));
     else
-      new (&halfStep(f))
-          HalfStepFace(atEnd ? stepA_faceAtEnd<3>(nodes) : stepA_halfStepFace<3>(nodes, dt));
+      putFace<3>(nodes, forces, dt, halfStep(f));
   };
   const int faceCount = int(faces.extent(0));
   parallelFor(
@@ -292,23 +296,19 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
         }
         FaceNodesOf<Lanes> nodes;
         gatherNodes(&faces(first), x, v, mass, nodes);
-        stepA_faces(nodes, options.forces, dt, &halfStep(first));
+        stepA_faces(nodes, forces, dt, &halfStep(first));
       });
+}
+
+/// Steps B to H for all slots; in three dimensions several side by side.
+void stepsBtoH(const Kokkos::View<Plane*, Kokkos::HostSpace>& planes,
+               const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots, const Array<bool>& asleep,
+               const HalfStepFaces& halfStep, const Array<JointLaw>& laws, int dimension,
+               const ContactOptions& options, Real dt)
+{
   const int planeCount = int(planes.extent(0));
-  if (dimension == 3 && !classic)
+  if (dimension == 2)
   {
-    constexpr int stretch = 512; // long enough that few lanes stay empty at its end
-    parallelFor(
-        "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
-        KOKKOS_LAMBDA(const int s) {
-          const int first = s * stretch;
-          const int last = first + stretch < planeCount ? first + stretch : planeCount;
-          PairLanes(planes.data(), slots.data(), asleep.data(), halfStep.data(), laws.data(),
-                    options, dt)
-              .update(first, last);
-        });
-  }
-  else
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
           if (slots(p).face[0] < 0)
@@ -316,21 +316,34 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
           Plane& plane = planes(p);
           const HalfStepFace& a = halfStep(slots(p).face[0]);
           const HalfStepFace& b = halfStep(slots(p).face[1]);
-          if (!classic)
-          {
-            if (asleep(p) && !mayMeet<2>(a, b))
-              return;
-            updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
-            asleep(p) = isAsleep(plane);
+          if (asleep(p) && !mayMeet<2>(a, b))
             return;
-          }
-          const ElementNodes nodesA = elementNodes(elements(plane.face[0]), x, v);
-          const ElementNodes nodesB = elementNodes(elements(plane.face[1]), x, v);
-          if (dimension == 2)
-            updateClassicPlane<2>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
-          else
-            updateClassicPlane<3>(plane, a, b, nodesA, nodesB, laws(plane.joint), options, dt);
+          updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
+          asleep(p) = isAsleep(plane);
         });
+    return;
+  }
+  constexpr int stretch = 512; // long enough that few lanes stay empty at its end
+  parallelFor(
+      "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
+      KOKKOS_LAMBDA(const int s) {
+        const int first = s * stretch;
+        const int last = first + stretch < planeCount ? first + stretch : planeCount;
+        PairLanes(planes.data(), slots.data(), asleep.data(), halfStep.data(), laws.data(), options,
+                  dt)
+            .update(first, last);
+      });
+}
+} // namespace
+
+void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                                       const ConstArray<Real>& mass, Real dt, Real lookAhead)
+{
+  TimedRegion region("coplane::contact::step6_updateCommonPlanes");
+  stepA(faceTable_, paired_, dimension_, x, v, mass, options_.forces, dt, halfStepFaces_);
+  ContactOptions options = options_;
+  options.lookAhead = lookAhead;
+  stepsBtoH(planes_, slotFaces_, asleep_, halfStepFaces_, laws_, dimension_, options, dt);
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).sighting == Sighting::FoundLate && planes_(p).countedHere &&

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <coplane_checkpoint/StateTables.hpp>
-#include <coplane_contact/ClassicLeaders.hpp>
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
@@ -36,14 +35,12 @@ class Contact
 {
 public:
   /// skin: how far apart faces may be to become candidates [m]; smallestFace: smallestFaceSize()
-  /// [m]; localElements: those behind the faces, for method CommonPlane only
+  /// [m]
   Contact(const Comm& comm, int dimension, std::vector<Face> localFaces, ContactOptions options,
-          ContactRules rules, Real skin, Real smallestFace,
-          std::vector<FaceElement> localElements = {});
+          ContactRules rules, Real skin, Real smallestFace);
 
   /// Steps 1 to 4, for faces at x that go on with v for the time `ahead`: the pairs that meet by
-  /// then are found. Returns the ids of the nodes of ghost faces and of the elements that came with
-  /// them. Collective.
+  /// then are found. Returns the ids of the nodes of ghost faces. Collective.
   std::vector<GlobalId> findGhosts(const ConstNodeVectors& x, const std::vector<GlobalId>& nodeIds,
                                    const ConstNodeVectors& v = {}, Real ahead = 0);
   /// Step 5, and slots for all pairs. `again`: repeats the last search, and is not counted. Call
@@ -61,13 +58,13 @@ public:
                    const ConstNodeVectors& v, Real dt);
   /// Other local faces, sorted by id; those that were there before keep their planes. A search has
   /// to follow.
-  void replaceLocalFaces(std::vector<Face> localFaces, std::vector<FaceElement> localElements = {});
+  void replaceLocalFaces(std::vector<Face> localFaces);
 
   /// Contact's part of a checkpoint. Collective.
   void save(StateTables& out) const;
   // And back, in two halves like a search; the local faces have to be those of that time.
   // Collective.
-  /// Returns the ids of the nodes of ghost faces and of the elements that came with them.
+  /// Returns the ids of the nodes of ghost faces.
   std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
   void restorePlanes(const StateSource& in, const NodeLayout& layout);
@@ -122,27 +119,24 @@ public:
                                int dimension, const Comm& comm);
 
 private:
-  /// Planes of a checkpoint that have a face here, sorted by key; fields that only mean something
-  /// on one rank are left as they are in a new plane, but face[0] is 0 where the pair is a
-  /// candidate.
+  /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
+  /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
+  /// a candidate.
   std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
   /// Copies of faces far away to whom living planes hold on. Collective.
   void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
-  /// Of their faces and elements.
   std::vector<GlobalId> nodesOfGhosts() const;
   /// Position in the table of faces; -1 when the face is not here.
   int faceHere(GlobalId id) const;
   void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
   void takeFaceTables();
-  bool classic() const { return options_.method == ContactOptions::Method::CommonPlane; }
   bool potential() const { return options_.forces == ContactOptions::Forces::Potential; }
+  class SlotFiller; ///< makes the slots of a search
   std::vector<Donor> livingPlanes() const;
   Donor donor(const Plane& plane) const;
-  std::vector<Leader> leadersAmong(const std::vector<CandidatePair>& pairs,
-                                   const ConstNodeVectors& x) const;
   template <class FaceOf>
   void listPlanesOfFaces(const FaceOf& faceOf);
   void buildLists(int ownedNodes);
@@ -156,9 +150,8 @@ private:
 
   const Comm* comm_;
   int dimension_;
-  std::vector<Face> localFaces_;                      ///< sorted by id
-  std::vector<Face> faces_;                           ///< local, then ghost
-  std::vector<FaceElement> localElements_, elements_; ///< behind them; method CommonPlane only
+  std::vector<Face> localFaces_; ///< sorted by id
+  std::vector<Face> faces_;      ///< local, then ghost
   ContactOptions options_;
   ContactRules rules_;
   Real skin_, smallestFace_;
@@ -178,7 +171,6 @@ private:
   Array<bool> asleep_;   ///< planes that isAsleep() holds for; none after a search
   Array<JointLaw> laws_; ///< by joint card
   Array<Face> faceTable_;
-  Array<FaceElement> elementTable_;
   Array<bool> paired_;                                           ///< faces that have a slot
   Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
   // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an

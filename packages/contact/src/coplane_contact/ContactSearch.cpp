@@ -5,7 +5,6 @@
 #include <coplane_core/WorkWatch.hpp>
 
 #include <algorithm>
-#include <optional>
 
 namespace coplane
 {
@@ -16,20 +15,18 @@ std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
   return {plane.faceId[0], plane.faceId[1]};
 }
 
+/// A plane more than this times as stiff as the elements behind its faces chatters: their nodes
+/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md).
+constexpr Real stiffestCalm = 2.5;
+
 /// Carries nothing until its faces are candidates again.
 void makeDormant(Plane& plane)
 {
+  carryNothing(plane);
   plane.face[0] = plane.face[1] = -1;
-  plane.area = plane.overlap = plane.normalTraction = plane.nodeStiffness = 0;
-  plane.dropForces();
-  plane.stored = 0;
-  plane.history.shearTraction = {};
-  plane.closure = 0;
-  plane.tooDeep = false;
+  plane.overlap = plane.nodeStiffness = 0;
   plane.sighting = Sighting::Missed;
   plane.refusal = Refusal::None;
-  plane.state = PlaneState::Open;
-  plane.leads = false;
 }
 
 /// The slots after a search, sorted by key, and where each comes from.
@@ -166,8 +163,7 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   }
   {
     TimedRegion region("coplane::contact::step4_copyGhostFaces");
-    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_,
-                                   localElements_);
+    ghosts_ = step4_copyGhostFaces(ranks, sorted, localFaces_, nodeIds, livingPlanes(), *comm_);
   }
   addGhostsOfLivingPlanes(nodeIds);
   return nodesOfGhosts();
@@ -177,10 +173,7 @@ std::vector<GlobalId> Contact::nodesOfGhosts() const
 {
   std::vector<GlobalId> nodes;
   for (const GhostFace& face : ghosts_.faces)
-  {
     nodes.insert(nodes.end(), face.nodes, face.nodes + face.count);
-    nodes.insert(nodes.end(), face.element, face.element + face.elementCount);
-  }
   return nodes;
 }
 
@@ -212,20 +205,6 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
   std::inplace_merge(ghosts_.faces.begin(), middle, ghosts_.faces.end(), less);
 }
 
-std::vector<Leader> Contact::leadersAmong(const std::vector<CandidatePair>& pairs,
-                                          const ConstNodeVectors& x) const
-{
-  std::vector<Leader> leaders(pairs.size());
-  parallelFor("coplane::contact::leaders", int(pairs.size()),
-              [&](const int i)
-              {
-                const int a = pairs[i].lower, b = pairs[i].higher;
-                leaders[i] = leaderOf(faces_[a], faces_[b], elements_[a], elements_[b], x,
-                                      dimension_, options_);
-              });
-  return leaders;
-}
-
 CandidateRules Contact::candidateRules() const
 {
   CandidateRules rules = candidates_;
@@ -234,193 +213,171 @@ CandidateRules Contact::candidateRules() const
   return rules;
 }
 
+/// Makes the slots of a search: those of planes that are there already, those of new pairs, which
+/// take over from their neighbours, and those of planes that become dormant.
+class Contact::SlotFiller
+{
+public:
+  SlotFiller(const Contact& contact, const Slots& slots, const ConstNodeVectors& x,
+             const NodeLayout& layout)
+      : contact_(contact), slots_(slots), x_(x), layout_(layout), facePlanes_(facePlanesOf()),
+        edges_(slots.pairs, contact.faces_, contact.localFaces_.size(), facePlanes_, x,
+               contact.dimension_, layout),
+        donorsOfGhost_(byFace(contact.ghosts_.donors)), gives_(contact.planes_.extent(0))
+  {
+    parallelFor("coplane::contact::gives", int(gives_.size()),
+                [&](const int p) { gives_[p] = char(isDonor(contact_.planes_(p))); });
+  }
+
+  void fill(int slot, Plane& plane) const
+  {
+    const std::int64_t source = slots_.source[slot];
+    if (source < 0)
+    {
+      plane = contact_.planes_(~source);
+      makeDormant(plane);
+      return;
+    }
+    const CandidatePair& pair = slots_.pairs[source];
+    const std::int64_t known = slots_.existing[source];
+    plane = known >= 0 ? contact_.planes_(known) : newSlot(face(pair.lower), face(pair.higher));
+    plane.face[0] = pair.lower;
+    plane.face[1] = pair.higher;
+    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
+    if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
+      edges_.look(std::size_t(source), plane);
+    if (plane.sighting == Sighting::Missed)
+      plane.sighting = Sighting::Woken;
+    // The neighbours of a face that erosion has just laid bare lie on the old surface.
+    if (contact_.options_.inherit && !plane.isBorn() && !face(pair.lower).young &&
+        !face(pair.higher).young)
+      takeOver(plane, known >= 0 && !plane.isNew() ? plane.overlap : -1);
+  }
+
+private:
+  const Face& face(int f) const { return contact_.faces_[f]; }
+
+  Array<FacePlane> facePlanesOf() const
+  {
+    const Array<FacePlane> planes(
+        Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"),
+        contact_.faces_.size());
+    parallelFor("coplane::contact::facePlanes", int(contact_.faces_.size()),
+                [&](const int f)
+                { new (&planes(f)) FacePlane(facePlane(face(f), x_, contact_.dimension_)); });
+    return planes;
+  }
+
+  Plane newSlot(const Face& a, const Face& b) const
+  {
+    Plane plane;
+    const ContactRule& rule = contact_.rules_.between(a.group, b.group);
+    plane.faceId[0] = a.id;
+    plane.faceId[1] = b.id;
+    plane.joint = std::uint16_t(rule.joint);
+    plane.block[0] = std::uint16_t(a.block);
+    plane.block[1] = std::uint16_t(b.block);
+    plane.countedHere = a.ownedHere;
+    plane.fit = contact_.rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness,
+                                                                b.modulus);
+    plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
+                  stiffestCalm;
+    plane.depthLimit = contact_.options_.depthMax * std::min(a.thickness, b.thickness);
+    return plane;
+  }
+
+  /// What the living planes of its faces pass on to a slot that has not touched yet, sought anew at
+  /// every search.
+  void takeOver(Plane& plane, Real sharedBefore) const
+  {
+    forgetPassed(plane);
+    const Vec3 normal =
+        normalised(facePlanes_(plane.face[0]).normal - facePlanes_(plane.face[1]).normal);
+    std::vector<Donor> donors;
+    for (const int f : plane.face)
+      addDonors(f, plane, normal, donors);
+    if (donors.empty())
+      return;
+    const NewPair now = newPair(plane, normal, sharedBefore);
+    const Continuation continuation(now, contact_.dimension_, contact_.skin_);
+    std::vector<Donor> heirlooms;
+    for (Donor& donor : donors)
+    {
+      if (!continuation.isNear(donor))
+        continue;
+      donor.flush = isFlush(now, donor, contact_.dimension_);
+      if (continuation.goesOn(donor))
+        heirlooms.push_back(donor);
+    }
+    inherit(plane, normal, now.nodes, heirlooms);
+  }
+
+  /// Donors of a face, from before this search: a local face has all its planes here, those of a
+  /// ghost have come with it.
+  void addDonors(int f, const Plane& plane, const Vec3& normal, std::vector<Donor>& donors) const
+  {
+    if (face(f).local)
+    {
+      if (contact_.searches_ > 0)
+        for (std::int32_t i = contact_.planesStart_(f); i < contact_.planesStart_(f + 1); ++i)
+          if (const int p = contact_.planesEntry_(i) / 2;
+              gives_[p] && fits(contact_.planes_(p), plane, normal))
+            donors.push_back(contact_.donor(contact_.planes_(p)));
+      return;
+    }
+    const std::vector<Donor>& ofGhosts = contact_.ghosts_.donors;
+    for (auto d = std::lower_bound(donorsOfGhost_.begin(), donorsOfGhost_.end(),
+                                   std::make_pair(face(f).id, std::size_t(0)));
+         d != donorsOfGhost_.end() && d->first == face(f).id; ++d)
+      if (fits(ofGhosts[d->second], plane, normal))
+        donors.push_back(ofGhosts[d->second]);
+  }
+
+  NewPair newPair(const Plane& plane, const Vec3& normal, Real sharedBefore) const
+  {
+    NewPair now;
+    now.normal = normal;
+    now.sharedBefore = sharedBefore;
+    for (int side = 0; side < 2; ++side)
+    {
+      const Face& mine = face(plane.face[side]);
+      now.faceId[side] = mine.id;
+      now.count[side] = mine.count;
+      for (int k = 0; k < mine.count; ++k)
+      {
+        now.nodes[side][k] = layout_.ids()[mine.nodes[k]];
+        now.corners[side][k] = at(x_, mine.nodes[k]);
+      }
+    }
+    return now;
+  }
+
+  const Contact& contact_;
+  const Slots& slots_;
+  const ConstNodeVectors& x_;
+  const NodeLayout& layout_;
+  const Array<FacePlane> facePlanes_;
+  const EdgesOfSurfaces edges_;
+  const std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost_;
+  std::vector<char> gives_; ///< much smaller than the planes, which are asked often
+};
+
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again,
                      const ConstNodeVectors& v)
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   const WorkWatch watch(searchSeconds_);
   listFaces(layout);
-
   candidates_.motion.v = v;
-  std::vector<CandidatePair> candidatePairs =
-      step5_candidatePairs(bins_, faces_, x, dimension_, candidateRules());
-
   const Slots slots = slotsOf(
-      std::move(candidatePairs), planes_, faces_, [&](GlobalId id) { return faceHere(id); },
-      ended_);
-  const std::vector<CandidatePair>& pairs = slots.pairs;
-  const std::vector<std::int64_t>& existing = slots.existing;
-  const std::vector<std::int64_t>& source = slots.source;
-  // Donors of a face, from before this search: a local face has all its planes here, those of a
-  // ghost have come with it.
-  const std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost = byFace(ghosts_.donors);
-  std::vector<char> gives(planes_.extent(0)); // much smaller than the planes, which are asked often
-  parallelFor("coplane::contact::gives", int(gives.size()),
-              [&](const int p) { gives[p] = char(isDonor(planes_(p))); });
-  const auto addDonors =
-      [&](int face, const Plane& plane, const Vec3& normal, std::vector<Donor>& donors)
-  {
-    if (faces_[face].local)
-    {
-      if (searches_ > 0)
-        for (std::int32_t i = planesStart_(face); i < planesStart_(face + 1); ++i)
-          if (const int p = planesEntry_(i) / 2; gives[p] && fits(planes_(p), plane, normal))
-            donors.push_back(donor(planes_(p)));
-      return;
-    }
-    const GlobalId id = faces_[face].id;
-    for (auto d = std::lower_bound(donorsOfGhost.begin(), donorsOfGhost.end(),
-                                   std::make_pair(id, std::size_t(0)));
-         d != donorsOfGhost.end() && d->first == id; ++d)
-      if (fits(ghosts_.donors[d->second], plane, normal))
-        donors.push_back(ghosts_.donors[d->second]);
-  };
-
-  // Method CommonPlane: which pairs lead, and what those that did not lead before take over from
-  // the pair of faces that carried the plane of their elements until now.
-  const auto leadsAlready = [&](std::size_t i)
-  { return existing[i] >= 0 && planes_(existing[i]).leads; };
-  std::vector<Leader> leaders;
-  std::vector<Donor> planesOfOthers;
-  if (classic())
-  {
-    leaders = leadersAmong(pairs, x);
-    std::vector<ElementPair> wanted;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (leaders[i].leads && !leadsAlready(i))
-      {
-        wanted.push_back(
-            {elementOfFace(faces_[pairs[i].lower].id), elementOfFace(faces_[pairs[i].higher].id)});
-      }
-    if (searches_ > 0 && options_.inherit)
-    {
-      std::vector<Donor> counted;
-      for (std::size_t q = 0; q < planes_.extent(0); ++q)
-        if (planes_(q).countedHere && isDonor(planes_(q)))
-          counted.push_back(donorOf(planes_(q)));
-      planesOfOthers = planesOfElements(wanted, counted, *comm_);
-    }
-  }
-
-  const Array<FacePlane> facePlanes(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces_.size());
-  parallelFor("coplane::contact::facePlanes", int(faces_.size()),
-              [&](const int f)
-              { new (&facePlanes(f)) FacePlane(facePlane(faces_[f], x, dimension_)); });
-  std::optional<EdgesOfSurfaces> edges;
-  if (!classic())
-    edges.emplace(pairs, faces_, localFaces_.size(), facePlanes, x, dimension_, layout);
+      step5_candidatePairs(bins_, faces_, x, dimension_, candidateRules()), planes_, faces_,
+      [&](GlobalId id) { return faceHere(id); }, ended_);
+  const int count = int(slots.source.size());
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), source.size());
-  const auto fillSlot = [&](const int slot)
-  {
-    Plane& plane = next(slot);
-    if (source[slot] < 0)
-    {
-      plane = planes_(~source[slot]);
-      makeDormant(plane);
-      return;
-    }
-    const CandidatePair& pair = pairs[source[slot]];
-    const Face& a = faces_[pair.lower];
-    const Face& b = faces_[pair.higher];
-    const std::int64_t known = existing[source[slot]];
-    if (known >= 0)
-      plane = planes_(known);
-    else
-    {
-      plane = Plane{};
-      const ContactRule& rule = rules_.between(a.group, b.group);
-      plane.faceId[0] = a.id;
-      plane.faceId[1] = b.id;
-      plane.joint = std::uint16_t(rule.joint);
-      plane.block[0] = std::uint16_t(a.block);
-      plane.block[1] = std::uint16_t(b.block);
-      plane.countedHere = a.ownedHere;
-      plane.fit =
-          rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
-      plane.stiff =
-          plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) > 2.5;
-      plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
-    }
-    plane.face[0] = pair.lower;
-    plane.face[1] = pair.higher;
-    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
-    if (edges && (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset)))
-      edges->look(std::size_t(source[slot]), plane);
-    if (plane.sighting == Sighting::Missed)
-      plane.sighting = Sighting::Woken;
-    const bool newLeader = classic() && leaders[source[slot]].leads && !plane.leads;
-    if (classic())
-    {
-      plane.leads = leaders[source[slot]].leads;
-      if (newLeader)
-        plane.normal = leaders[source[slot]].normal;
-      else if (!plane.leads)
-        return;
-    }
-    if (!options_.inherit)
-      return;
-    const auto newPair = [&](const Vec3& normal)
-    {
-      NewPair now;
-      now.normal = normal;
-      if (known >= 0 && !plane.isNew())
-        now.sharedBefore = plane.overlap;
-      const Face* const both[2] = {&a, &b};
-      for (int side = 0; side < 2; ++side)
-      {
-        now.faceId[side] = both[side]->id;
-        now.count[side] = both[side]->count;
-        for (int k = 0; k < now.count[side]; ++k)
-        {
-          now.nodes[side][k] = layout.ids()[both[side]->nodes[k]];
-          now.corners[side][k] = at(x, both[side]->nodes[k]);
-        }
-      }
-      return now;
-    };
-    std::vector<Donor> donors;
-    if (newLeader)
-    {
-      const auto mine = planesOf(planesOfOthers, elementPairOf(plane.faceId));
-      donors.assign(mine.first, mine.second);
-      if (inherit(plane, plane.normal, newPair(plane.normal).nodes, donors))
-        return;
-      donors.clear();
-    }
-    if (plane.isBorn())
-      return;
-    // The neighbours of a face that erosion has just laid bare lie on the old surface.
-    if (a.young || b.young)
-      return;
-    // Slots that have not touched yet look for donors again at every search.
-    plane.offset = 0;
-    plane.closure = 0;
-    plane.lineage = Lineage::Own;
-    plane.history = {};
-    const Vec3 normal =
-        classic() ? leaders[source[slot]].normal
-                  : normalised(facePlanes(pair.lower).normal - facePlanes(pair.higher).normal);
-    addDonors(pair.lower, plane, normal, donors);
-    addDonors(pair.higher, plane, normal, donors);
-    if (donors.empty())
-      return;
-    const NewPair now = newPair(normal);
-    const Continuation continuation(now, dimension_, skin_);
-    std::vector<Donor> heirlooms;
-    for (Donor& donor : donors)
-    {
-      if (!continuation.isNear(donor))
-        continue;
-      if (!classic())
-        donor.flush = isFlush(now, donor, dimension_);
-      if (continuation.goesOn(donor))
-        heirlooms.push_back(donor);
-    }
-    inherit(plane, normal, now.nodes, heirlooms);
-  };
-  parallelFor("coplane::contact::fillSlots", int(source.size()), fillSlot);
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), std::size_t(count));
+  const SlotFiller filler(*this, slots, x, layout);
+  parallelFor("coplane::contact::fillSlots", count,
+              [&](const int slot) { filler.fill(slot, next(slot)); });
 
   planes_ = next;
   nodeIds_ = {};

@@ -12,14 +12,6 @@ namespace coplane
 {
 namespace
 {
-std::vector<std::string> planeColumns()
-{
-  std::vector<std::string> names{"candidate"};
-  Plane plane;
-  forEachMember(plane, [&](const char* name, auto&) { names.push_back(name); });
-  return names;
-}
-
 const std::vector<std::string> faceColumns{"thickness", "modulus"};
 
 /// A rank that looks after what belongs to a face while data find their way.
@@ -132,15 +124,14 @@ void Contact::save(StateTables& out) const
 
   KeyedRows planes;
   planes.keySize = 2;
-  planes.columns = planeColumns();
+  planes.columns = namesOfNumbers();
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
-    Plane plane = planes_(p);
+    const Plane& plane = planes_(p);
     if (!plane.countedHere)
       continue;
     Real* row = planes.add({plane.faceId[0], plane.faceId[1]});
-    *row++ = plane.face[0] >= 0;
-    forEachMember(plane, [&](const char*, auto& value) { *row++ = Real(value); });
+    forEachNumber(plane, [&](const auto& number) { *row++ = Real(number); });
   }
   out.rows("contact/planes", planes);
   out.numbers("contact/ended", ended_.numbers(*comm_));
@@ -149,7 +140,7 @@ void Contact::save(StateTables& out) const
 
 std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
 {
-  const KeyedRows rows = in.part("contact/planes", planeColumns());
+  const KeyedRows rows = in.part("contact/planes", namesOfNumbers());
   std::vector<std::vector<SentPlane>> send(comm_->size());
   for (std::size_t i = 0; i < rows.count(); ++i)
   {
@@ -157,9 +148,9 @@ std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
     const Real* row = rows.row(i);
     plane.faceId[0] = rows.key(i)[0];
     plane.faceId[1] = rows.key(i)[1];
-    plane.face[0] = *row++ != 0 ? 0 : -1;
-    forEachMember(plane, [&](const char*, auto& value)
-                  { value = static_cast<std::decay_t<decltype(value)>>(*row++); });
+    forEachNumber(plane, [&](auto& number)
+                  { number = static_cast<std::decay_t<decltype(number)>>(*row++); });
+    plane.face[0] = plane.sighting == Sighting::Missed ? -1 : 0;
     for (const GlobalId face : plane.faceId)
       send[rankFor(face, *comm_)].push_back({face, plane});
   }
@@ -200,9 +191,7 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   {
     const auto found = std::lower_bound(localFaces_.begin(), localFaces_.end(), one.face,
                                         [](const Face& face, GlobalId id) { return face.id < id; });
-    const std::size_t place = std::size_t(found - localFaces_.begin());
-    answer[one.byRank].push_back(
-        toGhostFace(*found, nodeIds, classic() ? localElements_[place] : FaceElement{}));
+    answer[one.byRank].push_back(toGhostFace(*found, nodeIds));
   }
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),

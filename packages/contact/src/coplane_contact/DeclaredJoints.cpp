@@ -31,21 +31,92 @@ Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOpt
   pair.weightsAt(patch.centroid, patch.centroidWeights);
   return -pair.moments.volume / pair.moments.area;
 }
+/// What two faces share, as the forces see it, and their gap there [m].
+struct Overlap
+{
+  Patch patch;
+  Real gap = 0;
+};
+
+template <int Dim>
+Overlap overlapOf(const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b,
+                  const ContactOptions& options)
+{
+  Overlap overlap;
+  Patch& patch = overlap.patch;
+  if (options.forces == ContactOptions::Forces::Potential)
+  {
+    overlap.gap = wholeOverlap<Dim>(a, b, options, patch);
+    return overlap;
+  }
+  patch = stepD_areaOfContact<Dim>(stepC_projectOntoPlane<Dim>(trial, a, 0),
+                                   stepC_projectOntoPlane<Dim>(trial, b, 0), 0, AreaInUse::Bonded,
+                                   ContactOptions::Weights::Centroid, depthOf(trial, options));
+  overlap.gap = dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
+                                      weighted(patch.centroidWeights[0], a.x, a.count));
+  return overlap;
+}
+
+SymTensor mean(const SymTensor& a, const SymTensor& b)
+{
+  return {0.5 * (a.xx + b.xx), 0.5 * (a.yy + b.yy), 0.5 * (a.zz + b.zz),
+          0.5 * (a.xy + b.xy), 0.5 * (a.yz + b.yz), 0.5 * (a.zx + b.zx)};
+}
+
+/// Closes a plane at its gap, in equilibrium with a stress: closure and shear traction that carry
+/// it. The traction on face 1 is minus that of the solid of face 0 across the plane.
+/// @param area of its overlap [m^2]
+void closeUnder(const SymTensor& stress, const JointLaw& law, Real area, Plane& plane)
+{
+  const Vec3 t = traction(stress, plane.normal);
+  const Real compression = -dot(t, plane.normal);
+  plane.history.bonded = law.cohesive();
+  const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
+                       : plane.history.bonded ? compression / plane.fit.normalStiffness
+                                              : 0;
+  plane.history.maximumClosure = plane.maximumBefore = std::max(closure, 0.0);
+  plane.offset = plane.gap + closure;
+  plane.closure = closure;
+  if (compression > 0 || plane.history.bonded)
+  {
+    plane.history.shearTraction = Vec3{} - (t + compression * plane.normal);
+    plane.area = area;
+  }
+  // The energy that the initial stress has put into the joint.
+  plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
+  plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
+  plane.work = plane.stored + plane.hysteresisWork;
+}
+
+/// Whether two faces lie on each other; then the plane between them is one of a declared joint,
+/// without stress yet.
+/// @returns the area of their overlap [m^2], 0 if they do not
+template <int Dim>
+Real declare(Plane& plane, const FaceNodes& nodesA, const FaceNodes& nodesB,
+             const ContactOptions& options)
+{
+  const HalfStepFace a = stepA_halfStepFace<Dim>(nodesA, 0), b = stepA_halfStepFace<Dim>(nodesB, 0);
+  const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
+  if (!trial.opposed)
+    return 0;
+  const Overlap overlap = overlapOf<Dim>(trial, a, b, options);
+  const Patch& patch = overlap.patch;
+  const Real smaller = std::min(a.area, b.area);
+  if (!(patch.area > options.areaMin * smaller * depthOf(trial, options).at(patch.centroid.x)) ||
+      !lieOnEachOther(dot(a.normal, b.normal), overlap.gap, faceSize(smaller, Dim)))
+    return 0;
+  plane.declared = true;
+  plane.state = PlaneState::Open;
+  plane.normal = trial.normal;
+  plane.overlap = patch.overlap;
+  plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
+  plane.gap = overlap.gap;
+  return patch.area;
+}
 } // namespace
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
-  const auto patchOf = [&](const TrialPlane& trial, const HalfStepFace& a, const HalfStepFace& b)
-  {
-    constexpr auto weights = ContactOptions::Weights::Centroid;
-    return dimension_ == 2
-               ? stepD_areaOfContact<2>(stepC_projectOntoPlane<2>(trial, a, 0),
-                                        stepC_projectOntoPlane<2>(trial, b, 0), 0,
-                                        AreaInUse::Bonded, weights, depthOf(trial, options_))
-               : stepD_areaOfContact<3>(stepC_projectOntoPlane<3>(trial, a, 0),
-                                        stepC_projectOntoPlane<3>(trial, b, 0), 0,
-                                        AreaInUse::Bonded, weights);
-  };
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
     Plane& plane = planes_(p);
@@ -53,74 +124,16 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     const Face& faceA = faces_[plane.face[0]];
     const Face& faceB = faces_[plane.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared || (classic() && !plane.leads))
+    if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
-    const FaceNodes nodesA = nodesOf(faceA, x), nodesB = nodesOf(faceB, x);
-    const HalfStepFace a =
-        dimension_ == 2 ? stepA_halfStepFace<2>(nodesA, 0) : stepA_halfStepFace<3>(nodesA, 0);
-    const HalfStepFace b =
-        dimension_ == 2 ? stepA_halfStepFace<2>(nodesB, 0) : stepA_halfStepFace<3>(nodesB, 0);
-    TrialPlane trial =
-        dimension_ == 2 ? stepB_trialPointOfContact<2>(a, b) : stepB_trialPointOfContact<3>(a, b);
-    if (!trial.opposed)
+    const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
+    const Real area =
+        dimension_ == 2 ? declare<2>(plane, a, b, options_) : declare<3>(plane, a, b, options_);
+    if (!(area > 0))
       continue;
-    ClassicPlane between;
-    if (classic())
-    {
-      between =
-          planeBetween(elements_[plane.face[0]], elements_[plane.face[1]], x, dimension_, options_);
-      trial = trialPlaneOf(between);
-    }
-    Patch patch;
-    Real meanGap = 0;
-    if (options_.forces == ContactOptions::Forces::Potential)
-      meanGap = dimension_ == 2 ? wholeOverlap<2>(a, b, options_, patch)
-                                : wholeOverlap<3>(a, b, options_, patch);
-    else
-      patch = patchOf(trial, a, b);
-    if (!(patch.area > options_.areaMin * std::min(a.area, b.area) *
-                           depthOf(trial, options_).at(patch.centroid.x)))
-      continue;
-    const Real gap = classic() ? between.gap
-                     : options_.forces == ContactOptions::Forces::Potential
-                         ? meanGap
-                         : dot(trial.normal, weighted(patch.centroidWeights[1], b.x, b.count) -
-                                                 weighted(patch.centroidWeights[0], a.x, a.count));
-    if (!lieOnEachOther(dot(a.normal, b.normal), gap,
-                        faceSize(std::min(a.area, b.area), dimension_)))
-      continue;
-    plane.declared = true;
-    plane.state = PlaneState::Open;
-    plane.normal = trial.normal;
-    plane.overlap = patch.overlap;
-    plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-    plane.gap = gap;
-    // The joint is in equilibrium with the initial stress: closure and shear traction that carry
-    // it. The traction on face 1 is minus that of the solid of face 0 across the plane.
-    SymTensor stress = stressOfBlock(faceA.block, plane.pointOfContact);
-    const SymTensor other = stressOfBlock(faceB.block, plane.pointOfContact);
-    stress = {0.5 * (stress.xx + other.xx), 0.5 * (stress.yy + other.yy),
-              0.5 * (stress.zz + other.zz), 0.5 * (stress.xy + other.xy),
-              0.5 * (stress.yz + other.yz), 0.5 * (stress.zx + other.zx)};
-    const Vec3 t = traction(stress, trial.normal);
-    const Real compression = -dot(t, trial.normal);
-    const JointLaw& law = lawOf(plane);
-    plane.history.bonded = law.cohesive();
-    const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
-                         : plane.history.bonded ? compression / plane.fit.normalStiffness
-                                                : 0;
-    plane.history.maximumClosure = plane.maximumBefore = std::max(closure, 0.0);
-    plane.offset = plane.gap + closure;
-    plane.closure = closure;
-    if (compression > 0 || plane.history.bonded)
-    {
-      plane.history.shearTraction = Vec3{} - (t + compression * trial.normal);
-      plane.area = patch.area;
-    }
-    // The energy that the initial stress has put into the joint.
-    plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
-    plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
-    plane.work = plane.stored + plane.hysteresisWork;
+    closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
+                    stressOfBlock(faceB.block, plane.pointOfContact)),
+               lawOf(plane), area, plane);
   }
 }
 } // namespace coplane

@@ -8,14 +8,9 @@ namespace coplane
 void Contact::listFaces(const NodeLayout& layout)
 {
   faces_ = localFaces_;
-  elements_ = localElements_;
   const auto localNode = [&](GlobalId id) { return layout.localNode(id); };
   for (const GhostFace& ghost : ghosts_.faces)
-  {
     faces_.push_back(toFace(ghost, localNode));
-    if (classic())
-      elements_.push_back(toFaceElement(ghost, localNode));
-  }
 }
 
 int Contact::faceHere(GlobalId id) const
@@ -33,8 +28,5 @@ void Contact::takeFaceTables()
   faceTable_ = Array<Face>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::faces"),
                            faces_.size());
   std::copy(faces_.begin(), faces_.end(), faceTable_.data());
-  elementTable_ = Array<FaceElement>(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::elements"), elements_.size());
-  std::copy(elements_.begin(), elements_.end(), elementTable_.data());
 }
 } // namespace coplane

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_joint/JointState.hpp>
 
 #include <vector>
 
@@ -25,13 +26,6 @@ struct Face
   bool young = false; ///< was inside the body until now: planes on it inherit nothing
 };
 
-/// The element behind a face; known with ContactOptions::Method::CommonPlane only.
-struct FaceElement
-{
-  int count = 0;
-  int nodes[8] = {-1, -1, -1, -1, -1, -1, -1, -1}; ///< local nodes in the order of Exodus
-};
-
 /// A face on its way to another rank.
 struct GhostFace
 {
@@ -45,14 +39,10 @@ struct GhostFace
   Real thickness = 0;
   Real modulus = 0;
   bool young = false;
-  int elementCount = 0;                           ///< nodes of the element behind it; 0: not sent
-  GlobalId element[8] = {0, 0, 0, 0, 0, 0, 0, 0}; ///< their ids
 };
 
-/// A face as it is sent, with the element behind it or without; `nodeIds` turns local nodes into
-/// ids.
-inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds,
-                             const FaceElement& element = {})
+/// A face as it is sent; `nodeIds` turns local nodes into ids.
+inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds)
 {
   GhostFace ghost;
   ghost.id = face.id;
@@ -67,9 +57,6 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
     ghost.nodes[k] = nodeIds[face.nodes[k]];
   for (int k = 0; k < 4; ++k)
     ghost.far[k] = face.far[k] >= 0 ? nodeIds[face.far[k]] : 0;
-  ghost.elementCount = element.count;
-  for (int k = 0; k < element.count; ++k)
-    ghost.element[k] = nodeIds[element.nodes[k]];
   return ghost;
 }
 
@@ -95,36 +82,21 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   return face;
 }
 
-/// The element behind a face that has arrived.
-template <class LocalNode>
-FaceElement toFaceElement(const GhostFace& ghost, const LocalNode& localNode)
-{
-  FaceElement element;
-  element.count = ghost.elementCount;
-  for (int k = 0; k < ghost.elementCount; ++k)
-    element.nodes[k] = localNode(ghost.element[k]);
-  return element;
-}
-
 /// What a new plane can inherit from a living one. Travels with ghost faces, so that every rank
 /// that computes a new pair sees the same donors.
 struct Donor
 {
   GlobalId faceId[2] = {0, 0};
   GlobalId nodes[2][4] = {}; ///< ids of the nodes of its faces; 0: none
-  int count[2] = {0, 0};     ///< nodes of its faces; 0: not known, it hands on by its elements only
+  int count[2] = {0, 0};     ///< nodes of its faces; 0: not known
   Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
-  bool bonded = false;
   bool flush = false; ///< with the pair that looks for donors; not sent
   Vec3 normal{};
   Real area = 0;
+  // What is passed on (PlaneState.hpp), as in its plane.
   Real offset = 0;
-  Real maximumClosure = 0;
   Real closure = 0;
-  Vec3 shearTraction{};
-  Real slip = 0;
-  Real opening = 0;  ///< of a bond that softens [m]
-  Real shearing = 0; ///< the same in shear [m]
+  JointState history;
 };
 } // namespace coplane

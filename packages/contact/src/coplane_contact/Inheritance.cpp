@@ -1,6 +1,7 @@
 #include <coplane_contact/EdgesOfSurfaces.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Inheritance.hpp>
+#include <coplane_contact/PlaneState.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>
@@ -21,15 +22,14 @@ Donor donorOf(const Plane& plane)
   donor.joint = plane.joint;
   donor.normal = plane.normal;
   donor.area = plane.area > 0 ? plane.area : plane.overlap;
-  donor.offset = plane.offset;
-  donor.maximumClosure = plane.history.maximumClosure;
-  donor.closure = plane.closure;
-  donor.shearTraction = plane.history.shearTraction;
-  donor.slip = plane.history.slip;
-  donor.bonded = plane.history.bonded;
-  donor.opening = plane.history.opening;
-  donor.shearing = plane.history.shearing;
+  forEachPassed([&](const auto& member) { member.get(donor) = member.get(plane); });
   return donor;
+}
+
+void forgetPassed(Plane& plane)
+{
+  plane.lineage = Lineage::Own;
+  forEachPassed([&](const auto& member) { member.get(plane) = {}; });
 }
 
 namespace
@@ -175,49 +175,83 @@ bool Continuation::goesOn(const Donor& donor) const
          (gap_ <= donor.offset + roundOff_ && isOnSameSurface(donor, pair_.faceId, pair_.nodes));
 }
 
+namespace
+{
+/// What donors pass on to a plane with this normal, summed up.
+class Inheritance
+{
+public:
+  Inheritance(const Plane& plane, const Vec3& normal) : plane_(plane), normal_(normal) {}
+
+  void add(const Donor& donor)
+  {
+    area_ += donor.area;
+    if (donor.history.bonded)
+      bondedArea_ += donor.area;
+    forEachPassed([&](const auto& member) { add(member, donor); });
+  }
+  bool isSome() const { return area_ > 0; }
+  void giveTo(Plane& plane) const
+  {
+    forEachPassed([&](const auto& member) { give(member, member.get(plane)); });
+  }
+
+private:
+  bool isBonded() const { return bondedArea_ > 0.5 * area_; }
+
+  template <class Member>
+  void add(const Member& member, const Donor& donor)
+  {
+    const auto& value = member.get(donor);
+    auto& sum = member.get(sum_);
+    if constexpr (Member::passing == Passing::Turned)
+    {
+      const Real sign = turned(donor.faceId, plane_.faceId);
+      sum += donor.area * turnIntoPlane(sign * value, sign * donor.normal, normal_, Vec3{}, 0);
+    }
+    else if constexpr (Member::passing != Passing::Majority)
+      if (Member::passing == Passing::Mean || donor.history.bonded)
+        sum += donor.area * value;
+  }
+  template <class Member, class T>
+  void give(const Member& member, T& value) const
+  {
+    if constexpr (Member::passing == Passing::Mean)
+      value = member.get(sum_) / area_;
+    else if constexpr (Member::passing == Passing::MeanOfBonds)
+      value = isBonded() ? member.get(sum_) / bondedArea_ : value;
+    else if constexpr (Member::passing == Passing::Turned)
+      value = (1 / area_) * member.get(sum_);
+    else
+      value = isBonded();
+  }
+
+  const Plane& plane_;
+  const Vec3 normal_;
+  Real area_ = 0, bondedArea_ = 0;
+  Donor sum_;
+};
+} // namespace
+
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors)
 {
   const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
   std::sort(donors.begin(), donors.end(),
             [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
-  Real area = 0, bondedArea = 0;
   bool slidesOn = false;
-  Donor mean;
+  Inheritance all(plane, normal);
   for (std::size_t i = 0; i < donors.size(); ++i)
   {
     const Donor& donor = donors[i];
     if (!fits(donor, plane, normal) || (i > 0 && key(donors[i - 1]) == key(donor)))
       continue;
-    const Real sign = turned(donor.faceId, plane.faceId);
-    area += donor.area;
     slidesOn = slidesOn || isOnSameSurface(donor, plane.faceId, nodes);
-    mean.offset += donor.area * donor.offset;
-    mean.maximumClosure += donor.area * donor.maximumClosure;
-    mean.closure += donor.area * donor.closure;
-    mean.slip += donor.area * donor.slip;
-    if (donor.bonded)
-    {
-      bondedArea += donor.area;
-      mean.opening += donor.area * donor.opening;
-      mean.shearing += donor.area * donor.shearing;
-    }
-    mean.shearTraction += donor.area * turnIntoPlane(sign * donor.shearTraction,
-                                                     sign * donor.normal, normal, Vec3{}, 0);
+    all.add(donor);
   }
-  if (!(area > 0))
+  if (!all.isSome())
     return false;
   plane.lineage = slidesOn ? Lineage::SlidesOn : Lineage::Inherited;
-  plane.offset = mean.offset / area;
-  plane.history.maximumClosure = mean.maximumClosure / area;
-  plane.closure = mean.closure / area;
-  plane.history.slip = mean.slip / area;
-  plane.history.shearTraction = (1 / area) * mean.shearTraction;
-  plane.history.bonded = bondedArea > 0.5 * area;
-  if (plane.history.bonded)
-  {
-    plane.history.opening = mean.opening / bondedArea;
-    plane.history.shearing = mean.shearing / bondedArea;
-  }
+  all.giveTo(plane);
   plane.normal = normal;
   return true;
 }

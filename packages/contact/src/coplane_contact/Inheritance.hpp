@@ -17,6 +17,9 @@ bool isDonor(const Plane& plane);
 /// What a plane has to give; without the nodes of its faces.
 Donor donorOf(const Plane& plane);
 
+/// Takes from a pair that has not touched yet what an earlier search has passed on to it.
+void forgetPassed(Plane& plane);
+
 /// Ids of faces say which way a normal points and on which face a traction acts: where the common
 /// face is the lower one of one plane and the higher one of the other, both are turned round: -1.
 inline Real turned(const GlobalId* donorFaces, const GlobalId* planeFaces)
@@ -66,13 +69,16 @@ private:
   Real gap_ = 0, roundOff_ = 0; ///< where the faces share area [m]
 };
 
+/// Least cosine between the normals of a donor and of a plane that takes over from it: 26 degrees.
+constexpr Real nearlyItsNormal = 0.9;
+
 /// Whether a donor, or a plane that may become one, is of the joint of the new plane and has nearly
 /// its normal.
 template <class DonorOrPlane>
 bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
 {
   return donor.joint == plane.joint &&
-         turned(donor.faceId, plane.faceId) * dot(donor.normal, normal) > 0.9;
+         turned(donor.faceId, plane.faceId) * dot(donor.normal, normal) > nearlyItsNormal;
 }
 
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of

@@ -11,16 +11,6 @@ namespace coplane
 /// How contact is computed; the manual says when to change each (docs/user/contact.md).
 struct ContactOptions
 {
-  enum class Method : std::uint8_t
-  {
-    SimpleCommonPlane, ///< a plane for each pair of faces (Vorobiev 2006)
-    CommonPlane        ///< a plane for each pair of elements (Cundall 1988), for comparison
-  };
-  enum class PlaneSearch : std::uint8_t
-  {
-    Candidates, ///< of CommonPlane: among normals of faces, edges, vertices (Nezami et al. 2004)
-    Rotations   ///< by ever smaller turns (Cundall 1988)
-  };
   enum class Area : std::uint8_t
   {
     Penetrating, ///< only the part of the overlap where the faces penetrate
@@ -43,9 +33,7 @@ struct ContactOptions
     CommonNormal ///< along the normal of the common plane, as in the paper
   };
   bool axisymmetric = false; ///< two dimensions: areas are those of the whole turn about x = 0
-  Method method = Method::SimpleCommonPlane;
   Forces forces = Forces::CommonNormal;
-  PlaneSearch planeSearch = PlaneSearch::Candidates;
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
   Closure closure = Closure::Total;
@@ -78,7 +66,7 @@ enum class Sighting : std::uint8_t
   New,       ///< not evaluated since its slot was made
   FoundLate, ///< was penetrated already when it was evaluated for the first time
   Known,
-  Missed, ///< is a plane, but was no candidate in the last search: carries nothing
+  Missed, ///< is a plane, but was no candidate in the last search: has no faces, carries nothing
   Woken   ///< was missed before the last search, and has not been evaluated since
 };
 
@@ -101,7 +89,8 @@ enum class Lineage : std::uint8_t
 /// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
 /// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
 /// to face 1; force and shear traction act on face 1. Millions of these are read and written in
-/// every cycle: nothing is kept that the law or the faces can tell.
+/// every cycle: nothing is kept that the law or the faces can tell. A new member goes into the list
+/// of PlaneState.hpp, and so into all that is made of planes.
 struct alignas(64) Plane
 {
   GlobalId faceId[2] = {0, 0};
@@ -114,11 +103,10 @@ struct alignas(64) Plane
   Sighting sighting = Sighting::New;
   Refusal refusal = Refusal::None;
   Lineage lineage = Lineage::Own;
-  bool countedHere : 1; ///< this rank books the plane's energy: it owns face 0
-  bool declared : 1;    ///< a joint that was closed at the start
-  bool tooDeep : 1;     ///< deeper than the limit
-  bool leads : 1;       ///< CommonPlane: the plane of its two elements acts on these faces
-  bool stiff : 1;       ///< stiffer than the elements behind its faces: they chatter on it
+  bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
+  bool declared = false;    ///< a joint that was closed at the start
+  bool tooDeep = false;     ///< deeper than the limit
+  bool stiff = false;       ///< stiffer than the elements behind its faces: they chatter on it
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
@@ -151,11 +139,6 @@ struct alignas(64) Plane
   Real hysteresisWork = 0;
   Real fractureWork = 0;
   Real dampingWork = 0;
-
-  KOKKOS_INLINE_FUNCTION Plane()
-      : countedHere(false), declared(false), tooDeep(false), leads(false), stiff(false)
-  {
-  }
 
   /// Steps E and F: whether it is a plane.
   KOKKOS_INLINE_FUNCTION bool isBorn() const { return state != PlaneState::Slot; }

@@ -1,84 +1,217 @@
 #pragma once
 
 #include <coplane_contact/Plane.hpp>
+#include <coplane_core/StateHash.hpp>
+
+#include <string>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+// The one list of what a plane remembers. Checkpoints, the hash of the state, what is passed on to
+// other pairs, and the files of planes are made from it.
 
 namespace coplane
 {
-/// Calls f(name, value&) for all that a plane keeps from cycle to cycle, in the order of the
-/// columns of checkpoints. Not among them: the key, `face` (positions in tables of this rank; its
-/// candidacy is a column of its own) and `countedHere`.
-template <class F>
-void forEachMember(Plane& plane, F&& f)
+/// What becomes of a number when a pair takes over from living planes (Inheritance.hpp).
+enum class Passing : std::uint8_t
 {
-  // Flags are bits, to which nothing can refer.
-  const auto flag = [&](const char* name, bool now)
+  None,        ///< it begins anew
+  Mean,        ///< mean of the donors by their areas
+  MeanOfBonds, ///< mean of those that are bonded, if the pair is bonded now
+  Turned,      ///< a vector in the plane: mean, turned into the new plane
+  Majority     ///< a flag: that of most of the area
+};
+
+/// Something that a plane remembers from cycle to cycle. What it means stands at the member of
+/// `Plane` or `JointState`.
+template <Passing how, class Get>
+struct PlaneMember
+{
+  static constexpr Passing passing = how;
+  const char* name; ///< in checkpoints; for vectors and arrays the beginning of the names
+  const char* unit;
+  Get get;                       ///< reference to it in a plane; in a donor, too, if passed on
+  const char* column = nullptr;  ///< in files of planes; none: not written
+  const char* leftOut = nullptr; ///< why neither checkpoints nor the hash have it; none: they do
+
+  constexpr PlaneMember writtenAs(const char* column_) const
   {
-    f(name, now);
-    return now;
-  };
-  const auto vector = [&](const char* x, const char* y, const char* z, Vec3& v)
-  {
-    f(x, v.x);
-    f(y, v.y);
-    f(z, v.z);
-  };
-  f("node_stiffness", plane.nodeStiffness);
-  f("joint", plane.joint);
-  f("block_0", plane.block[0]);
-  f("block_1", plane.block[1]);
-  f("state", plane.state);
-  f("sighting", plane.sighting);
-  f("refusal", plane.refusal);
-  f("lineage", plane.lineage);
-  plane.declared = flag("declared", plane.declared);
-  plane.tooDeep = flag("too_deep", plane.tooDeep);
-  plane.leads = flag("leads", plane.leads);
-  plane.stiff = flag("stiff", plane.stiff);
-  f("exits", plane.exits);
-  f("turns", plane.turns);
-  f("covered", plane.covered);
-  f("fit_normal_stiffness", plane.fit.normalStiffness);
-  f("fit_stiffness_cap", plane.fit.stiffnessCap);
-  f("fit_shear_stiffness", plane.fit.shearStiffness);
-  f("area", plane.area);
-  f("overlap", plane.overlap);
-  static constexpr const char* forces[2][4][3] = {{{"force_00_x", "force_00_y", "force_00_z"},
-                                                   {"force_01_x", "force_01_y", "force_01_z"},
-                                                   {"force_02_x", "force_02_y", "force_02_z"},
-                                                   {"force_03_x", "force_03_y", "force_03_z"}},
-                                                  {{"force_10_x", "force_10_y", "force_10_z"},
-                                                   {"force_11_x", "force_11_y", "force_11_z"},
-                                                   {"force_12_x", "force_12_y", "force_12_z"},
-                                                   {"force_13_x", "force_13_y", "force_13_z"}}};
-  for (int side = 0; side < 2; ++side)
-    for (int k = 0; k < 4; ++k)
-      vector(forces[side][k][0], forces[side][k][1], forces[side][k][2], plane.nodal[side][k]);
-  vector("normal_x", "normal_y", "normal_z", plane.normal);
-  vector("point_x", "point_y", "point_z", plane.pointOfContact);
-  f("gap", plane.gap);
-  f("offset", plane.offset);
-  f("maximum_closure", plane.history.maximumClosure);
-  vector("shear_x", "shear_y", "shear_z", plane.history.shearTraction);
-  f("slip", plane.history.slip);
-  f("opening", plane.history.opening);
-  f("shearing", plane.history.shearing);
-  f("bonded", plane.history.bonded);
-  f("closure", plane.closure);
-  f("normal_traction", plane.normalTraction);
-  f("depth_limit", plane.depthLimit);
-  f("birth_area_0", plane.birthArea[0]);
-  f("birth_area_1", plane.birthArea[1]);
-  f("stored", plane.stored);
-  f("maximum_before", plane.maximumBefore);
-  f("half_hysteresis", plane.halfHysteresis);
-  f("work", plane.work);
-  f("friction_work", plane.frictionWork);
-  f("hysteresis_work", plane.hysteresisWork);
-  f("fracture_work", plane.fractureWork);
-  f("damping_work", plane.dampingWork);
+    return {name, unit, get, column_, leftOut};
+  }
+  constexpr PlaneMember notKept(const char* why) const { return {name, unit, get, column, why}; }
+};
+
+template <Passing how = Passing::None, class Get>
+constexpr PlaneMember<how, Get> planeMember(const char* name, const char* unit, Get get)
+{
+  return {name, unit, get};
 }
-// A new member belongs into the list above, or is found anew at searches. It changes one of these
-// sizes, unless it fits into what is filled up today.
-static_assert(sizeof(Plane) == 8 * 64 && sizeof(JointState) == 8 * sizeof(Real) &&
-              sizeof(JointFit) == 3 * sizeof(Real));
+
+/// All members of a plane, in the order of the columns of checkpoints.
+inline constexpr auto planeMembers = std::make_tuple(
+    planeMember(
+        "face_id", "-", [](auto& p) -> auto& { return p.faceId; })
+        .notKept("the key, by which checkpoints and the hash know the plane"),
+    planeMember(
+        "face", "-", [](auto& p) -> auto& { return p.face; })
+        .notKept("places in tables of one rank; none while it was missed by searches"),
+    planeMember(
+        "counted_here", "-", [](auto& p) -> auto& { return p.countedHere; })
+        .notKept("differs between ranks; follows from who owns face 0"),
+    planeMember(
+        "node_stiffness", "N/m", [](auto& p) -> auto& { return p.nodeStiffness; }),
+    planeMember(
+        "joint", "-", [](auto& p) -> auto& { return p.joint; })
+        .writtenAs("joint"),
+    planeMember(
+        "block", "-", [](auto& p) -> auto& { return p.block; }),
+    planeMember(
+        "state", "-", [](auto& p) -> auto& { return p.state; })
+        .writtenAs("state"),
+    planeMember(
+        "sighting", "-", [](auto& p) -> auto& { return p.sighting; }),
+    planeMember(
+        "refusal", "-", [](auto& p) -> auto& { return p.refusal; }),
+    planeMember(
+        "lineage", "-", [](auto& p) -> auto& { return p.lineage; }),
+    planeMember(
+        "declared", "-", [](auto& p) -> auto& { return p.declared; })
+        .writtenAs("declared"),
+    planeMember(
+        "too_deep", "-", [](auto& p) -> auto& { return p.tooDeep; })
+        .writtenAs("too_deep"),
+    planeMember(
+        "stiff", "-", [](auto& p) -> auto& { return p.stiff; }),
+    planeMember(
+        "exits", "-", [](auto& p) -> auto& { return p.exits; }),
+    planeMember(
+        "turns", "-", [](auto& p) -> auto& { return p.turns; }),
+    planeMember(
+        "covered", "-", [](auto& p) -> auto& { return p.covered; }),
+    planeMember(
+        "fit_normal_stiffness", "Pa/m", [](auto& p) -> auto& { return p.fit.normalStiffness; }),
+    planeMember(
+        "fit_stiffness_cap", "Pa/m", [](auto& p) -> auto& { return p.fit.stiffnessCap; }),
+    planeMember(
+        "fit_shear_stiffness", "Pa/m", [](auto& p) -> auto& { return p.fit.shearStiffness; }),
+    planeMember(
+        "area", "m²", [](auto& p) -> auto& { return p.area; })
+        .writtenAs("area"),
+    planeMember(
+        "overlap", "m²", [](auto& p) -> auto& { return p.overlap; })
+        .writtenAs("overlap"),
+    planeMember(
+        "force", "N", [](auto& p) -> auto& { return p.nodal; }),
+    planeMember(
+        "normal", "-", [](auto& p) -> auto& { return p.normal; })
+        .writtenAs("normal"),
+    planeMember(
+        "point", "m", [](auto& p) -> auto& { return p.pointOfContact; }),
+    planeMember(
+        "gap", "m", [](auto& p) -> auto& { return p.gap; }),
+    planeMember<Passing::Mean>(
+        "offset", "m", [](auto& p) -> auto& { return p.offset; })
+        .writtenAs("offset"),
+    planeMember<Passing::Mean>(
+        "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })
+        .writtenAs("maximum_closure"),
+    planeMember<Passing::Turned>(
+        "shear", "Pa", [](auto& p) -> auto& { return p.history.shearTraction; })
+        .writtenAs("shear_traction"),
+    planeMember<Passing::Mean>(
+        "slip", "m", [](auto& p) -> auto& { return p.history.slip; })
+        .writtenAs("slip"),
+    planeMember<Passing::MeanOfBonds>(
+        "opening", "m", [](auto& p) -> auto& { return p.history.opening; })
+        .writtenAs("opening"),
+    planeMember<Passing::MeanOfBonds>(
+        "shearing", "m", [](auto& p) -> auto& { return p.history.shearing; })
+        .writtenAs("shearing"),
+    planeMember<Passing::Majority>(
+        "bonded", "-", [](auto& p) -> auto& { return p.history.bonded; })
+        .writtenAs("bonded"),
+    planeMember<Passing::Mean>(
+        "closure", "m", [](auto& p) -> auto& { return p.closure; })
+        .writtenAs("closure"),
+    planeMember(
+        "normal_traction", "Pa", [](auto& p) -> auto& { return p.normalTraction; })
+        .writtenAs("normal_traction"),
+    planeMember(
+        "depth_limit", "m", [](auto& p) -> auto& { return p.depthLimit; }),
+    planeMember(
+        "birth_area", "m²", [](auto& p) -> auto& { return p.birthArea; }),
+    planeMember(
+        "stored", "J", [](auto& p) -> auto& { return p.stored; })
+        .writtenAs("stored"),
+    planeMember(
+        "maximum_before", "m", [](auto& p) -> auto& { return p.maximumBefore; }),
+    planeMember(
+        "half_hysteresis", "J", [](auto& p) -> auto& { return p.halfHysteresis; }),
+    planeMember(
+        "work", "J", [](auto& p) -> auto& { return p.work; })
+        .writtenAs("work"),
+    planeMember(
+        "friction_work", "J", [](auto& p) -> auto& { return p.frictionWork; })
+        .writtenAs("friction"),
+    planeMember(
+        "hysteresis_work", "J", [](auto& p) -> auto& { return p.hysteresisWork; })
+        .writtenAs("hysteresis"),
+    planeMember(
+        "fracture_work", "J", [](auto& p) -> auto& { return p.fractureWork; })
+        .writtenAs("fracture"),
+    planeMember(
+        "damping_work", "J", [](auto& p) -> auto& { return p.dampingWork; })
+        .writtenAs("damping"));
+
+/// Calls f(member) for all of the list.
+template <class F>
+void forEachMember(F&& f)
+{
+  std::apply([&](const auto&... member) { (f(member), ...); }, planeMembers);
+}
+
+/// Calls f(member) for those that are passed on.
+template <class F>
+void forEachPassed(F&& f)
+{
+  forEachMember(
+      [&](const auto& member)
+      {
+        if constexpr (std::decay_t<decltype(member)>::passing != Passing::None)
+          f(member);
+      });
+}
+
+/// Calls f(number&) for the numbers that a member consists of.
+template <class T, class F>
+void forEachPart(T& value, F&& f)
+{
+  if constexpr (std::is_array_v<T>)
+    for (auto& part : value)
+      forEachPart(part, f);
+  else if constexpr (std::is_same_v<std::remove_const_t<T>, Vec3>)
+    for (auto* const part : {&value.x, &value.y, &value.z})
+      f(*part);
+  else
+    f(value);
+}
+
+/// Calls f(number&) for all that checkpoints and the hash have of a plane, const or not.
+template <class PlaneOrConst, class F>
+void forEachNumber(PlaneOrConst& plane, F&& f)
+{
+  forEachMember(
+      [&](const auto& member)
+      {
+        if (!member.leftOut)
+          forEachPart(member.get(plane), f);
+      });
+}
+
+/// Names of these numbers.
+std::vector<std::string> namesOfNumbers();
+
+/// Adds these numbers to the hash of a state, as field `what`.
+void addTo(StateHash& hash, std::uint64_t what, const Plane& plane);
 } // namespace coplane

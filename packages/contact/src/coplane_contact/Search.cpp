@@ -243,8 +243,7 @@ std::vector<InteractingRank> step3_interactingRanks(const SortedFaces& sorted, c
 Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
                             const std::vector<Face>& localFaces,
                             const std::vector<GlobalId>& nodeIds,
-                            const std::vector<Donor>& livingPlanes, const Comm& comm,
-                            const std::vector<FaceElement>& localElements)
+                            const std::vector<Donor>& livingPlanes, const Comm& comm)
 {
   std::unordered_map<GlobalId, std::vector<int>> planesOfFace;
   if (!ranks.empty())
@@ -275,8 +274,7 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
     for (const int f : selected)
     {
       chosen[f] = 0;
-      facesTo[other.rank].push_back(toGhostFace(
-          localFaces[f], nodeIds, localElements.empty() ? FaceElement{} : localElements[f]));
+      facesTo[other.rank].push_back(toGhostFace(localFaces[f], nodeIds));
       const auto found = planesOfFace.find(localFaces[f].id);
       if (found != planesOfFace.end())
         for (const int p : found->second)

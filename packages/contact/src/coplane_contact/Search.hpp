@@ -120,12 +120,11 @@ struct Ghosts
 };
 
 /// Step 4: copies the faces in common bins, as far as they reach into the other rank's box, from
-/// the ranks that own them. `localElements`: the elements behind the local faces, to go with them.
+/// the ranks that own them.
 Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
                             const std::vector<Face>& localFaces,
                             const std::vector<GlobalId>& nodeIds,
-                            const std::vector<Donor>& livingPlanes, const Comm& comm,
-                            const std::vector<FaceElement>& localElements = {});
+                            const std::vector<Donor>& livingPlanes, const Comm& comm);
 
 /// Why a pair of faces is, or is not, a candidate.
 enum class Verdict

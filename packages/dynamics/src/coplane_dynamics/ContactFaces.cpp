@@ -70,20 +70,4 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
   }
   return faces;
 }
-
-std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh,
-                                         const std::vector<ExteriorFace>& exterior)
-{
-  std::vector<FaceElement> elements;
-  for (const ExteriorFace& side : exterior)
-  {
-    const RankMesh::Block& block = mesh.blocks[side.block];
-    FaceElement element;
-    element.count = topology(block.type).nodes;
-    for (int k = 0; k < element.count; ++k)
-      element.nodes[k] = block.connectivity[side.element * element.count + k];
-    elements.push_back(element);
-  }
-  return elements;
-}
 } // namespace coplane

@@ -20,8 +20,4 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
                                const std::vector<int>& bodyOfNode,
                                const std::vector<ExteriorFace>& exterior, const ConstNodeVectors& x,
                                const std::vector<Face>* known = nullptr);
-
-/// The elements behind the faces, in the same order.
-std::vector<FaceElement> elementsOfFaces(const RankMesh& mesh,
-                                         const std::vector<ExteriorFace>& exterior);
 } // namespace coplane

@@ -45,16 +45,12 @@ void Solver::startVelocities()
 
 void Solver::makeContact()
 {
-  const std::vector<ExteriorFace> exterior = exteriorFaces(mesh());
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
-  std::vector<Face> faces = facesOf(exterior);
+  std::vector<Face> faces = facesOf(exteriorFaces(mesh()));
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
   const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
-  std::vector<FaceElement> elements;
-  if (model_.contact.method == ContactOptions::Method::CommonPlane)
-    elements = elementsOfFaces(mesh(), exterior);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
-                                       model_.contactRules, skin, smallest, std::move(elements));
+                                       model_.contactRules, skin, smallest);
 }
 
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
@@ -145,13 +141,8 @@ bool Solver::erode(Real dt)
 void Solver::leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known)
 {
   model_.conditions.endLoadsOn(dead);
-  if (!contact_)
-    return;
-  const std::vector<ExteriorFace> exterior = erosion_->exterior();
-  std::vector<FaceElement> elements;
-  if (model_.contact.method == ContactOptions::Method::CommonPlane)
-    elements = elementsOfFaces(mesh(), exterior);
-  contact_->replaceLocalFaces(facesOf(exterior, known), std::move(elements));
+  if (contact_)
+    contact_->replaceLocalFaces(facesOf(erosion_->exterior(), known));
 }
 
 void Solver::takeGhostNodes(const std::vector<GlobalId>& ghostNodes)

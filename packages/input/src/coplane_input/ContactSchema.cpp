@@ -100,16 +100,6 @@ Key contactKeys()
                      .means("seed sets area: full, weights: centroid, closure: incremental, as in "
                             "the paper of 2006; these keys overrule it where they are given"),
                  flag("enabled", &ContactCard::enabled).means("contact at all").like("false"),
-                 text("method", &ContactCard::method)
-                     .oneOf({"simple_common_plane", "common_plane"})
-                     .like("common_plane")
-                     .means("a plane for each pair of faces, or Cundall's for each pair of "
-                            "elements, for comparison"),
-                 text("plane_search", &ContactCard::planeSearch)
-                     .oneOf({"candidates", "rotations"})
-                     .like("rotations")
-                     .means("how method common_plane finds the normal: among those of faces, edges "
-                            "and vertices (Nezami), or by turns (Cundall)"),
                  text("default_joint", &ContactCard::defaultJoint)
                      .like("dry")
                      .defaultIs("penalty without friction")
@@ -127,9 +117,9 @@ Key contactKeys()
                      .like("common_normal")
                      .means("forces of a pair of faces: minus the gradient of one energy, or along "
                             "the normal of the common plane as in the paper of 2006; auto: "
-                            "potential, but common_normal with preset seed, method common_plane, "
-                            "axisymmetric geometry, or where area, weights, closure, couple or "
-                            "area_rule are not the defaults"),
+                            "potential, but common_normal with preset seed, axisymmetric "
+                            "geometry, or where area, weights, closure, couple or area_rule are "
+                            "not the defaults"),
                  text("area", &ContactCard::area)
                      .oneOf({"penetrating", "full"})
                      .like("full")
@@ -197,6 +187,13 @@ Key contactKeys()
                          })
                      .means("viscous damping on the planes"),
              })
+      .removed("method",
+               "There is one kind of contact left, a Simple Common Plane for each pair of "
+               "faces. Cundall's plane between elements (common_plane) was there for "
+               "comparison only; docs/theory/scp.md compares the two. Remove the key; "
+               "forces: common_normal is the contact nearest to Cundall's.")
+      .removed("plane_search", "It said how common_plane found Cundall's plane between elements, "
+                               "which whole runs no longer have. Remove the key.")
       .means("contact between all exterior faces, by Simple Common Planes");
 }
 } // namespace coplane

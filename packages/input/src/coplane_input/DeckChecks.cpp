@@ -219,10 +219,6 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkPairs(deck, root, joints, problems);
   checkConditions(deck, root, problems);
   checkDamping(deck, root, problems);
-  if (deck.geometry == "axisymmetric" && deck.contact.method == "common_plane")
-    problems.add(nodeAt(root, {"contact", "method"}),
-                 "contact.method = 'common_plane' is not offered with geometry = 'axisymmetric'; "
-                 "use simple_common_plane.");
   if (const std::string reason = commonNormalBecauseOf(deck);
       deck.contact.forces == "potential" && !reason.empty())
     problems.add(nodeAt(root, {"contact", "forces"}),
@@ -406,8 +402,6 @@ std::string commonNormalBecauseOf(const Deck& deck)
     return "geometry = 'axisymmetric'";
   if (card.preset != usual.preset)
     return fmt::format("contact.preset = '{}'", card.preset);
-  if (card.method != usual.method)
-    return fmt::format("contact.method = '{}'", card.method);
   if (card.area != usual.area)
     return fmt::format("contact.area = '{}'", card.area);
   if (card.weights != usual.weights)

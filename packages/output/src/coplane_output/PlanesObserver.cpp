@@ -1,3 +1,4 @@
+#include <coplane_contact/PlaneState.hpp>
 #include <coplane_core/Text.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
@@ -89,48 +90,37 @@ private:
   const std::vector<Record>& records_;
 };
 
-void addTractions(Columns& columns)
+/// The columns that are members of the planes.
+void addMembers(Columns& columns)
 {
-  columns.vector("normal", [](const Record& r) { return r.plane.normal; });
+  forEachMember(
+      [&](const auto& member)
+      {
+        if (!member.column)
+          return;
+        const auto of = [&](const Record& r) -> const auto&
+        {
+          return member.get(r.plane);
+        };
+        using Value = std::decay_t<decltype(member.get(std::declval<const Plane&>()))>;
+        if constexpr (std::is_same_v<Value, Vec3>)
+          columns.vector(member.column, of);
+        else if constexpr (std::is_floating_point_v<Value>)
+          columns.scalar(member.column, of);
+        else if constexpr (std::is_integral_v<Value> || std::is_enum_v<Value>)
+          columns.integer(member.column, of);
+      });
+}
+
+/// Those that follow from them.
+void addDerived(Columns& columns)
+{
   columns.vector("force", [](const Record& r) { return r.plane.forceOn(1); });
-  columns.scalar("normal_traction", [](const Record& r) { return r.plane.normalTraction; });
-  columns.vector("shear_traction", [](const Record& r) { return r.plane.history.shearTraction; });
-  columns.scalar("area", [](const Record& r) { return r.plane.area; });
-  columns.scalar("overlap", [](const Record& r) { return r.plane.overlap; });
-}
-
-void addHistory(Columns& columns)
-{
-  columns.scalar("closure", [](const Record& r) { return r.plane.closure; });
-  columns.scalar("maximum_closure", [](const Record& r) { return r.plane.history.maximumClosure; });
   columns.scalar("gap", [](const Record& r) { return r.plane.gap - r.plane.offset; });
-  columns.scalar("offset", [](const Record& r) { return r.plane.offset; });
-  columns.scalar("slip", [](const Record& r) { return r.plane.history.slip; });
-  columns.scalar("opening", [](const Record& r) { return r.plane.history.opening; });
-  columns.scalar("shearing", [](const Record& r) { return r.plane.history.shearing; });
   columns.scalar("damage", [](const Record& r) { return r.damage; });
-}
-
-void addEnergies(Columns& columns)
-{
-  columns.scalar("work", [](const Record& r) { return r.plane.work; });
-  columns.scalar("stored", [](const Record& r) { return r.plane.stored; });
-  columns.scalar("friction", [](const Record& r) { return r.plane.frictionWork; });
-  columns.scalar("hysteresis", [](const Record& r) { return r.plane.hysteresisWork; });
-  columns.scalar("fracture", [](const Record& r) { return r.plane.fractureWork; });
-  columns.scalar("damping", [](const Record& r) { return r.plane.dampingWork; });
   columns.scalar("remainder", [](const Record& r) { return r.plane.remainder(); });
-}
-
-void addStates(Columns& columns)
-{
-  columns.integer("state", [](const Record& r) { return int(r.plane.state); });
-  columns.integer("bonded", [](const Record& r) { return r.plane.history.bonded; });
-  columns.integer("declared", [](const Record& r) { return r.plane.declared; });
   columns.integer("inherited", [](const Record& r) { return r.plane.isInherited(); });
   columns.integer("released", [](const Record& r) { return r.plane.refusal == Refusal::Deep; });
-  columns.integer("too_deep", [](const Record& r) { return r.plane.tooDeep; });
-  columns.integer("joint", [](const Record& r) { return r.plane.joint; });
   for (int f = 0; f < 2; ++f)
   {
     const std::string which = f == 0 ? "lower" : "higher";
@@ -152,10 +142,8 @@ std::string pointsOf(const std::vector<Record>& records, const std::vector<std::
   VtpPoints points(coordinates);
   points.addNames("joint_names", joints);
   Columns columns(points, records);
-  addTractions(columns);
-  addHistory(columns);
-  addEnergies(columns);
-  addStates(columns);
+  addMembers(columns);
+  addDerived(columns);
   return points.text(comment);
 }
 

@@ -39,6 +39,13 @@ struct Alternatives
   bool oneNeeded = false;
 };
 
+/// A key that a group had once: whoever still gives it is told why it has gone and what to do.
+struct RemovedKey
+{
+  std::string name;
+  std::string instead; ///< whole sentences
+};
+
 /// One key of an input file: everything that is said about it anywhere is said here. The checks,
 /// --help-deck, the manual's page and the JSON Schema are made from it, and `store` or `enter`
 /// binds it to a field of a card, so that no key can be without effect.
@@ -70,6 +77,7 @@ struct Key
   std::vector<Key> keys;
   std::string discriminator; ///< the key (`model`, `type`) that decides which others there are
   std::vector<Alternatives> alternatives;
+  std::vector<RemovedKey> removed;
   std::string completedBy; ///< a key (`set`) that gives all required ones that are not given
   /// The card that the group's keys fill; lists grow by one item.
   std::function<void*(void* target, const std::string& name, const std::string& where)> enter;

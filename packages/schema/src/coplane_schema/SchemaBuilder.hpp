@@ -64,6 +64,12 @@ public:
   KeyBuilder& completedBy(const std::string& name) { return set(key_.completedBy, name); }
   KeyBuilder& atMostOneOf(std::vector<std::string> names) { return alternatives(names, false); }
   KeyBuilder& exactlyOneOf(std::vector<std::string> names) { return alternatives(names, true); }
+  /// Of a group: a key that it had once, and what to do instead.
+  KeyBuilder& removed(const std::string& name, const std::string& instead)
+  {
+    key_.removed.push_back({name, instead});
+    return *this;
+  }
 
 private:
   template <class T>

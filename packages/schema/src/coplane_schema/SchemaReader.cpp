@@ -182,6 +182,10 @@ private:
                                        "change {}.",
                                        join(path, name.text), group.discriminator, listOf(owners),
                                        group.discriminator, *model, group.discriminator));
+    for (const RemovedKey& gone : group.removed)
+      if (gone.name == name.text)
+        return problems_.add(
+            name, fmt::format("{} is no longer a key. {}", join(path, name.text), gone.instead));
     std::string hint = didYouMean(name.text, names);
     if (hint.empty())
     {

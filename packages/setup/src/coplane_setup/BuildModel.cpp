@@ -15,10 +15,6 @@ ContactOptions optionsOf(const Deck& deck)
 {
   const ContactCard& card = deck.contact;
   ContactOptions options;
-  options.method = card.method == "common_plane" ? ContactOptions::Method::CommonPlane
-                                                 : ContactOptions::Method::SimpleCommonPlane;
-  options.planeSearch = card.planeSearch == "rotations" ? ContactOptions::PlaneSearch::Rotations
-                                                        : ContactOptions::PlaneSearch::Candidates;
   options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
                        ? ContactOptions::Forces::Potential
                        : ContactOptions::Forces::CommonNormal;
