@@ -1,7 +1,9 @@
 #include "ConvertGmsh.hpp"
 #include "Cuts.hpp"
+#include "ExampleFile.hpp"
+#include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
-#include "RecipeMap.hpp"
+#include "RecipeReference.hpp"
 
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
@@ -17,6 +19,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 
 namespace coplane
@@ -101,10 +104,11 @@ void writeAlone(const Mesh& mesh, const std::string& output)
   writeMesh(mesh, output);
 }
 
-void make(const std::string& recipe, const std::string& output)
+void make(const std::string& recipe, const std::vector<std::string>& overrides,
+          const std::string& output)
 {
   demandDistinct({{recipe, "the recipe"}}, output);
-  const Mesh mesh = makeMesh(recipe);
+  const Mesh mesh = makeMesh(recipe, overrides);
   const MeshReport report = reportMesh(mesh);
   printReport(mesh, report);
   judge(report, recipe);
@@ -112,13 +116,14 @@ void make(const std::string& recipe, const std::string& output)
   print("wrote " + output);
 }
 
-void split(const std::string& file, const std::string& recipe, const std::string& output)
+void split(const std::string& file, const std::string& recipe,
+           const std::vector<std::string>& overrides, const std::string& output)
 {
   demandDistinct({{file, "the mesh"}, {recipe, "the recipe of joints"}}, output);
   const Mesh mesh = readMesh(file);
   const std::vector<MeshFace> faces = facesOf(mesh);
   const CutSelection selection =
-      selectCuts(textOfRecipe(recipe, "coplane_mesh --help-split"), recipe, mesh, faces);
+      selectCuts(readTextFile(recipe, jointRecipeFile()), recipe, mesh, faces, overrides);
   SplitMesh result = splitMesh(mesh, faces, selection.cuts);
   for (std::size_t c = 0; c < result.cuts.size(); ++c)
   {
@@ -173,15 +178,25 @@ int run(int argc, char** argv)
   CLI::App app{"Writes Exodus II meshes from recipes, opens joints, converts and checks meshes."};
   app.set_version_flag("--version",
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
-  bool helpRecipe = false;
-  app.add_flag("--help-recipe", helpRecipe, "Print the keys of recipes");
-  bool helpSplit = false;
-  app.add_flag("--help-split", helpSplit, "Print the keys of recipes of joints");
+  const std::vector<Reference>& references = recipeReferences();
+  std::deque<bool> asked(references.size(), false);
+  for (std::size_t r = 0; r < references.size(); ++r)
+    app.add_flag(references[r].option, asked[r], references[r].meaning);
   std::string recipe, output, file;
+  std::vector<std::string> overrides;
   const auto isName = [](const std::string& name)
   { return std::string(name.empty() ? "the name is empty; accepted: the name of a file" : ""); };
   CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
   making->add_option("recipe", recipe, "recipe, a YAML file")->required();
+  const auto takesOverrides = [&](CLI::App* command, const char* example)
+  {
+    command
+        ->add_option(
+            "--set", overrides,
+            fmt::format("Overrides a value of the recipe: --set {} (may be repeated)", example))
+        ->allow_extra_args(false);
+  };
+  takesOverrides(making, "define.h=0.1");
   making->add_option("-o,--output", output, "Exodus II file to write")->required()->check(isName);
   CLI::App* checking = app.add_subcommand(
       "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
@@ -190,6 +205,7 @@ int run(int argc, char** argv)
       app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
   splitting->add_option("mesh", file, "Exodus II file")->required();
   splitting->add_option("recipe", recipe, "recipe of joints, a YAML file")->required();
+  takesOverrides(splitting, "joints.fault.planes.tolerance=0.01");
   splitting->add_option("-o,--output", output, "Exodus II file to write")
       ->required()
       ->check(isName);
@@ -198,6 +214,9 @@ int run(int argc, char** argv)
   converting->add_option("-o,--output", output, "Exodus II file to write")
       ->required()
       ->check(isName);
+  CLI::App* exemplifying = app.add_subcommand(
+      "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
+  exemplifying->add_option("file", file, "example.yaml")->required();
   app.require_subcommand(0, 1);
   try
   {
@@ -207,18 +226,22 @@ int run(int argc, char** argv)
   {
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
-  if (helpRecipe)
-    std::fputs(recipeHelp(), stdout);
-  else if (helpSplit)
-    std::fputs(cutsHelp(), stdout);
-  else if (making->parsed())
-    make(recipe, output);
+  for (std::size_t r = 0; r < references.size(); ++r)
+    if (asked[r])
+    {
+      std::fputs(references[r].text().c_str(), stdout);
+      return int(ExitCode::Success);
+    }
+  if (making->parsed())
+    make(recipe, overrides, output);
   else if (splitting->parsed())
-    split(file, recipe, output);
+    split(file, recipe, overrides, output);
   else if (converting->parsed())
     convert(file, output);
   else if (checking->parsed())
     check(file);
+  else if (exemplifying->parsed())
+    std::fputs(exampleAsJson(readTextFile(file, exampleFile()), file).c_str(), stdout);
   else
   {
     std::fputs(app.help().c_str(), stderr);
