@@ -90,10 +90,10 @@ def check_deck():
     printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])
     assert printed.returncode == 0, printed.stdout
     kept = (SOURCE / "docs/user/deck.md").read_text()
-    assert printed.stdout == kept, "docs/user/deck.md is old: build/bin/coplane --help-deck-markdown > docs/user/deck.md"
+    assert printed.stdout == kept, "docs/user/deck.md is old: packages/cmake/write-references.sh"
     printed = run([str(BINARIES / "coplane_point"), "--help-deck-markdown"])
     kept = (SOURCE / "docs/user/point-deck.md").read_text()
-    assert printed.stdout == kept, "docs/user/point-deck.md is old: build/bin/coplane_point --help-deck-markdown > docs/user/point-deck.md"
+    assert printed.stdout == kept, "docs/user/point-deck.md is old: packages/cmake/write-references.sh"
 
 
 def check_recipe():
@@ -101,7 +101,7 @@ def check_recipe():
     printed = run([str(BINARIES / "coplane_mesh"), "--help-recipe-markdown"])
     assert printed.returncode == 0, printed.stdout
     kept = (SOURCE / "docs/user/recipe.md").read_text()
-    assert printed.stdout == kept, "docs/user/recipe.md is old: build/bin/coplane_mesh --help-recipe-markdown > docs/user/recipe.md"
+    assert printed.stdout == kept, "docs/user/recipe.md is old: packages/cmake/write-references.sh"
 
 
 SCHEMAS = {
@@ -125,7 +125,7 @@ def check_schemas():
         printed = run([str(BINARIES / program), option])
         assert printed.returncode == 0, printed.stdout
         kept = (SOURCE / f"docs/schemas/{name}.json").read_text()
-        assert printed.stdout == kept, f"docs/schemas/{name}.json is old: build/bin/{program} {option} > docs/schemas/{name}.json"
+        assert printed.stdout == kept, f"docs/schemas/{name}.json is old: packages/cmake/write-references.sh"
         jsonschema.Draft7Validator.check_schema(json.loads(kept))
         schemas[name] = jsonschema.Draft7Validator(json.loads(kept))
     files = sorted((SOURCE / "exodus_inputs").glob("*/*.yaml"))
