@@ -100,6 +100,7 @@ TEST(Define, expressionsOfNamesBeforeAreNumbers)
   const Outcome got = read("define:\n  a: 1/4\n  b: 2*a + sqrt(4)\nspeed: b\n");
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.speed, 2.5);
+  EXPECT_EQ(problemsOf("define: {api: 1, w: 2*_pi*api}\nspeed: w\n"), ""); // no slip of `api`
 }
 
 TEST(Define, functionsOfTimeAndPlaceTakeThem)
@@ -205,8 +206,10 @@ TEST(Define, aNameThatNothingUsesIsRefused)
 TEST(Define, aListIsNoMap)
 {
   EXPECT_NE(problemsOf("define: [1]\n").find("f.yaml:1:9: define is no map"), std::string::npos);
-  EXPECT_NE(problemsOf("define: {v: [1]}\nspeed: v\n").find("define.v = no number"),
-            std::string::npos);
+  EXPECT_NE(
+      problemsOf("define: {v: [1]}\nspeed: v\n")
+          .find("define.v has no number; accepted: a number or an expression of names before it."),
+      std::string::npos);
   EXPECT_NE(problemsOf("define: {v: 1, v: 2}\nspeed: v\n").find("define.v is given twice"),
             std::string::npos);
 }

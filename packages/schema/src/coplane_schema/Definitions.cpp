@@ -103,7 +103,8 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
                                      word == name.text ? "for itself" : "further down");
              return word;
            });
-    problem += suggestionFor(value.text);
+    if (!problem.empty())
+      problem += suggestionFor(value.text);
   }
   if (problem.empty() && number && !std::isfinite(*number))
     problem = "it is not finite";
@@ -111,10 +112,10 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
   if (!problem.empty() || !number)
   {
     definitions_[name.text].used = true; // one message is enough
-    refuse(value, fmt::format("= {} is not accepted{}; accepted: a number or an expression of "
-                              "names before it.",
-                              isWord ? "'" + value.text + "'" : "no number",
-                              problem.empty() ? "" : " (" + problem + ")"));
+    refuse(value,
+           fmt::format("{}; accepted: a number or an expression of names before it.",
+                       isWord ? fmt::format("= '{}' is not accepted ({})", value.text, problem)
+                              : "has no number"));
   }
 }
 
