@@ -90,10 +90,59 @@ def check_deck():
     printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])
     assert printed.returncode == 0, printed.stdout
     kept = (SOURCE / "docs/user/deck.md").read_text()
-    assert printed.stdout == kept, "docs/user/deck.md is old: build/bin/coplane --help-deck-markdown > docs/user/deck.md"
+    assert printed.stdout == kept, "docs/user/deck.md is old: packages/cmake/write-references.sh"
     printed = run([str(BINARIES / "coplane_point"), "--help-deck-markdown"])
     kept = (SOURCE / "docs/user/point-deck.md").read_text()
-    assert printed.stdout == kept, "docs/user/point-deck.md is old: build/bin/coplane_point --help-deck-markdown > docs/user/point-deck.md"
+    assert printed.stdout == kept, "docs/user/point-deck.md is old: packages/cmake/write-references.sh"
+
+
+def check_recipe():
+    """The reference of recipes is what the program prints."""
+    printed = run([str(BINARIES / "coplane_mesh"), "--help-recipe-markdown"])
+    assert printed.returncode == 0, printed.stdout
+    kept = (SOURCE / "docs/user/recipe.md").read_text()
+    assert printed.stdout == kept, "docs/user/recipe.md is old: packages/cmake/write-references.sh"
+
+
+SCHEMAS = {
+    "deck": ["coplane", "--schema"],
+    "point-deck": ["coplane_point", "--schema"],
+    "recipe": ["coplane_mesh", "--recipe-schema"],
+    "joint-recipe": ["coplane_mesh", "--split-schema"],
+    "example": ["coplane_mesh", "--example-schema"],
+}
+
+
+def check_schemas():
+    """The JSON Schemas are those that the programs print; every input file names one, and is as it says."""
+    import jsonschema
+
+    sys.path.insert(0, str(SOURCE / "tests/support"))
+    from coplanetest import documents
+
+    schemas = {}
+    for name, (program, option) in SCHEMAS.items():
+        printed = run([str(BINARIES / program), option])
+        assert printed.returncode == 0, printed.stdout
+        kept = (SOURCE / f"docs/schemas/{name}.json").read_text()
+        assert printed.stdout == kept, f"docs/schemas/{name}.json is old: packages/cmake/write-references.sh"
+        jsonschema.Draft7Validator.check_schema(json.loads(kept))
+        schemas[name] = jsonschema.Draft7Validator(json.loads(kept))
+    files = sorted((SOURCE / "exodus_inputs").glob("*/*.yaml"))
+    assert files, "no input files found"
+    wrong, used = [], set()
+    for file in files:
+        first = re.fullmatch(r"# yaml-language-server: \$schema=\.\./\.\./docs/schemas/([a-z-]+)\.json", file.read_text().splitlines()[0])
+        if not first or first[1] not in schemas:
+            wrong.append(f"{file}: the first line names no schema of docs/schemas")
+            continue
+        used.add(first[1])
+        wrong += [f"{file}: {'.'.join(map(str, error.path))}: {error.message[:300]}" for error in schemas[first[1]].iter_errors(documents.load(file))]
+    assert not wrong, "\n".join(wrong)
+    assert used == set(schemas), f"no input file has the schemas {set(schemas) - used}"
+    misspelt = documents.load(SOURCE / "exodus_inputs/bars_2d/mesh.yaml")
+    misspelt["parts"][0]["divisons"] = misspelt["parts"][0].pop("divisions")
+    assert not schemas["recipe"].is_valid(misspelt), "the schema of recipes accepts a misspelt key"
 
 
 def check_codes():
@@ -132,7 +181,7 @@ def check_names():
             text = (SOURCE / name).read_text(errors="replace")
             words.update(re.findall(r"[A-Za-z_]\w*", text))
             options.update(re.findall(r"--[a-z][\w-]*", text))
-    reference = (SOURCE / "docs/user/deck.md").read_text()
+    reference = "".join((SOURCE / page).read_text() for page in ("docs/user/deck.md", "docs/user/recipe.md"))
     keys = set(re.findall(r"^\| `(\w+)`", reference, flags=re.M))
     sections = re.findall(r"^## `(.*)`$", reference, flags=re.M)
     keys.update(part for section in sections for part in section.split("."))

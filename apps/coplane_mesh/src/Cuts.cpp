@@ -1,6 +1,7 @@
 #include "Cuts.hpp"
 
-#include "RecipeMap.hpp"
+#include "JointRecipe.hpp"
+#include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_schema/Suggestion.hpp>
@@ -43,146 +44,114 @@ struct PlaneSet
   }
 };
 
-class CutReader
+class CutSelector
 {
 public:
-  CutReader(const Mesh& mesh, const std::vector<MeshFace>& faces)
-      : mesh_(mesh), faces_(faces), places_(placesOfElements(mesh)), size_(sizeOf(mesh))
+  CutSelector(const Mesh& mesh, const std::vector<MeshFace>& faces, const JointRecipe& recipe,
+              Problems& problems)
+      : mesh_(mesh), faces_(faces), places_(placesOfElements(mesh)), size_(sizeOf(mesh)),
+        recipe_(recipe), problems_(problems), taken_(faces.size(), false)
   {
   }
 
-  CutSelection read(const RecipeMap& recipe)
+  /// Faces of one joint that no joint before it has.
+  void select(const JointCutCard& card, CutSelection& selection)
   {
-    CutSelection selection;
-    std::vector<bool> taken(faces_.size(), false);
-    for (const auto& [name, node] : recipe.entries("joints"))
+    const CardPlace place{nodeAt(recipe_.root, {"joints", card.name}), "joints." + card.name,
+                          problems_};
+    const std::size_t before = problems_.size();
+    for (const Mesh::SideSet& set : mesh_.sideSets)
+      if (set.name == card.name)
+        refuse(place, "is the name of a side set of the mesh already, and the joint "
+                      "writes one; name the joint otherwise.");
+    std::string note;
+    std::vector<bool> wanted(faces_.size(), false);
+    if (!card.planes.empty())
+      note = selectPlanes(card, place, wanted);
+    else if (!card.blocks.empty())
+      selectBorders(card, place, wanted);
+    else
+      note = selectSideSets(card, place, wanted);
+    Cut cut{card.name, {}};
+    int others = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
     {
-      const RecipeMap joint(node, recipe.file(), recipe.pathOf("joints") + "." + name,
-                            {"planes", "blocks", "side_sets"});
-      if (joint.has("planes") + joint.has("blocks") + joint.has("side_sets") != 1)
-        joint.refuse("planes", "or blocks or side_sets: give exactly one of them.");
-      for (const Mesh::SideSet& set : mesh_.sideSets)
-        if (set.name == name)
-          joint.refuse("",
-                       fmt::format("'{}' is the name of a side set of the mesh already, and the "
-                                   "joint writes one; name the joint otherwise.",
-                                   name));
-      std::string note;
-      std::vector<bool> wanted(faces_.size(), false);
-      if (joint.has("planes"))
-        note = selectPlanes(joint, wanted);
-      else if (joint.has("blocks"))
-        selectBorders(joint, wanted);
-      else
-        note = selectSideSets(joint, wanted);
-      Cut cut{name, {}};
-      int others = 0;
-      for (std::size_t f = 0; f < faces_.size(); ++f)
+      if (wanted[f] && taken_[f])
+        ++others;
+      else if (wanted[f])
       {
-        if (wanted[f] && taken[f])
-          ++others;
-        else if (wanted[f])
-        {
-          taken[f] = true;
-          cut.faces.push_back(int(f));
-        }
+        taken_[f] = true;
+        cut.faces.push_back(int(f));
       }
-      if (cut.faces.empty())
-        joint.refuse("", fmt::format("finds no faces of its own: all {} belong to joints that come "
-                                     "before it.",
-                                     others));
-      selection.notes.push_back(fmt::format(
-          "joint '{}': {}{} faces{}", name, note, cut.faces.size(),
-          others > 0 ? fmt::format("; {} more belong to joints before it", others) : ""));
-      selection.cuts.push_back(std::move(cut));
     }
-    if (selection.cuts.empty())
-      recipe.refuse("joints", "names no joint.");
-    return selection;
+    if (cut.faces.empty() && problems_.size() == before)
+      refuse(place, fmt::format("finds no faces of its own: all {} belong to joints that come "
+                                "before it.",
+                                others));
+    selection.notes.push_back(
+        fmt::format("joint '{}': {}{} faces{}", card.name, note, cut.faces.size(),
+                    others > 0 ? fmt::format("; {} more belong to joints before it", others) : ""));
+    selection.cuts.push_back(std::move(cut));
   }
 
 private:
-  Vec3 direction(const RecipeMap& map, const std::string& key) const
+  /// A problem of the joint as a whole.
+  void refuse(const CardPlace& joint, const std::string& text)
   {
-    const Vec3 vector = map.point(key, mesh_.dimension);
-    if (!(norm(vector) > 0))
-      map.refuse(key, "must not be zero.");
-    return normalised(vector);
+    problems_.add(joint.node, joint.path + " " + text);
   }
 
-  PlaneSet readPlanes(const RecipeMap& map) const
+  PlaneSet planeSet(const PlanesCard& card) const
   {
     PlaneSet planes;
-    planes.point = map.point("point", mesh_.dimension);
-    planes.normal = direction(map, "normal");
-    if (map.has("spacing"))
-      planes.spacing = map.positive("spacing");
-    if (map.has("count"))
-    {
-      if (!map.has("spacing"))
-        map.refuse("count", "needs spacing.");
-      planes.count = map.count("count");
-    }
-    planes.tolerance = map.has("tolerance") ? map.positive("tolerance") : 1e-6 * size_;
-    if (planes.spacing > 0 && !(planes.tolerance < planes.spacing / 2))
-      map.refuse("tolerance", fmt::format("= {} m must be less than half the spacing = {} m.",
-                                          planes.tolerance, planes.spacing / 2));
-    const Real degrees = map.has("angle") ? map.number("angle") : 1.0;
-    if (!(degrees > 0 && degrees < 90))
-      map.refuse("angle", fmt::format("= {} degrees must be between 0 and 90.", degrees));
-    planes.leastCosine = std::cos(degrees * pi / 180);
-    for (const char* key : {"box", "disc", "segment", "polygon"})
-      if (map.has(key))
-        planes.extents.push_back(readExtent(map, key, planes.normal));
+    planes.point = toVec3(card.point);
+    planes.normal = normalised(toVec3(card.normal));
+    planes.spacing = card.spacing;
+    planes.count = card.count;
+    planes.tolerance = card.tolerance > 0 ? card.tolerance : 1e-6 * size_;
+    planes.leastCosine = std::cos(card.angle * pi / 180);
+    const Real reach = 1e-6 * size_;
+    if (!card.box.min.empty())
+      planes.extents.push_back(boxExtent(toVec3(card.box.min), toVec3(card.box.max), reach));
+    if (card.disc.radius > 0)
+      planes.extents.push_back(
+          discExtent(toVec3(card.disc.centre), card.disc.radius, planes.normal, reach));
+    if (!card.segment.empty())
+      planes.extents.push_back(segmentExtent(toPoints(card.segment), planes.normal, reach));
+    if (!card.polygon.empty())
+      planes.extents.push_back(polygonExtent(toPoints(card.polygon), planes.normal));
     return planes;
   }
 
-  Extent readExtent(const RecipeMap& map, const std::string& key, const Vec3& normal) const
+  static Extent boxExtent(const Vec3& low, const Vec3& high, Real reach)
   {
-    const Real reach = 1e-6 * size_;
-    if (key == "box")
+    return [=](const Vec3& x)
     {
-      const RecipeMap box = map.map(key, {"min", "max"});
-      const Vec3 low = box.point("min", mesh_.dimension), high = box.point("max", mesh_.dimension);
-      for (int axis = 0; axis < mesh_.dimension; ++axis)
-        if (!(high[axis] >= low[axis]))
-          box.refuse("max", fmt::format("= {} m along {} is less than min = {} m.", high[axis],
-                                        "xyz"[axis], low[axis]));
-      return [=](const Vec3& x)
-      {
-        for (int axis = 0; axis < 3; ++axis)
-          if (x[axis] < low[axis] - reach || x[axis] > high[axis] + reach)
-            return false;
-        return true;
-      };
-    }
-    if (key == "disc")
+      for (int axis = 0; axis < 3; ++axis)
+        if (x[axis] < low[axis] - reach || x[axis] > high[axis] + reach)
+          return false;
+      return true;
+    };
+  }
+
+  static Extent discExtent(const Vec3& centre, Real radius, const Vec3& normal, Real reach)
+  {
+    return [=](const Vec3& x)
     {
-      const RecipeMap disc = map.map(key, {"centre", "radius"});
-      const Vec3 centre = disc.point("centre", mesh_.dimension);
-      const Real radius = disc.positive("radius");
-      return [=](const Vec3& x)
-      {
-        const Vec3 r = x - centre;
-        return norm(r - dot(r, normal) * normal) <= radius + reach;
-      };
-    }
-    if (key == "segment")
+      const Vec3 r = x - centre;
+      return norm(r - dot(r, normal) * normal) <= radius + reach;
+    };
+  }
+
+  static Extent segmentExtent(const std::vector<Vec3>& ends, const Vec3& normal, Real reach)
+  {
+    const Vec3 along{-normal.y, normal.x, 0};
+    const Real a = dot(ends[0], along), b = dot(ends[1], along);
+    return [=](const Vec3& x)
     {
-      if (mesh_.dimension != 2)
-        map.refuse(key, "is for two dimensions; use polygon, disc or box.");
-      const std::vector<Vec3> ends = map.points(key, 2, 2);
-      const Vec3 along{-normal.y, normal.x, 0};
-      const Real a = dot(ends[0], along), b = dot(ends[1], along);
-      return [=](const Vec3& x)
-      {
-        const Real s = dot(x, along);
-        return s >= std::min(a, b) - reach && s <= std::max(a, b) + reach;
-      };
-    }
-    if (mesh_.dimension != 3)
-      map.refuse(key, "is for three dimensions; use segment, disc or box.");
-    return polygonExtent(map.points(key, 3), normal);
+      const Real s = dot(x, along);
+      return s >= std::min(a, b) - reach && s <= std::max(a, b) + reach;
+    };
   }
 
   /// Inside the shadow of a polygon along the normal: an odd number of its edges lies to one side.
@@ -211,56 +180,65 @@ private:
     };
   }
 
-  std::string selectPlanes(const RecipeMap& joint, std::vector<bool>& wanted) const
+  std::string selectPlanes(const JointCutCard& card, const CardPlace& joint,
+                           std::vector<bool>& wanted)
   {
-    std::vector<YAML::Node> nodes{joint.node("planes")};
-    if (nodes[0].IsSequence())
-      nodes = joint.list("planes");
+    const DeckNode& node = nodeAt(recipe_.root, {"joints", card.name, "planes"});
+    const bool isList = node.kind == DeckNode::Kind::List;
     int total = 0;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (std::size_t i = 0; i < card.planes.size(); ++i)
     {
-      const RecipeMap map(nodes[i], joint.file(),
-                          joint.node("planes").IsSequence()
-                              ? fmt::format("{}[{}]", joint.pathOf("planes"), i)
-                              : joint.pathOf("planes"),
-                          {"point", "normal", "spacing", "count", "tolerance", "angle", "box",
-                           "disc", "segment", "polygon"});
-      const PlaneSet planes = readPlanes(map);
-      std::map<int, int> facesOfPlane;
-      int exterior = 0, number = 0;
-      for (std::size_t f = 0; f < faces_.size(); ++f)
-        if (planes.holds(centreOf(mesh_, faces_[f]), normalOf(mesh_, faces_[f]), number))
-        {
-          if (faces_[f].count == 1)
-          {
-            ++exterior;
-            continue;
-          }
-          wanted[f] = true;
-          ++facesOfPlane[number];
-        }
-      if (facesOfPlane.empty())
-        map.refuse(
-            "point",
-            fmt::format("and normal find no interior face of an element within tolerance = "
-                        "{:.3g} m and angle. {}The cut follows element faces: mesh with faces "
-                        "on the plane, or allow more distance and angle.",
-                        planes.tolerance,
-                        exterior > 0 ? fmt::format("{} exterior faces lie there, which are "
-                                                   "apart already. ",
-                                                   exterior)
-                                     : ""));
-      for (int k = 0; k < planes.count; ++k)
-        if (!facesOfPlane.count(k))
-          map.refuse("count", fmt::format("= {}, but plane {} of them, at distance {} m, finds no "
-                                          "interior face. Leave count away for all planes that do.",
-                                          planes.count, k + 1, k * planes.spacing));
-      total += int(facesOfPlane.size());
+      const std::string path = joint.path + ".planes";
+      total += selectPlaneSet(
+          card.planes[i],
+          {isList ? node.items[i] : node, isList ? fmt::format("{}.{}", path, i) : path, problems_},
+          wanted);
     }
     return fmt::format("{} plane{}, ", total, total == 1 ? "" : "s");
   }
 
-  int blockOfName(const RecipeMap& joint, const std::string& name) const
+  /// Returns the number of planes that have faces.
+  int selectPlaneSet(const PlanesCard& card, const CardPlace& place, std::vector<bool>& wanted)
+  {
+    const PlaneSet planes = planeSet(card);
+    std::map<int, int> facesOfPlane;
+    int exterior = 0, number = 0;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      if (planes.holds(centreOf(mesh_, faces_[f]), normalOf(mesh_, faces_[f]), number))
+      {
+        if (faces_[f].count == 1)
+        {
+          ++exterior;
+          continue;
+        }
+        wanted[f] = true;
+        ++facesOfPlane[number];
+      }
+    if (facesOfPlane.empty())
+      place.problem("point",
+                    fmt::format("and normal find no interior face of an element within tolerance = "
+                                "{:.3g} m and angle. {}The cut follows element faces: mesh with "
+                                "faces on the plane, or allow more distance and angle.",
+                                planes.tolerance,
+                                exterior > 0 ? fmt::format("{} exterior faces lie there, which "
+                                                           "are apart already. ",
+                                                           exterior)
+                                             : ""));
+    else
+      for (int k = 0; k < planes.count; ++k)
+        if (!facesOfPlane.count(k))
+        {
+          place.problem("count",
+                        fmt::format("= {}, but plane {} of them, at distance {} m, finds no "
+                                    "interior face. Leave count away for all planes that do.",
+                                    planes.count, k + 1, k * planes.spacing));
+          break;
+        }
+    return int(facesOfPlane.size());
+  }
+
+  /// The block's position, or -1 with a problem.
+  int blockOfName(const CardPlace& joint, const std::string& name) const
   {
     std::vector<std::string> names;
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
@@ -269,35 +247,31 @@ private:
         return int(b);
       names.push_back(mesh_.blocks[b].name);
     }
-    joint.refuse("blocks", fmt::format("names '{}', which is no block of the mesh.{}", name,
-                                       didYouMean(name, names)));
+    joint.problem("blocks", fmt::format("names '{}', which is no block of the mesh.{}", name,
+                                        didYouMean(name, names)));
+    return -1;
   }
 
-  void selectBorders(const RecipeMap& joint, std::vector<bool>& wanted) const
+  std::set<std::pair<int, int>> pairsOf(const JointCutCard& card, const CardPlace& joint) const
   {
-    const YAML::Node value = joint.node("blocks");
-    const bool all = value.IsScalar() && value.Scalar() == "all";
     std::set<std::pair<int, int>> pairs;
-    if (!all)
+    for (const auto& names : card.blocks)
     {
-      const char* accepted =
-          "must be the word all, or a list of pairs of block names: [[rock, liner]].";
-      if (!value.IsSequence() || value.size() == 0)
-        joint.refuse("blocks", accepted);
-      for (const YAML::Node& pair : value)
-      {
-        if (!pair.IsSequence() || pair.size() != 2 || !pair[0].IsScalar() || !pair[1].IsScalar())
-          joint.refuse("blocks", accepted);
-        const int a = blockOfName(joint, pair[0].Scalar()),
-                  b = blockOfName(joint, pair[1].Scalar());
-        if (a == b)
-          joint.refuse("blocks",
-                       fmt::format("names '{}' twice in a pair; a border lies between two "
-                                   "blocks.",
-                                   pair[0].Scalar()));
+      const int a = blockOfName(joint, names[0]), b = blockOfName(joint, names[1]);
+      if (a == b && a >= 0)
+        joint.problem("blocks", fmt::format("names '{}' twice in a pair; a border lies between two "
+                                            "blocks.",
+                                            names[0]));
+      else if (a >= 0 && b >= 0)
         pairs.insert(std::minmax(a, b));
-      }
     }
+    return pairs;
+  }
+
+  void selectBorders(const JointCutCard& card, const CardPlace& joint, std::vector<bool>& wanted)
+  {
+    const bool all = card.blocks[0].size() == 1;
+    const auto pairs = all ? std::set<std::pair<int, int>>() : pairsOf(card, joint);
     std::set<std::pair<int, int>> found;
     for (std::size_t f = 0; f < faces_.size(); ++f)
     {
@@ -313,34 +287,40 @@ private:
     }
     for (const auto& [a, b] : pairs)
       if (!found.count({a, b}))
-        joint.refuse("blocks", fmt::format("'{}' and '{}' have no face in common.",
-                                           mesh_.blocks[a].name, mesh_.blocks[b].name));
-    if (found.empty())
-      joint.refuse("blocks", "= all, but no two blocks of the mesh have a face in common.");
+        joint.problem("blocks", fmt::format("'{}' and '{}' have no face in common.",
+                                            mesh_.blocks[a].name, mesh_.blocks[b].name));
+    if (all && found.empty())
+      joint.problem("blocks", "= all, but no two blocks of the mesh have a face in common.");
   }
 
-  std::string selectSideSets(const RecipeMap& joint, std::vector<bool>& wanted) const
+  /// The side set of that name, or nullptr with a problem.
+  const Mesh::SideSet* sideSetOf(const CardPlace& joint, const std::string& name) const
+  {
+    std::vector<std::string> names;
+    for (const Mesh::SideSet& set : mesh_.sideSets)
+    {
+      if (set.name == name)
+        return &set;
+      names.push_back(set.name);
+    }
+    joint.problem("side_sets", fmt::format("names '{}', which is no side set of the mesh.{}", name,
+                                           didYouMean(name, names)));
+    return nullptr;
+  }
+
+  std::string selectSideSets(const JointCutCard& card, const CardPlace& joint,
+                             std::vector<bool>& wanted) const
   {
     std::map<std::pair<int, int>, int> faceOfSide;
     for (std::size_t f = 0; f < faces_.size(); ++f)
       for (int k = 0; k < faces_[f].count; ++k)
         faceOfSide[{faces_[f].elements[k], faces_[f].sides[k]}] = int(f);
     int exterior = 0;
-    for (const std::string& name : joint.texts("side_sets"))
+    for (const std::string& name : card.sideSets)
     {
-      std::vector<std::string> names;
-      const Mesh::SideSet* set = nullptr;
-      for (const Mesh::SideSet& other : mesh_.sideSets)
-      {
-        names.push_back(other.name);
-        if (other.name == name)
-          set = &other;
-      }
+      const Mesh::SideSet* const set = sideSetOf(joint, name);
       if (!set)
-      {
-        joint.refuse("side_sets", fmt::format("names '{}', which is no side set of the mesh.{}",
-                                              name, didYouMean(name, names)));
-      }
+        continue;
       int interior = 0;
       for (std::size_t i = 0; i < set->elements.size(); ++i)
       {
@@ -354,10 +334,10 @@ private:
           ++exterior;
       }
       if (interior == 0)
-        joint.refuse("side_sets",
-                     fmt::format("'{}' has no interior face: all {} are on the surface, "
-                                 "which is apart already.",
-                                 name, set->elements.size()));
+        joint.problem("side_sets",
+                      fmt::format("'{}' has no interior face: all {} are on the surface, "
+                                  "which is apart already.",
+                                  name, set->elements.size()));
     }
     return exterior > 0 ? fmt::format("{} exterior faces of side sets left out, ", exterior) : "";
   }
@@ -366,36 +346,24 @@ private:
   const std::vector<MeshFace>& faces_;
   std::vector<ElementPlace> places_;
   Real size_; ///< of the mesh [m]
+  const JointRecipe& recipe_;
+  Problems& problems_;
+  std::vector<bool> taken_; ///< faces that joints before have
 };
 } // namespace
 
 CutSelection selectCuts(const std::string& text, const std::string& name, const Mesh& mesh,
-                        const std::vector<MeshFace>& faces)
+                        const std::vector<MeshFace>& faces,
+                        const std::vector<std::string>& overrides)
 {
-  return CutReader(mesh, faces).read(RecipeMap(parseRecipe(text, name), name, "", {"joints"}));
-}
-
-const char* cutsHelp()
-{
-  return R"(A recipe of joints is a YAML file. Lengths are in metres, angles in degrees. [..] are lists of 2 or 3 numbers, by dimension.
-
-joints:                          cut in the order of the file; a face that several find belongs to the first
-  name:                          also the name of the side set that holds both faces of every cut face
-    planes:                      a map like this one, or a list of them
-      point: [..]                of the plane
-      normal: [..]
-      spacing: l                 optional: parallel planes at this distance, through the point, as many as meet the mesh
-      count: n                   optional, with spacing: so many, from the point along the normal
-      segment: [[..], [..]]      optional, 2D: only between the shadows of two points on the plane
-      disc: {centre: [..], radius: r}  optional: only within a circle
-      box: {min: [..], max: [..]}  optional: only within a box
-      polygon: [[..], [..], ..]  optional, 3D: only within the shadow of a polygon on the plane
-      tolerance: l               optional: distance of face centres from the plane; default 1e-6 of the mesh size
-      angle: degrees             optional: between the normals of face and plane; default 1
-  name:
-    blocks: all | [[a, b], ..]   borders of all blocks, or of pairs
-  name:
-    side_sets: name or list      faces of side sets inside the mesh
-)";
+  const JointRecipe recipe = parseJointRecipe(text, name, mesh.dimension, overrides);
+  Problems problems;
+  CutSelector selector(mesh, faces, recipe, problems);
+  CutSelection selection;
+  for (const JointCutCard& card : recipe.joints)
+    selector.select(card, selection);
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
+  return selection;
 }
 } // namespace coplane

@@ -14,11 +14,9 @@ struct CutSelection
   std::vector<std::string> notes;
 };
 
-/// Reads the joints of a recipe and finds their faces; errors are Error(ExitCode::Deck) with file,
-/// line and column. A joint that finds no interior face is an error.
+/// Reads the joints of a recipe and finds their faces. Throws Error(ExitCode::Deck) with every
+/// problem that was found; a joint that finds no interior face is one.
 CutSelection selectCuts(const std::string& recipe, const std::string& name, const Mesh& mesh,
-                        const std::vector<MeshFace>& faces);
-
-/// The manual of such recipes.
-const char* cutsHelp();
+                        const std::vector<MeshFace>& faces,
+                        const std::vector<std::string>& overrides = {});
 } // namespace coplane

@@ -1,12 +1,15 @@
 #include "MakeMesh.hpp"
 
-#include "PartReader.hpp"
+#include "Recipe.hpp"
 #include "Selection.hpp"
+#include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/Provenance.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 
@@ -14,6 +17,96 @@ namespace coplane
 {
 namespace
 {
+/// One entry of `parts`: bodies in the part's own coordinates, and where they go.
+struct Part
+{
+  std::string block;
+  std::vector<Body> bodies;
+  Mat3 rotation; ///< about `centre`
+  Vec3 centre{}; ///< in own coordinates [m]
+  Vec3 offset{}; ///< added last [m]
+
+  Vec3 place(const Vec3& own) const { return rotation * (own - centre) + centre + offset; }
+};
+
+/// Right-handed rotation about one axis, angle in degrees. Quarter turns are exact.
+Mat3 rotationAbout(int axis, Real degrees)
+{
+  const Real quarter = degrees / 90;
+  Real c = std::cos(degrees * pi / 180), s = std::sin(degrees * pi / 180);
+  if (quarter == std::floor(quarter))
+  {
+    c = std::round(c);
+    s = std::round(s);
+  }
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  Mat3 r;
+  r(axis, axis) = 1;
+  r(a, a) = r(b, b) = c;
+  r(a, b) = -s;
+  r(b, a) = s;
+  return r;
+}
+
+Mat3 rotationOf(const PartCard& card)
+{
+  if (card.dimension == 2)
+    return rotationAbout(2, card.rotate.empty() ? 0.0 : card.rotate[0]);
+  const std::vector<Real> degrees = card.rotate.empty() ? std::vector<Real>{0, 0, 0} : card.rotate;
+  return rotationAbout(2, degrees[2]) *
+         (rotationAbout(1, degrees[1]) * rotationAbout(0, degrees[0]));
+}
+
+Vec3 middleOf(const std::vector<Body>& bodies)
+{
+  Vec3 lowest{infinity, infinity, infinity}, highest = -lowest;
+  for (const Body& body : bodies)
+    for (const Vec3& p : body.points)
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        lowest[axis] = std::min(lowest[axis], p[axis]);
+        highest[axis] = std::max(highest[axis], p[axis]);
+      }
+  return 0.5 * (lowest + highest);
+}
+
+Part makePart(const PartCard& card)
+{
+  Part part;
+  part.block = card.block;
+  part.bodies = findModel(shapeModels(), card.model)->law(card.parameters.get());
+  if (card.split != "none")
+    for (Body& body : part.bodies)
+      body = inSimplices(body);
+  part.rotation = rotationOf(card);
+  // Without a rotation, rounding of (p - centre) + centre must not move touching bodies apart.
+  if (!card.rotate.empty())
+    part.centre = card.about.empty() ? middleOf(part.bodies) : toVec3(card.about);
+  if (!card.offset.empty())
+    part.offset = toVec3(card.offset);
+  return part;
+}
+
+/// Refuses a block with elements of two types.
+void demandOneType(const std::vector<Part>& parts, const DeckNode& root, Problems& problems)
+{
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    const auto first =
+        std::find_if(parts.begin(), parts.end(),
+                     [&](const Part& other) { return other.block == parts[p].block; });
+    const ElementType type = parts[p].bodies.front().type, before = first->bodies.front().type;
+    if (type != before)
+      CardPlace{nodeAt(root, {"parts", std::to_string(p)}), fmt::format("parts.{}", p), problems}
+          .problem("block",
+                   fmt::format("= '{}' has {} elements in other parts and {} in this one; a block "
+                               "has elements of one type. Give this part a block of its own, or "
+                               "split all parts of the block.",
+                               parts[p].block, topology(before).exodusName,
+                               topology(type).exodusName));
+  }
+}
+
 /// Nodes part by part and body by body; elements block by block. Ids count from 1 in that order.
 Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& ownCoordinates)
 {
@@ -26,16 +119,9 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
     for (Mesh::Block& other : mesh.blocks)
       if (other.name == part.block)
         block = &other;
-    const ElementType type = part.bodies.front().type;
-    if (block && block->type != type)
-      fail(ExitCode::Deck,
-           "{} = '{}' has {} elements in other parts and {} in this one; a block has elements of "
-           "one "
-           "type. Give this part a block of its own, or split all parts of the block.",
-           part.keyPlace, part.block, topology(block->type).exodusName, topology(type).exodusName);
     if (!block)
-      block = &mesh.blocks.emplace_back(
-          Mesh::Block{GlobalId(mesh.blocks.size()) + 1, part.block, type, {}, {}, {}});
+      block = &mesh.blocks.emplace_back(Mesh::Block{
+          GlobalId(mesh.blocks.size()) + 1, part.block, part.bodies.front().type, {}, {}, {}});
     for (const Body& body : part.bodies)
     {
       ++bodies;
@@ -69,111 +155,31 @@ std::array<std::string, 4> qaRecord()
   std::strftime(hour, sizeof hour, "%H:%M:%S", std::localtime(&now));
   return {programOfMeshes, version().number, date, hour};
 }
-Mesh makeMeshFromText(const std::string& text, const std::string& name)
+
+Mesh makeMeshFromText(const std::string& text, const std::string& name,
+                      const std::vector<std::string>& overrides)
 {
-  const RecipeMap recipe(parseRecipe(text, name), name, "",
-                         {"title", "dimension", "parts", "node_sets", "side_sets"});
-  const int dimension = recipe.count("dimension", 2);
-  if (dimension > 3)
-    recipe.refuse("dimension", fmt::format("= {} must be 2 or 3.", dimension));
+  const Recipe recipe = parseRecipe(text, name, overrides);
   std::vector<Part> parts;
-  RecipeProblems problems;
-  int number = 0;
-  for (const YAML::Node& node : recipe.list("parts"))
-    problems.collect(
-        [&]
-        { parts.push_back(readPart(node, name, fmt::format("parts[{}]", number++), dimension)); });
-  problems.tell(); // sets are made of all parts
+  for (const PartCard& card : recipe.parts)
+    parts.push_back(makePart(card));
+  Problems problems;
+  demandOneType(parts, recipe.root, problems);
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text()); // sets are made of all parts
   std::vector<Vec3> ownCoordinates;
-  Mesh mesh = assemble(parts, dimension, ownCoordinates);
+  Mesh mesh = assemble(parts, recipe.dimension, ownCoordinates);
   mesh.title =
-      recipe.has("title") ? recipe.text("title") : std::filesystem::path(name).filename().string();
+      recipe.title.empty() ? std::filesystem::path(name).filename().string() : recipe.title;
   mesh.qaRecords.push_back(qaRecord());
   addSets(mesh, ownCoordinates, recipe, problems);
-  problems.tell();
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
   return mesh;
 }
 
-Mesh makeMesh(const std::string& recipeFile)
+Mesh makeMesh(const std::string& recipeFile, const std::vector<std::string>& overrides)
 {
-  return makeMeshFromText(textOfRecipe(recipeFile, "coplane_mesh --help-recipe"), recipeFile);
-}
-
-const char* recipeHelp()
-{
-  return R"(A recipe is a YAML file. Lengths are in metres, angles in degrees. [..] are lists of 2 or 3 numbers, by dimension.
-
-title: text                      optional
-dimension: 2 | 3
-parts:                           a list; parts of the same block name make one element block, every body has nodes of its own
-  - shape: box                   one body
-    block: name                  of the element block
-    min: [..]                    lowest corner, default the origin
-    size: [..]  or  max: [..]    lengths, or highest corner
-    divisions: [..]              elements along x, y, z
-    bias: [..]                   optional: last element over first element along x, y, z, the others in geometric progression
-    lines: {x: .., y: ..}        instead of all these: the grid lines, each a list of coordinates, or a map
-                                 {ends: [x0, x1, ..], divisions: [n01, ..], bias: [b01, ..]} of the segments between the ends
-  - shape: quadrilateral         2D: one body between four corners
-  - shape: hexahedron            3D: between eight; a wedge is one with close corners
-    corners: [[x, y], ..]        counter-clockwise; 3D: four seen from above, then the four above them
-    divisions: [..]              along corners 1-2, 1-4, and 1-5 in 3D
-  - shape: wall                  running bond: bricks along x, courses upward in y, thickness in z
-    brick: [..]                  size of a whole brick
-    courses: n
-    length_in_bricks: n          odd courses (the second, fourth, ...) are shifted by half a brick, with half bricks at their ends
-    divisions: [..]              of a whole brick; even along x
-  - shape: imbricate             2D wall in layers through its thickness (x), bricks along y, centred on y = 0
-    brick: [thickness, length]
-    layers: n                    layers 1, 3, ... have half bricks at their ends, layers 2, 4, ... whole ones only
-    length_in_bricks: n
-    divisions: [x, y]            of a whole brick; even along y
-  - shape: projectile            axis x, tip of the nose at the origin, body towards -x
-    width: w                     nose of radius w/2
-    length: l                    with the nose
-    across: n                    elements on the width; even, at least 4
-    along: n                     elements on the straight part; default: about as long as wide
-    section: round | square      3D: round with half a ball (default), or square with half a cylinder across z as nose
-  - shape: ogive                 axis y, tip at the origin, body towards +y; 2D: half section x >= 0 of a body of revolution; 3D: quarter x >= 0, z >= 0
-    width: w, length: l          diameter; length with the nose
-    caliber: c                   radius of the nose's outline over the width (CRH); at least 0.5, half a ball
-    across: n                    elements on the whole width; even, at least 4
-    nose: n, along: n            elements on the axis of the nose (more than across / 4) and on the shank; default: about twice as long as wide
-  - shape: rock                  joint sets at right angles: equal blocks from the origin
-    blocks: [..]                 numbers of blocks
-    size: [..]                   of one block
-    divisions: [..]              of one block
-  - shape: cylinder              2D disk, 3D cylinder along z from z = 0; centred on the origin
-    radius: r
-    across: n                    elements on the diameter; even, at least 4
-    length: l, along: n          3D
-  - shape: sector                ring sectors about the origin (arch stones); 3D: swept from z = 0
-    inner_radius: r, outer_radius: r
-    from: degrees, to: degrees   from x towards y
-    count: n                     bodies of equal angle, default 1; they touch and do not share nodes
-    divisions: [radial, around, along z]  of one body
-    bias: b                      optional: outermost over innermost radial length, those between in geometric progression
-    length: l                    3D
-  - shape: half_disc             lower half of a disc of centre (0, radius): lowest point at the origin, fine there; 3D: swept from z = 0
-    radius: r
-    fine: l                      length of elements at the lowest point
-    fine_radius: r               so far reach such elements (at most radius / 4); beyond, they grow with the distance
-    length: l, along: n          3D
-  every part:
-    split: none | triangles | tetrahedra  optional; every quadrilateral into 2 triangles, every hexahedron into 5 tetrahedra
-    rotate: degrees | [x, y, z]  optional; 2D: about z; 3D: about x, then y, then z
-    about: [..]                  point that stays in place; default: the middle of the part's bounding box
-    offset: [..]                 added last
-node_sets:                       optional
-  name:
-    block: name or list          default: all blocks
-    where: {y: 0, x: [0, 1]}     planes and ranges in the mesh; nodes must meet all of them, within 1e-6 of the mesh size
-           {radius: r, angle: [0, 90]}  distance from the z axis (2D: the origin), degrees from x towards y about it; also ranges or single values
-    where_own: {x: 0}            the same in the part's coordinates before rotate and offset
-side_sets:                       optional; exterior faces whose nodes all meet the selection
-  name:
-    block, where, where_own      as above
-    normal: [..]                 optional; outward normal, within 26 degrees
-)";
+  return makeMeshFromText(readTextFile(recipeFile, coplane::recipeFile()), recipeFile, overrides);
 }
 } // namespace coplane

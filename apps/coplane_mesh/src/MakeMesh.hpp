@@ -4,19 +4,19 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace coplane
 {
-/// The mesh that a recipe describes; errors of the recipe are Error(ExitCode::Deck) with file, line
-/// and column.
-Mesh makeMesh(const std::string& recipeFile);
+/// The mesh that a recipe describes. Throws Error(ExitCode::Deck) with every problem that was
+/// found, one per line.
+/// @param overrides the values of --set, such as "define.h=0.1"
+Mesh makeMesh(const std::string& recipeFile, const std::vector<std::string>& overrides = {});
 
 /// The same from text; `name` stands for the file in messages.
-Mesh makeMeshFromText(const std::string& recipe, const std::string& name);
+Mesh makeMeshFromText(const std::string& recipe, const std::string& name,
+                      const std::vector<std::string>& overrides = {});
 
 /// Program, version, date and time, for the file.
 std::array<std::string, 4> qaRecord();
-
-/// The manual of recipes.
-const char* recipeHelp();
 } // namespace coplane

@@ -1,6 +1,7 @@
 #include "Selection.hpp"
 
 #include "MeshFaces.hpp"
+#include "ShapeModel.hpp"
 
 #include <coplane_schema/Suggestion.hpp>
 
@@ -50,38 +51,18 @@ private:
   static Real degrees(Real radians) { return radians * 180 / pi; }
 };
 
-/// A number, or two with the lower one first.
-Range readRange(const RecipeMap& map, const std::string& key, Real tolerance)
+Range rangeOf(const std::vector<Real>& ends, Real tolerance)
 {
-  if (!map.has(key))
-    return {};
-  if (!map.node(key).IsSequence())
-  {
-    const Real at = map.number(key);
-    return {at - tolerance, at + tolerance};
-  }
-  const std::vector<Real> ends = map.numbers(key, 2);
-  if (ends[0] > ends[1])
-    map.refuse(key, fmt::format("= [{}, {}]: the lower end comes first.", ends[0], ends[1]));
-  return {ends[0] - tolerance, ends[1] + tolerance};
+  return ends.empty() ? Range{} : Range{ends.front() - tolerance, ends.back() + tolerance};
 }
 
-Ranges readRanges(const RecipeMap& selection, const std::string& key, int dimension, Real tolerance)
+Ranges rangesOf(const PlacesCard& places, Real tolerance)
 {
-  Ranges ranges;
-  ranges.tolerance = tolerance;
-  if (!selection.has(key))
-    return ranges;
-  std::vector<std::string> accepted{"x", "y", "z", "radius", "angle"};
-  if (dimension == 2)
-    accepted.erase(accepted.begin() + 2);
-  const RecipeMap map = selection.map(key, accepted);
-  const std::array<std::string, 3> axes{"x", "y", "z"};
-  for (int axis = 0; axis < dimension; ++axis)
-    ranges.axes[axis] = readRange(map, axes[axis], tolerance);
-  ranges.radius = readRange(map, "radius", tolerance);
-  ranges.angle = readRange(map, "angle", 0);
-  return ranges;
+  return {
+      {rangeOf(places.x, tolerance), rangeOf(places.y, tolerance), rangeOf(places.z, tolerance)},
+      rangeOf(places.radius, tolerance),
+      rangeOf(places.angle, 0),
+      tolerance};
 }
 
 /// What node sets and side sets have in common: blocks, `where` and `where_own`.
@@ -92,108 +73,92 @@ struct Filter
   bool holds(const Vec3& x, const Vec3& own) const { return where.hold(x) && whereOwn.hold(own); }
 };
 
-Filter readFilter(const Mesh& mesh, const RecipeMap& map, Real tolerance)
+Filter filterOf(const Mesh& mesh, const SetCard& card, Real tolerance, const CardPlace& place)
 {
+  std::vector<std::string> names;
+  for (const Mesh::Block& block : mesh.blocks)
+    names.push_back(block.name);
   Filter filter;
-  filter.blocks.assign(mesh.blocks.size(), !map.has("block"));
-  if (map.has("block"))
-    for (const std::string& name : map.texts("block"))
-    {
-      std::vector<std::string> names;
-      bool found = false;
-      for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
-      {
-        names.push_back(mesh.blocks[b].name);
-        if (names.back() == name)
-          found = filter.blocks[b] = true;
-      }
-      if (!found)
-      {
-        map.refuse("block", fmt::format("= '{}' is no block of the parts.{}", name,
-                                        didYouMean(name, names)));
-      }
-    }
-  filter.where = readRanges(map, "where", mesh.dimension, tolerance);
-  filter.whereOwn = readRanges(map, "where_own", mesh.dimension, tolerance);
+  filter.blocks.assign(names.size(), card.blocks.empty());
+  for (const std::string& name : card.blocks)
+  {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      place.problem("block", fmt::format("= '{}' is no block of the parts.{}", name,
+                                         didYouMean(name, names)));
+    else
+      filter.blocks[std::size_t(found - names.begin())] = true;
+  }
+  filter.where = rangesOf(card.places, tolerance);
+  filter.whereOwn = rangesOf(card.ownPlaces, tolerance);
   return filter;
 }
 
-void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
-                const std::string& name, Real tolerance)
+void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const SetCard& card, Real tolerance,
+                const CardPlace& place)
 {
-  const Filter filter = readFilter(mesh, map, tolerance);
+  const std::size_t before = place.problems.size();
+  const Filter filter = filterOf(mesh, card, tolerance, place);
   std::set<int> nodes;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
     if (filter.blocks[b])
       for (const int node : mesh.blocks[b].connectivity)
         if (filter.holds(mesh.coordinates[node], own[node]))
           nodes.insert(node);
-  if (nodes.empty())
-    map.refuse("where",
-               "selects no node. Compare it with the bounding box that coplane_mesh check prints.");
-  mesh.nodeSets.push_back({GlobalId(mesh.nodeSets.size()) + 1, name, {nodes.begin(), nodes.end()}});
+  if (nodes.empty() && place.problems.size() == before)
+    place.problem(
+        "where",
+        "selects no node. Compare it with the bounding box that coplane_mesh check prints.");
+  mesh.nodeSets.push_back(
+      {GlobalId(mesh.nodeSets.size()) + 1, card.name, {nodes.begin(), nodes.end()}});
 }
 
-void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const RecipeMap& map,
-                const std::string& name, Real tolerance, const std::vector<MeshFace>& faces,
-                const std::vector<ElementPlace>& places)
+void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const SetCard& card, Real tolerance,
+                const std::vector<MeshFace>& faces, const std::vector<ElementPlace>& places,
+                const CardPlace& place)
 {
-  const Filter filter = readFilter(mesh, map, tolerance);
-  Vec3 normal{};
-  if (map.has("normal"))
-  {
-    normal = map.point("normal", mesh.dimension);
-    if (!(norm(normal) > 0))
-      map.refuse("normal", "must not be zero.");
-    normal = normalised(normal);
-  }
+  const std::size_t before = place.problems.size();
+  const Filter filter = filterOf(mesh, card, tolerance, place);
+  const bool anyNormal = card.normal.empty();
+  const Vec3 normal = anyNormal ? Vec3{} : normalised(toVec3(card.normal));
   // Faces within 26 degrees of the wanted normal: tells the sides of a block apart, also on a round
   // nose.
   constexpr Real leastCosine = 0.9;
-  Mesh::SideSet set{GlobalId(mesh.sideSets.size()) + 1, name, {}, {}};
+  Mesh::SideSet set{GlobalId(mesh.sideSets.size()) + 1, card.name, {}, {}};
   for (const MeshFace& face : faces)
   {
     bool inside = face.count == 1 && filter.blocks[places[face.elements[0]].block];
     for (const int node : face.nodes)
       inside = inside && (node < 0 || filter.holds(mesh.coordinates[node], own[node]));
-    if (!inside || (map.has("normal") && dot(normalOf(mesh, face), normal) < leastCosine))
+    if (!inside || (!anyNormal && dot(normalOf(mesh, face), normal) < leastCosine))
       continue;
     set.elements.push_back(face.elements[0]);
     set.sides.push_back(face.sides[0]);
   }
-  if (set.elements.empty())
-    map.refuse("where", "selects no exterior face. All nodes of a face must lie there, and its "
-                        "normal within 26 degrees of `normal`.");
+  if (set.elements.empty() && place.problems.size() == before)
+    place.problem("where", "selects no exterior face. All nodes of a face must lie there, and its "
+                           "normal within 26 degrees of `normal`.");
   mesh.sideSets.push_back(std::move(set));
 }
 } // namespace
 
-void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const RecipeMap& recipe,
-             RecipeProblems& problems)
+void addSets(Mesh& mesh, const std::vector<Vec3>& ownCoordinates, const Recipe& recipe,
+             Problems& problems)
 {
   const Real tolerance = 1e-6 * sizeOf(mesh);
-  for (const auto& entry : recipe.entries("node_sets"))
-    problems.collect(
-        [&, &name = entry.first]
-        {
-          addNodeSet(mesh, ownCoordinates,
-                     RecipeMap(entry.second, recipe.file(), "node_sets." + name,
-                               {"block", "where", "where_own"}),
-                     name, tolerance);
-        });
-  const auto sideSets = recipe.entries("side_sets");
-  if (sideSets.empty())
+  const auto placeOf = [&](const char* group, const std::string& name)
+  {
+    return CardPlace{nodeAt(recipe.root, {group, name}), fmt::format("{}.{}", group, name),
+                     problems};
+  };
+  for (const SetCard& card : recipe.nodeSets)
+    addNodeSet(mesh, ownCoordinates, card, tolerance, placeOf("node_sets", card.name));
+  if (recipe.sideSets.empty())
     return;
   const std::vector<MeshFace> faces = facesOf(mesh);
   const std::vector<ElementPlace> places = placesOfElements(mesh);
-  for (const auto& entry : sideSets)
-    problems.collect(
-        [&, &name = entry.first]
-        {
-          addSideSet(mesh, ownCoordinates,
-                     RecipeMap(entry.second, recipe.file(), "side_sets." + name,
-                               {"block", "where", "where_own", "normal"}),
-                     name, tolerance, faces, places);
-        });
+  for (const SetCard& card : recipe.sideSets)
+    addSideSet(mesh, ownCoordinates, card, tolerance, faces, places,
+               placeOf("side_sets", card.name));
 }
 } // namespace coplane

@@ -1,7 +1,9 @@
 #include "ConvertGmsh.hpp"
 #include "Cuts.hpp"
+#include "ExampleFile.hpp"
+#include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
-#include "RecipeMap.hpp"
+#include "RecipeReference.hpp"
 
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
@@ -17,7 +19,9 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <deque>
 #include <filesystem>
+#include <functional>
 
 namespace coplane
 {
@@ -101,10 +105,11 @@ void writeAlone(const Mesh& mesh, const std::string& output)
   writeMesh(mesh, output);
 }
 
-void make(const std::string& recipe, const std::string& output)
+void make(const std::string& recipe, const std::vector<std::string>& overrides,
+          const std::string& output)
 {
   demandDistinct({{recipe, "the recipe"}}, output);
-  const Mesh mesh = makeMesh(recipe);
+  const Mesh mesh = makeMesh(recipe, overrides);
   const MeshReport report = reportMesh(mesh);
   printReport(mesh, report);
   judge(report, recipe);
@@ -112,13 +117,14 @@ void make(const std::string& recipe, const std::string& output)
   print("wrote " + output);
 }
 
-void split(const std::string& file, const std::string& recipe, const std::string& output)
+void split(const std::string& file, const std::string& recipe,
+           const std::vector<std::string>& overrides, const std::string& output)
 {
   demandDistinct({{file, "the mesh"}, {recipe, "the recipe of joints"}}, output);
   const Mesh mesh = readMesh(file);
   const std::vector<MeshFace> faces = facesOf(mesh);
   const CutSelection selection =
-      selectCuts(textOfRecipe(recipe, "coplane_mesh --help-split"), recipe, mesh, faces);
+      selectCuts(readTextFile(recipe, jointRecipeFile()), recipe, mesh, faces, overrides);
   SplitMesh result = splitMesh(mesh, faces, selection.cuts);
   for (std::size_t c = 0; c < result.cuts.size(); ++c)
   {
@@ -168,36 +174,80 @@ void check(const std::string& file)
   judge(report, file);
 }
 
+void showExample(const std::string& file)
+{
+  std::fputs(exampleAsJson(readTextFile(file, exampleFile()), file).c_str(), stdout);
+}
+
+/// What stands on the command line.
+struct Arguments
+{
+  std::string recipe, output, file;
+  std::vector<std::string> overrides;
+};
+
+struct Command
+{
+  CLI::App* line;
+  std::function<void()> run;
+};
+
+void takeOverrides(CLI::App* line, Arguments& given, const char* example)
+{
+  line->add_option(
+          "--set", given.overrides,
+          fmt::format("Overrides a value of the recipe: --set {} (may be repeated)", example))
+      ->allow_extra_args(false);
+}
+
+void takeOutput(CLI::App* line, Arguments& given)
+{
+  const auto isName = [](const std::string& name)
+  { return std::string(name.empty() ? "the name is empty; accepted: the name of a file" : ""); };
+  line->add_option("-o,--output", given.output, "Exodus II file to write")
+      ->required()
+      ->check(isName);
+}
+
+std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
+{
+  CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
+  making->add_option("recipe", given.recipe, "recipe, a YAML file")->required();
+  takeOverrides(making, given, "define.h=0.1");
+  takeOutput(making, given);
+  CLI::App* checking = app.add_subcommand(
+      "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
+  checking->add_option("mesh", given.file, "Exodus II file")->required();
+  CLI::App* splitting =
+      app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
+  splitting->add_option("mesh", given.file, "Exodus II file")->required();
+  splitting->add_option("recipe", given.recipe, "recipe of joints, a YAML file")->required();
+  takeOverrides(splitting, given, "joints.fault.planes.tolerance=0.01");
+  takeOutput(splitting, given);
+  CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
+  converting->add_option("mesh", given.file, "file of Gmsh, format 4.1")->required();
+  takeOutput(converting, given);
+  CLI::App* showing = app.add_subcommand(
+      "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
+  showing->add_option("file", given.file, "example.yaml")->required();
+  return {{making, [&] { make(given.recipe, given.overrides, given.output); }},
+          {checking, [&] { check(given.file); }},
+          {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
+          {converting, [&] { convert(given.file, given.output); }},
+          {showing, [&] { showExample(given.file); }}};
+}
+
 int run(int argc, char** argv)
 {
   CLI::App app{"Writes Exodus II meshes from recipes, opens joints, converts and checks meshes."};
   app.set_version_flag("--version",
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
-  bool helpRecipe = false;
-  app.add_flag("--help-recipe", helpRecipe, "Print the keys of recipes");
-  bool helpSplit = false;
-  app.add_flag("--help-split", helpSplit, "Print the keys of recipes of joints");
-  std::string recipe, output, file;
-  const auto isName = [](const std::string& name)
-  { return std::string(name.empty() ? "the name is empty; accepted: the name of a file" : ""); };
-  CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
-  making->add_option("recipe", recipe, "recipe, a YAML file")->required();
-  making->add_option("-o,--output", output, "Exodus II file to write")->required()->check(isName);
-  CLI::App* checking = app.add_subcommand(
-      "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
-  checking->add_option("mesh", file, "Exodus II file")->required();
-  CLI::App* splitting =
-      app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
-  splitting->add_option("mesh", file, "Exodus II file")->required();
-  splitting->add_option("recipe", recipe, "recipe of joints, a YAML file")->required();
-  splitting->add_option("-o,--output", output, "Exodus II file to write")
-      ->required()
-      ->check(isName);
-  CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
-  converting->add_option("mesh", file, "file of Gmsh, format 4.1")->required();
-  converting->add_option("-o,--output", output, "Exodus II file to write")
-      ->required()
-      ->check(isName);
+  const std::vector<Reference>& references = recipeReferences();
+  std::deque<bool> asked(references.size(), false);
+  for (std::size_t r = 0; r < references.size(); ++r)
+    app.add_flag(references[r].option, asked[r], references[r].meaning);
+  Arguments given;
+  const std::vector<Command> commands = commandsOf(app, given);
   app.require_subcommand(0, 1);
   try
   {
@@ -207,24 +257,20 @@ int run(int argc, char** argv)
   {
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
-  if (helpRecipe)
-    std::fputs(recipeHelp(), stdout);
-  else if (helpSplit)
-    std::fputs(cutsHelp(), stdout);
-  else if (making->parsed())
-    make(recipe, output);
-  else if (splitting->parsed())
-    split(file, recipe, output);
-  else if (converting->parsed())
-    convert(file, output);
-  else if (checking->parsed())
-    check(file);
-  else
-  {
-    std::fputs(app.help().c_str(), stderr);
-    return int(ExitCode::Usage);
-  }
-  return int(ExitCode::Success);
+  for (std::size_t r = 0; r < references.size(); ++r)
+    if (asked[r])
+    {
+      std::fputs(references[r].text().c_str(), stdout);
+      return int(ExitCode::Success);
+    }
+  for (const Command& command : commands)
+    if (command.line->parsed())
+    {
+      command.run();
+      return int(ExitCode::Success);
+    }
+  std::fputs(app.help().c_str(), stderr);
+  return int(ExitCode::Usage);
 }
 } // namespace
 } // namespace coplane

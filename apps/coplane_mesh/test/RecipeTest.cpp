@@ -1,8 +1,16 @@
+#include "Recipe.hpp"
+
+#include "ExampleFile.hpp"
+#include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
+#include "RecipeReference.hpp"
+#include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
 
 #include <gtest/gtest.h>
+
+#include <functional>
 
 namespace coplane
 {
@@ -29,71 +37,109 @@ TEST(Recipe, aMisspeltKeyIsNamedWithPlaceAndSuggestion)
 {
   EXPECT_EQ(
       errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n    divisons: [1, 1]\n"),
-      "r.yaml:6:5: parts[0].divisons is not known; parts[0] accepts shape, block, split, rotate, "
-      "about, offset, min, max, size, "
-      "divisions, bias, lines. Did you mean 'divisions'?");
+      "r.yaml:6:5: parts.0.divisons is not known. Did you mean 'divisions'? Accepted here: shape, "
+      "block, split, rotate, about, offset, min, max, size, divisions, bias, lines.");
 }
 
 TEST(Recipe, aMissingKeyIsNamedAtItsMap)
 {
   EXPECT_EQ(errorOf(head + "  - shape: box\n    block: b\n    size: [1, 1]\n"),
-            "r.yaml:3:5: parts[0].divisions is missing.");
+            "r.yaml:3:5: parts.0.divisions is missing; accepted: a list of whole numbers >= 1 "
+            "[elements], or lines in its place.");
+  EXPECT_EQ(errorOf(head + "  - {shape: cylinder, block: b, across: 4}\n"),
+            "r.yaml:3:5: parts.0.radius is missing (shape: cylinder needs it); accepted: a number "
+            "> 0 [m]: of the circle.");
 }
 
 TEST(Recipe, aKeyGivenTwiceIsRefused)
 {
   EXPECT_EQ(errorOf("dimension: 2\ndimension: 3\nparts: []\n"),
-            "r.yaml:2:1: dimension is given twice; keep one.");
+            "r.yaml:2:1: dimension is given twice, first at r.yaml:1:1; keep one of them.\n"
+            "r.yaml:3:8: parts = a list of 0; accepted: a list of items with keys and values.");
 }
 
 TEST(Recipe, aKeyThatIsNoWordIsRefused)
 {
-  EXPECT_EQ(errorOf("? [a, b]\n: 2\n"), "r.yaml:1:3: a key in the recipe is no word; accepted: a "
-                                        "word, such as 'parts:'.");
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1]}\n"
                            "node_sets: {~: {block: b}}\n"),
-            "r.yaml:4:13: a key in node_sets is no word; accepted: a word, such as 'parts:'.");
+            "r.yaml:4:13: a key in node_sets is nothing; accepted: a word.");
 }
 
 TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
 {
-  EXPECT_EQ(
-      errorOf(head + "  - {shape: bax, block: b}\n"),
-      "r.yaml:3:13: parts[0].shape = 'bax' is not known; use box, quadrilateral, hexahedron, wall, "
-      "imbricate, rock, cylinder, projectile, ogive, sector or half_disc. Did you mean "
-      "'box'?");
+  EXPECT_EQ(errorOf(head + "  - {shape: bax, block: b}\n"),
+            "r.yaml:3:13: parts.0.shape = 'bax' is not known. Did you mean 'box'? Accepted: one of "
+            "box, quadrilateral, hexahedron, wall, imbricate, rock, cylinder, projectile, ogive, "
+            "sector, half_disc.");
+}
+
+TEST(Recipe, anotherDimensionIsRefused)
+{
+  EXPECT_EQ(errorOf("dimension: 4\nparts: [{shape: box, block: b, size: [1, 1], divisions: [1, "
+                    "1]}]\n"),
+            "r.yaml:1:12: dimension = '4' is not known. Accepted: one of 2, 3.");
 }
 
 TEST(Recipe, aListOfTheWrongLengthIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1, 1], divisions: [1, 1]}\n"),
-            "r.yaml:3:34: parts[0].size must be a list of 2 lengths [m].");
+            "r.yaml:3:34: parts.0.size = a list of 3; accepted: a list of 2 numbers > 0 [m].");
 }
 
 TEST(Recipe, aLengthThatIsNotPositiveIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 0], divisions: [1, 1]}\n"),
-            "r.yaml:3:34: parts[0].size has the entry 0 m; every length must be greater than 0.");
+            "r.yaml:3:38: parts.0.size.1 = '0' is out of range; accepted: a number > 0 [m].");
 }
 
 TEST(Recipe, aWordForANumberIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: cylinder, block: b, radius: wide, across: 4}\n"),
-            "r.yaml:3:41: parts[0].radius = 'wide' is not a number.");
+            "r.yaml:3:41: parts.0.radius = 'wide' is not a number; accepted: a number > 0 [m].");
+}
+
+TEST(Recipe, whatIsForThreeDimensionsIsRefusedInTwo)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: cylinder, block: b, radius: 1, across: 4, along: 2}\n"),
+            "r.yaml:3:62: parts.0.along is for three dimensions only; remove it.");
+  EXPECT_EQ(errorOf("dimension: 3\nparts:\n  - {shape: cylinder, block: b, radius: 1, across: 4, "
+                    "along: 2}\n"),
+            "r.yaml:3:5: parts.0.length is missing (shape: cylinder needs it); accepted: a number "
+            "> 0 [m]: along z, from z = 0.");
+  EXPECT_EQ(errorOf("dimension: 3\nparts:\n  - {shape: imbricate, block: b, brick: [1, 2], layers: "
+                    "2, length_in_bricks: 2, divisions: [1, 2, 1]}\n"),
+            "r.yaml:3:13: parts.0.shape = 'imbricate' needs two dimensions; use wall.");
+}
+
+TEST(Recipe, oneAngleTurnsInThePlaneAndThreeInSpace)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1], rotate: "
+                           "[0, 0, 9]}\n"),
+            "r.yaml:3:69: parts.0.rotate must be one number in two dimensions: the angle about z.");
+}
+
+TEST(Recipe, theNumbersOfDefineAreUsed)
+{
+  const std::string recipe = "define: {h: 0.25, n: 1/h}\n" + head +
+                             "  - {shape: box, block: b, size: [4*h, 1], divisions: [n, 2]}\n";
+  const Mesh mesh = makeMeshFromText(recipe, "r.yaml");
+  EXPECT_EQ(mesh.elements(), 8);
+  EXPECT_EQ(mesh.coordinates.back().x, 1);
+  EXPECT_EQ(makeMeshFromText(recipe, "r.yaml", {"define.h=0.5"}).elements(), 4);
 }
 
 TEST(Recipe, oddDivisionsOfAWallAreRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: wall, block: b, brick: [2, 1], courses: 2, "
                            "length_in_bricks: 2, divisions: [3, 1]}\n"),
-            "r.yaml:3:88: parts[0].divisions has 3 elements along a brick, and a half brick takes "
+            "r.yaml:3:88: parts.0.divisions has 3 elements along a brick, and a half brick takes "
             "half of them; it must be even.");
 }
 
 TEST(Recipe, linesThatGoBackAreRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, lines: {x: [0, 2, 1], y: [0, 1]}}\n"),
-            "r.yaml:3:39: parts[0].lines.x has 1 m after 2 m; coordinates must be ascending.");
+            "r.yaml:3:39: parts.0.lines.x.ends has 1 m after 2 m; coordinates must be ascending.");
 }
 
 TEST(Recipe, linesAndDivisionsTogetherAreRefused)
@@ -101,30 +147,29 @@ TEST(Recipe, linesAndDivisionsTogetherAreRefused)
   EXPECT_EQ(errorOf(head +
                     "  - {shape: box, block: b, divisions: [1, 1], lines: {x: [0, 1], y: [0, "
                     "1]}}\n"),
-            "r.yaml:3:39: parts[0].divisions has no place beside lines; leave one of them out.");
+            "r.yaml:3:39: parts.0.divisions has no place beside lines; leave one of them out.");
 }
 
 TEST(Recipe, cornersInTheWrongSenseAreRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: quadrilateral, block: b, corners: [[0, 0], [0, 1], [1, 1], "
                            "[1, 0]], divisions: [1, 1]}\n"),
-            "r.yaml:3:47: parts[0].corners turn inside out at corner 1. Give them "
+            "r.yaml:3:47: parts.0.corners turn inside out at corner 1. Give them "
             "counter-clockwise; every angle is below 180 degrees.");
 }
 
 TEST(Recipe, aCornerOfTheWrongDimensionIsRefused)
 {
-  EXPECT_EQ(
-      errorOf(head + "  - {shape: quadrilateral, block: b, corners: [[0, 0], [0, 1, 2], [1, "
-                     "1], [1, 0]], divisions: [1, 1]}\n"),
-      "r.yaml:3:47: parts[0].corners has as entry 2 no point; a point is a list of 2 numbers.");
+  EXPECT_EQ(errorOf(head + "  - {shape: quadrilateral, block: b, corners: [[0, 0], [0, 1, 2], [1, "
+                           "1], [1, 0]], divisions: [1, 1]}\n"),
+            "r.yaml:3:56: parts.0.corners.1 = a list of 3; accepted: a list of 2 numbers [m].");
 }
 
 TEST(Recipe, aSectorThatEndsBeforeItBeginsIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: sector, block: b, inner_radius: 1, outer_radius: 2, from: "
                            "90, to: 0, divisions: [1, 1]}\n"),
-            "r.yaml:3:79: parts[0].to = 0 degrees must be greater than from = 90 degrees, by 360 "
+            "r.yaml:3:79: parts.0.to = 0 degrees must be greater than from = 90 degrees, by 360 "
             "at most.");
 }
 
@@ -132,7 +177,7 @@ TEST(Recipe, aFineZoneLargerThanAQuarterOfTheRadiusIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: half_disc, block: b, radius: 1, fine: 0.1, "
                            "fine_radius: 0.6}\n"),
-            "r.yaml:3:69: parts[0].fine_radius = 0.6 m must not exceed a quarter of the radius = "
+            "r.yaml:3:69: parts.0.fine_radius = 0.6 m must not exceed a quarter of the radius = "
             "0.25 m.");
 }
 
@@ -140,7 +185,7 @@ TEST(Recipe, tetrahedraInTwoDimensionsAreRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1], split: "
                            "tetrahedra}\n"),
-            "r.yaml:3:68: parts[0].split = 'tetrahedra' needs three dimensions; use triangles.");
+            "r.yaml:3:68: parts.0.split = 'tetrahedra' needs three dimensions; use triangles.");
 }
 
 TEST(Recipe, twoElementTypesInABlockAreRefused)
@@ -149,7 +194,7 @@ TEST(Recipe, twoElementTypesInABlockAreRefused)
       errorOf(head + "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1]}\n"
                      "  - {shape: box, block: b, size: [1, 1], divisions: [1, 1], split: "
                      "triangles}\n"),
-      "r.yaml:4:25: parts[1].block = 'b' has QUAD4 elements in other parts and TRI3 in this "
+      "r.yaml:4:25: parts.1.block = 'b' has QUAD4 elements in other parts and TRI3 in this "
       "one; a block has elements of one type. Give this part a block of its own, or split all "
       "parts of the block.");
 }
@@ -175,18 +220,48 @@ TEST(Recipe, invalidYamlIsNamedWithItsPlace)
   EXPECT_EQ(errorOf("dimension: [2\n").substr(0, 8), "r.yaml:2");
 }
 
-TEST(Recipe, everyShapeAndKeyOfTheHelpIsThere)
+TEST(Recipe, allProblemsAreToldAtOnce)
 {
-  const std::string help = recipeHelp();
-  for (const char* word :
-       {"box",        "wall",      "imbricate", "projectile",   "rock",
-        "cylinder",   "rotate",    "about",     "offset",       "where_own",
-        "node_sets",  "side_sets", "normal",    "courses",      "length_in_bricks",
-        "layers",     "across",    "along",     "section",      "quadrilateral",
-        "hexahedron", "corners",   "sector",    "inner_radius", "outer_radius",
-        "count",      "half_disc", "fine",      "fine_radius",  "lines",
-        "ends",       "bias",      "split",     "triangles",    "tetrahedra",
-        "ogive",      "caliber",   "nose"})
-    EXPECT_NE(help.find(word), std::string::npos) << word;
+  EXPECT_EQ(errorOf(head +
+                    "  - {shape: box, block: b, size: [1, 1]}\n"
+                    "  - {shape: half_disc, block: b, radius: 1, fine: 2, fine_radius: 0.5}\n"
+                    "node_sets: {a: {where: {x: [1, 0]}}}\n"),
+            "r.yaml:3:5: parts.0.divisions is missing; accepted: a list of whole numbers >= 1 "
+            "[elements], or lines in its place.\n"
+            "r.yaml:4:51: parts.1.fine = 2 m must not exceed fine_radius = 0.5 m.\n"
+            "r.yaml:4:67: parts.1.fine_radius = 0.5 m must not exceed a quarter of the radius = "
+            "0.25 m.\n"
+            "r.yaml:5:28: node_sets.a.where.x = [1, 0]: the lower end comes first.");
+}
+
+TEST(Recipe, eachKeyIsDocumented)
+{
+  const std::function<void(const Key&)> check = [&](const Key& group)
+  {
+    for (const Key& key : group.keys)
+    {
+      EXPECT_FALSE(key.meaning.empty()) << key.name;
+      EXPECT_TRUE(key.isGroup() || !key.example.empty()) << key.name;
+      const bool number = key.kind == KeyKind::Number || key.kind == KeyKind::Integer ||
+                          key.kind == KeyKind::Numbers || key.kind == KeyKind::Integers ||
+                          key.kind == KeyKind::Points;
+      EXPECT_EQ(number, !key.unit.empty()) << key.name << " [" << key.unit << "]";
+      check(key);
+    }
+  };
+  for (const Key* schema : {&recipeSchema(), &jointRecipeSchema(), &exampleSchema()})
+    check(*schema);
+}
+
+TEST(Recipe, theReferenceHasEveryShapeWithItsKeys)
+{
+  for (const Reference& reference : recipeReferences())
+    if (reference.option == "--help-recipe")
+      for (const ShapeModel& shape : shapeModels())
+      {
+        EXPECT_NE(reference.text().find(shape.name + ": " + shape.meaning), std::string::npos);
+        for (const Key& key : shape.keys)
+          EXPECT_NE(reference.text().find("parts.<index>." + key.name), std::string::npos);
+      }
 }
 } // namespace coplane

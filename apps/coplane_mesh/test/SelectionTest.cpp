@@ -84,12 +84,12 @@ TEST(Selection, everyWrongPartAndSetIsNamed)
   }
   catch (const Error& error)
   {
-    EXPECT_NE(std::string(error.what()).find("parts[0]"), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("parts[1]"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("parts.0"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("parts.1"), std::string::npos) << error.what();
   }
   try
   {
-    made("node_sets: {a: {block: middle}, b: {where: {y: 7}}}\nside_sets: {c: {normal: [0, 0]}}");
+    made("node_sets: {a: {block: middle}, b: {where: {y: 7}}}\nside_sets: {c: {where: {x: 9}}}");
     FAIL();
   }
   catch (const Error& error)

@@ -31,6 +31,10 @@ expect 4 convert missing.msh -o converted.e
 expect 4 convert "$recipe" -o converted.e
 expect 0 --version
 expect 0 --help-recipe
+for option in --help-example --help-recipe-markdown --recipe-schema --split-schema --example-schema; do expect 0 $option; done
+expect 0 make "$recipe" -o mesh.e --set title=other
+expect 3 make "$recipe" -o mesh.e --set dimension=5
+expect 3 example "$recipe"
 expect 2 check
 expect 4 check missing.e
 expect 3 make missing.yaml -o mesh.e

@@ -261,6 +261,7 @@ const Key& pointSchema()
 {
   static const Key schema = section(
       "", {
+              definitions(),
               text("title", &PointDeck::title).means("for the records").like("Direct shear"),
               Key(named("joints", &PointDeck::joints, jointCardKeys())
                       .decidedBy("model")
@@ -286,6 +287,7 @@ const Key& pointSchema()
               jointPaths(),
               Key(named("materials", &PointDeck::materials, materialCardKeys())
                       .decidedBy("model")
+                      .completedBy("set")
                       .means("laws of the continuum, as in decks of coplane")),
               Key(named("material_paths", &PointDeck::materialPaths, materialPathKeys())
                       .decidedBy("type")

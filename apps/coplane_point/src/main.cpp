@@ -94,7 +94,7 @@ int run(int argc, char** argv)
                        fmt::format("coplane_point {} ({})", version().number, version().revision));
   std::string file;
   std::vector<std::string> overrides;
-  bool check = false, help = false, markdown = false;
+  bool check = false, help = false, markdown = false, schema = false;
   app.add_option("deck", file, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", overrides,
                  "Overrides a deck value: --set joint_paths.test.steps=1000 (may be repeated)")
@@ -102,19 +102,22 @@ int run(int argc, char** argv)
   app.add_flag("--check", check, "Check the deck and stop");
   app.add_flag("--help-deck", help, "Print every key of a deck and stop");
   app.add_flag("--help-deck-markdown", markdown, "The same as Markdown");
+  app.add_flag("--schema", schema, "Print the JSON Schema of decks and stop");
   try
   {
     app.parse(argc, argv);
-    if (!help && !markdown && file.empty())
+    if (!help && !markdown && !schema && file.empty())
       throw CLI::RequiredError("deck");
   }
   catch (const CLI::ParseError& error)
   {
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
-  if (help || markdown)
+  if (help || markdown || schema)
   {
-    std::fputs(reference(markdown).c_str(), stdout);
+    std::fputs(
+        (schema ? jsonSchema(pointSchema(), "Coplane point deck") : reference(markdown)).c_str(),
+        stdout);
     return int(ExitCode::Success);
   }
   const PointDeck deck = readPointDeck(file, overrides);

@@ -100,7 +100,8 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
             "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
             "'steel'? There is: steel.\n"
             "wall.yaml:5:13: time.end = '0' is out of range; accepted: a number > 0 [s].\n"
-            "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: define, "
+            "title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
             "time, output, history, checkpoint, partition.");
@@ -495,7 +496,7 @@ TEST(DeckErrors, aDeckThatIsAList)
 TEST(DeckErrors, twoDocuments)
 {
   EXPECT_EQ(errorOf("mesh: a\n---\nmesh: b\n"),
-            "wall.yaml:3:1: here something begins that does not belong to what is above; a deck is "
+            "wall.yaml:3:1: here something begins that does not belong to what is above; a file is "
             "one document. Remove the line '---', or mend the indentation.");
 }
 
@@ -503,7 +504,7 @@ TEST(DeckErrors, aPieceThatAnIndentationHasCutOff)
 {
   // yaml-cpp 0.7 makes documents without end of it.
   EXPECT_EQ(errorOf("  probes:\n    - {name: tip}\n, and more\ntitle: b\n"),
-            "wall.yaml:3:1: here something begins that does not belong to what is above; a deck is "
+            "wall.yaml:3:1: here something begins that does not belong to what is above; a file is "
             "one document. Remove the line '---', or mend the indentation.");
 }
 
@@ -511,7 +512,7 @@ TEST(DeckErrors, anAliasOfItself)
 {
   EXPECT_EQ(
       errorWith("initial: &a [*a]\n"),
-      "wall.yaml:5:10: this part of the deck is nested too deeply or too large, as aliases (*name) "
+      "wall.yaml:5:10: this part of the file is nested too deeply or too large, as aliases (*name) "
       "that contain themselves make it; accepted: 50 levels and a million values more than are "
       "written. Write the values out.");
 }
@@ -628,7 +629,7 @@ TEST(DeckErrors, aFolderForADeck)
   }
   catch (const Error& e)
   {
-    EXPECT_STREQ(e.what(), "/: this is a folder; accepted: a deck, which is a YAML file.");
+    EXPECT_STREQ(e.what(), "/: this is a folder; accepted for the deck: a YAML file.");
   }
 }
 
@@ -674,7 +675,8 @@ TEST(DeckSetErrors, aValueThatIsNotYaml)
 TEST(DeckSetErrors, comeAfterThoseOfTheFile)
 {
   EXPECT_EQ(errorOf(leastDeck + "titel: x\n", {"mesh.name=1", "time.end=-1"}),
-            "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: title, mesh, "
+            "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: define, "
+            "title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
             "time, output, history, checkpoint, partition.\n"

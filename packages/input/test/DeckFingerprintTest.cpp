@@ -28,6 +28,31 @@ std::string with(const std::string& old, const std::string& text)
 }
 } // namespace
 
+TEST(DeckFingerprint, aDeckWithNamesIsThatWithNumbers)
+{
+  const auto deckOf = [](const std::string& define, const std::string& speed)
+  {
+    return parseDeck(define +
+                         "mesh: a.e\n"
+                         "materials: {m: {model: linear_elastic, density: 7850, youngs_modulus: "
+                         "2e11, poisson_ratio: 0.3}}\n"
+                         "blocks: {bar: {material: m}}\n"
+                         "conditions: [{type: velocity, node_set: a, value: [\"" +
+                         speed +
+                         "*t\", 0, 0]}]\n"
+                         "initial: [{block: bar, velocity: [" +
+                         speed + ", 0, 0]}]\ntime: {end: 1}\n",
+                     "a.yaml");
+  };
+  const Deck named = deckOf("define: {h: 0.1, v: 7*h}\n", "v"), plain = deckOf("", "0.7");
+  EXPECT_EQ(named.initial[0].velocity.x, 7 * 0.1);
+  EXPECT_EQ(named.text.find("define"), std::string::npos);
+  EXPECT_NE(named.text.find("0.7000000000000001*t"), std::string::npos) << named.text;
+  EXPECT_EQ(deckDifferences(deckFingerprint(deckOf("define: {v: 0.7}\n", "v").text, "a.yaml"),
+                            deckFingerprint(plain.text, "a.yaml")),
+            std::vector<std::string>());
+}
+
 TEST(DeckFingerprint, listsValuesByTheirPlacesInOrder)
 {
   EXPECT_EQ(deckFingerprint(deck, "a.yaml"), "conditions.0.node_set = left\n"

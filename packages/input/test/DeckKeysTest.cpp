@@ -227,8 +227,8 @@ std::string cardFor(const Key& group, const Key& key)
   return key.name == "block" && group.name == "probes" ? ".1" : ".0";
 }
 
-/// All keys with values but those that decide about others: each value of these is in
-/// deckOfAllModels.
+/// All keys with values but those that decide about others, of which each value is in
+/// deckOfAllModels, and `define`, which acts through others.
 void collect(const Key& group, const std::string& path, std::vector<Leaf>& leaves)
 {
   for (const auto& key : group.keys)
@@ -236,7 +236,7 @@ void collect(const Key& group, const std::string& path, std::vector<Leaf>& leave
     const std::string here = path + (path.empty() ? "" : cardFor(group, key) + ".") + key.name;
     if (key.isGroup())
       collect(key, here, leaves);
-    else if (key.name != group.discriminator)
+    else if (key.name != group.discriminator && key.kind != KeyKind::Definitions)
       leaves.push_back({here, key});
   }
 }

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES core LIBRARIES fmt::fmt yaml-cpp::yaml-cpp PRIVATE_LIBRARIES nlohmann_json::nlohmann_json muparser::muparser)
+coplane_dependencies(PACKAGES core LIBRARIES fmt::fmt PRIVATE_LIBRARIES yaml-cpp::yaml-cpp nlohmann_json::nlohmann_json muparser::muparser)

@@ -20,7 +20,7 @@ examples = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(examples)
 example = examples.read_example(name)
 size = "coarse" if "coarse" in example["sizes"] else next(iter(example["sizes"]))
-options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[""])
+options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[""], overwrite=False)
 chosen = examples.ExampleRun(name, example, size, "", options)
 recipe, deck, joints = chosen.recipe, chosen.deck, chosen.joints
 deck["time"]["end"] *= part

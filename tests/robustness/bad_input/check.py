@@ -163,6 +163,11 @@ expect(
     changed(["initial", 0], {"block": "left", "velocity_field": ["sqrt(-0.05 - x)", 0, 0]}),
 )
 expect(
+    "a name that define does not have", DECK, ["initial.0.velocity.0 = '2*sped' is not a number (did you mean 'speed'?)"],
+    {**changed(["initial", 0], {"block": "left", "velocity": ["2*sped", 0, 0]}), "define": {"speed": 5}},
+)
+expect("a name that nothing uses", DECK, ["define.speed is used nowhere"], {**good, "define": {"speed": 5}})
+expect(
     "stress out of the plane", DECK, ["yz = 1000000 Pa", "plane strain"],
     changed(["initial", 0], {"block": "left", "stress": [0, 0, 0, 0, 1e6, 0]}),
 )

@@ -5,27 +5,15 @@
 #include "MaterialCards.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_core/FileRoles.hpp>
 #include <coplane_schema/SchemaReader.hpp>
 
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 namespace coplane
 {
 std::string readDeckFile(const std::string& file)
 {
-  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
-    fail(ExitCode::Deck, "{}: this is {}; accepted: a deck, which is a YAML file.", file, kind);
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf() || stream.peek() == EOF))
-    fail(ExitCode::Deck, "{}: the deck cannot be read ({}). Check the path and its permissions.",
-         file, std::generic_category().message(errno));
-  return text.str();
+  return readTextFile(file);
 }
 
 Deck parseDeck(const std::string& text, const std::string& file,
@@ -38,9 +26,15 @@ Deck parseDeck(const std::string& text, const std::string& file,
   deck.output.results = path.stem().string() + ".e";
   deck.history.file = path.stem().string() + ".csv";
   deck.checkpoint.file = path.stem().string() + ".chk";
-  const DeckNode root =
-      readBySchema(deckSchema(), text, file, overrides, &deck, problems, insertMaterialSets);
-  deck.text = overrides.empty() ? text : toYaml(root); // the same deck with or without its sets
+  bool defines = false;
+  const auto prepare = [&](DeckNode& root)
+  {
+    defines = root.find("define") != nullptr;
+    insertMaterialSets(root);
+  };
+  const DeckNode root = readBySchema(deckSchema(), text, file, overrides, &deck, problems, prepare);
+  // Where values do not stand as written, the text of the run has them as they were read.
+  deck.text = overrides.empty() && !defines ? text : toYaml(root);
   if (const DeckNode* mesh = root.find("mesh"))
     deck.meshWhere = mesh->where;
   if (const DeckNode* blocks = root.find("blocks"))

@@ -420,6 +420,7 @@ Key makeSchema()
 {
   return section(
       "", {
+              definitions(),
               text("title", &Deck::title).means("for the records").like("Bar through a wall"),
               text("mesh", &Deck::mesh)
                   .needed()

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <coplane_core/Error.hpp>
-#include <coplane_schema/DeckNode.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 
 #include <functional>
@@ -13,18 +12,6 @@
 
 namespace coplane
 {
-/// A card where it stands in its file, for what one of its keys demands of another.
-struct CardPlace
-{
-  const DeckNode& node;
-  std::string path; ///< such as materials.steel
-  Problems& problems;
-
-  bool gives(const std::string& key) const { return node.find(key) != nullptr; }
-  /// "materials.steel.key text", at the key or, where it is not given, at the card.
-  void problem(const std::string& key, const std::string& text) const;
-};
-
 /// A model that the cards of a group may name. Schema, references, checks and laws come from here;
 /// a law's own file makes it.
 template <class LawType>
@@ -102,9 +89,10 @@ bool sameTexts(const Key& a, const Key& b);
 /// those of all models, each once: what several models say alike is one key, which goes to the
 /// parameters of the card's own model.
 /// @param Card has `std::string model` and `std::shared_ptr<void> parameters`
+/// @param word the key that names the model
 template <class Card, class Model>
 std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::string& meaning,
-                              const std::string& example)
+                              const std::string& example, const std::string& word = "model")
 {
   std::vector<std::string> names, meanings;
   for (const Model& model : models)
@@ -112,7 +100,7 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
     names.push_back(model.name);
     meanings.push_back(model.meaning);
   }
-  std::vector<Key> keys{schema::text("model", &Card::model)
+  std::vector<Key> keys{schema::text(word, &Card::model)
                             .oneOf(names)
                             .means(fmt::format("{}: {}", meaning, fmt::join(meanings, "; ")))
                             .like(example)
@@ -144,6 +132,12 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
           const auto own = owner->find(card.model);
           return own == owner->end() ? "" : own->second.show(card.parameters.get());
         };
+        if (key.isGroup())
+          shared.enter = [owner](void* target, const std::string& name, const std::string& where)
+          {
+            const auto& card = *static_cast<const Card*>(target);
+            return owner->at(card.model).enter(card.parameters.get(), name, where);
+          };
         keys.push_back(shared);
         owners.push_back(owner);
       }

@@ -3,13 +3,18 @@
 #include "YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Text.hpp>
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <fstream>
 #include <limits>
 #include <optional>
+#include <sstream>
+#include <system_error>
 
 namespace coplane
 {
@@ -40,7 +45,7 @@ DeckNode copyNode(const YAML::Node& node, Source& source, int depth)
   // An alias can contain itself, or double at each of many levels.
   if (depth > 50 || ++source.nodes > source.most)
     fail(ExitCode::Deck,
-         "{}: this part of the deck is nested too deeply or too large, as aliases (*name) that "
+         "{}: this part of the file is nested too deeply or too large, as aliases (*name) that "
          "contain themselves make it; accepted: 50 levels and a million values more than are "
          "written. Write the values out.",
          source.where(node.Mark()));
@@ -130,6 +135,11 @@ const DeckNode* DeckNode::find(const std::string& key) const
   return nullptr;
 }
 
+DeckNode* DeckNode::find(const std::string& key)
+{
+  return const_cast<DeckNode*>(std::as_const(*this).find(key)); // of this tree, which is not const
+}
+
 const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& path)
 {
   const DeckNode* node = &root;
@@ -166,7 +176,26 @@ std::string Problems::text() const
   return text;
 }
 
-DeckNode parseYaml(const std::string& text, const std::string& file)
+void CardPlace::problem(const std::string& key, const std::string& text) const
+{
+  const DeckNode* const given = node.find(key);
+  problems.add(given ? *given : node, path + "." + key + " " + text);
+}
+
+std::string readTextFile(const std::string& file, const FileKind& kind)
+{
+  if (const std::string special = kindOfSpecialFile(file); !special.empty())
+    fail(ExitCode::Deck, "{}: this is {}; accepted for {}: a YAML file.", file, special, kind.name);
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf() || stream.peek() == EOF))
+    fail(ExitCode::Deck, "{}: {} cannot be read ({}). Check the path and its permissions.", file,
+         kind.name, std::generic_category().message(errno));
+  return text.str();
+}
+
+DeckNode parseYaml(const std::string& text, const std::string& file, const FileKind& kind)
 {
   demandPlainText(text, file);
   Source source;
@@ -187,17 +216,17 @@ DeckNode parseYaml(const std::string& text, const std::string& file)
   }
   if (yaml.rest)
     fail(ExitCode::Deck,
-         "{}: here something begins that does not belong to what is above; a deck is one document. "
+         "{}: here something begins that does not belong to what is above; a file is one document. "
          "Remove the line '---', or mend the indentation.",
          source.where(*yaml.rest));
   if (yaml.document.IsNull())
-    fail(ExitCode::Deck, "{}: the deck is empty; --help-deck lists the keys that it needs.", file);
+    fail(ExitCode::Deck, "{}: {} is empty; {} lists the keys that it needs.", file, kind.name,
+         kind.help);
   DeckNode root = copyNode(yaml.document, source, 0);
   if (root.kind != DeckNode::Kind::Map)
-    fail(ExitCode::Deck,
-         "{}: the deck is {}; accepted: keys with values, such as 'mesh: bricks.e'. See "
-         "--help-deck.",
-         root.where, root.kind == DeckNode::Kind::List ? "a list" : "a single value");
+    fail(ExitCode::Deck, "{}: {} is {}; accepted: keys with values, such as '{}'. See {}.",
+         root.where, kind.name, root.kind == DeckNode::Kind::List ? "a list" : "a single value",
+         kind.example, kind.help);
   return root;
 }
 
@@ -267,7 +296,7 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
         key.order = place.order;
         node->entries.emplace_back(key, DeckNode{});
       }
-      node = const_cast<DeckNode*>(node->find(word)); // of our own tree, which is not const
+      node = node->find(word);
     }
     done += (done.empty() ? "" : ".") + word;
     rest = rest.size() > word.size() ? rest.substr(word.size() + 1) : "";

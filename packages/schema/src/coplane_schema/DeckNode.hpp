@@ -30,6 +30,7 @@ struct DeckNode
 
   /// The first value with this key, or nullptr.
   const DeckNode* find(const std::string& key) const;
+  DeckNode* find(const std::string& key);
 };
 
 /// Value at a path such as {"conditions", "0", "value"}, or the deepest value on the way to it.
@@ -50,9 +51,32 @@ private:
   std::vector<std::pair<long, std::string>> problems_;
 };
 
-/// Reads YAML. Throws Error(Deck) for wrong syntax, an empty deck, several documents, endless
+/// A card where it stands in its file, for what one of its keys demands of another.
+struct CardPlace
+{
+  const DeckNode& node;
+  std::string path; ///< such as materials.steel
+  Problems& problems;
+
+  bool gives(const std::string& key) const { return node.find(key) != nullptr; }
+  /// "materials.steel.key text", at the key or, where it is not given, at the card.
+  void problem(const std::string& key, const std::string& text) const;
+};
+
+/// What messages call a file.
+struct FileKind
+{
+  std::string name = "the deck";
+  std::string help = "--help-deck"; ///< the option that lists its keys
+  std::string example = "mesh: bricks.e";
+};
+
+/// The text of a file. Throws Error(Deck) when it cannot be read.
+std::string readTextFile(const std::string& file, const FileKind& kind = {});
+
+/// Reads YAML. Throws Error(Deck) for wrong syntax, an empty file, several documents, endless
 /// aliases.
-DeckNode parseYaml(const std::string& text, const std::string& file);
+DeckNode parseYaml(const std::string& text, const std::string& file, const FileKind& kind = {});
 
 /// Applies "a.b.0.c=value" to the tree; the value is YAML. What cannot be reached becomes a
 /// problem.

@@ -11,6 +11,17 @@ bool Key::appliesTo(const std::string& model) const
   return models.empty() || std::find(models.begin(), models.end(), model) != models.end();
 }
 
+void fitToDimension(Key& key, int dimension)
+{
+  if (key.byDimension)
+    (key.kind == KeyKind::Points ? key.itemLength : key.length) = std::size_t(dimension);
+  key.byDimension = false;
+  if (key.dimension && key.dimension != dimension)
+    key.noPlace = fmt::format("is for {} dimensions only", key.dimension == 2 ? "two" : "three");
+  for (Key& one : key.keys)
+    fitToDimension(one, dimension);
+}
+
 std::string acceptedText(const Key& key)
 {
   std::string range;
@@ -21,7 +32,14 @@ std::string acceptedText(const Key& key)
         fmt::format("{} {} {}", key.lower ? " and" : "", key.upperOpen ? "<" : "<=", *key.upper);
   const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
   const std::string words = fmt::format("{}", fmt::join(key.choices, ", "));
-  const std::string count = key.length ? fmt::format("{} ", key.length) : "";
+  const auto countOf = [&](std::size_t length) {
+    return length ? fmt::format("{} ", length) : key.byDimension ? "2 or 3 " : "";
+  };
+  const std::string count = key.kind == KeyKind::Points
+                                ? (key.length ? fmt::format("{} ", key.length) : "")
+                                : countOf(key.length);
+  const std::string many = key.leastLength ? fmt::format("at least {} ", key.leastLength) : count;
+  const std::string alone = key.aloneToo ? " or one alone" : "";
   switch (key.kind)
   {
   case KeyKind::Text:
@@ -34,10 +52,19 @@ std::string acceptedText(const Key& key)
   case KeyKind::Flag:
     return "true or false";
   case KeyKind::Numbers:
-    return fmt::format("a list of {}numbers{}{}{}", count, range,
-                       key.notAllZero ? ", not all zero" : "", unit);
+    return fmt::format("a list of {}numbers{}{}{}{}", many, range,
+                       key.notAllZero ? ", not all zero" : "", unit, alone);
+  case KeyKind::Integers:
+    return fmt::format("a list of {}whole numbers{}{}", many, range, unit);
+  case KeyKind::Points:
+    return fmt::format("a list of {}points, each a list of {}numbers{}", many,
+                       countOf(key.itemLength), unit);
   case KeyKind::Texts:
-    return fmt::format("a list of {}names{}", count, words.empty() ? "" : " out of " + words);
+    return fmt::format("a list of {}names{}{}", count, words.empty() ? "" : " out of " + words,
+                       alone);
+  case KeyKind::TextLists:
+    return fmt::format("{}{}a list of lists of {}names", fmt::join(key.choices, " or "),
+                       words.empty() ? "" : " or ", countOf(key.itemLength));
   case KeyKind::TimeFunction:
     return "a number" + range + ", an expression of t" + (key.ofPlaceToo ? ", x, y, z" : "") +
            " or a table" + unit;
@@ -46,12 +73,17 @@ std::string acceptedText(const Key& key)
                        key.ofPlaceToo ? ", x, y, z" : "", unit);
   case KeyKind::PlaceFunctions:
     return fmt::format("a list of {}numbers or expressions of x, y, z{}", count, unit);
+  case KeyKind::Definitions:
+    return "names, each with a number or an expression of names before it";
+  case KeyKind::Changes:
+    return "paths of keys, each with a value";
   case KeyKind::Group:
     return "keys with values";
   case KeyKind::NamedGroups:
     return "names, each with keys and values";
   case KeyKind::GroupList:
-    return "a list of items with keys and values";
+    return "a list of items with keys and values" +
+           std::string(key.aloneToo ? ", or one item alone" : "");
   }
   return "";
 }

@@ -12,6 +12,8 @@
 
 namespace coplane
 {
+struct CardPlace;
+
 /// What a key holds.
 enum class KeyKind
 {
@@ -20,17 +22,23 @@ enum class KeyKind
   Integer,
   Flag,
   Numbers,        ///< list of numbers
+  Integers,       ///< list of whole numbers
+  Points,         ///< list of lists of numbers
   Texts,          ///< list of words
+  TextLists,      ///< list of lists of words
   TimeFunction,   ///< a number, an expression of t, or a table over t
   TimeFunctions,  ///< a list of them
   PlaceFunctions, ///< a list of numbers or expressions of x, y and z
+  Definitions,    ///< names with numbers that the rest of the file may use
+  Changes,        ///< paths in another file, with any values
   Group,          ///< keys
   NamedGroups,    ///< names, each with the same keys
   GroupList       ///< list of groups
 };
 
-using KeyValue = std::variant<bool, int, Real, std::string, std::vector<Real>,
-                              std::vector<std::string>, std::vector<TimeFunction>>;
+using KeyValue = std::variant<bool, int, Real, std::string, std::vector<Real>, std::vector<int>,
+                              std::vector<std::vector<Real>>, std::vector<std::string>,
+                              std::vector<std::vector<std::string>>, std::vector<TimeFunction>>;
 
 /// Keys of one group of which at most one, or exactly one, may be given.
 struct Alternatives
@@ -63,15 +71,22 @@ struct Key
 
   // values
   std::vector<std::string>
-      choices; ///< Text, Texts: accepted words; Integer: words beside numbers, for 0, -1, ...
+      choices; ///< Text, Texts: accepted words; Integer: words beside numbers, for 0, -1, ...;
+               ///< TextLists: words that may stand in place of the list
   std::optional<Real> lower, upper;
   bool lowerOpen = false, upperOpen = false; ///< the limit itself is refused
   std::size_t length = 0;                    ///< of a list; 0: any
+  std::size_t itemLength = 0;                ///< of the lists in it (Points, TextLists); 0: any
+  std::size_t leastLength = 0;               ///< of a list
+  bool byDimension = false;                  ///< 2 or 3 numbers, in a list or in each of its points
+  bool aloneToo = false;                     ///< an item may stand without its list
   bool notAllZero = false;                   ///< Numbers: a direction
   bool ofPlaceToo = false; ///< TimeFunction(s): expressions may have x, y, z beside t
   std::function<void(void* target, const KeyValue&)> store;
   std::function<std::string(const void* target)> show; ///< the value there, if it can be shown
-  const std::type_info* card = nullptr; ///< what `store` takes its target for; none: a group
+  const std::type_info* card = nullptr; ///< what `store` or `enter` takes its target for
+  int dimension = 0;                    ///< the only one in which the key may be given; 0: any
+  std::string noPlace;                  ///< why the key may not be given here; see fitToDimension
 
   // groups
   std::vector<Key> keys;
@@ -79,12 +94,19 @@ struct Key
   std::vector<Alternatives> alternatives;
   std::vector<RemovedKey> removed;
   std::string completedBy; ///< a key (`set`) that gives all required ones that are not given
+  std::string shortFor;    ///< a value that is no map is that of this key of the group
+  /// What one key of the group demands of another; asked when all of them could be read.
+  std::function<void(void* card, const CardPlace&)> check;
   /// The card that the group's keys fill; lists grow by one item.
   std::function<void*(void* target, const std::string& name, const std::string& where)> enter;
 
   bool isGroup() const { return kind >= KeyKind::Group; }
   bool appliesTo(const std::string& model) const;
 };
+
+/// Makes a schema that of one dimension, 2 or 3: lists with a number per axis get their length,
+/// keys of the other dimension are refused.
+void fitToDimension(Key& key, int dimension);
 
 /// What may be written: "a number > 0 [kg/m^3]", "linear_elastic or j2", "a list of 3 numbers
 /// [m/s]".

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/Vec3.hpp>
+#include <coplane_schema/DeckNode.hpp>
 #include <coplane_schema/Schema.hpp>
 
 #include <fmt/format.h>
@@ -58,7 +59,21 @@ public:
     return *this;
   }
 
+  /// What one key of a group demands of another.
+  template <class Card>
+  KeyBuilder& checkedBy(void (*check)(Card&, const CardPlace&))
+  {
+    key_.check = [check](void* card, const CardPlace& place)
+    { check(*static_cast<Card*>(card), place); };
+    return *this;
+  }
+
   KeyBuilder& notAllZero() { return set(key_.notAllZero, true); }
+  KeyBuilder& atLeastItems(std::size_t count) { return set(key_.leastLength, count); }
+  KeyBuilder& byDimension() { return set(key_.byDimension, true); }
+  KeyBuilder& orOneAlone() { return set(key_.aloneToo, true); }
+  KeyBuilder& onlyInDimension(int dimension) { return set(key_.dimension, dimension); }
+  KeyBuilder& shortFor(const std::string& name) { return set(key_.shortFor, name); }
   KeyBuilder& ofPlaceToo() { return set(key_.ofPlaceToo, true); }
   KeyBuilder& decidedBy(const std::string& name) { return set(key_.discriminator, name); }
   KeyBuilder& completedBy(const std::string& name) { return set(key_.completedBy, name); }
@@ -119,6 +134,18 @@ inline std::string textOf(const std::vector<Real>& v)
 {
   return fmt::format("[{}]", fmt::join(v, ", "));
 }
+inline std::string textOf(int value)
+{
+  return fmt::format("{}", value);
+}
+inline std::string textOf(const std::vector<int>& v)
+{
+  return fmt::format("[{}]", fmt::join(v, ", "));
+}
+inline std::string textOf(const std::vector<std::string>& v)
+{
+  return fmt::format("[{}]", fmt::join(v, ", "));
+}
 inline std::string textOf(const Vec3& v)
 {
   return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);
@@ -130,7 +157,7 @@ inline std::string textOf(const std::array<Real, 6>& v)
 
 inline void assign(Vec3& field, const std::vector<Real>& v)
 {
-  field = {v[0], v[1], v[2]};
+  field = {v[0], v[1], v.size() > 2 ? v[2] : 0.0};
 }
 inline void assign(std::vector<Real>& field, const std::vector<Real>& v)
 {
@@ -183,6 +210,33 @@ KeyBuilder text(const std::string& name, std::string Card::*member)
   return shown<std::string>(name, KeyKind::Text, member, copyTo);
 }
 
+template <class Card>
+KeyBuilder integer(const std::string& name, int Card::*member)
+{
+  return shown<int>(name, KeyKind::Integer, member, copyTo);
+}
+
+template <class Card>
+KeyBuilder integers(const std::string& name, std::vector<int> Card::*member)
+{
+  return shown<std::vector<int>>(name, KeyKind::Integers, member, copyTo);
+}
+
+template <class Card>
+KeyBuilder texts(const std::string& name, std::vector<std::string> Card::*member)
+{
+  return shown<std::vector<std::string>>(name, KeyKind::Texts, member, copyTo);
+}
+
+template <class Card>
+KeyBuilder points(const std::string& name, std::vector<std::vector<Real>> Card::*member,
+                  std::size_t length = 0)
+{
+  Key key = bound<std::vector<std::vector<Real>>>(name, KeyKind::Points, member, copyTo);
+  key.length = length;
+  return KeyBuilder(key).byDimension();
+}
+
 /// A word that stands for a value of an enumeration.
 template <class Card, class Enum>
 KeyBuilder choice(const std::string& name, Enum Card::*member,
@@ -225,6 +279,27 @@ KeyBuilder vector(const std::string& name, Vec3 Card::*member)
   return numbers(name, member, 3);
 }
 
+/// `define`: names with numbers that the rest of the file may use. A key of the whole file.
+inline KeyBuilder definitions()
+{
+  Key key;
+  key.name = "define";
+  key.kind = KeyKind::Definitions;
+  return KeyBuilder(key)
+      .means("numbers that other values of the file name, alone or in expressions; each of the "
+             "names before it")
+      .like("{h: 0.1, width: \"4*h\"}");
+}
+
+/// Changes of another file, by the paths of its keys.
+inline KeyBuilder changes(const std::string& name)
+{
+  Key key;
+  key.name = name;
+  key.kind = KeyKind::Changes;
+  return KeyBuilder(key);
+}
+
 /// Keys in a group of their own whose target is the same card.
 inline KeyBuilder section(const std::string& name, std::vector<Key> keys)
 {
@@ -241,6 +316,7 @@ template <class Outer, class Card>
 KeyBuilder group(const std::string& name, Card Outer::*member, std::vector<Key> keys)
 {
   Key key = section(name, std::move(keys));
+  key.card = &typeid(Outer);
   key.enter = [member](void* target, const std::string&, const std::string&) -> void*
   { return &(static_cast<Outer*>(target)->*member); };
   return KeyBuilder(key);
@@ -252,6 +328,7 @@ KeyBuilder named(const std::string& name, std::vector<Card> Outer::*member, std:
 {
   Key key = section(name, std::move(keys));
   key.kind = KeyKind::NamedGroups;
+  key.card = &typeid(Outer);
   key.enter = [member](void* target, const std::string& cardName, const std::string& where) -> void*
   {
     auto& cards = static_cast<Outer*>(target)->*member;
@@ -269,6 +346,7 @@ KeyBuilder list(const std::string& name, std::vector<Card> Outer::*member, std::
 {
   Key key = section(name, std::move(keys));
   key.kind = KeyKind::GroupList;
+  key.card = &typeid(Outer);
   key.enter = [member](void* target, const std::string&, const std::string& where) -> void*
   {
     auto& cards = static_cast<Outer*>(target)->*member;

@@ -1,5 +1,6 @@
 #include "SchemaReader.hpp"
 
+#include "Definitions.hpp"
 #include "Suggestion.hpp"
 #include "TimeFunctionEvaluator.hpp"
 
@@ -34,22 +35,6 @@ std::string found(const DeckNode& node)
   return "";
 }
 
-/// The number written in a text; nothing when it is not one, infinity when it is too large.
-std::optional<Real> numberIn(const std::string& text)
-{
-  const char* begin = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0);
-  const char* end = text.data() + text.size();
-  Real value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || error == std::errc::invalid_argument || text.empty())
-  {
-    if (text == ".inf" || text == "+.inf" || text == "-.inf" || text == ".nan") // as YAML has them
-      return infinity;
-    return std::nullopt;
-  }
-  return error == std::errc::result_out_of_range ? infinity : value;
-}
-
 /// All places of the schema with a key of this name.
 void collectPlaces(const Key& group, const std::string& path, const std::string& name,
                    std::vector<std::string>& places)
@@ -66,12 +51,42 @@ void collectPlaces(const Key& group, const std::string& path, const std::string&
 class SchemaReader
 {
 public:
-  SchemaReader(const Key& schema, Problems& problems) : schema_(schema), problems_(problems) {}
-
-  void readGroup(const Key& group, const DeckNode& node, const std::string& path, void* target)
+  SchemaReader(const Key& schema, const FileKind& file, Problems& problems)
+      : schema_(schema), file_(file), problems_(problems)
   {
+  }
+
+  /// The whole tree. Expressions of names in `define` have their values in it afterwards, and
+  /// `define` is gone.
+  void read(DeckNode& root, void* target)
+  {
+    const std::size_t before = problems_.size();
+    const auto isDefine = [](const auto& entry) { return entry.first.text == "define"; };
+    const bool mayDefine =
+        std::any_of(schema_.keys.begin(), schema_.keys.end(),
+                    [](const Key& key) { return key.kind == KeyKind::Definitions; });
+    if (const DeckNode* define = root.find("define"); define && mayDefine)
+    {
+      checkNames(*define, "define");
+      definitions_.read(*define, problems_);
+    }
+    readGroup(schema_, root, "", target);
+    if (!mayDefine)
+      return;
+    if (problems_.size() == before)
+      definitions_.demandUse(problems_);
+    auto& entries = root.entries;
+    entries.erase(std::remove_if(entries.begin(), entries.end(), isDefine), entries.end());
+  }
+
+private:
+  void readGroup(const Key& group, DeckNode& node, const std::string& path, void* target)
+  {
+    if (!group.shortFor.empty() && node.kind != Kind::Map)
+      return readShort(group, node, path, target);
     if (node.kind != Kind::Map)
       return wrong(node, path, "", "keys with values");
+    const std::size_t before = problems_.size();
     const std::optional<std::string> model = modelOf(group, node);
     checkNames(node, path);
     for (const auto& [name, value] : node.entries)
@@ -80,10 +95,12 @@ public:
     {
       if (!key.models.empty() && !(model && key.appliesTo(*model)))
         continue;
-      const DeckNode* value = node.find(key.name);
-      if (value)
+      DeckNode* value = node.find(key.name);
+      if (value && !key.noPlace.empty())
+        problems_.add(*value, fmt::format("{} {}; remove it.", join(path, key.name), key.noPlace));
+      else if (value)
         readKey(key, *value, join(path, key.name), target);
-      else if (key.required)
+      else if (key.required && key.noPlace.empty())
         problems_.add(
             node, fmt::format("{} is missing{}; accepted: {}: {}.", join(path, key.name),
                               key.models.empty()
@@ -92,9 +109,25 @@ public:
                               acceptedText(key), key.meaning));
     }
     checkAlternatives(group, node, path);
+    if (group.check && problems_.size() == before)
+      group.check(target, {node, path, problems_});
   }
 
-private:
+  /// A value in place of a group: that of one of its keys.
+  void readShort(const Key& group, DeckNode& node, const std::string& path, void* target)
+  {
+    const std::size_t before = problems_.size();
+    for (const auto& key : group.keys)
+      if (key.name == group.shortFor)
+        readKey(key, node, path, target);
+    DeckNode map = node; // where a check finds it
+    map.kind = Kind::Map;
+    map.entries = {{node, node}};
+    map.entries[0].first.text = group.shortFor;
+    if (group.check && problems_.size() == before)
+      group.check(target, {map, path, problems_});
+  }
+
   static std::string join(const std::string& path, const std::string& name)
   {
     return path.empty() ? name : path + "." + name;
@@ -103,7 +136,7 @@ private:
   void wrong(const DeckNode& node, const std::string& path, const std::string& what,
              const std::string& accepted)
   {
-    problems_.add(node, fmt::format("{} = {}{}; accepted: {}.", path.empty() ? "the deck" : path,
+    problems_.add(node, fmt::format("{} = {}{}; accepted: {}.", path.empty() ? file_.name : path,
                                     found(node), what, accepted));
   }
 
@@ -216,7 +249,7 @@ private:
     }
   }
 
-  void readKey(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  void readKey(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
     switch (key.kind)
     {
@@ -226,38 +259,68 @@ private:
       return readNamedGroups(key, node, path, target);
     case KeyKind::GroupList:
       return readGroupList(key, node, path, target);
+    case KeyKind::Definitions:
+      return; // read before all others
+    case KeyKind::Changes:
+      return node.kind == Kind::Map ? checkNames(node, path)
+                                    : wrong(node, path, "", acceptedText(key));
     default:
       if (const auto value = readValue(key, node, path))
         key.store(target, *value);
     }
   }
 
-  void readNamedGroups(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  void readNamedGroups(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
     if (node.kind != Kind::Map || (key.required && node.entries.empty()))
       return wrong(node, path, "", acceptedText(key));
     checkNames(node, path);
     std::set<std::string> seen;
-    for (const auto& [name, value] : node.entries)
+    for (auto& [name, value] : node.entries)
       if (name.kind == Kind::Scalar && name.text != "<<" && seen.insert(name.text).second)
         readGroup(key, value, join(path, name.text), key.enter(target, name.text, name.where));
   }
 
-  void readGroupList(const Key& key, const DeckNode& node, const std::string& path, void* target)
+  void readGroupList(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
-    if (node.kind != Kind::List)
+    if (key.aloneToo && node.kind == Kind::Map)
+      return readGroup(key, node, path, key.enter(target, "", node.where));
+    if (node.kind != Kind::List || (key.required && node.items.empty()))
       return wrong(node, path, "", acceptedText(key));
     for (std::size_t i = 0; i < node.items.size(); ++i)
       readGroup(key, node.items[i], fmt::format("{}.{}", path, i),
                 key.enter(target, "", node.items[i].where));
   }
 
-  std::optional<KeyValue> readValue(const Key& key, const DeckNode& node, const std::string& path)
+  std::optional<KeyValue> readValue(const Key& key, DeckNode& node, const std::string& path)
   {
-    const bool isList = key.kind == KeyKind::Numbers || key.kind == KeyKind::Texts ||
-                        key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions;
-    if (isList)
-      return readList(key, node, path);
+    switch (key.kind)
+    {
+    case KeyKind::Numbers:
+      return readNumbers(key, node, path);
+    case KeyKind::Integers:
+      return readItems<int>(key, node, path,
+                            [&](DeckNode& item, const std::string& here)
+                            { return readInteger(oneOf(key, KeyKind::Integer), item, here); });
+    case KeyKind::Points:
+      return readItems<std::vector<Real>>(key, node, path,
+                                          [&](DeckNode& item, const std::string& here)
+                                          { return readPoint(key, item, here); });
+    case KeyKind::Texts:
+      return readTexts(key, node, path);
+    case KeyKind::TextLists:
+      return readTextLists(key, node, path);
+    case KeyKind::TimeFunctions:
+      return readFunctions(key, KeyKind::TimeFunction, node, path);
+    case KeyKind::PlaceFunctions:
+      return readFunctions(key, KeyKind::PlaceFunctions, node, path);
+    default:
+      return readOne(key, node, path);
+    }
+  }
+
+  std::optional<KeyValue> readOne(const Key& key, DeckNode& node, const std::string& path)
+  {
     const bool isTable = key.kind == KeyKind::TimeFunction && node.kind == Kind::Map;
     if (!isTable && (node.kind != Kind::Scalar || node.text.empty()))
     {
@@ -269,7 +332,7 @@ private:
     case KeyKind::Number:
       return optionalValue(readNumber(key, node, path));
     case KeyKind::Integer:
-      return readInteger(key, node, path);
+      return optionalValue(readInteger(key, node, path));
     case KeyKind::Flag:
       if (!node.quoted && (node.text == "true" || node.text == "false"))
         return node.text == "true";
@@ -291,18 +354,47 @@ private:
     return value ? std::optional<KeyValue>(*value) : std::nullopt;
   }
 
-  std::optional<Real> readNumber(const Key& key, const DeckNode& node, const std::string& path)
+  /// The number of a scalar: as written, or what an expression of defined names gives, which then
+  /// stands in the tree. Else `problem` says why there is none.
+  std::optional<Real> numberOf(DeckNode& node, std::string& problem)
   {
-    const auto value = node.kind == Kind::Scalar ? numberIn(node.text) : std::nullopt;
-    std::string problem;
-    if (!value)
-      problem = " is not a number";
-    else if (node.quoted)
+    auto number = node.kind == Kind::Scalar ? numberIn(node.text) : std::nullopt;
+    if (number && node.quoted)
       problem = " is text in quotes, not a number; remove the quotes";
-    else if (!std::isfinite(*value))
+    else if (number && !std::isfinite(*number))
       problem = " is not a finite number";
-    else if ((key.lower && (*value < *key.lower || (key.lowerOpen && *value == *key.lower))) ||
-             (key.upper && (*value > *key.upper || (key.upperOpen && *value == *key.upper))))
+    else if (!number && node.kind == Kind::Scalar && definitions_.appearIn(node.text))
+    {
+      number = definitions_.value(node.text, problem);
+      if (number && std::isfinite(*number))
+        insert(node, *number);
+      else
+        problem = fmt::format(" is not a number ({}){}",
+                              number ? fmt::format("it is {}", *number) : problem,
+                              definitions_.suggestionFor(node.text));
+    }
+    else if (!number)
+      problem = " is not a number" + definitions_.suggestionFor(node.text);
+    return problem.empty() ? number : std::nullopt;
+  }
+
+  static void insert(DeckNode& node, Real value)
+  {
+    node.text = fmt::format("{}", value);
+    node.quoted = false;
+  }
+
+  static bool isOutside(const Key& key, Real value)
+  {
+    return (key.lower && (value < *key.lower || (key.lowerOpen && value == *key.lower))) ||
+           (key.upper && (value > *key.upper || (key.upperOpen && value == *key.upper)));
+  }
+
+  std::optional<Real> readNumber(const Key& key, DeckNode& node, const std::string& path)
+  {
+    std::string problem;
+    const auto value = numberOf(node, problem);
+    if (value && isOutside(key, *value))
       problem = " is out of range";
     if (problem.empty())
       return value;
@@ -310,16 +402,19 @@ private:
     return std::nullopt;
   }
 
-  std::optional<KeyValue> readInteger(const Key& key, const DeckNode& node, const std::string& path)
+  std::optional<int> readInteger(const Key& key, DeckNode& node, const std::string& path)
   {
     const auto word = std::find(key.choices.begin(), key.choices.end(), node.text);
-    if (word != key.choices.end())
+    if (node.kind == Kind::Scalar && word != key.choices.end())
       return -int(word - key.choices.begin()); // words stand for 0, -1, ...
+    if (node.kind == Kind::Scalar && definitions_.appearIn(node.text))
+      insertWhole(node);
     int value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
     if (node.quoted || stop != end || error == std::errc::invalid_argument)
-      wrong(node, path, " is not a whole number", acceptedText(key));
+      wrong(node, path, " is not a whole number" + definitions_.suggestionFor(node.text),
+            acceptedText(key));
     else if (error != std::errc())
       wrong(node, path, " is beyond the largest whole numbers, +-2147483647", acceptedText(key));
     else if (key.lower && value < *key.lower)
@@ -327,6 +422,20 @@ private:
     else
       return value;
     return std::nullopt;
+  }
+
+  /// The value of an expression, which rounding may have left beside a whole number.
+  void insertWhole(DeckNode& node) const
+  {
+    std::string problem;
+    const auto value = definitions_.value(node.text, problem);
+    if (!value || !std::isfinite(*value))
+      return;
+    const Real whole = std::round(*value);
+    const bool isWhole = std::abs(*value - whole) <= 1e-9 * std::abs(whole);
+    insert(node, isWhole ? whole : *value);
+    if (isWhole)
+      node.text = fmt::format("{:.0f}", whole);
   }
 
   std::optional<std::string> readWord(const Key& key, const DeckNode& node, const std::string& path)
@@ -342,8 +451,7 @@ private:
     return std::nullopt;
   }
 
-  std::optional<TimeFunction> readFunction(const Key& key, const DeckNode& node,
-                                           const std::string& path)
+  std::optional<TimeFunction> readFunction(const Key& key, DeckNode& node, const std::string& path)
   {
     const bool ofPlace = key.kind == KeyKind::PlaceFunctions;
     TimeFunction function;
@@ -355,43 +463,59 @@ private:
       wrong(node, path, "", acceptedText(key));
       return std::nullopt;
     }
-    if (const auto number = numberIn(node.text))
+    const auto& variables = ofPlace          ? variablesOfPlace
+                            : key.ofPlaceToo ? variablesOfTimeAndPlace
+                                             : variablesOfTime;
+    if (!numberIn(node.text))
     {
-      if (!std::isfinite(*number))
+      const std::string problem = insertDefinitions(node, variables);
+      if (!problem.empty())
       {
-        wrong(node, path, " is not a finite number", acceptedText(key));
+        wrong(node, path,
+              fmt::format(" is not an expression of {} ({}){}", fmt::join(variables, ", "), problem,
+                          definitions_.suggestionFor(node.text)),
+              acceptedText(key));
         return std::nullopt;
       }
-      if ((key.lower && *number < *key.lower) || (key.upper && *number > *key.upper))
+    }
+    if (const auto number = numberIn(node.text))
+    {
+      const bool isFinite = std::isfinite(*number);
+      if (!isFinite || (key.lower && *number < *key.lower) || (key.upper && *number > *key.upper))
       {
-        wrong(node, path, " is out of range", acceptedText(key));
+        wrong(node, path, isFinite ? " is out of range" : " is not a finite number",
+              acceptedText(key));
         return std::nullopt;
       }
       function.constant = *number;
       return function;
-    }
-    const std::string problem =
-        expressionProblem(node.text, ofPlace          ? variablesOfPlace
-                                     : key.ofPlaceToo ? variablesOfTimeAndPlace
-                                                      : variablesOfTime);
-    if (!problem.empty())
-    {
-      wrong(node, path,
-            fmt::format(" is not an expression of {} ({})",
-                        ofPlace          ? "x, y, z"
-                        : key.ofPlaceToo ? "t, x, y, z"
-                                         : "t",
-                        problem),
-            acceptedText(key));
-      return std::nullopt;
     }
     function.expression = node.text;
     function.ofPlace = key.ofPlaceToo && hasPlace(node.text);
     return function;
   }
 
+  /// Puts numbers in place of defined names; what has no other names becomes a number. Returns what
+  /// is wrong with the expression.
+  std::string insertDefinitions(DeckNode& node, std::vector<std::string> variables)
+  {
+    const bool uses = definitions_.appearIn(node.text);
+    std::string problem;
+    if (const auto value = uses ? definitions_.value(node.text, problem) : std::nullopt)
+    {
+      insert(node, *value);
+      return std::isfinite(*value) ? "" : "it is not finite";
+    }
+    const auto names = definitions_.names();
+    variables.insert(variables.end(), names.begin(), names.end());
+    problem = expressionProblem(node.text, variables);
+    if (problem.empty() && uses)
+      node.text = definitions_.insertedInto(node.text);
+    return problem;
+  }
+
   /// {times: [...], values: [...]}
-  std::optional<TimeFunction> readTable(const DeckNode& node, const std::string& path)
+  std::optional<TimeFunction> readTable(DeckNode& node, const std::string& path)
   {
     const std::size_t before = problems_.size();
     TimeFunction function;
@@ -407,14 +531,14 @@ private:
       const char* const name = isTimes ? "times" : "values";
       Key key;
       key.kind = KeyKind::Numbers;
-      const DeckNode* const list = node.find(name);
+      DeckNode* const list = node.find(name);
       if (!list)
         problems_.add(node,
                       fmt::format("{} is missing; accepted: a table has times [s] and values, "
                                   "as in {{times: [0, 0.01], values: [0, 1]}}.",
                                   join(path, name)));
-      else if (const auto numbers = readList(key, *list, join(path, name)))
-        (isTimes ? function.times : function.values) = std::get<std::vector<Real>>(*numbers);
+      else if (const auto numbers = readNumbers(key, *list, join(path, name)))
+        (isTimes ? function.times : function.values) = *numbers;
     }
     if (problems_.size() > before)
       return std::nullopt;
@@ -434,55 +558,111 @@ private:
     return function;
   }
 
-  std::optional<KeyValue> readList(const Key& key, const DeckNode& node, const std::string& path)
+  bool hasLength(const Key& key, std::size_t items) const
   {
-    if (node.kind != Kind::List || (key.length && node.items.size() != key.length))
+    const bool oneAnAxis = key.byDimension && key.kind != KeyKind::Points;
+    return items >= key.leastLength &&
+           (oneAnAxis ? items == 2 || items == 3 : !key.length || items == key.length);
+  }
+
+  /// The items of a list, if all of them could be read.
+  template <class T, class Read>
+  std::optional<std::vector<T>> readItems(const Key& key, DeckNode& node, const std::string& path,
+                                          const Read& readItem)
+  {
+    if (node.kind != Kind::List || !hasLength(key, node.items.size()))
     {
       wrong(node, path, "", acceptedText(key));
       return std::nullopt;
     }
-    std::vector<Real> numbers;
-    std::vector<std::string> words;
-    std::vector<TimeFunction> functions;
+    std::vector<T> values;
     for (std::size_t i = 0; i < node.items.size(); ++i)
+      if (const auto value = readItem(node.items[i], fmt::format("{}.{}", path, i)))
+        values.push_back(*value);
+    return values.size() == node.items.size() ? std::optional(values) : std::nullopt;
+  }
+
+  std::optional<KeyValue> readFunctions(const Key& key, KeyKind kind, DeckNode& node,
+                                        const std::string& path)
+  {
+    const Key one = oneOf(key, kind);
+    return readItems<TimeFunction>(key, node, path,
+                                   [&](DeckNode& item, const std::string& here)
+                                   { return readFunction(one, item, here); });
+  }
+
+  std::optional<std::vector<Real>> readNumbers(const Key& key, DeckNode& node,
+                                               const std::string& path)
+  {
+    const Key one = oneOf(key, KeyKind::Number);
+    if (key.aloneToo && node.kind == Kind::Scalar)
     {
-      const DeckNode& item = node.items[i];
-      const std::string here = fmt::format("{}.{}", path, i);
-      if (key.kind == KeyKind::Numbers)
-      {
-        if (const auto number = readNumber(oneOf(key, KeyKind::Number), item, here))
-          numbers.push_back(*number);
-      }
-      else if (key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions)
-      {
-        const KeyKind kind = key.kind == KeyKind::TimeFunctions ? KeyKind::TimeFunction : key.kind;
-        if (const auto one = readFunction(oneOf(key, kind), item, here))
-          functions.push_back(*one);
-      }
-      else if (const auto word = readWord(oneOf(key, KeyKind::Text), item, here))
-        words.push_back(*word);
+      const auto number = readNumber(key, node, path);
+      return number ? std::optional(std::vector{*number}) : std::nullopt;
     }
-    if (numbers.size() + functions.size() + words.size() != node.items.size())
-      return std::nullopt; // reported
-    if (key.notAllZero &&
-        std::all_of(numbers.begin(), numbers.end(), [](Real v) { return v == 0; }))
+    const auto numbers = readItems<Real>(key, node, path,
+                                         [&](DeckNode& item, const auto& here)
+                                         { return readNumber(one, item, here); });
+    if (numbers && key.notAllZero &&
+        std::all_of(numbers->begin(), numbers->end(), [](Real v) { return v == 0; }))
     {
       wrong(node, path, " without direction", acceptedText(key));
       return std::nullopt;
     }
-    if (key.kind == KeyKind::Numbers)
-      return numbers;
-    if (key.kind == KeyKind::TimeFunctions || key.kind == KeyKind::PlaceFunctions)
-      return functions;
-    if (!key.choices.empty() &&
-        ((words.empty() && key.defaultText != "[]") ||
-         std::set<std::string>(words.begin(), words.end()).size() < words.size()))
+    return numbers;
+  }
+
+  std::optional<std::vector<Real>> readPoint(const Key& list, DeckNode& node,
+                                             const std::string& path)
+  {
+    Key point = oneOf(list, KeyKind::Numbers);
+    point.length = list.itemLength;
+    point.leastLength = 0;
+    return readNumbers(point, node, path);
+  }
+
+  std::optional<KeyValue> readTexts(const Key& key, DeckNode& node, const std::string& path)
+  {
+    const auto readItem = [&](DeckNode& item, const std::string& here)
+    { return readWord(oneOf(key, KeyKind::Text), item, here); };
+    if (key.aloneToo && node.kind == Kind::Scalar)
     {
-      wrong(node, path, words.empty() ? " without items" : " with an item given twice",
+      const auto word = readItem(node, path);
+      return word ? optionalValue(std::optional(std::vector{*word})) : std::nullopt;
+    }
+    const auto words = readItems<std::string>(key, node, path, readItem);
+    if (words && !key.choices.empty() &&
+        ((words->empty() && key.defaultText != "[]") ||
+         std::set<std::string>(words->begin(), words->end()).size() < words->size()))
+    {
+      wrong(node, path, words->empty() ? " without items" : " with an item given twice",
             acceptedText(key));
       return std::nullopt;
     }
-    return words;
+    return optionalValue(words);
+  }
+
+  /// Words, or one of the choices as the only word of the only list.
+  std::optional<KeyValue> readTextLists(const Key& key, DeckNode& node, const std::string& path)
+  {
+    using Lists = std::vector<std::vector<std::string>>;
+    const auto& words = key.choices;
+    if (node.kind == Kind::Scalar &&
+        std::find(words.begin(), words.end(), node.text) != words.end())
+      return Lists{{node.text}};
+    Key item = oneOf(key, KeyKind::Texts);
+    item.length = key.itemLength;
+    item.leastLength = 0;
+    item.choices.clear();
+    const Key word = oneOf(item, KeyKind::Text);
+    return optionalValue(readItems<std::vector<std::string>>(
+        key, node, path,
+        [&](DeckNode& list, const std::string& here)
+        {
+          return readItems<std::string>(item, list, here,
+                                        [&](DeckNode& one, const auto& place)
+                                        { return readWord(word, one, place); });
+        }));
   }
 
   /// What is accepted of one item of a list.
@@ -494,20 +674,22 @@ private:
   }
 
   const Key& schema_;
+  const FileKind& file_;
   Problems& problems_;
+  Definitions definitions_;
 };
 } // namespace
 
 DeckNode readBySchema(const Key& schema, const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides, void* target, Problems& problems,
-                      const std::function<void(DeckNode&)>& prepare)
+                      const std::function<void(DeckNode&)>& prepare, const FileKind& kind)
 {
-  DeckNode root = parseYaml(text, file);
+  DeckNode root = parseYaml(text, file, kind);
   for (std::size_t i = 0; i < overrides.size(); ++i)
     applyOverride(root, overrides[i], static_cast<int>(i), problems);
   if (prepare)
     prepare(root);
-  SchemaReader(schema, problems).readGroup(schema, root, "", target);
+  SchemaReader(schema, kind, problems).read(root, target);
   return root;
 }
 } // namespace coplane

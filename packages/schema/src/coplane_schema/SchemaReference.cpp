@@ -22,12 +22,15 @@ std::string pathOf(const std::string& path, const Key& key)
   return here;
 }
 
-/// "model: j2", or an empty string for a key that is always there.
+/// "model: j2; 3D", or an empty string for a key that is always there.
 std::string conditionText(const Key& group, const Key& key)
 {
-  return key.models.empty()
-             ? ""
-             : fmt::format("{}: {}", group.discriminator, fmt::join(key.models, ", "));
+  std::string text = key.models.empty()
+                         ? ""
+                         : fmt::format("{}: {}", group.discriminator, fmt::join(key.models, ", "));
+  if (key.dimension)
+    text += fmt::format("{}{}D", text.empty() ? "" : "; ", key.dimension);
+  return text;
 }
 
 std::string alternativesText(const Key& group)
@@ -36,6 +39,11 @@ std::string alternativesText(const Key& group)
   for (const auto& one : group.alternatives)
     text += fmt::format("{} one of {}.", one.oneNeeded ? "Exactly" : "At most",
                         fmt::join(one.names, ", "));
+  if (!group.shortFor.empty())
+    text += fmt::format("{}A value without keys is that of {}.", text.empty() ? "" : " ",
+                        group.shortFor);
+  if (group.aloneToo)
+    text += fmt::format("{}One item may stand without the list.", text.empty() ? "" : " ");
   return text;
 }
 
@@ -101,9 +109,10 @@ void writeMarkdown(const Key& group, const std::string& path, std::string& out)
     }
 }
 
+/// A number, or an expression of names in `define`, which has a letter.
 Json numberSchema(const Key& key, const char* type)
 {
-  Json schema{{"type", type}};
+  Json schema{{"type", {type, "string"}}, {"pattern", "[A-Za-z_]"}};
   if (key.lower)
     schema[key.lowerOpen ? "exclusiveMinimum" : "minimum"] = *key.lower;
   if (key.upper)
@@ -114,27 +123,66 @@ Json numberSchema(const Key& key, const char* type)
 Json listSchema(const Key& key, const Json& item)
 {
   Json schema{{"type", "array"}, {"items", item}};
-  if (key.length)
+  if (key.leastLength)
+    schema["minItems"] = key.leastLength;
+  if (key.length || (key.byDimension && key.kind != KeyKind::Points))
   {
-    schema["minItems"] = key.length;
-    schema["maxItems"] = key.length;
+    schema["minItems"] = key.length ? key.length : 2;
+    schema["maxItems"] = key.length ? key.length : 3;
   }
   if (!key.choices.empty())
   {
     schema["minItems"] = 1;
     schema["uniqueItems"] = true;
   }
-  return schema;
+  return key.aloneToo ? Json{{"anyOf", {item, schema}}} : schema;
+}
+
+/// A list of lists.
+Json listsSchema(const Key& key, KeyKind kind, const Json& word)
+{
+  Key item = key;
+  item.kind = kind;
+  item.length = key.itemLength;
+  item.leastLength = 0;
+  item.choices.clear();
+  Key list = item;
+  list.kind = key.kind;
+  list.length = key.length;
+  list.leastLength = key.leastLength;
+  const Json lists = listSchema(list, listSchema(item, word));
+  return key.choices.empty() ? lists : Json{{"anyOf", {{{"enum", key.choices}}, lists}}};
+}
+
+/// The words of a choice; YAML reads some as numbers.
+Json wordsSchema(const std::vector<std::string>& choices)
+{
+  Json words = choices;
+  for (const std::string& word : choices)
+    if (const Json number = Json::parse(word, nullptr, false); number.is_number())
+      words.push_back(number);
+  return Json{{"enum", words}};
 }
 
 Json groupSchema(const Key& group);
+Json valueSchema(const Key& key);
+
+/// A group, or the value of the key that it is short for.
+Json shortSchema(const Key& group)
+{
+  Json accepted = Json::array({groupSchema(group)});
+  for (const Key& key : group.keys)
+    if (key.name == group.shortFor)
+      accepted.push_back(valueSchema(key));
+  return Json{{"anyOf", accepted}};
+}
 
 Json valueSchema(const Key& key)
 {
-  const Json word = key.choices.empty() ? Json{{"type", "string"}, {"minLength", 1}}
-                                        : Json{{"enum", key.choices}};
+  const Json word =
+      key.choices.empty() ? Json{{"type", "string"}, {"minLength", 1}} : wordsSchema(key.choices);
   const Json function{{"type", {"number", "string"}}};
-  const Json numbers{{"type", "array"}, {"items", {{"type", "number"}}}, {"minItems", 2}};
+  const Json numbers{{"type", "array"}, {"items", numberSchema(Key(), "number")}, {"minItems", 2}};
   const Json timeFunction{{"anyOf",
                            {function,
                             {{"type", "object"},
@@ -149,21 +197,34 @@ Json valueSchema(const Key& key)
   case KeyKind::Number:
     return numberSchema(key, "number");
   case KeyKind::Integer:
-    return Json{{"anyOf", {numberSchema(key, "integer"), word}}};
+    return key.choices.empty() ? numberSchema(key, "integer")
+                               : Json{{"anyOf", {numberSchema(key, "integer"), word}}};
   case KeyKind::Flag:
     return Json{{"type", "boolean"}};
   case KeyKind::Numbers:
     return listSchema(key, numberSchema(key, "number"));
+  case KeyKind::Integers:
+    return listSchema(key, numberSchema(key, "integer"));
+  case KeyKind::Points:
+    return listsSchema(key, KeyKind::Numbers, numberSchema(key, "number"));
   case KeyKind::Texts:
     return listSchema(key, word);
+  case KeyKind::TextLists:
+    return listsSchema(key, KeyKind::Texts, Json{{"type", "string"}, {"minLength", 1}});
   case KeyKind::TimeFunction:
     return timeFunction;
   case KeyKind::TimeFunctions:
     return listSchema(key, timeFunction);
   case KeyKind::PlaceFunctions:
     return listSchema(key, function);
+  case KeyKind::Definitions:
+    return Json{{"type", "object"},
+                {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
+                {"additionalProperties", {{"type", {"number", "string"}}}}};
+  case KeyKind::Changes:
+    return Json{{"type", "object"}};
   case KeyKind::Group:
-    return groupSchema(key);
+    return key.shortFor.empty() ? groupSchema(key) : shortSchema(key);
   case KeyKind::NamedGroups:
   {
     Json schema{{"type", "object"}, {"additionalProperties", groupSchema(key)}};
@@ -172,7 +233,13 @@ Json valueSchema(const Key& key)
     return schema;
   }
   case KeyKind::GroupList:
-    return Json{{"type", "array"}, {"items", groupSchema(key)}};
+  {
+    const Json item = groupSchema(key);
+    Json items{{"type", "array"}, {"items", item}};
+    if (key.required)
+      items["minItems"] = 1;
+    return key.aloneToo ? Json{{"anyOf", {item, items}}} : items;
+  }
   }
   return Json::object();
 }
@@ -206,7 +273,7 @@ Json modelSchema(const Key& group, const Key& discriminator, const std::string& 
     if (key.appliesTo(model))
     {
       properties[key.name] = described(key);
-      if (key.required)
+      if (key.required && !key.dimension)
         required.push_back(key.name);
     }
     else if (!properties.contains(key.name))
@@ -227,7 +294,7 @@ Json groupSchema(const Key& group)
   for (const auto& key : group.keys)
   {
     properties[key.name] = key.models.empty() ? described(key) : Json::object();
-    if (key.required && key.models.empty())
+    if (key.required && key.models.empty() && !key.dimension)
       required.push_back(key.name);
     if (key.name == group.discriminator)
       for (const auto& model : key.choices)

@@ -1,0 +1,202 @@
+#include "Recipe.hpp"
+
+#include "ShapeModel.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_schema/SchemaReader.hpp>
+
+namespace coplane
+{
+using namespace schema;
+
+namespace
+{
+void checkPart(PartCard& part, const CardPlace& place)
+{
+  if (part.dimension == 0)
+    return; // reported at `dimension`
+  const ShapeModel& shape = *findModel(shapeModels(), part.model);
+  const auto word = [](int dimension) { return dimension == 2 ? "two" : "three"; };
+  if (shape.onlyDimension && shape.onlyDimension != part.dimension)
+    return place.problem("shape", fmt::format("= '{}' needs {} dimensions; use {}.", shape.name,
+                                              word(shape.onlyDimension), shape.otherwise));
+  if (part.split != "none" && (part.split == "triangles") != (part.dimension == 2))
+    place.problem("split", fmt::format("= '{}' needs {} dimensions; use {}.", part.split,
+                                       word(part.dimension == 2 ? 3 : 2),
+                                       part.dimension == 2 ? "triangles" : "tetrahedra"));
+  const std::size_t angles = part.dimension == 2 ? 1 : 3;
+  if (!part.rotate.empty() && part.rotate.size() != angles)
+    place.problem("rotate", part.dimension == 2
+                                ? "must be one number in two dimensions: the angle about z."
+                                : "must be a list of 3 numbers in three dimensions: the angles "
+                                  "about x, y and z.");
+  shape.setDimension(part.parameters.get(), part.dimension);
+  if (shape.check)
+    shape.check(part.parameters.get(), place);
+}
+
+Key parts()
+{
+  std::vector<Key> keys = keysOfModels<PartCard>(shapeModels(), "what the part is", "box", "shape");
+  std::string meaning = "what the part is.";
+  for (const ShapeModel& shape : shapeModels())
+    meaning += fmt::format(" {}: {}.", shape.name, shape.meaning);
+  keys[0] = KeyBuilder(keys[0]).needed().means(meaning.substr(0, meaning.size() - 1));
+  const std::vector<Key> common{
+      text("block", &PartCard::block)
+          .needed()
+          .like("wall")
+          .means("element block of the mesh; parts that name the same one share it"),
+      text("split", &PartCard::split)
+          .oneOf({"none", "triangles", "tetrahedra"})
+          .like("triangles")
+          .means("every quadrilateral into 2 triangles, every hexahedron into 5 tetrahedra"),
+      numbers("rotate", &PartCard::rotate, 3)
+          .orOneAlone()
+          .in("degrees")
+          .defaultIs("0")
+          .like("[0, 30, 0]")
+          .means("2D: one number, about z; 3D: about x, then y, then z"),
+      numbers("about", &PartCard::about)
+          .byDimension()
+          .in("m")
+          .defaultIs("the middle of the part's bounding box")
+          .like("[0.3, 0]")
+          .means("point that stays in place"),
+      numbers("offset", &PartCard::offset)
+          .byDimension()
+          .in("m")
+          .defaultIs("none")
+          .like("[0, 0.05]")
+          .means("added last"),
+  };
+  keys.insert(keys.begin() + 1, common.begin(), common.end());
+  Key key = list("parts", &Recipe::parts, keys)
+                .needed()
+                .decidedBy("shape")
+                .checkedBy(checkPart)
+                .means("bodies, each with nodes of its own");
+  key.enter = [enter = key.enter](void* recipe, const std::string& name, const std::string& where)
+  {
+    void* const part = enter(recipe, name, where);
+    static_cast<PartCard*>(part)->dimension = static_cast<Recipe*>(recipe)->dimension;
+    return part;
+  };
+  return key;
+}
+
+void checkPlaces(PlacesCard& places, const CardPlace& place)
+{
+  const std::pair<const char*, const std::vector<Real>&> all[]{{"x", places.x},
+                                                               {"y", places.y},
+                                                               {"z", places.z},
+                                                               {"radius", places.radius},
+                                                               {"angle", places.angle}};
+  for (const auto& [key, ends] : all)
+    if (ends.size() == 2 && ends[0] > ends[1])
+      place.problem(key, fmt::format("= [{}, {}]: the lower end comes first.", ends[0], ends[1]));
+}
+
+KeyBuilder places(const std::string& name, PlacesCard SetCard::*member)
+{
+  const auto range =
+      [](const std::string& axis, std::vector<Real> PlacesCard::*field, const std::string& meaning)
+  {
+    return numbers(axis, field, 2)
+        .orOneAlone()
+        .in("m")
+        .defaultIs("any")
+        .like("[0, 1]")
+        .means(meaning);
+  };
+  return group(name, member,
+               {
+                   range("x", &PlacesCard::x, "a plane, or from and to"),
+                   range("y", &PlacesCard::y, "a plane, or from and to"),
+                   range("z", &PlacesCard::z, "a plane, or from and to").onlyInDimension(3),
+                   range("radius", &PlacesCard::radius,
+                         "distance from the z axis (2D: from the origin)"),
+                   range("angle", &PlacesCard::angle, "from x towards y about the z axis")
+                       .in("degrees")
+                       .like("[0, 90]"),
+               })
+      .checkedBy(checkPlaces);
+}
+
+std::vector<Key> setKeys()
+{
+  return {
+      texts("block", &SetCard::blocks)
+          .orOneAlone()
+          .atLeastItems(1)
+          .defaultIs("all blocks")
+          .like("[wall, slab]")
+          .means("blocks of the parts"),
+      places("where", &SetCard::places)
+          .means("where in the mesh; nodes must meet all keys, within 1e-6 of the mesh size"),
+      places("where_own", &SetCard::ownPlaces)
+          .means("the same in the part's coordinates before rotate and offset"),
+  };
+}
+
+Key makeSchema()
+{
+  std::vector<Key> sideSetKeys = setKeys();
+  sideSetKeys.push_back(numbers("normal", &SetCard::normal)
+                            .byDimension()
+                            .notAllZero()
+                            .in("-")
+                            .defaultIs("any")
+                            .like("[0, 1]")
+                            .means("outward normal, within 26 degrees"));
+  return section(
+      "", {
+              definitions(),
+              text("title", &Recipe::title)
+                  .defaultIs("the name of the file")
+                  .like("a wall and a bar")
+                  .means("title of the mesh"),
+              choice("dimension", &Recipe::dimension, {{"2", 2}, {"3", 3}})
+                  .needed()
+                  .like("2")
+                  .means("of space; lists by dimension have as many numbers"),
+              parts(),
+              named("node_sets", &Recipe::nodeSets, setKeys())
+                  .means("node sets of the mesh, by a name of your choice"),
+              named("side_sets", &Recipe::sideSets, sideSetKeys)
+                  .means("side sets of the mesh, by a name of your choice: exterior faces whose "
+                         "nodes all meet the selection"),
+          });
+}
+} // namespace
+
+const Key& recipeSchema()
+{
+  static const Key schema = makeSchema();
+  return schema;
+}
+
+const FileKind& recipeFile()
+{
+  static const FileKind kind{"the recipe", "coplane_mesh --help-recipe", "dimension: 2"};
+  return kind;
+}
+
+Recipe parseRecipe(const std::string& text, const std::string& file,
+                   const std::vector<std::string>& overrides)
+{
+  Problems problems;
+  Recipe recipe;
+  Key schema = recipeSchema();
+  const auto fit = [&schema](const DeckNode& root)
+  {
+    const DeckNode* const dimension = root.find("dimension");
+    if (dimension && (dimension->text == "2" || dimension->text == "3"))
+      fitToDimension(schema, dimension->text == "2" ? 2 : 3);
+  };
+  recipe.root = readBySchema(schema, text, file, overrides, &recipe, problems, fit, recipeFile());
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
+  return recipe;
+}
+} // namespace coplane

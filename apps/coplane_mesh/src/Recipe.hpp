@@ -1,0 +1,58 @@
+#pragma once
+
+#include <coplane_schema/DeckNode.hpp>
+#include <coplane_schema/Schema.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// One entry of `parts`, as written.
+struct PartCard
+{
+  std::string where;
+  std::string model; ///< its shape
+  std::shared_ptr<void> parameters;
+  int dimension = 0; ///< of the recipe
+  std::string block;
+  std::string split = "none";
+  std::vector<Real> rotate;        ///< [degrees]; empty: not turned
+  std::vector<Real> about, offset; ///< [m]; empty: none given
+};
+
+/// Values or ranges that places must meet; empty: any.
+struct PlacesCard
+{
+  std::vector<Real> x, y, z, radius; ///< [m]
+  std::vector<Real> angle;           ///< [degrees]
+};
+
+/// One entry of `node_sets` or `side_sets`.
+struct SetCard
+{
+  std::string name, where;
+  std::vector<std::string> blocks; ///< empty: all
+  PlacesCard places, ownPlaces;
+  std::vector<Real> normal; ///< empty: any
+};
+
+/// What a recipe says.
+struct Recipe
+{
+  std::string title;
+  int dimension = 0;
+  std::vector<PartCard> parts;
+  std::vector<SetCard> nodeSets, sideSets;
+  DeckNode root; ///< for messages
+};
+
+const Key& recipeSchema();
+const FileKind& recipeFile();
+
+/// Reads and checks a recipe. Throws Error(ExitCode::Deck) with every problem that was found, one
+/// per line.
+Recipe parseRecipe(const std::string& text, const std::string& file,
+                   const std::vector<std::string>& overrides = {});
+} // namespace coplane

@@ -1,0 +1,186 @@
+#include "ShapeModel.hpp"
+
+namespace coplane
+{
+using namespace schema;
+
+namespace
+{
+/// How far a section goes along z in three dimensions.
+struct Sweep
+{
+  Real length = 0; ///< [m]
+  int along = 0;
+};
+
+struct CylinderParameters : Sweep
+{
+  int dimension = 0;
+  Real radius = 0; ///< [m]
+  int across = 0;
+};
+
+struct SectorParameters
+{
+  int dimension = 0;
+  Real innerRadius = 0, outerRadius = 0; ///< [m]
+  Real from = 0, to = 0;                 ///< [degrees]
+  int count = 1;
+  std::vector<int> divisions;
+  Real bias = 1;
+  Real length = 0; ///< [m]
+};
+
+struct HalfDiscParameters : Sweep
+{
+  int dimension = 0;
+  Real radius = 0, fine = 0, fineRadius = 0; ///< [m]
+};
+
+template <class P>
+Key sweepLength()
+{
+  return length<P>("length", &P::length)
+      .onlyInDimension(3)
+      .like("0.5")
+      .means("along z, from z = 0");
+}
+
+template <class P>
+Key sweepAlong()
+{
+  return count<P>("along", &P::along)
+      .onlyInDimension(3)
+      .in("elements")
+      .like("5")
+      .means("elements along z");
+}
+
+/// A plane body as it is in two dimensions, swept from z = 0 in three.
+std::vector<Body> planeOrSwept(const Body& section, int dimension, const Sweep& sweep)
+{
+  if (dimension == 2)
+    return {section};
+  std::vector<Real> heights;
+  for (int k = 0; k <= sweep.along; ++k)
+    heights.push_back(sweep.length * k / sweep.along);
+  return {extruded(section, heights)};
+}
+
+void checkCylinder(const CylinderParameters& p, const CardPlace& place)
+{
+  demandEven(place, "across", p.across, "elements");
+}
+
+void checkSector(const SectorParameters& p, const CardPlace& place)
+{
+  if (!(p.outerRadius > p.innerRadius))
+    place.problem("outer_radius", fmt::format("= {} m must be greater than inner_radius = {} m.",
+                                              p.outerRadius, p.innerRadius));
+  const Real angle = p.to - p.from;
+  if (!(angle > 0) || angle > 360)
+    return place.problem("to", fmt::format("= {} degrees must be greater than from = {} degrees, "
+                                           "by 360 at most.",
+                                           p.to, p.from));
+  if (const Real element = angle / (p.count * p.divisions[1]); !(element <= 90))
+    place.problem(
+        "divisions",
+        fmt::format("make elements of {} degrees; 90 is the most. Take more around.", element));
+}
+
+void checkHalfDisc(const HalfDiscParameters& p, const CardPlace& place)
+{
+  if (!(p.fineRadius <= p.radius / 4))
+    place.problem("fine_radius", fmt::format("= {} m must not exceed a quarter of the radius = {} "
+                                             "m.",
+                                             p.fineRadius, p.radius / 4));
+  if (!(p.fine <= p.fineRadius))
+    place.problem("fine",
+                  fmt::format("= {} m must not exceed fine_radius = {} m.", p.fine, p.fineRadius));
+}
+
+std::vector<Body> makeLaw(const CylinderParameters& p)
+{
+  return planeOrSwept(disk(p.radius, p.across), p.dimension, p);
+}
+
+std::vector<Body> makeLaw(const SectorParameters& p)
+{
+  return sectors(p.dimension, p.innerRadius, p.outerRadius, p.from, p.to, p.count, p.length,
+                 toCounts(p.divisions), p.bias);
+}
+
+std::vector<Body> makeLaw(const HalfDiscParameters& p)
+{
+  return planeOrSwept(halfDisc(p.radius, p.fine, p.fineRadius), p.dimension, p);
+}
+} // namespace
+
+ShapeModel cylinderModel()
+{
+  using P = CylinderParameters;
+  return ShapeModelOf<P>("cylinder",
+                         "2D disk, 3D cylinder along z from z = 0; centred on the origin")
+      .has({
+          length<P>("radius", &P::radius).like("0.5").means("of the circle"),
+          across<P>(),
+          sweepLength<P>(),
+          sweepAlong<P>(),
+      })
+      .demands(checkCylinder);
+}
+
+ShapeModel sectorModel()
+{
+  using P = SectorParameters;
+  return ShapeModelOf<P>("sector",
+                         "ring sectors about the origin (arch stones), in 3D swept from z = 0")
+      .has({
+          length("inner_radius", &P::innerRadius).like("9.4").means("of the ring"),
+          length("outer_radius", &P::outerRadius).like("10.6").means("of the ring"),
+          number("from", &P::from)
+              .needed()
+              .in("degrees")
+              .like("0")
+              .means("first angle, from x towards y"),
+          number("to", &P::to)
+              .needed()
+              .in("degrees")
+              .like("180")
+              .means("last angle; at most 360 more"),
+          integer("count", &P::count)
+              .in("bodies")
+              .atLeast(1)
+              .like("27")
+              .means("bodies of equal angle; they touch and do not share nodes"),
+          divisions<P>("of one body: radial, around, along z"),
+          number("bias", &P::bias)
+              .in("-")
+              .above(0)
+              .like("2")
+              .means("outermost over innermost radial length, those between in geometric "
+                     "progression"),
+          sweepLength<P>(),
+      })
+      .demands(checkSector);
+}
+
+ShapeModel halfDiscModel()
+{
+  using P = HalfDiscParameters;
+  return ShapeModelOf<P>("half_disc",
+                         "lower half of a disc of centre (0, radius): lowest point at the origin, "
+                         "fine there; in 3D swept from z = 0")
+      .has({
+          length("radius", &P::radius).like("0.1").means("of the circle"),
+          length("fine", &P::fine).like("2e-4").means("of elements at the lowest point"),
+          length("fine_radius", &P::fineRadius)
+              .like("5e-3")
+              .means("so far reach such elements (at most radius / 4); beyond, they grow with the "
+                     "distance"),
+          sweepLength<P>(),
+          sweepAlong<P>(),
+      })
+      .demands(checkHalfDisc);
+}
+} // namespace coplane

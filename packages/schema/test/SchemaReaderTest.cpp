@@ -1,0 +1,148 @@
+#include <coplane_schema/SchemaBuilder.hpp>
+#include <coplane_schema/SchemaReader.hpp>
+
+#include <gtest/gtest.h>
+
+namespace coplane
+{
+using namespace schema;
+
+namespace
+{
+struct Line
+{
+  std::vector<Real> ends;
+  std::vector<int> divisions;
+};
+
+struct Item
+{
+  std::string where;
+  Real size = 0;
+};
+
+struct Card
+{
+  std::vector<Real> range, normal;
+  std::vector<std::string> names;
+  std::vector<std::vector<Real>> corners;
+  std::vector<std::vector<std::string>> pairs;
+  std::vector<Item> items;
+  Line line;
+  Real depth = 0;
+};
+
+void checkLine(Line& line, const CardPlace& place)
+{
+  if (line.divisions.size() + 1 != line.ends.size())
+    place.problem("divisions", "do not fit.");
+}
+
+Key cardSchema()
+{
+  Key pairs = bound<std::vector<std::vector<std::string>>>("pairs", KeyKind::TextLists,
+                                                           &Card::pairs, copyTo)
+                  .oneOf({"all"});
+  pairs.itemLength = 2;
+  return section("",
+                 {
+                     numbers("range", &Card::range, 2).orOneAlone().in("m"),
+                     numbers("normal", &Card::normal).byDimension().notAllZero().in("-"),
+                     texts("names", &Card::names).orOneAlone().atLeastItems(1),
+                     points("corners", &Card::corners).atLeastItems(2).in("m"),
+                     pairs,
+                     Key(list("items", &Card::items, {number("size", &Item::size).in("m").needed()})
+                             .orOneAlone()),
+                     Key(group("line", &Card::line,
+                               {
+                                   numbers("ends", &Line::ends).atLeastItems(2).in("m").needed(),
+                                   integers("divisions", &Line::divisions).in("elements"),
+                               })
+                             .shortFor("ends")
+                             .checkedBy(checkLine)),
+                     number("depth", &Card::depth).in("m").needed().onlyInDimension(3),
+                 });
+}
+
+struct Outcome
+{
+  Card card;
+  std::string problems;
+};
+
+Outcome read(const std::string& text, int dimension = 2)
+{
+  Key schema = cardSchema();
+  if (dimension)
+    fitToDimension(schema, dimension);
+  Outcome outcome;
+  Problems problems;
+  readBySchema(schema, text, "c.yaml", {}, &outcome.card, problems);
+  outcome.problems = problems.text();
+  return outcome;
+}
+} // namespace
+
+TEST(SchemaReader, oneItemMayStandWithoutItsList)
+{
+  const Outcome got = read("{range: 3, names: a, items: {size: 2}}");
+  EXPECT_EQ(got.problems, "");
+  EXPECT_EQ(got.card.range, (std::vector<Real>{3}));
+  EXPECT_EQ(got.card.names, (std::vector<std::string>{"a"}));
+  ASSERT_EQ(got.card.items.size(), 1u);
+  EXPECT_EQ(got.card.items[0].size, 2);
+  EXPECT_EQ(read("{names: []}").problems,
+            "c.yaml:1:9: names = a list of 0; accepted: a list of names or one alone.");
+  EXPECT_EQ(read("{items: 3}").problems, "c.yaml:1:9: items = '3'; accepted: a list of items with "
+                                         "keys and values, or one item alone.");
+}
+
+TEST(SchemaReader, listsHaveANumberForEachAxis)
+{
+  const std::string two = "{normal: [0, 1], corners: [[0, 1], [2, 3]]}";
+  EXPECT_EQ(read(two).card.corners, (std::vector<std::vector<Real>>{{0, 1}, {2, 3}}));
+  EXPECT_EQ(read(two, 2).problems, "");
+  EXPECT_EQ(read(two, 3).problems,
+            "c.yaml:1:1: depth is missing; accepted: a number [m]: .\n"
+            "c.yaml:1:10: normal = a list of 2; accepted: a list of 3 numbers, not all zero [-].\n"
+            "c.yaml:1:28: corners.0 = a list of 2; accepted: a list of 3 numbers [m].\n"
+            "c.yaml:1:36: corners.1 = a list of 2; accepted: a list of 3 numbers [m].");
+  EXPECT_EQ(read("{normal: [0, 1, 2, 3], depth: 1}", 0).problems,
+            "c.yaml:1:10: normal = a list of 4; accepted: a list of 2 or 3 numbers, not all zero "
+            "[-].");
+}
+
+TEST(SchemaReader, keysOfTheOtherDimensionAreRefused)
+{
+  EXPECT_EQ(read("{depth: 1}").problems,
+            "c.yaml:1:9: depth is for three dimensions only; remove it.");
+}
+
+TEST(SchemaReader, aWordMayStandForAListOfPairs)
+{
+  EXPECT_EQ(read("{pairs: all}").card.pairs, (std::vector<std::vector<std::string>>{{"all"}}));
+  EXPECT_EQ(read("{pairs: [[a, b], [c, all]]}").card.pairs,
+            (std::vector<std::vector<std::string>>{{"a", "b"}, {"c", "all"}}));
+  EXPECT_EQ(read("{pairs: [[a]]}").problems,
+            "c.yaml:1:10: pairs.0 = a list of 1; accepted: a list of 2 names.");
+}
+
+TEST(SchemaReader, aGroupIsCheckedWhenAllOfItCouldBeRead)
+{
+  EXPECT_EQ(read("{line: {ends: [0, 1], divisions: [4]}}").problems, "");
+  EXPECT_EQ(read("{line: {ends: [0, 1], divisions: [4, 4]}}").problems,
+            "c.yaml:1:34: line.divisions do not fit.");
+  EXPECT_EQ(read("{line: {ends: [0, 1], divisions: [4, x]}}").problems,
+            "c.yaml:1:38: line.divisions.1 = 'x' is not a whole number; accepted: a whole number "
+            "[elements].");
+}
+
+TEST(SchemaReader, aValueInPlaceOfAGroupIsThatOfOneKey)
+{
+  const Outcome got = read("{line: [0, 1, 3]}");
+  EXPECT_EQ(got.card.line.ends, (std::vector<Real>{0, 1, 3}));
+  EXPECT_EQ(got.problems, "c.yaml:1:8: line.divisions do not fit.");
+  EXPECT_EQ(read("{line: [0]}").problems,
+            "c.yaml:1:8: line = a list of 1; accepted: a list of at least 2 numbers [m].");
+}
+} // namespace coplane
