@@ -1,5 +1,6 @@
 // What the solver tells of its state: sums over all ranks with the same bits for any number of
 // them.
+#include <coplane_contact/PlaneState.hpp>
 #include <coplane_core/StateHash.hpp>
 #include <coplane_dynamics/Solver.hpp>
 
@@ -164,28 +165,8 @@ std::uint64_t Solver::stateHash() const
     for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
     {
       const Plane& plane = contact_->planes()(p);
-      if (!plane.countedHere || !plane.isBorn())
-        continue;
-      const Real values[] = {plane.area,
-                             plane.offset,
-                             plane.closure,
-                             plane.history.maximumClosure,
-                             plane.history.shearTraction.x,
-                             plane.history.shearTraction.y,
-                             plane.history.shearTraction.z,
-                             plane.history.slip,
-                             plane.forceOn(1).x,
-                             plane.forceOn(1).y,
-                             plane.forceOn(1).z,
-                             plane.work,
-                             plane.frictionWork,
-                             plane.hysteresisWork,
-                             plane.fractureWork,
-                             plane.history.opening,
-                             plane.history.shearing};
-      std::uint64_t component = mix(std::uint64_t(plane.faceId[1]));
-      for (const Real value : values)
-        hash.add(PlaneField, plane.faceId[0], component++, value);
+      if (plane.countedHere && plane.isBorn())
+        addTo(hash, PlaneField, plane);
     }
   if (comm_->isRoot())
   {
