@@ -91,9 +91,8 @@ void countLonelyFaces(const Contact& contact, const std::vector<char>& declared,
   keepLowest();
   census.firstLonelyFaces = lonely;
 }
-} // namespace
-
-ContactCensus census(const Contact& contact)
+/// What this rank sees of the pairs.
+struct Survey
 {
   enum Count
   {
@@ -108,15 +107,22 @@ ContactCensus census(const Contact& contact)
     Slip,
     Counts
   };
-  std::vector<std::int64_t> n(Counts, 0);
-  std::vector<Real> stiffness{-infinity, 0}; // -least, largest
+  std::vector<std::int64_t> n;
+  std::vector<Real> stiffness{-infinity, 0}; ///< -least, largest
   std::vector<Entry> joints, overlaps, gaps;
-  std::vector<char> declared(contact.faces().size(), 0), closed(contact.faces().size(), 0);
-  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  std::vector<char> declared, closed; ///< faces: of declared joints, of closed planes
+
+  explicit Survey(const Contact& contact)
+      : n(Counts, 0), declared(contact.faces().size(), 0), closed(contact.faces().size(), 0)
   {
-    const Plane& plane = contact.planes()(p);
-    if (plane.face[0] < 0)
-      continue;
+    for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+      if (contact.planes()(p).face[0] >= 0)
+        look(contact, contact.planes()(p));
+  }
+
+private:
+  void look(const Contact& contact, const Plane& plane)
+  {
     const int a = plane.face[0], b = plane.face[1];
     const bool joint =
         contact.rules().between(contact.faces()[a].group, contact.faces()[b].group).declared;
@@ -124,8 +130,11 @@ ContactCensus census(const Contact& contact)
       declared[a] = declared[b] = 1;
     if (plane.declared)
       closed[a] = closed[b] = 1;
-    if (!plane.countedHere)
-      continue;
+    if (plane.countedHere)
+      count(plane, joint);
+  }
+  void count(const Plane& plane, bool joint)
+  {
     ++n[Pairs];
     n[Open] += plane.state == PlaneState::Open;
     n[Stick] += plane.state == PlaneState::Stick;
@@ -153,39 +162,59 @@ ContactCensus census(const Contact& contact)
         gaps.push_back({pair, -plane.gap});
     }
   }
+};
+
+/// What the items that declare joints are called of which no plane was closed. Collective.
+std::vector<std::string> itemsWithoutPartner(const Contact& contact)
+{
   const auto& items = contact.rules().declaredItems;
-  n.resize(Counts + items.size());
+  if (items.empty())
+    return {};
+  std::vector<std::int64_t> closed(items.size(), 0);
+  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  {
+    const Plane& plane = contact.planes()(p);
+    if (!plane.declared || !plane.countedHere || plane.face[0] < 0)
+      continue;
+    const int item =
+        contact.rules()
+            .between(contact.faces()[plane.face[0]].group, contact.faces()[plane.face[1]].group)
+            .item;
+    for (std::size_t i = 0; i < items.size(); ++i)
+      closed[i] += item == items[i].first;
+  }
+  contact.comm().sum(closed);
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < items.size(); ++i)
-    for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
-    {
-      const Plane& plane = contact.planes()(p);
-      n[Counts + i] += plane.declared && plane.countedHere && plane.face[0] >= 0 &&
-                       contact.rules()
-                               .between(contact.faces()[plane.face[0]].group,
-                                        contact.faces()[plane.face[1]].group)
-                               .item == items[i].first;
-    }
-  contact.comm().sum(n);
-  contact.comm().max(stiffness);
+    if (closed[i] == 0)
+      names.push_back(items[i].second);
+  return names;
+}
+} // namespace
+
+ContactCensus census(const Contact& contact)
+{
+  Survey survey(contact);
+  const std::vector<std::int64_t>& n = survey.n;
+  contact.comm().sum(survey.n);
+  contact.comm().max(survey.stiffness);
   ContactCensus census;
-  census.pairs = n[Pairs];
-  census.declaredClosed = n[Closed];
-  census.bonded = n[Bonded];
-  census.declaredWithoutOverlap = n[Neighbours];
-  census.overlapping = n[Overlapping];
-  census.apart = n[Apart];
-  census.open = n[Open];
-  census.stick = n[Stick];
-  census.slip = n[Slip];
-  census.leastStiffness = -stiffness[0];
-  census.largestStiffness = stiffness[1];
-  census.joints = lengthsOf(std::move(joints), contact.comm());
-  census.overlaps = lengthsOf(std::move(overlaps), contact.comm());
-  census.gaps = lengthsOf(std::move(gaps), contact.comm());
-  countLonelyFaces(contact, declared, closed, census);
-  for (std::size_t i = 0; i < items.size(); ++i)
-    if (n[Counts + i] == 0)
-      census.itemsWithoutPartner.push_back(items[i].second);
+  census.pairs = n[Survey::Pairs];
+  census.declaredClosed = n[Survey::Closed];
+  census.bonded = n[Survey::Bonded];
+  census.declaredWithoutOverlap = n[Survey::Neighbours];
+  census.overlapping = n[Survey::Overlapping];
+  census.apart = n[Survey::Apart];
+  census.open = n[Survey::Open];
+  census.stick = n[Survey::Stick];
+  census.slip = n[Survey::Slip];
+  census.leastStiffness = -survey.stiffness[0];
+  census.largestStiffness = survey.stiffness[1];
+  census.joints = lengthsOf(std::move(survey.joints), contact.comm());
+  census.overlaps = lengthsOf(std::move(survey.overlaps), contact.comm());
+  census.gaps = lengthsOf(std::move(survey.gaps), contact.comm());
+  countLonelyFaces(contact, survey.declared, survey.closed, census);
+  census.itemsWithoutPartner = itemsWithoutPartner(contact);
   return census;
 }
 } // namespace coplane
