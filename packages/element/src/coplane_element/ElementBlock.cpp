@@ -1,7 +1,8 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Lanes.hpp>
 #include <coplane_element/ElementBlock.hpp>
-#include <coplane_element/FullKernel.hpp>
+#include <coplane_element/ElementShape.hpp>
+#include <coplane_element/GaussPoints.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -101,41 +102,33 @@ struct Measures
 };
 
 /// Increment of the volume over a step, and the volume in its middle.
-template <ElementType type, bool revolved>
+template <ElementType type, Geometry geometry>
 struct VolumeChanges
 {
-  using M = Modes<type>;
+  using Shape = ElementShape<type, geometry>;
+  using Field = typename Shape::Field;
   ElementKernelData data;
-  ElementBlock::Values changes;
 
   [[gnu::noinline]] void operator()(const int batch) const
   {
     const int first = batch * laneCount;
-    Lanes x[M::dimension][M::count], v[M::dimension][M::count], radius(0.0), speed(0.0);
-    gatherModes<M>(data.connectivity, data.x, first, x, revolved ? &radius : nullptr);
-    gatherModes<M>(data.connectivity, data.v, first, v, revolved ? &speed : nullptr);
-    for (int i = 0; i < M::dimension; ++i)
-      for (int k = 0; k < M::count; ++k)
-        x[i][k] -= Lanes(0.5 * data.dt) * v[i][k];
-    Lanes b[M::dimension][M::gradients], sum(0.0), volume;
-    if constexpr (revolved)
+    const Field x = Shape::gather(data, data.x, first);
+    const Field v = Shape::gather(data, data.v, first);
+    Field middle;
+    Shape::findMiddle(x, v, data.dt, middle);
+    const typename Shape::Gradient g = Shape::gradientAt(middle);
+    Lanes sum(0.0);
+    if constexpr (Shape::revolved)
     {
-      Lanes hoop[M::gradients + 1];
-      volume = Revolved<type>::volumeGradient(x, radius - Lanes(0.5 * data.dt) * speed, b, hoop);
-      sum = speed * hoop[M::gradients];
-      for (int k = 0; k < M::gradients; ++k)
-        sum += v[0][k] * hoop[k];
+      sum = v.mean * g.hoop[Shape::gradients];
+      for (int k = 0; k < Shape::gradients; ++k)
+        sum += v.modes[0][k] * g.hoop[k];
     }
-    else
-    {
-      M::volumeGradient(x, b);
-      volume = M::volume(x, b);
-    }
-    for (int i = 0; i < M::dimension; ++i)
-      for (int k = 0; k < M::gradients; ++k)
-        sum += v[i][k] * b[i][k];
-    store(Lanes(M::nodes * data.dt) * sum, &changes(0, first));
-    store(volume, &changes(1, first));
+    for (int i = 0; i < Shape::dim; ++i)
+      for (int k = 0; k < Shape::gradients; ++k)
+        sum += v.modes[i][k] * g.b[i][k];
+    store(Lanes(Shape::nodes * data.dt) * sum, &data.volumeChanges(0, first));
+    store(g.volume, &data.volumeChanges(1, first));
   }
 };
 
@@ -155,6 +148,51 @@ auto withType(ElementType type, F&& f)
     return f(std::integral_constant<ElementType, ElementType::Hex8>{});
   }
 }
+/// All zero, those that the options need not empty.
+/// @param columns elements, a multiple of laneCount; rows of the law's history
+ElementArrays arraysOf(ElementType type, const ElementOptions& options,
+                       const HourglassOptions& hourglass, int columns, int historyRows)
+{
+  using Values = Table<Real>;
+  const int nodes = topology(type).nodes;
+  const int dim = topology(type).dimension;
+  const bool full = isFullyIntegrated(options.form);
+  const bool revolved = options.geometry == Geometry::Axisymmetric;
+  ElementArrays arrays;
+  arrays.connectivity = Table<int>("connectivity", columns, nodes);
+  arrays.mass = Array<Real>("mass", columns);
+  arrays.referenceVolume = Array<Real>("referenceVolume", columns);
+  arrays.referenceLength = Array<Real>("referenceLength", columns);
+  arrays.volume = Array<Real>("volume", columns);
+  arrays.stableStep = Array<Real>("stableStep", columns);
+  arrays.cornerForce = ElementArrays::CornerVectors("cornerForce", columns, nodes);
+  arrays.stress = Values("stress", 6, columns);
+  arrays.history = Values("history", historyRows, columns);
+  arrays.tangent = Values("tangent", 2, columns);
+  arrays.compression = Values("compression", 2, columns);
+  arrays.energies = Values("energies", elementEnergies, columns);
+  // Rings of assumed strain have two hoop forces besides.
+  const int rows =
+      withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; }) +
+      (revolved && options.form == ElementForm::AssumedStrain ? 2 : 0);
+  arrays.hourglassForce = Values("hourglassForce", full ? 0 : rows, columns);
+  arrays.hourglassViscousForce =
+      Values("hourglassViscousForce", hourglass.viscosity > 0 ? rows : 0, columns);
+  const int points = full ? nodes : 0;
+  const int components = dim == 3 ? tensorRows<3> : tensorRows<2>;
+  arrays.cornerMass = Values("cornerMass", full || revolved ? nodes : 0, columns);
+  arrays.pointMass = Values("pointMass", points, columns);
+  arrays.pointStress = Values("pointStress", points * components, columns);
+  arrays.pointHistory = Values("pointHistory", points * historyRows, columns);
+  arrays.pointEnergy = Values("pointEnergy", points, columns);
+  const bool tracked = options.rate == ObjectiveRate::GreenNaghdi;
+  arrays.deformation =
+      Values("deformation", tracked ? std::max(points, 1) * dim * dim : 0, columns);
+  const bool nodal = options.form == ElementForm::NodalPressure;
+  arrays.volumeRatio = Values("volumeRatio", nodal ? 1 : 0, columns);
+  arrays.volumeChanges = Values("volumeChanges", nodal ? 2 : 0, columns);
+  return arrays;
+}
 } // namespace
 
 ElementBlock::ElementBlock(ElementType type, const Material& law, const HourglassOptions& hourglass,
@@ -166,11 +204,10 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
   const int dim = topology(type).dimension;
   const bool simplex = nodes == dim + 1;
   const bool full = isFullyIntegrated(options.form);
-  const bool revolved = options.geometry == Geometry::Axisymmetric;
   if (simplex ? full || options.form == ElementForm::AssumedStrain
               : options.form == ElementForm::NodalPressure)
     fail(ExitCode::Internal, "element block: {} has no such form", topology(type).exodusName);
-  if (revolved && dim == 3)
+  if (options.geometry == Geometry::Axisymmetric && dim == 3)
     fail(ExitCode::Internal, "element block: {} is not axisymmetric", topology(type).exodusName);
   // Neither the strain nor an assumed strain leaves anything to the options of one point.
   if (options.form != ElementForm::OnePoint)
@@ -180,67 +217,36 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
          connectivity.size(), nodes, topology(type).exodusName);
   count_ = int(connectivity.size() / nodes);
   const int padded = (count_ + laneCount - 1) / laneCount * laneCount;
-
-  connectivity_ = Table<int>("connectivity", padded, nodes);
+  historyNames_ = historyNames(law);
+  arrays_ = arraysOf(type, options, hourglass_, padded, int(historyNames_.size()));
+  alive_ = Values("alive", 1, padded);
+  // What pads the last batch is a copy of the last element.
   for (int e = 0; e < padded; ++e)
     for (int c = 0; c < nodes; ++c)
-      connectivity_(e, c) = connectivity[std::size_t(std::min(e, count_ - 1)) * nodes + c];
-
-  mass_ = Array<Real>("mass", padded);
-  referenceVolume_ = Array<Real>("referenceVolume", padded);
-  referenceLength_ = Array<Real>("referenceLength", padded);
-  volume_ = Array<Real>("volume", padded);
-  stableStep_ = Array<Real>("stableStep", padded);
-  cornerForce_ = CornerVectors("cornerForce", padded, nodes);
-  stress_ = Values("stress", 6, padded);
-  historyNames_ = historyNames(law);
-  history_ = Values("history", historyNames_.size(), padded);
-  tangent_ = Values("tangent", 2, padded);
-  compression_ = Values("compression", 2, padded);
-  energies_ = Values("energies", elementEnergies, padded);
-  alive_ = Values("alive", 1, padded);
-  // Rings of assumed strain have two hoop forces besides.
-  const int rows =
-      withType(type, [](auto t) { return Modes<t()>::hourglass * Modes<t()>::dimension; }) +
-      (revolved && options.form == ElementForm::AssumedStrain ? 2 : 0);
-  hourglassForce_ = Values("hourglassForce", full ? 0 : rows, padded);
-  hourglassViscousForce_ =
-      Values("hourglassViscousForce", hourglass_.viscosity > 0 ? rows : 0, padded);
-  const int points = full ? nodes : 0;
-  const int components = dim == 3 ? 6 : 4;
-  cornerMass_ = Values("cornerMass", full || revolved ? nodes : 0, padded);
-  pointMass_ = Values("pointMass", points, padded);
-  pointStress_ = Values("pointStress", points * components, padded);
-  pointHistory_ = Values("pointHistory", points * historyNames_.size(), padded);
-  pointEnergy_ = Values("pointEnergy", points, padded);
-  const bool tracked = options.rate == ObjectiveRate::GreenNaghdi;
-  deformation_ = Values("deformation", tracked ? std::max(points, 1) * dim * dim : 0, padded);
-  const bool nodal = options.form == ElementForm::NodalPressure;
-  volumeRatio_ = Values("volumeRatio", nodal ? 1 : 0, padded);
-  volumeChanges_ = Values("volumeChanges", nodal ? 2 : 0, padded);
+      arrays_.connectivity(e, c) = connectivity[std::size_t(std::min(e, count_ - 1)) * nodes + c];
 }
 
 void ElementBlock::initialise(const ConstNodeVectors& x)
 {
   const bool flat = topology(type_).dimension == 2;
-  for (int e = 0; e < int(mass_.extent(0)); ++e)
+  for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
   {
     const Real size = withType(type_, [&](auto t) { return measure<t()>(e, x); });
-    referenceLength_(e) = flat ? std::sqrt(size) : std::cbrt(size);
+    arrays_.referenceLength(e) = flat ? std::sqrt(size) : std::cbrt(size);
   }
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
-  Kokkos::deep_copy(tangent_, 1.0);
+  Kokkos::deep_copy(arrays_.tangent, 1.0);
   Kokkos::deep_copy(alive_, 1.0);
   eroded_.clear();
-  Kokkos::deep_copy(cornerForce_, 0.0);
-  for (int e = 0; e < int(mass_.extent(0)); ++e)
+  Kokkos::deep_copy(arrays_.cornerForce, 0.0);
+  for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
     setInitialStress(e, {});
-  Kokkos::deep_copy(volumeRatio_, 1.0);
+  Kokkos::deep_copy(arrays_.volumeRatio, 1.0);
   const int dim = topology(type_).dimension;
-  for (int k = 0; k < int(deformation_.extent(0)); ++k)
+  for (int k = 0; k < int(arrays_.deformation.extent(0)); ++k)
     if (k % (dim * dim) % (dim + 1) == 0)
-      for (int e = 0; e < int(mass_.extent(0)); ++e)
-        deformation_(k, e) = 1;
+      for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
+        arrays_.deformation(k, e) = 1;
 }
 
 /// Returns the area in two dimensions, else the volume.
@@ -248,29 +254,29 @@ template <ElementType type>
 Real ElementBlock::measure(int e, const ConstNodeVectors& x)
 {
   const Real rho = coplane::density(law_);
-  Measures<type> measures(connectivity_, e, x);
+  Measures<type> measures(arrays_.connectivity, e, x);
   std::array<Real, 8> parts{};
   if (options_.geometry == Geometry::Axisymmetric)
   {
     Real radii[Modes<type>::nodes];
     for (int c = 0; c < Modes<type>::nodes; ++c)
-      radii[c] = x(connectivity_(e, c), 0);
+      radii[c] = x(arrays_.connectivity(e, c), 0);
     parts = measures.revolve(radii);
   }
   else if (isFullyIntegrated(options_.form))
     parts = measures.atPoints([](const Real(&)[3]) { return 1.0; });
-  for (int q = 0; q < int(pointMass_.extent(0)); ++q)
-    pointMass_(q, e) = rho * parts[std::size_t(q)];
-  referenceVolume_(e) = volume_(e) = measures.volume;
-  mass_(e) = rho * measures.volume;
-  for (int c = 0; c < int(cornerMass_.extent(0)); ++c)
-    cornerMass_(c, e) = rho * measures.share[c];
+  for (int q = 0; q < int(arrays_.pointMass.extent(0)); ++q)
+    arrays_.pointMass(q, e) = rho * parts[std::size_t(q)];
+  arrays_.referenceVolume(e) = arrays_.volume(e) = measures.volume;
+  arrays_.mass(e) = rho * measures.volume;
+  for (int c = 0; c < int(arrays_.cornerMass.extent(0)); ++c)
+    arrays_.cornerMass(c, e) = rho * measures.share[c];
   return measures.area;
 }
 
 void ElementBlock::setInitialStress(const SymTensor& stress)
 {
-  for (int e = 0; e < int(mass_.extent(0)); ++e)
+  for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
     setInitialStress(e, stress);
 }
 
@@ -283,16 +289,16 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
          s.yz, s.zx);
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
-    stress_(k, element) = values[k];
+    arrays_.stress(k, element) = values[k];
   const auto start = initialHistory(law_, s);
-  const int rows = int(history_.extent(0));
+  const int rows = int(arrays_.history.extent(0));
   for (int k = 0; k < rows; ++k)
-    history_(k, element) = start[std::size_t(k)];
-  for (int k = 0; k < int(pointHistory_.extent(0)); ++k)
-    pointHistory_(k, element) = start[std::size_t(k % rows)];
-  const int components = topology(type_).dimension == 3 ? 6 : 4;
-  for (int k = 0; k < int(pointStress_.extent(0)); ++k)
-    pointStress_(k, element) = values[k % components];
+    arrays_.history(k, element) = start[std::size_t(k)];
+  for (int k = 0; k < int(arrays_.pointHistory.extent(0)); ++k)
+    arrays_.pointHistory(k, element) = start[std::size_t(k % rows)];
+  const int components = topology(type_).dimension == 3 ? tensorRows<3> : tensorRows<2>;
+  for (int k = 0; k < int(arrays_.pointStress.extent(0)); ++k)
+    arrays_.pointStress(k, element) = values[k % components];
 }
 
 void ElementBlock::findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt)
@@ -300,26 +306,21 @@ void ElementBlock::findVolumeChanges(const ConstNodeVectors& x, const ConstNodeV
   if (count_ == 0)
     return;
   const ElementKernelData data = kernelData(x, v, dt);
-  const auto changes = volumeChanges_;
-  const bool revolved = options_.geometry == Geometry::Axisymmetric;
-  const auto run = [&](auto type, auto isRevolved)
-  {
-    parallelFor("coplane::element::volumeChanges", data.batches,
-                VolumeChanges<type(), isRevolved()>{data, changes});
-  };
+  const auto run = [&](const auto& changes)
+  { parallelFor("coplane::element::volumeChanges", data.batches, changes); };
   if (type_ == ElementType::Tet4)
-    run(std::integral_constant<ElementType, ElementType::Tet4>{}, std::false_type{});
-  else if (revolved)
-    run(std::integral_constant<ElementType, ElementType::Tri3>{}, std::true_type{});
+    run(VolumeChanges<ElementType::Tet4, Geometry::PlaneStrain>{data});
+  else if (options_.geometry == Geometry::Axisymmetric)
+    run(VolumeChanges<ElementType::Tri3, Geometry::Axisymmetric>{data});
   else
-    run(std::integral_constant<ElementType, ElementType::Tri3>{}, std::false_type{});
+    run(VolumeChanges<ElementType::Tri3, Geometry::PlaneStrain>{data});
 }
 
 ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                            Real dt) const
 {
   const LinearElastic& elastic = elasticity(law_);
-  ElementKernelData data;
+  ElementKernelData data{arrays_};
   data.x = x;
   data.v = v;
   data.dt = dt;
@@ -331,29 +332,8 @@ ElementKernelData ElementBlock::kernelData(const ConstNodeVectors& x, const Cons
   data.shearModulus = std::max(elastic.shearModulus, 1e-6 * pWaveModulus(elastic));
   data.pWaveModulus = pWaveModulus(elastic);
   data.soundSpeed = soundSpeed(law_);
-  data.batches = int(mass_.extent(0)) / laneCount;
+  data.batches = int(arrays_.mass.extent(0)) / laneCount;
   data.material = &law_;
-  data.connectivity = connectivity_;
-  data.mass = mass_;
-  data.referenceVolume = referenceVolume_;
-  data.referenceLength = referenceLength_;
-  data.stress = stress_;
-  data.history = history_;
-  data.tangent = tangent_;
-  data.hourglassForce = hourglassForce_;
-  data.hourglassViscousForce = hourglassViscousForce_;
-  data.compression = compression_;
-  data.energies = energies_;
-  data.cornerForce = cornerForce_;
-  data.stableStep = stableStep_;
-  data.volume = volume_;
-  data.cornerMass = cornerMass_;
-  data.deformation = deformation_;
-  data.volumeRatio = volumeRatio_;
-  data.pointMass = pointMass_;
-  data.pointStress = pointStress_;
-  data.pointHistory = pointHistory_;
-  data.pointEnergy = pointEnergy_;
   return data;
 }
 
@@ -392,11 +372,12 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
 
 void ElementBlock::erode(int element)
 {
-  for (const Values& values : {stress_, hourglassForce_, hourglassViscousForce_, compression_,
-                               energies_, pointStress_, pointEnergy_, alive_})
+  for (const Values& values :
+       {arrays_.stress, arrays_.hourglassForce, arrays_.hourglassViscousForce, arrays_.compression,
+        arrays_.energies, arrays_.pointStress, arrays_.pointEnergy, alive_})
     for (std::size_t row = 0; row < values.extent(0); ++row)
       values(row, element) = 0;
-  Eroded eroded{element, volume_(element), {}};
+  Eroded eroded{element, arrays_.volume(element), {}};
   forEachState(
       [&](const char*, int rows, const Values& values)
       {
@@ -417,23 +398,24 @@ void ElementBlock::restore(const Eroded& eroded)
         for (int row = 0; row < rows; ++row)
           values(row, e) = eroded.state[i++];
       });
-  volume_(e) = eroded.volume;
-  stableStep_(e) = infinity;
-  for (std::size_t corner = 0; corner < cornerForce_.extent(1); ++corner)
+  arrays_.volume(e) = eroded.volume;
+  arrays_.stableStep(e) = infinity;
+  for (std::size_t corner = 0; corner < arrays_.cornerForce.extent(1); ++corner)
     for (int c = 0; c < 3; ++c)
-      cornerForce_(e, corner, c) = 0;
+      arrays_.cornerForce(e, corner, c) = 0;
 }
 
 Real ElementBlock::pressure(int e) const
 {
-  return -(stress_(0, e) + stress_(1, e) + stress_(2, e)) / 3;
+  return -(arrays_.stress(0, e) + arrays_.stress(1, e) + arrays_.stress(2, e)) / 3;
 }
 
 Real ElementBlock::vonMises(int e) const
 {
   const Real p = pressure(e);
-  const Real xx = stress_(0, e) + p, yy = stress_(1, e) + p, zz = stress_(2, e) + p;
-  const Real xy = stress_(3, e), yz = stress_(4, e), zx = stress_(5, e);
+  const Real xx = arrays_.stress(0, e) + p, yy = arrays_.stress(1, e) + p,
+             zz = arrays_.stress(2, e) + p;
+  const Real xy = arrays_.stress(3, e), yz = arrays_.stress(4, e), zx = arrays_.stress(5, e);
   return std::sqrt(1.5 * (xx * xx + yy * yy + zz * zz + 2 * (xy * xy + yz * yz + zx * zx)));
 }
 
@@ -445,12 +427,13 @@ int ElementBlock::historyRow(const std::string& name) const
 
 ConstArray<Real> ElementBlock::viscousPressure() const
 {
-  return ConstArray<Real>(compression_.data() + compression_.extent(1), compression_.extent(1));
+  return ConstArray<Real>(arrays_.compression.data() + arrays_.compression.extent(1),
+                          arrays_.compression.extent(1));
 }
 
 Real ElementBlock::smallestStableStep() const
 {
-  const ConstArray<Real> step = stableStep_;
+  const ConstArray<Real> step = arrays_.stableStep;
   return parallelMin(
       "coplane::element::smallestStableStep", count_,
       KOKKOS_LAMBDA(const int e) { return step(e); });
@@ -458,7 +441,7 @@ Real ElementBlock::smallestStableStep() const
 
 int ElementBlock::invertedElement() const
 {
-  const ConstArray<Real> step = stableStep_;
+  const ConstArray<Real> step = arrays_.stableStep;
   const Real none = count_;
   const Real lowest = parallelMin(
       "coplane::element::invertedElement", count_,

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <coplane_core/Backend.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_core/Real.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_element/ElementArrays.hpp>
+#include <coplane_element/ElementEnergy.hpp>
 #include <coplane_element/ElementOptions.hpp>
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
@@ -14,18 +15,6 @@
 
 namespace coplane
 {
-/// Energies of an element since the start of the run [J]; rows of ElementBlock::energies().
-enum class ElementEnergy : int
-{
-  Internal,           ///< work of the stress, recoverable and plastic part together
-  PlasticDissipation, ///< part of Internal that is lost for good
-  Hourglass,          ///< work of the hourglass forces, or of VolumeDrift, but for PlasticBending
-  Viscous,            ///< work of the bulk viscosity
-  PlasticBending,     ///< part of PlasticDissipation: by hourglass forces that flow or break
-  HourglassElastic    ///< part of Hourglass that comes back, of the modes
-};
-constexpr int elementEnergies = 6;
-
 struct ElementKernelData;
 
 /// All elements of one type and one law on this rank: from positions and velocities to internal
@@ -39,8 +28,6 @@ public:
   /// laneCount; only the first count() columns mean something.
   using Values = Table<Real>;
   using ConstValues = ConstTable<Real>;
-  /// [element][corner][component], three components also in two dimensions
-  using CornerVectors = Kokkos::View<Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
   using ConstCornerVectors = Kokkos::View<const Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
 
   /// @param connectivity local node indices, topology(type).nodes per element
@@ -60,7 +47,7 @@ public:
   /// volumes in its middle, whose sums around a node give its dilatation, sum / sum.
   void findVolumeChanges(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
   /// Two rows, see there [m^3].
-  ConstTable<Real> volumeChanges() const { return volumeChanges_; }
+  ConstTable<Real> volumeChanges() const { return arrays_.volumeChanges; }
 
   /// Advances stress, history and energies over dt, and computes the forces, volumes and stable
   /// steps at x^(n+1). With dt = 0 nothing advances: it gives the forces that belong to the present
@@ -77,40 +64,46 @@ public:
   const Material& material() const { return law_; }
   const ElementOptions& options() const { return options_; }
   /// [element][corner] -> local node
-  ConstTable<int> connectivity() const { return connectivity_; }
+  ConstTable<int> connectivity() const { return arrays_.connectivity; }
 
   /// Force of the element on its nodes [N]: a node's internal force is the sum over its corners
   /// (minus B sigma).
-  ConstCornerVectors cornerForce() const { return cornerForce_; }
-  Real mass(int element) const { return mass_(element); } ///< [kg]
+  ConstCornerVectors cornerForce() const { return arrays_.cornerForce; }
+  Real mass(int element) const { return arrays_.mass(element); } ///< [kg]
   /// Lumped [kg]: equal parts, but for bodies of revolution and full integration integrals of the
   /// shape functions.
   Real cornerMass(int element, int corner) const
   {
-    return cornerMass_.extent(0) > 0 ? cornerMass_(corner, element)
-                                     : mass_(element) / topology(type_).nodes;
+    return arrays_.cornerMass.extent(0) > 0 ? arrays_.cornerMass(corner, element)
+                                            : arrays_.mass(element) / topology(type_).nodes;
   }
-  ConstArray<Real> stableStep() const { return stableStep_; } ///< [s]; 0 when inverted
+  ConstArray<Real> stableStep() const { return arrays_.stableStep; } ///< [s]; 0 when inverted
   ConstArray<Real> volume() const
   {
-    return volume_;
+    return arrays_.volume;
   } ///< [m^3]; area times unit thickness in plane strain
-  ConstArray<Real> referenceVolume() const { return referenceVolume_; }
+  ConstArray<Real> referenceVolume() const { return arrays_.referenceVolume; }
   /// V^(1/3), in two dimensions the root of the area [m].
-  ConstArray<Real> referenceLength() const { return referenceLength_; }
+  ConstArray<Real> referenceLength() const { return arrays_.referenceLength; }
   /// xx, yy, zz, xy, yz, zx; tension positive, without bulk viscosity; the mean over the points; zz
   /// is the hoop stress of bodies of revolution [Pa]
-  ConstValues stress() const { return stress_; }
+  ConstValues stress() const { return arrays_.stress; }
   Real pressure(int element) const; ///< -tr(stress)/3 [Pa]
   Real vonMises(int element) const; ///< sqrt(3/2 s:s) [Pa]
-  Real density(int element) const { return mass_(element) / volume_(element); } ///< now [kg/m^3]
+  Real density(int element) const
+  {
+    return arrays_.mass(element) / arrays_.volume(element);
+  } ///< now [kg/m^3]
   /// The law's variables, a row each, means over the points; names in the order of the rows.
-  ConstValues history() const { return history_; }
+  ConstValues history() const { return arrays_.history; }
   const std::vector<std::string>& historyVariables() const { return historyNames_; }
   int historyRow(const std::string& name) const; ///< -1 when the law has no such variable
   ConstArray<Real> viscousPressure() const;      ///< q of the last update, not negative [Pa]
-  ConstValues energies() const { return energies_; }
-  Real energy(int element, ElementEnergy kind) const { return energies_(int(kind), element); }
+  ConstValues energies() const { return arrays_.energies; }
+  Real energy(int element, ElementEnergy kind) const
+  {
+    return arrays_.energies(int(kind), element);
+  }
 
   /// Takes an element out: no force and no stable step from now on, energies and stress zero; its
   /// history and its volume stay as they are. Its mass stays in mass() and cornerMass(): the nodes
@@ -136,18 +129,19 @@ public:
   template <class F>
   void forEachState(F&& f) const
   {
-    f("stress", int(stress_.extent(0)), stress_);
-    f("history", int(history_.extent(0)), history_);
-    f("tangent", int(tangent_.extent(0)), tangent_);
-    f("hourglass_force", int(hourglassForce_.extent(0)), hourglassForce_);
-    f("hourglass_viscous_force", int(hourglassViscousForce_.extent(0)), hourglassViscousForce_);
-    f("compression_rate", int(compression_.extent(0)), compression_);
-    f("element_energy", int(energies_.extent(0)), energies_);
-    for (const auto& [name, values] : {std::pair{"deformation", deformation_},
-                                       {"volume_ratio", volumeRatio_},
-                                       {"point_stress", pointStress_},
-                                       {"point_history", pointHistory_},
-                                       {"point_energy", pointEnergy_}})
+    f("stress", int(arrays_.stress.extent(0)), arrays_.stress);
+    f("history", int(arrays_.history.extent(0)), arrays_.history);
+    f("tangent", int(arrays_.tangent.extent(0)), arrays_.tangent);
+    f("hourglass_force", int(arrays_.hourglassForce.extent(0)), arrays_.hourglassForce);
+    f("hourglass_viscous_force", int(arrays_.hourglassViscousForce.extent(0)),
+      arrays_.hourglassViscousForce);
+    f("compression_rate", int(arrays_.compression.extent(0)), arrays_.compression);
+    f("element_energy", int(arrays_.energies.extent(0)), arrays_.energies);
+    for (const auto& [name, values] : {std::pair{"deformation", arrays_.deformation},
+                                       {"volume_ratio", arrays_.volumeRatio},
+                                       {"point_stress", arrays_.pointStress},
+                                       {"point_history", arrays_.pointHistory},
+                                       {"point_energy", arrays_.pointEnergy}})
       if (values.extent(0) > 0)
         f(name, int(values.extent(0)), values);
     f("alive", int(alive_.extent(0)), alive_);
@@ -173,30 +167,9 @@ private:
   BulkViscosity viscosity_;
   int count_ = 0;
   ElementOptions options_;
-  Table<int> connectivity_;
-
-  // of the reference state
-  Array<Real> mass_, referenceVolume_, referenceLength_;
-  Values cornerMass_; // a row per corner, where masses of corners differ
-  Values pointMass_;  // a row per point, full integration
-
-  // history
-  Values stress_, history_, hourglassForce_, hourglassViscousForce_, energies_;
-  Values tangent_; // rows: stiffening, integrity of the law (MaterialPoint)
   std::vector<std::string> historyNames_;
-  Values deformation_; // GreenNaghdi: deformation gradient of each point
-  Values volumeRatio_; // NodalPressure: mean over the corners
-  // full integration: rows of all points one after another
-  Values pointStress_, pointHistory_;
-  Values pointEnergy_; // internal and viscous, per reference volume [J/m^3]
-  Values compression_; // rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
-
+  ElementArrays arrays_;
   Values alive_; // 1 alive, 0 eroded
   std::vector<Eroded> eroded_;
-
-  // of the last update
-  CornerVectors cornerForce_;
-  Array<Real> stableStep_, volume_;
-  Values volumeChanges_;
 };
 } // namespace coplane

@@ -27,14 +27,14 @@ void ElementBlock::saveState(int element, Real* row) const
         for (int k = 0; k < rows; ++k)
           *row++ = values(k, element);
       });
-  *row++ = volume_(element);
-  *row = stableStep_(element);
+  *row++ = arrays_.volume(element);
+  *row = arrays_.stableStep(element);
 }
 
 void ElementBlock::restoreState(int element, const Real* row)
 {
   // What pads the last batch is a copy of the last element.
-  const int end = element == count_ - 1 ? int(mass_.extent(0)) : element + 1;
+  const int end = element == count_ - 1 ? int(arrays_.mass.extent(0)) : element + 1;
   Eroded eroded{element, 0, {}};
   forEachState(
       [&](const char*, int rows, const Values& values)
@@ -48,8 +48,8 @@ void ElementBlock::restoreState(int element, const Real* row)
       });
   for (int e = element; e < end; ++e)
   {
-    volume_(e) = row[0];
-    stableStep_(e) = row[1];
+    arrays_.volume(e) = row[0];
+    arrays_.stableStep(e) = row[1];
   }
   eroded.volume = row[0];
   if (!isAlive(element))

@@ -2,6 +2,7 @@
 
 #include <coplane_core/BranchFree.hpp>
 #include <coplane_core/Lanes.hpp>
+#include <coplane_element/Cofactors.hpp>
 
 namespace coplane
 {
@@ -27,31 +28,11 @@ template <int dim, int modes, int count, class T>
 KOKKOS_INLINE_FUNCTION void alongEdges(const T (&x)[dim][count], const T (&force)[modes][dim],
                                        T (&component)[modes][dim], T (&lengthSquared)[dim])
 {
-  T dual[dim][dim]; // of half edge k; dual . x_j = delta_kj
-  if constexpr (dim == 2)
-  {
-    const T inverse = T(1.0) / (x[0][0] * x[1][1] - x[1][0] * x[0][1]);
-    dual[0][0] = inverse * x[1][1];
-    dual[0][1] = -inverse * x[0][1];
-    dual[1][0] = -inverse * x[1][0];
-    dual[1][1] = inverse * x[0][0];
-  }
-  else
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      for (int i = 0; i < 3; ++i)
-      {
-        const int j = (i + 1) % 3, l = (i + 2) % 3;
-        dual[k][i] = x[j][a] * x[l][b] - x[l][a] * x[j][b];
-      }
-    }
-    const T inverse = T(1.0) / (x[0][0] * dual[0][0] + x[1][0] * dual[0][1] + x[2][0] * dual[0][2]);
-    for (int k = 0; k < 3; ++k)
-      for (int i = 0; i < 3; ++i)
-        dual[k][i] *= inverse;
-  }
+  T edge[dim][dim], dual[dim][dim]; // dual_k . edge_j = delta_kj
+  for (int k = 0; k < dim; ++k)
+    for (int i = 0; i < dim; ++i)
+      edge[k][i] = x[i][k];
+  inverseTransposed(edge, dual);
   for (int k = 0; k < dim; ++k)
   {
     lengthSquared[k] = x[0][k] * x[0][k];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/BranchFree.hpp>
+#include <coplane_element/Cofactors.hpp>
 #include <coplane_element/HughesWinget.hpp>
 
 namespace coplane
@@ -27,21 +28,11 @@ KOKKOS_INLINE_FUNCTION SymTensorOf<T> turnedFirstOrder(const SymTensorOf<T>& s,
           s.xy + change(0, 1), s.yz + change(1, 2), s.zx + change(2, 0)};
 }
 
-/// (A^-1)^T from cofactors.
 template <class T>
 KOKKOS_INLINE_FUNCTION Mat3Of<T> inverseTransposed(const Mat3Of<T>& a)
 {
   Mat3Of<T> c;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-    {
-      const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-      c(i, j) = a(i1, j1) * a(i2, j2) - a(i1, j2) * a(i2, j1);
-    }
-  const T scale = T(1.0) / (a(0, 0) * c(0, 0) + a(0, 1) * c(0, 1) + a(0, 2) * c(0, 2));
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      c(i, j) *= scale;
+  inverseTransposed(a.a, c.a);
   return c;
 }
 

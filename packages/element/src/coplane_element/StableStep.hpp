@@ -55,6 +55,32 @@ KOKKOS_INLINE_FUNCTION T fastestStrainMode(const T& i1, const T& i2, Real c)
          (a + branchFree::squareRoot(branchFree::positivePart(a * a - T(4 * (1.0 + 2 * c)) * i2)));
 }
 
+template <int dim, class T>
+KOKKOS_INLINE_FUNCTION T traceOf(const T (&g)[dim][dim])
+{
+  if constexpr (dim == 3)
+    return g[0][0] + g[1][1] + g[2][2];
+  else
+    return g[0][0] + g[1][1];
+}
+
+/// The same of the matrix g.
+template <int dim, class T>
+KOKKOS_INLINE_FUNCTION T fastestStrainMode(const T (&g)[dim][dim], Real c)
+{
+  if constexpr (dim == 3)
+  {
+    const T m0 = g[1][1] * g[2][2] - g[1][2] * g[1][2];
+    const T m1 = g[0][0] * g[2][2] - g[0][2] * g[0][2];
+    const T m2 = g[0][0] * g[1][1] - g[0][1] * g[0][1];
+    const T det = g[0][0] * m0 - g[0][1] * (g[0][1] * g[2][2] - g[1][2] * g[0][2]) +
+                  g[0][2] * (g[0][1] * g[1][2] - g[1][1] * g[0][2]);
+    return fastestStrainMode(traceOf(g), m0 + m1 + m2, det, c);
+  }
+  else
+    return fastestStrainMode(traceOf(g), g[0][0] * g[1][1] - g[0][1] * g[0][1], c);
+}
+
 /// Squared frequency bound of the strain modes of a body of revolution, with a mass in each corner:
 /// the largest eigenvalue of C G with the strains (r, axial, hoop, shear) and
 /// G = sum_I (V/m_I) e_I e_I^T over the motions of the corners, bounded by trace((C G)^8)^(1/8): at

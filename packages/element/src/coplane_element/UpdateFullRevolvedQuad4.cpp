@@ -3,7 +3,7 @@
 namespace coplane
 {
 template <class Law>
-using FullRevolvedQuad4Kernel = FullKernel<ElementType::Quad4, Law, true>;
+using FullRevolvedQuad4Kernel = FullKernel<ElementType::Quad4, Law, Geometry::Axisymmetric>;
 
 void updateFullRevolvedQuad4(const ElementKernelData& data)
 {

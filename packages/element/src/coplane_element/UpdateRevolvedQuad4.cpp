@@ -3,7 +3,7 @@
 namespace coplane
 {
 template <class Law>
-using RevolvedQuad4Kernel = ElementKernel<ElementType::Quad4, Law, true>;
+using RevolvedQuad4Kernel = ElementKernel<ElementType::Quad4, Law, Geometry::Axisymmetric>;
 
 void updateRevolvedQuad4(const ElementKernelData& data)
 {

@@ -3,7 +3,7 @@
 namespace coplane
 {
 template <class Law>
-using RevolvedTri3Kernel = ElementKernel<ElementType::Tri3, Law, true>;
+using RevolvedTri3Kernel = ElementKernel<ElementType::Tri3, Law, Geometry::Axisymmetric>;
 
 void updateRevolvedTri3(const ElementKernelData& data)
 {

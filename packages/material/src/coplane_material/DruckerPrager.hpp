@@ -40,10 +40,7 @@ struct DruckerPrager
     const T shear = choose(tip, zero, q - T(threeG) * plastic);
     const T scale = choose(yields, shear / q, one);
     const SymTensorOf<T> returned = stressOf(s, choose(q > zero, scale, one), -pressure);
-    point.stress = {
-        choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
-        choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
-        choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
+    point.stress = chosen(yields, returned, point.stress);
     point.bendingScale = choose(q > zero, scale, one);
     point.history[0] += choose(yields, plastic, zero);
     point.history[1] += choose(yields, expansion, zero);

@@ -94,9 +94,7 @@ struct HardeningPlasticity
     T bulk;
     const T p = eos.advance(point, deviator, h + State, elastic.bulkModulus, bulk);
     point.stress = stressOf(deviator, one, -p);
-    const Real shear = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening =
-        branchFree::larger((bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
+    point.stiffening = elastic.stiffeningOf(bulk);
   }
 };
 

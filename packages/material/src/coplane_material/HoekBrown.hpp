@@ -1,8 +1,7 @@
 #pragma once
 
 #include <coplane_material/Invariants.hpp>
-#include <coplane_material/LinearElastic.hpp>
-#include <coplane_material/Principal.hpp>
+#include <coplane_material/PrincipalReturn.hpp>
 
 #include <cmath>
 #include <optional>
@@ -93,26 +92,14 @@ struct HoekBrown
   template <class T>
   KOKKOS_INLINE_FUNCTION T tensionAfter(const T& opening, const T& size) const
   {
-    if (fractureEnergy <= 0)
-      return T(tensileStrength);
-    return T(tensileStrength) *
-           branchFree::exponential(T(-tensileStrength / fractureEnergy) * opening * size);
+    return principalReturn::tensionAfter(tensileStrength, fractureEnergy, opening, size);
   }
-
-  enum Surface : int
-  {
-    Face13, // s1 - s3
-    Face12, // s1 - s2, beside Face13 where s2 = s3
-    Face23, // s2 - s3, beside Face13 where s1 = s2
-    Cut1,
-    Cut2,
-    Cut3
-  };
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
   {
     using branchFree::choose;
+    using principalReturn::Set;
     const T zero(0.0);
     T* const h = point.history;
     elastic.addElasticIncrement(point.strainIncrement, point.stress);
@@ -131,94 +118,52 @@ struct HoekBrown
     }
     const T trial[3] = {s[0], s[1], s[2]};
     const T tolerance =
-        T(1e-11) * (curve.unit + branchFree::absolute(s[0]) + branchFree::absolute(s[2]));
+        T(toleranceShare) * (curve.unit + branchFree::absolute(s[0]) + branchFree::absolute(s[2]));
     const T cutStrength = curve.strengthAt(cut);
     const T cutDilation = dilationAt(curve, cutStrength / curve.unit);
-    T slips(0.0), openings(0.0), flow[3] = {zero, zero, zero};
-    auto open = yields;
-    // From the fewest surfaces to the most; the corner of pure tension is the last resort.
-    constexpr int sets[10][3] = {
-        {Face13, -1, -1},     {Cut1, -1, -1},    {Face13, Face23, -1},   {Face13, Face12, -1},
-        {Face13, Cut1, -1},   {Cut1, Cut2, -1},  {Face13, Face12, Cut1}, {Face13, Face23, Cut1},
-        {Face13, Cut1, Cut2}, {Cut1, Cut2, Cut3}};
-    for (int k = 0; k < 10 && branchFree::anyOf(open); ++k)
+    const auto multipliersOf = [&](const Set& set, const auto& open, T(&multiplier)[3])
     {
-      int count = 0;
-      bool slides = false, cuts = false;
-      for (; count < 3 && sets[k][count] >= 0; ++count)
-        (sets[k][count] >= Cut1 ? cuts : slides) = true;
-      T multiplier[3] = {zero, zero, zero}, result[3];
-      T slope = cutDilation;
-      if (cuts) // s1 is known, and with it the strength: linear equations
-        solve(sets[k], count, trial, slope, cutStrength, cut, multiplier);
-      else
-        slope = slide(sets[k][1], trial, curve, tolerance, open, multiplier);
-      for (int i = 0; i < 3; ++i)
-        result[i] = trial[i];
-      T setFlow[3] = {zero, zero, zero};
-      for (int i = 0; i < count; ++i)
-      {
-        T g[3], dg[3];
-        flowOf(sets[k][i], slope, g, dg);
-        for (int j = 0; j < 3; ++j)
-        {
-          result[j] -= dg[j] * multiplier[i];
-          setFlow[j] += g[j] * multiplier[i];
-        }
-      }
-      auto good = open && result[0] - result[1] > -tolerance && result[1] - result[2] > -tolerance;
-      if (!slides)
-        good = good && result[0] - result[2] - cutStrength < tolerance;
-      if (!cuts)
-        good = good && result[0] - cut < tolerance;
-      for (int i = 0; i < count; ++i)
-        good = good && multiplier[i] >= zero;
-      if (k == 9)
-        good = open;
-      for (int i = 0; i < 3; ++i)
-      {
-        s[i] = choose(good, result[i], s[i]);
-        flow[i] = choose(good, setFlow[i], flow[i]);
-      }
-      for (int i = 0; i < count; ++i)
-      {
-        const bool opens = sets[k][i] >= Cut1;
-        slips += choose(good, opens ? zero : (T(1.0) + slope) * multiplier[i], zero);
-        openings += choose(good, opens ? multiplier[i] : zero, zero);
-      }
-      open = open && !good;
-    }
+      if (!set.cuts())
+        return slide(set, trial, curve, tolerance, open, multiplier);
+      // s1 is known, and with it the strength: planes across the stresses, linear equations
+      principalReturn::solve(elastic, set, trial, T(1.0), cutDilation, cutStrength, cut,
+                             multiplier);
+      return cutDilation;
+    };
+    const auto bears = [&](const Set& set, const T(&stress)[3])
+    {
+      branchFree::MaskOf<T> good(true);
+      if (!set.slides())
+        good = good && stress[0] - stress[2] - cutStrength < tolerance;
+      if (!set.cuts())
+        good = good && stress[0] - cut < tolerance;
+      return good;
+    };
+    const auto flow =
+        principalReturn::returnTo(elastic, s, yields, tolerance, multipliersOf, bears);
     point.bendingScale =
         scaleOf(bending, choose(q > zero, vonMisesOf(s) / q, T(1.0)), s, curve, cut);
-    const SymTensorOf<T> returned = tensorOf(principal);
-    point.stress = {
-        choose(yields, returned.xx, point.stress.xx), choose(yields, returned.yy, point.stress.yy),
-        choose(yields, returned.zz, point.stress.zz), choose(yields, returned.xy, point.stress.xy),
-        choose(yields, returned.yz, point.stress.yz), choose(yields, returned.zx, point.stress.zx)};
-    const T mean = T(1.0 / 3.0) * (flow[0] + flow[1] + flow[2]);
-    T squares = zero;
-    for (int i = 0; i < 3; ++i)
-      squares += (flow[i] - mean) * (flow[i] - mean);
+    point.stress = chosen(yields, tensorOf(principal), point.stress);
     // Not negative but for rounding where the strength is 0.
-    point.dissipation += branchFree::positivePart(s[0] * flow[0] + s[1] * flow[1] + s[2] * flow[2]);
-    h[0] += branchFree::squareRoot(T(2.0 / 3.0) * squares);
-    h[1] += slips;
-    h[2] += openings;
+    point.dissipation += branchFree::positivePart(s[0] * flow.strain[0] + s[1] * flow.strain[1] +
+                                                  s[2] * flow.strain[2]);
+    h[0] += flow.equivalent();
+    h[1] += flow.slip;
+    h[2] += flow.opening;
   }
 
 private:
+  /// Of stresses over sigma_ci and their own size.
+  static constexpr Real toleranceShare = 1e-11;
+  /// Of the tolerance of stresses, for the strength on the curve.
+  static constexpr Real rootShare = 1e-3;
+
   /// a^b, with the bits of the scalar in every lane.
   template <class T>
   KOKKOS_INLINE_FUNCTION static T powerOf(const T& a, const T& b)
   {
     return branchFree::gathered<T>(
         [&](int i) { return std::pow(branchFree::lane(a, i), branchFree::lane(b, i)); });
-  }
-  template <class T>
-  KOKKOS_INLINE_FUNCTION static T vonMisesOf(const T (&s)[3])
-  {
-    const T a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-    return branchFree::squareRoot(T(0.5) * (a * a + b * b + c * c));
   }
   /// Bending falls by the factor of the return, and ends where fibres beside the mean stress shear
   /// in compression or reach the cut-off. It flows by itself: faces and edges know no other
@@ -243,7 +188,7 @@ private:
       r = branchFree::choose(r > T(0.0), branchFree::positivePart(next), r);
     }
     const T most = branchFree::positivePart(branchFree::smaller(r * curve.unit, cut - mean));
-    return branchFree::choose(kept * bending > most, most / bending, kept);
+    return principalReturn::bendingKept(kept, bending, most);
   }
   /// N_psi of the flow where the strength is r unit: work at the stress on a convex surface that
   /// has the origin inside is never negative when the flow dilates no more than its normal.
@@ -257,43 +202,22 @@ private:
   {
     return dilationAt(curve, r, curve.roomAt(r));
   }
-  /// Direction of plastic flow, and the stress that it takes away.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void flowOf(int surface, const T& slope, T (&g)[3], T (&dg)[3]) const
-  {
-    direction(surface, slope, g);
-    const T lambda(elastic.bulkModulus - 2.0 / 3.0 * elastic.shearModulus);
-    for (int i = 0; i < 3; ++i)
-      dg[i] = lambda * (g[0] + g[1] + g[2]) + T(2 * elastic.shearModulus) * g[i];
-  }
-  template <class T>
-  KOKKOS_INLINE_FUNCTION static void direction(int surface, const T& slope, T (&n)[3])
-  {
-    n[0] = n[1] = n[2] = T(0.0);
-    if (surface >= Cut1)
-      n[surface - Cut1] = T(1.0);
-    else
-    {
-      n[surface == Face23 ? 1 : 0] = slope;
-      n[surface == Face12 ? 1 : 2] = T(-1.0);
-    }
-  }
-
   /// Multipliers that bring the trial stress onto the face, or onto its edge with a second one.
   /// Seen from the mean of the stresses that an edge makes equal, an edge is a face. The unknown is
   /// r, the strength over its unit: the curve is smooth in it even at the tip. Stresses on the way
   /// back are s1 = T1 - A x, s3 = T3 - B x, and s1 - s3 = r unit; both sides of it rise and fall
   /// with r for good, whatever N_psi does, so there is one root.
-  /// @param second Face23 (s1 = s2), Face12 (s2 = s3) or -1
+  /// @param set Face13, alone or beside Face23 (s1 = s2) or Face12 (s2 = s3)
   /// @return N_psi of the flow
   template <class T>
-  KOKKOS_INLINE_FUNCTION T slide(int second, const T (&trial)[3], const Curve<T>& curve,
-                                 const T& tolerance, branchFree::MaskOf<T> open,
-                                 T (&multiplier)[3]) const
+  KOKKOS_INLINE_FUNCTION T slide(const principalReturn::Set& set, const T (&trial)[3],
+                                 const Curve<T>& curve, const T& tolerance,
+                                 branchFree::MaskOf<T> open, T (&multiplier)[3]) const
   {
     const T one(1.0), half(0.5), twoG(2 * elastic.shearModulus);
     const T lambda(elastic.bulkModulus - 2.0 / 3.0 * elastic.shearModulus);
-    const bool upper = second == Face23, lower = second == Face12;
+    const bool upper = set.surface[set.count - 1] == principalReturn::Face23;
+    const bool lower = set.surface[set.count - 1] == principalReturn::Face12;
     const T t1 = upper ? half * (trial[0] + trial[1]) : trial[0];
     const T t3 = lower ? half * (trial[1] + trial[2]) : trial[2];
     const T w1(upper ? 0.5 : 1.0), w3(lower ? 0.5 : 1.0);
@@ -310,10 +234,10 @@ private:
     const T least = curve.strengthAt(t1) / curve.unit, most = (t1 - t3) / curve.unit;
     const auto over = open && most > least;
     const T root = branchFree::fallingRoot(excess, least, most, excess(least), excess(most),
-                                           T(1e-3) * tolerance, over);
+                                           T(rootShare) * tolerance, over);
     const T u = curve.roomAt(root), slope = dilationAt(curve, root, u);
     const T sum = branchFree::positivePart((t1 - curve.stressAt(u)) / away(slope));
-    if (second < 0)
+    if (set.count == 1)
     {
       multiplier[0] = sum;
       return slope;
@@ -323,33 +247,6 @@ private:
     multiplier[0] = half * (sum + difference);
     multiplier[1] = half * (sum - difference);
     return slope;
-  }
-
-  /// Multipliers that bring the trial stress onto all surfaces of a set with the cut-off.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void solve(const int (&set)[3], int count, const T (&trial)[3],
-                                    const T& slope, const T& strength, const T& cut,
-                                    T (&multiplier)[3]) const
-  {
-    const T one(1.0), zero(0.0);
-    Mat3Of<T> a{{{one, zero, zero}, {zero, one, zero}, {zero, zero, one}}};
-    T over[3] = {T(0.0), T(0.0), T(0.0)};
-    for (int i = 0; i < count; ++i)
-    {
-      T n[3]; // of the plane across the stresses, or of the cut-off
-      direction<T>(set[i], one, n);
-      over[i] =
-          n[0] * trial[0] + n[1] * trial[1] + n[2] * trial[2] - (set[i] >= Cut1 ? cut : strength);
-      for (int j = 0; j < count; ++j)
-      {
-        T g[3], dg[3];
-        flowOf(set[j], slope, g, dg);
-        a.a[i][j] = n[0] * dg[0] + n[1] * dg[1] + n[2] * dg[2];
-      }
-    }
-    const Mat3Of<T> b = inverse(a);
-    for (int i = 0; i < count; ++i)
-      multiplier[i] = b.a[i][0] * over[0] + b.a[i][1] * over[1] + b.a[i][2] * over[2];
   }
 };
 

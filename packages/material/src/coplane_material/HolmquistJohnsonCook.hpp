@@ -90,31 +90,14 @@ struct HolmquistJohnsonCook
     using branchFree::choose;
     T* const h = point.history;
     const T zero(0.0), one(1.0), intact = one - h[Damage];
-    const T mu = one / point.volumeRatio - one;
-    const T before = h[Compression], largest = branchFree::larger(mu, before);
-    const T back = unloadingSlope(largest);
-    const T lost = lostPores(largest);
-    const T compaction = branchFree::positivePart(lost - lostPores(before));
-    const auto isLocked = largest > T(fullCompression);
-    const T least = -intact * T(tension);
-    T p = choose(isLocked, lockedPressure(mu), back * (mu - lost)) + h[Offset];
-    p = branchFree::larger(p, least);
-    h[Compression] = largest;
+    const Compressed<T> c = compressed(one / point.volumeRatio - one, h[Compression]);
+    const T p = branchFree::larger(c.pressure + h[Offset], -intact * T(tension));
+    h[Compression] = c.largest;
 
     const SymTensorOf<T> trial =
         deviatorOf(sumOf(point.stress, T(2 * elastic.shearModulus), point.strainIncrement));
     const T q = vonMisesOf(trial, point.bendingSquared);
-    const SymTensorOf<T> shear = deviatorOf(point.strainIncrement);
-    const T rate = branchFree::squareRoot(T(2.0 / 3.0) * contract(shear, shear)) * T(1 / point.dt);
-    const T relative = branchFree::positivePart(p) * T(1 / strength);
-    const T pulled = intact + branchFree::smaller(p, zero) * T(1 / tension); // (1-D) (1 + p/...)
-    const T pressed =
-        T(cohesion) * intact + T(pressureFactor) * branchFree::power(relative, pressureExponent);
-    const T fast = one + T(rateFactor) * branchFree::logarithm(branchFree::larger(rate, one));
-    const T normalised =
-        choose(p < zero, T(cohesion) * branchFree::positivePart(pulled), pressed) * fast;
-    const T yield = T(strength) * branchFree::smaller(normalised, T(mostStrength));
-
+    const T yield = yieldStress(p, intact, point.strainIncrement, point.dt);
     const auto yields = q > yield;
     const T plastic = choose(yields, (q - yield) * T(1 / (3 * elastic.shearModulus)), zero);
     point.stress = stressOf(trial, choose(yields, yield / q, one), -p);
@@ -123,22 +106,79 @@ struct HolmquistJohnsonCook
     const T reach = branchFree::positivePart(p + T(tension)) * T(1 / strength);
     const T ductility =
         branchFree::larger(T(damage1) * branchFree::power(reach, damage2), T(leastFracture));
-    h[Damage] = branchFree::smaller(h[Damage] + (plastic + compaction) / ductility, one);
-    // Pores that close take p dmu_p, less what the changed modulus stores, p^2 / 2K. Volume per
-    // present volume is dmu (1 + mu)^-1.
-    const T compression = branchFree::positivePart(p), former = unloadingSlope(before);
-    const T ofPores = compression * compaction -
-                      T(0.5) * compression * compression * (back - former) / (back * former);
+    h[Damage] = branchFree::smaller(h[Damage] + (plastic + c.compaction) / ductility, one);
+    // Volume per present volume is dmu (1 + mu)^-1.
     point.dissipation = yield * plastic * partOfMean(q, point.bendingSquared) +
-                        branchFree::positivePart(ofPores) * point.volumeRatio;
-    point.integrity = branchFree::larger(one - h[Damage], T(0.02));
-    const T m = branchFree::positivePart((mu - T(lockCompression)) * T(1 / (1 + lockCompression)));
+                        branchFree::positivePart(workOfPores(c, p)) * point.volumeRatio;
+    point.integrity = branchFree::larger(one - h[Damage], T(leastStiffness));
+    point.stiffening = elastic.stiffeningOf(tangentOf(c));
+  }
+
+private:
+  /// The volume over a step.
+  template <class T>
+  struct Compressed
+  {
+    T mu;           ///< at its end
+    T largest;      ///< mu so far
+    T former, back; ///< slopes of unloading before the step and at its end [Pa]
+    T compaction;   ///< lost pores of the step
+    T pressure;     ///< without that of the initial stress and without limit [Pa]
+    branchFree::MaskOf<T> isLocked;
+  };
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION Compressed<T> compressed(const T& mu, const T& before) const
+  {
+    Compressed<T> c;
+    c.mu = mu;
+    c.largest = branchFree::larger(mu, before);
+    c.former = unloadingSlope(before);
+    c.back = unloadingSlope(c.largest);
+    const T lost = lostPores(c.largest);
+    c.compaction = branchFree::positivePart(lost - lostPores(before));
+    c.isLocked = c.largest > T(fullCompression);
+    c.pressure = branchFree::choose(c.isLocked, lockedPressure(mu), c.back * (mu - lost));
+    return c;
+  }
+
+  /// At the pressure and the rate of the deviatoric strain [Pa].
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T yieldStress(const T& p, const T& intact,
+                                       const SymTensorOf<T>& strainIncrement, Real dt) const
+  {
+    const T zero(0.0), one(1.0);
+    const SymTensorOf<T> shear = deviatorOf(strainIncrement);
+    const T rate = branchFree::squareRoot(T(2.0 / 3.0) * contract(shear, shear)) * T(1 / dt);
+    const T relative = branchFree::positivePart(p) * T(1 / strength);
+    const T pulled = intact + branchFree::smaller(p, zero) * T(1 / tension); // (1-D) (1 + p/...)
+    const T pressed =
+        T(cohesion) * intact + T(pressureFactor) * branchFree::power(relative, pressureExponent);
+    const T fast = one + T(rateFactor) * branchFree::logarithm(branchFree::larger(rate, one));
+    const T slow =
+        branchFree::choose(p < zero, T(cohesion) * branchFree::positivePart(pulled), pressed);
+    return T(strength) * branchFree::smaller(slow * fast, T(mostStrength));
+  }
+
+  /// Pores that close take p dmu_p, less what the changed modulus stores, p^2 / 2K.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T workOfPores(const Compressed<T>& c, const T& p) const
+  {
+    const T compression = branchFree::positivePart(p);
+    return compression * c.compaction -
+           T(0.5) * compression * compression * (c.back - c.former) / (c.back * c.former);
+  }
+
+  /// -V dp/dV [Pa].
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T tangentOf(const Compressed<T>& c) const
+  {
+    const T m =
+        branchFree::positivePart((c.mu - T(lockCompression)) * T(1 / (1 + lockCompression)));
     const T ofLocked = (T(locked[0]) + m * (T(2 * locked[1]) + m * T(3 * locked[2]))) *
                        T(1 / (1 + lockCompression));
-    const T bulk = choose(isLocked, branchFree::larger(ofLocked, back), back) * (one + mu);
-    const Real stiff = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening =
-        branchFree::larger((bulk + T(stiff)) * T(1 / (elastic.bulkModulus + stiff)), T(0.02));
+    return branchFree::choose(c.isLocked, branchFree::larger(ofLocked, c.back), c.back) *
+           (T(1.0) + c.mu);
   }
 };
 

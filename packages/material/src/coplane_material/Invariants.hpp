@@ -45,6 +45,16 @@ KOKKOS_INLINE_FUNCTION SymTensorOf<T> stressOf(const SymTensorOf<T>& s, const T&
           scale * s.xy,        scale * s.yz,        scale * s.zx};
 }
 
+/// a where the mask holds, else b.
+template <class T>
+KOKKOS_INLINE_FUNCTION SymTensorOf<T> chosen(const branchFree::MaskOf<T>& mask,
+                                             const SymTensorOf<T>& a, const SymTensorOf<T>& b)
+{
+  using branchFree::choose;
+  return {choose(mask, a.xx, b.xx), choose(mask, a.yy, b.yy), choose(mask, a.zz, b.zz),
+          choose(mask, a.xy, b.xy), choose(mask, a.yz, b.yz), choose(mask, a.zx, b.zx)};
+}
+
 /// q = sqrt(3/2 s:s) of a deviator.
 template <class T>
 KOKKOS_INLINE_FUNCTION T vonMisesOf(const SymTensorOf<T>& deviator)

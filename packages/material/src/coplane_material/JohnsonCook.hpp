@@ -37,6 +37,13 @@ struct JohnsonCook
                                                  "damage", "pressure_offset", "distension"};
   static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
+  /// Beyond it the strain at fracture stays (Johnson and Cook 1985).
+  static constexpr Real mostTriaxiality = 1.5;
+  /// The strain at fracture is positive in any case.
+  static constexpr Real leastDuctility = 1e-3;
+  /// Of stresses over A.
+  static constexpr Real toleranceShare = 1e-11;
+
   KOKKOS_INLINE_FUNCTION bool fractures() const { return damage[0] != 0 || damage[1] != 0; }
 
   void startFrom(const SymTensor& stress, Real* history) const
@@ -92,7 +99,7 @@ struct JohnsonCook
     {
       const T most = q / threeG;
       const T root = branchFree::fallingRoot(excess, zero * q, most, over, excess(most),
-                                             T(1e-11 * strength), yields);
+                                             T(toleranceShare * strength), yields);
       plastic = choose(yields, root, zero);
       stress = q - threeG * plastic;
     }
@@ -111,18 +118,15 @@ struct JohnsonCook
     if (fractures())
     {
       const T triaxiality = choose(stress > zero, -p / stress, zero);
-      // Beyond 1.5 the strain at fracture stays (Johnson and Cook); it is positive in any case.
-      const T capped = branchFree::smaller(triaxiality, T(1.5));
+      const T capped = branchFree::smaller(triaxiality, T(mostTriaxiality));
       const T ductility =
           (T(damage[0]) + T(damage[1]) * branchFree::exponential(T(damage[2]) * capped)) *
           (one + T(damage[3]) * logRate(plastic, point.dt)) * (one + T(damage[4]) * hot);
-      h[Damage] =
-          branchFree::smaller(h[Damage] + plastic / branchFree::larger(ductility, T(1e-3)), one);
+      h[Damage] = branchFree::smaller(
+          h[Damage] + plastic / branchFree::larger(ductility, T(leastDuctility)), one);
     }
-    point.integrity = choose(failed, T(0.02), one);
-    const Real shear = 4.0 / 3.0 * elastic.shearModulus;
-    point.stiffening =
-        branchFree::larger((bulk + T(shear)) * T(1 / (elastic.bulkModulus + shear)), T(0.02));
+    point.integrity = choose(failed, T(leastStiffness), one);
+    point.stiffening = elastic.stiffeningOf(bulk);
   }
 };
 

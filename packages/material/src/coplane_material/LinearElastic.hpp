@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/BranchFree.hpp>
 #include <coplane_material/MaterialPoint.hpp>
 
 namespace coplane
@@ -36,6 +37,15 @@ struct LinearElastic
     stress.xy += twoG * de.xy;
     stress.yz += twoG * de.yz;
     stress.zx += twoG * de.zx;
+  }
+
+  /// MaterialPoint::stiffening of a material whose pressure has another tangent.
+  /// @param bulk -V dp/dV [Pa]
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T stiffeningOf(const T& bulk) const
+  {
+    const Real shear = 4.0 / 3.0 * shearModulus;
+    return branchFree::larger((bulk + T(shear)) * T(1 / (bulkModulus + shear)), T(leastStiffness));
   }
 };
 

@@ -9,6 +9,10 @@ namespace coplane
 /// Most numbers that a law may remember of a point.
 constexpr int maximumHistory = 24;
 
+/// What destroyed material keeps of its stiffness, so that hourglass modes do not run free and
+/// steps stay bounded: least values of MaterialPoint::integrity and MaterialPoint::stiffening.
+constexpr Real leastStiffness = 0.02;
+
 /// A material point over one step, or laneCount of them side by side: T is Real or Lanes. The
 /// interface of every law.
 template <class T>

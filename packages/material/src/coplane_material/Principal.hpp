@@ -70,6 +70,14 @@ KOKKOS_INLINE_FUNCTION Principal<T> principalOf(const SymTensorOf<T>& s)
   return r;
 }
 
+/// q = sqrt(3/2 s:s) of principal stresses.
+template <class T>
+KOKKOS_INLINE_FUNCTION T vonMisesOf(const T (&s)[3])
+{
+  const T a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
+  return branchFree::squareRoot(T(0.5) * (a * a + b * b + c * c));
+}
+
 /// The tensor with these principal values.
 template <class T>
 KOKKOS_INLINE_FUNCTION SymTensorOf<T> tensorOf(const Principal<T>& p)

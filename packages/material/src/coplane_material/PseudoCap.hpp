@@ -50,6 +50,18 @@ struct PseudoCap
                                                  "precompression"};
   static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
+  // Malvar et al. (1997): strengths on the compression meridian, intact a0 fc + p / (a1 + a2 p /
+  // fc) and crushed p / (a1f + a2f p / fc), and the ratio of the meridians over p / fc.
+  static constexpr Real a0 = 0.2956, a1 = 0.4463, a2 = 0.0808, a1f = 0.4417, a2f = 0.1183;
+  static constexpr Real farPressure = 3, farRatio = 0.753;
+  static constexpr Real roundPressure = 8.45; ///< from here on the section is round
+  /// Volume per plastic shear strain of intact material at p = fc / 3 [-].
+  static constexpr Real kneeDilation = 0.6;
+  /// Porosity that opens takes the modulus away, which is gone but for a rest at that much more.
+  static constexpr Real openedPores = 0.3, leastOpened = 0.05;
+  /// 1 - s x of the grains stays above, so that their pressure stays finite.
+  static constexpr Real leastRoom = 0.1;
+
   /// Pores are full of grains from here on: 1 - ec/ecm = exp(-closedPores).
   static constexpr Real closedPores = 25;
 
@@ -62,7 +74,7 @@ struct PseudoCap
   {
     const T stretch = branchFree::exponential(ee), one(1.0);
     const T x = one - one / stretch; // compression over the compressed volume
-    const T room = branchFree::larger(one - T(grainSlope) * x, T(0.1));
+    const T room = branchFree::larger(one - T(grainSlope) * x, T(leastRoom));
     return T(grainModulus) * branchFree::choose(ee > T(0.0), x / (room * room), stretch - one);
   }
 
@@ -72,7 +84,7 @@ struct PseudoCap
   {
     const T stretch = branchFree::exponential(ee), one(1.0);
     const T x = one - one / stretch;
-    const T room = branchFree::larger(one - T(grainSlope) * x, T(0.1));
+    const T room = branchFree::larger(one - T(grainSlope) * x, T(leastRoom));
     const T compressed = (one + T(grainSlope) * x) / (stretch * room * room * room);
     return T(grainModulus) * branchFree::choose(ee > T(0.0), compressed, stretch);
   }
@@ -91,7 +103,8 @@ struct PseudoCap
     const Real intact = elastic.bulkModulus / grainModulus;
     const T closing = T(1.0) - phi * T((1.0 - intact) / porosity);
     const T opening =
-        T(intact) * branchFree::larger(T(1.0) - (phi - T(porosity)) * T(1 / 0.3), T(0.05));
+        T(intact) *
+        branchFree::larger(T(1.0) - (phi - T(porosity)) * T(1 / openedPores), T(leastOpened));
     return branchFree::choose(phi > T(porosity), opening, closing);
   }
 
@@ -114,7 +127,7 @@ struct PseudoCap
   template <class T>
   KOKKOS_INLINE_FUNCTION T intactStrength(const T& p) const
   {
-    return T(0.2956 * strength) + p / (T(0.4463) + T(0.0808 / strength) * p);
+    return T(a0 * strength) + p / (T(a1) + T(a2 / strength) * p);
   }
 
   /// Ys: strength on the compression meridian, without the cap.
@@ -125,7 +138,7 @@ struct PseudoCap
     const T intact = one - damage;
     const T tension =
         T(strength / (strength / 3 + tensileStrength)) * (p + intact * T(tensileStrength));
-    const T residual = compression / (T(0.4417) + T(0.1183 / strength) * compression);
+    const T residual = compression / (T(a1f) + T(a2f / strength) * compression);
     const T sheared = intact * intactStrength(compression) + damage * residual;
     const T both = branchFree::choose(p > T(0.0), branchFree::smaller(tension, sheared), tension);
     return branchFree::positivePart(both);
@@ -138,11 +151,11 @@ struct PseudoCap
     const Real knee = strength / 3, biaxial = 2 * biaxialRatio * strength / 3;
     const Real first = 0.5 + 1.5 * tensileStrength / strength;
     const Real second = biaxialRatio * strength / intactStrength(biaxial);
-    const Real far = 3 * strength, round = 8.45 * strength;
+    const Real far = farPressure * strength, round = roundPressure * strength;
     const auto line = [&](Real p0, Real v0, Real p1, Real v1)
     { return T(v0) + (p - T(p0)) * T((v1 - v0) / (p1 - p0)); };
-    T psi = branchFree::choose(p < T(round), line(far, 0.753, round, 1.0), T(1.0));
-    psi = branchFree::choose(p < T(far), line(biaxial, second, far, 0.753), psi);
+    T psi = branchFree::choose(p < T(round), line(far, farRatio, round, 1.0), T(1.0));
+    psi = branchFree::choose(p < T(far), line(biaxial, second, far, farRatio), psi);
     psi = branchFree::choose(p < T(biaxial), line(knee, first, biaxial, second), psi);
     return branchFree::choose(p < T(knee), T(first), psi);
   }
@@ -173,171 +186,266 @@ struct PseudoCap
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(MaterialPoint<T>& point) const
   {
-    using branchFree::choose;
-    const T zero(0.0), one(1.0);
-    T* const h = point.history;
-    const T damage = h[Damage], intact = one - damage;
-    T ec = h[Compaction], ed = h[Bulking], et = h[Opening];
-    const T ebar = h[Precompression] - branchFree::logarithm(point.volumeRatio);
-
-    // Cracks close at zero pressure before anything else is compressed.
-    const T closed = branchFree::positivePart(branchFree::smaller(et, ebar - ec + ed + et));
-    et -= closed;
-    T v = ec - ed - et;
-
-    const T inelasticBefore = v;
-
-    // Pores close along the crush curve. In y, the logarithm of the pores left, the curve is
-    // straight.
-    const Real full = fullCompaction();
-    T p = pressure(ebar, v), pc = crushCurve(ec);
-    T dissipation(0.0);
-    const Real tolerance = 1e-11 * strength;
-    if (const auto crushes = p > pc; branchFree::anyOf(crushes))
-    {
-      const T y = (pc - T(crushPressure)) * T(1.0 / crushHardening);
-      const T most = branchFree::smaller(
-          (grainPressure(ebar - v) - T(crushPressure)) * T(1.0 / crushHardening), T(closedPores));
-      const auto compactionOf = [&](const T& at)
-      { return T(full) * (one - branchFree::exponential(-at)); };
-      const auto excess = [&](const T& at)
-      {
-        return pressure(ebar, v + (compactionOf(at) - ec)) -
-               (T(crushPressure) + T(crushHardening) * at);
-      };
-      const T root =
-          branchFree::fallingRoot(excess, y, branchFree::larger(most, y), p - pc,
-                                  excess(branchFree::larger(most, y)), T(tolerance), crushes);
-      const T crushed = choose(crushes, compactionOf(root) - ec, zero);
-      ec += crushed;
-      v += crushed;
-      p = choose(crushes, pressure(ebar, v), p);
-      pc = choose(crushes, T(crushPressure) + T(crushHardening) * root, pc);
-      dissipation += p * crushed;
-    }
-
-    // Shear: the deviator returns along itself to the strength, and the volume follows.
-    const SymTensorOf<T> s =
-        deviatorOf(sumOf(point.stress, T(2.0 * elastic.shearModulus), point.strainIncrement));
-    const T q = vonMisesOf(s, point.bendingSquared);
-    const T cosTheta =
-        branchFree::cosine(T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(s, vonMisesOf(s))));
-    const T mean = partOfMean(q, point.bendingSquared);
-
-    // Fast strain makes the surface of strength larger about the origin, r Y(p / r): r is that of
-    // tension up to no pressure, that of compression from a third of fc on. The cap stays.
-    T faster(1.0), fasterTension(1.0);
-    if (rates.counts())
-    {
-      const T rate = largestPrincipal(point.strainIncrement) * T(1 / point.dt);
-      fasterTension = rates.tension(rate);
-      const T share = branchFree::smaller(branchFree::positivePart(p) * T(3 / strength), one);
-      faster = fasterTension + share * (rates.compression(rate) - fasterTension);
-    }
-    const auto strengthAt = [&](const T& at, const T& crush)
-    {
-      if (!rates.counts())
-        return shearStrength(at, crush, damage, cosTheta);
-      return faster * shearStrength(at / faster, crush / faster, damage, cosTheta);
-    };
-
-    const T threeG(3 * elastic.shearModulus);
-    const T start = T(capRatio) * pc, knee(strength / 3);
-    const auto pulled = p < zero, compacts = p >= start;
-    const T dilatant =
-        choose(p < knee, T(tensileDilation) + (T(0.6) - T(tensileDilation)) * p / knee,
-               T(0.6) * (start - p) / (start - knee));
-    // Volume strain v per plastic shear strain.
-    const T rate = choose(
-        pulled, T(-tensileDilation),
-        choose(compacts, T(shearCompaction) * branchFree::smaller((p - start) / (pc - start), one),
-               -intact * branchFree::positivePart(dilatant)));
-    const Real fullest = full * (1 - std::exp(-closedPores));
-    const auto compactionAt = [&](const T& dl)
-    { return branchFree::smaller(ec + branchFree::positivePart(rate) * dl, T(fullest)); };
-    // Opening under tension ends at no pressure: against a pressure it would give work back.
-    const T widest = branchFree::smaller(v, ebar);
-    const auto volumeAt = [&](const T& dl)
-    {
-      const T moved = v + choose(compacts, compactionAt(dl) - ec, rate * dl);
-      return choose(pulled, branchFree::larger(moved, widest), moved);
-    };
-    const auto excess = [&](const T& dl)
-    {
-      return q - threeG * dl -
-             strengthAt(pressure(ebar, volumeAt(dl)), crushCurve(compactionAt(dl)));
-    };
-    const T over = q - strengthAt(p, pc);
-    T plastic(0.0), dilated(0.0), opened(0.0), scale(1.0);
-    if (const auto yields = over > T(tolerance); branchFree::anyOf(yields))
-    {
-      const T most = q / threeG;
-      const T root =
-          branchFree::fallingRoot(excess, zero * q, most, over, excess(most), T(tolerance), yields);
-      plastic = choose(yields, root, zero);
-      const T compacted = choose(yields && compacts, compactionAt(plastic) - ec, zero);
-      opened = choose(yields && pulled, v - volumeAt(plastic), zero);
-      dilated = choose(yields && !pulled && !compacts, -rate * plastic, zero);
-      ec += compacted;
-      et += opened;
-      ed += dilated;
-      v = choose(yields, volumeAt(plastic), v);
-      p = choose(yields, pressure(ebar, v), p);
-      pc = choose(yields, crushCurve(ec), pc);
-      scale = choose(yields, one - threeG * plastic / q, one);
-      dissipation += scale * q * plastic * mean + p * (compacted - dilated - opened);
-    }
-
-    // No mean tension above the strength: cracks open.
-    const T least = -intact * T(tensileStrength) * fasterTension;
-    if (const auto cracks = p < least - T(tolerance); branchFree::anyOf(cracks))
-    {
-      const T most = v - ebar; // then the grains are free of stress
-      const auto lack = [&](const T& x) { return least - pressure(ebar, v - x); };
-      const T root =
-          branchFree::fallingRoot(lack, zero * v, most, least - p, least, T(tolerance), cracks);
-      const T cracked = choose(cracks, root, zero);
-      et += cracked;
-      v -= cracked;
-      opened += cracked;
-      p = choose(cracks, pressure(ebar, v), p);
-      dissipation -= p * cracked;
-    }
-
+    State<T> state = stateOf(point);
+    closeCracks(state);
+    const T inelasticBefore = state.v;
+    crushPores(state);
+    Shear<T> shear = shearOf(point, state);
+    returnShear(state, shear);
+    openCracks(state, shear.fasterTension);
     // A strength that falls with the rate lets the stress go at once, so the work of the inelastic
     // strain is that at the mean stress of the step, as in the energy of the element.
     if (rates.counts())
-    {
-      const T shear =
-          choose(plastic > zero,
-                 plastic * (T(1.5) * contract(point.stress, s) / q + scale * q * mean), zero);
-      const T volume = (p - meanOf(point.stress)) * (v - inelasticBefore);
-      dissipation = branchFree::positivePart(T(0.5) * (shear + volume));
-    }
-
-    // Opening takes strength away: exponentially, by the fracture energy per width of the element.
-    const T hindered =
-        branchFree::logarithm(one + branchFree::positivePart(p) * T(1.0 / tensileStrength));
-    const T grown = (dilated + opened) * branchFree::exponential(T(-damageExponent) * hindered);
-    const T decay = T(tensileStrength / fractureEnergy) * point.size;
-    h[Damage] = one - intact * branchFree::exponential(-grown * decay);
-    h[PlasticStrain] += plastic;
-    h[Porosity] = porosityOf(v);
-    h[Compaction] = ec;
-    h[Bulking] = ed;
-    h[Opening] = et;
-    point.stress = stressOf(s, scale, -p);
-    point.dissipation = dissipation;
-    point.bendingScale = scale;
-    point.integrity = branchFree::larger(one - h[Damage], T(0.02));
-    const T bulk = poreFactor(h[Porosity]) * grainTangent(ebar - v);
-    const Real shear = 4.0 / 3.0 * elastic.shearModulus;
+      state.dissipation = workAtMeanStress(point, state, shear, inelasticBefore);
+    T* const h = point.history;
+    h[Damage] = damageAfter(state, point.size);
+    h[PlasticStrain] += shear.plastic;
+    h[Porosity] = porosityOf(state.v);
+    h[Compaction] = state.ec;
+    h[Bulking] = state.ed;
+    h[Opening] = state.et;
+    point.stress = stressOf(shear.s, shear.scale, -state.p);
+    point.dissipation = state.dissipation;
+    point.bendingScale = shear.scale;
+    point.integrity = branchFree::larger(T(1.0) - h[Damage], T(leastStiffness));
     point.stiffening =
-        branchFree::larger((bulk + T(shear)) * T(1.0 / (elastic.bulkModulus + shear)), T(0.02));
+        elastic.stiffeningOf(poreFactor(h[Porosity]) * grainTangent(state.ebar - state.v));
   }
 
   /// History at the start, under a stress: the reference volume is that of the stressed material.
   void startFrom(const SymTensor& stress, Real* history) const;
+
+private:
+  /// Volume, pressure and damage on the way through a step.
+  template <class T>
+  struct State
+  {
+    T damage, intact;       ///< D and 1 - D at the start of the step
+    T ebar;                 ///< ln(density / reference density)
+    T ec, ed, et;           ///< compaction, bulking, opening
+    T v;                    ///< ec - ed - et
+    T p, pc;                ///< pressure and crush pressure [Pa]
+    T dilated = T(0.0);     ///< increment of ed
+    T opened = T(0.0);      ///< increment of et that takes strength away
+    T dissipation = T(0.0); ///< [J/m^3]
+  };
+
+  /// The deviator on the way through a step.
+  template <class T>
+  struct Shear
+  {
+    SymTensorOf<T> s;         ///< trial deviator [Pa]
+    T q;                      ///< its von Mises stress, with bending [Pa]
+    T cosTheta;               ///< of its Lode angle
+    T partOfMean;             ///< of the plastic work, not of bending
+    T faster = T(1.0);        ///< strength at the rate of strain over that of slow tests
+    T fasterTension = T(1.0); ///< the same of tension
+    T plastic = T(0.0);       ///< plastic shear strain of the step
+    T scale = T(1.0);         ///< of the trial deviator
+  };
+
+  /// Of stresses over fc.
+  static constexpr Real toleranceShare = 1e-11;
+  KOKKOS_INLINE_FUNCTION Real tolerance() const { return toleranceShare * strength; }
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION State<T> stateOf(const MaterialPoint<T>& point) const
+  {
+    const T* const h = point.history;
+    State<T> state;
+    state.damage = h[Damage];
+    state.intact = T(1.0) - state.damage;
+    state.ec = h[Compaction];
+    state.ed = h[Bulking];
+    state.et = h[Opening];
+    state.ebar = h[Precompression] - branchFree::logarithm(point.volumeRatio);
+    return state;
+  }
+
+  /// Cracks close at zero pressure before anything else is compressed.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void closeCracks(State<T>& state) const
+  {
+    const T closed = branchFree::positivePart(
+        branchFree::smaller(state.et, state.ebar - state.ec + state.ed + state.et));
+    state.et -= closed;
+    state.v = state.ec - state.ed - state.et;
+    state.p = pressure(state.ebar, state.v);
+    state.pc = crushCurve(state.ec);
+  }
+
+  /// Pores close along the crush curve. In y, the logarithm of the pores left, the curve is
+  /// straight.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void crushPores(State<T>& state) const
+  {
+    using branchFree::choose;
+    const auto crushes = state.p > state.pc;
+    if (!branchFree::anyOf(crushes))
+      return;
+    const T zero(0.0), one(1.0), start(crushPressure), perHardening(1.0 / crushHardening);
+    const T full(fullCompaction());
+    const T y = (state.pc - start) * perHardening;
+    const T most = branchFree::smaller((grainPressure(state.ebar - state.v) - start) * perHardening,
+                                       T(closedPores));
+    const auto compactionOf = [&](const T& at)
+    { return full * (one - branchFree::exponential(-at)); };
+    const auto excess = [&](const T& at)
+    {
+      return pressure(state.ebar, state.v + (compactionOf(at) - state.ec)) -
+             (start + T(crushHardening) * at);
+    };
+    const T upper = branchFree::larger(most, y);
+    const T root = branchFree::fallingRoot(excess, y, upper, state.p - state.pc, excess(upper),
+                                           T(tolerance()), crushes);
+    const T crushed = choose(crushes, compactionOf(root) - state.ec, zero);
+    state.ec += crushed;
+    state.v += crushed;
+    state.p = choose(crushes, pressure(state.ebar, state.v), state.p);
+    state.pc = choose(crushes, start + T(crushHardening) * root, state.pc);
+    state.dissipation += state.p * crushed;
+  }
+
+  /// The elastic deviator, and what its rate of strain makes of the strength: fast strain makes the
+  /// surface larger about the origin, r Y(p / r); r is that of tension up to no pressure, that of
+  /// compression from a third of fc on. The cap stays.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION Shear<T> shearOf(const MaterialPoint<T>& point,
+                                          const State<T>& state) const
+  {
+    Shear<T> shear;
+    shear.s = deviatorOf(sumOf(point.stress, T(2.0 * elastic.shearModulus), point.strainIncrement));
+    shear.q = vonMisesOf(shear.s, point.bendingSquared);
+    shear.cosTheta = branchFree::cosine(
+        T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(shear.s, vonMisesOf(shear.s))));
+    shear.partOfMean = partOfMean(shear.q, point.bendingSquared);
+    if (rates.counts())
+    {
+      const T rate = largestPrincipal(point.strainIncrement) * T(1 / point.dt);
+      shear.fasterTension = rates.tension(rate);
+      const T share =
+          branchFree::smaller(branchFree::positivePart(state.p) * T(3 / strength), T(1.0));
+      shear.faster = shear.fasterTension + share * (rates.compression(rate) - shear.fasterTension);
+    }
+    return shear;
+  }
+
+  /// Volume strain v per plastic shear strain.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T volumePerShear(const State<T>& state) const
+  {
+    using branchFree::choose;
+    const T start = T(capRatio) * state.pc, knee(strength / 3);
+    const T dilatant =
+        choose(state.p < knee,
+               T(tensileDilation) + (T(kneeDilation) - T(tensileDilation)) * state.p / knee,
+               T(kneeDilation) * (start - state.p) / (start - knee));
+    const T compacting =
+        T(shearCompaction) * branchFree::smaller((state.p - start) / (state.pc - start), T(1.0));
+    return choose(
+        state.p < T(0.0), T(-tensileDilation),
+        choose(state.p >= start, compacting, -state.intact * branchFree::positivePart(dilatant)));
+  }
+
+  /// The deviator returns along itself to the strength, and the volume follows.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void returnShear(State<T>& state, Shear<T>& shear) const
+  {
+    using branchFree::choose;
+    const T zero(0.0), one(1.0), threeG(3 * elastic.shearModulus), q = shear.q;
+    const auto pulled = state.p < zero, compacts = state.p >= T(capRatio) * state.pc;
+    const T rate = volumePerShear(state);
+    const Real fullest = fullCompaction() * (1 - std::exp(-closedPores));
+    const auto compactionAt = [&](const T& dl)
+    { return branchFree::smaller(state.ec + branchFree::positivePart(rate) * dl, T(fullest)); };
+    // Opening under tension ends at no pressure: against a pressure it would give work back.
+    const T widest = branchFree::smaller(state.v, state.ebar);
+    const auto volumeAt = [&](const T& dl)
+    {
+      const T moved = state.v + choose(compacts, compactionAt(dl) - state.ec, rate * dl);
+      return choose(pulled, branchFree::larger(moved, widest), moved);
+    };
+    const auto strengthAt = [&](const T& p, const T& pc)
+    {
+      if (!rates.counts())
+        return shearStrength(p, pc, state.damage, shear.cosTheta);
+      const T& faster = shear.faster;
+      return faster * shearStrength(p / faster, pc / faster, state.damage, shear.cosTheta);
+    };
+    const auto excess = [&](const T& dl)
+    {
+      return q - threeG * dl -
+             strengthAt(pressure(state.ebar, volumeAt(dl)), crushCurve(compactionAt(dl)));
+    };
+    const T over = q - strengthAt(state.p, state.pc);
+    const auto yields = over > T(tolerance());
+    if (!branchFree::anyOf(yields))
+      return;
+    const T most = q / threeG;
+    const T root =
+        branchFree::fallingRoot(excess, zero * q, most, over, excess(most), T(tolerance()), yields);
+    shear.plastic = choose(yields, root, zero);
+    const T compacted = choose(yields && compacts, compactionAt(shear.plastic) - state.ec, zero);
+    state.opened = choose(yields && pulled, state.v - volumeAt(shear.plastic), zero);
+    state.dilated = choose(yields && !pulled && !compacts, -rate * shear.plastic, zero);
+    state.ec += compacted;
+    state.et += state.opened;
+    state.ed += state.dilated;
+    state.v = choose(yields, volumeAt(shear.plastic), state.v);
+    state.p = choose(yields, pressure(state.ebar, state.v), state.p);
+    state.pc = choose(yields, crushCurve(state.ec), state.pc);
+    shear.scale = choose(yields, one - threeG * shear.plastic / q, one);
+    state.dissipation += shear.scale * q * shear.plastic * shear.partOfMean +
+                         state.p * (compacted - state.dilated - state.opened);
+  }
+
+  /// No mean tension above the strength: cracks open.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void openCracks(State<T>& state, const T& fasterTension) const
+  {
+    using branchFree::choose;
+    const T zero(0.0), least = -state.intact * T(tensileStrength) * fasterTension;
+    const auto cracks = state.p < least - T(tolerance());
+    if (!branchFree::anyOf(cracks))
+      return;
+    const T most = state.v - state.ebar; // then the grains are free of stress
+    const auto lack = [&](const T& x) { return least - pressure(state.ebar, state.v - x); };
+    const T root = branchFree::fallingRoot(lack, zero * state.v, most, least - state.p, least,
+                                           T(tolerance()), cracks);
+    const T cracked = choose(cracks, root, zero);
+    state.et += cracked;
+    state.v -= cracked;
+    state.opened += cracked;
+    state.p = choose(cracks, pressure(state.ebar, state.v), state.p);
+    state.dissipation -= state.p * cracked;
+  }
+
+  /// Of the inelastic strain of the step, at the mean of the stresses at its ends [J/m^3].
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T workAtMeanStress(const MaterialPoint<T>& point, const State<T>& state,
+                                            const Shear<T>& shear, const T& inelasticBefore) const
+  {
+    const T ofShear =
+        branchFree::choose(shear.plastic > T(0.0),
+                           shear.plastic * (T(1.5) * contract(point.stress, shear.s) / shear.q +
+                                            shear.scale * shear.q * shear.partOfMean),
+                           T(0.0));
+    const T ofVolume = (state.p - meanOf(point.stress)) * (state.v - inelasticBefore);
+    return branchFree::positivePart(T(0.5) * (ofShear + ofVolume));
+  }
+
+  /// Opening takes strength away: exponentially, by the fracture energy per width of the element.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T damageAfter(const State<T>& state, const T& size) const
+  {
+    const T one(1.0);
+    const T hindered =
+        branchFree::logarithm(one + branchFree::positivePart(state.p) * T(1.0 / tensileStrength));
+    const T grown =
+        (state.dilated + state.opened) * branchFree::exponential(T(-damageExponent) * hindered);
+    const T decay = T(tensileStrength / fractureEnergy) * size;
+    return one - state.intact * branchFree::exponential(-grown * decay);
+  }
 };
 
 /// What a user says of a concrete.

@@ -104,6 +104,14 @@ struct UbiquitousJoints
 
 private:
   static constexpr int mostRounds = 30, mostCuts = 5;
+  /// Of what is missing: over the strength of the matrix, and over the size of the trial stress.
+  static constexpr Real strengthTolerance = 1e-12, rounding = 1e-14;
+  /// Differences for slopes: over what is missing, and at least over the strength of the matrix.
+  static constexpr Real nudgeShare = 1e-3, leastNudge = 1e-6;
+  /// By which what is missing may grow on a step towards y(x), by rounding.
+  static constexpr Real allowedGrowth = 1e-6;
+  /// Steps end within this much of the size of the trial stress.
+  static constexpr Real farthest = 10;
 
   /// Two axes in the planes (Duff et al. 2017), and the normal.
   template <class T>
@@ -134,73 +142,98 @@ private:
   /// differences, shortened while that helps; else y(x), and longer steps that way where nothing
   /// changes. With associated flow y(x) never falls behind x: both returns are projections. A lane
   /// that is there is frozen.
-  /// @param x after the matrix; returned for lanes that do not yield
+  /// @param first after the matrix; returned for lanes that do not yield
   /// @param other a start as if the matrix were elastic
   /// @param reach size of the trial stress [Pa]
   template <class T, class Missing>
-  KOKKOS_INLINE_FUNCTION Traction<T> takenTogether(const Missing& missing, Traction<T> x,
+  KOKKOS_INLINE_FUNCTION Traction<T> takenTogether(const Missing& missing, const Traction<T>& first,
                                                    const Traction<T>& other, const T& reach,
                                                    const branchFree::MaskOf<T>& yields) const
   {
-    using branchFree::choose;
-    const T zero(0.0), one(1.0);
-    const Real strength = matrix.cohesion + matrix.tensileStrength;
-    const T tolerance = T(1e-12 * strength) + T(1e-14) * reach;
-    Traction<T> r = missing(x);
-    auto open = yields && sizeOf(r) > tolerance;
+    const T tolerance = T(strengthTolerance * strength()) + T(rounding) * reach;
+    Search<T> at{first, missing(first), T(1.0)};
+    auto open = yields && sizeOf(at.r) > tolerance;
     if (branchFree::anyOf(open))
     {
       const Traction<T> rOther = missing(other);
-      const auto nearer = open && sizeOf(rOther) < sizeOf(r);
-      x = chosen(nearer, other, x);
-      r = chosen(nearer, rOther, r);
-      open = open && sizeOf(r) > tolerance;
+      const auto nearer = open && sizeOf(rOther) < sizeOf(at.r);
+      at.x = chosen(nearer, other, at.x);
+      at.r = chosen(nearer, rOther, at.r);
+      open = open && sizeOf(at.r) > tolerance;
     }
-    T stretch(1.0);
     for (int k = 0; k < mostRounds && branchFree::anyOf(open); ++k)
     {
-      const T size = sizeOf(r);
-      const T nudge = branchFree::larger(T(1e-3) * size, T(1e-6 * strength));
-      Mat3Of<T> slopes;
-      for (int j = 0; j < 3; ++j)
-      {
-        const T h = choose(r[j] > zero, -nudge, nudge);
-        Traction<T> beside = x;
-        beside[j] += h;
-        const Traction<T> there = missing(beside);
-        for (int i = 0; i < 3; ++i)
-          slopes(i, j) = (there[i] - r[i]) / h;
-      }
-      const Mat3Of<T> inverted = inverse(slopes);
-      Traction<T> newton, next = x, rNext = r;
-      for (int i = 0; i < 3; ++i)
-        newton[i] = inverted(i, 0) * r.n + inverted(i, 1) * r.a + inverted(i, 2) * r.b;
-      auto searching = open;
-      for (int cut = 0; cut < mostCuts + 2 && branchFree::anyOf(searching); ++cut)
-      {
-        const bool byNewton = cut < mostCuts, last = cut == mostCuts + 1;
-        const T part = byNewton ? T(1.0 / (1 << cut)) : last ? one : stretch;
-        Traction<T> there = x;
-        for (int i = 0; i < 3; ++i)
-          there[i] -= part * (byNewton ? newton[i] : r[i]);
-        const Traction<T> rThere = missing(there);
-        const T bound = byNewton ? (one - T(0.5) * part) * size : T(1 + 1e-6) * size;
-        // Far away digits are lost, and with them what is missing.
-        auto good = searching && sizeOf(rThere) < bound && sizeOf(there) < T(10.0) * reach;
-        if (last)
-          good = searching;
-        next = chosen(good, there, next);
-        rNext = chosen(good, rThere, rNext);
-        if (!byNewton)
-          stretch = choose(
-              good, last ? branchFree::larger(T(0.25) * stretch, one) : T(2.0) * stretch, stretch);
-        searching = searching && !good;
-      }
-      x = chosen(open, next, x);
-      r = chosen(open, rNext, r);
-      open = open && sizeOf(r) > tolerance;
+      stepAlong(missing, newtonStep(missing, at), reach, open, at);
+      open = open && sizeOf(at.r) > tolerance;
     }
-    return x;
+    return at.x;
+  }
+
+  /// Where a search is.
+  template <class T>
+  struct Search
+  {
+    Traction<T> x, r; ///< x and missing(x) [Pa]
+    T stretch;        ///< of steps towards y(x), which grow while Newton's do not help [-]
+  };
+
+  KOKKOS_INLINE_FUNCTION Real strength() const { return matrix.cohesion + matrix.tensileStrength; }
+
+  /// Newton's step to be taken from x, with slopes by differences.
+  template <class T, class Missing>
+  KOKKOS_INLINE_FUNCTION Traction<T> newtonStep(const Missing& missing, const Search<T>& at) const
+  {
+    const T nudge = branchFree::larger(T(nudgeShare) * sizeOf(at.r), T(leastNudge * strength()));
+    Mat3Of<T> slopes;
+    for (int j = 0; j < 3; ++j)
+    {
+      const T h = branchFree::choose(at.r[j] > T(0.0), -nudge, nudge);
+      Traction<T> beside = at.x;
+      beside[j] += h;
+      const Traction<T> there = missing(beside);
+      for (int i = 0; i < 3; ++i)
+        slopes(i, j) = (there[i] - at.r[i]) / h;
+    }
+    const Mat3Of<T> inverted = inverse(slopes);
+    Traction<T> step;
+    for (int i = 0; i < 3; ++i)
+      step[i] = inverted(i, 0) * at.r.n + inverted(i, 1) * at.r.a + inverted(i, 2) * at.r.b;
+    return step;
+  }
+
+  /// Goes as much of Newton's step as helps, else towards y(x), in the lanes that are open.
+  template <class T, class Missing>
+  KOKKOS_INLINE_FUNCTION void stepAlong(const Missing& missing, const Traction<T>& newton,
+                                        const T& reach, const branchFree::MaskOf<T>& open,
+                                        Search<T>& at) const
+  {
+    using branchFree::choose;
+    const T one(1.0), size = sizeOf(at.r);
+    Traction<T> next = at.x, rNext = at.r;
+    auto searching = open;
+    for (int cut = 0; cut < mostCuts + 2 && branchFree::anyOf(searching); ++cut)
+    {
+      const bool byNewton = cut < mostCuts, last = cut == mostCuts + 1;
+      const T part = byNewton ? T(1.0 / (1 << cut)) : last ? one : at.stretch;
+      Traction<T> there = at.x;
+      for (int i = 0; i < 3; ++i)
+        there[i] -= part * (byNewton ? newton[i] : at.r[i]);
+      const Traction<T> rThere = missing(there);
+      const T bound = byNewton ? (one - T(0.5) * part) * size : T(1 + allowedGrowth) * size;
+      // Far away digits are lost, and with them what is missing.
+      auto good = searching && sizeOf(rThere) < bound && sizeOf(there) < T(farthest) * reach;
+      if (last)
+        good = searching;
+      next = chosen(good, there, next);
+      rNext = chosen(good, rThere, rNext);
+      if (!byNewton)
+        at.stretch =
+            choose(good, last ? branchFree::larger(T(0.25) * at.stretch, one) : T(2.0) * at.stretch,
+                   at.stretch);
+      searching = searching && !good;
+    }
+    at.x = chosen(open, next, at.x);
+    at.r = chosen(open, rNext, at.r);
   }
 
   /// What is left over the strength of the planes goes along a straight line towards a hydrostatic
@@ -225,9 +258,7 @@ private:
     const SymTensorOf<T> s = deviatorOf(stress);
     const T meanThere = mean + part * (middle - mean);
     const SymTensorOf<T> there = stressOf(s, one - part, meanThere);
-    stress = {choose(falls, there.xx, stress.xx), choose(falls, there.yy, stress.yy),
-              choose(falls, there.zz, stress.zz), choose(falls, there.xy, stress.xy),
-              choose(falls, there.yz, stress.yz), choose(falls, there.zx, stress.zx)};
+    stress = coplane::chosen(falls, there, stress);
     return part * (T(0.5 / matrix.elastic.shearModulus) * (one - part) * contract(s, s) +
                    T(1 / matrix.elastic.bulkModulus) * (mean - middle) * meanThere);
   }

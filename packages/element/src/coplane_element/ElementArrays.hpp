@@ -1,0 +1,44 @@
+#pragma once
+
+#include <coplane_core/Backend.hpp>
+#include <coplane_core/Real.hpp>
+
+namespace coplane
+{
+/// The arrays of a block: a column per element, padded to a multiple of laneCount, and in tables a
+/// row per component. Arrays that the options of the block do not need are empty.
+struct ElementArrays
+{
+  /// [element][corner][component], three components also in two dimensions
+  using CornerVectors = Kokkos::View<Real** [3], Kokkos::LayoutRight, Kokkos::HostSpace>;
+
+  Table<int> connectivity; ///< [element][corner] -> local node
+
+  // of the reference state
+  Array<Real> mass;            ///< [kg]
+  Array<Real> referenceVolume; ///< [m^3]
+  Array<Real> referenceLength; ///< V^(1/3), in two dimensions the root of the area [m]
+  Table<Real> cornerMass;      ///< a row per corner, where masses of corners differ [kg]
+  Table<Real> pointMass;       ///< a row per point, full integration [kg]
+
+  // history
+  Table<Real> stress;                ///< xx, yy, zz, xy, yz, zx: means over the points [Pa]
+  Table<Real> history;               ///< of the law: means over the points
+  Table<Real> tangent;               ///< rows: stiffening, integrity of the law (MaterialPoint)
+  Table<Real> hourglassForce;        ///< on modes [N], and on the hoop slopes of rings [N m]
+  Table<Real> hourglassViscousForce; ///< on modes [N]
+  Table<Real> compression; ///< rows: rate <-tr D> of the last half step [1/s], pressure q [Pa]
+  Table<Real> energies;    ///< ElementEnergy [J]
+  Table<Real> deformation; ///< GreenNaghdi: deformation gradient of each point
+  Table<Real> volumeRatio; ///< NodalPressure: mean over the corners
+  // full integration: rows of all points one after another
+  Table<Real> pointStress, pointHistory;
+  Table<Real> pointEnergy; ///< internal and viscous, per reference volume [J/m^3]
+
+  // of the last update
+  CornerVectors cornerForce; ///< [N]
+  Array<Real> stableStep;    ///< [s]
+  Array<Real> volume;        ///< [m^3]
+  Table<Real> volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+};
+} // namespace coplane
