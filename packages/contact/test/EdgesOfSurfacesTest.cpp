@@ -1,4 +1,4 @@
-#include <coplane_contact/EdgesOfSurfaces.hpp>
+#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Pairs side by side get the bits that each would get alone, whatever shares its lanes.
 #include "FacePairs.hpp"
 
-#include <coplane_contact/FacePairLanes.hpp>
+#include <coplane_contact/detail/FacePairLanes.hpp>
 
 #include <gtest/gtest.h>
 

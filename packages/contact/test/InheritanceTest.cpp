@@ -1,4 +1,4 @@
-#include <coplane_contact/Inheritance.hpp>
+#include <coplane_contact/detail/Inheritance.hpp>
 
 #include <gtest/gtest.h>
 

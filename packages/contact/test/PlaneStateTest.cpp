@@ -1,5 +1,5 @@
-#include <coplane_contact/Inheritance.hpp>
 #include <coplane_contact/PlaneState.hpp>
+#include <coplane_contact/detail/Inheritance.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The energy of a pair of faces and its gradient.
 #include "FacePairs.hpp"
 
-#include <coplane_contact/PotentialKernel.hpp>
+#include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <coplane_contact/RadixSort.hpp>
+#include <coplane_contact/detail/RadixSort.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <coplane_core/Vec3.hpp>
-#include <coplane_element/MeanGradient.hpp>
+#include <coplane_element/detail/MeanGradient.hpp>
 
 #include <gtest/gtest.h>
 

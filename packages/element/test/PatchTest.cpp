@@ -1,6 +1,6 @@
 #include "TestMeshes.hpp"
 
-#include <coplane_element/HughesWinget.hpp>
+#include <coplane_element/detail/HughesWinget.hpp>
 
 #include <gtest/gtest.h>
 

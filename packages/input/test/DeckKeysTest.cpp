@@ -1,6 +1,6 @@
 #include "TestDecks.hpp"
 
-#include <coplane_input/DeckSchema.hpp>
+#include <coplane_input/detail/DeckSchema.hpp>
 #include <coplane_joint/JointModel.hpp>
 #include <coplane_material/MaterialModel.hpp>
 #include <coplane_schema/Schema.hpp>

@@ -1,6 +1,6 @@
-#include <coplane_output/Placement.hpp>
 #include <coplane_output/Sha256.hpp>
-#include <coplane_output/VtpFile.hpp>
+#include <coplane_output/detail/Placement.hpp>
+#include <coplane_output/detail/VtpFile.hpp>
 
 #include <gtest/gtest.h>
 

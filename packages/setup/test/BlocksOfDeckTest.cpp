@@ -1,8 +1,8 @@
 #include "WallOfTwo.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_setup/BlocksOfDeck.hpp>
 #include <coplane_setup/DeckProblems.hpp>
+#include <coplane_setup/detail/BlocksOfDeck.hpp>
 
 namespace coplane
 {

@@ -1,5 +1,5 @@
 #include <coplane_checkpoint/CheckpointReader.hpp>
-#include <coplane_checkpoint/Hdf5Calls.hpp>
+#include <coplane_checkpoint/detail/Hdf5Calls.hpp>
 
 #include <algorithm>
 #include <optional>

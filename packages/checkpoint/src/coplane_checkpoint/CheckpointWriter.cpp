@@ -1,6 +1,6 @@
 #include <coplane_checkpoint/CheckpointFile.hpp>
 #include <coplane_checkpoint/CheckpointWriter.hpp>
-#include <coplane_checkpoint/Hdf5Calls.hpp>
+#include <coplane_checkpoint/detail/Hdf5Calls.hpp>
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Version.hpp>

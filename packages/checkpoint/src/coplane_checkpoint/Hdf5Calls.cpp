@@ -1,5 +1,5 @@
 #include <coplane_checkpoint/CheckpointFile.hpp>
-#include <coplane_checkpoint/Hdf5Calls.hpp>
+#include <coplane_checkpoint/detail/Hdf5Calls.hpp>
 
 #include <cstdlib>
 #include <hdf5.h>

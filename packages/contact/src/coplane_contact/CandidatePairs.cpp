@@ -1,6 +1,6 @@
 #include <coplane_contact/FacePairSteps.hpp>
-#include <coplane_contact/RadixSort.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/detail/RadixSort.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 

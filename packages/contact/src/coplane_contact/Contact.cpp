@@ -1,5 +1,5 @@
 #include <coplane_contact/Contact.hpp>
-#include <coplane_contact/FacePairLanes.hpp>
+#include <coplane_contact/detail/FacePairLanes.hpp>
 #include <coplane_core/Timers.hpp>
 
 #include <algorithm>

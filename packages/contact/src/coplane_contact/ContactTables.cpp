@@ -1,5 +1,5 @@
 #include <coplane_contact/ContactTables.hpp>
-#include <coplane_contact/DeclaredJoints.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <coplane_contact/Contact.hpp>
-#include <coplane_contact/DeclaredJoints.hpp>
-#include <coplane_contact/PotentialKernel.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include <coplane_contact/DirectionsOfNodes.hpp>
+#include <coplane_contact/detail/DirectionsOfNodes.hpp>
 
 namespace coplane
 {

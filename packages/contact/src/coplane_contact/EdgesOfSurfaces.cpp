@@ -1,5 +1,5 @@
-#include <coplane_contact/EdgesOfSurfaces.hpp>
-#include <coplane_contact/View.hpp>
+#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
+#include <coplane_contact/detail/View.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include <coplane_contact/EdgesOfSurfaces.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
-#include <coplane_contact/Inheritance.hpp>
 #include <coplane_contact/PlaneState.hpp>
+#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
+#include <coplane_contact/detail/Inheritance.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
 
 #include <algorithm>

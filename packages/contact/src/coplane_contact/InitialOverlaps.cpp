@@ -1,5 +1,5 @@
-#include <coplane_contact/DeclaredJoints.hpp>
 #include <coplane_contact/InitialOverlaps.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
-#include <coplane_contact/RadixSort.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/detail/RadixSort.hpp>
 
 #include <algorithm>
 #include <unordered_map>

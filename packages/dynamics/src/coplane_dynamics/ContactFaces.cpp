@@ -1,5 +1,5 @@
 #include <coplane_contact/FacePairSteps.hpp>
-#include <coplane_dynamics/ContactFaces.hpp>
+#include <coplane_dynamics/detail/ContactFaces.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <coplane_dynamics/RigidBodies.hpp>
-#include <coplane_dynamics/RigidInertia.hpp>
+#include <coplane_dynamics/detail/RigidInertia.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Which nodes are whose, and the moments of inertia of the solid.
 #include <coplane_dynamics/RigidBodies.hpp>
-#include <coplane_dynamics/RigidInertia.hpp>
+#include <coplane_dynamics/detail/RigidInertia.hpp>
 #include <coplane_mesh/Bodies.hpp>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
-#include <coplane_dynamics/ContactFaces.hpp>
 #include <coplane_dynamics/Rebalancer.hpp>
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_dynamics/detail/ContactFaces.hpp>
 #include <coplane_mesh/Bodies.hpp>
 
 #include <algorithm>

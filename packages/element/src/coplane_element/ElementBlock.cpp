@@ -1,8 +1,8 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Lanes.hpp>
 #include <coplane_element/ElementBlock.hpp>
-#include <coplane_element/ElementShape.hpp>
-#include <coplane_element/GaussPoints.hpp>
+#include <coplane_element/detail/ElementShape.hpp>
+#include <coplane_element/detail/GaussPoints.hpp>
 
 #include <algorithm>
 #include <cmath>

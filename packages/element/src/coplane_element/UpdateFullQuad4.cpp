@@ -1,4 +1,4 @@
-#include <coplane_element/FullKernel.hpp>
+#include <coplane_element/detail/FullKernel.hpp>
 
 namespace coplane
 {

@@ -1,4 +1,4 @@
-#include <coplane_element/ElementKernel.hpp>
+#include <coplane_element/detail/ElementKernel.hpp>
 
 namespace coplane
 {

@@ -1,4 +1,4 @@
-#include <coplane_exodus/FindingsOverRanks.hpp>
+#include <coplane_exodus/detail/FindingsOverRanks.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <coplane_exodus/ExodusCalls.hpp>
-#include <coplane_exodus/MeshDefinition.hpp>
+#include <coplane_exodus/detail/MeshDefinition.hpp>
 
 #include <exodusII.h>
 #include <fmt/format.h>

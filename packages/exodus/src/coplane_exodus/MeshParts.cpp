@@ -1,7 +1,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/SortOverRanks.hpp>
-#include <coplane_exodus/MeshParts.hpp>
+#include <coplane_exodus/detail/MeshParts.hpp>
 
 #include <algorithm>
 #include <array>

@@ -2,8 +2,8 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Text.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
-#include <coplane_exodus/MeshReader.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
+#include <coplane_exodus/detail/MeshReader.hpp>
 
 #include <exodusII.h>
 #include <netcdf.h>

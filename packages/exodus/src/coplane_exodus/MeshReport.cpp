@@ -1,6 +1,6 @@
 #include <coplane_core/ExactSum.hpp>
-#include <coplane_exodus/FindingsOverRanks.hpp>
 #include <coplane_exodus/MeshReport.hpp>
+#include <coplane_exodus/detail/FindingsOverRanks.hpp>
 #include <coplane_mesh/Bodies.hpp>
 #include <coplane_mesh/Distribute.hpp>
 

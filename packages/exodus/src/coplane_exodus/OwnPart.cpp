@@ -1,4 +1,4 @@
-#include <coplane_exodus/OwnPart.hpp>
+#include <coplane_exodus/detail/OwnPart.hpp>
 
 #include <algorithm>
 #include <tuple>

@@ -1,9 +1,9 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/SortOverRanks.hpp>
-#include <coplane_exodus/MeshParts.hpp>
-#include <coplane_exodus/MeshReader.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/detail/MeshParts.hpp>
+#include <coplane_exodus/detail/MeshReader.hpp>
 
 #include <filesystem>
 

@@ -3,11 +3,11 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_core/Version.hpp>
-#include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
-#include <coplane_exodus/OwnPart.hpp>
 #include <coplane_exodus/Provenance.hpp>
 #include <coplane_exodus/ResultsFile.hpp>
+#include <coplane_exodus/detail/MeshDefinition.hpp>
+#include <coplane_exodus/detail/OwnPart.hpp>
 
 #include <exodusII.h>
 

@@ -3,9 +3,9 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
-#include <coplane_exodus/MeshDefinition.hpp>
 #include <coplane_exodus/Provenance.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
+#include <coplane_exodus/detail/MeshDefinition.hpp>
 
 #include <csignal>
 #include <filesystem>

@@ -1,8 +1,8 @@
 #include "DeckReader.hpp"
 
 #include "DeckChecks.hpp"
-#include "DeckSchema.hpp"
 #include "MaterialCards.hpp"
+#include "detail/DeckSchema.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_schema/SchemaReader.hpp>

@@ -1,6 +1,6 @@
 #include "DeckReference.hpp"
 
-#include "DeckSchema.hpp"
+#include "detail/DeckSchema.hpp"
 
 #include <coplane_schema/SchemaReference.hpp>
 

@@ -1,8 +1,8 @@
-#include "DeckSchema.hpp"
+#include "detail/DeckSchema.hpp"
 
 #include "ContactSchema.hpp"
 #include "MaterialCards.hpp"
-#include "OutputSchema.hpp"
+#include "detail/OutputSchema.hpp"
 
 #include <coplane_input/Deck.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>

@@ -1,4 +1,4 @@
-#include "OutputSchema.hpp"
+#include "detail/OutputSchema.hpp"
 
 #include <coplane_input/Deck.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>

@@ -1,4 +1,4 @@
-#include "JointKeys.hpp"
+#include "detail/JointKeys.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
-#include <coplane_material/Demand.hpp>
 #include <coplane_material/MaterialModel.hpp>
+#include <coplane_material/detail/Demand.hpp>
 
 #include <cmath>
 

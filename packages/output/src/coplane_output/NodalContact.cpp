@@ -1,5 +1,5 @@
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_output/NodalContact.hpp>
+#include <coplane_output/detail/NodalContact.hpp>
 
 #include <algorithm>
 

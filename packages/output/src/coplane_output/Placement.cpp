@@ -1,5 +1,5 @@
 #include <coplane_core/Backend.hpp>
-#include <coplane_output/Placement.hpp>
+#include <coplane_output/detail/Placement.hpp>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 #include <coplane_output/PlanesObserver.hpp>
-#include <coplane_output/VtpFile.hpp>
+#include <coplane_output/detail/VtpFile.hpp>
 
 #include <algorithm>
 #include <cstdlib>

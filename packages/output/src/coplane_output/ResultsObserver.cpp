@@ -3,8 +3,8 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_exodus/Provenance.hpp>
-#include <coplane_output/NodalContact.hpp>
 #include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/detail/NodalContact.hpp>
 
 #include <algorithm>
 #include <cstdlib>

@@ -5,9 +5,9 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_output/Placement.hpp>
 #include <coplane_output/RunRecord.hpp>
 #include <coplane_output/Sha256.hpp>
+#include <coplane_output/detail/Placement.hpp>
 
 #include <nlohmann/json.hpp>
 

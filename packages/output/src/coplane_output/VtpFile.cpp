@@ -1,4 +1,4 @@
-#include <coplane_output/VtpFile.hpp>
+#include <coplane_output/detail/VtpFile.hpp>
 
 #include <fmt/format.h>
 #include <openssl/evp.h>

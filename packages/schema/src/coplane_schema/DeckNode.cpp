@@ -1,6 +1,6 @@
 #include "DeckNode.hpp"
 
-#include "YamlText.hpp"
+#include "detail/YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>

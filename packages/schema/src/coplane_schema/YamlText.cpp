@@ -1,4 +1,4 @@
-#include "YamlText.hpp"
+#include "detail/YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Text.hpp>

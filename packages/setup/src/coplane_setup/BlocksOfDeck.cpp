@@ -1,8 +1,8 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_schema/TimeFunctionEvaluator.hpp>
-#include <coplane_setup/BlocksOfDeck.hpp>
 #include <coplane_setup/Lookups.hpp>
+#include <coplane_setup/detail/BlocksOfDeck.hpp>
 
 #include <memory>
 

@@ -1,9 +1,9 @@
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_input/DeckChecks.hpp>
-#include <coplane_setup/BlocksOfDeck.hpp>
 #include <coplane_setup/BuildModel.hpp>
 #include <coplane_setup/ConditionsOfDeck.hpp>
-#include <coplane_setup/ContactRulesOfDeck.hpp>
+#include <coplane_setup/detail/BlocksOfDeck.hpp>
+#include <coplane_setup/detail/ContactRulesOfDeck.hpp>
 
 #include <algorithm>
 

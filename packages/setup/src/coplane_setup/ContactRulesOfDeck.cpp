@@ -1,7 +1,7 @@
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/JointCards.hpp>
-#include <coplane_setup/ContactRulesOfDeck.hpp>
 #include <coplane_setup/Lookups.hpp>
+#include <coplane_setup/detail/ContactRulesOfDeck.hpp>
 
 #include <algorithm>
 #include <map>

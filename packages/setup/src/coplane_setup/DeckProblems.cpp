@@ -1,7 +1,7 @@
 #include <coplane_input/MaterialCards.hpp>
-#include <coplane_setup/BlocksOfDeck.hpp>
 #include <coplane_setup/DeckProblems.hpp>
 #include <coplane_setup/Lookups.hpp>
+#include <coplane_setup/detail/BlocksOfDeck.hpp>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <coplane_contact/DirectionsOfNodes.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/detail/DirectionsOfNodes.hpp>
 
 #include <cstdint>
 #include <vector>

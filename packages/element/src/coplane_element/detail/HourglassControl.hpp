@@ -1,8 +1,8 @@
 #pragma once
 
-#include <coplane_element/AssumedStrain.hpp>
-#include <coplane_element/HourglassReturn.hpp>
-#include <coplane_element/MeanMotion.hpp>
+#include <coplane_element/detail/AssumedStrain.hpp>
+#include <coplane_element/detail/HourglassReturn.hpp>
+#include <coplane_element/detail/MeanMotion.hpp>
 
 namespace coplane
 {

@@ -2,7 +2,7 @@
 
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
-#include <coplane_contact/View.hpp>
+#include <coplane_contact/detail/View.hpp>
 
 #include <array>
 #include <vector>

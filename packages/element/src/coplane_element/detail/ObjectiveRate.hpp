@@ -1,8 +1,8 @@
 #pragma once
 
 #include <coplane_core/BranchFree.hpp>
-#include <coplane_element/Cofactors.hpp>
-#include <coplane_element/HughesWinget.hpp>
+#include <coplane_element/detail/Cofactors.hpp>
+#include <coplane_element/detail/HughesWinget.hpp>
 
 namespace coplane
 {

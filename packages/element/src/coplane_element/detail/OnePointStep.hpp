@@ -1,8 +1,8 @@
 #pragma once
 
-#include <coplane_element/AssumedStrain.hpp>
-#include <coplane_element/ElementShape.hpp>
 #include <coplane_element/StableStep.hpp>
+#include <coplane_element/detail/AssumedStrain.hpp>
+#include <coplane_element/detail/ElementShape.hpp>
 
 namespace coplane
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_contact/PotentialKernel.hpp>
+#include <coplane_contact/detail/PotentialKernel.hpp>
 #include <coplane_core/Backend.hpp>
 
 // Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets

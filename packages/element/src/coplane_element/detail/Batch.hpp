@@ -2,7 +2,7 @@
 
 #include <coplane_core/Lanes.hpp>
 #include <coplane_element/ElementEnergy.hpp>
-#include <coplane_element/ElementKernelData.hpp>
+#include <coplane_element/detail/ElementKernelData.hpp>
 
 namespace coplane
 {

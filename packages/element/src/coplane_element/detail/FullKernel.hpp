@@ -1,11 +1,11 @@
 #pragma once
 
-#include <coplane_element/Cofactors.hpp>
-#include <coplane_element/ElementShape.hpp>
-#include <coplane_element/GaussPoints.hpp>
-#include <coplane_element/PointStep.hpp>
-#include <coplane_element/RunWithLaw.hpp>
 #include <coplane_element/StableStep.hpp>
+#include <coplane_element/detail/Cofactors.hpp>
+#include <coplane_element/detail/ElementShape.hpp>
+#include <coplane_element/detail/GaussPoints.hpp>
+#include <coplane_element/detail/PointStep.hpp>
+#include <coplane_element/detail/RunWithLaw.hpp>
 
 namespace coplane
 {

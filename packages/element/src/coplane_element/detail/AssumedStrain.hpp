@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_element/ObjectiveRate.hpp>
+#include <coplane_element/detail/ObjectiveRate.hpp>
 
 namespace coplane
 {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_element/MeanGradient.hpp>
+#include <coplane_element/detail/MeanGradient.hpp>
 
 namespace coplane
 {

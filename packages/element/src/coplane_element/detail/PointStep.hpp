@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_element/Batch.hpp>
-#include <coplane_element/ObjectiveRate.hpp>
+#include <coplane_element/detail/Batch.hpp>
+#include <coplane_element/detail/ObjectiveRate.hpp>
 
 namespace coplane
 {

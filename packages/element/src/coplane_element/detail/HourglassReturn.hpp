@@ -2,7 +2,7 @@
 
 #include <coplane_core/BranchFree.hpp>
 #include <coplane_core/Lanes.hpp>
-#include <coplane_element/Cofactors.hpp>
+#include <coplane_element/detail/Cofactors.hpp>
 
 namespace coplane
 {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <coplane_element/HourglassControl.hpp>
-#include <coplane_element/OnePointStep.hpp>
-#include <coplane_element/PointStep.hpp>
-#include <coplane_element/RunWithLaw.hpp>
-#include <coplane_element/VolumeDrift.hpp>
+#include <coplane_element/detail/HourglassControl.hpp>
+#include <coplane_element/detail/OnePointStep.hpp>
+#include <coplane_element/detail/PointStep.hpp>
+#include <coplane_element/detail/RunWithLaw.hpp>
+#include <coplane_element/detail/VolumeDrift.hpp>
 
 namespace coplane
 {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_element/ElementShape.hpp>
-#include <coplane_element/HughesWinget.hpp>
+#include <coplane_element/detail/ElementShape.hpp>
+#include <coplane_element/detail/HughesWinget.hpp>
 
 namespace coplane
 {

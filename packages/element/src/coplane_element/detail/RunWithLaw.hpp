@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_element/ElementKernelData.hpp>
+#include <coplane_element/detail/ElementKernelData.hpp>
 
 namespace coplane
 {
