@@ -11,3 +11,5 @@ install(FILES "${PROJECT_BINARY_DIR}/CoplaneConfig.cmake" "${PROJECT_BINARY_DIR}
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Coplane)
 install(DIRECTORY exodus_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/coplane USE_SOURCE_PERMISSIONS PATTERN "__pycache__" EXCLUDE)
 install(DIRECTORY apps/coplane/paraview DESTINATION ${CMAKE_INSTALL_DATADIR}/coplane PATTERN "__pycache__" EXCLUDE)
+# Input files name their schema by its way from there.
+install(DIRECTORY docs/schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/coplane/docs)

@@ -121,6 +121,10 @@ void checkBox(const BoxParameters& box, const CardPlace& place)
       if (const Real low = box.min.empty() ? 0 : box.min[axis]; !(box.max[axis] > low))
         place.problem("max", fmt::format("= {} m along {} must be greater than min = {} m.",
                                          box.max[axis], "xyz"[axis], low));
+  for (std::size_t axis = 0; axis < box.size.size(); ++axis)
+    if (const Real low = box.min.empty() ? 0 : box.min[axis]; !(low + box.size[axis] > low))
+      place.problem("size", fmt::format("= {} m along {} is lost in rounding beside min = {} m.",
+                                        box.size[axis], "xyz"[axis], low));
 }
 
 std::vector<Body> makeLaw(const BoxParameters& p)

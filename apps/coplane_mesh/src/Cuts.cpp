@@ -201,6 +201,16 @@ private:
   int selectPlaneSet(const PlanesCard& card, const CardPlace& place, std::vector<bool>& wanted)
   {
     const PlaneSet planes = planeSet(card);
+    if (planes.spacing > 0 && !(planes.tolerance < planes.spacing / 2))
+    {
+      place.problem("tolerance", fmt::format("= {:.3g} m must be less than half the spacing = "
+                                             "{:.3g} m{}.",
+                                             planes.tolerance, planes.spacing / 2,
+                                             card.tolerance > 0 ? ""
+                                                                : " (by default it is 1e-6 of "
+                                                                  "the mesh size)"));
+      return 0;
+    }
     std::map<int, int> facesOfPlane;
     int exterior = 0, number = 0;
     for (std::size_t f = 0; f < faces_.size(); ++f)

@@ -108,7 +108,21 @@ Key makeSchema()
   return section("", keys).checkedBy(checkExample);
 }
 
-Json jsonOf(const DeckNode& node)
+Json jsonOfScalar(const DeckNode& node)
+{
+  const auto number = node.quoted ? std::nullopt : numberIn(node.text);
+  if (number && std::isfinite(*number)) // others stay as they are written
+  {
+    const bool isWhole = node.text.find_first_not_of("+-0123456789") == std::string::npos;
+    return isWhole && std::abs(*number) < 1e15 ? Json(std::int64_t(*number)) : Json(*number);
+  }
+  const bool isBoolean = !node.quoted && (node.text == "true" || node.text == "false");
+  return isBoolean ? Json(node.text == "true") : Json(node.text);
+}
+
+/// @param asText what example files say themselves is text, whatever it looks like; changes are
+///        what they look like
+Json jsonOf(const DeckNode& node, bool asText = true)
 {
   Json json;
   switch (node.kind)
@@ -116,22 +130,17 @@ Json jsonOf(const DeckNode& node)
   case DeckNode::Kind::Nothing:
     return json;
   case DeckNode::Kind::Scalar:
-    if (const auto number = node.quoted ? std::nullopt : numberIn(node.text))
-    {
-      const bool isWhole = node.text.find_first_not_of("+-0123456789") == std::string::npos;
-      return isWhole && std::abs(*number) < 1e15 ? Json(std::int64_t(*number)) : Json(*number);
-    }
-    return !node.quoted && (node.text == "true" || node.text == "false") ? Json(node.text == "true")
-                                                                         : Json(node.text);
+    return asText ? Json(node.text) : jsonOfScalar(node);
   case DeckNode::Kind::List:
     json = Json::array();
     for (const DeckNode& item : node.items)
-      json.push_back(jsonOf(item));
+      json.push_back(jsonOf(item, asText));
     return json;
   case DeckNode::Kind::Map:
     json = Json::object();
     for (const auto& [key, value] : node.entries)
-      json[key.text] = jsonOf(value);
+      json[key.text] =
+          jsonOf(value, asText && key.text != "mesh" && key.text != "set" && key.text != "ranks");
     return json;
   }
   return json;

@@ -10,13 +10,10 @@ using namespace schema;
 
 namespace
 {
-void checkPlanes(PlanesCard& planes, const CardPlace& place)
+void checkPlanes(PlanesCard&, const CardPlace& place)
 {
   if (place.gives("count") && !place.gives("spacing"))
     place.problem("count", "needs spacing.");
-  if (planes.spacing > 0 && planes.tolerance > 0 && !(planes.tolerance < planes.spacing / 2))
-    place.problem("tolerance", fmt::format("= {} m must be less than half the spacing = {} m.",
-                                           planes.tolerance, planes.spacing / 2));
 }
 
 void checkBox(PlanesCard::Box& box, const CardPlace& place)

@@ -37,6 +37,24 @@ TEST(ExampleFile, valuesKeepTheirKinds)
             "0.005,\"a.0\":[1,-2,true,\"5\",null],\"b\":\"t < 1\"}}}}");
 }
 
+TEST(ExampleFile, textStaysText)
+{
+  const auto json = nlohmann::ordered_json::parse(exampleAsJson("title: 2020\ndefault: 2\n"
+                                                                "sizes:\n"
+                                                                "  2: {set: {a: .inf, b: nan}}\n"
+                                                                "  3:\n",
+                                                                "example.yaml"));
+  EXPECT_EQ(json.dump(), "{\"title\":\"2020\",\"default\":\"2\",\"sizes\":{\"2\":{\"set\":"
+                         "{\"a\":\".inf\",\"b\":\"nan\"}},\"3\":{}}}");
+}
+
+TEST(ExampleFile, keysGivenTwiceInChangesAreRefused)
+{
+  EXPECT_NE(errorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}").find("sizes.S.set.a.b"),
+            std::string::npos)
+      << errorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}");
+}
+
 TEST(ExampleFile, allProblemsAreToldAtOnce)
 {
   EXPECT_EQ(errorOf("title: a wall\n"

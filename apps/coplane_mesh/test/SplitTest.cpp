@@ -397,6 +397,17 @@ TEST(Split, theFileHasTheSplitMesh)
   EXPECT_EQ(reportMesh(read).bodies, 4);
 }
 
+TEST(Split, planesCloserThanTheToleranceAreRefused)
+{
+  const std::string error =
+      errorOf(square(), "{j: {planes: {point: [0, 0], normal: [0, 1], spacing: 1e-6}}}");
+  EXPECT_NE(error.find("planes.tolerance = 5.66e-06 m must be less than half the spacing = 5e-07 m "
+                       "(by default it is 1e-6 of the mesh size)"),
+            std::string::npos)
+      << error;
+  EXPECT_NE(errorOf(square(), "{j: {planes: []}}"), "no error");
+}
+
 TEST(Split, mistakesAreNamedWithTheirPlace)
 {
   const Mesh mesh = square();

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace coplane
 {
 using namespace schema;
@@ -158,8 +160,9 @@ TEST(Define, anUnknownNameIsRefusedWithItsPlaceAndASuggestion)
 
 TEST(Define, whatANumberDemandsHoldsForExpressions)
 {
-  EXPECT_EQ(problemsOf("define: {v: 70}\nspeed: v - 80\n"),
-            "f.yaml:2:8: speed = '-10' is out of range; accepted: a number > 0 [m/s].");
+  EXPECT_EQ(
+      problemsOf("define: {v: 70}\nspeed: v - 80\n"),
+      "f.yaml:2:8: speed = 'v - 80' is out of range (it is -10); accepted: a number > 0 [m/s].");
   EXPECT_EQ(problemsOf("define: {v: 0}\nspeed: 1/v\n"),
             "f.yaml:2:8: speed = '1/v' is not a number (it is inf); accepted: a number > 0 [m/s].");
   EXPECT_EQ(problemsOf("define: {v: 1}\nspeed: \"70\"\nplate: {width: v}\n"),
@@ -201,6 +204,52 @@ TEST(Define, aNameThatNothingUsesIsRefused)
             "f.yaml:1:17: define.w is used nowhere; use it in a number or an expression, or remove "
             "it.");
   EXPECT_EQ(problemsOf("define: {v: 70, w: 2*v}\nspeed: w\n"), "");
+}
+
+TEST(Define, longWordsAreRefusedLikeShortOnes)
+{
+  const std::string word(1000000, 'a');
+  for (const std::string key : {"speed: ", "steps: ", "loads: [0, 0, ", "define: {a: "})
+    for (const std::string first : {"", "define: {v: 1}\n"})
+      if (key[0] != 'd' || first.empty())
+      {
+        const std::string error = problemsOf(first + key + word +
+                                             (key[0] == 'l'   ? "]"
+                                              : key[0] == 'd' ? "}"
+                                                              : ""));
+        EXPECT_NE(error.find("accepted:"), std::string::npos) << key << error.substr(0, 200);
+      }
+}
+
+TEST(Define, thereMayBeManyNames)
+{
+  std::string text = "define:\n  a0: 1\n";
+  for (int i = 1; i < 500; ++i)
+    text += fmt::format("  a{}: a{} + 1\n", i, i - 1);
+  EXPECT_EQ(problemsOf(text + "speed: a499\nloads: [\"a10*t\", 0, 0]\n"), "");
+}
+
+TEST(Define, aFaultIsToldOnce)
+{
+  const std::string error =
+      problemsOf("define: {a: zz, n: 1/a}\nspeed: n\nsteps: n\nloads: [n, 0, 0]");
+  EXPECT_NE(error.find("define.a"), std::string::npos) << error;
+  EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 0) << error;
+}
+
+TEST(Define, namesThatAreReadAsNumbersAreRefused)
+{
+  for (const std::string name : {"inf", "nan", "infinity"})
+    EXPECT_NE(problemsOf("define: {" + name + ": 1}\nspeed: " + name).find("is read as a number"),
+              std::string::npos)
+        << name;
+}
+
+TEST(Define, zeroMayComeFromRoundedNumbers)
+{
+  EXPECT_NE(problemsOf("define: {h: 0.1}\nsteps: 0.3-h*3").find("'0' is out of range"),
+            std::string::npos)
+      << problemsOf("define: {h: 0.1}\nsteps: 0.3-h*3");
 }
 
 TEST(Define, aListIsNoMap)

@@ -126,6 +126,14 @@ void Solver::findForces(Real dt)
     addContactForces();
 }
 
+/// Forces and stable steps that belong to the present stress. That is no work of a cycle.
+void Solver::findElementForces()
+{
+  WorkTimes notBooked;
+  notBooked.elements.assign(blocks().size(), 0);
+  elements_.update(state_, layout_, 0, notBooked);
+}
+
 bool Solver::erode(Real dt)
 {
   const std::vector<GlobalId> dead = erosion_->erode(mesh(), elements_, state_.v, dt, *comm_);
@@ -172,7 +180,7 @@ void Solver::search(bool again)
 void Solver::openContact()
 {
   searches_.start(parts());
-  elements_.update(state_, layout_, 0, work_); // for their stable step
+  findElementForces();
   step_.boundFirst(comm_->min(elements_.smallestStep()), comm_->min(contact_->thinnestElement()),
                    searches_.relativeSpeed());
   search();

@@ -140,6 +140,7 @@ private:
   void leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known);
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
+  void findElementForces();
   NodalMotion::Times kickTimes(Real step) const
   {
     return {clock_.time, clock_.step, step, relaxation_.dampingTime(clock_)};

@@ -118,8 +118,7 @@ void Solver::restore(const StateSource& in)
     contact_->restorePlanes(in, layout_);
   }
   motion_->restore(in);
-  // What follows from positions and stresses: forces of the elements and their stable steps.
-  elements_.update(state_, layout_, 0, work_);
+  findElementForces();
   restoreNumbers(in);
   if (contact_)
     contact_->setSkin(searches_.skin());

@@ -160,7 +160,8 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
     if (!(mass(n) > 0) || parts.motion.followsBody(n))
       continue;
     const Real step = nodeStep(parts, n);
-    if (step < control.stableStep || (step == control.stableStep && ids[n] < ids[node]))
+    if (step < control.stableStep ||
+        (node >= 0 && step == control.stableStep && ids[n] < ids[node]))
     {
       control.stableStep = step;
       node = n;

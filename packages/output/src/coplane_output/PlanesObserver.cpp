@@ -109,6 +109,8 @@ void addMembers(Columns& columns)
           columns.scalar(member.column, of);
         else if constexpr (std::is_integral_v<Value> || std::is_enum_v<Value>)
           columns.integer(member.column, of);
+        else
+          fail(ExitCode::Internal, "plane files: no column holds '{}'", member.column);
       });
 }
 

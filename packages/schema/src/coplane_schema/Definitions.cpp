@@ -9,45 +9,77 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <regex>
 #include <system_error>
 
 namespace coplane
 {
 namespace
 {
-/// Numbers and words of an expression; a word before '(' is a function.
-const std::regex& token()
+bool isDigit(char c)
 {
-  static const std::regex pattern(R"((\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|([A-Za-z_]\w*)(\s*\()?)");
-  return pattern;
+  return c >= '0' && c <= '9';
+}
+bool isLetter(char c)
+{
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
-/// Copies an expression; `word` is called for each name in it and gives what takes its place.
+/// Where the characters of a kind that begin at `at` end.
+template <class IsOfKind>
+std::size_t endOf(const std::string& text, std::size_t at, const IsOfKind& isOfKind)
+{
+  while (at < text.size() && isOfKind(text[at]))
+    ++at;
+  return at;
+}
+
+/// Where the number that begins at `at` ends: "2.5e-3", ".5", "3".
+std::size_t endOfNumber(const std::string& text, std::size_t at)
+{
+  at = endOf(text, at, isDigit);
+  if (at < text.size() && text[at] == '.')
+    at = endOf(text, at + 1, isDigit);
+  if (at >= text.size() || (text[at] != 'e' && text[at] != 'E'))
+    return at;
+  const bool hasSign = at + 1 < text.size() && (text[at + 1] == '+' || text[at + 1] == '-');
+  const std::size_t digits = at + (hasSign ? 2 : 1), end = endOf(text, digits, isDigit);
+  return end > digits ? end : at;
+}
+
+/// Copies an expression; `word` is called for each name in it, but for functions, and gives what
+/// takes its place.
 template <class Word>
 std::string copied(const std::string& expression, const Word& word)
 {
   std::string copy;
-  auto rest = expression.cbegin();
-  for (std::sregex_iterator at(expression.begin(), expression.end(), token()), end; at != end; ++at)
+  for (std::size_t at = 0, end = 0; at < expression.size(); at = end)
   {
-    const std::smatch& match = *at;
-    copy.append(rest, match[0].first);
-    copy += match[3].matched && !match[4].matched ? word(match[3].str()) : match[0].str();
-    rest = match[0].second;
+    const char c = expression[at];
+    const bool isName = isLetter(c);
+    end = isName ? endOf(expression, at, [](char d) { return isLetter(d) || isDigit(d); })
+          : isDigit(c) || (c == '.' && at + 1 < expression.size() && isDigit(expression[at + 1]))
+              ? endOfNumber(expression, at)
+              : at + 1;
+    const std::string piece = expression.substr(at, end - at);
+    const std::size_t next = endOf(expression, end, [](char d) { return d == ' ' || d == '\t'; });
+    const bool isFunction = isName && next < expression.size() && expression[next] == '(';
+    copy += isName && !isFunction ? word(piece) : piece;
   }
-  return copy.append(rest, expression.cend());
+  return copy;
 }
 
 /// Why a word cannot be the name of a number; empty when it can.
 std::string problemOfName(const std::string& name)
 {
-  if (!std::regex_match(name, std::regex(R"([A-Za-z_]\w*)")))
+  if (name.empty() || !isLetter(name[0]) ||
+      !std::all_of(name.begin(), name.end(), [](char c) { return isLetter(c) || isDigit(c); }))
     return "is no name for expressions; accepted: letters, digits and _, a letter first.";
   const auto& variables = variablesOfTimeAndPlace;
   const mu::Parser parser;
   if (std::find(variables.begin(), variables.end(), name) != variables.end())
     return "is the time or a coordinate in expressions; choose another name.";
+  if (numberIn(name))
+    return "is read as a number; choose another name.";
   if (parser.GetFunDef().count(name) || parser.GetConst().count(name))
     return "is a function or a constant of expressions; choose another name.";
   return "";
@@ -94,7 +126,8 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
   else if (isWord && !number)
   {
     appearIn(value.text);
-    number = this->value(value.text, problem);
+    if (!areUnknownIn(value.text))
+      number = this->value(value.text, problem);
     copied(value.text,
            [&](const std::string& word)
            {
@@ -106,17 +139,31 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
     if (!problem.empty())
       problem += suggestionFor(value.text);
   }
+  const bool followsFault = isWord && !number && areUnknownIn(value.text);
   if (problem.empty() && number && !std::isfinite(*number))
     problem = "it is not finite";
-  definitions_[name.text] = {number.value_or(0), name, false};
-  if (!problem.empty() || !number)
+  const bool isKnown = problem.empty() && number && !followsFault;
+  definitions_[name.text] = {number.value_or(0), name, !isKnown, isKnown}; // one message is enough
+  if (!isKnown && !followsFault)
   {
-    definitions_[name.text].used = true; // one message is enough
     refuse(value,
            fmt::format("{}; accepted: a number or an expression of names before it.",
                        isWord ? fmt::format("= '{}' is not accepted ({})", value.text, problem)
                               : "has no number"));
   }
+}
+
+bool Definitions::areUnknownIn(const std::string& expression) const
+{
+  bool unknown = false;
+  copied(expression,
+         [&](const std::string& word)
+         {
+           const auto found = definitions_.find(word);
+           unknown = unknown || (found != definitions_.end() && !found->second.isKnown);
+           return word;
+         });
+  return unknown;
 }
 
 std::vector<std::string> Definitions::names() const
@@ -130,6 +177,8 @@ std::vector<std::string> Definitions::names() const
 bool Definitions::appearIn(const std::string& expression)
 {
   bool found = false;
+  if (definitions_.empty())
+    return found;
   copied(expression,
          [&](const std::string& word)
          {
@@ -168,6 +217,8 @@ std::string Definitions::insertedInto(const std::string& expression) const
 std::string Definitions::suggestionFor(const std::string& expression) const
 {
   std::string suggestion;
+  if (definitions_.empty())
+    return suggestion;
   copied(expression,
          [&](const std::string& word)
          {

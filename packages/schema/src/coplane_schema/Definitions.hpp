@@ -21,6 +21,8 @@ public:
   std::vector<std::string> names() const;
   /// Whether an expression has one of the names, which then count as used.
   bool appearIn(const std::string& expression);
+  /// Whether an expression has a name whose number is not known, for a reason told already.
+  bool areUnknownIn(const std::string& expression) const;
   /// The value of an expression of these names alone; otherwise `problem` says what is wrong.
   std::optional<Real> value(const std::string& expression, std::string& problem) const;
   /// The expression with numbers in place of the names.
@@ -39,6 +41,7 @@ private:
     Real value = 0;
     DeckNode name;
     bool used = false;
+    bool isKnown = true; ///< its number; else a message has said why not
   };
   std::map<std::string, Definition> definitions_;
 };

@@ -262,7 +262,7 @@ private:
     case KeyKind::Definitions:
       return; // read before all others
     case KeyKind::Changes:
-      return node.kind == Kind::Map ? checkNames(node, path)
+      return node.kind == Kind::Map ? checkAllNames(node, path)
                                     : wrong(node, path, "", acceptedText(key));
     default:
       if (const auto value = readValue(key, node, path))
@@ -270,22 +270,39 @@ private:
     }
   }
 
+  /// Of a map and of all maps in it.
+  void checkAllNames(const DeckNode& node, const std::string& path)
+  {
+    if (node.kind == Kind::Map)
+      checkNames(node, path);
+    for (const auto& [name, value] : node.entries)
+      checkAllNames(value, join(path, name.text));
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+      checkAllNames(node.items[i], fmt::format("{}.{}", path, i));
+  }
+
   void readNamedGroups(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
     if (node.kind != Kind::Map || (key.required && node.entries.empty()))
       return wrong(node, path, "", acceptedText(key));
     checkNames(node, path);
+    const bool mayBeEmpty = std::none_of(key.keys.begin(), key.keys.end(),
+                                         [](const Key& inner) { return inner.required; });
     std::set<std::string> seen;
     for (auto& [name, value] : node.entries)
+    {
+      if (mayBeEmpty && value.kind == Kind::Nothing)
+        value.kind = Kind::Map; // a name alone
       if (name.kind == Kind::Scalar && name.text != "<<" && seen.insert(name.text).second)
         readGroup(key, value, join(path, name.text), key.enter(target, name.text, name.where));
+    }
   }
 
   void readGroupList(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
     if (key.aloneToo && node.kind == Kind::Map)
       return readGroup(key, node, path, key.enter(target, "", node.where));
-    if (node.kind != Kind::List || (key.required && node.items.empty()))
+    if (node.kind != Kind::List || ((key.required || key.aloneToo) && node.items.empty()))
       return wrong(node, path, "", acceptedText(key));
     for (std::size_t i = 0; i < node.items.size(); ++i)
       readGroup(key, node.items[i], fmt::format("{}.{}", path, i),
@@ -365,6 +382,8 @@ private:
       problem = " is not a finite number";
     else if (!number && node.kind == Kind::Scalar && definitions_.appearIn(node.text))
     {
+      if (definitions_.areUnknownIn(node.text))
+        return std::nullopt; // without another message
       number = definitions_.value(node.text, problem);
       if (number && std::isfinite(*number))
         insert(node, *number);
@@ -392,12 +411,15 @@ private:
 
   std::optional<Real> readNumber(const Key& key, DeckNode& node, const std::string& path)
   {
+    const std::string written = node.text;
     std::string problem;
     const auto value = numberOf(node, problem);
     if (value && isOutside(key, *value))
-      problem = " is out of range";
+      problem = written == node.text ? " is out of range"
+                                     : fmt::format(" is out of range (it is {})", node.text);
     if (problem.empty())
       return value;
+    node.text = written;
     wrong(node, path, problem, acceptedText(key));
     return std::nullopt;
   }
@@ -408,7 +430,11 @@ private:
     if (node.kind == Kind::Scalar && word != key.choices.end())
       return -int(word - key.choices.begin()); // words stand for 0, -1, ...
     if (node.kind == Kind::Scalar && definitions_.appearIn(node.text))
+    {
+      if (definitions_.areUnknownIn(node.text))
+        return std::nullopt; // without another message
       insertWhole(node);
+    }
     int value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
@@ -432,10 +458,10 @@ private:
     if (!value || !std::isfinite(*value))
       return;
     const Real whole = std::round(*value);
-    const bool isWhole = std::abs(*value - whole) <= 1e-9 * std::abs(whole);
-    insert(node, isWhole ? whole : *value);
+    const bool isWhole = std::abs(*value - whole) <= 1e-9 * std::max(Real(1), std::abs(whole));
+    insert(node, *value);
     if (isWhole)
-      node.text = fmt::format("{:.0f}", whole);
+      node.text = fmt::format("{:.0f}", whole + 0.0); // no -0
   }
 
   std::optional<std::string> readWord(const Key& key, const DeckNode& node, const std::string& path)
@@ -501,6 +527,8 @@ private:
   {
     const bool uses = definitions_.appearIn(node.text);
     std::string problem;
+    if (uses && definitions_.areUnknownIn(node.text))
+      return ""; // told already
     if (const auto value = uses ? definitions_.value(node.text, problem) : std::nullopt)
     {
       insert(node, *value);

@@ -7,15 +7,17 @@
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <vector>
 
 namespace coplane
 {
 struct ParsedExpression
 {
-  Real values[4] = {};
+  std::vector<Real> values; ///< of the variables; at least of t, x, y and z
   mu::Parser parser;
 
   ParsedExpression(const std::string& text, const std::vector<std::string>& variables)
+      : values(std::max<std::size_t>(4, variables.size()))
   {
     for (std::size_t i = 0; i < variables.size(); ++i)
       parser.DefineVar(variables[i], &values[i]);
