@@ -87,6 +87,28 @@ Part makePart(const PartCard& card)
   return part;
 }
 
+/// All parts; a part that asks for more nodes than a mesh can have, with those before it, is a
+/// problem.
+std::vector<Part> makeParts(const Recipe& recipe, Problems& problems)
+{
+  std::vector<Part> parts;
+  Real nodes = 0;
+  for (std::size_t p = 0; p < recipe.parts.size(); ++p)
+    try
+    {
+      parts.push_back(makePart(recipe.parts[p]));
+      for (const Body& body : parts.back().bodies)
+        nodes += Real(body.points.size());
+      demandCountable(nodes);
+    }
+    catch (const Error& error)
+    {
+      problems.add(nodeAt(recipe.root, {"parts", std::to_string(p)}),
+                   fmt::format("parts.{} {}", p, error.what()));
+    }
+  return parts;
+}
+
 /// Refuses a block with elements of two types.
 void demandOneType(const std::vector<Part>& parts, const DeckNode& root, Problems& problems)
 {
@@ -125,7 +147,6 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
     for (const Body& body : part.bodies)
     {
       ++bodies;
-      demandCountable(Real(mesh.coordinates.size()) + Real(body.points.size()));
       const int firstNode = int(mesh.coordinates.size());
       for (const Vec3& own : body.points)
       {
@@ -160,10 +181,10 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides)
 {
   const Recipe recipe = parseRecipe(text, name, overrides);
-  std::vector<Part> parts;
-  for (const PartCard& card : recipe.parts)
-    parts.push_back(makePart(card));
   Problems problems;
+  const std::vector<Part> parts = makeParts(recipe, problems);
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
   demandOneType(parts, recipe.root, problems);
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text()); // sets are made of all parts

@@ -57,8 +57,9 @@ void checkOgive(const OgiveParameters& p, const CardPlace& place)
 std::vector<Body> makeLaw(const ProjectileParameters& p)
 {
   const int along =
-      p.along > 0 ? p.along
-                  : std::max(1, int(std::lround((p.length - p.width / 2) / (p.width / p.across))));
+      p.along > 0
+          ? p.along
+          : std::max(1, countable(std::round((p.length - p.width / 2) / (p.width / p.across))));
   if (p.dimension == 2)
     return {roundNosed(p.width, p.length, p.across, along)};
   if (p.section == "round")
@@ -72,8 +73,10 @@ std::vector<Body> makeLaw(const ProjectileParameters& p)
 std::vector<Body> makeLaw(const OgiveParameters& p)
 {
   const Real nose = ogiveLength(p.width, p.caliber);
-  const auto divisions = [&](int given, Real part, int lowest) {
-    return given > 0 ? given : std::max(lowest, int(std::lround(part / (2 * p.width / p.across))));
+  const auto divisions = [&](int given, Real part, int lowest)
+  {
+    return given > 0 ? given
+                     : std::max(lowest, countable(std::round(part / (2 * p.width / p.across))));
   };
   return {ogiveNosed(p.dimension, p.width, p.caliber, p.length, p.across,
                      divisions(p.nose, nose, leastInNose(p)),

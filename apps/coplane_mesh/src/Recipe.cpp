@@ -11,15 +11,26 @@ using namespace schema;
 
 namespace
 {
+const char* word(int dimension)
+{
+  return dimension == 2 ? "two" : "three";
+}
+
+/// Why a shape has no place in a recipe; empty: it has.
+std::string problemOfShape(const std::string& name, int dimension)
+{
+  const ShapeModel& shape = *findModel(shapeModels(), name);
+  return !shape.onlyDimension || shape.onlyDimension == dimension
+             ? ""
+             : fmt::format("= '{}' needs {} dimensions; use {}.", name, word(shape.onlyDimension),
+                           shape.otherwise);
+}
+
 void checkPart(PartCard& part, const CardPlace& place)
 {
   if (part.dimension == 0)
     return; // reported at `dimension`
   const ShapeModel& shape = *findModel(shapeModels(), part.model);
-  const auto word = [](int dimension) { return dimension == 2 ? "two" : "three"; };
-  if (shape.onlyDimension && shape.onlyDimension != part.dimension)
-    return place.problem("shape", fmt::format("= '{}' needs {} dimensions; use {}.", shape.name,
-                                              word(shape.onlyDimension), shape.otherwise));
   if (part.split != "none" && (part.split == "triangles") != (part.dimension == 2))
     place.problem("split", fmt::format("= '{}' needs {} dimensions; use {}.", part.split,
                                        word(part.dimension == 2 ? 3 : 2),
@@ -191,8 +202,14 @@ Recipe parseRecipe(const std::string& text, const std::string& file,
   const auto fit = [&schema](const DeckNode& root)
   {
     const DeckNode* const dimension = root.find("dimension");
-    if (dimension && (dimension->text == "2" || dimension->text == "3"))
-      fitToDimension(schema, dimension->text == "2" ? 2 : 3);
+    if (!dimension || (dimension->text != "2" && dimension->text != "3"))
+      return;
+    const int axes = dimension->text == "2" ? 2 : 3;
+    fitToDimension(schema, axes);
+    for (Key& key : schema.keys)
+      if (key.name == "parts")
+        key.problemOfModel = [axes](const std::string& shape)
+        { return problemOfShape(shape, axes); };
   };
   recipe.root = readBySchema(schema, text, file, overrides, &recipe, problems, fit, recipeFile());
   if (!problems.empty())

@@ -61,6 +61,7 @@ std::vector<Body> planeOrSwept(const Body& section, int dimension, const Sweep& 
 {
   if (dimension == 2)
     return {section};
+  demandCountable(Real(section.points.size()) * (Real(sweep.along) + 1));
   std::vector<Real> heights;
   for (int k = 0; k <= sweep.along; ++k)
     heights.push_back(sweep.length * k / sweep.along);

@@ -29,6 +29,7 @@ public:
       : radius_(radius), across_(across), core_(coreDivisions(across)),
         rings_((across - core_) / 2), half_(half)
   {
+    demandCountable((Real(core_) + 1) * (Real(core_) + 4 * Real(rings_) + 1) / (half_ ? 2 : 1));
     body_.type = ElementType::Quad4;
     const int rows = half_ ? core_ / 2 : core_;
     for (int j = 0; j <= rows; ++j)
@@ -138,18 +139,29 @@ void demandCountable(Real nodes)
 {
   if (nodes > Real(std::numeric_limits<int>::max()))
     fail(ExitCode::Deck,
-         "the recipe asks for {:.3g} nodes; accepted: at most {} in a mesh. Look at divisions, "
-         "blocks and counts.",
+         "asks for {:.3g} nodes; accepted: at most {} in a mesh. Look at divisions, blocks, counts "
+         "and sizes of elements.",
          nodes, std::numeric_limits<int>::max());
+}
+
+int countable(Real count)
+{
+  demandCountable(count);
+  return int(count);
+}
+
+Real nodesOfGrid(int dimension, const std::array<int, 3>& n)
+{
+  Real nodes = 1;
+  for (int axis = 0; axis < dimension; ++axis)
+    nodes *= Real(n[axis]) + 1;
+  return nodes;
 }
 
 Body mappedGrid(int dimension, const std::array<int, 3>& n,
                 const std::function<Vec3(int, int, int)>& position)
 {
-  Real nodes = 1;
-  for (int axis = 0; axis < dimension; ++axis)
-    nodes *= Real(n[axis]) + 1;
-  demandCountable(nodes);
+  demandCountable(nodesOfGrid(dimension, n));
   Body body;
   body.type = dimension == 2 ? ElementType::Quad4 : ElementType::Hex8;
   const int layers = dimension == 3 ? n[2] : 0;
@@ -298,6 +310,7 @@ Body cornered(int dimension, const std::vector<Vec3>& corners, const std::array<
 std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int bricks,
                               const std::array<int, 3>& n)
 {
+  demandCountable(Real(courses) * bricks * nodesOfGrid(dimension, n));
   std::vector<Body> bodies;
   for (int course = 0; course < courses; ++course)
   {
@@ -323,6 +336,7 @@ std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int
 std::vector<Body> imbricate(Real thickness, Real length, int layers, int bricks,
                             const std::array<int, 3>& n)
 {
+  demandCountable(Real(layers) * bricks * nodesOfGrid(2, n));
   std::vector<Body> bodies;
   for (int layer = 0; layer < layers; ++layer)
   {
@@ -348,6 +362,8 @@ std::vector<Body> imbricate(Real thickness, Real length, int layers, int bricks,
 std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, const Vec3& size,
                               const std::array<int, 3>& n)
 {
+  demandCountable(Real(blocks[0]) * blocks[1] * (dimension == 3 ? blocks[2] : 1) *
+                  nodesOfGrid(dimension, n));
   std::vector<Body> bodies;
   for (int c = 0; c < (dimension == 3 ? blocks[2] : 1); ++c)
     for (int b = 0; b < blocks[1]; ++b)
@@ -370,6 +386,7 @@ Body disk(Real radius, int across)
 std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
                           Real length, const std::array<int, 3>& n, Real bias)
 {
+  demandCountable(Real(count) * nodesOfGrid(dimension, n));
   std::vector<Body> bodies;
   const std::vector<Real> radii = gradedLine(inner, outer, n[0], bias);
   const int around = count * n[1];
@@ -402,7 +419,7 @@ Body halfDisc(Real radius, Real fine, Real fineRadius)
   const auto bent = [&](Real rho, Real part)
   { return rho * directionAt(std::asin(rho / (2 * radius)), part); };
 
-  const int across = std::max(4, 2 * int(std::ceil(fineRadius / fine - 1e-9)));
+  const int across = std::max(4, countable(2 * std::ceil(fineRadius / fine - 1e-9)));
   const RoundGrid centre(fineRadius, across, true);
   Body body = centre.body();
   for (Vec3& p : body.points)
@@ -461,6 +478,7 @@ Body halfDisc(Real radius, Real fine, Real fineRadius)
 
 Body roundNosed(Real width, Real length, int across, int along)
 {
+  demandCountable((Real(along) + 1) * (Real(across) + 1));
   const Real radius = width / 2;
   const RoundGrid nose(radius, across, true);
   Body body = nose.body();

@@ -21,6 +21,10 @@ struct Body
 
 /// Throws Error(ExitCode::Deck) when a mesh cannot have so many nodes.
 void demandCountable(Real nodes);
+/// A count that comes from lengths; the same error when it is beyond all numbers.
+int countable(Real count);
+/// Nodes of a grid of n elements.
+Real nodesOfGrid(int dimension, const std::array<int, 3>& n);
 
 /// Grid of n[0] x n[1] (x n[2]) elements whose node (i, j, k) is at position(i, j, k). The images
 /// of i, j, k must be right-handed.

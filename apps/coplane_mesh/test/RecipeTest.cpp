@@ -107,8 +107,27 @@ TEST(Recipe, whatIsForThreeDimensionsIsRefusedInTwo)
             "r.yaml:3:5: parts.0.length is missing (shape: cylinder needs it); accepted: a number "
             "> 0 [m]: along z, from z = 0.");
   EXPECT_EQ(errorOf("dimension: 3\nparts:\n  - {shape: imbricate, block: b, brick: [1, 2], layers: "
-                    "2, length_in_bricks: 2, divisions: [1, 2, 1]}\n"),
+                    "2, length_in_bricks: 2, divisions: [1, 2]}\n"),
             "r.yaml:3:13: parts.0.shape = 'imbricate' needs two dimensions; use wall.");
+  EXPECT_EQ(errorOf("dimension: 2\nparts: [{shape: hexahedron, block: b}]\n"),
+            "r.yaml:2:17: parts.0.shape = 'hexahedron' needs three dimensions; use quadrilateral.");
+}
+
+TEST(Recipe, moreNodesThanAMeshCanHaveAreRefusedAtTheirPart)
+{
+  for (const std::string part :
+       {"rock, size: [1, 1], blocks: [2000000000, 2000000000], divisions: [1, 1]",
+        "wall, brick: [1, 1], courses: 1000000000, length_in_bricks: 1000, divisions: [2, 2]",
+        "imbricate, brick: [1, 1], layers: 1000000000, length_in_bricks: 1000, divisions: [2, 2]",
+        "cylinder, radius: 1, across: 1000000000",
+        "sector, inner_radius: 1, outer_radius: 2, from: 0, to: 90, count: 2000000000, divisions: "
+        "[1, 1]",
+        "projectile, width: 1, length: 1e12, across: 4",
+        "half_disc, radius: 1, fine: 1e-12, fine_radius: 0.1"})
+  {
+    const std::string error = errorOf(head + "  - {block: b, shape: " + part + "}\n");
+    EXPECT_EQ(error.rfind("r.yaml:3:5: parts.0 asks for ", 0), 0u) << part << "\n" << error;
+  }
 }
 
 TEST(Recipe, oneAngleTurnsInThePlaneAndThreeInSpace)

@@ -43,9 +43,9 @@ def planes(run, number):
     return dict(zip(keys, zip(columns["closure"], columns["slip"])))
 
 
-def stand(name, mesh, deck):
+def stand(name, mesh, deck, **tolerances):
     """Runs; returns the final displacements of the bricks, in the order of the mesh."""
-    run = case.run(name, mesh, deck)
+    run = case.run(name, mesh, deck, **tolerances)
     weight = bricks * courses * length * course * 2300 * g
     results = run.results
     reaction = -results.nodal("contact_force")[results.nodes_of("floor"), 1].sum()
@@ -54,8 +54,9 @@ def stand(name, mesh, deck):
     case.check(f"{name}: kinetic energy at the end over m g H", energy, 0, 1e-8)
     # From the end of the damping on, nothing creeps: file 0 is the start, 1 the end of the damping, 2 the end.
     before, after = planes(run, 1), planes(run, 2)
-    case.check_equal(f"{name}: planes that the two files do not share", len(set(before) ^ set(after)), 0)
-    moved = numpy.abs(numpy.array([after[key] for key in before]) - numpy.array(list(before.values())))
+    # A plane that is in one file only has no closure in the other: corners of bricks lie on each other by slivers of 1e-10 m.
+    none = (0.0, 0.0)
+    moved = numpy.abs([numpy.subtract(after.get(key, none), before.get(key, none)) for key in before.keys() | after.keys()])
     case.check(f"{name}: largest change of closure without damping [m]", moved[:, 0].max(), 0, 1e-6)
     case.check(f"{name}: largest slip without damping [m]", moved[:, 1].max(), 0, 1e-6)
     return results.nodal("displacement")[results.nodes_of("bricks")]
@@ -84,5 +85,6 @@ if "all" in sys.argv[1:]:
     slow["damping"] = {"mass": 4, "until": 1.0}
     slow["time"]["end"] = 2.0
     slow["output"]["times"] = [1.0]
-    stand("contact_damping", recipe, slow)
+    # In 120 703 cycles rounding adds up to 1.03e-12 of the momentum that gravity gives.
+    stand("contact_damping", recipe, slow, momentum=2e-12)
 case.finish()

@@ -117,7 +117,10 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
   const auto refuse = [&](const DeckNode& at, const std::string& text)
   { problems.add(at, fmt::format("define.{} {}", name.text, text)); };
   if (const std::string problem = problemOfName(name.text); !problem.empty())
+  {
+    definitions_[name.text] = {0, name, true, false}; // one message is enough
     return refuse(name, problem);
+  }
   const bool isWord = value.kind == DeckNode::Kind::Scalar && !value.text.empty();
   std::optional<Real> number = isWord ? numberIn(value.text) : std::nullopt;
   std::string problem;
@@ -170,7 +173,8 @@ std::vector<std::string> Definitions::names() const
 {
   std::vector<std::string> names;
   for (const auto& [name, definition] : definitions_)
-    names.push_back(name);
+    if (definition.isKnown)
+      names.push_back(name);
   return names;
 }
 
@@ -196,7 +200,8 @@ std::optional<Real> Definitions::value(const std::string& expression, std::strin
     return std::nullopt;
   mu::Parser parser;
   for (const auto& [name, definition] : definitions_)
-    parser.DefineConst(name, definition.value);
+    if (definition.isKnown)
+      parser.DefineConst(name, definition.value);
   parser.SetExpr(expression);
   return parser.Eval();
 }

@@ -91,6 +91,9 @@ struct Key
   // groups
   std::vector<Key> keys;
   std::string discriminator; ///< the key (`model`, `type`) that decides which others there are
+  /// Why one of its values has no place here; then the rest of the group is not read. Empty: it
+  /// has.
+  std::function<std::string(const std::string& model)> problemOfModel;
   std::vector<Alternatives> alternatives;
   std::vector<RemovedKey> removed;
   std::string completedBy; ///< a key (`set`) that gives all required ones that are not given

@@ -88,6 +88,11 @@ private:
       return wrong(node, path, "", "keys with values");
     const std::size_t before = problems_.size();
     const std::optional<std::string> model = modelOf(group, node);
+    if (const DeckNode* place = model ? node.find(group.discriminator) : nullptr;
+        place && group.problemOfModel)
+      if (const std::string problem = group.problemOfModel(*model); !problem.empty())
+        return problems_.add(*place,
+                             fmt::format("{} {}", join(path, group.discriminator), problem));
     checkNames(node, path);
     for (const auto& [name, value] : node.entries)
       checkKnown(group, model, name, path);
@@ -429,39 +434,50 @@ private:
     const auto word = std::find(key.choices.begin(), key.choices.end(), node.text);
     if (node.kind == Kind::Scalar && word != key.choices.end())
       return -int(word - key.choices.begin()); // words stand for 0, -1, ...
+    const std::string written = node.text;
+    std::string problem; // of an expression
     if (node.kind == Kind::Scalar && definitions_.appearIn(node.text))
     {
       if (definitions_.areUnknownIn(node.text))
         return std::nullopt; // without another message
-      insertWhole(node);
+      problem = insertWhole(node);
     }
+    const auto it = problem.empty() && written != node.text ? fmt::format(" (it is {})", node.text)
+                    : problem.empty()                       ? ""
+                                                            : fmt::format(" ({})", problem);
+    const auto refuse = [&](const std::string& text)
+    {
+      node.text = written;
+      wrong(node, path, text + it + definitions_.suggestionFor(written), acceptedText(key));
+    };
     int value = 0;
     const char* end = node.text.data() + node.text.size();
     const auto [stop, error] = std::from_chars(node.text.data(), end, value);
     if (node.quoted || stop != end || error == std::errc::invalid_argument)
-      wrong(node, path, " is not a whole number" + definitions_.suggestionFor(node.text),
-            acceptedText(key));
+      refuse(" is not a whole number");
     else if (error != std::errc())
-      wrong(node, path, " is beyond the largest whole numbers, +-2147483647", acceptedText(key));
+      refuse(" is beyond the largest whole numbers, +-2147483647");
     else if (key.lower && value < *key.lower)
-      wrong(node, path, " is out of range", acceptedText(key));
+      refuse(" is out of range");
     else
       return value;
     return std::nullopt;
   }
 
-  /// The value of an expression, which rounding may have left beside a whole number.
-  void insertWhole(DeckNode& node) const
+  /// The value of an expression, which rounding may have left beside a whole number. Returns what
+  /// is wrong with the expression.
+  std::string insertWhole(DeckNode& node) const
   {
     std::string problem;
     const auto value = definitions_.value(node.text, problem);
     if (!value || !std::isfinite(*value))
-      return;
+      return value ? fmt::format("it is {}", *value) : problem;
     const Real whole = std::round(*value);
     const bool isWhole = std::abs(*value - whole) <= 1e-9 * std::max(Real(1), std::abs(whole));
     insert(node, *value);
     if (isWhole)
       node.text = fmt::format("{:.0f}", whole + 0.0); // no -0
+    return "";
   }
 
   std::optional<std::string> readWord(const Key& key, const DeckNode& node, const std::string& path)
@@ -593,6 +609,13 @@ private:
            (oneAnAxis ? items == 2 || items == 3 : !key.length || items == key.length);
   }
 
+  /// As of "max(w" in [max(w, 3), 1], of which YAML makes a list of three.
+  static bool hasOpenParenthesis(const DeckNode& node)
+  {
+    return std::count(node.text.begin(), node.text.end(), '(') >
+           std::count(node.text.begin(), node.text.end(), ')');
+  }
+
   /// The items of a list, if all of them could be read.
   template <class T, class Read>
   std::optional<std::vector<T>> readItems(const Key& key, DeckNode& node, const std::string& path,
@@ -600,7 +623,9 @@ private:
   {
     if (node.kind != Kind::List || !hasLength(key, node.items.size()))
     {
-      wrong(node, path, "", acceptedText(key));
+      const bool isCut = std::any_of(node.items.begin(), node.items.end(), hasOpenParenthesis);
+      wrong(node, path, isCut ? ": an expression with a comma in it wants quotes" : "",
+            acceptedText(key));
       return std::nullopt;
     }
     std::vector<T> values;
