@@ -88,7 +88,9 @@ public:
       for (int b = a + 1; b < int(faces_.size()); ++b)
         if (places_[a] != places_[b])
           pairs_.push_back({a, b});
-    edges_.emplace(pairs_, faces_, faces_.size(), planes_, x_, 3, layout_);
+    const Array<Face> table(Kokkos::ViewAllocateWithoutInitializing("faces"), faces_.size());
+    std::uninitialized_copy(faces_.begin(), faces_.end(), table.data());
+    edges_.emplace(pairs_, table, faces_.size(), planes_, x_, 3, layout_);
   }
 
   /// The pair of the faces of body a and of body b > a whose normals are next to these.

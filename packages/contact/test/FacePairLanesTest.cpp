@@ -122,13 +122,9 @@ struct Slots
   PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
                   const ContactOptions& options)
   {
-    return {planes.data(),
-            faces.data(),
-            reinterpret_cast<bool*>(asleep.data()),
-            halfStep.data(),
-            laws.data(),
-            options,
-            dt};
+    const PairTables pairs{planes.data(), faces.data(), reinterpret_cast<bool*>(asleep.data()),
+                           nullptr, nullptr};
+    return {pairs, halfStep.data(), laws.data(), options, dt};
   }
 
   std::vector<Plane> planes;

@@ -151,9 +151,15 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
   }
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), kept.size());
+  const Array<bool> asleep("coplane::contact::asleep", kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
+  {
     new (&next(i)) Plane(planes_(kept[i]));
+    asleep(i) = asleep_(kept[i]);
+  }
   planes_ = next;
+  asleep_ = asleep;
+  todo_ = {}; // the search that has to follow tells the pairs anew
 }
 
 void Contact::replaceLocalFaces(std::vector<Face> localFaces)
@@ -209,12 +215,15 @@ void Contact::buildLists(int ownedNodes)
   slotFaces_ = decltype(slotFaces_)("coplane::contact::slotFaces", planes_.extent(0));
   asleep_ = Array<bool>("coplane::contact::asleep", planes_.extent(0));
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  {
+    asleep_(p) = isAsleep(planes_(p));
     for (int side = 0; side < 2; ++side)
     {
       const int face = slotFaces_(p).face[side] = planes_(p).face[side];
       if (face >= 0)
         paired_(face) = true;
     }
+  }
   listPlanesOfFaces(
       [&](const Plane& plane, int side)
       {
@@ -301,25 +310,27 @@ void stepA(const Array<Face>& faces, const Array<bool>& paired, int dimension,
 }
 
 /// Steps B to H for all slots; in three dimensions several side by side.
-void stepsBtoH(const Kokkos::View<Plane*, Kokkos::HostSpace>& planes,
-               const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots, const Array<bool>& asleep,
-               const HalfStepFaces& halfStep, const Array<JointLaw>& laws, int dimension,
-               const ContactOptions& options, Real dt)
+void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& halfStep,
+               const Array<JointLaw>& laws, int dimension, const ContactOptions& options, Real dt)
 {
-  const int planeCount = int(planes.extent(0));
   if (dimension == 2)
   {
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
-          if (slots(p).face[0] < 0)
+          const SlotFaces& faces = pairs.slots[p];
+          if (faces.face[0] < 0)
             return;
-          Plane& plane = planes(p);
-          const HalfStepFace& a = halfStep(slots(p).face[0]);
-          const HalfStepFace& b = halfStep(slots(p).face[1]);
-          if (asleep(p) && !mayMeet<2>(a, b))
+          Plane& plane = pairs.planes[p];
+          const HalfStepFace& a = halfStep(faces.face[0]);
+          const HalfStepFace& b = halfStep(faces.face[1]);
+          if (!(plane.area > 0) && !mayMeet<2>(a, b))
+          {
+            pairs.passBy(p, a, b, dt);
             return;
+          }
+          pairs.prepare(p);
           updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
-          asleep(p) = isAsleep(plane);
+          pairs.asleep[p] = isAsleep(plane);
         });
     return;
   }
@@ -329,9 +340,7 @@ void stepsBtoH(const Kokkos::View<Plane*, Kokkos::HostSpace>& planes,
       KOKKOS_LAMBDA(const int s) {
         const int first = s * stretch;
         const int last = first + stretch < planeCount ? first + stretch : planeCount;
-        PairLanes(planes.data(), slots.data(), asleep.data(), halfStep.data(), laws.data(), options,
-                  dt)
-            .update(first, last);
+        PairLanes(pairs, halfStep.data(), laws.data(), options, dt).update(first, last);
       });
 }
 } // namespace
@@ -343,7 +352,9 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   stepA(faceTable_, paired_, dimension_, x, v, mass, options_.forces, dt, halfStepFaces_);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
-  stepsBtoH(planes_, slotFaces_, asleep_, halfStepFaces_, laws_, dimension_, options, dt);
+  const PairTables pairs{planes_.data(), slotFaces_.data(), asleep_.data(), todo_.data(),
+                         preparation_.get()};
+  stepsBtoH(pairs, int(planes_.extent(0)), halfStepFaces_, laws_, dimension_, options, dt);
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).sighting == Sighting::FoundLate && planes_(p).countedHere &&

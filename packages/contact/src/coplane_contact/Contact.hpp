@@ -14,11 +14,14 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
 namespace coplane
 {
+class Preparation;
+
 /// Numbers of planes over all ranks.
 struct ContactCounts
 {
@@ -59,6 +62,10 @@ public:
   /// Other local faces, sorted by id; those that were there before keep their planes. A search has
   /// to follow.
   void replaceLocalFaces(std::vector<Face> localFaces);
+
+  /// Tells all pairs what the last search knows of them; else each gets it when it comes near.
+  /// To be called before planes are kept or compared.
+  void prepareAll() const;
 
   /// Contact's part of a checkpoint. Collective.
   void save(StateTables& out) const;
@@ -168,8 +175,10 @@ private:
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
   Kokkos::View<SlotFaces*, Kokkos::HostSpace> slotFaces_;
-  Array<bool> asleep_;   ///< planes that isAsleep() holds for; none after a search
-  Array<JointLaw> laws_; ///< by joint card
+  Array<bool> asleep_;                             ///< planes that isAsleep() holds for
+  std::shared_ptr<const Preparation> preparation_; ///< of the last search
+  Array<std::uint8_t> todo_; ///< by slot: what it has not been told yet (Preparation::Todo)
+  Array<JointLaw> laws_;     ///< by joint card
   Array<Face> faceTable_;
   Array<bool> paired_;                                           ///< faces that have a slot
   Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle

@@ -1,6 +1,6 @@
 #include <coplane_contact/Contact.hpp>
-#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
 #include <coplane_contact/detail/Inheritance.hpp>
+#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
 
@@ -87,17 +87,6 @@ Slots slotsOf(std::vector<CandidatePair> candidates,
     keep(p);
   return slots;
 }
-
-/// Places in `donors` by the ids of their faces, sorted.
-std::vector<std::pair<GlobalId, std::size_t>> byFace(const std::vector<Donor>& donors)
-{
-  std::vector<std::pair<GlobalId, std::size_t>> places;
-  for (std::size_t d = 0; d < donors.size(); ++d)
-    for (const GlobalId id : donors[d].faceId)
-      places.emplace_back(id, d);
-  std::sort(places.begin(), places.end());
-  return places;
-}
 } // namespace
 
 /// What a living plane has to give, during a search.
@@ -120,10 +109,13 @@ Donor Contact::donor(const Plane& plane) const
 
 std::vector<Donor> Contact::livingPlanes() const
 {
-  std::vector<Donor> donors;
+  std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    if (isDonor(planes_(p)))
-      donors.push_back(donor(planes_(p)));
+    if (!asleep_(p) && isDonor(planes_(p)))
+      living.push_back(p);
+  std::vector<Donor> donors(living.size());
+  parallelFor("coplane::contact::livingPlanes", int(living.size()),
+              [&](const int d) { donors[d] = donor(planes_(living[d])); });
   return donors;
 }
 
@@ -137,7 +129,8 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
     TimedRegion region("coplane::contact::step1_globalSpaceLimits");
     std::vector<Real> offset{0};
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
-      offset[0] = std::max(offset[0], planes_(p).offset);
+      if (planes_(p).isBorn())
+        offset[0] = std::max(offset[0], planes_(p).offset);
     comm_->max(offset);
     candidates_.offset = offset[0];
     candidates_.reach = candidates_.skin + candidates_.offset;
@@ -213,61 +206,48 @@ CandidateRules Contact::candidateRules() const
   return rules;
 }
 
-/// Makes the slots of a search: those of planes that are there already, those of new pairs, which
-/// take over from their neighbours, and those of planes that become dormant.
+/// Makes the slots of a search: those of planes that are there already, those of new pairs, and
+/// those of planes that become dormant.
 class Contact::SlotFiller
 {
 public:
-  SlotFiller(const Contact& contact, const Slots& slots, const ConstNodeVectors& x,
-             const NodeLayout& layout)
-      : contact_(contact), slots_(slots), x_(x), layout_(layout), facePlanes_(facePlanesOf()),
-        edges_(slots.pairs, contact.faces_, contact.localFaces_.size(), facePlanes_, x,
-               contact.dimension_, layout),
-        donorsOfGhost_(byFace(contact.ghosts_.donors)), gives_(contact.planes_.extent(0))
+  SlotFiller(const Contact& contact, const Slots& slots, const Preparation& preparation)
+      : contact_(contact), slots_(slots), preparation_(preparation)
   {
-    parallelFor("coplane::contact::gives", int(gives_.size()),
-                [&](const int p) { gives_[p] = char(isDonor(contact_.planes_(p))); });
   }
 
-  void fill(int slot, Plane& plane) const
+  /// @returns what is to be done when the pair comes near
+  Preparation::Todo fill(int slot, Plane& plane) const
   {
     const std::int64_t source = slots_.source[slot];
     if (source < 0)
     {
-      plane = contact_.planes_(~source);
+      new (&plane) Plane(contact_.planes_(~source));
       makeDormant(plane);
-      return;
+      return 0;
     }
     const CandidatePair& pair = slots_.pairs[source];
+    const Face &lower = contact_.faces_[pair.lower], &higher = contact_.faces_[pair.higher];
     const std::int64_t known = slots_.existing[source];
-    plane = known >= 0 ? contact_.planes_(known) : newSlot(face(pair.lower), face(pair.higher));
+    new (&plane) Plane(known >= 0 ? contact_.planes_(known) : newSlot(lower, higher));
     plane.face[0] = pair.lower;
     plane.face[1] = pair.higher;
+    Preparation::Todo todo = known >= 0 && !plane.isNew() ? Preparation::WasKnown : 0;
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
     if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
-      edges_.look(std::size_t(source), plane);
+      todo |= Preparation::LookAtEdges;
     if (plane.sighting == Sighting::Missed)
       plane.sighting = Sighting::Woken;
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
-    if (contact_.options_.inherit && !plane.isBorn() && !face(pair.lower).young &&
-        !face(pair.higher).young)
-      takeOver(plane, known >= 0 && !plane.isNew() ? plane.overlap : -1);
+    if (contact_.options_.inherit && !plane.isBorn() && !lower.young && !higher.young)
+      todo |= Preparation::TakeOver;
+    if (known < 0 || contact_.asleep_(known))
+      return todo;
+    preparation_.prepare(slot, todo, plane);
+    return 0;
   }
 
 private:
-  const Face& face(int f) const { return contact_.faces_[f]; }
-
-  Array<FacePlane> facePlanesOf() const
-  {
-    const Array<FacePlane> planes(
-        Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"),
-        contact_.faces_.size());
-    parallelFor("coplane::contact::facePlanes", int(contact_.faces_.size()),
-                [&](const int f)
-                { new (&planes(f)) FacePlane(facePlane(face(f), x_, contact_.dimension_)); });
-    return planes;
-  }
-
   Plane newSlot(const Face& a, const Face& b) const
   {
     Plane plane;
@@ -286,80 +266,9 @@ private:
     return plane;
   }
 
-  /// What the living planes of its faces pass on to a slot that has not touched yet, sought anew at
-  /// every search.
-  void takeOver(Plane& plane, Real sharedBefore) const
-  {
-    forgetPassed(plane);
-    const Vec3 normal =
-        normalised(facePlanes_(plane.face[0]).normal - facePlanes_(plane.face[1]).normal);
-    std::vector<Donor> donors;
-    for (const int f : plane.face)
-      addDonors(f, plane, normal, donors);
-    if (donors.empty())
-      return;
-    const NewPair now = newPair(plane, normal, sharedBefore);
-    const Continuation continuation(now, contact_.dimension_, contact_.skin_);
-    std::vector<Donor> heirlooms;
-    for (Donor& donor : donors)
-    {
-      if (!continuation.isNear(donor))
-        continue;
-      donor.flush = isFlush(now, donor, contact_.dimension_);
-      if (continuation.goesOn(donor))
-        heirlooms.push_back(donor);
-    }
-    inherit(plane, normal, now.nodes, heirlooms);
-  }
-
-  /// Donors of a face, from before this search: a local face has all its planes here, those of a
-  /// ghost have come with it.
-  void addDonors(int f, const Plane& plane, const Vec3& normal, std::vector<Donor>& donors) const
-  {
-    if (face(f).local)
-    {
-      if (contact_.searches_ > 0)
-        for (std::int32_t i = contact_.planesStart_(f); i < contact_.planesStart_(f + 1); ++i)
-          if (const int p = contact_.planesEntry_(i) / 2;
-              gives_[p] && fits(contact_.planes_(p), plane, normal))
-            donors.push_back(contact_.donor(contact_.planes_(p)));
-      return;
-    }
-    const std::vector<Donor>& ofGhosts = contact_.ghosts_.donors;
-    for (auto d = std::lower_bound(donorsOfGhost_.begin(), donorsOfGhost_.end(),
-                                   std::make_pair(face(f).id, std::size_t(0)));
-         d != donorsOfGhost_.end() && d->first == face(f).id; ++d)
-      if (fits(ofGhosts[d->second], plane, normal))
-        donors.push_back(ofGhosts[d->second]);
-  }
-
-  NewPair newPair(const Plane& plane, const Vec3& normal, Real sharedBefore) const
-  {
-    NewPair now;
-    now.normal = normal;
-    now.sharedBefore = sharedBefore;
-    for (int side = 0; side < 2; ++side)
-    {
-      const Face& mine = face(plane.face[side]);
-      now.faceId[side] = mine.id;
-      now.count[side] = mine.count;
-      for (int k = 0; k < mine.count; ++k)
-      {
-        now.nodes[side][k] = layout_.ids()[mine.nodes[k]];
-        now.corners[side][k] = at(x_, mine.nodes[k]);
-      }
-    }
-    return now;
-  }
-
   const Contact& contact_;
   const Slots& slots_;
-  const ConstNodeVectors& x_;
-  const NodeLayout& layout_;
-  const Array<FacePlane> facePlanes_;
-  const EdgesOfSurfaces edges_;
-  const std::vector<std::pair<GlobalId, std::size_t>> donorsOfGhost_;
-  std::vector<char> gives_; ///< much smaller than the planes, which are asked often
+  const Preparation& preparation_;
 };
 
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again,
@@ -367,28 +276,47 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   const WorkWatch watch(searchSeconds_);
+  std::vector<Donor> donors = options_.inherit ? livingPlanes() : std::vector<Donor>{};
+  donors.insert(donors.end(), ghosts_.donors.begin(), ghosts_.donors.end());
   listFaces(layout);
+  takeFaceTables();
   candidates_.motion.v = v;
-  const Slots slots = slotsOf(
+  Slots slots = slotsOf(
       step5_candidatePairs(bins_, faces_, x, dimension_, candidateRules()), planes_, faces_,
       [&](GlobalId id) { return faceHere(id); }, ended_);
   const int count = int(slots.source.size());
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), std::size_t(count));
-  const SlotFiller filler(*this, slots, x, layout);
+  preparation_ =
+      std::make_shared<Preparation>(Preparation::Search{slots.pairs, slots.source, faceTable_,
+                                                        localFaces_.size(), x, dimension_, skin_},
+                                    std::move(donors), layout);
+  const SlotFiller filler(*this, slots, *preparation_);
+  const Array<Preparation::Todo> todo("coplane::contact::todo", std::size_t(count));
   parallelFor("coplane::contact::fillSlots", count,
-              [&](const int slot) { filler.fill(slot, next(slot)); });
+              [&](const int slot) { todo(slot) = filler.fill(slot, next(slot)); });
 
   planes_ = next;
+  todo_ = todo;
   nodeIds_ = {};
   oldX_ = {};
   candidates_.motion = {};
-  takeFaceTables();
   buildLists(layout.owned());
   for (Face& face : localFaces_)
     face.young = false;
   if (!again)
     ++searches_;
   searchedSinceUpdate_ = true;
+}
+
+void Contact::prepareAll() const
+{
+  parallelFor("coplane::contact::prepareAll", int(todo_.extent(0)),
+              [&](const int slot)
+              {
+                if (todo_(slot) != 0)
+                  preparation_->prepare(slot, todo_(slot), planes_(slot));
+                todo_(slot) = 0;
+              });
 }
 } // namespace coplane

@@ -2,6 +2,7 @@
 // have ended.
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/PlaneState.hpp>
+#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/StateHash.hpp>
 
 #include <algorithm>
@@ -111,6 +112,7 @@ void EndedPlanes::addNumbers(const std::vector<Real>& numbers)
 
 void Contact::save(StateTables& out) const
 {
+  prepareAll();
   KeyedRows faces;
   faces.columns = faceColumns;
   for (const Face& face : localFaces_)
@@ -247,6 +249,8 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
     }
   }
   planes_ = planes;
+  todo_ = {};
+  preparation_ = nullptr;
   restored_.clear();
   takeFaceTables();
   facesStart_ = {};

@@ -117,6 +117,7 @@ Real declare(Plane& plane, const FaceNodes& nodesA, const FaceNodes& nodesB,
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
+  prepareAll(); // neighbours pass on nothing to planes that are closed here
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
   {
     Plane& plane = planes_(p);

@@ -58,10 +58,9 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
   return edge;
 }
 
-EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs,
-                                 const std::vector<Face>& faces, std::size_t localFaces,
-                                 const Array<FacePlane>& planes, const ConstNodeVectors& x,
-                                 int dimension, const NodeLayout& layout)
+EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
+                                 std::size_t localFaces, const Array<FacePlane>& planes,
+                                 const ConstNodeVectors& x, int dimension, const NodeLayout& layout)
     : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
       lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size())
 {
@@ -78,7 +77,7 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs,
 
 void EdgesOfSurfaces::findEdges()
 {
-  firstEdge_.assign(faces_.size(), -1);
+  firstEdge_.assign(faces_.extent(0), -1);
   std::vector<std::int32_t> paired;
   std::int32_t count = 0;
   for (const CandidatePair& pair : pairs_)

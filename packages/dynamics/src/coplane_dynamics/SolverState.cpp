@@ -225,12 +225,15 @@ std::uint64_t Solver::stateHash() const
         });
   }
   if (contact_)
+  {
+    contact_->prepareAll();
     for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
     {
       const Plane& plane = contact_->planes()(p);
       if (plane.countedHere && plane.isBorn())
         addTo(hash, PlaneField, plane);
     }
+  }
   if (comm_->isRoot())
   {
     hash.add(Time, clock_.cycle, 0, clock_.time);

@@ -23,7 +23,7 @@ public:
   /// `pairs` are the candidates of this rank, among them all with a local face; of the faces, all
   /// that have an owned node come first, sorted by id. `planes` are those of the faces. All of this
   /// has to live on. Collective.
-  EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const std::vector<Face>& faces,
+  EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
                   std::size_t localFaces, const Array<FacePlane>& planes, const ConstNodeVectors& x,
                   int dimension, const NodeLayout& layout);
 
@@ -50,7 +50,7 @@ private:
   Real lieOn(int a, int b) const;
 
   const std::vector<CandidatePair>& pairs_;
-  const std::vector<Face>& faces_;
+  Array<Face> faces_;
   Array<FacePlane> planes_;
   ConstNodeVectors x_;
   int dimension_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_contact/detail/PotentialKernel.hpp>
+#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
 // Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
@@ -63,6 +64,33 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
   }
 }
 
+/// The pairs of the last search, one beside the other.
+struct PairTables
+{
+  Plane* planes;
+  const SlotFaces* slots;
+  bool* asleep;
+  Preparation::Todo* todo; ///< null: nothing is left to do
+  const Preparation* preparation;
+
+  /// For a pair that carries nothing and whose shadows share nothing.
+  void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
+  {
+    if (asleep[p])
+      return;
+    coplane::passBy(planes[p], a, b, dt);
+    asleep[p] = true;
+  }
+  /// Before a pair is evaluated that its faces have just brought near.
+  void prepare(int p) const
+  {
+    if (todo == nullptr || todo[p] == 0)
+      return;
+    preparation->prepare(p, todo[p], planes[p]);
+    todo[p] = 0;
+  }
+};
+
 /// Steps B to H for a stretch of the table of planes. Pairs wait until as many of a kind, by the
 /// numbers of nodes of their faces, are there as fit side by side: those without traction first for
 /// the question whether their shadows can meet at all. Of those that sleep nothing but their faces
@@ -70,10 +98,10 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
 class PairLanes
 {
 public:
-  PairLanes(Plane* planes, const SlotFaces* slots, bool* asleep, const HalfStepFace* faces,
-            const JointLaw* laws, const ContactOptions& options, Real dt)
-      : planes_(planes), slots_(slots), asleep_(asleep), faces_(faces), laws_(laws),
-        options_(options), dt_(dt)
+  PairLanes(const PairTables& pairs, const HalfStepFace* faces, const JointLaw* laws,
+            const ContactOptions& options, Real dt)
+      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), asleep_(pairs.asleep),
+        faces_(faces), laws_(laws), options_(options), dt_(dt)
   {
   }
 
@@ -159,12 +187,12 @@ private:
     {
       const int p = queue.plane[i];
       if (meet[i])
-        put(p, kind);
-      else if (!asleep_[p])
       {
-        passBy(planes_[p], face(p, 0), face(p, 1), dt_);
-        asleep_[p] = true;
+        pairs_.prepare(p);
+        put(p, kind);
       }
+      else
+        pairs_.passBy(p, face(p, 0), face(p, 1), dt_);
     }
     queue.count = 0;
   }
@@ -199,6 +227,7 @@ private:
     queue.count = 0;
   }
 
+  const PairTables pairs_;
   Plane* planes_;
   const SlotFaces* slots_;
   bool* asleep_;
