@@ -323,7 +323,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& hal
           Plane& plane = pairs.planes[p];
           const HalfStepFace& a = halfStep(faces.face[0]);
           const HalfStepFace& b = halfStep(faces.face[1]);
-          if (!(plane.area > 0) && !mayMeet<2>(a, b))
+          if (!(plane.area > 0) && !mayMeet<2>(a, b, leastOpposed(options)))
           {
             pairs.passBy(p, a, b, dt);
             return;

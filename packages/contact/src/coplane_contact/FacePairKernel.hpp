@@ -342,14 +342,29 @@ KOKKOS_INLINE_FUNCTION T approachSpeed(const Vec3Of<T>& normal, const HalfStepFa
   return towards + away;
 }
 
+/// Faces carry force when minus the product of their normals is above this [-].
+KOKKOS_INLINE_FUNCTION Real leastOpposed(const ContactOptions& options)
+{
+  return options.forces == ContactOptions::Forces::Potential
+             ? ContactPotentialScale(options.cosOpposed).opposedFrom
+             : 0;
+}
+
 /// Steps B and C, for the question whether the shadows of a pair can share area at all.
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
-                                                     const HalfStepFaceOf<T>& b)
+                                                     const HalfStepFaceOf<T>& b, Real leastOpposed)
 {
-  const TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
-  return trial.opposed && !shadowsApart(stepC_projectOntoPlane<Dim>(trial, a, 0),
-                                        stepC_projectOntoPlane<Dim>(trial, b, 0));
+  TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
+  trial.opposed = trial.opposed && -dot(a.normal, b.normal) > leastOpposed;
+  if (!branchFree::anyOf(trial.opposed))
+    return trial.opposed;
+  const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, 0),
+                    shadowB = stepC_projectOntoPlane<Dim>(trial, b, 0);
+  const auto near = trial.opposed && !shadowsApart(shadowA, shadowB);
+  if (Dim == 2 || !branchFree::anyOf(near))
+    return near;
+  return near && !edgesPart(shadowA, shadowB);
 }
 
 /// Before steps E and F of a pair: whether it penetrates when it is looked at for the first time.

@@ -77,6 +77,37 @@ KOKKOS_INLINE_FUNCTION ShadowOf<T> stepC_projectOntoPlane(const TrialPlaneOf<T>&
   return shadow;
 }
 
+/// Whether a shadow lies on one side of one of its edges, and the other shadow beyond it. `sign`: 1
+/// where the corners go round counter-clockwise, -1 where they go the other way.
+template <class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> edgeParts(const ShadowOf<T>& of,
+                                                       const ShadowOf<T>& other, Real sign)
+{
+  using namespace branchFree;
+  MaskOf<T> parted(false);
+  for (int e = 0; e < of.count; ++e)
+  {
+    const Vec2Of<T>& start = of.p[e];
+    const Vec2Of<T> edge = sign * (of.p[e + 1 == of.count ? 0 : e + 1] - start);
+    T own(infinity), most(-infinity);
+    for (int i = 0; i < of.count; ++i)
+      own = smaller(cross(edge, of.p[i] - start), own);
+    for (int i = 0; i < other.count; ++i)
+      most = larger(cross(edge, other.p[i] - start), most);
+    parted = parted || (own >= 0.0 && most <= 0.0);
+  }
+  return parted;
+}
+
+/// Whether an edge of one of two shadows has all of that shadow on one side and the other one
+/// beyond. Seen against the normal of their plane, the corners of a go round counter-clockwise and
+/// those of b the other way.
+template <class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> edgesPart(const ShadowOf<T>& a, const ShadowOf<T>& b)
+{
+  return edgeParts(a, b, 1) || edgeParts(b, a, -1);
+}
+
 /// Whether the bounding boxes of two shadows share no area: most candidates are neighbours that
 /// only touch along an edge.
 template <class T>

@@ -101,7 +101,7 @@ public:
   PairLanes(const PairTables& pairs, const HalfStepFace* faces, const JointLaw* laws,
             const ContactOptions& options, Real dt)
       : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), asleep_(pairs.asleep),
-        faces_(faces), laws_(laws), options_(options), dt_(dt)
+        faces_(faces), laws_(laws), options_(options), leastOpposed_(leastOpposed(options)), dt_(dt)
   {
   }
 
@@ -113,7 +113,8 @@ public:
       if (slots_[p].face[0] < 0)
         continue;
       const HalfStepFace &a = face(p, 0), &b = face(p, 1);
-      if (asleep_[p] && !(dot(a.normal, b.normal) < 0)) // edge neighbours at a right angle, say
+      // Edge neighbours at a right angle, say.
+      if (asleep_[p] && !(-dot(a.normal, b.normal) > leastOpposed_))
         continue;
       const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
       if (!asleep_[p] && planes_[p].area > 0) // it met in the last cycle
@@ -182,7 +183,7 @@ private:
     if (queue.count == 0)
       return;
     gatherFaces<false>(queue);
-    const LaneMask meet = mayMeet<3>(a_, b_);
+    const LaneMask meet = mayMeet<3>(a_, b_, leastOpposed_);
     for (int i = 0; i < queue.count; ++i)
     {
       const int p = queue.plane[i];
@@ -234,6 +235,7 @@ private:
   const HalfStepFace* faces_;
   const JointLaw* laws_;
   const ContactOptions& options_;
+  const Real leastOpposed_;
   Real dt_;
   Queue toJudge_[kinds], toUpdate_[2 * kinds];
   HalfStepFaceOf<Lanes> a_, b_; // of the pairs in work
