@@ -114,7 +114,8 @@ bool sameBits(const Plane& a, const Plane& b)
 /// Planes with the tables beside them that the lanes work on.
 struct Slots
 {
-  explicit Slots(const std::vector<Plane>& of) : planes(of), faces(of.size()), asleep(of.size())
+  explicit Slots(const std::vector<Plane>& of)
+      : planes(of), faces(of.size()), activity(of.size(), Activity::Awake)
   {
     for (std::size_t p = 0; p < of.size(); ++p)
       std::copy(of[p].face, of[p].face + 2, faces[p].face);
@@ -122,14 +123,13 @@ struct Slots
   PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
                   const ContactOptions& options)
   {
-    const PairTables pairs{planes.data(), faces.data(), reinterpret_cast<bool*>(asleep.data()),
-                           nullptr, nullptr};
+    const PairTables pairs{planes.data(), faces.data(), activity.data(), nullptr, nullptr};
     return {pairs, halfStep.data(), laws.data(), options, dt};
   }
 
   std::vector<Plane> planes;
   std::vector<SlotFaces> faces;
-  std::vector<char> asleep;
+  std::vector<Activity> activity;
 };
 } // namespace
 
@@ -164,15 +164,16 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
           irregular +=
               trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
         }
-      const std::vector<char> before = together.asleep;
+      const std::vector<Activity> before = together.activity;
       together.lanes(faces, laws, o).update(0, int(alone.size()));
       for (std::size_t p = 0; p < alone.size(); ++p)
       {
         ASSERT_TRUE(sameBits(alone[p], together.planes[p])) << p << " in cycle " << cycle;
-        woken += before[p] && !together.asleep[p];
+        woken += before[p] == Activity::Asleep && together.activity[p] != Activity::Asleep;
       }
     }
-    EXPECT_GT(std::count(together.asleep.begin(), together.asleep.end(), true), 300);
+    EXPECT_GT(std::count(together.activity.begin(), together.activity.end(), Activity::Asleep),
+              300);
     EXPECT_GT(woken, 10);
     EXPECT_GT(carrying, 5000);
     EXPECT_GT(irregular, 100);

@@ -151,14 +151,14 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
   }
   const Kokkos::View<Plane*, Kokkos::HostSpace> next(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), kept.size());
-  const Array<bool> asleep("coplane::contact::asleep", kept.size());
+  const Array<Activity> activity("coplane::contact::activity", kept.size());
   for (std::size_t i = 0; i < kept.size(); ++i)
   {
     new (&next(i)) Plane(planes_(kept[i]));
-    asleep(i) = asleep_(kept[i]);
+    activity(i) = activity_(kept[i]);
   }
   planes_ = next;
-  asleep_ = asleep;
+  activity_ = activity;
   todo_ = {}; // the search that has to follow tells the pairs anew
 }
 
@@ -167,8 +167,9 @@ void Contact::replaceLocalFaces(std::vector<Face> localFaces)
   localFaces_ = std::move(localFaces);
   // Donors are looked up by places in the new list.
   listPlanesOfFaces(
-      [&](const Plane& plane, int side)
+      [&](std::size_t p, int side)
       {
+        const Plane& plane = planes_(p);
         if (plane.face[side] < 0)
           return -1;
         const auto found =
@@ -181,7 +182,7 @@ void Contact::replaceLocalFaces(std::vector<Face> localFaces)
   facesStart_ = {}; // built anew with the next search
 }
 
-/// Lists of the planes of each local face. `faceOf(plane, side)`: place of a local face; negative
+/// Lists of the planes of each local face. `faceOf(slot, side)`: place of a local face; negative
 /// for other faces and for pairs that are no candidates.
 template <class FaceOf>
 void Contact::listPlanesOfFaces(const FaceOf& faceOf)
@@ -190,7 +191,7 @@ void Contact::listPlanesOfFaces(const FaceOf& faceOf)
   planesStart_ = Array<std::int32_t>("coplane::contact::planesStart", local + 1);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(planes_(p), side); face >= 0)
+      if (const int face = faceOf(p, side); face >= 0)
         ++planesStart_(face + 1);
   for (std::size_t f = 0; f < local; ++f)
     planesStart_(f + 1) += planesStart_(f);
@@ -202,7 +203,7 @@ void Contact::listPlanesOfFaces(const FaceOf& faceOf)
   std::vector<std::int32_t> next(planesStart_.data(), planesStart_.data() + local);
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(planes_(p), side); face >= 0)
+      if (const int face = faceOf(p, side); face >= 0)
         planesEntry_(next[face]++) = std::int32_t(2 * p + side);
 }
 
@@ -213,21 +214,23 @@ void Contact::buildLists(int ownedNodes)
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
   paired_ = Array<bool>("coplane::contact::paired", faces_.size());
   slotFaces_ = decltype(slotFaces_)("coplane::contact::slotFaces", planes_.extent(0));
-  asleep_ = Array<bool>("coplane::contact::asleep", planes_.extent(0));
+  activity_ = Array<Activity>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::activity"),
+                              planes_.extent(0));
+  parallelFor("coplane::contact::slotFaces", int(planes_.extent(0)),
+              [&](const int p)
+              {
+                activity_(p) = activityOf(planes_(p));
+                for (int side = 0; side < 2; ++side)
+                  slotFaces_(p).face[side] = planes_(p).face[side];
+              });
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-  {
-    asleep_(p) = isAsleep(planes_(p));
-    for (int side = 0; side < 2; ++side)
-    {
-      const int face = slotFaces_(p).face[side] = planes_(p).face[side];
+    for (const int face : slotFaces_(p).face)
       if (face >= 0)
         paired_(face) = true;
-    }
-  }
   listPlanesOfFaces(
-      [&](const Plane& plane, int side)
+      [&](std::size_t p, int side)
       {
-        const int face = plane.face[side];
+        const int face = slotFaces_(p).face[side];
         return face >= 0 && faces_[face].local ? face : -1;
       });
   if (facesStart_.extent(0) == std::size_t(ownedNodes) + 1)
@@ -330,7 +333,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& hal
           }
           pairs.prepare(p);
           updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
-          pairs.asleep[p] = isAsleep(plane);
+          pairs.activity[p] = activityOf(plane);
         });
     return;
   }
@@ -352,7 +355,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   stepA(faceTable_, paired_, dimension_, x, v, mass, options_.forces, dt, halfStepFaces_);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
-  const PairTables pairs{planes_.data(), slotFaces_.data(), asleep_.data(), todo_.data(),
+  const PairTables pairs{planes_.data(), slotFaces_.data(), activity_.data(), todo_.data(),
                          preparation_.get()};
   stepsBtoH(pairs, int(planes_.extent(0)), halfStepFaces_, laws_, dimension_, options, dt);
   if (searchedSinceUpdate_ && searches_ > 1)
@@ -378,7 +381,7 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
 void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
 {
   const auto planes = planes_;
-  const auto asleep = asleep_;
+  const auto activity = activity_;
   const auto loads = faceLoads_;
   const auto planesStart = planesStart_, planesEntry = planesEntry_;
   const auto facesStart = facesStart_, facesEntry = facesEntry_;
@@ -389,13 +392,10 @@ void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) cons
         FaceLoad& load = *new (&loads(n)) FaceLoad;
         for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
         {
-          if (i + ahead < entries && !asleep(planesEntry(i + ahead) / 2))
+          if (i + ahead < entries && activity(planesEntry(i + ahead) / 2) == Activity::Loaded)
             prefetch(planes(planesEntry(i + ahead) / 2));
-          if (asleep(planesEntry(i) / 2))
-            continue;
-          const Plane& plane = planes(planesEntry(i) / 2);
-          if (plane.area > 0 || plane.nodeStiffness > 0)
-            load.add(plane, planesEntry(i) % 2);
+          if (activity(planesEntry(i) / 2) == Activity::Loaded)
+            load.add(planes(planesEntry(i) / 2), planesEntry(i) % 2);
         }
       });
   parallelFor(

@@ -175,7 +175,7 @@ private:
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
   Kokkos::View<SlotFaces*, Kokkos::HostSpace> slotFaces_;
-  Array<bool> asleep_;                             ///< planes that isAsleep() holds for
+  Array<Activity> activity_;                       ///< by slot
   std::shared_ptr<const Preparation> preparation_; ///< of the last search
   Array<std::uint8_t> todo_; ///< by slot: what it has not been told yet (Preparation::Todo)
   Array<JointLaw> laws_;     ///< by joint card

@@ -111,7 +111,7 @@ std::vector<Donor> Contact::livingPlanes() const
 {
   std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    if (!asleep_(p) && isDonor(planes_(p)))
+    if (activity_(p) != Activity::Asleep && isDonor(planes_(p)))
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),
@@ -241,7 +241,7 @@ public:
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
     if (contact_.options_.inherit && !plane.isBorn() && !lower.young && !higher.young)
       todo |= Preparation::TakeOver;
-    if (known < 0 || contact_.asleep_(known))
+    if (known < 0 || contact_.activity_(known) == Activity::Asleep)
       return todo;
     preparation_.prepare(slot, todo, plane);
     return 0;

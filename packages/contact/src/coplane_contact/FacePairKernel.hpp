@@ -466,12 +466,14 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
   plane.refusal = Refusal::None;
 }
 
-/// Whether passing by changes nothing more of a pair. Such pairs sleep: only their faces are looked
-/// at until their shadows meet.
-KOKKOS_INLINE_FUNCTION bool isAsleep(const Plane& plane)
+/// Pairs sleep when passing by changes nothing more of them.
+KOKKOS_INLINE_FUNCTION Activity activityOf(const Plane& plane)
 {
-  return !(plane.area > 0) && !(plane.overlap > 0) && !(plane.nodeStiffness > 0) &&
-         plane.sighting == Sighting::Known && !plane.isRefused();
+  if (plane.area > 0 || plane.nodeStiffness > 0)
+    return Activity::Loaded;
+  return !(plane.overlap > 0) && plane.sighting == Sighting::Known && !plane.isRefused()
+             ? Activity::Asleep
+             : Activity::Awake;
 }
 
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.

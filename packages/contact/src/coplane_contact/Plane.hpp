@@ -183,6 +183,14 @@ struct alignas(64) Plane
 };
 static_assert(sizeof(Plane) == 8 * 64, "planes fill the memory bandwidth: whole cache lines");
 
+/// What a cycle has to do with a slot; a table of these is looked through in every cycle.
+enum class Activity : std::uint8_t
+{
+  Awake,  ///< looked at in full
+  Asleep, ///< only its faces are looked at until their shadows meet
+  Loaded  ///< awake, and adds to nodes
+};
+
 /// Positions of the faces of a slot, as in its plane; a table of these is looked through in every
 /// cycle.
 struct SlotFaces

@@ -343,9 +343,7 @@ bool Solver::contactCannotStop() const
 {
   if (!contact_ || 10 * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
-  const StepControl control = stepControl();
-  if (!(TimeStep::motionStep(control.thinnest, searches_.relativeSpeed()) <
-        fasterThanWaves * model_.time.stepFactor * control.stableStep))
+  if (!step_.motionIsFasterThan(fasterThanWaves, searches_.relativeSpeed()))
     return false;
   const ContactCounts counts = contact_->counts();
   return counts.tooDeep > 0 || counts.missed > 0;

@@ -97,6 +97,8 @@ Real stepOfFreeBodies(const Parts& parts)
 Real TimeStep::choose(Real stable, Real thinnest, Real relativeSpeed, const Parts& parts)
 {
   const Clock& clock = parts.clock;
+  stable_ = stable;
+  thinnest_ = thinnest;
   Real step = std::min(options_.stepFactor * stable, motionStep(thinnest, relativeSpeed));
   if (options_.maximumStep)
     step = std::min(step, *options_.maximumStep);

@@ -43,6 +43,12 @@ public:
   /// A bound of the first step, for what looks ahead before it is known, from `elements`, the
   /// stable step of the elements of all ranks [s].
   void boundFirst(Real elements, Real thinnest, Real relativeSpeed);
+  /// Whether the step in which bodies may move, as their faces' motion bounds it, was below this
+  /// part of the stable step chosen from last.
+  bool motionIsFasterThan(Real part, Real relativeSpeed) const
+  {
+    return motionStep(thinnest_, relativeSpeed) < part * options_.stepFactor * stable_;
+  }
   /// Bound for the step after the one in progress [s].
   Real largestNext() const { return largestNext_; }
   StepControl control(const Parts& parts, Real relativeSpeed) const; ///< collective
@@ -72,5 +78,6 @@ private:
   Real contactDamping_;
   StepGrowth growth_;
   Real largestNext_ = 0;
+  Real stable_ = infinity, thinnest_ = infinity; ///< that the last step was chosen from
 };
 } // namespace coplane

@@ -69,17 +69,18 @@ struct PairTables
 {
   Plane* planes;
   const SlotFaces* slots;
-  bool* asleep;
+  Activity* activity;
   Preparation::Todo* todo; ///< null: nothing is left to do
   const Preparation* preparation;
 
+  bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
   /// For a pair that carries nothing and whose shadows share nothing.
   void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
   {
-    if (asleep[p])
+    if (isAsleep(p))
       return;
     coplane::passBy(planes[p], a, b, dt);
-    asleep[p] = true;
+    activity[p] = Activity::Asleep;
   }
   /// Before a pair is evaluated that its faces have just brought near.
   void prepare(int p) const
@@ -100,8 +101,8 @@ class PairLanes
 public:
   PairLanes(const PairTables& pairs, const HalfStepFace* faces, const JointLaw* laws,
             const ContactOptions& options, Real dt)
-      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), asleep_(pairs.asleep),
-        faces_(faces), laws_(laws), options_(options), leastOpposed_(leastOpposed(options)), dt_(dt)
+      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), faces_(faces), laws_(laws),
+        options_(options), leastOpposed_(leastOpposed(options)), dt_(dt)
   {
   }
 
@@ -114,10 +115,10 @@ public:
         continue;
       const HalfStepFace &a = face(p, 0), &b = face(p, 1);
       // Edge neighbours at a right angle, say.
-      if (asleep_[p] && !(-dot(a.normal, b.normal) > leastOpposed_))
+      if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
         continue;
       const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
-      if (!asleep_[p] && planes_[p].area > 0) // it met in the last cycle
+      if (!pairs_.isAsleep(p) && planes_[p].area > 0) // it met in the last cycle
         put(p, kind);
       else if (toJudge_[kind].add(p))
         judge(kind);
@@ -149,7 +150,7 @@ private:
   void prefetchAhead(int p, int last) const
   {
     constexpr int planesAhead = 16, facesAhead = 8;
-    if (p + planesAhead < last && !asleep_[p + planesAhead])
+    if (p + planesAhead < last && !pairs_.isAsleep(p + planesAhead))
       prefetch(planes_[p + planesAhead]);
     if (p + facesAhead < last && slots_[p + facesAhead].face[1] >= 0)
       prefetch(face(p + facesAhead, 1));
@@ -224,14 +225,13 @@ private:
         updateByForces<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
                           *batch.law[i], options_, dt_);
     for (int i = 0; i < queue.count; ++i)
-      asleep_[queue.plane[i]] = isAsleep(*batch.plane[i]);
+      pairs_.activity[queue.plane[i]] = activityOf(*batch.plane[i]);
     queue.count = 0;
   }
 
   const PairTables pairs_;
   Plane* planes_;
   const SlotFaces* slots_;
-  bool* asleep_;
   const HalfStepFace* faces_;
   const JointLaw* laws_;
   const ContactOptions& options_;
