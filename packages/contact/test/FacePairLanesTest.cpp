@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <numeric>
 #include <random>
@@ -123,13 +124,15 @@ struct Slots
   PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
                   const ContactOptions& options)
   {
-    const PairTables pairs{planes.data(), faces.data(), activity.data(), nullptr, nullptr};
+    const PairTables pairs{planes.data(), faces.data(), activity.data(),
+                           nullptr,       nullptr,      &changed};
     return {pairs, halfStep.data(), laws.data(), options, dt};
   }
 
   std::vector<Plane> planes;
   std::vector<SlotFaces> faces;
   std::vector<Activity> activity;
+  std::atomic<bool> changed{false};
 };
 } // namespace
 

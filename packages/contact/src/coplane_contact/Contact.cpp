@@ -332,8 +332,9 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& hal
             return;
           }
           pairs.prepare(p);
+          const auto before = pairs.passedBy(p);
           updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
-          pairs.activity[p] = activityOf(plane);
+          pairs.book(p, before);
         });
     return;
   }
@@ -355,8 +356,8 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   stepA(faceTable_, paired_, dimension_, x, v, mass, options_.forces, dt, halfStepFaces_);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
-  const PairTables pairs{planes_.data(), slotFaces_.data(), activity_.data(), todo_.data(),
-                         preparation_.get()};
+  const PairTables pairs{planes_.data(), slotFaces_.data(),  activity_.data(),
+                         todo_.data(),   preparation_.get(), &passedOnHasChanged_};
   stepsBtoH(pairs, int(planes_.extent(0)), halfStepFaces_, laws_, dimension_, options, dt);
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)

@@ -13,6 +13,7 @@
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -100,6 +101,9 @@ public:
   Real thinnestElement() const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
+  /// Whether since the last search planes of this rank have changed what pairs that take over from
+  /// them may not have from that search: where their surfaces are, and whether they are bonded.
+  bool passedOnHasChanged() const { return passedOnHasChanged_; }
   std::int64_t searches() const { return searches_; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
   double takeSearchSeconds() { return std::exchange(searchSeconds_, 0.0); }
@@ -172,6 +176,7 @@ private:
   std::int64_t missed_ = 0;
   double searchSeconds_ = 0;
   bool searchedSinceUpdate_ = false;
+  std::atomic<bool> passedOnHasChanged_{false};
 
   Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
   Kokkos::View<SlotFaces*, Kokkos::HostSpace> slotFaces_;

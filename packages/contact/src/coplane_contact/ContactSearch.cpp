@@ -307,6 +307,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   if (!again)
     ++searches_;
   searchedSinceUpdate_ = true;
+  passedOnHasChanged_ = false;
 }
 
 void Contact::prepareAll() const

@@ -75,7 +75,7 @@ struct Model
   /// Contact groups of faces that are not in the group of their block, by face id, sorted.
   std::vector<std::pair<GlobalId, int>> faceGroups;
   std::optional<Real> skin; ///< [m]
-  int searchEvery = 4;      ///< cycles; 0: once, -1: auto
+  int searchEvery = -1;     ///< cycles; 0: once, -1: auto
   Conditions conditions;
   TimeOptions time;
 };

@@ -57,6 +57,7 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
     }
   std::vector<Real> range(way.bounds.begin(), way.bounds.end());
   range.insert(range.end(), velocity.bounds.begin(), velocity.bounds.end());
+  range.push_back(parts.contact && parts.contact->passedOnHasChanged());
   range.push_back(trouble);
   parts.comm.max(range);
   if (range.back() > 0)
@@ -65,7 +66,10 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
     return false;
   relativeSpeed_ = diagonal(&range[6]);
   const Real skin = parts.contact->skin();
-  isDue_ = every_ > 0 && (clock.cycle + 1) % every_ == 0;
+  passedOnHasChanged_ = passedOnHasChanged_ || range[12] > 0;
+  const int every = every_ == automatic ? mostOften : every_;
+  isDue_ =
+      every > 0 && (clock.cycle + 1) % every == 0 && (every_ != automatic || passedOnHasChanged_);
   for (int axis = 0; axis < 3; ++axis)
   {
     const Real moved = range[axis] + range[3 + axis];

@@ -86,10 +86,11 @@ Key contactKeys()
           .oneOf({"once", "auto"}) // 0 and -1
           .in("cycles")
           .like("2")
-          .defaultIs(fmt::format("{}", ContactCard{}.searchEvery))
-          .means("largest number of cycles between searches; auto: only when faces have moved so "
-                 "far that a contact might be missed; once: the same with a larger skin, for "
-                 "contacts that stay what they are");
+          .defaultIs("auto")
+          .means("largest number of cycles between searches; auto: when faces have moved so far "
+                 "that a contact might be missed, or surfaces of contact have (every fourth "
+                 "cycle); once: only for the first reason and with a larger skin, for contacts "
+                 "that stay what they are");
   return group(
              "contact", &Deck::contact,
              {

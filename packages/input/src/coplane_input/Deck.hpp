@@ -101,7 +101,7 @@ struct ContactCard
   Real depthMax = 0.6;
   Real areaMin = 1e-8;
   std::optional<Real> skin; ///< [m]; default 0.1 (once: 0.5) of the smallest face size
-  int searchEvery = 4;      ///< cycles; 0 means once, -1 auto
+  int searchEvery = -1;     ///< cycles; 0 means once, -1 auto
   Real dampNormal = 0;      ///< fraction of critical [-]
   Real dampShear = 0;
   std::string defaultJoint; ///< empty: built-in penalty law without friction

@@ -4,6 +4,8 @@
 #include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
+#include <atomic>
+
 // Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
 // the bits of the scalar functions, whichever others share its lanes.
 
@@ -72,6 +74,24 @@ struct PairTables
   Activity* activity;
   Preparation::Todo* todo; ///< null: nothing is left to do
   const Preparation* preparation;
+  std::atomic<bool>* passed; ///< gets true when what a plane passes on is something else now
+
+  /// Of a plane that passes on something, what other pairs would be wrong by if they had it from
+  /// before: where its surface is, and whether it is bonded.
+  struct Passed
+  {
+    Real offset;
+    bool bonded;
+    bool operator!=(const Passed& o) const { return offset != o.offset || bonded != o.bonded; }
+  };
+  Passed passedBy(int p) const { return {planes[p].offset, planes[p].history.bonded}; }
+  /// After a pair has been evaluated; `before`: passedBy() before that.
+  void book(int p, const Passed& before) const
+  {
+    activity[p] = activityOf(planes[p]);
+    if (passedBy(p) != before)
+      passed->store(true, std::memory_order_relaxed);
+  }
 
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
   /// For a pair that carries nothing and whose shadows share nothing.
@@ -219,13 +239,16 @@ private:
       batch.law[i] = &laws_[batch.plane[i]->joint];
     }
     gatherFaces<true>(queue);
+    PairTables::Passed before[laneCount];
+    for (int i = 0; i < queue.count; ++i)
+      before[i] = pairs_.passedBy(queue.plane[i]);
     const LaneMask done = updateByForces<3, Lanes>(batch, a_, b_, options_, dt_);
     for (int i = 0; i < queue.count; ++i)
       if (!done[i])
         updateByForces<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
                           *batch.law[i], options_, dt_);
     for (int i = 0; i < queue.count; ++i)
-      pairs_.activity[queue.plane[i]] = activityOf(*batch.plane[i]);
+      pairs_.book(queue.plane[i], before[i]);
     queue.count = 0;
   }
 
