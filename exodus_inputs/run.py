@@ -86,19 +86,10 @@ def read_example(name):
 
 
 def change(document, path, value):
-    """document.a.1.b = value; null takes the key out."""
-    *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
-    for key in parents:
-        try:
-            document = document.setdefault(key, {}) if isinstance(document, dict) else document[key]
-        except (IndexError, TypeError):
-            fail(f"{path} leads nowhere: there is no '{key}'.")
-    if value is None and isinstance(document, dict):
-        document.pop(last, None)
-    elif isinstance(document, list) and last == len(document):
-        document.append(value)
-    else:
-        document[last] = value
+    try:
+        documents.change(document, path, value)
+    except KeyError as error:
+        fail(error.args[0])
 
 
 class OwnFiles:
@@ -179,7 +170,7 @@ class ExampleRun:
             path, equals, value = text.partition("=")
             if not equals:
                 fail(f"--set {text}: KEY=VALUE is accepted, for instance time.end=1e-3.")
-            change(self.deck, path, documents.value(value))
+            change(self.deck, path, documents.parse(value))
         self.deck["mesh"] = "mesh.e"
         self.deck.setdefault("output", {}).pop("results", None)
         self.deck.setdefault("history", {}).pop("file", None)
@@ -251,14 +242,15 @@ class ExampleRun:
         before = self.own.there()
         self.say(f"making the mesh in {self.folder}")
         whole = "whole.e" if self.joints is not None else "mesh.e"
-        program.make_mesh(str(self.folder / "mesh.yaml"), str(self.folder / whole))
-        if self.joints is not None:
-            program.split_mesh(str(self.folder / whole), str(self.folder / "joints.yaml"), str(self.folder / "mesh.e"))
+        try:
+            program.make_mesh(self.folder / "mesh.yaml", self.folder / whole)
+            if self.joints is not None:
+                program.split_mesh(self.folder / whole, self.folder / "joints.yaml", self.folder / "mesh.e")
+        except program.ProgramFailed as error:
+            fail(error)
         (self.folder / "example.json").write_text(json.dumps(
             {"example": self.name, "size": self.size, "variant": self.variant, "ranks": self.ranks}))
-        command = [program.binary("coplane"), "run.yaml", "--backend", "serial"]
-        if self.ranks > 1:
-            command = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(self.ranks), "--bind-to", "none"] + command
+        command = program.command(["run.yaml", "--backend", "serial"], self.ranks)
         self.say("running: " + " ".join(command))
         start = time.monotonic()
         code = self.call(command, "run.log")

@@ -268,6 +268,11 @@ def check_install():
     version = run([str(prefix / "bin/coplane"), "--version"])
     assert version.returncode == 0 and version.stdout.startswith("coplane "), version.stdout
 
+    # The Python package and its programs, from there.
+    done = run([sys.executable, "-c", "import coplane; print(coplane.__file__, coplane.program.binary('coplane'), coplane.program.schema('deck').exists())"],
+               env=dict(os.environ, PYTHONPATH=str(prefix / "share/coplane/python"), COPLANE_BIN=""))
+    assert done.stdout.split() == [str(prefix / "share/coplane/python/coplane/__init__.py"), str(prefix / "bin/coplane"), "True"], done.stdout
+
     # An example runs and is checked with what is installed: the programs, run.py and its modules.
     shutil.rmtree("coplane-examples", ignore_errors=True)
     alone = {name: value for name, value in os.environ.items() if name not in ("COPLANE_BIN", "COPLANE_SOURCE", "PYTHONPATH")}

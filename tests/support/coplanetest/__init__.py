@@ -1,5 +1,5 @@
 """Whole-program tests of Coplane: cases, conservation, the same problem told otherwise. Decks, runs and results are those of
-exodus_inputs/coplanetools, which examples use as well.
+the package coplane and of exodus_inputs/coplanetools, which examples use as well.
 """
 
 import pathlib

@@ -1,0 +1,59 @@
+"""History and tables: CSV files whose header names columns with units, as `kinetic[J]`."""
+
+import csv
+import re
+
+import numpy
+
+from .needs import needs
+
+
+def split(header):
+    """Name and unit of a column; the unit is empty where the header has none."""
+    found = re.fullmatch(r"(.*)\[([^\[\]]*)\]", header)
+    return (found.group(1), found.group(2)) if found else (header, "")
+
+
+def rows(path):
+    """Header and complete lines. A last line without its end is still being written, or was cut off, and is left out."""
+    with open(path, newline="") as file:
+        text = file.read()
+    lines = list(csv.reader(text[: text.rfind("\n") + 1].splitlines(keepends=True)))
+    if not lines:
+        raise ValueError(f"{path}: has no complete line; a history begins with a line that names its columns.")
+    header = lines[0]
+    for number, line in enumerate(lines[1:], start=2):
+        if len(line) != len(header):
+            raise ValueError(f"{path}:{number}: has {len(line)} values; the header names {len(header)} columns. The file is damaged there: "
+                             "cut the line off, or restart the run from a checkpoint, which writes it anew.")  # fmt: skip
+    return header, lines[1:]
+
+
+def columns(path):
+    """Arrays by name without unit: numbers, or texts where a column has any."""
+    header, lines = rows(path)
+    found = {}
+    for name, values in zip(header, zip(*lines) if lines else [()] * len(header)):
+        try:
+            found[split(name)[0]] = numpy.array(values, float)
+        except ValueError:
+            found[split(name)[0]] = numpy.array(values, object)
+    return found
+
+
+def units(path):
+    """Units by name of column, of those that have one."""
+    with open(path, newline="") as file:
+        named = map(split, next(csv.reader(file), []))
+        return {name: unit for name, unit in named if unit}
+
+
+def frame(path, index="time"):
+    """A pandas DataFrame with the times [s] as its index, where the file has them; units are in `attrs["units"]`."""
+    table = needs("pandas", "A table").DataFrame(columns(path))
+    for name in {"cycle", "planes", "searches"} & set(table):
+        table[name] = table[name].astype(int)
+    if index in table:
+        table = table.set_index(index)
+    table.attrs["units"] = units(path)
+    return table
