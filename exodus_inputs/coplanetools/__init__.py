@@ -9,7 +9,7 @@ import sys
 _TOP = pathlib.Path(__file__).resolve().parents[2]
 sys.path.append(str(_TOP / "packages/python" if (_TOP / "packages").is_dir() else _TOP / "python"))
 
-from coplane import documents, program  # noqa: E402
+from coplane import documents, program, tables  # noqa: E402
 from coplane.exodus import Results, differences, series_differences  # noqa: E402
 from coplane.planes import planes  # noqa: E402
 
@@ -17,4 +17,4 @@ from . import waves  # noqa: E402
 from .ended import EndedRun  # noqa: E402
 from .example import Example  # noqa: E402
 
-__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "planes", "program", "series_differences", "waves"]
+__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "planes", "program", "series_differences", "tables", "waves"]

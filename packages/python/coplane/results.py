@@ -150,7 +150,7 @@ class Run:
 
     @property
     def probe_names(self):
-        return [name for name in self.groups(_MOTION) if name not in self.groups(_BODY)]
+        return [name for name in self.groups(_MOTION) if name not in self.body_names]
 
     @property
     def probes(self):
@@ -167,9 +167,13 @@ class Run:
         return self._of(self.joint_names, _JOINT)
 
     @property
+    def body_names(self):
+        return self.groups(_BODY)
+
+    @property
     def bodies(self):
         """Motion, spin and reactions of every body of `history.rigid`, as DataFrames."""
-        return self._of(self.groups(_BODY), _BODY)
+        return self._of(self.body_names, _BODY)
 
     @property
     def _results_name(self):
