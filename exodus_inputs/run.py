@@ -13,6 +13,7 @@ coplane-examples, in the working folder),
     mesh.yaml, mesh.e    the recipe with all changes, and its mesh
     run.yaml             the deck with all changes
     run.log, run.e, run_planes.pvd, run.csv, run.run.json     what coplane writes
+    run-report.html      all of it on one page (coplane report)
     pictures/            what the example's pictures.py draws with ParaView
     checks.jsonl         what the example's check.py found
     written.json         the list of all these: nothing else in the folder is ever removed or overwritten
@@ -43,6 +44,7 @@ PARAVIEW = TOP / "paraview" if IS_INSTALLED else TOP / "apps/coplane/paraview"
 sys.dont_write_bytecode = True
 try:
     from coplanetools import documents, program
+    from coplane import report
 except ImportError as error:
     sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
 
@@ -223,7 +225,7 @@ class ExampleRun:
         self.results = ["run.csv", "run.run.json"] + [f"run_{table}.csv" for table in history.get("tables") or []]
         self.results += [] if (self.deck.get("output") or {}).get("results") == "none" else ["run.e"]
         made = ["mesh.yaml", "run.yaml", "mesh.e", "example.json", "run.log", "done", "pictures.done", "pictures.log", "checks.jsonl",
-                "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
+                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
         if self.joints is not None:
             made += ["joints.yaml", "whole.e"]
         self.own.claim(made, self.overwrite)
@@ -256,6 +258,7 @@ class ExampleRun:
         code = self.call(command, "run.log")
         self.own.claim(self.new_files(before), overwrite=True)
         if code:
+            self.report()
             fail(f"coplane ended with exit code {code}; see {self.folder}/run.log and docs/user/exit-codes.md.")
         self.say(f"computed in {time.monotonic() - start:.0f} s")
         (self.folder / "done").write_text(self.run_key)
@@ -290,6 +293,13 @@ class ExampleRun:
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")
 
+    def report(self):
+        """The page of the run; what has been computed is worth as much without it."""
+        try:
+            self.say(f"report: {report.make(self.folder / 'run', pictures=False)}")
+        except Exception as error:  # noqa: BLE001 (whatever it is)
+            self.say(f"no report: {error}")
+
     def check(self):
         """The example's own check.py on the results; returns whether all is well."""
         script = INPUTS / self.name / self.example.get("check", "check.py")
@@ -321,6 +331,7 @@ def main():
             well = run.check() and well
         if not options.no_pictures:
             run.draw()
+        run.report()
     summary = INPUTS / name / example.get("summary", "summary.py")
     if summary.exists() and not options.no_check:
         well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well

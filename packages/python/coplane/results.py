@@ -18,6 +18,10 @@ _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
 _ENDS = (".run.json", ".csv", ".e", ".yaml", ".log", "_planes.pvd")
 
 
+class NoRun(FileNotFoundError):
+    """There is no run of a name, or more than one in a folder."""
+
+
 def _stems(folder):
     """Names of the runs in a folder: of their records."""
     names = [_RECORD.fullmatch(path.name) for path in folder.iterdir()] if folder.is_dir() else []
@@ -33,13 +37,13 @@ def _place(path):
             return path, stems[0]
         many = f"has several runs; open one of {', '.join(str(path / stem) for stem in stems)}" if stems else \
             "has no record of a run (<name>.run.json) and no history beside its deck"
-        raise FileNotFoundError(f"{path}: the folder {many}.")
+        raise NoRun(f"{path}: the folder {many}.")
     stem = next((path.name[: -len(end)] for end in _ENDS if path.name.endswith(end) and path.exists()), path.name)
     if not any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e")):
         there = _stems(path.parent)
         also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
             "Give the name of its deck without .yaml, with the folder in which it ran."
-        raise FileNotFoundError(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. {also}")
+        raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. {also}")
     return path.parent, stem
 
 
