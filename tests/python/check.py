@@ -6,6 +6,7 @@ import pathlib
 import re
 import subprocess
 import sys
+import time
 
 import netCDF4
 import numpy
@@ -134,7 +135,8 @@ told("no such value", KeyError, lambda: opened["conditions.9.type"], "conditions
 checked = coplane.Deck.read("straight/run.yaml")
 case.check_equal("check: prints the model", "deck and mesh are fine" in checked.check(), True)
 checked["contact.skn"] = 1
-told("a wrong key", coplane.DeckError, checked.check, "contact", "'skn'", "straight/run.yaml")
+place = 1 + pathlib.Path("straight/run.yaml").read_text().splitlines().index("contact:")
+told("a wrong key", coplane.DeckError, checked.check, "'skn'", f"straight/run.yaml:{place}: contact: ")
 del checked["contact.skn"]
 checked["blocks.rok"] = checked["blocks.rock"]
 told("a wrong name", coplane.DeckError, checked.check, "'rok'", "Did you mean 'rock'?", "straight/run.yaml:")
@@ -149,6 +151,11 @@ started = coplane.run(checked, "watched", ranks=2, wait=False)
 seen = [line["time"] for line in coplane.watch(started, 0.05)]
 case.check_equal("watched: ending", started.wait().ending, "completed")
 equal("watched: times", seen, coplane.open("watched").history.index)
+followed = coplane.run(checked, "followed", wait=False)
+while not followed.path(".csv").exists():
+    time.sleep(0.01)
+seen = [line["cycle"] for line in coplane.watch("followed/run", 0.05)]
+equal("watched by its name: cycles", seen, followed.wait().history.cycle)
 table = coplane.study(checked, {"time.end": [5e-4, 1e-3], "time.step_factor": [0.5, 2]}, "study")
 case.check_equal("study: codes", list(table.code), [0, 3, 0, 3])
 case.check_equal("study: values", list(table["time.step_factor"]), [0.5, 2, 0.5, 2])

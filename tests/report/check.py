@@ -41,7 +41,7 @@ class Taken:
     def __init__(self, path):
         self.html = pathlib.Path(path).read_text()
         self.figures = json.loads(re.search(r'id="figures">(.*?)</script>', self.html, flags=re.S).group(1))
-        titles = re.findall(r'<h3>([^<]*)</h3><div class="plot[^"]*" id="(plot\d+)">', self.html)
+        titles = re.findall(r'<h3>([^<]*)</h3><div class="plot"[^>]* id="(plot\d+)">', self.html)
         self.titled = {html.unescape(title): self.figures[name] for title, name in titles}
         body = re.sub(r"<(script|style).*?</\1>", "", self.html, flags=re.S)
         self.text = html.unescape(re.sub(r"<[^>]+>", " ", body))
@@ -201,6 +201,9 @@ says("with a damaged history", Taken("less/run-report.html"), "run.csv:10: has")
 pathlib.Path("less/run.csv").write_text(lines[0])
 made("less/run.csv", "--no-pictures")
 says("with an empty history", Taken("less/run-report.html"), "has no line yet")
+pathlib.Path("less/run.run.json").write_text('{"ending": ')
+code, said = made("less/run.csv", "--no-pictures")
+case.check_equal("a damaged record", (code, "less/run.run.json: the record is damaged" in said), (2, True))
 code, said = made("less/rum")
 case.check_equal("no such run", (code, "ERROR: less/rum: there is no run of this name" in said), (2, True))
 pathlib.Path("mine.html").write_text("mine")

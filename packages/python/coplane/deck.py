@@ -87,10 +87,20 @@ class Deck:
         self.path = pathlib.Path(path)
 
     def schema_errors(self):
-        """What the JSON Schema of decks finds, a line each: path, and what is wrong there."""
+        """What the JSON Schema of decks finds, each with its line, the path of the value, and what is wrong there."""
         validator = needs("jsonschema", "Checking a deck against its schema").Draft7Validator(documents.load(program.schema("deck")))
         plain = documents.parse(self.text)  # as Coplane reads it: numbers such as 5e10 are none to every reader of YAML
-        return [f"{'.'.join(map(str, error.absolute_path)) or 'deck'}: {error.message}" for error in validator.iter_errors(plain)]
+        return [f"{self.line(error.absolute_path)}: {'.'.join(map(str, error.absolute_path)) or 'deck'}: {error.message}" for error in validator.iter_errors(plain)]
+
+    def line(self, keys):
+        """Number of the line, from 1, on which the value that these keys lead to begins in the file that was read; of a new one: that of the group
+        around it."""
+        document, line = self.document, 0
+        for key in keys:
+            if getattr(document, "lc", None) and key in (document.lc.data or {}):
+                line = document.lc.data[key][0]
+            document = document[key]
+        return line + 1
 
     def check(self):
         """What `coplane --check` prints: masses, step, contact before the first step. DeckError with every fault that the schema or the
@@ -99,7 +109,7 @@ class Deck:
         name = self.path or "deck"
         errors = self.schema_errors()
         if errors:
-            raise DeckError("\n".join(f"{name}: {error}" for error in errors))
+            raise DeckError("\n".join(f"{name}:{error}" for error in errors))
         # Beside the deck, because names of files in it begin there.
         with tempfile.NamedTemporaryFile("w", dir=self.folder, prefix=".check-", suffix=".yaml") as file:
             file.write(self.text)

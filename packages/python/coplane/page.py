@@ -16,9 +16,9 @@ STYLE = """
 body{margin:0 auto;max-width:1500px;padding:0 12px 40px;font:15px/1.45 system-ui,sans-serif;color:#222;background:#fff}
 h1{font-size:1.5em;margin:.7em 0 .1em}h2{font-size:1.2em;margin:1.6em 0 .4em;border-bottom:1px solid #ddd}h3{font-size:1em;margin:.2em 0}
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr));gap:14px}.grid>*{min-width:0}
-.plot{height:310px}.tall{height:440px}.wide{overflow-x:auto}
+.wide{overflow-x:auto}
 table{border-collapse:collapse;font-size:.92em}td,th{padding:2px 10px 2px 0;text-align:left;vertical-align:top;overflow-wrap:anywhere}
-th{font-weight:600}td.n{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
+th{font-weight:600}td.n,td.ok,td.look{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
 .ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
 """
@@ -95,10 +95,11 @@ class Page:
         name = f"plot{len(self.figures)}"
         axis = {"gridcolor": "#eee", "zerolinecolor": "#ccc", "exponentformat": "power", "automargin": True}
         self.figures[name] = {"data": traces, "layout": {
-            "margin": {"l": 55, "r": 10, "t": 28, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": True,
-            "legend": {"orientation": "h", "y": -0.22, "font": {"size": 11}}, "plot_bgcolor": "#fff", "paper_bgcolor": "#fff", "autosize": True,
+            "margin": {"l": 55, "r": 10, "t": 30, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": True,
+            "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "font": {"size": 11}}, "plot_bgcolor": "#fff", "paper_bgcolor": "#fff", "autosize": True,
             "xaxis": {**axis, "title": {"text": x}}, "yaxis": {**axis, "title": {"text": y}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
-        return f'<div><h3>{escape(title)}</h3><div class="plot{" tall" if tall else ""}" id="{name}"></div></div>'
+        height = 440 if tall else 300 + 10 * max(0, len(traces) - 4)  # room for a long legend
+        return f'<div><h3>{escape(title)}</h3><div class="plot" style="height:{height}px" id="{name}"></div></div>'
 
     def grid(self, *parts):
         self.add('<div class="grid">', *(part for part in parts if part), "</div>")

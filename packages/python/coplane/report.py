@@ -305,7 +305,7 @@ class Report:
             x, y = float(a.columns[name][-1]), float(b.columns[name][-1])
             if x != y:
                 unit = a.units.get(name)
-                rows.append([name + (f" [{unit}]" if unit else ""), x, y, y - x, f"{(y - x) / abs(x):+.3%}" if 0 < abs(y - x) < 10 * abs(x) else ""])
+                rows.append([name + (f" [{unit}]" if unit else ""), x, y, y - x, f"{100 * (y - x) / abs(x):+.3g} %" if 0 < abs(y - x) < 10 * abs(x) else ""])
         if a.columns["time"][-1] != b.columns["time"][-1]:
             self.page.note("The runs ended at different times: final values are not those of one time.")
         self.page.add(f"<p>{len(shared) - len(rows)} of {len(shared)} final values are equal.</p>")
@@ -385,7 +385,7 @@ def main():
     options = parser.parse_args()
     try:
         print(make(options.run, options.output, options.compare, not options.no_pictures))
-    except (NoRun, ImportError) as error:
+    except (NoRun, ImportError, ValueError) as error:
         print(f"ERROR: {error}", file=sys.stderr)
         sys.exit(2)
     except OSError as error:

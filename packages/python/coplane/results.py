@@ -71,7 +71,10 @@ class Run:
         for path in self.folder.glob("*.json"):
             name = _RECORD.fullmatch(path.name)
             if name and name.group(1) == self.name:
-                found.append((int(name.group(2) or 1), json.loads(path.read_text())))
+                try:
+                    found.append((int(name.group(2) or 1), json.loads(path.read_text())))
+                except ValueError as error:
+                    raise ValueError(f"{path}: the record is damaged, no JSON: {error}. Without the file the rest of the run can be opened.") from error
         records = [record for _, record in sorted(found, key=lambda item: item[0])]
         return [record for record in records if record.get("run") == records[0].get("run")]
 
