@@ -7,7 +7,7 @@ import sys
 
 # Of the source tree (packages/python), or of PREFIX/share/coplane (python).
 _TOP = pathlib.Path(__file__).resolve().parents[2]
-sys.path.append(str(_TOP / "packages/python" if (_TOP / "packages").is_dir() else _TOP / "python"))
+sys.path.insert(0, str(_TOP / "packages/python" if (_TOP / "packages").is_dir() else _TOP / "python"))
 
 from coplane import documents, program, tables  # noqa: E402
 from coplane.exodus import Results, differences, series_differences  # noqa: E402

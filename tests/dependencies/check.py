@@ -169,7 +169,7 @@ def check_python(wrong):
             where = f"{path.relative_to(SOURCE)}:{getattr(node, 'lineno', 0)}"
             wrong += [f"{where}: imports {name}: use needs(), or ask for it in pyproject.toml and always" for name in names
                       if name.split(".")[0] not in always | sys.stdlib_module_names]  # fmt: skip
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "needs" and node.args[0].value not in optional:
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "needs" and not {node.args[0].value, node.args[0].value.split(".")[0]} & optional:
                 wrong.append(f"{where}: needs.py does not know {node.args[0].value}")
 
 

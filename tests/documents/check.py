@@ -282,6 +282,8 @@ def check_install():
     assert str(SOURCE) not in done.stdout.replace(os.getcwd(), ""), done.stdout[-3000:]
     checks = pathlib.Path("coplane-examples/rocking_block_2d/coarse/checks.jsonl").read_text().splitlines()
     assert checks and all(json.loads(line)["passed"] for line in checks), checks
+    done = run([str(prefix / "bin/coplane"), "report", "coplane-examples/rocking_block_2d/coarse", "--no-pictures", "-o", "installed.html"], env=alone)
+    assert done.returncode == 0 and pathlib.Path("installed.html").stat().st_size > 1e6, done.stdout
 
 
 if __name__ == "__main__":

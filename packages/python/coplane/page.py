@@ -30,7 +30,7 @@ SCRIPT = """
     const text=await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).text();
     const script=document.createElement('script');script.textContent=text;document.head.appendChild(script);
     const figures=JSON.parse(document.getElementById('figures').textContent);
-    const draw=d=>{const f=figures[d.id];Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:innerWidth>700?'hover':false})};
+    const draw=d=>{const f=figures[d.id];Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:false})};
     for(const d of document.querySelectorAll('.plot'))draw(d);
     document.body.dataset.drawn=document.querySelectorAll('.plot .main-svg').length?'yes':'no';
   }catch(e){say('The plots need a browser of 2023 or later: '+e)}
@@ -97,7 +97,7 @@ class Page:
         self.figures[name] = {"data": traces, "layout": {
             "margin": {"l": 55, "r": 10, "t": 30, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": True,
             "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "font": {"size": 11}}, "plot_bgcolor": "#fff", "paper_bgcolor": "#fff", "autosize": True,
-            "xaxis": {**axis, "title": {"text": x}}, "yaxis": {**axis, "title": {"text": y}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
+            "xaxis": {**axis, "title": {"text": x, "standoff": 6}}, "yaxis": {**axis, "title": {"text": y, "standoff": 6}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
         height = 440 if tall else 300 + 10 * max(0, len(traces) - 4)  # room for a long legend
         return f'<div><h3>{escape(title)}</h3><div class="plot" style="height:{height}px" id="{name}"></div></div>'
 

@@ -166,23 +166,28 @@ class Report:
     def contact(self):
         for run in self.runs:
             has(run, "time", *CONTACT)
-        parts = []
-        for which, run in enumerate(self.runs):
-            if run.path("_pairs.csv").exists():
-                parts.append(self.page.plot(f"Remainder by pairs of blocks{self.of(which)}", self.by_pairs(run), "J; positive: lost"))
-        self.page.grid(self.curves("Energies of contact", CONTACT[:-1], "J"), self.curves("Contact remainder", CONTACT[-1:], "J; positive: lost"), *parts)
-        if not parts:
+        pairs = [self.remainders(run) for run in self.runs]
+        most = {key: max(abs(of[key][1]).max() for of in pairs if key in of) for of in pairs for key in of}
+        colors = dict(zip(sorted(most, key=most.get, reverse=True), COLORS))
+        traces = [curve(*of[key], "{} – {}, {}".format(*key) + self.of(which), color, dash=which > 0)
+                  for which, of in enumerate(pairs) for key, color in colors.items() if key in of]  # fmt: skip
+        self.page.grid(self.curves("Energies of contact", CONTACT[:-1], "J"), self.curves("Contact remainder", CONTACT[-1:], "J; positive: lost"),
+                       traces and self.page.plot("Remainder by pairs of blocks", traces, "J; positive: lost"))  # fmt: skip
+        if len(most) > len(colors):
+            self.page.note(f"Of {len(most)} pairs those with the {len(colors)} largest remainders are drawn.")
+        if not traces:
             self.page.note("history.tables: [pairs] in the deck gives the remainder by pairs of blocks and joints.")
 
     @staticmethod
-    def by_pairs(run):
+    def remainders(run):
+        """Times and remainders by two blocks and a joint."""
+        if not run.path("_pairs.csv").exists():
+            return {}
         found = tables.columns(run.path("_pairs.csv"))
-        keys = list(zip(*(found[name] for name in ("block_a", "block_b", "joint"))))
-        kinds = {}
-        for place, key in enumerate(keys):
-            kinds.setdefault(key, []).append(place)
-        most = sorted(kinds, key=lambda key: -abs(found["remainder"][kinds[key]]).max())[: len(COLORS)]
-        return [curve(found["time"][kinds[key]], found["remainder"][kinds[key]], "{} – {}, {}".format(*key), color) for key, color in zip(most, COLORS)]
+        places = {}
+        for place, key in enumerate(zip(*(found[name] for name in ("block_a", "block_b", "joint")))):
+            places.setdefault(key, []).append(place)
+        return {key: (found["time"][where], found["remainder"][where]) for key, where in places.items()}
 
     def momenta(self):
         axes = [f"{name}_{axis}" for name in ("momentum", "impulse") for axis in "xyz"]

@@ -76,14 +76,10 @@ def watch(run, every=1.0):
     the last one of the run. Looks again after `every` seconds.
     """
     run = run if isinstance(run, Run) else Run(run)
-    path, seen = run.path(".csv"), 0
+    tail = tables.Tail(run.path(".csv"))
     while True:
-        ended = not run.is_running  # asked first: what is written after that is read in the next round
-        header, lines = tables.rows(path) if path.exists() and path.stat().st_size else ([], [])
-        names = [tables.split(name)[0] for name in header]
-        for line in lines[seen:]:
-            yield dict(zip(names, map(float, line)))
-        seen = max(seen, len(lines))
+        ended = not run.is_running  # asked first: all that it has written is read then
+        yield from tail.lines()
         if ended:
             return
         time.sleep(every)

@@ -2,6 +2,7 @@
 
 import csv
 import re
+import warnings
 
 import numpy
 
@@ -29,8 +30,46 @@ def rows(path):
     return header, lines[1:]
 
 
+class Tail:
+    """New lines of a file that grows."""
+
+    def __init__(self, path):
+        self.path, self.offset, self.names = path, 0, None
+
+    def lines(self):
+        """Those that were completed since the last call, as dicts of numbers by name of column."""
+        try:
+            with open(self.path, "rb") as file:
+                file.seek(self.offset)
+                text = file.read()
+        except FileNotFoundError:
+            return []
+        text = text[: text.rfind(b"\n") + 1]
+        self.offset += len(text)
+        lines = list(csv.reader(text.decode().splitlines(keepends=True)))
+        if lines and self.names is None:
+            self.names = [split(name)[0] for name in lines.pop(0)]
+        return [dict(zip(self.names, map(float, line))) for line in lines]
+
+
+def _numbers(path):
+    """Header and numbers (line, column) of a file that has nothing else, without a text for each number; else None."""
+    with open(path, newline="") as file:
+        header = next(csv.reader(file), [])
+        lines = (line for line in file if line.endswith("\n"))
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of a file without lines
+                values = numpy.loadtxt(lines, delimiter=",", comments=None, ndmin=2)
+        except ValueError:
+            return None
+    return (header, values) if values.size and values.shape[1] == len(header) else None
+
+
 def columns(path):
     """Arrays by name without unit: numbers, or texts where a column has any."""
+    if found := _numbers(path):
+        return {split(name)[0]: values for name, values in zip(found[0], numpy.ascontiguousarray(found[1].T))}
     header, lines = rows(path)
     found = {}
     for name, values in zip(header, zip(*lines) if lines else [()] * len(header)):
