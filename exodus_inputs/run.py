@@ -29,7 +29,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -40,7 +39,6 @@ TOP = INPUTS.parent
 IS_INSTALLED = not (TOP / "CMakeLists.txt").exists()
 BINARIES = TOP.parents[1] / "bin" if IS_INSTALLED else TOP / "build/bin"
 RUNS = pathlib.Path("coplane-examples").resolve() if IS_INSTALLED else TOP / "build/examples"
-PARAVIEW = TOP / "paraview" if IS_INSTALLED else TOP / "apps/coplane/paraview"
 sys.dont_write_bytecode = True
 try:
     from coplanetools import documents, program
@@ -267,28 +265,20 @@ class ExampleRun:
         script = INPUTS / self.name / self.example.get("pictures", "pictures.py")
         if not script.exists():
             return
-        key = self.key(self.run_key.encode(), script, *sorted(PARAVIEW.glob("*.py")))
+        key = self.key(self.run_key.encode(), script, *sorted(program.PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
-        missing = [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)]
+        missing = program.missing_for_pictures()
         if missing:
             fail(f"{' and '.join(missing)} not found: packages/cmake/dependencies.sh --with-paraview installs ParaView on Debian 12; "
                  "or leave the pictures out with --no-pictures.")
         self.say("drawing")
         before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
-        environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
-        for attempt in range(3):
-            # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
-            # display may not be there in time; then once more.
-            display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
-            with open(self.folder / "pictures.log", "w") as log:
-                done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), ".", "pictures"],
-                                      cwd=self.folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
-            if not done.returncode or "CreateAWindow" not in (self.folder / "pictures.log").read_text(errors="replace"):
-                break
-        if done.returncode:
-            fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text(errors="replace").splitlines(True)[-20:]))
+        code, said = program.run_paraview(script, [".", "pictures"], self.folder)
+        (self.folder / "pictures.log").write_text(said)
+        if code:
+            fail("drawing failed:\n" + "".join(said.splitlines(True)[-20:]))
         self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")

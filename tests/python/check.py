@@ -115,6 +115,14 @@ case.check_equal("tables", sorted(whole.tables), ["blocks", "materials", "pairs"
 equal("planes of the pairs", whole.tables["pairs"].groupby("time").planes.sum(), history.planes)
 case.check_equal("planes of the last step", len(whole.planes[-1]), int(history.planes.iloc[-1]))
 case.check_equal("joints of the planes", sorted(set(whole.planes.at(0).joint)), ["tight"])
+try:
+    import vtkmodules  # noqa: F401
+
+    points = whole.planes.vtk(-1)
+    case.check_equal("planes as VTK sees them", (points.GetNumberOfPoints(), points.GetPointData().GetArray("closure").GetValue(3)),
+                     (len(whole.planes[-1]), float(whole.planes[-1].closure[3])))  # fmt: skip
+except ImportError:
+    print("no VTK here: planes are not compared with what it reads")
 case.check("stored energy of the planes", whole.planes[-1].stored.sum(), history.contact_stored.iloc[-1], 1e-12, relative=True)
 figure = whole.history.plot(y=["kinetic", "internal"], backend="plotly")
 case.check_equal("lines of a plot", [trace.name for trace in figure.data], ["kinetic", "internal"])
@@ -165,6 +173,7 @@ told("a failed run", coplane.RunFailed, lambda: coplane.run("study/001/run.yaml"
 # --- what is not there ------------------------------------------------------------------------------
 
 told("no such run", FileNotFoundError, lambda: coplane.open("straight/rum"), "rum.run.json", "straight/run")
+told("a run that has not begun", FileNotFoundError, lambda: coplane.open("study/001/run"), "study/001/run.log ends with", "step_factor")
 told("no run in a folder", FileNotFoundError, lambda: coplane.open("study"), "study", "no record")
 lines = pathlib.Path("straight/run.csv").read_text().splitlines(keepends=True)
 pathlib.Path("cut.csv").write_text("".join(lines[:5])[:-3])

@@ -70,7 +70,8 @@ for group in ("node_sets", "side_sets"):
 for name in ("after_5", "after_10"):
     recipe["node_sets"].pop(name)
 deck = case.load("exodus_inputs/jointed_rock_2d/deck.yaml")
-deck.update(mesh="mesh.e", time={"end": 3e-3}, output={"every": 1e-3},
+TITLE = 'a wave through "jointed" rock </script> & more'
+deck.update(title=TITLE, mesh="mesh.e", time={"end": 3e-3}, output={"every": 1e-3},
             history={"every": 0, "joints": ["*"], "tables": ["pairs"], "probes": [{"name": "near", "node_set": "near"}]})  # fmt: skip
 for folder, changes in (("a", {}), ("b", {"joints.tight.normal_stiffness": 1e10, "time.end": 2e-3})):
     shutil.rmtree(folder, ignore_errors=True)
@@ -116,7 +117,7 @@ for title, figure in one.titled.items():
 case.check_equal("figures", len(one.titled), len(one.figures))
 record = run.record
 says("what was run", one, record["deck"]["sha256"], record["mesh"]["sha256"], record["state_hash"], record["run"], "2 x 1, back end threads", "coplane 0.1.0",
-     "wave through jointed rock", record["placement"][0]["host"], f"{len(run.history)} lines")  # fmt: skip
+     TITLE, record["placement"][0]["host"], f"{len(run.history)} lines")  # fmt: skip
 case.check_equal("its ending", one.ending(), ["completed"])
 says("balances", one, "largest error of the energy balance", "contacts missed", "planes too deep")
 for title, name in (("Energies", "kinetic"), ("Energies", "external work"), ("Energies of contact", "contact stored"), ("Contact remainder", "contact remainder"),
@@ -137,6 +138,10 @@ case.check_equal("time used", "output::history" in one.curves("Seconds of the sl
 says("pictures", one, "Pictures were not asked for.")
 says("deck", one, "normal_stiffness: 20000000000.0")
 
+if shutil.which("pvbatch") and shutil.which("xvfb-run"):
+    case.check_equal("with ParaView", made("a/run", "-o", "drawn.html"), (0, "drawn.html\n"))
+    case.check_equal("states that are drawn", re.findall(r'alt="(\w+)" src="data:image/png;base64,iVBOR', pathlib.Path("drawn.html").read_text()),
+                     [f"state_{round(1e6 * time):06d}us" for time in run.results.times[[0, -1]]])  # fmt: skip
 x = numpy.linspace(0, 1, 100000)
 y = numpy.sin(40 * x)
 y[54321] = 7

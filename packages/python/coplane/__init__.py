@@ -4,7 +4,7 @@
     run = coplane.open("out/wall")
     run.history.plot(y=["kinetic", "internal"])
 
-Needs numpy, netCDF4 and PyYAML; pandas, xarray, plotly, jsonschema, ruamel.yaml and pyvista only where they are used.
+Needs numpy, netCDF4 and PyYAML; pandas, xarray, plotly, jsonschema, ruamel.yaml and VTK only where they are used.
 """
 
 from .deck import Deck, DeckError

@@ -2,13 +2,13 @@
 
 import importlib
 
-# What Debian calls them; the same names without `python3-` serve pip where it says nothing else.
+# What Debian calls them.
 DEBIAN = {
     "jsonschema": "python3-jsonschema",
     "pandas": "python3-pandas",
     "plotly": "python3-plotly",
-    "pyvista": None,
     "ruamel.yaml": "python3-ruamel.yaml",
+    "vtkmodules": "python3-vtk9",
     "xarray": "python3-xarray",
 }
 
@@ -18,6 +18,5 @@ def needs(module, purpose):
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        package = DEBIAN[module.split(".")[0] if module.split(".")[0] in DEBIAN else module]
-        how = f"apt-get install {package} (Debian)" if package else f"pip install {module} (it is not in Debian 12)"
-        raise ImportError(f"{purpose} needs the Python module {module}: {how}. ({error})") from error
+        package = DEBIAN[module if module in DEBIAN else module.split(".")[0]]
+        raise ImportError(f"{purpose} needs the Python module {module}: apt-get install {package} (Debian). ({error})") from error

@@ -61,6 +61,9 @@ class Planes:
         """The planes of the step that is nearest to a time [s]."""
         return self[int(numpy.argmin(numpy.abs(self.times - time)))]
 
-    def mesh(self, step=-1):
-        """The planes of a step as a pyvista.PolyData."""
-        return needs("pyvista", "A picture of planes").read(str(self.files[step]))
+    def vtk(self, step=-1):
+        """The planes of a step as a vtkPolyData, which pyvista.wrap takes."""
+        reader = needs("vtkmodules.vtkIOXML", "An object of VTK").vtkXMLPolyDataReader()
+        reader.SetFileName(str(self.files[step]))
+        reader.Update()
+        return reader.GetOutput()

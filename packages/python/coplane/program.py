@@ -88,3 +88,26 @@ def change_coordinates(mesh, change):
         changed = change(numpy.stack([file[name][:] for name in names], axis=1))
         for axis, name in enumerate(names):
             file[name][:] = changed[:, axis]
+
+
+# What scripts for pictures share: coplane_pictures.
+PARAVIEW = next((path for path in (TOP / "apps/coplane/paraview", TOP / "paraview") if path.is_dir()), None)
+
+
+def missing_for_pictures():
+    """Programs that ParaView without a screen needs and that are not there."""
+    return [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)]
+
+
+def run_paraview(script, arguments, folder, timeout=None):
+    """Runs a script of pvbatch without a screen; returns exit code and what it printed."""
+    environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
+    for attempt in range(3):
+        # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
+        # display may not be there in time; then once more.
+        display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
+        done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), *map(str, arguments)], cwd=folder, env=environment,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout)  # fmt: skip
+        if not done.returncode or "CreateAWindow" not in done.stdout:
+            break
+    return done.returncode, done.stdout

@@ -6,7 +6,6 @@ import difflib
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -266,7 +265,8 @@ class Report:
             order = sorted(shares, key=shares.get)[-15:]
             traces.append(bars(order, [shares[name] for name in order], run.name + self.of(which), COLORS[which]))
         if traces:
-            self.page.grid(self.page.plot("Seconds of the slowest rank", traces, "", x="s; a region may lie in another one", tall=True))
+            self.page.note("Regions may lie in one another: search holds steps 1 to 5.")
+            self.page.grid(self.page.plot("Seconds of the slowest rank", traces, "", x="s", tall=True))
 
     def probes(self):
         for run in self.runs:
@@ -339,21 +339,18 @@ def pictures_of(run, draw, most=12):
         return [(path, path.read_bytes()) for path in there[:most]], f"The first {most} of {len(there)} pictures." if len(there) > most else ""
     if not draw:
         return [], "Pictures were not asked for."
-    script = next((path for path in (program.TOP / "apps/coplane/paraview", program.TOP / "paraview") if path.is_dir()), pathlib.Path()) / "report_pictures.py"
-    missing = [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)] + ([] if script.exists() else [script.name])
+    missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
         return [], f"No pictures: {' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)."
     if not (run.folder / f"{run.name}.e").exists():
         return [], f"No pictures: there is no shared file {run.name}.e."
     with tempfile.TemporaryDirectory() as folder:
-        environment = dict(os.environ, PYTHONPATH=str(script.parent), PYTHONDONTWRITEBYTECODE="1")
         try:
-            done = subprocess.run(["xvfb-run", "-a", "pvbatch", str(script), str(run.folder), folder, run.name], env=environment, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True, timeout=300)  # fmt: skip
+            code, said = program.run_paraview(program.PARAVIEW / "report_pictures.py", [run.folder.resolve(), folder, run.name], folder, timeout=300)
         except subprocess.TimeoutExpired:
             return [], "No pictures: ParaView took more than 300 s."
         drawn = [(path, path.read_bytes()) for path in sorted(pathlib.Path(folder).glob("*.png"))]
-    return drawn, "" if drawn else f"No pictures: ParaView ended with exit code {done.returncode}: {done.stdout.strip().splitlines()[-1:]}"
+    return drawn, "" if drawn else f"No pictures: ParaView ended with exit code {code}: {' '.join(said.strip().splitlines()[-1:])}"
 
 
 def write(path, text):

@@ -43,7 +43,10 @@ def _place(path):
         there = _stems(path.parent)
         also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
             "Give the name of its deck without .yaml, with the folder in which it ran."
-        raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. {also}")
+        log = path.parent / (stem + ".log")
+        said = log.read_text(errors="replace").splitlines()[-1:] if log.exists() else []
+        raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. "
+                    + (f"{log} ends with: {said[0]}" if said else also))  # fmt: skip
     return path.parent, stem
 
 
