@@ -181,6 +181,9 @@ case.check_equal("a line that is being written", len(tables.columns("cut.csv")["
 pathlib.Path("bad.csv").write_text("".join(lines[:3]) + lines[3][:40] + "\n" + lines[4])
 told("a damaged line", ValueError, lambda: tables.columns("bad.csv"), "bad.csv:4", "columns")
 
+pathlib.Path("bad.csv").write_text("".join(lines[:3]) + lines[3].replace(",", ",x", 1))
+told("no number", ValueError, lambda: tables.columns("bad.csv"), "bad.csv: column cycle")
+
 # Without any of the other modules the package is there, and says what is missing.
 alone = "import sys\nfor name in sys.argv[1:]: sys.modules[name] = None\nimport coplane\nrun = coplane.open('straight')\n" \
     "print(len(run.columns['time']), run.results.nodal('velocity').shape)\nrun.history"

@@ -34,7 +34,7 @@ class Deck:
     @classmethod
     def read(cls, path):
         try:
-            return cls(_yaml().load(pathlib.Path(path).read_text()), path)
+            return cls(_yaml().load(pathlib.Path(path).read_text(encoding="utf-8")), path)
         except needs("ruamel.yaml", "Reading a deck").error.YAMLError as error:
             raise DeckError(f"{path}: is no YAML: {error}") from error
 
@@ -83,7 +83,7 @@ class Deck:
 
     def write(self, path):
         """Writes the deck as it is, and is the deck of that path from then on. A mesh without a whole path is sought in the new folder."""
-        pathlib.Path(path).write_text(self.text)
+        pathlib.Path(path).write_text(self.text, encoding="utf-8")
         self.path = pathlib.Path(path)
 
     def schema_errors(self):
@@ -111,7 +111,7 @@ class Deck:
         if errors:
             raise DeckError("\n".join(f"{name}:{error}" for error in errors))
         # Beside the deck, because names of files in it begin there.
-        with tempfile.NamedTemporaryFile("w", dir=self.folder, prefix=".check-", suffix=".yaml") as file:
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=self.folder, prefix=".check-", suffix=".yaml") as file:
             file.write(self.text)
             file.flush()
             done = subprocess.run(program.command([os.path.abspath(file.name), "--check"]), cwd=self.folder, stdout=subprocess.PIPE,

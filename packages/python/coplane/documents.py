@@ -24,13 +24,13 @@ def parse(text):
 
 def load(path):
     """A deck or recipe, or JSON."""
-    with open(path) as file:
+    with open(path, encoding="utf-8") as file:
         return parse(file)
 
 
 def save(document, path):
     """Numbers are written with all digits."""
-    with open(path, "w") as file:
+    with open(path, "w", encoding="utf-8") as file:
         yaml.safe_dump(document, file, sort_keys=False, default_flow_style=None, width=120)
 
 

@@ -362,7 +362,7 @@ def write(path, text):
                 raise FileExistsError(f"{path}: there is a file of this name that is no report of coplane. Nothing was changed; choose another name with -o.")
     draft = path.with_name(f"{path.name}.part-{os.getpid()}")
     try:
-        draft.write_text(text)
+        draft.write_text(text, encoding="utf-8", errors="replace")  # names of folders may be no text
         os.replace(draft, path)
     finally:
         draft.unlink(missing_ok=True)

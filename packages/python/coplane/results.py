@@ -44,7 +44,7 @@ def _place(path):
         also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
             "Give the name of its deck without .yaml, with the folder in which it ran."
         log = path.parent / (stem + ".log")
-        said = log.read_text(errors="replace").splitlines()[-1:] if log.exists() else []
+        said = log.read_text(encoding="utf-8", errors="replace").splitlines()[-1:] if log.exists() else []
         raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. "
                     + (f"{log} ends with: {said[0]}" if said else also))  # fmt: skip
     return path.parent, stem
@@ -75,7 +75,7 @@ class Run:
             name = _RECORD.fullmatch(path.name)
             if name and name.group(1) == self.name:
                 try:
-                    found.append((int(name.group(2) or 1), json.loads(path.read_text())))
+                    found.append((int(name.group(2) or 1), json.loads(path.read_text(encoding="utf-8"))))
                 except ValueError as error:
                     raise ValueError(f"{path}: the record is damaged, no JSON: {error}. Without the file the rest of the run can be opened.") from error
         records = [record for _, record in sorted(found, key=lambda item: item[0])]
@@ -109,7 +109,7 @@ class Run:
         """The deck as it was used; empty when neither the record nor a deck beside it has it."""
         if "deck" in self.record:
             return self.record["deck"]["text"]
-        return self.path(".yaml").read_text() if self.path(".yaml").exists() else ""
+        return self.path(".yaml").read_text(encoding="utf-8", errors="replace") if self.path(".yaml").exists() else ""
 
     @property
     def deck(self):
@@ -120,7 +120,7 @@ class Run:
     @property
     def log(self):
         """What the program printed, where that was kept in <name>.log; else empty."""
-        return self.path(".log").read_text(errors="replace") if self.path(".log").exists() else ""
+        return self.path(".log").read_text(encoding="utf-8", errors="replace") if self.path(".log").exists() else ""
 
     # --- over time ---------------------------------------------------------------------------------
 
