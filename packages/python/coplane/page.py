@@ -19,7 +19,8 @@ h1{font-size:1.5em;margin:.7em 0 .1em}h2{font-size:1.2em;margin:1.6em 0 .4em;bor
 .wide{overflow-x:auto}
 table{border-collapse:collapse;font-size:.92em}td,th{padding:2px 10px 2px 0;text-align:left;vertical-align:top;overflow-wrap:anywhere}
 th{font-weight:600}td.n,td.ok,td.look{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
-.ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
+.ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}
+pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
 """
 SCRIPT = """
@@ -97,7 +98,8 @@ class Page:
         self.figures[name] = {"data": traces, "layout": {
             "margin": {"l": 55, "r": 10, "t": 30, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": True,
             "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "font": {"size": 11}}, "plot_bgcolor": "#fff", "paper_bgcolor": "#fff", "autosize": True,
-            "xaxis": {**axis, "title": {"text": x, "standoff": 6}}, "yaxis": {**axis, "title": {"text": y, "standoff": 6}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
+            "xaxis": {**axis, "title": {"text": x, "standoff": 6}},
+            "yaxis": {**axis, "title": {"text": y, "standoff": 6}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
         height = 440 if tall else 300 + 10 * max(0, len(traces) - 4)  # room for a long legend
         return f'<div><h3>{escape(title)}</h3><div class="plot" style="height:{height}px" id="{name}"></div></div>'
 

@@ -160,7 +160,8 @@ class Report:
         for run in self.runs:
             has(run, "time", "initial", *ENERGIES[:5], "error", "nodal_error")
         self.page.add(self.each(self.balances))
-        self.page.grid(self.curves("Energies", ENERGIES, "J"), self.curves("Error of the balance", ["error", "nodal_error"], "over the energy in play", scale=in_play))
+        self.page.grid(self.curves("Energies", ENERGIES, "J"),
+                       self.curves("Error of the balance", ["error", "nodal_error"], "over the energy in play", scale=in_play))  # fmt: skip
 
     def contact(self):
         for run in self.runs:
@@ -245,9 +246,10 @@ class Report:
                 self.page.note(f"{run.planes_path.name} has no step yet.")
                 continue
             fields, names = planes(series.files[-1]), joint_names(series.files[-1])
+            lost = fields["remainder"]
             self.page.note(f"{len(fields['area'])} planes at t = {series.times[-1]:.6g} s{self.of(which)}; the remainders of all sum up to "
-                           f"{fields['remainder'].sum():.6g} J: {fields['remainder'].clip(min=0).sum():.6g} J lost, {abs(fields['remainder'].clip(max=0).sum()):.6g} J gained.")  # fmt: skip
-            for title, key in (("deepest", fields["closure"]), ("largest remainders", abs(fields["remainder"])), ("longest slip", fields["slip"])):
+                           f"{lost.sum():.6g} J: {lost.clip(min=0).sum():.6g} J lost, {abs(lost.clip(max=0).sum()):.6g} J gained.")  # fmt: skip
+            for title, key in (("deepest", fields["closure"]), ("largest remainders", abs(lost)), ("longest slip", fields["slip"])):
                 worst = [place for place in numpy.argsort(-key, kind="stable")[:5] if key[place] > 0]
                 rows = [[*("{} / {}".format(fields[f"{side}_element"][p], fields[f"{side}_side"][p]) for side in ("lower", "higher")), names[fields["joint"][p]],
                          *(float(fields[name][p]) for name in ("area", "closure", "normal_traction", "slip", "remainder"))] for p in worst]  # fmt: skip

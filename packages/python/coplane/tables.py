@@ -9,7 +9,6 @@ import numpy
 
 from .needs import needs
 
-
 # Columns of names; all others are numbers.
 TEXTS = {"block", "block_a", "block_b", "material_a", "material_b", "joint"}
 
