@@ -13,6 +13,7 @@ coplane-examples, in the working folder),
     mesh.yaml, mesh.e    the recipe with all changes, and its mesh
     run.yaml             the deck with all changes
     run.log, run.e, run_planes.pvd, run.csv, run.run.json     what coplane writes
+    run-report.html      all of it on one page (coplane report)
     pictures/            what the example's pictures.py draws with ParaView
     checks.jsonl         what the example's check.py found
     written.json         the list of all these: nothing else in the folder is ever removed or overwritten
@@ -28,7 +29,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import time
@@ -39,10 +39,10 @@ TOP = INPUTS.parent
 IS_INSTALLED = not (TOP / "CMakeLists.txt").exists()
 BINARIES = TOP.parents[1] / "bin" if IS_INSTALLED else TOP / "build/bin"
 RUNS = pathlib.Path("coplane-examples").resolve() if IS_INSTALLED else TOP / "build/examples"
-PARAVIEW = TOP / "paraview" if IS_INSTALLED else TOP / "apps/coplane/paraview"
 sys.dont_write_bytecode = True
 try:
     from coplanetools import documents, program
+    from coplane import report
 except ImportError as error:
     sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
 
@@ -86,19 +86,10 @@ def read_example(name):
 
 
 def change(document, path, value):
-    """document.a.1.b = value; null takes the key out."""
-    *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
-    for key in parents:
-        try:
-            document = document.setdefault(key, {}) if isinstance(document, dict) else document[key]
-        except (IndexError, TypeError):
-            fail(f"{path} leads nowhere: there is no '{key}'.")
-    if value is None and isinstance(document, dict):
-        document.pop(last, None)
-    elif isinstance(document, list) and last == len(document):
-        document.append(value)
-    else:
-        document[last] = value
+    try:
+        documents.change(document, path, value)
+    except KeyError as error:
+        fail(error.args[0])
 
 
 class OwnFiles:
@@ -179,7 +170,7 @@ class ExampleRun:
             path, equals, value = text.partition("=")
             if not equals:
                 fail(f"--set {text}: KEY=VALUE is accepted, for instance time.end=1e-3.")
-            change(self.deck, path, documents.value(value))
+            change(self.deck, path, documents.parse(value))
         self.deck["mesh"] = "mesh.e"
         self.deck.setdefault("output", {}).pop("results", None)
         self.deck.setdefault("history", {}).pop("file", None)
@@ -232,7 +223,7 @@ class ExampleRun:
         self.results = ["run.csv", "run.run.json"] + [f"run_{table}.csv" for table in history.get("tables") or []]
         self.results += [] if (self.deck.get("output") or {}).get("results") == "none" else ["run.e"]
         made = ["mesh.yaml", "run.yaml", "mesh.e", "example.json", "run.log", "done", "pictures.done", "pictures.log", "checks.jsonl",
-                "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
+                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
         if self.joints is not None:
             made += ["joints.yaml", "whole.e"]
         self.own.claim(made, self.overwrite)
@@ -251,19 +242,21 @@ class ExampleRun:
         before = self.own.there()
         self.say(f"making the mesh in {self.folder}")
         whole = "whole.e" if self.joints is not None else "mesh.e"
-        program.make_mesh(str(self.folder / "mesh.yaml"), str(self.folder / whole))
-        if self.joints is not None:
-            program.split_mesh(str(self.folder / whole), str(self.folder / "joints.yaml"), str(self.folder / "mesh.e"))
+        try:
+            program.make_mesh(self.folder / "mesh.yaml", self.folder / whole)
+            if self.joints is not None:
+                program.split_mesh(self.folder / whole, self.folder / "joints.yaml", self.folder / "mesh.e")
+        except program.ProgramFailed as error:
+            fail(error)
         (self.folder / "example.json").write_text(json.dumps(
             {"example": self.name, "size": self.size, "variant": self.variant, "ranks": self.ranks}))
-        command = [program.binary("coplane"), "run.yaml", "--backend", "serial"]
-        if self.ranks > 1:
-            command = [os.environ.get("MPIEXEC", "mpirun"), "-np", str(self.ranks), "--bind-to", "none"] + command
+        command = program.command(["run.yaml", "--backend", "serial"], self.ranks)
         self.say("running: " + " ".join(command))
         start = time.monotonic()
         code = self.call(command, "run.log")
         self.own.claim(self.new_files(before), overwrite=True)
         if code:
+            self.report()
             fail(f"coplane ended with exit code {code}; see {self.folder}/run.log and docs/user/exit-codes.md.")
         self.say(f"computed in {time.monotonic() - start:.0f} s")
         (self.folder / "done").write_text(self.run_key)
@@ -272,31 +265,30 @@ class ExampleRun:
         script = INPUTS / self.name / self.example.get("pictures", "pictures.py")
         if not script.exists():
             return
-        key = self.key(self.run_key.encode(), script, *sorted(PARAVIEW.glob("*.py")))
+        key = self.key(self.run_key.encode(), script, *sorted(program.PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
-        missing = [name for name in ("xvfb-run", "pvbatch") if not shutil.which(name)]
+        missing = program.missing_for_pictures()
         if missing:
             fail(f"{' and '.join(missing)} not found: packages/cmake/dependencies.sh --with-paraview installs ParaView on Debian 12; "
                  "or leave the pictures out with --no-pictures.")
         self.say("drawing")
         before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
-        environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
-        for attempt in range(3):
-            # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
-            # display may not be there in time; then once more.
-            display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
-            with open(self.folder / "pictures.log", "w") as log:
-                done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), ".", "pictures"],
-                                      cwd=self.folder, env=environment, stdout=log, stderr=subprocess.STDOUT)
-            if not done.returncode or "CreateAWindow" not in (self.folder / "pictures.log").read_text(errors="replace"):
-                break
-        if done.returncode:
-            fail("drawing failed:\n" + "".join((self.folder / "pictures.log").read_text(errors="replace").splitlines(True)[-20:]))
+        code, said = program.run_paraview(script, [".", "pictures"], self.folder)
+        (self.folder / "pictures.log").write_text(said)
+        if code:
+            fail("drawing failed:\n" + "".join(said.splitlines(True)[-20:]))
         self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")
+
+    def report(self):
+        """The page of the run; what has been computed is worth as much without it."""
+        try:
+            self.say(f"report: {report.make(self.folder / 'run', pictures=False)}")
+        except Exception as error:  # noqa: BLE001 (whatever it is)
+            self.say(f"no report: {error}")
 
     def check(self):
         """The example's own check.py on the results; returns whether all is well."""
@@ -329,6 +321,7 @@ def main():
             well = run.check() and well
         if not options.no_pictures:
             run.draw()
+        run.report()
     summary = INPUTS / name / example.get("summary", "summary.py")
     if summary.exists() and not options.no_check:
         well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well

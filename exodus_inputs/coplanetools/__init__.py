@@ -1,7 +1,20 @@
-"""What run.py and the checks and summaries of examples use: decks and recipes, runs of the programs, their results."""
+"""What run.py and the checks and summaries of examples use besides the package coplane, which reads and writes decks, runs programs and
+opens results.
+"""
 
-from . import documents, program, waves
-from .example import Example
-from .results import Results, differences, series_differences
+import pathlib
+import sys
 
-__all__ = ["Example", "Results", "differences", "documents", "program", "series_differences", "waves"]
+# Of the source tree (packages/python), or of PREFIX/share/coplane (python).
+_TOP = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(_TOP / "packages/python" if (_TOP / "packages").is_dir() else _TOP / "python"))
+
+from coplane import documents, program, tables  # noqa: E402
+from coplane.exodus import Results, differences, series_differences  # noqa: E402
+from coplane.planes import planes  # noqa: E402
+
+from . import waves  # noqa: E402
+from .ended import EndedRun  # noqa: E402
+from .example import Example  # noqa: E402
+
+__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "planes", "program", "series_differences", "tables", "waves"]

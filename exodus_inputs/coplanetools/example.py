@@ -7,10 +7,10 @@ import sys
 
 import numpy
 
-from .checks import Checks
-from .program import Run
-from .results import planes
+from coplane.planes import planes
 
+from .checks import Checks
+from .ended import EndedRun
 
 class Example(Checks):
     """The run in the folder that the command line names; `size` and `variant` say which.
@@ -30,7 +30,7 @@ class Example(Checks):
         self.failures = 0
         self.record = self.folder / "checks.jsonl"
         self.record.write_text("")
-        self.run = Run(self.folder, 0, (self.folder / "run.log").read_text())
+        self.run = EndedRun(self.folder, 0, (self.folder / "run.log").read_text())
         self.history = self.run.history
 
     @property

@@ -3,10 +3,10 @@
 import pathlib
 import sys
 
-from coplanetools.program import Run
+from coplanetools import EndedRun
 from slab import MEASURED, forrestal, numbers
 
-found = [(folder, numbers(Run(folder, 0, ""), folder)) for folder in map(pathlib.Path, sys.argv[1:])]
+found = [(folder, numbers(EndedRun(folder, 0, ""), folder)) for folder in map(pathlib.Path, sys.argv[1:])]
 several = len({of["size"] for _, of in found}) > 1
 curves = {}
 for folder, of in found:

@@ -2,8 +2,7 @@
 
 import numpy
 
-from coplanetools import Example, documents
-from coplanetools.results import planes
+from coplanetools import Example, documents, planes
 
 example = Example()
 h, results, whole = example.history, example.results, example.size != "coarse"

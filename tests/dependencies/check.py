@@ -1,9 +1,11 @@
-"""What sources include is what CMake files declare: packages and libraries, neither fewer nor more. Reads files only.
+"""What sources include is what CMake files declare: packages and libraries, neither fewer nor more; what the Python package imports is
+there. Reads files only.
 
 A file belongs to a target folder: the sources of a package (declared in its cmake/Dependencies.cmake), or a folder with a
 CMakeLists.txt that links them: tests of a package, programs, whole-program tests. Run by ctest.
 """
 
+import ast
 import collections
 import os
 import pathlib
@@ -153,6 +155,24 @@ def check_details(wrong):
                     wrong.append(f"{place}: is not installed, but this header is")
 
 
+def check_python(wrong):
+    """Modules of the Python package import the standard library, what everything needs, and each other; the rest goes through needs(),
+    which knows its Debian package."""
+    always = {"numpy", "netCDF4", "yaml"}
+    folder = SOURCE / "packages/python/coplane"
+    known = ast.parse((folder / "needs.py").read_text())
+    optional = {key.value for node in ast.walk(known) if isinstance(node, ast.Dict) for key in node.keys}
+    for path in sorted(folder.glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text())):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module] if isinstance(node, ast.ImportFrom) and node.level == 0 else []
+            where = f"{path.relative_to(SOURCE)}:{getattr(node, 'lineno', 0)}"
+            wrong += [f"{where}: imports {name}: use needs(), or ask for it in pyproject.toml and always" for name in names
+                      if name.split(".")[0] not in always | sys.stdlib_module_names]  # fmt: skip
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "needs" and not {node.args[0].value, node.args[0].value.split(".")[0]} & optional:
+                wrong.append(f"{where}: needs.py does not know {node.args[0].value}")
+
+
 def main():
     wrong = []
     public = public_headers()
@@ -172,6 +192,7 @@ def main():
             inherited |= testing
         check_folder(wrong, where, sources(folder), targets, inherited)
     check_details(wrong)
+    check_python(wrong)
     if wrong:
         sys.exit("\n".join(wrong))
     print(f"{len(PACKAGES)} packages and {len(folders)} folders of programs and tests declare what they include")

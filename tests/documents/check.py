@@ -268,6 +268,11 @@ def check_install():
     version = run([str(prefix / "bin/coplane"), "--version"])
     assert version.returncode == 0 and version.stdout.startswith("coplane "), version.stdout
 
+    # The Python package and its programs, from there.
+    done = run([sys.executable, "-c", "import coplane; print(coplane.__file__, coplane.program.binary('coplane'), coplane.program.schema('deck').exists())"],
+               env=dict(os.environ, PYTHONPATH=str(prefix / "share/coplane/python"), COPLANE_BIN=""))
+    assert done.stdout.split() == [str(prefix / "share/coplane/python/coplane/__init__.py"), str(prefix / "bin/coplane"), "True"], done.stdout
+
     # An example runs and is checked with what is installed: the programs, run.py and its modules.
     shutil.rmtree("coplane-examples", ignore_errors=True)
     alone = {name: value for name, value in os.environ.items() if name not in ("COPLANE_BIN", "COPLANE_SOURCE", "PYTHONPATH")}
@@ -277,6 +282,8 @@ def check_install():
     assert str(SOURCE) not in done.stdout.replace(os.getcwd(), ""), done.stdout[-3000:]
     checks = pathlib.Path("coplane-examples/rocking_block_2d/coarse/checks.jsonl").read_text().splitlines()
     assert checks and all(json.loads(line)["passed"] for line in checks), checks
+    done = run([str(prefix / "bin/coplane"), "report", "coplane-examples/rocking_block_2d/coarse", "--no-pictures", "-o", "installed.html"], env=alone)
+    assert done.returncode == 0 and pathlib.Path("installed.html").stat().st_size > 1e6, done.stdout
 
 
 if __name__ == "__main__":

@@ -1,19 +1,13 @@
 """What the results, planes, joint columns and tables say of a joint under known pressure."""
 
 import copy
-import csv
 
 import numpy
-from coplanetest import Case, differences
+from coplanetest import Case, differences, tables
 
 case = Case("contact fields", __file__)
 pressure, normal_stiffness, shear_stiffness, friction = 1e6, 10e9, 5e9, 0.3
 closure = pressure / normal_stiffness
-
-
-def table(run, name):
-    with open(run.path(name)) as file:
-        return list(csv.DictReader(file))
 
 
 def check_sums(name, run):
@@ -21,12 +15,12 @@ def check_sums(name, run):
     h = run.history
     last = int(h["cycle"][-1])
     for file, columns in (
-        ("run_blocks.csv", {"kinetic[J]": "kinetic", "internal[J]": "internal"}),
-        ("run_pairs.csv", {"stored[J]": "contact_stored", "friction[J]": "contact_friction"}),
+        ("run_blocks.csv", {"kinetic": "kinetic", "internal": "internal"}),
+        ("run_pairs.csv", {"stored": "contact_stored", "friction": "contact_friction"}),
     ):
-        rows = [row for row in table(run, file) if int(row["cycle"]) == last]
+        found = tables.columns(run.path(file))
         for column, quantity in columns.items():
-            total = sum(float(row[column]) for row in rows)
+            total = found[column][found["cycle"] == last].sum()
             scale = max(abs(h["kinetic"][-1]), abs(h["internal"][-1]), abs(h["contact_stored"][-1]))
             case.check(f"{name}: {column} of {file}", total, h[quantity][-1], 1e-12 * scale)
 

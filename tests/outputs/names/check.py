@@ -8,6 +8,8 @@ import sys
 
 from coplanetest import Case, Results, documents, program
 
+import coplane
+
 case = Case("names", __file__)
 try:
     import pandas
@@ -98,6 +100,11 @@ for ranks in (1, 2):
     pairs = table(folder / "run_pairs.csv")
     case.check_equal(f"{ranks} ranks, pandas: pairs", sorted(set(zip(pairs["block_a"], pairs["block_b"]))), sorted(zip(names, names[1:])))
     case.check_equal(f"{ranks} ranks, pandas: joints of pairs", sorted(set(pairs["joint"])), [joint])
+
+    opened = coplane.open(folder)
+    case.check_equal(f"{ranks} ranks, coplane: probes, joints, blocks", (opened.probe_names, opened.joint_names, list(opened.blocks)), (names, [joint], names))
+    case.check_equal(f"{ranks} ranks, coplane: blocks of the table", list(opened.tables["blocks"]["block"])[: len(names)], names)
+    case.check_equal(f"{ranks} ranks, coplane: pairs", sorted(set(zip(*(opened.tables["pairs"][f"block_{side}"] for side in "ab")))), sorted(zip(names, names[1:])))
 
     record = json.loads((folder / "run.run.json").read_text())
     case.check_equal(f"{ranks} ranks, json: the deck is that of the file", record["deck"]["text"], (folder / "run.yaml").read_text())

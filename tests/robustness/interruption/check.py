@@ -1,6 +1,5 @@
 """SIGTERM ends a run in order, SIGUSR1 asks for results, and a killed rank ends the run and spoils no file."""
 
-import csv
 import json
 import os
 import pathlib
@@ -10,7 +9,7 @@ import subprocess
 import time
 
 import numpy
-from coplanetest import Case, Results, documents, program
+from coplanetest import Case, Results, documents, program, tables
 
 case = Case("interruption", __file__)
 INTERRUPTED = 7
@@ -61,9 +60,7 @@ def start(name, ranks, every):
 def read(folder):
     """Times of the results, the last displacements, the last complete line of the history."""
     results = Results(str(folder / "run.e"))
-    lines = [row for row in csv.reader(open(folder / "run.csv"))]
-    complete = [row for row in lines[1:] if len(row) == len(lines[0])]
-    return results, float(complete[-1][0])
+    return results, float(tables.columns(folder / "run.csv")["time"][-1])
 
 
 def ends(name, process):

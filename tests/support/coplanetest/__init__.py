@@ -1,5 +1,5 @@
 """Whole-program tests of Coplane: cases, conservation, the same problem told otherwise. Decks, runs and results are those of
-exodus_inputs/coplanetools, which examples use as well.
+the package coplane and of exodus_inputs/coplanetools, which examples use as well.
 """
 
 import pathlib
@@ -7,9 +7,9 @@ import sys
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "exodus_inputs"))
 
-from coplanetools import Results, differences, documents, program, series_differences, waves  # noqa: E402
+from coplanetools import Results, differences, documents, program, series_differences, tables, waves  # noqa: E402
 
 from .case import Case  # noqa: E402
 from .frames import rotation, turned, turned_deck  # noqa: E402
 
-__all__ = ["Case", "Results", "differences", "documents", "program", "rotation", "series_differences", "turned", "turned_deck", "waves"]
+__all__ = ["Case", "Results", "differences", "documents", "program", "rotation", "series_differences", "tables", "turned", "turned_deck", "waves"]

@@ -7,7 +7,7 @@ import sys
 
 import numpy
 
-from coplanetools import documents, program
+from coplanetools import EndedRun, documents, program
 from coplanetools.checks import Checks
 
 
@@ -92,7 +92,7 @@ class Case(Checks):
         arguments = ["run.yaml", "--backend", backend, "--threads", str(threads), *options]
         code, output = program.run_program(arguments, folder, ranks, prefix)
         (folder / "output.txt").write_text(output)
-        return program.Run(folder, code, output)
+        return EndedRun(folder, code, output)
 
     def conservation(self, name, run, deck, energy=1e-3, momentum=1e-12, angular=1e-11, remainder=None):
         """Every run keeps its balances, in every recorded cycle.

@@ -21,7 +21,7 @@ def stress_error(run, matrix, poisson):
     for block in ("lower", "upper"):
         for name in components:
             field = f"stress_{name}"
-            if field not in results._element:
+            if field not in results.element_names:
                 continue
             i, j = ("xyz".index(axis) for axis in name)
             worst = max(worst, numpy.max(numpy.abs(results.element(block, field) - expected[i, j])))

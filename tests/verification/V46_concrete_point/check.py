@@ -1,6 +1,5 @@
 """V46: material laws at one point, through coplane_point and the decks of exodus_inputs/material_paths."""
 
-import csv
 import math
 import os
 import pathlib
@@ -9,7 +8,7 @@ import sys
 
 import numpy
 import yaml
-from coplanetest import Case, program
+from coplanetest import Case, program, tables
 
 case = Case("V46", __file__)
 examples = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/material_paths"
@@ -27,10 +26,7 @@ class Path:
 
     def __init__(self, deck, name):
         self.name = name if deck == "concrete_c40" else f"{deck} {name}"
-        with open(f"{deck}_{name}.csv") as file:
-            rows = list(csv.reader(file))
-        values = numpy.array(rows[1:], dtype=float)
-        self.columns = {heading.split("[")[0]: values[:, i] for i, heading in enumerate(rows[0])}
+        self.columns = tables.columns(f"{deck}_{name}.csv")
         self.axial = -self.stress_xx / 1e6
         self.shortening = -self.strain_xx
 

@@ -1,13 +1,12 @@
 """V48 (and V12, V13 for one point): every joint law on the paths of exodus_inputs/joint_paths."""
 
-import csv
 import math
 import os
 import pathlib
 import subprocess
 
 import numpy
-from coplanetest import Case, program
+from coplanetest import Case, program, tables
 
 case = Case("V48", __file__)
 examples = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/joint_paths"
@@ -25,10 +24,7 @@ class Path:
 
     def __init__(self, deck, name):
         self.name = f"{deck}, {name}"
-        with open(f"{deck}_{name}.csv") as file:
-            rows = list(csv.reader(file))
-        values = numpy.array(rows[1:], dtype=float)
-        self.columns = {heading.split("[")[0]: values[:, i] for i, heading in enumerate(rows[0])}
+        self.columns = tables.columns(f"{deck}_{name}.csv")
 
     def __getattr__(self, name):
         return self.columns[name]

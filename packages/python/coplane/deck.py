@@ -1,0 +1,122 @@
+"""Decks: read, change, check, write."""
+
+import io
+import os
+import pathlib
+import subprocess
+import tempfile
+
+from . import documents, program
+from .needs import needs
+
+
+class DeckError(ValueError):
+    """A deck that is not as it has to be; the text names every fault."""
+
+
+def _yaml():
+    yaml = needs("ruamel.yaml", "Reading a deck with its comments").YAML()
+    yaml.preserve_quotes = True
+    yaml.width = 4096  # lines stay as they are
+    yaml.indent(mapping=2, sequence=4, offset=2)
+    return yaml
+
+
+class Deck:
+    """A deck whose values are named by their paths, as in `--set`: `deck["time.end"] = 0.1`, `del deck["contact.skin"]`,
+    `deck["conditions.0.value"]`. Comments and the order of keys stay.
+    """
+
+    def __init__(self, document, path=None):
+        self.document = document
+        self.path = pathlib.Path(path) if path else None
+
+    @classmethod
+    def read(cls, path):
+        try:
+            return cls(_yaml().load(pathlib.Path(path).read_text(encoding="utf-8")), path)
+        except needs("ruamel.yaml", "Reading a deck").error.YAMLError as error:
+            raise DeckError(f"{path}: is no YAML: {error}") from error
+
+    @classmethod
+    def from_text(cls, text, path=None):
+        return cls(_yaml().load(text), path)
+
+    def copy(self):
+        return Deck.from_text(self.text, self.path)
+
+    @property
+    def text(self):
+        text = io.StringIO()
+        _yaml().dump(self.document, text)
+        return text.getvalue()
+
+    @property
+    def folder(self):
+        """The mesh is sought from here."""
+        return self.path.parent if self.path else pathlib.Path()
+
+    @property
+    def mesh(self):
+        """Path of the mesh."""
+        return self.folder / str(self["mesh"])
+
+    def __getitem__(self, path):
+        return documents.value_at(self.document, path)
+
+    def __setitem__(self, path, value):
+        documents.change(self.document, path, value)
+
+    def __delitem__(self, path):
+        self[path]
+        documents.change(self.document, path, None)
+
+    def __contains__(self, path):
+        try:
+            self[path]
+        except KeyError:
+            return False
+        return True
+
+    def get(self, path, default=None):
+        return self[path] if path in self else default
+
+    def write(self, path):
+        """Writes the deck as it is, and is the deck of that path from then on. A mesh without a whole path is sought in the new folder."""
+        pathlib.Path(path).write_text(self.text, encoding="utf-8")
+        self.path = pathlib.Path(path)
+
+    def schema_errors(self):
+        """What the JSON Schema of decks finds, each with its line, the path of the value, and what is wrong there."""
+        validator = needs("jsonschema", "Checking a deck against its schema").Draft7Validator(documents.load(program.schema("deck")))
+        plain = documents.parse(self.text)  # as Coplane reads it: numbers such as 5e10 are none to every reader of YAML
+        return [f"{self.line(error.absolute_path)}: {'.'.join(map(str, error.absolute_path)) or 'deck'}: {error.message}" for error in validator.iter_errors(plain)]
+
+    def line(self, keys):
+        """Number of the line, from 1, on which the value that these keys lead to begins in the file that was read; of a new one: that of the group
+        around it."""
+        document, line = self.document, 0
+        for key in keys:
+            if getattr(document, "lc", None) and key in (document.lc.data or {}):
+                line = document.lc.data[key][0]
+            document = document[key]
+        return line + 1
+
+    def check(self):
+        """What `coplane --check` prints: masses, step, contact before the first step. DeckError with every fault that the schema or the
+        program finds.
+        """
+        name = self.path or "deck"
+        errors = self.schema_errors()
+        if errors:
+            raise DeckError("\n".join(f"{name}:{error}" for error in errors))
+        # Beside the deck, because names of files in it begin there.
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=self.folder, prefix=".check-", suffix=".yaml") as file:
+            file.write(self.text)
+            file.flush()
+            done = subprocess.run(program.command([os.path.abspath(file.name), "--check"]), cwd=self.folder, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)  # fmt: skip
+            printed = done.stdout.replace(os.path.abspath(file.name), str(name))
+        if done.returncode:
+            raise DeckError(printed.strip())
+        return printed

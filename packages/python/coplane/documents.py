@@ -1,0 +1,60 @@
+"""Decks and mesh recipes as Python dictionaries."""
+
+import re
+
+import yaml
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML reads 5e10 as text (YAML 1.1 wants 5.0e+10); decks mean a number."""
+
+
+_Loader.add_implicit_resolver(
+    "tag:yaml.org,2002:float",
+    re.compile(r"^[-+]?(\d[\d_]*\.?\d*|\.\d+)([eE][-+]?\d+)?$"),
+    list("-+0123456789."),
+)
+_Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?\d+$"), list("-+0123456789"))
+
+
+def parse(text):
+    """What a deck would read from this text: a document, a number, a list, a word, ..."""
+    return yaml.load(text, _Loader)
+
+
+def load(path):
+    """A deck or recipe, or JSON."""
+    with open(path, encoding="utf-8") as file:
+        return parse(file)
+
+
+def save(document, path):
+    """Numbers are written with all digits."""
+    with open(path, "w", encoding="utf-8") as file:
+        yaml.safe_dump(document, file, sort_keys=False, default_flow_style=None, width=120)
+
+
+def change(document, path, value):
+    """document.a.1.b = value; None takes the key out. KeyError when the path leads nowhere."""
+    *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
+    for key in parents:
+        try:
+            document = document.setdefault(key, {}) if isinstance(document, dict) else document[key]
+        except (IndexError, TypeError):
+            raise KeyError(f"{path} leads nowhere: there is no '{key}'.") from None
+    if value is None and isinstance(document, dict):
+        document.pop(last, None)
+    elif isinstance(document, list) and last == len(document):
+        document.append(value)
+    else:
+        document[last] = value
+
+
+def value_at(document, path):
+    """document.a.1.b; KeyError when there is none."""
+    for key in path.split("."):
+        try:
+            document = document[int(key) if isinstance(document, list) else key]
+        except (IndexError, KeyError, TypeError, ValueError):
+            raise KeyError(f"{path} leads nowhere: there is no '{key}'.") from None
+    return document

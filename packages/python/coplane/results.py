@@ -1,0 +1,238 @@
+"""A run, with everything that it has written."""
+
+import fcntl
+import functools
+import json
+import pathlib
+import re
+
+from . import exodus, fields, tables
+from .documents import parse
+from .planes import Planes
+
+# Ends of the columns that each of these has in the history (docs/user/outputs.md).
+_MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in "xyz"]
+_BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
+_JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
+_RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
+_ENDS = (".run.json", ".csv", ".e", ".yaml", ".log", "_planes.pvd")
+
+
+class NoRun(FileNotFoundError):
+    """There is no run of a name, or more than one in a folder."""
+
+
+def _stems(folder):
+    """Names of the runs in a folder: of their records."""
+    names = [_RECORD.fullmatch(path.name) for path in folder.iterdir()] if folder.is_dir() else []
+    return sorted({name.group(1) for name in names if name})
+
+
+def _place(path):
+    """Folder and name of the run that is meant by a folder, a name, or a file of the run."""
+    path = pathlib.Path(path)
+    if path.is_dir():
+        stems = _stems(path) or sorted(file.stem for file in path.glob("*.csv") if file.with_suffix(".yaml").exists())
+        if len(stems) == 1:
+            return path, stems[0]
+        many = f"has several runs; open one of {', '.join(str(path / stem) for stem in stems)}" if stems else \
+            "has no record of a run (<name>.run.json) and no history beside its deck"
+        raise NoRun(f"{path}: the folder {many}.")
+    stem = next((path.name[: -len(end)] for end in _ENDS if path.name.endswith(end) and path.exists()), path.name)
+    if not any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e")):
+        there = _stems(path.parent)
+        also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
+            "Give the name of its deck without .yaml, with the folder in which it ran."
+        log = path.parent / (stem + ".log")
+        said = log.read_text(encoding="utf-8", errors="replace").splitlines()[-1:] if log.exists() else []
+        raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. "
+                    + (f"{log} ends with: {said[0]}" if said else also))  # fmt: skip
+    return path.parent, stem
+
+
+class Run:
+    """What a run has written so far: `run = coplane.open("out/wall")`. Everything is read when it is wanted first; a run that goes on is
+    opened again to see more. Units are those of the files: SI.
+    """
+
+    def __init__(self, path):
+        self.folder, self.name = _place(path)
+
+    def __repr__(self):
+        return f"<coplane run {self.folder / self.name}: {self.ending}>"
+
+    def path(self, end):
+        """Path of a file of the run: its name and what follows."""
+        return self.folder / (self.name + end)
+
+    # --- what was run ------------------------------------------------------------------------------
+
+    @functools.cached_property
+    def records(self):
+        """The records of all parts, the first run and its restarts."""
+        found = []
+        for path in self.folder.glob("*.json"):
+            name = _RECORD.fullmatch(path.name)
+            if name and name.group(1) == self.name:
+                try:
+                    found.append((int(name.group(2) or 1), json.loads(path.read_text(encoding="utf-8"))))
+                except ValueError as error:
+                    raise ValueError(f"{path}: the record is damaged, no JSON: {error}. Without the file the rest of the run can be opened.") from error
+        records = [record for _, record in sorted(found, key=lambda item: item[0])]
+        return [record for record in records if record.get("run") == records[0].get("run")]
+
+    @property
+    def record(self):
+        """That of the last part, <name>.run.json; empty when there is none."""
+        return self.records[-1] if self.records else {}
+
+    @property
+    def is_running(self):
+        """Whether a program writes the run now: it holds the lock."""
+        try:
+            with open(self.path(".lock")) as file:
+                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except FileNotFoundError:
+            return False
+        except BlockingIOError:
+            return True
+        return False
+
+    @property
+    def ending(self):
+        """How it ended: that of the record, or `killed` where that says running but nothing runs; `unknown` without a record."""
+        ending = self.record.get("ending", "unknown")
+        return "killed" if ending == "running" and not self.is_running else ending
+
+    @property
+    def deck_text(self):
+        """The deck as it was used; empty when neither the record nor a deck beside it has it."""
+        if "deck" in self.record:
+            return self.record["deck"]["text"]
+        return self.path(".yaml").read_text(encoding="utf-8", errors="replace") if self.path(".yaml").exists() else ""
+
+    @property
+    def deck(self):
+        from .deck import Deck
+
+        return Deck.from_text(self.deck_text, self.path(".yaml"))
+
+    @property
+    def log(self):
+        """What the program printed, where that was kept in <name>.log; else empty."""
+        return self.path(".log").read_text(encoding="utf-8", errors="replace") if self.path(".log").exists() else ""
+
+    # --- over time ---------------------------------------------------------------------------------
+
+    @functools.cached_property
+    def columns(self):
+        """The history as arrays by name, without pandas."""
+        return tables.columns(self.path(".csv"))
+
+    @functools.cached_property
+    def units(self):
+        """Units by column of the history."""
+        return tables.units(self.path(".csv"))
+
+    @functools.cached_property
+    def history(self):
+        """The history as a DataFrame: a line per time [s]; units in attrs["units"]."""
+        return tables.frame(self.path(".csv"))
+
+    @functools.cached_property
+    def tables(self):
+        """Energies by blocks, pairs and materials, of those that the run wrote, as DataFrames."""
+        names = ("blocks", "pairs", "materials")
+        return {name: tables.frame(self.path(f"_{name}.csv"), index=None) for name in names if self.path(f"_{name}.csv").exists()}
+
+    def groups(self, ends):
+        """Names with a column `<name>_<end>` for each of these ends."""
+        names = [name[: -len(ends[0]) - 1] for name in self.columns if name.endswith("_" + ends[0])]
+        return [name for name in names if all(f"{name}_{end}" in self.columns for end in ends)]
+
+    def _of(self, names, ends):
+        found = {}
+        for name in names:
+            table = self.history[[f"{name}_{end}" for end in ends]].set_axis(ends, axis=1)
+            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in ends}
+            found[name] = table
+        return found
+
+    @property
+    def probe_names(self):
+        return [name for name in self.groups(_MOTION) if name not in self.body_names]
+
+    @property
+    def probes(self):
+        """Motion of every probe: displacement_x..z, velocity_x..z, as DataFrames."""
+        return self._of(self.probe_names, _MOTION)
+
+    @property
+    def joint_names(self):
+        return self.groups(_JOINT)
+
+    @property
+    def joints(self):
+        """Areas, closure, slip, force and energies of every joint of `history.joints`, as DataFrames."""
+        return self._of(self.joint_names, _JOINT)
+
+    @property
+    def body_names(self):
+        return self.groups(_BODY)
+
+    @property
+    def bodies(self):
+        """Motion, spin and reactions of every body of `history.rigid`, as DataFrames."""
+        return self._of(self.body_names, _BODY)
+
+    @property
+    def _results_name(self):
+        """Of the Exodus file: that of the deck; else the deck's name, which that of the run may not be."""
+        named = ((parse(self.deck_text) or {}).get("output") or {}).get("results", "none")
+        return named if named != "none" else pathlib.Path(self.record.get("deck", {}).get("file", self.name + ".yaml")).stem + ".e"
+
+    # --- fields ------------------------------------------------------------------------------------
+
+    @functools.cached_property
+    def results(self):
+        """The Exodus files of the run as one series, with arrays of numpy."""
+        return exodus.Series(exodus.files_of(self.folder / self._results_name))
+
+    @functools.cached_property
+    def nodes(self):
+        """Fields on nodes as a Dataset: dimensions time and node."""
+        return fields.nodes(self.results)
+
+    @functools.cached_property
+    def elements(self):
+        """Fields on all elements as a Dataset: dimensions time and element; the coordinate block says which block."""
+        return fields.elements(self.results)
+
+    @functools.cached_property
+    def blocks(self):
+        """Fields on the elements of each block, with their connectivity."""
+        return {name: fields.block(self.results, name) for name in self.results.blocks}
+
+    @functools.cached_property
+    def node_sets(self):
+        """Positions of the nodes of each set: `run.nodes.isel(node=run.node_sets["tip"])`."""
+        return {name: self.results.set_nodes(name) for name in self.results.node_sets}
+
+    @functools.cached_property
+    def side_sets(self):
+        """Fields of contact on the sides of each set: dimensions time and side."""
+        return {name: fields.sides(self.results, name) for name in self.results.side_sets}
+
+    @functools.cached_property
+    def globals(self):
+        """Time step and energies at the times of the results."""
+        return fields.whole(self.results)
+
+    @functools.cached_property
+    def planes(self):
+        """The contact planes over time."""
+        return Planes(self.planes_path)
+
+    @property
+    def planes_path(self):
+        return self.folder / f"{pathlib.Path(self._results_name).with_suffix('')}_planes.pvd"

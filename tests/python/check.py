@@ -1,0 +1,213 @@
+"""The Python package coplane on short runs: what it reads is what the files hold, whatever wrote them (README.md)."""
+
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+import netCDF4
+import numpy
+import pandas
+
+from coplanetest import Case, documents
+
+import coplane
+from coplane import exodus, needs, tables
+from coplane.units import VARIABLES
+
+SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
+case = Case("python", __file__)
+
+
+def equal(what, value, reference):
+    case.check_equal(what, bool(numpy.array_equal(value, reference)), True)
+
+
+def told(what, error, call, *words):
+    """A call raises this error, and its text has these words."""
+    try:
+        call()
+        text = "no error"
+    except error as raised:
+        text = str(raised)
+    case.check_equal(f"{what}: told of", [word for word in words if word not in text], [])
+
+
+recipe = case.load("exodus_inputs/jointed_rock_2d/mesh.yaml")
+documents.change(recipe, "parts.0.blocks", [6, 2])
+for group in ("node_sets", "side_sets"):
+    for name, axis, place in (("right", "x", 6), ("top", "y", 2)):
+        if name in recipe[group]:
+            recipe[group][name]["where"][axis] = place
+for name in ("after_5", "after_10"):
+    recipe["node_sets"].pop(name)
+deck = case.load("exodus_inputs/jointed_rock_2d/deck.yaml")
+deck.pop("mesh")
+deck["time"] = {"end": 3e-3}
+deck["output"] = {"every": 5e-4}
+deck["history"] = {"every": 0, "joints": ["*"], "tables": ["blocks", "pairs", "materials"], "probes": [{"name": "near", "node_set": "near"}]}
+straight = case.run("straight", recipe, deck)
+
+# --- one series, however it was written --------------------------------------------------------------
+
+whole = coplane.open("straight")
+first = case.attempt("parts", recipe, {**deck, "output": {"every": 5e-4, "file_per_rank": True}, "checkpoint": {"at_end": True}}, ranks=2,
+                     options=["--set", "time.end=1.5e-3"])  # fmt: skip
+case.check_equal("first part: exit code", first.code, 0)
+split = coplane.Deck.read("parts/run.yaml")
+split["output"] = {"every": 5e-4}
+split["time.end"] = 3e-3
+split.write("parts/run.yaml")
+parts = coplane.run("parts/run.yaml", threads=2, restart=True)
+case.check_equal("files of each part", [len(files) for files in exodus.files_of("parts/run.e")], [2, 1])
+case.check_equal("records", len(parts.records), 2)
+steps = [numpy.argmin(numpy.abs(parts.results.times - time)) for time in whole.results.times]
+equal("times of the results", parts.results.times[steps], whole.results.times)
+case.check_equal("times ascend", bool((numpy.diff(parts.results.times) > 0).all()), True)
+for what in ("coordinates", "node_ids", "element_ids"):
+    equal(what, getattr(parts.results, what), getattr(whole.results, what))
+equal("connectivity", parts.results.connectivity("rock"), whole.results.connectivity("rock"))
+for name in whole.results.node_sets:
+    equal(f"node set {name}", sorted(parts.node_sets[name]), sorted(whole.node_sets[name]))
+for name in whole.nodes:
+    equal(f"{name} of all parts", parts.nodes[name].values[steps], whole.nodes[name].values)
+for name in whole.elements:
+    equal(f"{name} of all parts", parts.elements[name].values[steps], whole.elements[name].values)
+order = numpy.lexsort(whole.results.sides("right").T[::-1])
+equal("sides of a set", parts.results.sides("right"), whole.results.sides("right")[order])
+equal("tractions of a set", parts.side_sets["right"].side_normal_traction.values[steps], whole.side_sets["right"].side_normal_traction.values[:, order])
+equal("the history", parts.history.kinetic.values, whole.history.kinetic.values)
+
+# --- fields -----------------------------------------------------------------------------------------
+
+with netCDF4.Dataset("straight/run.e") as file:
+    file.set_auto_mask(False)
+    number = whole.results.nodal_names.index("velocity_x") + 1
+    equal("velocity of the file", whole.nodes.velocity_x.values, file[f"vals_nod_var{number}"][:])
+    equal("one step, some nodes", whole.nodes.velocity_x[3, 5:8].values, file[f"vals_nod_var{number}"][3, 5:8])
+    equal("every other step", whole.nodes.velocity_x[::2, 4].values, file[f"vals_nod_var{number}"][::2, 4])
+near = whole.nodes.isel(node=whole.node_sets["near"]).velocity_x.mean("node")
+probe = numpy.interp(near.time, whole.history.index, whole.probes["near"].velocity_x)
+case.check("probe: mean over the node set", float(abs(near - probe).max()), 0, 1e-12)
+case.check_equal("unit of a velocity", whole.nodes.velocity_y.attrs, {"units": "m/s", "long_name": "velocity, y"})
+case.check_equal("blocks", list(whole.blocks), ["rock"])
+case.check("corners of an element, against its middle", float(whole.nodes.x.values[whole.blocks["rock"].connectivity[7]].mean()),
+           float(whole.elements.x[7]), 1e-12)  # fmt: skip
+equal("kinetic energy of results and history", numpy.interp(whole.results.times, whole.history.index, whole.history.kinetic),
+      whole.globals.kinetic_energy)  # fmt: skip
+page = (SOURCE / "docs/user/outputs.md").read_text()
+for line in re.findall(r"^\| (`[a-z_]+[`_,x-z].*) \| (?:nodes|elements|global|side sets) \| (\S*) \|", page, flags=re.M):
+    names = re.findall(r"`([a-z_]+?)(?:_x,.*|_xx,.*)?`", line[0])
+    unit = {"–": "1", "kg/m³": "kg/m^3"}.get(line[1], line[1])
+    case.check_equal(f"unit of {names} on the page", [name for name in names if name in VARIABLES and VARIABLES[name][0] != unit], [])
+
+# --- history, tables, planes ------------------------------------------------------------------------
+
+history = whole.history
+case.check_equal("units of the history", [history.attrs["units"].get(name) for name in ("kinetic", "dt", "cycle")], ["J", "s", None])
+equal("kinetic energy as pandas reads it", history.kinetic, pandas.read_csv("straight/run.csv", float_precision="round_trip")["kinetic[J]"])
+case.check_equal("joints and probes", (list(whole.joints), list(whole.probes), list(whole.bodies)), (["tight"], ["near"], []))
+equal("stored energy of the joint", whole.joints["tight"].stored, history.contact_stored)
+case.check_equal("tables", sorted(whole.tables), ["blocks", "materials", "pairs"])
+equal("planes of the pairs", whole.tables["pairs"].groupby("time").planes.sum(), history.planes)
+case.check_equal("planes of the last step", len(whole.planes[-1]), int(history.planes.iloc[-1]))
+case.check_equal("joints of the planes", sorted(set(whole.planes.at(0).joint)), ["tight"])
+try:
+    import vtkmodules  # noqa: F401
+
+    points = whole.planes.vtk(-1)
+    case.check_equal("planes as VTK sees them", (points.GetNumberOfPoints(), points.GetPointData().GetArray("closure").GetValue(3)),
+                     (len(whole.planes[-1]), float(whole.planes[-1].closure[3])))  # fmt: skip
+except ImportError:
+    print("no VTK here: planes are not compared with what it reads")
+case.check("stored energy of the planes", whole.planes[-1].stored.sum(), history.contact_stored.iloc[-1], 1e-12, relative=True)
+figure = whole.history.plot(y=["kinetic", "internal"], backend="plotly")
+case.check_equal("lines of a plot", [trace.name for trace in figure.data], ["kinetic", "internal"])
+
+# --- decks ------------------------------------------------------------------------------------------
+
+for path in sorted((SOURCE / "exodus_inputs").glob("*/*deck*.yaml")):
+    plain = documents.load(path)
+    case.check_equal(f"{path.parent.name}/{path.name}: as written again", documents.parse(coplane.Deck.read(path).text), plain)
+opened = coplane.Deck.read(SOURCE / "exodus_inputs/jointed_rock_2d/deck.yaml")
+comments = re.findall("# .*", opened.path.read_text())
+opened["time.end"] = 1e-3
+opened["conditions.1.side_set"] = "right"
+del opened["contact.area_min"]
+case.check_equal("comments that are lost", [line for line in comments if line not in opened.text and "hair" not in line], [])
+case.check_equal("a deck's values", (opened["time.end"], "contact.area_min" in opened, opened.get("a.b")), (1e-3, False, None))
+told("no such value", KeyError, lambda: opened["conditions.9.type"], "conditions.9.type", "'9'")
+checked = coplane.Deck.read("straight/run.yaml")
+case.check_equal("check: prints the model", "deck and mesh are fine" in checked.check(), True)
+checked["contact.skn"] = 1
+place = 1 + pathlib.Path("straight/run.yaml").read_text().splitlines().index("contact:")
+told("a wrong key", coplane.DeckError, checked.check, "'skn'", f"straight/run.yaml:{place}: contact: ")
+del checked["contact.skn"]
+checked["blocks.rok"] = checked["blocks.rock"]
+told("a wrong name", coplane.DeckError, checked.check, "'rok'", "Did you mean 'rock'?", "straight/run.yaml:")
+del checked["blocks.rok"]
+case.check_equal("nothing is left beside the deck", [path.name for path in pathlib.Path("straight").glob(".check*")], [])
+
+# --- runs -------------------------------------------------------------------------------------------
+
+checked["time.end"] = 2e-3
+told("changes without a file", ValueError, lambda: coplane.run(checked), "Deck.write")
+started = coplane.run(checked, "watched", ranks=2, wait=False)
+seen = [line["time"] for line in coplane.watch(started, 0.05)]
+case.check_equal("watched: ending", started.wait().ending, "completed")
+equal("watched: times", seen, coplane.open("watched").history.index)
+followed = coplane.run(checked, "followed", wait=False)
+while not followed.path(".csv").exists():
+    time.sleep(0.01)
+seen = [line["cycle"] for line in coplane.watch("followed/run", 0.05)]
+equal("watched by its name: cycles", seen, followed.wait().history.cycle)
+table = coplane.study(checked, {"time.end": [5e-4, 1e-3], "time.step_factor": [0.5, 2]}, "study")
+case.check_equal("study: codes", list(table.code), [0, 3, 0, 3])
+case.check_equal("study: values", list(table["time.step_factor"]), [0.5, 2, 0.5, 2])
+case.check_within("study: time of the third run", table.time[2], 1e-3, 1.1e-3)
+told("a failed run", coplane.RunFailed, lambda: coplane.run("study/001/run.yaml"), "exit code 3", "step_factor")
+
+# --- what is not there ------------------------------------------------------------------------------
+
+told("no such run", FileNotFoundError, lambda: coplane.open("straight/rum"), "rum.run.json", "straight/run")
+told("a run that has not begun", FileNotFoundError, lambda: coplane.open("study/001/run"), "study/001/run.log ends with", "step_factor")
+told("no run in a folder", FileNotFoundError, lambda: coplane.open("study"), "study", "no record")
+lines = pathlib.Path("straight/run.csv").read_text().splitlines(keepends=True)
+pathlib.Path("cut.csv").write_text("".join(lines[:5])[:-3])
+case.check_equal("a line that is being written", len(tables.columns("cut.csv")["time"]), 3)
+pathlib.Path("bad.csv").write_text("".join(lines[:3]) + lines[3][:40] + "\n" + lines[4])
+told("a damaged line", ValueError, lambda: tables.columns("bad.csv"), "bad.csv:4", "columns")
+
+pathlib.Path("bad.csv").write_text("".join(lines[:3]) + lines[3].replace(",", ",x", 1))
+told("no number", ValueError, lambda: tables.columns("bad.csv"), "bad.csv: column cycle")
+
+# Without any of the other modules the package is there, and says what is missing.
+alone = "import sys\nfor name in sys.argv[1:]: sys.modules[name] = None\nimport coplane\nrun = coplane.open('straight')\n" \
+    "print(len(run.columns['time']), run.results.nodal('velocity').shape)\nrun.history"
+done = subprocess.run([sys.executable, "-c", alone, *needs.DEBIAN], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
+case.check_equal("numpy alone: the history", done.stdout.split()[:1], [str(len(history))])
+case.check_equal("numpy alone: what is missing", "apt-get install python3-pandas" in done.stderr, True)
+
+# --- the page's notebook, and a wheel ----------------------------------------------------------------
+
+notebook = json.loads((SOURCE / "docs/examples/python.ipynb").read_text())
+code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
+folder = pathlib.Path("notebook")
+folder.mkdir(exist_ok=True)
+done = subprocess.run([sys.executable, "-c", "\n\n".join(code)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
+print(done.stdout[-3000:])
+case.check_equal("the notebook: exit code", done.returncode, 0)
+
+build = "import shutil, os; from setuptools import build_meta; " \
+    "shutil.rmtree('wheel', True); shutil.copytree(os.environ['COPLANE_SOURCE'] + '/packages/python', 'wheel'); os.chdir('wheel'); " \
+    "print(build_meta.build_wheel('.'))"
+done = subprocess.run([sys.executable, "-c", build], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+version = re.search(r"project\(Coplane VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
+case.check_equal("the wheel", done.stdout.splitlines()[-1], f"coplane-{version}-py3-none-any.whl")
+
+case.finish()
