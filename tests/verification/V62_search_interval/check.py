@@ -8,7 +8,6 @@ from coplanetest import Case, differences
 case = Case("V62", __file__)
 
 
-
 def spread(runs, every, reference):
     """Largest difference of final displacements and velocities, each over its largest value."""
     a, b = runs[every].results, runs[reference].results
@@ -51,11 +50,27 @@ for name, recipe, deck in (
     ("impact", case.load("mesh_impact.yaml"), impact),
 ):
     runs = {}
-    for every in (1, 2, 4, 16):
+    for every in (1, 2, 4, 16, "auto"):
         deck = copy.deepcopy(deck)
         deck["contact"]["search_every"] = every
         runs[every] = case.run(f"{name}_{every}", recipe, deck)
     case.check_within(f"{name}: friction work [J]", runs[1].history["contact_friction"][-1], 1e-3, float("inf"))
-    for every in (2, 4, 16):
-        case.check(f"{name}: every {every} cycles against every one", spread(runs, every, 1), 0, 1e-6)
+    for every in (2, 4, 16, "auto"):
+        case.check(f"{name}: {every if every == 'auto' else f'every {every} cycles'} against every one", spread(runs, every, 1), 0, 1e-6)
+    if name == "slide":
+        case.check_within("slide: searches, auto", int(runs["auto"].history["searches"][-1]), 2, int(runs[4].history["searches"][-1]) // 10)
+
+# --- what neighbours pass on changes: auto searches as every fourth cycle does ----------------------
+overlapping, dilating = copy.deepcopy(slide), copy.deepcopy(slide)
+overlapping["contact"]["initial_overlap"] = "allow"
+sunk = case.load(f"{incline}/mesh.yaml")
+sunk["parts"][1]["min"][1] = -0.003
+sunk["node_sets"]["base"]["where"]["y"] = -0.003
+dilating["joints"]["rough"] = {"model": "linear", "normal_stiffness": 1e9, "shear_stiffness": 5e8, "friction": 0.3, "dilation": 0.1}
+for name, recipe, deck in (("overlap", sunk, overlapping), ("dilating", case.load(f"{incline}/mesh.yaml"), dilating)):
+    runs = {}
+    for every in (4, "auto"):
+        deck["contact"]["search_every"] = every
+        runs[every] = case.run(f"{name}_{every}", recipe, deck)
+    case.check(f"{name}: auto against every 4 cycles", spread(runs, "auto", 4), 0, 1e-6)
 case.finish()
