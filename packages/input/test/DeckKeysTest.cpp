@@ -47,6 +47,9 @@ materials:
     lock_moduli: [80e9, -170e9, 200e9]}
   fluid: {model: fluid, density: 1, eos: linear, sound_speed: 9}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
+  jwl: {model: jwl, density: 1640, jwl_a: 375e9, jwl_b: 3.3e9, jwl_r1: 4.16, jwl_r2: 0.96, omega: 0.31,
+    detonation_energy: 7.1e9, detonation_speed: 6950, detonation_pressure: 21.2e9, bulk_modulus: 8e9,
+    lighting_points: [[1, 0, 0]], lighting_times: [1e-6]}
 blocks:
   a: {material: j2, erosion: {variables: {energy: {above: 1}}}}
   b: {material: j2}
