@@ -45,6 +45,8 @@ void reportEnd(const Solver& solver)
           "hourglass {:.3e}, viscous {:.3e}",
           energy.kinetic, energy.internal, energy.plastic, energy.bending, energy.hourglass,
           energy.viscous);
+  if (energy.chemical > 0)
+    logInfo("  released by explosives {:.6e}, part of internal", energy.chemical);
   logInfo("  contact: stored {:.3e}, friction {:.3e}, hysteresis {:.3e}, fracture {:.3e}, damping "
           "{:.3e}, remainder "
           "{:.3e}",

@@ -94,7 +94,8 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
                     "tilte: x\n"),
             "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
             "Accepted: one of linear_elastic, j2, neo_hookean, drucker_prager, mohr_coulomb, "
-            "ubiquitous_joints, hoek_brown, johnson_cook, pseudo_cap, hjc, fluid, ideal_gas.\n"
+            "ubiquitous_joints, hoek_brown, johnson_cook, pseudo_cap, hjc, fluid, ideal_gas, "
+            "jwl.\n"
             "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
             "0 [kg/m^3].\n"
             "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
@@ -346,12 +347,13 @@ TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
             "neo_hookean, drucker_prager, mohr_coulomb, ubiquitous_joints, hoek_brown, "
             "johnson_cook, pseudo_cap, hjc, "
             "fluid, "
-            "ideal_gas: "
+            "ideal_gas, jwl: "
             "law of the continuum: Hooke; von Mises with hardening; rubber; Drucker and Prager; "
             "Mohr and Coulomb; weak planes of one direction in such a matrix; Hoek and Brown's "
             "rock mass; Johnson and Cook; concrete with a "
             "pseudo-cap; concrete of "
-            "Holmquist, Johnson and Cook; an equation of state without strength; gas.");
+            "Holmquist, Johnson and Cook; an equation of state without strength; gas; high "
+            "explosive with programmed burn.");
 }
 
 TEST(DeckErrors, aJointWithoutModelIsAPenalty)

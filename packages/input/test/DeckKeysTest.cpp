@@ -47,6 +47,9 @@ materials:
     lock_moduli: [80e9, -170e9, 200e9]}
   fluid: {model: fluid, density: 1, eos: linear, sound_speed: 9}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
+  jwl: {model: jwl, density: 1640, jwl_a: 375e9, jwl_b: 3.3e9, jwl_r1: 4.16, jwl_r2: 0.96, omega: 0.31,
+    detonation_energy: 7.1e9, detonation_speed: 6950, detonation_pressure: 21.2e9, bulk_modulus: 8e9,
+    lighting_points: [[1, 0, 0]], lighting_times: [1e-6]}
 blocks:
   a: {material: j2, erosion: {variables: {energy: {above: 1}}}}
   b: {material: j2}
@@ -77,6 +80,7 @@ conditions:
   - {type: absorbing, side_set: a}
   - {type: displacement, node_set: a, value: [0, 0, 0]}
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
+  - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5}
 time: {end: 1}
@@ -175,7 +179,8 @@ std::string show(const Deck& d)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
     showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.normal, k.pressure,
-            k.traction, k.incident, k.translation, k.spin);
+            k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass, k.chargePlace,
+            k.detonationTime);
   for (const auto& i : d.initial)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
@@ -223,6 +228,7 @@ std::string cardFor(const Key& group, const Key& key)
            : key.appliesTo("velocity")     ? ".1"
            : key.appliesTo("displacement") ? ".6"
            : key.appliesTo("rigid_motion") ? ".7"
+           : key.appliesTo("air_blast")    ? ".8"
                                            : ".0";
   return key.name == "block" && group.name == "probes" ? ".1" : ".0";
 }

@@ -345,7 +345,8 @@ TEST_F(Files, energyErrorInTheHistoryIsWhatItsTermsLack)
                        value("viscous[J]") + value("eroded[J]") + contact +
                        value("mass_damping[J]") + value("local_damping[J]") +
                        value("kinetic_damping[J]");
-    const Real error = total - value("external_work[J]") - value("initial[J]");
+    const Real error =
+        total - value("external_work[J]") - value("chemical[J]") - value("initial[J]");
     // A dozen sums of terms up to the initial energy, 625 J.
     EXPECT_NEAR(error, value("error[J]"), 12 * epsilon * value("initial[J]"));
   }

@@ -68,6 +68,52 @@ initial: [{block: lower, stress: [0, -5e5, 0, 0, 0, 0]}]
   }
 }
 
+TEST(ConditionsOfDeck, blastWaveOfACharge)
+{
+  const Model model = modelOf(blocksOfTwo + R"(
+conditions:
+  - {type: air_blast, side_set: load, charge_mass: 8, charge_place: [0.5, 12, 0], burst: air, detonation_time: -0.01}
+)");
+  ASSERT_EQ(model.conditions.airBlasts.size(), 1u);
+  for (const BlastSide& face : model.conditions.airBlasts[0].sides)
+  {
+    const Vec3 way = Vec3{0.5, 12, 0} - face.side.place;
+    const BlastValues values = blastValuesAt(Burst::Air, 8, norm(way));
+    const Real cosine = way.y / norm(way);
+    EXPECT_DOUBLE_EQ(face.wave.arrival, values.arrival - 0.01);
+    EXPECT_DOUBLE_EQ(face.wave.reflected.peak, values.reflectedPressure);
+    EXPECT_NEAR(face.wave.reflection, cosine * cosine, 1e-14);
+  }
+}
+
+TEST(ConditionsOfDeck, chargesBeyondTheMeasurementsAreProblems)
+{
+  const Comm comm;
+  const Mesh mesh = wallOfTwo();
+  const auto problemsOf = [&](const std::string& text)
+  {
+    const Deck deck = parseDeck(deckOfTwo + text, "wall.yaml");
+    return problemsOfAirBlasts(
+        deck, mesh, distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank()), comm);
+  };
+  const auto blastAt = [&](const std::string& place, const std::string& before = "")
+  {
+    return problemsOf(
+        before + blocksOfTwo +
+        "conditions: [{type: air_blast, side_set: load, charge_mass: 8, charge_place: " + place +
+        "}]\n");
+  };
+  EXPECT_TRUE(blastAt("[0.5, 12, 0]").empty());
+  ASSERT_EQ(blastAt("[0.5, 2.1, 0]").size(), 1u);
+  EXPECT_NE(blastAt("[0.5, 2.1, 0]")[0].find("accepted for burst: surface: 0.178 to 40 m/kg^(1/3), "
+                                             "here 0.356 to 80 m"),
+            std::string::npos)
+      << blastAt("[0.5, 2.1, 0]")[0];
+  EXPECT_EQ(blastAt("[0.5, 90, 0]").size(), 1u);
+  EXPECT_EQ(blastAt("[0.5, 12, 0]", "geometry: axisymmetric\n").size(), 1u); // off the axis
+  EXPECT_TRUE(blastAt("[0, 12, 0]", "geometry: axisymmetric\n").empty());
+}
+
 TEST(ConditionsOfDeck, bodiesOfRevolutionStayOnTheirAxis)
 {
   const Model model = modelOf("geometry: axisymmetric\n" + blocksOfTwo);

@@ -1,7 +1,7 @@
 """V61: a run whose mesh is dealt out anew every few cycles has the bits of the run on one rank: state, history, tables, results,
 planes; so has one that is restarted after a rebalance.
 
-Usage: check.py 2d|3d|sliding|erosion|erosion_3d|everything|rigid|rings|joints [all]
+Usage: check.py 2d|3d|sliding|erosion|erosion_3d|everything|rigid|rings|joints|detonation [all]
 """
 
 import itertools

@@ -1,7 +1,7 @@
 """V61: a run that is stopped and restarted, again and again, on other ranks, threads and back ends, has the bits of the run that
 was never stopped: state, history, results, planes.
 
-Usage: check.py 2d|3d|sliding|erosion|erosion_3d|everything|rigid|rings|joints [all]
+Usage: check.py 2d|3d|sliding|erosion|erosion_3d|everything|rigid|rings|joints|detonation [all]
 """
 
 import json

@@ -2,7 +2,7 @@
 
 import sys
 
-NAMES = ("2d", "3d", "sliding", "erosion", "erosion_3d", "everything", "rigid", "rings", "joints")
+NAMES = ("2d", "3d", "sliding", "erosion", "erosion_3d", "everything", "rigid", "rings", "joints", "detonation")
 
 
 def scene_of(case, name):
@@ -55,11 +55,16 @@ def scene_of(case, name):
         joints = case.load("exodus_inputs/cut_rock_2d/joints.yaml")
         del deck["mesh"]
         happened = ["stick", "contact_stored"]
+    elif name == "detonation":
+        recipe, deck = of("verification/V73_detonation")
+        deck["time"]["end"] = 4e-6
+        deck["output"]["every"] = 4e-6 / 9
+        happened = ["chemical", "viscous"]
     else:
         raise ValueError(f"scene {name!r} is not one of {', '.join(NAMES)}")
     deck.setdefault("history", {})["every"] = 0
     if name != "everything":
-        deck["history"]["tables"] = ["blocks", "pairs"]
+        deck["history"]["tables"] = ["blocks"] if name == "detonation" else ["blocks", "pairs"]
     return recipe, deck, joints, happened
 
 

@@ -24,6 +24,10 @@ conditions = {
     "symmetry": ({"node_set": "base", "normal": [0, 1, 0]}, {"node_set": "flank", "normal": [1, 1, 0]}),
     "pressure": ({"side_set": "top", "value": 1e5}, {"side_set": "right", "value": "1e5*x"}),
     "traction": ({"side_set": "top", "value": [1e5, 0, 0]}, {"side_set": "right", "value": [1e5, "1e5*t", 0]}),
+    "air_blast": (
+        {"side_set": "top", "charge_mass": 0.1, "charge_place": [0.5, 3, 0]},
+        {"side_set": "right", "charge_mass": 0.2, "charge_place": [1, 3, 0], "burst": "air", "detonation_time": 1e-3},
+    ),
     "absorbing": ({"side_set": "top"}, {"side_set": "right", "incident": [0.1, 0, 0]}),
     "rigid_motion": (
         {"block": "tool", "velocity": [1, 0, 0]},

@@ -86,6 +86,15 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
                    [&](int k) { return dot(areas[k], normal) * traction; });
     }
   }
+  for (const AirBlast& blast : airBlasts)
+    for (const BlastSide& face : blast.sides)
+    {
+      const Real pressure = face.wave.pressure(t);
+      if (!(pressure > 0))
+        continue; // before it arrives and after it has passed
+      const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);
+      addToCorners(face.side, ownedNodes, external, [&](int k) { return -pressure * areas[k]; });
+    }
   for (const AbsorbingBoundary& boundary : absorbing)
   {
     const Vec3 incident = boundary.incident(t);
@@ -150,6 +159,8 @@ void Conditions::endLoadsOn(const std::vector<GlobalId>& dead)
     forget(load.sides, isDead);
   for (FaceTraction& load : tractions)
     forget(load.sides, isDead);
+  for (AirBlast& blast : airBlasts)
+    forget(blast.sides, [&](const BlastSide& face) { return isDead(face.side); });
   for (AbsorbingBoundary& boundary : absorbing)
     forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_core/NodeViews.hpp>
+#include <coplane_dynamics/AirBlast.hpp>
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_dynamics/RelaxationOptions.hpp>
 
@@ -105,6 +106,18 @@ struct FaceTraction
   std::array<OfTimeAndPlace, 3> field{}; ///< instead, where one of them varies with the place: all
 };
 
+/// The blast wave of a charge on faces: its pressure and arrival are those of the face at the
+/// start; area and direction follow the motion.
+struct BlastSide
+{
+  LoadedSide side;
+  BlastWave wave;
+};
+struct AirBlast
+{
+  std::vector<BlastSide> sides;
+};
+
 /// A face behind which the body is thought to go on without end (Lysmer and Kuhlemeyer 1969):
 ///
 ///     t = sigma0 n - z_n (v - 2 v_in)_normal - z_s (v - 2 v_in)_tangential
@@ -153,6 +166,7 @@ struct Conditions
   std::vector<RigidMotion> rigidMotions;
   std::vector<FacePressure> pressures;
   std::vector<FaceTraction> tractions;
+  std::vector<AirBlast> airBlasts;
   std::vector<AbsorbingBoundary> absorbing;
   bool axisymmetric = false; ///< faces are those of a body of revolution about x = 0
   VectorOfTime gravity;      ///< [m/s^2]
@@ -162,7 +176,7 @@ struct Conditions
   RelaxationOptions relaxation;
 
   /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
-  /// and of absorbing sides what does not depend on the velocity.
+  /// air blasts, and of absorbing sides what does not depend on the velocity.
   void applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const;
 
   bool dampsAt(Real t) const { return t >= dampingFrom && t < dampingUntil; }

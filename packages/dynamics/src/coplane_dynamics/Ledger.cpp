@@ -11,7 +11,7 @@ namespace coplane
 Real EnergyBalance::scale() const
 {
   return std::max({std::abs(initial), std::abs(kinetic), std::abs(internal), std::abs(externalWork),
-                   std::abs(eroded), std::abs(contact.work), std::abs(massDamping),
+                   chemical, std::abs(eroded), std::abs(contact.work), std::abs(massDamping),
                    std::abs(localDamping), std::abs(kineticDamping)});
 }
 
@@ -25,6 +25,7 @@ enum Term
   Bending,
   Hourglass,
   Viscous,
+  Chemical,
   Eroded,
   Damping,
   LocalDamping,
@@ -63,8 +64,11 @@ void addElements(const Parts& parts, EnergySums& sums)
   for (std::size_t b = 0; b < parts.blocks().size(); ++b)
     for (int e = 0; e < parts.blocks()[b].count(); ++e)
       if (parts.mesh().blocks[b].owned[e])
+      {
         for (const auto& [term, kind] : kinds)
           sums[term].add(parts.blocks()[b].energy(e, kind));
+        sums[Chemical].add(parts.blocks()[b].chemicalEnergy(e));
+      }
   for (const ExactSum& block : parts.erosion.energies())
     sums[Eroded].add(block);
 }
@@ -90,7 +94,8 @@ EnergyBalance Ledger::energy(const Parts& parts, const RelaxationState& relaxati
   const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
   EnergyBalance balance;
   balance.kinetic = totals[Kinetic];
-  balance.internal = totals[Internal];
+  balance.chemical = totals[Chemical];
+  balance.internal = totals[Internal] + balance.chemical;
   balance.plastic = totals[Plastic];
   balance.bending = totals[Bending];
   balance.hourglass = totals[Hourglass];

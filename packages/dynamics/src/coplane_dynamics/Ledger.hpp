@@ -9,7 +9,7 @@ namespace coplane
 struct EnergyBalance
 {
   Real kinetic = 0;  ///< 1/2 sum m v(n-1/2).v(n+1/2)
-  Real internal = 0; ///< of the elements: elastic and plastic work
+  Real internal = 0; ///< of the elements: elastic and plastic work, and what `chemical` has added
   Real plastic = 0;  ///< part of internal that is lost
   Real bending = 0;  ///< part of plastic: of bending within elements (HourglassReturn.hpp)
   Real hourglass = 0;
@@ -20,6 +20,7 @@ struct EnergyBalance
   Real localDamping = 0;   ///< taken out by local damping
   Real kineticDamping = 0; ///< taken out by stops at peaks of the kinetic energy
   Real externalWork = 0;   ///< of loads and reactions
+  Real chemical = 0;       ///< released by explosives, a source as external work is
   Real initial = 0;        ///< total at the start
   Real nodalWork = 0;      ///< of all forces on nodes; kinetic energy minus its initial value, to
                            ///< round-off at constant dt
@@ -30,7 +31,7 @@ struct EnergyBalance
            localDamping + kineticDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
-  Real error() const { return total() - externalWork - initial; }
+  Real error() const { return total() - externalWork - chemical - initial; }
   /// The energy in play, by which errors are judged.
   Real scale() const;
 };

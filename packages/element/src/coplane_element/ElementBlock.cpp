@@ -229,10 +229,14 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
 void ElementBlock::initialise(const ConstNodeVectors& x)
 {
   const bool flat = topology(type_).dimension == 2;
+  const int nodes = topology(type_).nodes;
+  centres_.assign(arrays_.mass.extent(0), {});
   for (int e = 0; e < int(arrays_.mass.extent(0)); ++e)
   {
     const Real size = withType(type_, [&](auto t) { return measure<t()>(e, x); });
     arrays_.referenceLength(e) = flat ? std::sqrt(size) : std::cbrt(size);
+    for (int c = 0; c < nodes; ++c)
+      centres_[std::size_t(e)] += (1.0 / nodes) * at(x, arrays_.connectivity(e, c));
   }
   forEachState([](const char*, int, const Values& values) { Kokkos::deep_copy(values, 0.0); });
   Kokkos::deep_copy(arrays_.tangent, 1.0);
@@ -290,7 +294,7 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
     arrays_.stress(k, element) = values[k];
-  const auto start = initialHistory(law_, s);
+  const auto start = initialHistory(law_, s, centres_[std::size_t(element)]);
   const int rows = int(arrays_.history.extent(0));
   for (int k = 0; k < rows; ++k)
     arrays_.history(k, element) = start[std::size_t(k)];
@@ -403,6 +407,14 @@ void ElementBlock::restore(const Eroded& eroded)
   for (std::size_t corner = 0; corner < arrays_.cornerForce.extent(1); ++corner)
     for (int c = 0; c < 3; ++c)
       arrays_.cornerForce(e, corner, c) = 0;
+}
+
+Real ElementBlock::chemicalEnergy(int e) const
+{
+  const Jwl* const explosive = std::get_if<Jwl>(&law_);
+  return explosive ? explosive->energy * arrays_.history(Jwl::BurnFraction, e) *
+                         arrays_.referenceVolume(e)
+                   : 0;
 }
 
 Real ElementBlock::pressure(int e) const

@@ -66,6 +66,10 @@ public:
   /// [element][corner] -> local node
   ConstTable<int> connectivity() const { return arrays_.connectivity; }
 
+  /// What an explosive has released in the element, products of eroded elements included; 0 for
+  /// other laws [J].
+  Real chemicalEnergy(int element) const;
+
   /// Force of the element on its nodes [N]: a node's internal force is the sum over its corners
   /// (minus B sigma).
   ConstCornerVectors cornerForce() const { return arrays_.cornerForce; }
@@ -169,7 +173,8 @@ private:
   ElementOptions options_;
   std::vector<std::string> historyNames_;
   ElementArrays arrays_;
-  Values alive_; // 1 alive, 0 eroded
+  Values alive_;              // 1 alive, 0 eroded
+  std::vector<Vec3> centres_; // of the elements at the start, means of their nodes [m]
   std::vector<Eroded> eroded_;
 };
 } // namespace coplane

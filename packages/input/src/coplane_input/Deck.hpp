@@ -112,7 +112,7 @@ struct ConditionCard
 {
   std::string where;
   std::string type; ///< fixed | velocity | displacement | symmetry | pressure | traction |
-                    ///< absorbing | rigid_motion
+                    ///< air_blast | absorbing | rigid_motion
   /// Node set (fixed, velocity, displacement, symmetry), element block (rigid_motion) or side set
   /// (the others).
   std::string set;
@@ -123,10 +123,17 @@ struct ConditionCard
   TimeFunction pressure;                ///< pressure, follower, positive pushes into the body [Pa]
   std::array<TimeFunction, 3> traction; ///< traction, in fixed axes [Pa]
   std::array<TimeFunction, 3> incident; ///< absorbing, velocity of the wave that enters [m/s]
+  std::string burst = "surface";        ///< air_blast: surface | air
+  Real chargeMass = 0;                  ///< air_blast, equivalent of TNT [kg]
+  Vec3 chargePlace{0, 0, 0};            ///< air_blast [m]
+  Real detonationTime = 0;              ///< air_blast [s]
   /// rigid_motion: of each body's centre [m/s], and its spin [rad/s]; free where not given
   std::optional<std::array<TimeFunction, 3>> translation, spin;
 
-  bool onSides() const { return type == "pressure" || type == "traction" || type == "absorbing"; }
+  bool onSides() const
+  {
+    return type == "pressure" || type == "traction" || type == "air_blast" || type == "absorbing";
+  }
 };
 
 struct InitialCard

@@ -152,12 +152,13 @@ Key conditions()
                  text("type", &ConditionCard::type)
                      .needed()
                      .oneOf({"fixed", "velocity", "displacement", "symmetry", "pressure",
-                             "traction", "absorbing", "rigid_motion"})
+                             "traction", "air_blast", "absorbing", "rigid_motion"})
                      .like("fixed")
                      .means("fixed: no motion; velocity, displacement: prescribed motion; "
                             "symmetry: no motion "
                             "along the normal; pressure: follows the moving faces; traction: in "
-                            "fixed axes; absorbing: waves leave through the faces; rigid_motion: "
+                            "fixed axes; air_blast: pressure of the blast wave of a charge; "
+                            "absorbing: waves leave through the faces; rigid_motion: "
                             "prescribed velocity and spin of the bodies of a rigid block"),
                  text("node_set", &ConditionCard::set)
                      .onlyFor({"fixed", "velocity", "displacement", "symmetry"})
@@ -165,7 +166,7 @@ Key conditions()
                      .means("node set of the mesh")
                      .like("base"),
                  text("side_set", &ConditionCard::set)
-                     .onlyFor({"pressure", "traction", "absorbing"})
+                     .onlyFor({"pressure", "traction", "air_blast", "absorbing"})
                      .needed()
                      .means("side set of the mesh")
                      .like("top"),
@@ -217,6 +218,31 @@ Key conditions()
                      .like("[0, \"-1e5*min(t/0.01, 1)\", 0]")
                      .means("force per present area, in fixed axes; x, y, z: middle of the face at "
                             "t = 0"),
+                 text("burst", &ConditionCard::burst)
+                     .onlyFor({"air_blast"})
+                     .oneOf({"surface", "air"})
+                     .like("air")
+                     .means("surface: a hemisphere on the ground, which reflects; air: a sphere "
+                            "far from it"),
+                 number("charge_mass", &ConditionCard::chargeMass)
+                     .onlyFor({"air_blast"})
+                     .needed()
+                     .in("kg")
+                     .above(0)
+                     .like("100")
+                     .means("mass of the charge, or that of the equivalent of TNT"),
+                 vector("charge_place", &ConditionCard::chargePlace)
+                     .onlyFor({"air_blast"})
+                     .needed()
+                     .in("m")
+                     .like("[-10, 0, 0]")
+                     .means("centre of the charge; on the ground where the burst is one of the "
+                            "surface"),
+                 number("detonation_time", &ConditionCard::detonationTime)
+                     .onlyFor({"air_blast"})
+                     .in("s")
+                     .like("-0.01")
+                     .means("when it detonates; before 0: the wave is on its way at the start"),
                  vectorOfTime("incident", &ConditionCard::incident)
                      .onlyFor({"absorbing"})
                      .in("m/s")

@@ -21,6 +21,12 @@ template <class Law, class = void>
 constexpr bool startsFrom = false;
 template <class Law>
 constexpr bool startsFrom<Law, std::void_t<decltype(&Law::startFrom)>> = true;
+
+/// Laws whose history depends on the place say so by startAt().
+template <class Law, class = void>
+constexpr bool startsAt = false;
+template <class Law>
+constexpr bool startsAt<Law, std::void_t<decltype(&Law::startAt)>> = true;
 } // namespace
 
 std::vector<std::string> historyNames(const Material& material)
@@ -38,7 +44,8 @@ std::vector<std::string> historyNames(const Material& material)
       material);
 }
 
-std::array<Real, maximumHistory> initialHistory(const Material& material, const SymTensor& stress)
+std::array<Real, maximumHistory> initialHistory(const Material& material, const SymTensor& stress,
+                                                const Vec3& place)
 {
   std::array<Real, maximumHistory> history{};
   std::visit(
@@ -46,6 +53,8 @@ std::array<Real, maximumHistory> initialHistory(const Material& material, const 
       {
         if constexpr (startsFrom<std::decay_t<decltype(law)>>)
           law.startFrom(stress, history.data());
+        if constexpr (startsAt<std::decay_t<decltype(law)>>)
+          law.startAt(place, history.data());
       },
       material);
   return history;

@@ -7,6 +7,7 @@
 #include <coplane_material/HolmquistJohnsonCook.hpp>
 #include <coplane_material/J2.hpp>
 #include <coplane_material/JohnsonCook.hpp>
+#include <coplane_material/Jwl.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
 #include <coplane_material/NeoHookean.hpp>
@@ -25,7 +26,7 @@ namespace coplane
 /// with the same bits in every lane.
 using Material = std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean,
                               DruckerPrager, MohrCoulomb, JohnsonCook, PseudoCap,
-                              HolmquistJohnsonCook, Fluid, HoekBrown, UbiquitousJoints>;
+                              HolmquistJohnsonCook, Fluid, HoekBrown, UbiquitousJoints, Jwl>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded
@@ -39,8 +40,9 @@ Material makeLaw(const J2Parameters& parameters);
 std::vector<std::string> historyNames(const Material& material);
 
 /// The law's history at the start of a run, under the initial stress [Pa].
-std::array<Real, maximumHistory> initialHistory(const Material& material,
-                                                const SymTensor& stress = {});
+/// @param place centre of the element [m]
+std::array<Real, maximumHistory>
+initialHistory(const Material& material, const SymTensor& stress = {}, const Vec3& place = {});
 
 /// A law as kernels call it: one function per law, whatever the element.
 struct LawFunction

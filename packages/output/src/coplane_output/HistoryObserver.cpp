@@ -56,6 +56,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("local_damping[J]", energy.localDamping);
   line.add("kinetic_damping[J]", energy.kineticDamping);
   line.add("external_work[J]", energy.externalWork);
+  line.add("chemical[J]", energy.chemical);
   line.add("initial[J]", energy.initial);
   line.add("error[J]", energy.error());
   line.add("nodal_work[J]", energy.nodalWork);

@@ -43,13 +43,13 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
                    "von_mises", "pressure",  "equivalent_plastic_strain",
                    "density",   "alive"};
   names.element.insert(names.element.end(), history.begin(), history.end());
-  names.global = {"time_step",         "kinetic_energy",       "internal_energy",
-                  "plastic_work",      "hourglass_energy",     "viscous_work",
-                  "contact_stored",    "contact_friction",     "contact_hysteresis",
-                  "contact_fracture",  "contact_damping",      "contact_remainder",
-                  "mass_damping_work", "local_damping_work",   "external_work",
-                  "energy_error",      "eroded_energy",        "contact_eroded",
-                  "eroded_mass",       "kinetic_damping_work", "plastic_bending"};
+  names.global = {
+      "time_step",          "kinetic_energy",     "internal_energy", "plastic_work",
+      "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
+      "contact_hysteresis", "contact_fracture",   "contact_damping", "contact_remainder",
+      "mass_damping_work",  "local_damping_work", "external_work",   "energy_error",
+      "eroded_energy",      "contact_eroded",     "eroded_mass",     "kinetic_damping_work",
+      "plastic_bending",    "chemical_energy"};
   names.side = sideVariableNames();
   return names;
 }
@@ -300,7 +300,8 @@ void ResultsObserver::write(const Solver& solver)
                      energy.contact.fracture, energy.contact.damping,  energy.contact.remainder(),
                      energy.massDamping,      energy.localDamping,     energy.externalWork,
                      energy.error(),          energy.eroded,           energy.contact.eroded,
-                     solver.erosion().mass,   energy.kineticDamping,   energy.bending});
+                     solver.erosion().mass,   energy.kineticDamping,   energy.bending,
+                     energy.chemical});
   file_->endStep();
   lastCycle_ = solver.clock().cycle;
 }

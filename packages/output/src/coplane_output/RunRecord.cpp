@@ -142,6 +142,7 @@ Json energiesOf(const EnergyBalance& e)
           {"local_damping", e.localDamping},
           {"kinetic_damping", e.kineticDamping},
           {"external_work", e.externalWork},
+          {"chemical", e.chemical},
           {"initial", e.initial},
           {"error", e.error()},
           {"scale", e.scale()}};

@@ -112,6 +112,30 @@ FaceTraction tractionOf(const ConditionCard& card, const RankMesh& part,
   return load;
 }
 
+BlastCharge chargeOf(const ConditionCard& card)
+{
+  return {card.burst == "air" ? Burst::Air : Burst::Surface, card.chargeMass, card.chargePlace,
+          card.detonationTime};
+}
+
+AirBlast airBlastOf(const ConditionCard& card, const RankMesh& part,
+                    const std::vector<RankMesh::Side>& set)
+{
+  const BlastCharge charge = chargeOf(card);
+  AirBlast blast;
+  for (const LoadedSide& side : sidesOf(part, set))
+  {
+    Vec3 corners[4];
+    for (int k = 0; k < side.count; ++k)
+      corners[k] = part.coordinates[side.nodes[k]];
+    const std::array<Vec3, 4> areas = cornerAreas(part.dimension, corners, side.count);
+    blast.sides.push_back(
+        {side,
+         blastWaveOn(charge, side.place, normalised(areas[0] + areas[1] + areas[2] + areas[3]))});
+  }
+  return blast;
+}
+
 RigidMotion rigidMotionOf(const ConditionCard& card, const Mesh& mesh)
 {
   RigidMotion motion;
@@ -166,6 +190,8 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
         conditions.pressures.push_back(pressureOf(card, part, set));
       else if (card.type == "traction")
         conditions.tractions.push_back(tractionOf(card, part, set));
+      else if (card.type == "air_blast")
+        conditions.airBlasts.push_back(airBlastOf(card, part, set));
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
@@ -259,4 +285,49 @@ void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& 
     }
 }
 
+namespace
+{
+/// Least and largest distance of the charge from a face, over all ranks [m]. Collective.
+std::pair<Real, Real> distancesFrom(const Vec3& charge, const RankMesh& part,
+                                    const std::vector<RankMesh::Side>& set, const Comm& comm)
+{
+  Real least = infinity, largest = 0;
+  for (const LoadedSide& side : sidesOf(part, set))
+  {
+    const Real distance = norm(side.place - charge);
+    least = std::min(least, distance);
+    largest = std::max(largest, distance);
+  }
+  return {comm.min(least), comm.max(largest)};
+}
+} // namespace
+
+std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
+                                             const RankMesh& part, const Comm& comm)
+{
+  std::vector<std::string> problems;
+  for (const ConditionCard& card : deck.conditions)
+  {
+    const int set = card.type == "air_blast" ? indexOf(mesh.sideSets, card.set) : -1;
+    if (set < 0)
+      continue;
+    const Vec3& place = card.chargePlace;
+    if (deck.geometry == "axisymmetric" && (place.x != 0 || place.z != 0))
+      problems.push_back(fmt::format("{}: charge_place is [{}, {}, {}], off the axis; accepted in "
+                                     "a body of revolution: [0, y, 0].",
+                                     card.where, place.x, place.y, place.z));
+    const auto [least, largest] = distancesFrom(place, part, part.sideSets[set], comm);
+    const ScaledDistances range = blastRange(chargeOf(card).burst);
+    const Real size = std::cbrt(card.chargeMass);
+    if (least < range.least * size || largest > range.largest * size)
+      problems.push_back(fmt::format(
+          "{}: air blast on '{}': its faces are {:.6g} to {:.6g} m from the charge, scaled {:.4g} "
+          "to {:.4g} m/kg^(1/3); accepted for burst: {}: {} to {} m/kg^(1/3), here {:.6g} to "
+          "{:.6g} m, beyond which there are no measurements. Take other faces out of the set; "
+          "near a charge, mesh it (model: jwl) or give a pressure.",
+          card.where, card.set, least, largest, least / size, largest / size, card.burst,
+          range.least, range.largest, range.least * size, range.largest * size));
+  }
+  return problems;
+}
 } // namespace coplane

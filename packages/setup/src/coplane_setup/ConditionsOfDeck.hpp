@@ -20,6 +20,12 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
 /// there. Fails on all ranks when the mesh is not the section of one. Collective.
 void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
 
+/// Charges that are too near to their faces or too far from them, or off the axis of a body of
+/// revolution; the same on all ranks. Names may be unknown. Collective.
+/// @param part with every node of this rank
+std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
+                                             const RankMesh& part, const Comm& comm);
+
 /// Warns of conditions that prescribe one component of one node differently: the later one acts.
 /// Collective.
 /// @param part with every node of this rank
