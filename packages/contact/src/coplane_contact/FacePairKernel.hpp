@@ -211,6 +211,124 @@ KOKKOS_INLINE_FUNCTION T gapOf(const PatchOf<T>& patch, const ShadowOf<T>& a, co
   return gap;
 }
 
+/// Motion of pairs at their points of contact, with the arm between these at the half step.
+template <class T>
+struct PointMotionOf
+{
+  Vec3Of<T> arm;
+  RelativeMotionOf<T> relative;
+  T speed;              ///< of opening [m/s]
+  Vec3Of<T> tangential; ///< [m/s]
+};
+
+/// Heights are those of the end of the step, the rates belong to the half step.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION PointMotionOf<T>
+stepH_motion(const PatchOf<T>& patch, const TrialPlaneOf<T>& trial, const HalfStepFaceOf<T>& a,
+             const HalfStepFaceOf<T>& b, const ShadowOf<T>& shadowA, const ShadowOf<T>& shadowB,
+             Real dt)
+{
+  const Vec3Of<T>& n = trial.normal;
+  const Vec3Of<T> drift =
+      weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
+  PointMotionOf<T> at;
+  at.arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * dot(n, drift)) * n;
+  at.relative = relativeMotion(a, b, patch, at.arm);
+  at.speed = dot(n, at.relative.jump);
+  at.tangential = at.relative.jump - at.speed * n;
+  return at;
+}
+
+/// Shear traction before the step, in the plane as it is now [Pa].
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+stepH_carriedShear(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const Vec3Of<T>& n,
+                   const Vec3Of<T>& spin, const ContactOptions& options, Real dt)
+{
+  Vec3Of<T> tau =
+      turnIntoPlane(planes.eachVector([](const Plane& p) { return p.history.shearTraction; }),
+                    planes.eachVector([](const Plane& p) { return p.normal; }), n, spin, dt);
+  if (options.areaRule)
+  {
+    const T before = planes.each([](const Plane& p) { return p.area; });
+    tau =
+        branchFree::choose(before > 0.0 && patch.area > before, before / patch.area, T(1.0)) * tau;
+  }
+  return tau;
+}
+
+/// The law of one plane and its history, with its gap, area, normal and shear traction as they are
+/// now.
+/// @param opening of the pair in this step [m]; sliding: too [m]
+KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw& law, Real opening,
+                                                    const Vec3& sliding,
+                                                    const ContactOptions& options, Real dt)
+{
+  if (options.closure == ContactOptions::Closure::Total)
+    plane.closure = plane.offset - plane.gap;
+  else
+    plane.closure -= opening;
+  plane.tooDeep = plane.closure > plane.depthLimit;
+  const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
+  plane.normalTraction = response.normalTraction;
+  plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
+                : response.slipping                                   ? PlaneState::Slip
+                                                                      : PlaneState::Stick;
+  plane.offset += response.dilation;
+  plane.closure += response.dilation;
+  plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
+  plane.frictionWork += plane.area * response.frictionWork;
+  plane.hysteresisWork += plane.area * response.hysteresisWork;
+  plane.fractureWork += plane.area * response.fractureWork;
+  return response;
+}
+
+/// Dashpots at the point of contact [N].
+/// @param elastic force along the normal [N]; normalStiffness: of the law [Pa/m]
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& elastic,
+              const T& normalStiffness, const Vec3Of<T>& n, const PointMotionOf<T>& motion,
+              const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options)
+{
+  using namespace branchFree;
+  T inverseMass{};
+  for (int i = 0; i < a.count; ++i)
+    inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
+  for (int i = 0; i < b.count; ++i)
+    inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
+  T normalForce = -2.0 * options.dampNormal *
+                  squareRoot(patch.area * normalStiffness / inverseMass) * motion.speed;
+  const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+  normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
+  const auto sticks =
+      planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
+  const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
+  const T shearing = choose(
+      sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
+      T(0.0));
+  return normalForce * n + shearing * motion.tangential;
+}
+
+/// The force at the corners of both faces; half of the moment of both forces, at the end of the
+/// step, where they act, is balanced by each face.
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+stepH_nodalForces(const PatchOf<T>& patch, const Vec3Of<T>& force, const PointMotionOf<T>& motion,
+                  const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, bool couple, Real dt,
+                  Vec3Of<T> (&nodal)[2][4])
+{
+  for (int i = 0; i < a.count; ++i)
+    nodal[0][i] = -patch.weights[0][i] * force;
+  for (int i = 0; i < b.count; ++i)
+    nodal[1][i] = patch.weights[1][i] * force;
+  if (!couple)
+    return;
+  const Vec3Of<T> moment = cross(motion.arm + (0.5 * dt) * motion.relative.drift, force);
+  addCouple<Dim>(a, moment, dt, nodal[0]);
+  addCouple<Dim>(b, moment, dt, nodal[1]);
+}
+
 /// Step H: plane variables. Cundall's update in tractions: closure, shear increment, joint law,
 /// force, energies; for the lanes of `touching`. The work of the old force has been booked.
 /// @param gap at the end of the step [m]
@@ -223,105 +341,46 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
                            const ContactOptions& options, Real dt)
 {
   using namespace branchFree;
-  constexpr int width = PlaneBatch<T>::width;
   const Vec3Of<T>& n = trial.normal;
-  // Heights are those of the end of the step, the rates belong to the half step.
-  const Vec3Of<T> drift =
-      weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
-  const Vec3Of<T> arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * dot(n, drift)) * n;
-  const RelativeMotionOf<T> motion = relativeMotion(a, b, patch, arm);
-  const T speed = dot(n, motion.jump);
-  const Vec3Of<T> tangential = motion.jump - speed * n;
-  const Vec3Of<T> sliding = dt * tangential;
+  const PointMotionOf<T> motion = stepH_motion(patch, trial, a, b, shadowA, shadowB, dt);
+  const Vec3Of<T> sliding = dt * motion.tangential;
+  const Vec3Of<T> tau = stepH_carriedShear(planes, patch, n, motion.relative.spin, options, dt);
 
-  Vec3Of<T> tau =
-      turnIntoPlane(planes.eachVector([](const Plane& p) { return p.history.shearTraction; }),
-                    planes.eachVector([](const Plane& p) { return p.normal; }), n, motion.spin, dt);
-  if (options.areaRule)
-  {
-    const T before = planes.each([](const Plane& p) { return p.area; });
-    tau = choose(before > 0.0 && patch.area > before, before / patch.area, T(1.0)) * tau;
-  }
-
-  // The law and its history, plane by plane.
-  Real normalTraction[width] = {}, normalStiffness[width] = {};
+  Real tractions[widthOf<T>] = {}, stiffnesses[widthOf<T>] = {};
   for (int i = 0; i < planes.count; ++i)
   {
     if (!lane(touching, i))
       continue;
     Plane& plane = *planes.plane[i];
     plane.gap = lane(gap, i);
-    if (options.closure == ContactOptions::Closure::Total)
-      plane.closure = plane.offset - plane.gap;
-    else
-      plane.closure -= dt * lane(speed, i);
-    plane.tooDeep = plane.closure > plane.depthLimit;
     plane.history.shearTraction = lane(tau, i);
-    const JointResponse response =
-        (*planes.law[i])(plane.fit, plane.limitedClosure(), lane(sliding, i), dt, plane.history);
     plane.normal = lane(n, i);
     plane.area = lane(patch.area, i);
-    plane.normalTraction = normalTraction[i] = response.normalTraction;
-    normalStiffness[i] = response.normalStiffness;
-    plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
-                  : response.slipping                                   ? PlaneState::Slip
-                                                                        : PlaneState::Stick;
-    plane.offset += response.dilation;
-    plane.closure += response.dilation;
-    plane.stored =
-        plane.area * planes.law[i]->stored(plane.fit, plane.limitedClosure(), plane.history);
-    plane.frictionWork += plane.area * response.frictionWork;
-    plane.hysteresisWork += plane.area * response.hysteresisWork;
-    plane.fractureWork += plane.area * response.fractureWork;
+    const JointResponse response =
+        stepH_law(plane, *planes.law[i], dt * lane(motion.speed, i), lane(sliding, i), options, dt);
+    tractions[i] = response.normalTraction;
+    stiffnesses[i] = response.normalStiffness;
   }
   const auto each = [&](const Real* values)
   { return gathered<T>([&](int i) { return values[i]; }); };
-  const T sigma = each(normalTraction);
+  const T sigma = each(tractions);
   Vec3Of<T> force =
       patch.area *
       (sigma * n + planes.eachVector([](const Plane& p) { return p.history.shearTraction; }));
-
   T dampingWork{};
   if (options.dampNormal > 0 || options.dampShear > 0)
   {
-    T inverseMass{};
-    for (int i = 0; i < a.count; ++i)
-      inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
-    for (int i = 0; i < b.count; ++i)
-      inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
-    const T elastic = patch.area * sigma;
-    T normalForce = -2.0 * options.dampNormal *
-                    squareRoot(patch.area * each(normalStiffness) / inverseMass) * speed;
-    const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
-    normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
-    const auto sticks =
-        planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
-    const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
-    const T shearing = choose(
-        sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
-        T(0.0));
-    const Vec3Of<T> damping = normalForce * n + shearing * tangential;
-    dampingWork = dt * dot(damping, motion.jump);
+    const Vec3Of<T> damping = stepH_damping(planes, patch, patch.area * sigma, each(stiffnesses), n,
+                                            motion, a, b, options);
+    dampingWork = dt * dot(damping, motion.relative.jump);
     force += damping;
   }
-
   for (int i = 0; i < planes.count; ++i)
     if (lane(touching, i))
       planes.plane[i]->dampingWork -= lane(dampingWork, i);
 
   Vec3Of<T> nodal[2][4];
-  for (int i = 0; i < a.count; ++i)
-    nodal[0][i] = -patch.weights[0][i] * force;
-  for (int i = 0; i < b.count; ++i)
-    nodal[1][i] = patch.weights[1][i] * force;
-  if (options.couple)
-  {
-    // The moment of both forces, at the end of the step, where they act: half of it is balanced by
-    // each face.
-    const Vec3Of<T> moment = cross(arm + (0.5 * dt) * motion.drift, force);
-    addCouple<Dim>(a, moment, dt, nodal[0]);
-    addCouple<Dim>(b, moment, dt, nodal[1]);
-  }
+  stepH_nodalForces<Dim>(patch, force, motion, a, b, options.couple, dt, nodal);
   putForces(planes, touching, nodal, a, b, dt);
 }
 
@@ -459,6 +518,142 @@ KOKKOS_INLINE_FUNCTION bool isAsleep(const Plane& plane)
          plane.sighting == Sighting::Known && !plane.isRefused();
 }
 
+/// What steps B to D find of pairs.
+template <class T>
+struct MeetingOf
+{
+  TrialPlaneOf<T> trial;
+  ShadowOf<T> shadowA, shadowB;
+  PatchOf<T> patch;
+  T smallest;                 ///< area from which on it carries [m^2]
+  branchFree::MaskOf<T> done; ///< lanes whose patch is known
+};
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION MeetingOf<T>
+stepsBToD_meet(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+               const ContactOptions& options, Real dt)
+{
+  using namespace branchFree;
+  constexpr bool single = widthOf<T> == 1;
+  MeetingOf<T> m;
+  m.trial = stepB_trialPointOfContact<Dim>(a, b);
+  m.shadowA = stepC_projectOntoPlane<Dim>(m.trial, a, dt);
+  m.shadowB = stepC_projectOntoPlane<Dim>(m.trial, b, dt);
+  const auto meet = m.trial.opposed && !shadowsApart(m.shadowA, m.shadowB);
+  m.smallest = options.areaMin * smaller(a.area, b.area);
+  if constexpr (single)
+  {
+    const Plane& plane = *planes.plane[0];
+    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
+                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
+                                                                       : AreaInUse::Penetrating;
+    const Depth depth = depthOf(m.trial, options);
+    if (meet)
+      m.patch =
+          stepD_areaOfContact<Dim>(m.shadowA, m.shadowB, plane.offset, use, options.weights, depth);
+    m.smallest *= depth.at(m.patch.centroid.x);
+  }
+  else
+    m.patch = stepD_areaOfContact(
+        m.shadowA, m.shadowB, planes.each([](const Plane& p) { return p.offset; }),
+        planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0, options.area,
+        options.weights);
+  m.done = m.patch.regular && (meet || MaskOf<T>(single));
+  return m;
+}
+
+/// How pairs that do not carry yet come to each other.
+template <class T>
+struct ApproachOf
+{
+  T deepest{}; ///< least gap [m]
+  T motion{};  ///< along the normal from the half step to the end of the step [m]
+  T inStep{};  ///< bound of what corners approach in two steps [m]
+  T ahead{};   ///< and within the look-ahead [m]
+};
+
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION ApproachOf<T>
+approachOf(const PlaneBatch<T>& planes, const MeetingOf<T>& m, const T& gap,
+           const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options,
+           Real dt)
+{
+  const PatchOf<T>& patch = m.patch;
+  ApproachOf<T> approach;
+  approach.deepest = options.area == ContactOptions::Area::Full
+                         ? gap
+                         : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
+  const T speed =
+      branchFree::choose(patch.overlap > 0.0, approachSpeed(m.trial.normal, a, b), T(0.0));
+  approach.inStep = 2.0 * dt * speed;
+  approach.ahead = options.lookAhead * speed;
+  approach.motion =
+      (0.5 * dt) * dot(m.trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
+                                           weighted(patch.centroidWeights[0], a.v, a.count));
+  return approach;
+}
+
+/// Steps E and F: the planes whose faces touch.
+/// @param late gets which are found later than they should have been
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION branchFree::MaskOf<T>
+stepsEF_touching(const PlaneBatch<T>& planes, const MeetingOf<T>& m,
+                 const branchFree::MaskOf<T>& large, const T& gap, const ApproachOf<T>& approach,
+                 const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                 bool (&late)[branchFree::widthOf<T>])
+{
+  using branchFree::lane;
+  return branchFree::gathered<T>(
+             [&](int i) -> Real
+             {
+               if (i >= planes.count || !lane(m.done, i))
+                 return 0;
+               Plane& plane = *planes.plane[i];
+               plane.overlap = lane(m.patch.overlap, i);
+               const bool isLarge = lane(large, i);
+               late[i] = wasFoundLate(plane, isLarge);
+               const bool inContact =
+                   isLarge && (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
+                   touches(plane, lane(m.trial.normal, i), lane(gap, i), lane(approach.deepest, i),
+                           lane(approach.motion, i), lane(approach.inStep, i));
+               if (!(lane(m.patch.area, i) > 0))
+                 plane.refusal = Refusal::None;
+               return inContact;
+             }) > 0.0;
+}
+
+/// Ends the cycle of planes: those that do not touch carry nothing; the stiffness that bounds the
+/// step. The overlap counts for the stable step as soon as the faces could touch within the
+/// look-ahead: the step has to be short enough before it takes them into each other.
+/// @param ahead what corners approach within the look-ahead [m]
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+boundStep(const PlaneBatch<T>& planes, const MeetingOf<T>& m, const branchFree::MaskOf<T>& touching,
+          const T& ahead, int countA, int countB, const bool (&late)[branchFree::widthOf<T>])
+{
+  using branchFree::lane;
+  const auto near = m.patch.leastGap <= ahead + 1e-8 * branchFree::squareRoot(m.patch.overlap);
+  const T share = areaOfNode(m.patch, countA, countB);
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(m.done, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    if (!lane(touching, i))
+    {
+      carryNothing(plane);
+      if (plane.overlap > 0)
+        plane.gap = lane(m.patch.leastGap, i) + plane.offset;
+    }
+    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
+    plane.nodeStiffness = plane.area > 0 || lane(near, i)
+                              ? float(plane.weightInStep() * lane(share, i) *
+                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
+                              : 0;
+  }
+}
+
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.
 /// @returns the lanes that are done. With Lanes, planes whose patch is not regular are left
 ///          untouched; updatePlanes<Real> does them.
@@ -468,99 +663,29 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
              const ContactOptions& options, Real dt)
 {
   using namespace branchFree;
-  constexpr bool single = widthOf<T> == 1;
-  const TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
-  const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
-  const ShadowOf<T> shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
-  const auto meet = trial.opposed && !shadowsApart(shadowA, shadowB);
-  PatchOf<T> patch;
-  T smallest = options.areaMin * smaller(a.area, b.area);
-  if constexpr (single)
-  {
-    const Plane& plane = *planes.plane[0];
-    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
-                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
-                                                                       : AreaInUse::Penetrating;
-    const Depth depth = depthOf(trial, options);
-    if (meet)
-      patch = stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights, depth);
-    smallest *= depth.at(patch.centroid.x);
-  }
-  else
-    patch =
-        stepD_areaOfContact(shadowA, shadowB, planes.each([](const Plane& p) { return p.offset; }),
-                            planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0,
-                            options.area, options.weights);
-  const auto done = patch.regular && (meet || MaskOf<T>(single));
-  bookOldForce(planes, done, a, b, dt);
+  const MeetingOf<T> m = stepsBToD_meet<Dim>(planes, a, b, options, dt);
+  bookOldForce(planes, m.done, a, b, dt);
 
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
-  const auto large = patch.area > smallest;
-  const T gap = gapOf(patch, shadowA, shadowB);
+  const auto large = m.patch.area > m.smallest;
+  const T gap = gapOf(m.patch, m.shadowA, m.shadowB);
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  T deepest{}, motion{}, approach{}, ahead{};
+  ApproachOf<T> approach;
   if (!allOf(large && carries))
-  {
-    deepest = options.area == ContactOptions::Area::Full
-                  ? gap
-                  : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
-    const T speed = choose(patch.overlap > 0.0, approachSpeed(trial.normal, a, b), T(0.0));
-    approach = 2.0 * dt * speed;
-    ahead = options.lookAhead * speed;
-    // From the half step to the end of the step.
-    motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
-                                                weighted(patch.centroidWeights[0], a.v, a.count));
-  }
+    approach = approachOf(planes, m, gap, a, b, options, dt);
   bool late[widthOf<T>] = {};
-  const auto touching = gathered<T>(
-                            [&](int i) -> Real
-                            {
-                              if (i >= planes.count || !lane(done, i))
-                                return 0;
-                              Plane& plane = *planes.plane[i];
-                              plane.overlap = lane(patch.overlap, i);
-                              const bool isLarge = lane(large, i);
-                              late[i] = wasFoundLate(plane, isLarge);
-                              const bool inContact =
-                                  isLarge &&
-                                  (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
-                                  touches(plane, lane(trial.normal, i), lane(gap, i),
-                                          lane(deepest, i), lane(motion, i), lane(approach, i));
-                              if (!(lane(patch.area, i) > 0))
-                                plane.refusal = Refusal::None;
-                              return inContact;
-                            }) > 0.0;
+  const auto touching = stepsEF_touching<Dim>(planes, m, large, gap, approach, a, b, late);
   if (anyOf(touching))
   {
-    const Vec3Of<T> point = stepG_placePointOfContact(patch, a, b);
+    const Vec3Of<T> point = stepG_placePointOfContact(m.patch, a, b);
     for (int i = 0; i < planes.count; ++i)
       if (lane(touching, i))
         planes.plane[i]->pointOfContact = lane(point, i);
-    stepH_updatePlaneVariables<Dim>(planes, touching, patch, gap, trial, a, b, shadowA, shadowB,
-                                    options, dt);
+    stepH_updatePlaneVariables<Dim>(planes, touching, m.patch, gap, m.trial, a, b, m.shadowA,
+                                    m.shadowB, options, dt);
   }
-  // The overlap counts for the stable step as soon as the faces could touch within the look-ahead:
-  // the step has to be short enough before it takes them into each other.
-  const auto near = patch.leastGap <= ahead + 1e-8 * squareRoot(patch.overlap);
-  const T share = areaOfNode(patch, a.count, b.count);
-  for (int i = 0; i < planes.count; ++i)
-  {
-    if (!lane(done, i))
-      continue;
-    Plane& plane = *planes.plane[i];
-    if (!lane(touching, i))
-    {
-      carryNothing(plane);
-      if (plane.overlap > 0)
-        plane.gap = lane(patch.leastGap, i) + plane.offset;
-    }
-    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
-    plane.nodeStiffness = plane.area > 0 || lane(near, i)
-                              ? float(plane.weightInStep() * lane(share, i) *
-                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
-                              : 0;
-  }
-  return done;
+  boundStep(planes, m, touching, approach.ahead, a.count, b.count, late);
+  return m.done;
 }
 
 /// Steps B to H of one candidate pair in one cycle.
