@@ -121,7 +121,7 @@ public:
 private:
   /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
   /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
-  /// a candidate.
+  /// a candidate. Collective.
   std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
