@@ -18,8 +18,8 @@ enum class ProgramEnd
 ProgramEnd runProgram(std::vector<std::string> command, double seconds);
 
 /// Throws Error(ExitCode::Mesh) unless the libraries may be given the file. One rank asks for all,
-/// before any of them opens it. `coplane_mesh probe` in the folder of the running program looks into
-/// an HDF5 file first; where it is not there, such a file is read unprobed.
+/// before any of them opens it. `coplane_mesh probe` in the folder of the running program looks
+/// into an HDF5 file first; where it is not there, such a file is read unprobed.
 void demandMeshFile(const std::string& file);
 
 [[noreturn]] void refuseMeshFile(const std::string& file);
