@@ -518,142 +518,6 @@ KOKKOS_INLINE_FUNCTION bool isAsleep(const Plane& plane)
          plane.sighting == Sighting::Known && !plane.isRefused();
 }
 
-/// What steps B to D find of pairs.
-template <class T>
-struct MeetingOf
-{
-  TrialPlaneOf<T> trial;
-  ShadowOf<T> shadowA, shadowB;
-  PatchOf<T> patch;
-  T smallest;                 ///< area from which on it carries [m^2]
-  branchFree::MaskOf<T> done; ///< lanes whose patch is known
-};
-
-template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION MeetingOf<T>
-stepsBToD_meet(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
-               const ContactOptions& options, Real dt)
-{
-  using namespace branchFree;
-  constexpr bool single = widthOf<T> == 1;
-  MeetingOf<T> m;
-  m.trial = stepB_trialPointOfContact<Dim>(a, b);
-  m.shadowA = stepC_projectOntoPlane<Dim>(m.trial, a, dt);
-  m.shadowB = stepC_projectOntoPlane<Dim>(m.trial, b, dt);
-  const auto meet = m.trial.opposed && !shadowsApart(m.shadowA, m.shadowB);
-  m.smallest = options.areaMin * smaller(a.area, b.area);
-  if constexpr (single)
-  {
-    const Plane& plane = *planes.plane[0];
-    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
-                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
-                                                                       : AreaInUse::Penetrating;
-    const Depth depth = depthOf(m.trial, options);
-    if (meet)
-      m.patch =
-          stepD_areaOfContact<Dim>(m.shadowA, m.shadowB, plane.offset, use, options.weights, depth);
-    m.smallest *= depth.at(m.patch.centroid.x);
-  }
-  else
-    m.patch = stepD_areaOfContact(
-        m.shadowA, m.shadowB, planes.each([](const Plane& p) { return p.offset; }),
-        planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0, options.area,
-        options.weights);
-  m.done = m.patch.regular && (meet || MaskOf<T>(single));
-  return m;
-}
-
-/// How pairs that do not carry yet come to each other.
-template <class T>
-struct ApproachOf
-{
-  T deepest{}; ///< least gap [m]
-  T motion{};  ///< along the normal from the half step to the end of the step [m]
-  T inStep{};  ///< bound of what corners approach in two steps [m]
-  T ahead{};   ///< and within the look-ahead [m]
-};
-
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION ApproachOf<T>
-approachOf(const PlaneBatch<T>& planes, const MeetingOf<T>& m, const T& gap,
-           const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options,
-           Real dt)
-{
-  const PatchOf<T>& patch = m.patch;
-  ApproachOf<T> approach;
-  approach.deepest = options.area == ContactOptions::Area::Full
-                         ? gap
-                         : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
-  const T speed =
-      branchFree::choose(patch.overlap > 0.0, approachSpeed(m.trial.normal, a, b), T(0.0));
-  approach.inStep = 2.0 * dt * speed;
-  approach.ahead = options.lookAhead * speed;
-  approach.motion =
-      (0.5 * dt) * dot(m.trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
-                                           weighted(patch.centroidWeights[0], a.v, a.count));
-  return approach;
-}
-
-/// Steps E and F: the planes whose faces touch.
-/// @param late gets which are found later than they should have been
-template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION branchFree::MaskOf<T>
-stepsEF_touching(const PlaneBatch<T>& planes, const MeetingOf<T>& m,
-                 const branchFree::MaskOf<T>& large, const T& gap, const ApproachOf<T>& approach,
-                 const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
-                 bool (&late)[branchFree::widthOf<T>])
-{
-  using branchFree::lane;
-  return branchFree::gathered<T>(
-             [&](int i) -> Real
-             {
-               if (i >= planes.count || !lane(m.done, i))
-                 return 0;
-               Plane& plane = *planes.plane[i];
-               plane.overlap = lane(m.patch.overlap, i);
-               const bool isLarge = lane(large, i);
-               late[i] = wasFoundLate(plane, isLarge);
-               const bool inContact =
-                   isLarge && (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
-                   touches(plane, lane(m.trial.normal, i), lane(gap, i), lane(approach.deepest, i),
-                           lane(approach.motion, i), lane(approach.inStep, i));
-               if (!(lane(m.patch.area, i) > 0))
-                 plane.refusal = Refusal::None;
-               return inContact;
-             }) > 0.0;
-}
-
-/// Ends the cycle of planes: those that do not touch carry nothing; the stiffness that bounds the
-/// step. The overlap counts for the stable step as soon as the faces could touch within the
-/// look-ahead: the step has to be short enough before it takes them into each other.
-/// @param ahead what corners approach within the look-ahead [m]
-template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void
-boundStep(const PlaneBatch<T>& planes, const MeetingOf<T>& m, const branchFree::MaskOf<T>& touching,
-          const T& ahead, int countA, int countB, const bool (&late)[branchFree::widthOf<T>])
-{
-  using branchFree::lane;
-  const auto near = m.patch.leastGap <= ahead + 1e-8 * branchFree::squareRoot(m.patch.overlap);
-  const T share = areaOfNode(m.patch, countA, countB);
-  for (int i = 0; i < planes.count; ++i)
-  {
-    if (!lane(m.done, i))
-      continue;
-    Plane& plane = *planes.plane[i];
-    if (!lane(touching, i))
-    {
-      carryNothing(plane);
-      if (plane.overlap > 0)
-        plane.gap = lane(m.patch.leastGap, i) + plane.offset;
-    }
-    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
-    plane.nodeStiffness = plane.area > 0 || lane(near, i)
-                              ? float(plane.weightInStep() * lane(share, i) *
-                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
-                              : 0;
-  }
-}
-
 /// Steps B to H of candidate pairs in one cycle; step A has been done for their faces.
 /// @returns the lanes that are done. With Lanes, planes whose patch is not regular are left
 ///          untouched; updatePlanes<Real> does them.
@@ -663,29 +527,99 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
              const ContactOptions& options, Real dt)
 {
   using namespace branchFree;
-  const MeetingOf<T> m = stepsBToD_meet<Dim>(planes, a, b, options, dt);
-  bookOldForce(planes, m.done, a, b, dt);
+  constexpr bool single = widthOf<T> == 1;
+  const TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
+  const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, dt);
+  const ShadowOf<T> shadowB = stepC_projectOntoPlane<Dim>(trial, b, dt);
+  const auto meet = trial.opposed && !shadowsApart(shadowA, shadowB);
+  PatchOf<T> patch;
+  T smallest = options.areaMin * smaller(a.area, b.area);
+  if constexpr (single)
+  {
+    const Plane& plane = *planes.plane[0];
+    const AreaInUse use = plane.history.bonded                         ? AreaInUse::Bonded
+                          : options.area == ContactOptions::Area::Full ? AreaInUse::Full
+                                                                       : AreaInUse::Penetrating;
+    const Depth depth = depthOf(trial, options);
+    if (meet)
+      patch = stepD_areaOfContact<Dim>(shadowA, shadowB, plane.offset, use, options.weights, depth);
+    smallest *= depth.at(patch.centroid.x);
+  }
+  else
+    patch =
+        stepD_areaOfContact(shadowA, shadowB, planes.each([](const Plane& p) { return p.offset; }),
+                            planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0,
+                            options.area, options.weights);
+  const auto done = patch.regular && (meet || MaskOf<T>(single));
+  bookOldForce(planes, done, a, b, dt);
 
   // Slivers carry nothing: their force is below areaMin k c, and their centroid has no digits.
-  const auto large = m.patch.area > m.smallest;
-  const T gap = gapOf(m.patch, m.shadowA, m.shadowB);
+  const auto large = patch.area > smallest;
+  const T gap = gapOf(patch, shadowA, shadowB);
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  ApproachOf<T> approach;
+  T deepest{}, motion{}, approach{}, ahead{};
   if (!allOf(large && carries))
-    approach = approachOf(planes, m, gap, a, b, options, dt);
+  {
+    deepest = options.area == ContactOptions::Area::Full
+                  ? gap
+                  : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
+    const T speed = choose(patch.overlap > 0.0, approachSpeed(trial.normal, a, b), T(0.0));
+    approach = 2.0 * dt * speed;
+    ahead = options.lookAhead * speed;
+    // From the half step to the end of the step.
+    motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
+                                                weighted(patch.centroidWeights[0], a.v, a.count));
+  }
   bool late[widthOf<T>] = {};
-  const auto touching = stepsEF_touching<Dim>(planes, m, large, gap, approach, a, b, late);
+  const auto touching = gathered<T>(
+                            [&](int i) -> Real
+                            {
+                              if (i >= planes.count || !lane(done, i))
+                                return 0;
+                              Plane& plane = *planes.plane[i];
+                              plane.overlap = lane(patch.overlap, i);
+                              const bool isLarge = lane(large, i);
+                              late[i] = wasFoundLate(plane, isLarge);
+                              const bool inContact =
+                                  isLarge &&
+                                  (plane.history.bonded || !leavesSideways<Dim>(plane, a, b, i)) &&
+                                  touches(plane, lane(trial.normal, i), lane(gap, i),
+                                          lane(deepest, i), lane(motion, i), lane(approach, i));
+                              if (!(lane(patch.area, i) > 0))
+                                plane.refusal = Refusal::None;
+                              return inContact;
+                            }) > 0.0;
   if (anyOf(touching))
   {
-    const Vec3Of<T> point = stepG_placePointOfContact(m.patch, a, b);
+    const Vec3Of<T> point = stepG_placePointOfContact(patch, a, b);
     for (int i = 0; i < planes.count; ++i)
       if (lane(touching, i))
         planes.plane[i]->pointOfContact = lane(point, i);
-    stepH_updatePlaneVariables<Dim>(planes, touching, m.patch, gap, m.trial, a, b, m.shadowA,
-                                    m.shadowB, options, dt);
+    stepH_updatePlaneVariables<Dim>(planes, touching, patch, gap, trial, a, b, shadowA, shadowB,
+                                    options, dt);
   }
-  boundStep(planes, m, touching, approach.ahead, a.count, b.count, late);
-  return m.done;
+  // The overlap counts for the stable step as soon as the faces could touch within the look-ahead:
+  // the step has to be short enough before it takes them into each other.
+  const auto near = patch.leastGap <= ahead + 1e-8 * squareRoot(patch.overlap);
+  const T share = areaOfNode(patch, a.count, b.count);
+  for (int i = 0; i < planes.count; ++i)
+  {
+    if (!lane(done, i))
+      continue;
+    Plane& plane = *planes.plane[i];
+    if (!lane(touching, i))
+    {
+      carryNothing(plane);
+      if (plane.overlap > 0)
+        plane.gap = lane(patch.leastGap, i) + plane.offset;
+    }
+    plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
+    plane.nodeStiffness = plane.area > 0 || lane(near, i)
+                              ? float(plane.weightInStep() * lane(share, i) *
+                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
+                              : 0;
+  }
+  return done;
 }
 
 /// Steps B to H of one candidate pair in one cycle.
