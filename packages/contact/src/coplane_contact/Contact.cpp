@@ -9,14 +9,6 @@ namespace coplane
 {
 namespace
 {
-/// Brings what FaceLoad::add() reads of a plane into the cache.
-void prefetch(const Plane& plane)
-{
-  const char* line = reinterpret_cast<const char*>(&plane);
-  for (int i = 0; i < 3; ++i)
-    __builtin_prefetch(line + 64 * i);
-}
-
 /// What step A needs of the first face, or of as many as T has lanes.
 template <class T>
 void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
@@ -160,49 +152,23 @@ void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 {
   localFaces_ = std::move(localFaces);
   // Donors are looked up by places in the new list.
-  listPlanesOfFaces(
-      [&](const Plane& plane, int side)
-      {
-        if (plane.face[side] < 0)
-          return -1;
-        const auto found =
-            std::lower_bound(localFaces_.begin(), localFaces_.end(), plane.faceId[side],
-                             [](const Face& f, GlobalId id) { return f.id < id; });
-        return found != localFaces_.end() && found->id == plane.faceId[side]
-                   ? int(found - localFaces_.begin())
-                   : -1;
-      });
-  facesStart_ = {}; // built anew with the next search
-}
-
-/// Lists of the planes of each local face. `faceOf(plane, side)`: place of a local face; negative
-/// for other faces and for pairs that are no candidates.
-template <class FaceOf>
-void Contact::listPlanesOfFaces(const FaceOf& faceOf)
-{
-  const std::size_t local = localFaces_.size();
-  planesStart_ = Array<std::int32_t>("coplane::contact::planesStart", local + 1);
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(planes_(p), side); face >= 0)
-        ++planesStart_(face + 1);
-  for (std::size_t f = 0; f < local; ++f)
-    planesStart_(f + 1) += planesStart_(f);
-  planesEntry_ =
-      Array<std::int32_t>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planesEntry"),
-                          planesStart_(local));
-  // Planes are visited in the order of their keys, so each face's list is in that order on every
-  // rank.
-  std::vector<std::int32_t> next(planesStart_.data(), planesStart_.data() + local);
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(planes_(p), side); face >= 0)
-        planesEntry_(next[face]++) = std::int32_t(2 * p + side);
+  forceSums_.listPlanes(planes_, localFaces_.size(),
+                        [&](const Plane& plane, int side)
+                        {
+                          if (plane.face[side] < 0)
+                            return -1;
+                          const auto found = std::lower_bound(
+                              localFaces_.begin(), localFaces_.end(), plane.faceId[side],
+                              [](const Face& f, GlobalId id) { return f.id < id; });
+                          return found != localFaces_.end() && found->id == plane.faceId[side]
+                                     ? int(found - localFaces_.begin())
+                                     : -1;
+                        });
+  forceSums_.forgetFaces(); // listed anew with the next search
 }
 
 void Contact::buildLists(int ownedNodes)
 {
-  const std::size_t local = localFaces_.size();
   halfStepFaces_ = decltype(halfStepFaces_)(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
   paired_ = Array<bool>("coplane::contact::paired", faces_.size());
@@ -215,29 +181,13 @@ void Contact::buildLists(int ownedNodes)
       if (face >= 0)
         paired_(face) = true;
     }
-  listPlanesOfFaces(
-      [&](const Plane& plane, int side)
-      {
-        const int face = plane.face[side];
-        return face >= 0 && faces_[face].local ? face : -1;
-      });
-  if (facesStart_.extent(0) == std::size_t(ownedNodes) + 1)
-    return;
-  faceLoads_ = decltype(faceLoads_)("coplane::contact::faceLoads", local);
-  facesStart_ = Array<std::int32_t>("coplane::contact::facesStart", ownedNodes + 1);
-  const auto forEachCorner = [&](const auto& visit)
-  {
-    for (std::size_t f = 0; f < local; ++f)
-      for (int k = 0; k < localFaces_[f].count; ++k)
-        if (localFaces_[f].nodes[k] < ownedNodes)
-          visit(localFaces_[f].nodes[k], std::int32_t(4 * f + k));
-  };
-  forEachCorner([&](int node, std::int32_t) { ++facesStart_(node + 1); });
-  for (int n = 0; n < ownedNodes; ++n)
-    facesStart_(n + 1) += facesStart_(n);
-  facesEntry_ = Array<std::int32_t>("coplane::contact::facesEntry", facesStart_(ownedNodes));
-  std::vector<std::int32_t> next(facesStart_.data(), facesStart_.data() + ownedNodes);
-  forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
+  forceSums_.listPlanes(planes_, localFaces_.size(),
+                        [&](const Plane& plane, int side)
+                        {
+                          const int face = plane.face[side];
+                          return face >= 0 && faces_[face].local ? face : -1;
+                        });
+  forceSums_.listFaces(localFaces_, ownedNodes);
 }
 
 Real Contact::thinnestElement() const
@@ -362,44 +312,6 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
          hadToBeFound(faceA, faceB, facePlane(faceA, x, dimension_),
                       facePlane(faceB, x, dimension_), candidateRules(), skin_,
                       2 * skin_ / smallestFace_);
-}
-
-void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
-{
-  const auto planes = planes_;
-  const auto asleep = asleep_;
-  const auto loads = faceLoads_;
-  const auto planesStart = planesStart_, planesEntry = planesEntry_;
-  const auto facesStart = facesStart_, facesEntry = facesEntry_;
-  const std::int32_t entries = std::int32_t(planesEntry.extent(0));
-  constexpr std::int32_t ahead = 6;
-  parallelFor(
-      "coplane::contact::faceLoads", int(loads.extent(0)), KOKKOS_LAMBDA(const int n) {
-        FaceLoad& load = *new (&loads(n)) FaceLoad;
-        for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
-        {
-          if (i + ahead < entries && !asleep(planesEntry(i + ahead) / 2))
-            prefetch(planes(planesEntry(i + ahead) / 2));
-          if (asleep(planesEntry(i) / 2))
-            continue;
-          const Plane& plane = planes(planesEntry(i) / 2);
-          if (plane.area > 0 || plane.nodeStiffness > 0)
-            load.add(plane, planesEntry(i) % 2);
-        }
-      });
-  parallelFor(
-      "coplane::contact::addForces", int(facesStart.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
-        Vec3 force = at(f, node);
-        Real sum = 0;
-        for (std::int32_t i = facesStart(node); i < facesStart(node + 1); ++i)
-        {
-          const FaceLoad& load = loads(facesEntry(i) / 4);
-          force += load.force[facesEntry(i) % 4];
-          sum += load.stiffness;
-        }
-        set(f, node, force);
-        stiffness(node) = sum;
-      });
 }
 
 ContactEnergy Contact::energy() const

@@ -5,6 +5,7 @@
 #include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Faces.hpp>
+#include <coplane_contact/ForceSums.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/Backend.hpp>
@@ -76,7 +77,10 @@ public:
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
-  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const;
+  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const
+  {
+    forceSums_.add(planes_, asleep_, f, stiffness);
+  }
 
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Face>& localFaces() const { return localFaces_; }
@@ -137,8 +141,6 @@ private:
   class SlotFiller; ///< makes the slots of a search
   std::vector<Donor> livingPlanes() const;
   Donor donor(const Plane& plane) const;
-  template <class FaceOf>
-  void listPlanesOfFaces(const FaceOf& faceOf);
   void buildLists(int ownedNodes);
   CandidateRules candidateRules() const; ///< with those of groups; while this lives
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
@@ -173,12 +175,7 @@ private:
   Array<Face> faceTable_;
   Array<bool> paired_;                                           ///< faces that have a slot
   Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
-  // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an
-  // entry is 2 * plane + side. What they add to its nodes.
-  Array<std::int32_t> planesStart_, planesEntry_;
-  Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_;
-  // Local faces of owned node n, in the order of ids; an entry is 4 * face + corner.
-  Array<std::int32_t> facesStart_, facesEntry_;
+  ForceSums forceSums_;
 
   EndedPlanes ended_;
   std::vector<Plane> restored_; ///< between restoreFaces() and restorePlanes()

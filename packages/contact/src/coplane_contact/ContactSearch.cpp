@@ -319,10 +319,13 @@ private:
     if (face(f).local)
     {
       if (contact_.searches_ > 0)
-        for (std::int32_t i = contact_.planesStart_(f); i < contact_.planesStart_(f + 1); ++i)
-          if (const int p = contact_.planesEntry_(i) / 2;
-              gives_[p] && fits(contact_.planes_(p), plane, normal))
-            donors.push_back(contact_.donor(contact_.planes_(p)));
+        contact_.forceSums_.forEachPlaneOf(
+            f,
+            [&](int p)
+            {
+              if (gives_[p] && fits(contact_.planes_(p), plane, normal))
+                donors.push_back(contact_.donor(contact_.planes_(p)));
+            });
       return;
     }
     const std::vector<Donor>& ofGhosts = contact_.ghosts_.donors;

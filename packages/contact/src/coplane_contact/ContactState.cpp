@@ -249,7 +249,7 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
   planes_ = planes;
   restored_.clear();
   takeFaceTables();
-  facesStart_ = {};
+  forceSums_.forgetFaces();
   buildLists(layout.owned());
   ended_ = {};
   const std::vector<Real> counts = in.numbers("contact/counts");
