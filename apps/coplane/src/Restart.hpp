@@ -12,7 +12,7 @@
 namespace coplane
 {
 /// What a checkpoint says of the run that wrote it, to be compared at a restart: hashes of the
-/// parts of the mesh, the deck, and which part of the series of results it was.
+/// parts of the mesh, the deck, and which part of the series of results it was. Collective.
 std::vector<std::pair<std::string, std::string>>
 fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& comm);
 

@@ -324,6 +324,42 @@ int threadsOf(const CommandLine& line)
   return threads;
 }
 
+/// The command line, which has to be the same on all ranks, as has the program. Returns the exit
+/// code, the same on all; negative: go on. Collective.
+int parseTogether(int argc, char** argv, const Comm& comm, CommandLine& line)
+{
+  const int parsed = parse(argc, argv, comm.isRoot(), line);
+  logSetup(comm.isRoot(), line.quiet);
+  setDraftToken(comm.broadcast(draftToken()));
+  comm.demandSame("the program", build(), ExitCode::Usage);
+  comm.demandSame("the command line",
+                  optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""), ExitCode::Usage);
+  const auto code = comm.max(std::int64_t(parsed));
+  if (code >= 0)
+    demandTextOfRoot(comm);
+  return int(code);
+}
+
+/// What Kokkos is to use. Options and nothing else say it; Kokkos takes variables that contradict
+/// them, or are no numbers, for errors of the program. Collective.
+Kokkos::InitArguments kokkosArguments(const CommandLine& line, const Comm& comm)
+{
+  for (const char* variable : {"KOKKOS_NUM_THREADS", "KOKKOS_NUMA", "KOKKOS_DEVICE_ID",
+                               "KOKKOS_NUM_DEVICES", "KOKKOS_SKIP_DEVICE", "KOKKOS_RAND_DEVICES",
+                               "KOKKOS_DISABLE_WARNINGS", "KOKKOS_TUNE_INTERNALS"})
+    ::unsetenv(variable);
+  Kokkos::InitArguments arguments;
+  comm.together(
+      [&]
+      {
+        demandOpenFiles();
+        arguments.num_threads = threadsOf(line);
+        demandThreads(arguments.num_threads);
+      });
+  arguments.disable_warnings = true;
+  return arguments;
+}
+
 /// Everything between the start and the end of MPI. Errors of all ranks at once end here, those of
 /// this rank alone are for the caller.
 int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
@@ -331,33 +367,9 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
   try
   {
     CommandLine line;
-    const int parsed = parse(argc, argv, comm.isRoot(), line);
-    logSetup(comm.isRoot(), line.quiet);
-    setDraftToken(comm.broadcast(draftToken()));
-    comm.demandSame("the program", build(), ExitCode::Usage);
-    comm.demandSame("the command line",
-                    optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""),
-                    ExitCode::Usage);
-    if (comm.max(std::int64_t(parsed)) >= 0) // the same everywhere, but for threads and back end
-    {
-      demandTextOfRoot(comm);
-      return int(comm.max(std::int64_t(parsed)));
-    }
-    // Options and nothing else say what is used; Kokkos takes variables that contradict them, or
-    // are no numbers, for errors of the program.
-    for (const char* variable : {"KOKKOS_NUM_THREADS", "KOKKOS_NUMA", "KOKKOS_DEVICE_ID",
-                                 "KOKKOS_NUM_DEVICES", "KOKKOS_SKIP_DEVICE", "KOKKOS_RAND_DEVICES",
-                                 "KOKKOS_DISABLE_WARNINGS", "KOKKOS_TUNE_INTERNALS"})
-      ::unsetenv(variable);
-    Kokkos::InitArguments arguments;
-    comm.together(
-        [&]
-        {
-          demandOpenFiles();
-          arguments.num_threads = threadsOf(line);
-          demandThreads(arguments.num_threads);
-        });
-    arguments.disable_warnings = true;
+    if (const int code = parseTogether(argc, argv, comm, line); code >= 0)
+      return code; // the same everywhere, but for threads and back end
+    const Kokkos::InitArguments arguments = kokkosArguments(line, comm);
     const Kokkos::ScopeGuard kokkos(arguments);
     setBackend(line.backend == "serial" ? Backend::Serial : Backend::Threads);
     std::string command;

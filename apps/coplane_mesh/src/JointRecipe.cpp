@@ -150,7 +150,7 @@ const Key& jointRecipeSchema()
 const FileKind& jointRecipeFile()
 {
   static const FileKind kind{"the recipe of joints", "coplane_mesh --help-split",
-                             "joints: {all: {blocks: all}}"};
+                             "joints: {all: {blocks: all}}", 1e12};
   return kind;
 }
 

@@ -150,6 +150,14 @@ std::vector<Key> setKeys()
   };
 }
 
+/// Where the dimension is not known: keys of one of them may be missing.
+void demandNothingOfDimensions(Key& key)
+{
+  key.required = key.required && key.dimension == 0;
+  for (Key& one : key.keys)
+    demandNothingOfDimensions(one);
+}
+
 Key makeSchema()
 {
   std::vector<Key> sideSetKeys = setKeys();
@@ -189,7 +197,7 @@ const Key& recipeSchema()
 
 const FileKind& recipeFile()
 {
-  static const FileKind kind{"the recipe", "coplane_mesh --help-recipe", "dimension: 2"};
+  static const FileKind kind{"the recipe", "coplane_mesh --help-recipe", "dimension: 2", 1e12};
   return kind;
 }
 
@@ -203,7 +211,7 @@ Recipe parseRecipe(const std::string& text, const std::string& file,
   {
     const DeckNode* const dimension = root.find("dimension");
     if (!dimension || (dimension->text != "2" && dimension->text != "3"))
-      return;
+      return demandNothingOfDimensions(schema);
     const int axes = dimension->text == "2" ? 2 : 3;
     fitToDimension(schema, axes);
     for (Key& key : schema.keys)

@@ -10,7 +10,8 @@ namespace coplane
 {
 namespace
 {
-const std::string units = "Lengths are in metres, angles in degrees; (2D), (3D): only there.";
+const std::string units =
+    "Lengths are in metres, up to 1e12, angles in degrees; (2D), (3D): only there.";
 
 std::string markdown()
 {

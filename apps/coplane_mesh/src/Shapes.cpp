@@ -405,74 +405,98 @@ std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real
   return bodies;
 }
 
-Body halfDisc(Real radius, Real fine, Real fineRadius)
+namespace
 {
-  // Polar coordinates about the lowest point. A circle of radius rho about it meets the disc's
-  // border under the angle asin(rho / 2 R) to the tangent; between these ends its nodes have equal
-  // angles.
-  const auto directionAt = [](Real leastAngle, Real part)
+/// Polar coordinates about the lowest point of a disc. A circle of radius rho about it meets the
+/// disc's border under the angle asin(rho / 2 R) to the tangent; between these ends its nodes have
+/// equal angles.
+struct DiscCoordinates
+{
+  Real radius; ///< of the disc [m]
+
+  /// Measured from the axis of symmetry, so that the mesh is symmetric to the bit.
+  /// @param part of the angle between the ends, 0..1
+  static Vec3 directionAt(Real leastAngle, Real part)
   {
-    // Measured from the axis of symmetry, so that the mesh is symmetric to the bit.
     const Real angle = (0.5 - part) * (pi - 2 * leastAngle);
     return Vec3{std::sin(angle), std::cos(angle), 0};
-  };
-  const auto bent = [&](Real rho, Real part)
-  { return rho * directionAt(std::asin(rho / (2 * radius)), part); };
-
-  const int across = std::max(4, countable(2 * std::ceil(fineRadius / fine - 1e-9)));
-  const RoundGrid centre(fineRadius, across, true);
-  Body body = centre.body();
-  for (Vec3& p : body.points)
-    p = bent(std::hypot(p.x, p.y), std::atan2(p.y, p.x) / pi);
-  std::vector<int> arc = centre.outerArc();
-  const int around = int(arc.size()) - 1;
-  const auto addRow = [&](const std::function<Vec3(int)>& position)
+  }
+  Vec3 at(Real rho, Real part) const
   {
-    std::vector<int> next;
-    for (int j = 0; j <= around; ++j)
-    {
-      next.push_back(int(body.points.size()));
-      body.points.push_back(position(j));
-    }
-    for (int j = 0; j < around; ++j)
-      body.connectivity.insert(body.connectivity.end(), {arc[j], next[j], next[j + 1], arc[j + 1]});
-    arc = next;
-  };
+    return rho * directionAt(std::asin(rho / (2 * radius)), part);
+  }
+};
 
-  // Rings as thick as their elements are long, up to half the radius ...
-  const Real last = radius / 2;
-  const Real perRing = (pi - 2 * std::asin(last / (2 * radius))) / around;
-  const int rings = std::max(1, int(std::lround(std::log(last / fineRadius) / perRing)));
-  for (int ring = 1; ring <= rings; ++ring)
-    addRow(
-        [&](int j) {
-          return bent(fineRadius * std::pow(last / fineRadius, Real(ring) / rings),
-                      Real(j) / around);
-        });
+/// A row of elements around what there is.
+/// @param arc its outer nodes, then those of the row; position: of the new nodes
+void addRow(Body& body, std::vector<int>& arc, const std::function<Vec3(int)>& position)
+{
+  const int around = int(arc.size()) - 1;
+  std::vector<int> next;
+  for (int j = 0; j <= around; ++j)
+  {
+    next.push_back(int(body.points.size()));
+    body.points.push_back(position(j));
+  }
+  for (int j = 0; j < around; ++j)
+    body.connectivity.insert(body.connectivity.end(), {arc[j], next[j], next[j + 1], arc[j + 1]});
+  arc = next;
+}
 
-  // ... then blended into the straight edge, by transfinite interpolation: the ends follow the
-  // border of the disc.
+/// Rows between the circle of radius `last` and the straight edge, by transfinite interpolation:
+/// the ends follow the border of the disc.
+void blendIntoEdge(Body& body, std::vector<int>& arc, const DiscCoordinates& disc, Real last,
+                   int rows)
+{
+  const Real radius = disc.radius;
+  const int around = int(arc.size()) - 1;
   const Real cornerDistance = std::sqrt(2.0) * radius, cornerAngle = pi / 4;
-  const int rows = std::max(1, int(std::lround(std::log(radius / last) / perRing)));
   for (int row = 1; row <= rows; ++row)
   {
     const Real rho = last * std::pow(cornerDistance / last, Real(row) / rows);
     const Real s = (rho - last) / (cornerDistance - last);
-    const Vec3 chord = (1 - s) * bent(last, 0) + s * Vec3{radius, radius, 0};
-    const Vec3 bulge = (row == rows ? Vec3{radius, radius, 0} : bent(rho, 0)) - chord;
-    addRow(
-        [&](int j)
-        {
-          const Real part = Real(j) / around;
-          const Vec3 ray = directionAt(cornerAngle, part);
-          const Vec3 top{j == 0        ? radius
-                         : j == around ? -radius
-                                       : radius * ray.x / ray.y,
-                         radius, 0};
-          const Vec3 straight = (1 - s) * bent(last, part) + s * top;
-          return straight + Vec3{(1 - 2 * part) * bulge.x, bulge.y, 0};
-        });
+    const Vec3 chord = (1 - s) * disc.at(last, 0) + s * Vec3{radius, radius, 0};
+    const Vec3 bulge = (row == rows ? Vec3{radius, radius, 0} : disc.at(rho, 0)) - chord;
+    addRow(body, arc,
+           [&](int j)
+           {
+             const Real part = Real(j) / around;
+             const Vec3 ray = DiscCoordinates::directionAt(cornerAngle, part);
+             const Vec3 top{j == 0        ? radius
+                            : j == around ? -radius
+                                          : radius * ray.x / ray.y,
+                            radius, 0};
+             const Vec3 straight = (1 - s) * disc.at(last, part) + s * top;
+             return straight + Vec3{(1 - 2 * part) * bulge.x, bulge.y, 0};
+           });
   }
+}
+} // namespace
+
+Body halfDisc(Real radius, Real fine, Real fineRadius)
+{
+  const DiscCoordinates disc{radius};
+  const int across = std::max(4, countable(2 * std::ceil(fineRadius / fine - 1e-9)));
+  const RoundGrid centre(fineRadius, across, true);
+  Body body = centre.body();
+  for (Vec3& p : body.points)
+    p = disc.at(std::hypot(p.x, p.y), std::atan2(p.y, p.x) / pi);
+  std::vector<int> arc = centre.outerArc();
+  const int around = int(arc.size()) - 1;
+
+  // Rings as thick as their elements are long, up to half the radius, then blended into the edge.
+  const Real last = radius / 2;
+  const Real perRing = (pi - 2 * std::asin(last / (2 * radius))) / around;
+  const int rings = std::max(1, int(std::lround(std::log(last / fineRadius) / perRing)));
+  for (int ring = 1; ring <= rings; ++ring)
+    addRow(body, arc,
+           [&](int j)
+           {
+             return disc.at(fineRadius * std::pow(last / fineRadius, Real(ring) / rings),
+                            Real(j) / around);
+           });
+  const int rows = std::max(1, int(std::lround(std::log(radius / last) / perRing)));
+  blendIntoEdge(body, arc, disc, last, rows);
   return body;
 }
 

@@ -218,6 +218,9 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
   CLI::App* checking = app.add_subcommand(
       "check", "Report sizes and faults of a mesh; exit code 4 when it cannot be used");
   checking->add_option("mesh", given.file, "Exodus II file")->required();
+  CLI::App* probing = app.add_subcommand(
+      "probe", "Open a mesh and look into it; the programs do it before they read HDF5");
+  probing->add_option("mesh", given.file, "Exodus II file")->required();
   CLI::App* splitting =
       app.add_subcommand("split", "Open joints in a conforming mesh by copying nodes");
   splitting->add_option("mesh", given.file, "Exodus II file")->required();
@@ -232,6 +235,7 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
   showing->add_option("file", given.file, "example.yaml")->required();
   return {{making, [&] { make(given.recipe, given.overrides, given.output); }},
           {checking, [&] { check(given.file); }},
+          {probing, [&] { probeMeshFile(given.file); }},
           {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
           {converting, [&] { convert(given.file, given.output); }},
           {showing, [&] { showExample(given.file); }}};

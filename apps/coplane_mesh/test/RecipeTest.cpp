@@ -92,6 +92,22 @@ TEST(Recipe, aLengthThatIsNotPositiveIsRefused)
             "r.yaml:3:38: parts.0.size.1 = '0' is out of range; accepted: a number > 0 [m].");
 }
 
+TEST(Recipe, aLengthBeyondAllSceneryIsRefused)
+{
+  EXPECT_EQ(errorOf(head + "  - {shape: box, block: b, size: [1, 1e300], divisions: [1, 1]}\n"),
+            "r.yaml:3:38: parts.0.size.1 = '1e300' is beyond 1e+12 m; accepted: a number > 0 [m].");
+}
+
+TEST(Recipe, withoutADimensionNothingElseIsAskedFor)
+{
+  EXPECT_EQ(errorOf("parts: [{shape: cylinder, block: b, radius: 1, across: 4}]\n"),
+            "r.yaml:1:1: dimension is missing; accepted: one of 2, 3: of space; lists by dimension "
+            "have as many numbers.");
+  EXPECT_EQ(errorOf("parts: [{shape: box, block: b, lines: {x: [0, 1], y: [0, 1]}}]\n"),
+            "r.yaml:1:1: dimension is missing; accepted: one of 2, 3: of space; lists by dimension "
+            "have as many numbers.");
+}
+
 TEST(Recipe, aWordForANumberIsRefused)
 {
   EXPECT_EQ(errorOf(head + "  - {shape: cylinder, block: b, radius: wide, across: 4}\n"),

@@ -124,9 +124,9 @@ struct Slots
   PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
                   const ContactOptions& options)
   {
-    const PairTables pairs{planes.data(), faces.data(), activity.data(),
-                           nullptr,       nullptr,      &changed};
-    return {pairs, halfStep.data(), laws.data(), options, dt};
+    const PairTables pairs{planes.data(), faces.data(), activity.data(), nullptr,
+                           nullptr,       laws.data(),  false,           &changed};
+    return {pairs, halfStep.data(), options, dt};
   }
 
   std::vector<Plane> planes;

@@ -3,6 +3,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
+#include <coplane_exodus/detail/FileProbe.hpp>
 
 #include <exodusII.h>
 #include <gtest/gtest.h>
@@ -177,6 +178,25 @@ TEST(MeshFile, aTextFileIsNotExodus)
   std::ofstream(file) << "solid cube\n";
   EXPECT_TRUE(
       contains(errorOf([&] { readMesh(file); }), "text.e: the file is not an Exodus II file"));
+  std::filesystem::remove(file);
+}
+
+TEST(MeshFile, aProbeTellsHowAProgramEnds)
+{
+  const auto shell = [](const char* command) { return runProgram({"/bin/sh", "-c", command}, 60); };
+  EXPECT_EQ(shell("true"), ProgramEnd::Success);
+  EXPECT_EQ(shell("exit 3"), ProgramEnd::Failure);
+  EXPECT_EQ(shell("kill -SEGV $$"), ProgramEnd::Failure);
+  EXPECT_EQ(runProgram({"/nowhere/coplane_mesh", "probe"}, 60), ProgramEnd::NotStarted);
+  EXPECT_EQ(runProgram({"/bin/sleep", "60"}, 0.05), ProgramEnd::TooLong);
+}
+
+TEST(MeshFile, whatOnlyBeginsLikeHdf5IsRefused)
+{
+  const std::string file = ownFile("hdf5.e");
+  std::ofstream(file) << "\x89HDF\r\n\x1a\n" << std::string(500, 'x');
+  EXPECT_TRUE(
+      contains(errorOf([&] { readMesh(file); }), "hdf5.e: the file is not an Exodus II file"));
   std::filesystem::remove(file);
 }
 

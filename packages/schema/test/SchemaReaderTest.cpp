@@ -1,5 +1,6 @@
 #include <coplane_schema/SchemaBuilder.hpp>
 #include <coplane_schema/SchemaReader.hpp>
+#include <coplane_schema/Suggestion.hpp>
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,37 @@ TEST(SchemaReader, oneItemMayStandWithoutItsList)
             "c.yaml:1:9: names = a list of 0; accepted: a list of names or one alone.");
   EXPECT_EQ(read("{items: 3}").problems, "c.yaml:1:9: items = '3'; accepted: a list of items with "
                                          "keys and values, or one item alone.");
+}
+
+TEST(SchemaReader, longTextIsShortenedInMessages)
+{
+  const std::string beginning(200, 'w');
+  EXPECT_EQ(read("{range: " + std::string(300, 'w') + "}").problems,
+            "c.yaml:1:9: range = '" + beginning +
+                "... (300 letters)' is not a number; accepted: a list of 2 numbers [m] or one "
+                "alone.");
+  EXPECT_EQ(read("{" + std::string(300, 'w') + ": 1}").problems,
+            "c.yaml:1:2: " + beginning +
+                "... (300 letters) is not known. Accepted here: range, normal, names, corners, "
+                "pairs, items, line, depth.");
+  std::string umlauts, ofFirst;
+  for (int i = 0; i < 201; ++i)
+  {
+    umlauts += "\u00fc";
+    if (i < 200)
+      ofFirst += "\u00fc";
+  }
+  EXPECT_EQ(shortened(umlauts), ofFirst + "... (201 letters)");
+  EXPECT_EQ(shortened(ofFirst), ofFirst);
+}
+
+TEST(SchemaReader, aLongListOfNamesIsShortenedInMessages)
+{
+  const std::vector<std::string> names(23, "n");
+  std::string first = "n";
+  for (int i = 1; i < 20; ++i)
+    first += ", n";
+  EXPECT_EQ(listOf(names), first + ", ... (3 more)");
 }
 
 TEST(SchemaReader, listsHaveANumberForEachAxis)

@@ -256,4 +256,27 @@ for limit, options, word in [("ulimit -n 16", "", "ulimit -n 64"), ("ulimit -v 3
 case.check_equal("limits of the process: nothing was written", sorted(path.name for path in folder.iterdir()), before)
 done = subprocess.run(["bash", "-c", f"ulimit -Sn 16; exec {program.binary('coplane')} run.yaml --set history.tables=[]"], cwd=folder, timeout=60)
 case.check_equal("a soft limit of open files: is raised", done.returncode, 0)
+
+# --- a mesh in HDF5 is probed -----------------------------------------------------------------------------------
+folder = pathlib.Path("probed").resolve()
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir()
+documents.save({"mesh": "mesh.e", **deck}, folder / "run.yaml")
+netCDF4.Dataset(folder / "mesh.e", "w", format="NETCDF4").close()
+shutil.copy(program.binary("coplane"), folder)
+prober = folder / "coplane_mesh"
+damaged = "mesh.e: the file is damaged: the HDF5 library fails in it."
+empty = "mesh.e: the file is not an Exodus II file"  # said by who reads it
+for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that ends well", '[ "$*" = "probe mesh.e" ]', empty), ("that is not there", "", empty)]:
+    if script:
+        prober.write_text(f"#!/bin/sh\n{script}\n")
+        prober.chmod(0o755)
+    else:
+        prober.unlink()
+    for ranks in (1, 2):
+        launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
+        done = subprocess.run([*launch, folder / "coplane", "run.yaml", "--check"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
+        case.check_equal(f"a prober {name}, {ranks} ranks: code and cause", (done.returncode, words in done.stdout), (MESH, True))
+        if words not in done.stdout:
+            print(done.stdout[-2000:])
 case.finish()

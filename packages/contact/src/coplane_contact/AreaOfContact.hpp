@@ -237,6 +237,92 @@ struct ClosureField
   }
 };
 
+/// The overlap of two convex outlines.
+/// @param inOrder keep the sides in order; T is Real
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void overlapOf(const Outline<T>& a, const Outline<T>& b, bool inOrder,
+                                           PolygonSides<T>& q)
+{
+  if constexpr (branchFree::widthOf<T> == 1)
+    if (inOrder)
+    {
+      q = sidesOf(intersection(a.polygon(), b.polygon()));
+      return;
+    }
+  intersect(a.p, a.count, b.p, b.count, q);
+}
+
+/// Closures at both ends of the sides of a polygon, and their extremes.
+template <class T>
+struct ClosuresOf
+{
+  T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
+  T least = T(infinity), most = T(-infinity);
+
+  KOKKOS_FORCEINLINE_FUNCTION ClosuresOf(const ClosureField<T>& field, const FaceMapOf<T> (&map)[2],
+                                         const PolygonSides<T>& q)
+  {
+    using namespace branchFree;
+    for (int k = 0; k < q.size; ++k)
+    {
+      const auto isThere = q.isThere(k);
+      from[k] = field.at(map, q.from[k], isThere);
+      to[k] = field.at(map, q.to[k], isThere);
+      least = choose(isThere, smaller(from[k], least), least);
+      most = choose(isThere, larger(from[k], most), most);
+    }
+  }
+
+  /// 1 in the lanes where the closures do not count.
+  KOKKOS_FORCEINLINE_FUNCTION void keepWhere(const branchFree::MaskOf<T>& they, int size)
+  {
+    const T one(1.0);
+    for (int k = 0; k < size; ++k)
+    {
+      from[k] = branchFree::choose(they, from[k], one);
+      to[k] = branchFree::choose(they, to[k], one);
+    }
+  }
+};
+
+/// Cuts off what is open. @returns area and centre of gravity of the rest
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION AreaAndCentroidOf<T> cutOpenPart(PolygonSides<T>& q, ClosuresOf<T>& c,
+                                                             bool inOrder, PatchOf<T>& patch)
+{
+  if constexpr (branchFree::widthOf<T> == 1)
+    inOrder ? cutInOrder(q, c.from, c.to) : cutWhereNegative(q, c.from, c.to);
+  else
+    cutWhereNegative(q, c.from, c.to);
+  patch.regular = patch.regular && !q.crossed;
+  return areaAndCentroid(q);
+}
+
+/// Weights where the force acts: at the centre of gravity of the patch, or of the pressure on it.
+/// @param pressed area and centre of gravity of q, where the pressure is
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+weightsOfForce(const FaceMapOf<T> (&map)[2], const ClosureField<T>& field, const PolygonSides<T>& q,
+               ClosuresOf<T>& c, const AreaAndCentroidOf<T>& pressed,
+               const branchFree::MaskOf<T>& bonded, const branchFree::MaskOf<T>& used,
+               ContactOptions::Weights weights, PatchOf<T>& patch)
+{
+  using namespace branchFree;
+  if (weights == ContactOptions::Weights::Centroid)
+  {
+    for (int f = 0; f < 2; ++f)
+      for (int k = 0; k < 4; ++k)
+        patch.weights[f][k] = patch.centroidWeights[f][k];
+    return;
+  }
+  const auto uneven = MaskOf<T>(weights == ContactOptions::Weights::Pressure) && !bonded &&
+                      c.most - positivePart(c.least) > 1e-14 * squareRoot(patch.area);
+  const T centerClosure =
+      choose(uneven, positivePart(field.at(map, pressed.centroid, uneven && used)), T(1.0));
+  c.keepWhere(uneven, q.size);
+  weightsOver(map, q, c.from, c.to, pressed.centroid, centerClosure, patch.weights);
+}
+
 /// For convex shadows whose maps can be inverted, which is nearly all; where they cannot, or where
 /// only the order of the sides tells what a cut leaves, the patch is not regular.
 /// @param bonded the plane's joint holds: the whole overlap carries
@@ -253,15 +339,7 @@ patchOfPolygons(const ShadowOf<T>& a, const ShadowOf<T>& b, const T& offset,
   if (!anyOf(patch.regular))
     return;
   PolygonSides<T> q;
-  if constexpr (widthOf<T> == 1)
-  {
-    if (inOrder)
-      q = sidesOf(intersection(outlineA.polygon(), outlineB.polygon()));
-    else
-      intersect(outlineA.p, a.count, outlineB.p, b.count, q);
-  }
-  else
-    intersect(outlineA.p, a.count, outlineB.p, b.count, q);
+  overlapOf(outlineA, outlineB, inOrder, q);
   patch.regular = patch.regular && !q.crossed;
   AreaAndCentroidOf<T> part = areaAndCentroid(q);
   const auto overlaps = part.area > 0.0;
@@ -270,70 +348,32 @@ patchOfPolygons(const ShadowOf<T>& a, const ShadowOf<T>& b, const T& offset,
   patch.overlap = positivePart(part.area);
   const FaceMapOf<T> map[2] = {FaceMapOf<T>(a.p, a.count), FaceMapOf<T>(b.p, b.count)};
   const ClosureField<T> field(map, a, b, offset, squareRoot(patch.overlap));
-  T cFrom[PolygonSides<T>::capacity], cTo[PolygonSides<T>::capacity];
-  T least(infinity), most(-infinity);
-  for (int k = 0; k < q.size; ++k)
-  {
-    const auto isThere = q.isThere(k);
-    cFrom[k] = field.at(map, q.from[k], isThere);
-    cTo[k] = field.at(map, q.to[k], isThere);
-    least = choose(isThere, smaller(cFrom[k], least), least);
-    most = choose(isThere, larger(cFrom[k], most), most);
-  }
-  patch.leastGap = choose(overlaps, -most, patch.leastGap);
+  ClosuresOf<T> closures(field, map, q);
+  patch.leastGap = choose(overlaps, -closures.most, patch.leastGap);
   patch.regular = patch.regular && !map[0].lost && !map[1].lost;
-  const auto carries = overlaps && (bonded || most > 0.0);
+  const auto carries = overlaps && (bonded || closures.most > 0.0);
   if (!anyOf(carries))
     return;
 
   const bool penetrating = areaInUse == ContactOptions::Area::Penetrating;
-  const bool byPressure = weights == ContactOptions::Weights::Pressure;
   AreaAndCentroidOf<T> pressed = part;
-  if (penetrating || byPressure)
+  if (penetrating || weights == ContactOptions::Weights::Pressure)
   {
-    for (int k = 0; k < q.size; ++k)
-    {
-      cFrom[k] = choose(bonded, T(1.0), cFrom[k]);
-      cTo[k] = choose(bonded, T(1.0), cTo[k]);
-    }
-    if (anyOf(least < 0.0 && !bonded))
-    {
-      if constexpr (widthOf<T> == 1)
-        inOrder ? cutInOrder(q, cFrom, cTo) : cutWhereNegative(q, cFrom, cTo);
-      else
-        cutWhereNegative(q, cFrom, cTo);
-      patch.regular = patch.regular && !q.crossed;
-      pressed = areaAndCentroid(q);
-    }
+    closures.keepWhere(!bonded, q.size);
+    if (anyOf(closures.least < 0.0 && !bonded))
+      pressed = cutOpenPart(q, closures, inOrder, patch);
     if (penetrating)
       part = pressed;
   }
   patch.area = choose(carries, positivePart(part.area), T(0.0));
   patch.centroid = part.centroid;
-  if (!anyOf(patch.area > 0.0))
-    return;
   const auto used = patch.area > 0.0;
+  if (!anyOf(used))
+    return;
   for (int f = 0; f < 2; ++f)
     map[f].weightsAt(part.centroid, map[f].product(map[f].straight(part.centroid), used),
                      patch.centroidWeights[f]);
-  if (weights == ContactOptions::Weights::Centroid)
-    for (int f = 0; f < 2; ++f)
-      for (int k = 0; k < 4; ++k)
-        patch.weights[f][k] = patch.centroidWeights[f][k];
-  else
-  {
-    const auto uneven = MaskOf<T>(byPressure) && !bonded &&
-                        most - positivePart(least) > 1e-14 * squareRoot(patch.area);
-    const T one(1.0);
-    const T centerClosure =
-        choose(uneven, positivePart(field.at(map, pressed.centroid, uneven && used)), one);
-    for (int k = 0; k < q.size; ++k)
-    {
-      cFrom[k] = choose(uneven, cFrom[k], one);
-      cTo[k] = choose(uneven, cTo[k], one);
-    }
-    weightsOver(map, q, cFrom, cTo, pressed.centroid, centerClosure, patch.weights);
-  }
+  weightsOfForce(map, field, q, closures, pressed, bonded, used, weights, patch);
   patch.regular = patch.regular && (!used || (!map[0].lost && !map[1].lost));
 }
 

@@ -9,14 +9,6 @@ namespace coplane
 {
 namespace
 {
-/// Brings what FaceLoad::add() reads of a plane into the cache.
-void prefetch(const Plane& plane)
-{
-  const char* line = reinterpret_cast<const char*>(&plane);
-  for (int i = 0; i < 3; ++i)
-    __builtin_prefetch(line + 64 * i);
-}
-
 /// What step A needs of the first face, or of as many as T has lanes.
 template <class T>
 void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
@@ -165,51 +157,11 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
 void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 {
   localFaces_ = std::move(localFaces);
-  // Donors are looked up by places in the new list.
-  listPlanesOfFaces(
-      [&](std::size_t p, int side)
-      {
-        const Plane& plane = planes_(p);
-        if (plane.face[side] < 0)
-          return -1;
-        const auto found =
-            std::lower_bound(localFaces_.begin(), localFaces_.end(), plane.faceId[side],
-                             [](const Face& f, GlobalId id) { return f.id < id; });
-        return found != localFaces_.end() && found->id == plane.faceId[side]
-                   ? int(found - localFaces_.begin())
-                   : -1;
-      });
-  facesStart_ = {}; // built anew with the next search
-}
-
-/// Lists of the planes of each local face. `faceOf(slot, side)`: place of a local face; negative
-/// for other faces and for pairs that are no candidates.
-template <class FaceOf>
-void Contact::listPlanesOfFaces(const FaceOf& faceOf)
-{
-  const std::size_t local = localFaces_.size();
-  planesStart_ = Array<std::int32_t>("coplane::contact::planesStart", local + 1);
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(p, side); face >= 0)
-        ++planesStart_(face + 1);
-  for (std::size_t f = 0; f < local; ++f)
-    planesStart_(f + 1) += planesStart_(f);
-  planesEntry_ =
-      Array<std::int32_t>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planesEntry"),
-                          planesStart_(local));
-  // Planes are visited in the order of their keys, so each face's list is in that order on every
-  // rank.
-  std::vector<std::int32_t> next(planesStart_.data(), planesStart_.data() + local);
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
-    for (int side = 0; side < 2; ++side)
-      if (const int face = faceOf(p, side); face >= 0)
-        planesEntry_(next[face]++) = std::int32_t(2 * p + side);
+  forceSums_.forgetFaces(); // listed anew with the search that has to follow
 }
 
 void Contact::buildLists(int ownedNodes)
 {
-  const std::size_t local = localFaces_.size();
   halfStepFaces_ = decltype(halfStepFaces_)(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faces_.size());
   paired_ = Array<bool>("coplane::contact::paired", faces_.size());
@@ -227,29 +179,8 @@ void Contact::buildLists(int ownedNodes)
     for (const int face : slotFaces_(p).face)
       if (face >= 0)
         paired_(face) = true;
-  listPlanesOfFaces(
-      [&](std::size_t p, int side)
-      {
-        const int face = slotFaces_(p).face[side];
-        return face >= 0 && faces_[face].local ? face : -1;
-      });
-  if (facesStart_.extent(0) == std::size_t(ownedNodes) + 1)
-    return;
-  faceLoads_ = decltype(faceLoads_)("coplane::contact::faceLoads", local);
-  facesStart_ = Array<std::int32_t>("coplane::contact::facesStart", ownedNodes + 1);
-  const auto forEachCorner = [&](const auto& visit)
-  {
-    for (std::size_t f = 0; f < local; ++f)
-      for (int k = 0; k < localFaces_[f].count; ++k)
-        if (localFaces_[f].nodes[k] < ownedNodes)
-          visit(localFaces_[f].nodes[k], std::int32_t(4 * f + k));
-  };
-  forEachCorner([&](int node, std::int32_t) { ++facesStart_(node + 1); });
-  for (int n = 0; n < ownedNodes; ++n)
-    facesStart_(n + 1) += facesStart_(n);
-  facesEntry_ = Array<std::int32_t>("coplane::contact::facesEntry", facesStart_(ownedNodes));
-  std::vector<std::int32_t> next(facesStart_.data(), facesStart_.data() + ownedNodes);
-  forEachCorner([&](int node, std::int32_t entry) { facesEntry_(next[node]++) = entry; });
+  forceSums_.listPlanes(slotFaces_, localFaces_.size());
+  forceSums_.listFaces(localFaces_, ownedNodes);
 }
 
 Real Contact::thinnestElement() const
@@ -314,10 +245,11 @@ void stepA(const Array<Face>& faces, const Array<bool>& paired, int dimension,
 
 /// Steps B to H for all slots; in three dimensions several side by side.
 void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& halfStep,
-               const Array<JointLaw>& laws, int dimension, const ContactOptions& options, Real dt)
+               int dimension, const ContactOptions& options, Real dt)
 {
   if (dimension == 2)
   {
+    const Real opposed = leastOpposed(options);
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
           const SlotFaces& faces = pairs.slots[p];
@@ -326,14 +258,14 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& hal
           Plane& plane = pairs.planes[p];
           const HalfStepFace& a = halfStep(faces.face[0]);
           const HalfStepFace& b = halfStep(faces.face[1]);
-          if (!(plane.area > 0) && !mayMeet<2>(a, b, leastOpposed(options)))
+          if ((pairs.isAsleep(p) || !(plane.area > 0)) && !mayMeet<2>(a, b, opposed))
           {
             pairs.passBy(p, a, b, dt);
             return;
           }
           pairs.prepare(p);
           const auto before = pairs.passedBy(p);
-          updateByForces<2>(plane, a, b, laws(plane.joint), options, dt);
+          updateByForces<2>(plane, a, b, pairs.laws[plane.joint], options, dt);
           pairs.book(p, before);
         });
     return;
@@ -344,7 +276,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFaces& hal
       KOKKOS_LAMBDA(const int s) {
         const int first = s * stretch;
         const int last = first + stretch < planeCount ? first + stretch : planeCount;
-        PairLanes(pairs, halfStep.data(), laws.data(), options, dt).update(first, last);
+        PairLanes(pairs, halfStep.data(), options, dt).update(first, last);
       });
 }
 } // namespace
@@ -356,9 +288,15 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   stepA(faceTable_, paired_, dimension_, x, v, mass, options_.forces, dt, halfStepFaces_);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
-  const PairTables pairs{planes_.data(), slotFaces_.data(),  activity_.data(),
-                         todo_.data(),   preparation_.get(), &passedOnHasChanged_};
-  stepsBtoH(pairs, int(planes_.extent(0)), halfStepFaces_, laws_, dimension_, options, dt);
+  const PairTables pairs{planes_.data(),
+                         slotFaces_.data(),
+                         activity_.data(),
+                         todo_.data(),
+                         preparation_.get(),
+                         laws_.data(),
+                         options_.closure == ContactOptions::Closure::Incremental,
+                         &passedOnHasChanged_};
+  stepsBtoH(pairs, int(planes_.extent(0)), halfStepFaces_, dimension_, options, dt);
   if (searchedSinceUpdate_ && searches_ > 1)
     for (std::size_t p = 0; p < planes_.extent(0); ++p)
       if (planes_(p).sighting == Sighting::FoundLate && planes_(p).countedHere &&
@@ -377,41 +315,6 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
          hadToBeFound(faceA, faceB, facePlane(faceA, x, dimension_),
                       facePlane(faceB, x, dimension_), candidateRules(), skin_,
                       2 * skin_ / smallestFace_);
-}
-
-void Contact::addForces(const NodeVectors& f, const Array<Real>& stiffness) const
-{
-  const auto planes = planes_;
-  const auto activity = activity_;
-  const auto loads = faceLoads_;
-  const auto planesStart = planesStart_, planesEntry = planesEntry_;
-  const auto facesStart = facesStart_, facesEntry = facesEntry_;
-  const std::int32_t entries = std::int32_t(planesEntry.extent(0));
-  constexpr std::int32_t ahead = 6;
-  parallelFor(
-      "coplane::contact::faceLoads", int(loads.extent(0)), KOKKOS_LAMBDA(const int n) {
-        FaceLoad& load = *new (&loads(n)) FaceLoad;
-        for (std::int32_t i = planesStart(n); i < planesStart(n + 1); ++i)
-        {
-          if (i + ahead < entries && activity(planesEntry(i + ahead) / 2) == Activity::Loaded)
-            prefetch(planes(planesEntry(i + ahead) / 2));
-          if (activity(planesEntry(i) / 2) == Activity::Loaded)
-            load.add(planes(planesEntry(i) / 2), planesEntry(i) % 2);
-        }
-      });
-  parallelFor(
-      "coplane::contact::addForces", int(facesStart.extent(0)) - 1, KOKKOS_LAMBDA(const int node) {
-        Vec3 force = at(f, node);
-        Real sum = 0;
-        for (std::int32_t i = facesStart(node); i < facesStart(node + 1); ++i)
-        {
-          const FaceLoad& load = loads(facesEntry(i) / 4);
-          force += load.force[facesEntry(i) % 4];
-          sum += load.stiffness;
-        }
-        set(f, node, force);
-        stiffness(node) = sum;
-      });
 }
 
 ContactEnergy Contact::energy() const

@@ -5,6 +5,7 @@
 #include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/Faces.hpp>
+#include <coplane_contact/ForceSums.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_core/Backend.hpp>
@@ -65,7 +66,8 @@ public:
   void replaceLocalFaces(std::vector<Face> localFaces);
 
   /// Tells all pairs what the last search knows of them; else each gets it when it comes near.
-  /// To be called before planes are kept or compared.
+  /// To be called before planes are kept or compared: it changes what they remember, but nothing
+  /// that they do.
   void prepareAll() const;
 
   /// Contact's part of a checkpoint. Collective.
@@ -84,7 +86,10 @@ public:
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
-  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const;
+  void addForces(const NodeVectors& f, const Array<Real>& stiffness) const
+  {
+    forceSums_.add(planes_, activity_, f, stiffness);
+  }
 
   const std::vector<Face>& faces() const { return faces_; }
   const std::vector<Face>& localFaces() const { return localFaces_; }
@@ -101,8 +106,8 @@ public:
   Real thinnestElement() const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
-  /// Whether since the last search planes of this rank have changed what pairs that take over from
-  /// them may not have from that search: where their surfaces are, and whether they are bonded.
+  /// Whether since the last search planes of this rank have changed what they pass on, as far as
+  /// pairs that take over from them may not have it from that search (PairTables::Passed).
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
   std::int64_t searches() const { return searches_; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
@@ -132,7 +137,7 @@ public:
 private:
   /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
   /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
-  /// a candidate.
+  /// a candidate. Collective.
   std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
@@ -148,8 +153,6 @@ private:
   class SlotFiller; ///< makes the slots of a search
   std::vector<Donor> livingPlanes() const;
   Donor donor(const Plane& plane) const;
-  template <class FaceOf>
-  void listPlanesOfFaces(const FaceOf& faceOf);
   void buildLists(int ownedNodes);
   CandidateRules candidateRules() const; ///< with those of groups; while this lives
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
@@ -187,12 +190,7 @@ private:
   Array<Face> faceTable_;
   Array<bool> paired_;                                           ///< faces that have a slot
   Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
-  // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an
-  // entry is 2 * plane + side. What they add to its nodes.
-  Array<std::int32_t> planesStart_, planesEntry_;
-  Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_;
-  // Local faces of owned node n, in the order of ids; an entry is 4 * face + corner.
-  Array<std::int32_t> facesStart_, facesEntry_;
+  ForceSums forceSums_;
 
   EndedPlanes ended_;
   std::vector<Plane> restored_; ///< between restoreFaces() and restorePlanes()

@@ -281,331 +281,40 @@ private:
     return f == 0 ? i : count - 1 - i;
   }
 
-  KOKKOS_INLINE_FUNCTION void findOverlap()
-  {
-    using namespace branchFree;
-    pieces_ = 0;
-    if constexpr (Dim == 2)
-    {
-      // A segment as a polygon without width: two "sides" that are its ends.
-      pieces_ = 1;
-      Owned& q = piece_[0];
-      q.sides.size = 2;
-      T low[2], high[2];
-      for (int f = 0; f < 2; ++f)
-      {
-        const T &p = shadow[f].p[0].x, &r = shadow[f].p[1].x;
-        low[f] = smaller(p, r);
-        high[f] = larger(p, r);
-      }
-      const bool lowIs0 = low[0] > low[1], highIs0 = high[0] < high[1];
-      const T from = lowIs0 ? low[0] : low[1], to = highIs0 ? high[0] : high[1];
-      q.sides.from[0] = q.sides.to[0] = {from, T(0.0)};
-      q.sides.from[1] = q.sides.to[1] = {to, T(0.0)};
-      const auto nodeAt = [&](int f, bool upper)
-      { return (shadow[f].p[1].x > shadow[f].p[0].x) == upper ? 1 : 0; };
-      q.owner[0] = lowIs0 ? nodeAt(0, false) : 4 + nodeAt(1, false);
-      q.owner[1] = highIs0 ? nodeAt(0, true) : 4 + nodeAt(1, true);
-      overlap = positivePart(to - from);
-      mostClosure = overlap > 0 ? larger(closureAt({from, 0}), closureAt({to, 0})) : -infinity;
-    }
-    else
-    {
-      const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
-      regular = isConvex(a.p, a.count) && isConvex(b.p, b.count);
-      Owned& q = piece_[0];
-      q.sides.size = a.count;
-      for (int i = 0; i < a.count; ++i)
-      {
-        q.sides.from[i] = a.p[i];
-        q.sides.to[i] = a.p[i + 1 == a.count ? 0 : i + 1];
-        q.owner[i] = i;
-      }
-      for (int e = 0; e < b.count; ++e)
-      {
-        const Vec2Of<T> start = b.p[e];
-        const Vec2Of<T> edge = b.p[e + 1 == b.count ? 0 : e + 1] - start;
-        T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
-        for (int k = 0; k < q.sides.size; ++k)
-        {
-          from[k] = cross(edge, q.sides.from[k] - start);
-          to[k] = cross(edge, q.sides.to[k] - start);
-        }
-        detail::cutOwned(q, from, to, 4 + e);
-      }
-      regular = regular && !q.sides.crossed;
-      pieces_ = 1;
-      measureOverlap();
-    }
-  }
-
-  KOKKOS_INLINE_FUNCTION void measureOverlap()
-  {
-    using namespace branchFree;
-    overlap = T(0.0);
-    mostClosure = T(-infinity);
-    for (int i = 0; i < pieces_; ++i)
-    {
-      const PolygonSides<T>& sides = piece_[i].sides;
-      const T area = areaAndCentroid(sides).area;
-      overlap += positivePart(area);
-      for (int k = 0; k < sides.size; ++k)
-        mostClosure = choose(sides.isThere(k) && area > 0.0,
-                             larger(closureAt(sides.from[k]), mostClosure), mostClosure);
-    }
-  }
-
+  // What of the overlap is in contact (ContactPotentialRegion.hpp).
+  KOKKOS_INLINE_FUNCTION void findOverlap();
+  KOKKOS_INLINE_FUNCTION void measureOverlap();
   /// For shadows that are not convex, and where round-off asks for the order of the sides: convex
   /// pieces, cut in order. A diagonal belongs to no edge: what both its sides have there cancels.
-  KOKKOS_INLINE_FUNCTION void findPieces()
-  {
-    const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
-    pieces_ = 0;
-    inOrder_ = true;
-    Owned partsA[2], partsB[2];
-    const int countA = convexParts(a, 0, partsA), countB = convexParts(b, 4, partsB);
-    for (int i = 0; i < countA; ++i)
-      for (int j = 0; j < countB; ++j)
-      {
-        Owned& q = piece_[pieces_++];
-        q = partsA[i];
-        for (int e = 0; e < partsB[j].sides.size; ++e)
-        {
-          const Vec2 start = partsB[j].sides.from[e], edge = partsB[j].sides.to[e] - start;
-          Real at[PolygonSides<Real>::capacity];
-          for (int k = 0; k < q.sides.size; ++k)
-            at[k] = cross(edge, q.sides.from[k] - start);
-          detail::cutOwnedInOrder(q, at, partsB[j].owner[e]);
-        }
-      }
-    measureOverlap();
-  }
-
+  KOKKOS_INLINE_FUNCTION void findPieces();
   static KOKKOS_INLINE_FUNCTION int convexParts(const detail::Outline<T>& outline, int firstOwner,
-                                                Owned (&parts)[2])
-  {
-    const auto fill = [&](Owned& part, const int* corners, int count)
-    {
-      part.sides.size = count;
-      for (int i = 0; i < count; ++i)
-      {
-        const int c = corners[i], d = corners[i + 1 == count ? 0 : i + 1];
-        part.sides.from[i] = outline.p[c];
-        part.sides.to[i] = outline.p[d];
-        part.owner[i] = d == (c + 1 == outline.count ? 0 : c + 1) ? firstOwner + c : Owned::noEdge;
-      }
-    };
-    if (isConvex(outline.p, outline.count))
-    {
-      const int all[4] = {0, 1, 2, 3};
-      fill(parts[0], all, outline.count);
-      return 1;
-    }
-    for (int d = 0; d < 2 && outline.count == 4; ++d)
-    {
-      const int first[3] = {d, d + 1, d + 2}, second[3] = {d, d + 2, (d + 3) % 4};
-      const auto convex = [&](const int* c)
-      { return cross(outline.p[c[1]] - outline.p[c[0]], outline.p[c[2]] - outline.p[c[1]]) > 0; };
-      if (!convex(first) || !convex(second))
-        continue;
-      fill(parts[0], first, 3);
-      fill(parts[1], second, 3);
-      return 2;
-    }
-    return 0; // folded: carries nothing
-  }
-
-  KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole)
-  {
-    moments = {};
-    ways[0] = ways[1] = T(0.0);
-    for (int f = 0; f < 2; ++f)
-      coveredSides_[f] = openSides_[f] = T(0.0);
-    for (int i = 0; i < pieces_; ++i)
-    {
-      if constexpr (branchFree::widthOf<T> == 1)
-        whole_[i] = piece_[i];
-      cutAndIntegrate(piece_[i], whole);
-    }
-  }
-
+                                                Owned (&parts)[2]);
+  KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole);
   /// Cuts off what is not closed, and integrates.
-  KOKKOS_INLINE_FUNCTION void cutAndIntegrate(Owned& q, const Mask& whole)
-  {
-    using namespace branchFree;
-    if constexpr (Dim == 2)
-    {
-      T &from = q.sides.from[0].x, &to = q.sides.from[1].x;
-      if (!(overlap > 0))
-        return;
-      const T c0 = closureAt({from, 0}), c1 = closureAt({to, 0});
-      if (!whole && !(c0 > 0 || c1 > 0))
-        return;
-      const T cut = from + (to - from) * c0 / (c0 - c1);
-      if (!whole && c0 < 0)
-      {
-        from = cut;
-        q.owner[0] = Owned::closureLine;
-      }
-      if (!whole && c1 < 0)
-      {
-        to = cut;
-        q.owner[1] = Owned::closureLine;
-      }
-      const T u = closureAt({from, 0}), v = closureAt({to, 0}), width = to - from;
-      if (!(width > 0))
-        return;
-      moments.area = width;
-      moments.volume = 0.5 * width * (u + v);
-      moments.squares = width / 3.0 * (u * u + u * v + v * v);
-      moments.areaMoment.x = 0.5 * width * (from + to);
-      moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
-      for (int k = 0; k < 2; ++k)
-        if (const int owner = q.owner[k]; owner >= 0)
-        {
-          ways[owner / 4] += edges_.exits[owner] * closureAt(q.sides.from[k]);
-          addSide(owner, true);
-        }
-    }
-    else
-    {
-      T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
-      for (int k = 0; k < q.sides.size; ++k)
-      {
-        from[k] = choose(whole, T(1.0), closureAt(q.sides.from[k]));
-        to[k] = choose(whole, T(1.0), closureAt(q.sides.to[k]));
-      }
-      if constexpr (widthOf<T> == 1)
-      {
-        if (inOrder_)
-          detail::cutOwnedInOrder(q, from, Owned::closureLine);
-        else
-        {
-          detail::cutOwned(q, from, to, Owned::closureLine);
-          regular = regular && !q.sides.crossed;
-        }
-      }
-      else
-      {
-        detail::cutOwned(q, from, to, Owned::closureLine);
-        regular = regular && !q.sides.crossed;
-      }
-      Vec2Of<T> apex;
-      for (int k = 0; k < q.sides.size; ++k)
-        apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
-      const T atApex = closureAt(apex);
-      ContactMoments<T> sum;
-      T border[2]{};
-      for (int k = 0; k < q.sides.size; ++k)
-      {
-        const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
-        sum.add(apex, p, r, atApex, closureAt(p), closureAt(r));
-        if (q.owner[k] >= 0)
-        {
-          addSide(q.owner[k], q.sides.isThere(k));
-          const T& exit = edges_.exits[q.owner[k]];
-          if (anyOf(exit > 0.0))
-            border[q.owner[k] / 4] +=
-                0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureAt(p) + closureAt(r));
-        }
-      }
-      const auto there = sum.area > 0.0 && plane.opposed && (whole || sum.volume > 0.0);
-      const T none(0.0);
-      moments.area += choose(there, sum.area, none);
-      moments.volume += choose(there, sum.volume, none);
-      moments.squares += choose(there, sum.squares, none);
-      moments.areaMoment =
-          moments.areaMoment + coplane::choose(there, sum.areaMoment, Vec2Of<T>{none, none});
-      moments.volumeMoment =
-          moments.volumeMoment + coplane::choose(there, sum.volumeMoment, Vec2Of<T>{none, none});
-      for (int f = 0; f < 2; ++f)
-        ways[f] += choose(there, border[f], none);
-    }
-  }
+  KOKKOS_FORCEINLINE_FUNCTION void cutAndIntegrate(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void integrateSegment(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void cutPolygon(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void integratePolygon(const Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere);
+  /// Closure along the edges that bound a strip, the harmonic mean of both faces, twice; faces that
+  /// share most of what they have are no strip, however deep they lie in each other [m^2].
+  KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const;
+  /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
+  KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole);
 
+  // The gradient along the border of the part in contact (ContactPotentialRims.hpp).
   /// The gradient of the area in contact times the density there, side by side. A side belongs to
   /// one edge; an edge of the other face that lies beside it gets a part (shareRim), so that
   /// round-off does not decide which of two edges that count as one is the owner, and slivers
   /// between them carry nothing at their borders.
-  KOKKOS_INLINE_FUNCTION void addRims(const Owned& q, const EnergyDensity<T>& density,
-                                      Vec2Of<T> (&rim)[2][4]) const
-  {
-    using namespace branchFree;
-    const auto at = [&](const T& c)
-    { return density.constant + c * (density.linear + c * density.square); };
-    if constexpr (Dim == 2)
-    {
-      if (!(moments.area > 0))
-        return;
-      for (int end = 0; end < 2; ++end)
-      {
-        if (q.owner[end] < 0)
-          continue;
-        const int f = q.owner[end] / 4, node = q.owner[end] % 4;
-        const T x = q.sides.from[end].x;
-        const T whole = (end == 0 ? -1.0 : 1.0) * at(closureAt({x, 0}));
-        T kept = 1;
-        for (int other = 0; other < 2; ++other)
-        {
-          const T near = absolute(shadow[1 - f].p[other].x - x);
-          const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
-          const SharedRim<T> shared = shareRim(q.owner[end], 4 * (1 - f) + other,
-                                               upper == (end == 1), 2 / kappa_ * tilt_.x * size_);
-          if (!(near < shared.reach))
-            continue;
-          const T given = shared.part * (1 - apartness(near / shared.reach));
-          kept -= given;
-          rim[1 - f][other].x += given * whole;
-        }
-        rim[f][node].x += kept * whole;
-      }
-    }
-    else
-    {
-      for (int k = 0; k < q.sides.size; ++k)
-      {
-        if (q.owner[k] < 0)
-          continue;
-        const int f = q.owner[k] / 4, e = q.owner[k] % 4, g = 1 - f;
-        const Vec2Of<T>&from = q.sides.from[k], &to = q.sides.to[k];
-        const auto there = q.sides.isThere(k) && moments.area > 0.0;
-        if (!anyOf(there))
-          continue;
-        const T u = closureAt(from), v = closureAt(to);
-        const T total = density.square / 3.0 * (u * u + u * v + v * v) +
-                        density.linear / 2.0 * (u + v) + density.constant;
-        const T second = density.square / 12.0 * (u * u + 2.0 * u * v + 3.0 * v * v) +
-                         density.linear / 6.0 * (u + 2.0 * v) + 0.5 * density.constant;
-        const Vec2Of<T> d = to - from;
-        const Vec2Of<T> own = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
-        T kept(1.0);
-        for (int o = 0; o < face_[g]->count; ++o)
-        {
-          const Vec2Of<T>& start = shadow[g].p[nodeOfEdge(g, o, 0)];
-          const Vec2Of<T> edge = shadow[g].p[nodeOfEdge(g, o, 1)] - start;
-          const T near =
-              larger(absolute(cross(edge, from - start)), absolute(cross(edge, to - start)));
-          if (!anyOf(near < size_ * scale_.oneBorder))
-            continue;
-          const T along = dot(edge, d);
-          const T longer = larger(dot(edge, edge), dot(own, own));
-          const SharedRim<T> shared =
-              shareRim(q.owner[k], 4 * g + o, along > 0.0,
-                       2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer));
-          const auto close =
-              near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
-          if (!anyOf(close))
-            continue;
-          const T given =
-              choose(close, shared.part * (1.0 - apartness(near / shared.reach)), T(0.0));
-          kept = kept - given;
-          addRim(g, o, close, from, to, total, second, given, rim);
-        }
-        addRim(f, e, there, from, to, total, second, kept, rim);
-      }
-    }
-  }
-
+  KOKKOS_FORCEINLINE_FUNCTION void addRims(const Owned& q, const EnergyDensity<T>& density,
+                                           Vec2Of<T> (&rim)[2][4]) const;
+  KOKKOS_FORCEINLINE_FUNCTION void addRimOfEnd(const Owned& q, int end,
+                                               const EnergyDensity<T>& density,
+                                               Vec2Of<T> (&rim)[2][4]) const;
+  KOKKOS_FORCEINLINE_FUNCTION void addRimOfSide(const Owned& q, int k,
+                                                const EnergyDensity<T>& density,
+                                                Vec2Of<T> (&rim)[2][4]) const;
   /// What an edge of the other face gets of the rim at an edge of this one. In three dimensions
   /// the reach is times the length of the other edge: the size of a face across it is its area over
   /// that.
@@ -619,175 +328,28 @@ private:
   /// @param change of the closure over the size of a face, out over its edge, the same whichever of
   ///        both edges is the owner [m]
   KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,
-                                                    const T& change) const
-  {
-    using namespace branchFree;
-    const auto turns = edges_.turns[mine] > 0.0, itTurns = edges_.turns[its] > 0.0;
-    const auto border = turns && itTurns;
-    const T tilted = absolute(change) * moments.area, closed = absolute(moments.volume);
-    const T flatness =
-        choose(closed > 0.0, 1.0 - SmoothStep<T>(2.0 * tilted / closed - 1.0).value, T(0.0));
-    const T even = 0.5 * flatness;
-    const T ofLine = choose(turns, even, choose(itTurns, 1.0 - even, T(0.5)));
-    const T wider = choose(border, flatness * (scale_.oneBorder - scale_.oneEdge), T(0.0));
-    return {size_ * (scale_.oneEdge + wider),
-            choose(border, choose(sameWay, T(0.5), T(0.0)), ofLine)};
-  }
-
+                                                    const T& change) const;
   /// The gradient of the energy beside one edge: its nodes share a part of it. total, second: of
   /// the density along the side, and of that times 0..1 along it. Moments stay exact also where the
   /// edge lies beside the side: it is taken where the line of the force crosses it.
   KOKKOS_INLINE_FUNCTION void addRim(int f, int e, const Mask& there, const Vec2Of<T>& from,
                                      const Vec2Of<T>& to, const T& total, const T& second,
-                                     const T& part, Vec2Of<T> (&rim)[2][4]) const
-  {
-    using namespace branchFree;
-    const int i0 = nodeOfEdge(f, e, 0), i1 = nodeOfEdge(f, e, 1);
-    const Vec2Of<T>& start = shadow[f].p[i0];
-    const Vec2Of<T> edge = shadow[f].p[i1] - start, outward{to.y - from.y, from.x - to.x};
-    // A side of the length of round-off has any direction.
-    const T crossing = cross(edge, outward);
-    const auto beside = crossing * crossing > 0.25 * dot(edge, edge) * dot(outward, outward);
-    const T inverse = choose(beside, 1.0 / crossing, T(0.0));
-    const T la = inverse * cross(from - start, outward), lb = inverse * cross(to - start, outward);
-    const T none(0.0);
-    const T atEnd = choose(there, part * ((total - second) * la + second * lb), none);
-    const T atStart = choose(there, part * total - atEnd, none);
-    rim[f][i1] = rim[f][i1] + atEnd * outward;
-    rim[f][i0] = rim[f][i0] + atStart * outward;
-  }
-
-  KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere)
-  {
-    using namespace branchFree;
-    const T none(0.0);
-    const T& covered = edges_.covered[owner];
-    coveredSides_[owner / 4] += choose(isThere, covered, none);
-    openSides_[owner / 4] += choose(isThere && !(covered > 0.0), edges_.turns[owner], none);
-  }
-
-  /// Closure along the edges that bound a strip, the harmonic mean of both faces, twice; faces that
-  /// share most of what they have are no strip, however deep they lie in each other [m^2].
-  KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const
-  {
-    return 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
-           (1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value);
-  }
-
-  /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
-  KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole)
-  {
-    const T& v = moments.volume;
-    const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
-    strip_ = between && v * v < scale_.wayOutTo * moments.squares * acrossStrip();
-    if constexpr (branchFree::widthOf<T> != 1)
-      regular = regular && !strip_;
-  }
-
+                                     const T& part, Vec2Of<T> (&rim)[2][4]) const;
   /// Adds the gradient of what hangs on the borders of the strip.
   KOKKOS_INLINE_FUNCTION void addStrip(const Real& scale, Real& push, Vec2& first,
-                                       Vec2 (&rim)[2][4])
-  {
-    for (int i = 0; i < pieces_; ++i)
-      for (int k = 0; k < piece_[i].sides.size; ++k)
-        if (const int owner = piece_[i].owner[k]; owner >= 0 && edges_.exits[owner] > 0)
-          addBorder(piece_[i], k, alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])),
-                    push, first, rim);
-    const Real shared = overlap / size_;
-    const SmoothStep<Real> together(4 * shared - 2);
-    if (!(together.slope > 0))
-      return;
-    const Real perShare = -4 * alongStrip_ * together.slope / (1 - together.value);
-    for (int i = 0; i < pieces_; ++i)
-      addRims(whole_[i], {0, 0, perShare / size_}, rim);
-    const int smallest = face_[0]->area < face_[1]->area ? 0 : 1;
-    byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
-  }
-
+                                       Vec2 (&rim)[2][4]);
   /// The gradient of the closure along a side, whose ends are where the lines of its neighbours
   /// cross that of its edge; at a line of no closure the end counts nothing.
   /// @param slope of the energy with that [N/m]
   KOKKOS_INLINE_FUNCTION void addBorder(const Owned& q, int k, Real slope, Real& push, Vec2& first,
-                                        Vec2 (&rim)[2][4]) const
-  {
-    const Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
-    const int owner = q.owner[k];
-    if constexpr (Dim == 2)
-    {
-      push += slope;
-      first = first + slope * q.sides.from[k];
-      rim[owner / 4][owner % 4].x -= slope * falls.x;
-      return;
-    }
-    const Vec2 along = q.sides.to[k] - q.sides.from[k];
-    const Real length = std::sqrt(dot(along, along));
-    if (!(length > 0) || !q.sides.isThere(k))
-      return;
-    const Vec2 t = (1 / length) * along, n{t.y, -t.x};
-    const Vec2 middle = 0.5 * (q.sides.from[k] + q.sides.to[k]);
-    push += slope * length;
-    first = first + (slope * length) * middle;
-    pushEdge(owner, middle, (-slope * length * dot(falls, n)) * n, rim);
-    for (int end = 0; end < 2; ++end)
-    {
-      const Vec2 p = end == 0 ? q.sides.from[k] : q.sides.to[k];
-      int next = -1;
-      Real nearest = infinity;
-      for (int j = 0; j < q.sides.size; ++j)
-      {
-        const Vec2 r = (end == 0 ? q.sides.to[j] : q.sides.from[j]) - p;
-        if (j == k || !q.sides.isThere(j) || !(dot(r, r) < nearest))
-          continue;
-        nearest = dot(r, r);
-        next = j;
-      }
-      if (next < 0 || q.owner[next] == Owned::closureLine)
-        continue;
-      const Real further = (end == 0 ? -slope : slope) * closureAt(p);
-      if (q.owner[next] == Owned::noEdge)
-      {
-        // A diagonal: it ends at a node of its own face, and cuts the other face for both pieces.
-        const int node = nodeOfEdge(owner / 4, owner % 4, end);
-        const Vec2 off = p - shadow[owner / 4].p[node];
-        if (dot(off, off) < 1e-20 * length * length)
-          rim[owner / 4][node] = rim[owner / 4][node] + further * t;
-        continue;
-      }
-      const Vec2 other = outwardOf(q.owner[next]);
-      const Real sine = dot(other, t);
-      if (!(std::abs(sine) > 1e-6))
-        continue;
-      const Real ofOther = further / sine;
-      pushEdge(owner, p, (-ofOther * dot(other, n)) * n, rim);
-      pushEdge(q.owner[next], p, ofOther * other, rim);
-    }
-  }
-
+                                        Vec2 (&rim)[2][4]) const;
   /// Unit normal of the line of an edge, out of the polygon.
-  KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const
-  {
-    const int f = owner / 4, e = owner % 4;
-    const Vec2 d = shadow[f].p[nodeOfEdge(f, e, 1)] - shadow[f].p[nodeOfEdge(f, e, 0)];
-    return (1 / std::sqrt(dot(d, d))) * Vec2{d.y, -d.x};
-  }
-
+  KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const;
   /// A gradient with the motion of an edge at a place on it.
   KOKKOS_INLINE_FUNCTION void pushEdge(int owner, const Vec2& at, const Vec2& slope,
-                                       Vec2 (&rim)[2][4]) const
-  {
-    const int f = owner / 4, e = owner % 4;
-    const int i0 = nodeOfEdge(f, e, 0), i1 = nodeOfEdge(f, e, 1);
-    const Vec2 d = shadow[f].p[i1] - shadow[f].p[i0];
-    const Real part = dot(at - shadow[f].p[i0], d) / dot(d, d);
-    rim[f][i0] = rim[f][i0] + (1 - part) * slope;
-    rim[f][i1] = rim[f][i1] + part * slope;
-  }
-
+                                       Vec2 (&rim)[2][4]) const;
   /// 0 for edges that count as one, 1 for edges that do not.
-  KOKKOS_FORCEINLINE_FUNCTION T apartness(const T& distance) const
-  {
-    return SmoothStep<T>(2.0 * distance - 1.0).value;
-  }
+  KOKKOS_FORCEINLINE_FUNCTION T apartness(const T& distance) const;
 
   /// Adds h.dN to the gradient, for the change dN of a face's vector area.
   KOKKOS_INLINE_FUNCTION void byVectorArea(int f, const Vec3Of<T>& h)
@@ -837,3 +399,6 @@ private:
                    ///< [J]
 };
 } // namespace coplane
+
+#include <coplane_contact/ContactPotentialRegion.hpp>
+#include <coplane_contact/ContactPotentialRims.hpp>

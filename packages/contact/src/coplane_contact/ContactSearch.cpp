@@ -25,6 +25,7 @@ void makeDormant(Plane& plane)
   carryNothing(plane);
   plane.face[0] = plane.face[1] = -1;
   plane.overlap = plane.nodeStiffness = 0;
+  plane.exits = plane.turns = plane.covered = 0;
   plane.sighting = Sighting::Missed;
   plane.refusal = Refusal::None;
 }
@@ -276,8 +277,15 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
 {
   TimedRegion region("coplane::contact::step5_candidatePairs");
   const WorkWatch watch(searchSeconds_);
-  std::vector<Donor> donors = options_.inherit ? livingPlanes() : std::vector<Donor>{};
-  donors.insert(donors.end(), ghosts_.donors.begin(), ghosts_.donors.end());
+  preparation_.reset();
+  todo_ = {};
+  std::vector<Donor> donors;
+  if (options_.inherit)
+  {
+    donors = livingPlanes();
+    donors.insert(donors.end(), ghosts_.donors.begin(), ghosts_.donors.end());
+  }
+  ghosts_.donors = {};
   listFaces(layout);
   takeFaceTables();
   candidates_.motion.v = v;

@@ -2,7 +2,6 @@
 // have ended.
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/PlaneState.hpp>
-#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/StateHash.hpp>
 
 #include <algorithm>
@@ -253,7 +252,7 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
   preparation_ = nullptr;
   restored_.clear();
   takeFaceTables();
-  facesStart_ = {};
+  forceSums_.forgetFaces();
   buildLists(layout.owned());
   ended_ = {};
   const std::vector<Real> counts = in.numbers("contact/counts");

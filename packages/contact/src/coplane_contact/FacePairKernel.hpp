@@ -211,6 +211,124 @@ KOKKOS_INLINE_FUNCTION T gapOf(const PatchOf<T>& patch, const ShadowOf<T>& a, co
   return gap;
 }
 
+/// Motion of pairs at their points of contact, with the arm between these at the half step.
+template <class T>
+struct PointMotionOf
+{
+  Vec3Of<T> arm;
+  RelativeMotionOf<T> relative;
+  T speed;              ///< of opening [m/s]
+  Vec3Of<T> tangential; ///< [m/s]
+};
+
+/// Heights are those of the end of the step, the rates belong to the half step.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION PointMotionOf<T>
+stepH_motion(const PatchOf<T>& patch, const TrialPlaneOf<T>& trial, const HalfStepFaceOf<T>& a,
+             const HalfStepFaceOf<T>& b, const ShadowOf<T>& shadowA, const ShadowOf<T>& shadowB,
+             Real dt)
+{
+  const Vec3Of<T>& n = trial.normal;
+  const Vec3Of<T> drift =
+      weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
+  PointMotionOf<T> at;
+  at.arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * dot(n, drift)) * n;
+  at.relative = relativeMotion(a, b, patch, at.arm);
+  at.speed = dot(n, at.relative.jump);
+  at.tangential = at.relative.jump - at.speed * n;
+  return at;
+}
+
+/// Shear traction before the step, in the plane as it is now [Pa].
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+stepH_carriedShear(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const Vec3Of<T>& n,
+                   const Vec3Of<T>& spin, const ContactOptions& options, Real dt)
+{
+  Vec3Of<T> tau =
+      turnIntoPlane(planes.eachVector([](const Plane& p) { return p.history.shearTraction; }),
+                    planes.eachVector([](const Plane& p) { return p.normal; }), n, spin, dt);
+  if (options.areaRule)
+  {
+    const T before = planes.each([](const Plane& p) { return p.area; });
+    tau =
+        branchFree::choose(before > 0.0 && patch.area > before, before / patch.area, T(1.0)) * tau;
+  }
+  return tau;
+}
+
+/// The law of one plane and its history, with its gap, area, normal and shear traction as they are
+/// now.
+/// @param opening of the pair in this step [m]; sliding: too [m]
+KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw& law, Real opening,
+                                                    const Vec3& sliding,
+                                                    const ContactOptions& options, Real dt)
+{
+  if (options.closure == ContactOptions::Closure::Total)
+    plane.closure = plane.offset - plane.gap;
+  else
+    plane.closure -= opening;
+  plane.tooDeep = plane.closure > plane.depthLimit;
+  const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
+  plane.normalTraction = response.normalTraction;
+  plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
+                : response.slipping                                   ? PlaneState::Slip
+                                                                      : PlaneState::Stick;
+  plane.offset += response.dilation;
+  plane.closure += response.dilation;
+  plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
+  plane.frictionWork += plane.area * response.frictionWork;
+  plane.hysteresisWork += plane.area * response.hysteresisWork;
+  plane.fractureWork += plane.area * response.fractureWork;
+  return response;
+}
+
+/// Dashpots at the point of contact [N].
+/// @param elastic force along the normal [N]; normalStiffness: of the law [Pa/m]
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
+stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& elastic,
+              const T& normalStiffness, const Vec3Of<T>& n, const PointMotionOf<T>& motion,
+              const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options)
+{
+  using namespace branchFree;
+  T inverseMass{};
+  for (int i = 0; i < a.count; ++i)
+    inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
+  for (int i = 0; i < b.count; ++i)
+    inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
+  T normalForce = -2.0 * options.dampNormal *
+                  squareRoot(patch.area * normalStiffness / inverseMass) * motion.speed;
+  const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+  normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
+  const auto sticks =
+      planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
+  const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
+  const T shearing = choose(
+      sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
+      T(0.0));
+  return normalForce * n + shearing * motion.tangential;
+}
+
+/// The force at the corners of both faces; half of the moment of both forces, at the end of the
+/// step, where they act, is balanced by each face.
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void
+stepH_nodalForces(const PatchOf<T>& patch, const Vec3Of<T>& force, const PointMotionOf<T>& motion,
+                  const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, bool couple, Real dt,
+                  Vec3Of<T> (&nodal)[2][4])
+{
+  for (int i = 0; i < a.count; ++i)
+    nodal[0][i] = -patch.weights[0][i] * force;
+  for (int i = 0; i < b.count; ++i)
+    nodal[1][i] = patch.weights[1][i] * force;
+  if (!couple)
+    return;
+  const Vec3Of<T> moment = cross(motion.arm + (0.5 * dt) * motion.relative.drift, force);
+  addCouple<Dim>(a, moment, dt, nodal[0]);
+  addCouple<Dim>(b, moment, dt, nodal[1]);
+}
+
 /// Step H: plane variables. Cundall's update in tractions: closure, shear increment, joint law,
 /// force, energies; for the lanes of `touching`. The work of the old force has been booked.
 /// @param gap at the end of the step [m]
@@ -223,105 +341,46 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
                            const ContactOptions& options, Real dt)
 {
   using namespace branchFree;
-  constexpr int width = PlaneBatch<T>::width;
   const Vec3Of<T>& n = trial.normal;
-  // Heights are those of the end of the step, the rates belong to the half step.
-  const Vec3Of<T> drift =
-      weighted(patch.weights[1], b.v, b.count) - weighted(patch.weights[0], a.v, a.count);
-  const Vec3Of<T> arm = armBetween(trial, shadowA, shadowB, patch) - (0.5 * dt * dot(n, drift)) * n;
-  const RelativeMotionOf<T> motion = relativeMotion(a, b, patch, arm);
-  const T speed = dot(n, motion.jump);
-  const Vec3Of<T> tangential = motion.jump - speed * n;
-  const Vec3Of<T> sliding = dt * tangential;
+  const PointMotionOf<T> motion = stepH_motion(patch, trial, a, b, shadowA, shadowB, dt);
+  const Vec3Of<T> sliding = dt * motion.tangential;
+  const Vec3Of<T> tau = stepH_carriedShear(planes, patch, n, motion.relative.spin, options, dt);
 
-  Vec3Of<T> tau =
-      turnIntoPlane(planes.eachVector([](const Plane& p) { return p.history.shearTraction; }),
-                    planes.eachVector([](const Plane& p) { return p.normal; }), n, motion.spin, dt);
-  if (options.areaRule)
-  {
-    const T before = planes.each([](const Plane& p) { return p.area; });
-    tau = choose(before > 0.0 && patch.area > before, before / patch.area, T(1.0)) * tau;
-  }
-
-  // The law and its history, plane by plane.
-  Real normalTraction[width] = {}, normalStiffness[width] = {};
+  Real tractions[widthOf<T>] = {}, stiffnesses[widthOf<T>] = {};
   for (int i = 0; i < planes.count; ++i)
   {
     if (!lane(touching, i))
       continue;
     Plane& plane = *planes.plane[i];
     plane.gap = lane(gap, i);
-    if (options.closure == ContactOptions::Closure::Total)
-      plane.closure = plane.offset - plane.gap;
-    else
-      plane.closure -= dt * lane(speed, i);
-    plane.tooDeep = plane.closure > plane.depthLimit;
     plane.history.shearTraction = lane(tau, i);
-    const JointResponse response =
-        (*planes.law[i])(plane.fit, plane.limitedClosure(), lane(sliding, i), dt, plane.history);
     plane.normal = lane(n, i);
     plane.area = lane(patch.area, i);
-    plane.normalTraction = normalTraction[i] = response.normalTraction;
-    normalStiffness[i] = response.normalStiffness;
-    plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
-                  : response.slipping                                   ? PlaneState::Slip
-                                                                        : PlaneState::Stick;
-    plane.offset += response.dilation;
-    plane.closure += response.dilation;
-    plane.stored =
-        plane.area * planes.law[i]->stored(plane.fit, plane.limitedClosure(), plane.history);
-    plane.frictionWork += plane.area * response.frictionWork;
-    plane.hysteresisWork += plane.area * response.hysteresisWork;
-    plane.fractureWork += plane.area * response.fractureWork;
+    const JointResponse response =
+        stepH_law(plane, *planes.law[i], dt * lane(motion.speed, i), lane(sliding, i), options, dt);
+    tractions[i] = response.normalTraction;
+    stiffnesses[i] = response.normalStiffness;
   }
   const auto each = [&](const Real* values)
   { return gathered<T>([&](int i) { return values[i]; }); };
-  const T sigma = each(normalTraction);
+  const T sigma = each(tractions);
   Vec3Of<T> force =
       patch.area *
       (sigma * n + planes.eachVector([](const Plane& p) { return p.history.shearTraction; }));
-
   T dampingWork{};
   if (options.dampNormal > 0 || options.dampShear > 0)
   {
-    T inverseMass{};
-    for (int i = 0; i < a.count; ++i)
-      inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
-    for (int i = 0; i < b.count; ++i)
-      inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
-    const T elastic = patch.area * sigma;
-    T normalForce = -2.0 * options.dampNormal *
-                    squareRoot(patch.area * each(normalStiffness) / inverseMass) * speed;
-    const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
-    normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
-    const auto sticks =
-        planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
-    const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
-    const T shearing = choose(
-        sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
-        T(0.0));
-    const Vec3Of<T> damping = normalForce * n + shearing * tangential;
-    dampingWork = dt * dot(damping, motion.jump);
+    const Vec3Of<T> damping = stepH_damping(planes, patch, patch.area * sigma, each(stiffnesses), n,
+                                            motion, a, b, options);
+    dampingWork = dt * dot(damping, motion.relative.jump);
     force += damping;
   }
-
   for (int i = 0; i < planes.count; ++i)
     if (lane(touching, i))
       planes.plane[i]->dampingWork -= lane(dampingWork, i);
 
   Vec3Of<T> nodal[2][4];
-  for (int i = 0; i < a.count; ++i)
-    nodal[0][i] = -patch.weights[0][i] * force;
-  for (int i = 0; i < b.count; ++i)
-    nodal[1][i] = patch.weights[1][i] * force;
-  if (options.couple)
-  {
-    // The moment of both forces, at the end of the step, where they act: half of it is balanced by
-    // each face.
-    const Vec3Of<T> moment = cross(arm + (0.5 * dt) * motion.drift, force);
-    addCouple<Dim>(a, moment, dt, nodal[0]);
-    addCouple<Dim>(b, moment, dt, nodal[1]);
-  }
+  stepH_nodalForces<Dim>(patch, force, motion, a, b, options.couple, dt, nodal);
   putForces(planes, touching, nodal, a, b, dt);
 }
 

@@ -98,7 +98,7 @@ struct CandidatePair
   int lower = 0, higher = 0; ///< positions in the table of faces; lower has the smaller id
 };
 
-/// Step 1: extent of all faces over all ranks and sizes of bins, from exact reductions only.
+/// Step 1: extent of all faces over all ranks and sizes of bins, by exact reductions. Collective.
 Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x,
                              const CandidateRules& rules, const Comm& comm);
 
@@ -108,7 +108,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                                const CandidateRules& rules);
 
 /// Step 3: ranks exchange boxes; those whose boxes overlap exchange the bins of the faces that
-/// reach into both boxes. Never this rank itself.
+/// reach into both boxes. Never this rank itself. Collective.
 std::vector<InteractingRank> step3_interactingRanks(const SortedFaces& sorted, const Comm& comm);
 
 /// What step 4 brings: faces of other ranks in common bins, sorted by id, and the living planes
@@ -120,7 +120,7 @@ struct Ghosts
 };
 
 /// Step 4: copies the faces in common bins, as far as they reach into the other rank's box, from
-/// the ranks that own them.
+/// the ranks that own them. Collective.
 Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const SortedFaces& sorted,
                             const std::vector<Face>& localFaces,
                             const std::vector<GlobalId>& nodeIds,

@@ -25,6 +25,6 @@ std::string textOf(const std::exception& error);
 void abortAllRanksOnTerminate();
 
 /// At the end of main(), on every rank: waits for the others, at most so long. When they do not
-/// come (they wait elsewhere for this one), ends all ranks with the code and the text.
+/// come (they wait elsewhere for this one), ends all ranks with the code and the text. Collective.
 void leaveTogether(const Comm& comm, ExitCode code, const std::string& text, double seconds);
 } // namespace coplane

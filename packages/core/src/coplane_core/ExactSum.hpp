@@ -23,9 +23,9 @@ public:
   Real value() const;
 
   /// Sums of all ranks, one value per accumulator, the same bits on every rank. One message for
-  /// all.
+  /// all. Collective.
   static std::vector<Real> overRanks(std::vector<ExactSum>& sums, const Comm& comm);
-  /// The same, exact.
+  /// The same, exact. Collective.
   static std::vector<ExactSum> totals(std::vector<ExactSum>& sums, const Comm& comm);
 
   /// The exact sum as whole numbers, each exact in a Real, for checkpoints.

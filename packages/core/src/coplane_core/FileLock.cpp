@@ -81,6 +81,108 @@ bool isStillThere(const std::string& file, int descriptor)
   return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &there) == 0 &&
          open.st_dev == there.st_dev && open.st_ino == there.st_ino;
 }
+struct LockFile
+{
+  int descriptor = -1;
+  bool isOfOtherUser = false; ///< open for reading only
+};
+
+LockFile openLock(const std::string& file, const std::string& what)
+{
+  LockFile lock;
+  lock.descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (lock.descriptor < 0 && errno == EACCES)
+  {
+    lock.descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    lock.isOfOtherUser = lock.descriptor >= 0;
+    errno = EACCES;
+  }
+  if (lock.descriptor >= 0)
+    return lock;
+  if (errno == ELOOP)
+    fail(ExitCode::Output,
+         "{}: this is the name of the lock file of {}, but a link has that name. Nothing was "
+         "written. Move the link away, or give the outputs other names.",
+         file, what);
+  const std::string reason = std::strerror(errno);
+  fail(ExitCode::Output,
+       "{}: the lock file of {} cannot be created or opened: {}. Check that the folder '{}' exists "
+       "and can be written to, and that the file does not belong to another user.",
+       file, what, reason, folderOf(file));
+}
+
+enum class Turn
+{
+  Mine,
+  Again,  ///< the file is closed: open it once more
+  NoLocks ///< there are none on this file system; the file is closed
+};
+
+/// Takes the lock. @param tries how often somebody else had it
+Turn take(const LockFile& lock, const std::string& file, const std::string& what, int& tries)
+{
+  const bool isTaken = ::flock(lock.descriptor, LOCK_EX | LOCK_NB) == 0;
+  const int reason = errno;
+  if (isTaken && isStillThere(file, lock.descriptor))
+    return Turn::Mine;
+  const std::string owner = isTaken ? "" : ownerIn(lock.descriptor);
+  ::close(lock.descriptor);
+  if (isTaken || reason == EINTR)
+    return Turn::Again;
+  if (reason == EWOULDBLOCK && ++tries < 20) // somebody may just look whether it is held
+  {
+    ::usleep(25000);
+    return Turn::Again;
+  }
+  if (reason == EWOULDBLOCK)
+    fail(ExitCode::Output,
+         "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder, "
+         "or its outputs other names. Nothing was written.",
+         file, what, owner);
+  if (lock.isOfOtherUser)
+    fail(ExitCode::Output,
+         "{}: the lock file of {} belongs to another user, and it is not known whether a program "
+         "holds it: {}. Ask its owner to remove it, or give the outputs other names.",
+         file, what, std::strerror(reason));
+  struct stat made
+  {
+  };
+  if (::stat(file.c_str(), &made) == 0 && made.st_size == 0)
+    ::unlink(file.c_str());
+  return Turn::NoLocks;
+}
+
+/// Throws when the file that is locked holds something else. Returns whether it is a copy by links
+/// of what a killed run left, or what another user's killed run left.
+bool isLeft(const LockFile& lock, const std::string& file, const std::string& what)
+{
+  struct stat there
+  {
+  };
+  const bool isKnown = ::fstat(lock.descriptor, &there) == 0;
+  if (isKnown && there.st_size > 0 && !isOfLock(textIn(lock.descriptor)))
+  {
+    ::close(lock.descriptor);
+    fail(ExitCode::Output,
+         "{}: this is the name of the lock file of {}, but the file with that name is not a lock. "
+         "Nothing was written. Move it away, or give the outputs other names.",
+         file, what);
+  }
+  return (isKnown && there.st_nlink > 1) || lock.isOfOtherUser;
+}
+
+/// Removes what a killed run left, and closes it.
+void removeLeft(const LockFile& lock, const std::string& file)
+{
+  const bool isRemoved = ::unlink(file.c_str()) == 0;
+  const std::string reason = std::strerror(errno);
+  ::close(lock.descriptor);
+  if (!isRemoved)
+    fail(ExitCode::Output,
+         "{}: this lock was left by a run that has ended, and cannot be removed: {}. Ask the "
+         "owner of the file to remove it, or give the outputs other names.",
+         file, reason);
+}
 } // namespace
 
 FileLock::FileLock(const std::string& file, const std::string& what, const std::string& told)
@@ -88,101 +190,25 @@ FileLock::FileLock(const std::string& file, const std::string& what, const std::
 {
   for (int tries = 0;;)
   {
-    int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-    bool isOfOtherUser = false;
-    if (descriptor < 0 && errno == EACCES)
+    const LockFile lock = openLock(file, what);
+    const Turn turn = take(lock, file, what, tries);
+    if (turn == Turn::Again)
+      continue;
+    if (turn == Turn::NoLocks)
+      return;
+    if (isLeft(lock, file, what))
     {
-      descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-      isOfOtherUser = descriptor >= 0;
-      errno = EACCES;
-    }
-    if (descriptor < 0)
-    {
-      if (errno == ELOOP)
-        fail(ExitCode::Output,
-             "{}: this is the name of the lock file of {}, but a link has that name. Nothing "
-             "was "
-             "written. Move the link away, or give the outputs other names.",
-             file, what);
-      const std::string reason = std::strerror(errno);
-      fail(ExitCode::Output,
-           "{}: the lock file of {} cannot be created or opened: {}. Check that the folder '{}' "
-           "exists "
-           "and can be written to, and that the file does not belong to another user.",
-           file, what, reason, folderOf(file));
-    }
-    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0)
-    {
-      const int reason = errno;
-      if (reason == EWOULDBLOCK && ++tries < 20) // somebody may just look whether it is held
-      {
-        ::close(descriptor);
-        ::usleep(25000);
-        continue;
-      }
-      const std::string owner = ownerIn(descriptor);
-      ::close(descriptor);
-      if (reason == EINTR)
-        continue;
-      if (reason != EWOULDBLOCK && isOfOtherUser)
-        fail(ExitCode::Output,
-             "{}: the lock file of {} belongs to another user, and it is not known whether a "
-             "program "
-             "holds it: {}. Ask its owner to remove it, or give the outputs other names.",
-             file, what, std::strerror(reason));
-      if (reason != EWOULDBLOCK)
-      {
-        struct stat made
-        {
-        };
-        if (::stat(file.c_str(), &made) == 0 && made.st_size == 0)
-          ::unlink(file.c_str());
-        return; // no locks here
-      }
-      fail(ExitCode::Output,
-           "{}: another run writes {}: {}. Wait for it or end it, or give this run another folder, "
-           "or its outputs other names. Nothing was written.",
-           file, what, owner);
-    }
-    if (!isStillThere(file, descriptor))
-    {
-      ::close(descriptor);
+      textFound_ = leftIn(lock.descriptor); // names drafts that were left
+      removeLeft(lock, file);
       continue;
     }
-    struct stat there
-    {
-    };
-    const bool isKnown = ::fstat(descriptor, &there) == 0;
-    if (isKnown && there.st_size > 0 && !isOfLock(textIn(descriptor)))
-    {
-      ::close(descriptor);
-      fail(
-          ExitCode::Output,
-          "{}: this is the name of the lock file of {}, but the file with that name is not a lock. "
-          "Nothing was written. Move it away, or give the outputs other names.",
-          file, what);
-    }
-    // A copy by links of what a killed run left, or what another user's killed run left.
-    if ((isKnown && there.st_nlink > 1) || isOfOtherUser)
-    {
-      textFound_ = leftIn(descriptor); // names drafts that were left
-      const bool isRemoved = ::unlink(file.c_str()) == 0;
-      const std::string reason = std::strerror(errno);
-      ::close(descriptor);
-      if (!isRemoved)
-        fail(ExitCode::Output,
-             "{}: this lock was left by a run that has ended, and cannot be removed: {}. Ask the "
-             "owner of the file to remove it, or give the outputs other names.",
-             file, reason);
-      continue;
-    }
-    descriptor_ = descriptor;
-    textFound_ += leftIn(descriptor);
+    descriptor_ = lock.descriptor;
+    textFound_ += leftIn(descriptor_);
     const std::string text = me() + told;
     // Not being able to say who holds it does not make the lock less of one. Other machines see
     // the text only when it is on the disk.
-    if (::ftruncate(descriptor, 0) == 0 && ::pwrite(descriptor, text.data(), text.size(), 0) > 0)
-      ::fsync(descriptor);
+    if (::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, text.data(), text.size(), 0) > 0)
+      ::fsync(descriptor_);
     return;
   }
 }

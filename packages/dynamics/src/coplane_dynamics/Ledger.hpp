@@ -59,10 +59,10 @@ class Ledger
 public:
   /// At the end of the start, after the first kick. Collective.
   void open(const Parts& parts, const RelaxationState& relaxation);
+  const EnergyBalance& initialEnergy() const { return initialEnergy_; }
   // Over all ranks, the same bits on all. Collective.
   EnergyBalance energy(const Parts& parts, const RelaxationState& relaxation) const;
   Momenta momenta(const Parts& parts) const;
-  const EnergyBalance& initialEnergy() const { return initialEnergy_; }
 
   /// Calls f(name, struct) for what a restart needs: structs of nothing but numbers.
   template <class Self, class F>

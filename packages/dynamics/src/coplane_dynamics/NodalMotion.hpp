@@ -51,6 +51,7 @@ public:
   /// v(n-1/2) of a start: mirrors v(n+1/2) about v(n).
   void mirrorVelocities(NodalState& state);
 
+  // Collective.
   Real kineticAtHalfStep(const NodalState& state,
                          const Comm& comm) const; ///< sum m v(n+1/2)^2/2 [J]
   Real kineticAtFullStep(const NodalState& state,

@@ -7,8 +7,8 @@ namespace coplane
 {
 class Solver;
 
-/// Looks at the solver at the end of cycles and never changes it. All calls are collective: every
-/// rank makes each of them.
+/// Looks at the solver at the end of cycles and never changes it. Calls that take the solver
+/// are collective: every rank makes each of them.
 class Observer
 {
 public:
@@ -18,7 +18,7 @@ public:
   virtual void endOfCycle(const Solver& solver) = 0;
   /// The ranks have other parts of the mesh now: what is kept by local number has to be found anew.
   virtual void repartitioned(const Solver&) {}
-  /// Puts down by name what another run has to know to go on with this output. Collective.
+  /// Puts down by name what another run has to know to go on with this output, on any rank.
   virtual void savePosition(std::map<std::string, std::string>&) const {}
   /// After the last cycle, also when the run failed or was interrupted; `ending` says why it ended.
   virtual void finish(const Solver& solver, const std::string& ending) = 0;

@@ -63,6 +63,7 @@ std::vector<int> rigidBodiesOf(const RankMesh& part, const std::vector<char>& ri
 class RigidBodies
 {
 public:
+  /// Collective.
   /// @param bodyOfNode of all nodes of the mesh part; empty: no bodies
   /// @param rigidBlocks by block
   RigidBodies(const RankMesh& mesh, const std::vector<int>& bodyOfNode,
@@ -75,9 +76,10 @@ public:
 
   /// Takes their nodes out of the conditions on velocities and keeps these for the bodies, with
   /// their given motions. A condition has to be on all nodes of a body or on none, and a body has
-  /// conditions on nodes or a given motion: throws on all ranks otherwise.
+  /// conditions on nodes or a given motion: throws on all ranks otherwise. Collective.
   void takeConditions(Conditions& conditions);
   /// Momenta from the velocities of the nodes at the start, and their velocities from the momenta.
+  /// Collective.
   void start(NodalState& state);
 
   /// Sums forces, torques and what limits the step, from forces and loads of nodes at n.
@@ -189,9 +191,11 @@ private:
   /// Calls f(value&) for every number that changes while the body moves.
   template <class F>
   static void forEachNumber(Body& body, F&& f);
+  // Collective.
   void findInertia(const RankMesh& mesh, const std::vector<char>& rigidBlocks,
                    const std::vector<ElementBlock>& blocks, const NodalState& state);
   void findCentres(const NodalState& state);
+
   Real frequencyBound(const Body& body, const Real* spring) const;
   void takeMotions(const std::vector<RigidMotion>& motions);
   void constrain(Body& body, const Constraint& constraint);

@@ -126,7 +126,7 @@ private:
   void findForces(Real dt);
   void sumLoads();
   /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
-  /// or a force has failed.
+  /// or a force has failed. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
   void kick(Real step);
   void relax(Real step);
@@ -137,9 +137,11 @@ private:
   void updatePlanes(Real dt);
   void addContactForces();
 
+  // Collective.
   void leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known);
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
+
   void findElementForces();
   NodalMotion::Times kickTimes(Real step) const
   {
@@ -152,7 +154,7 @@ private:
   [[noreturn]] void failAfter(Observer& observer, const std::string& why) const;
   /// @param why what has been caught already; empty: the caller fails next, and says why
   void finishBeforeFailing(Observer& observer, const std::string& why = "") const;
-  [[noreturn]] void failTogether(const std::string& what);
+  [[noreturn]] void failTogether(const std::string& what); ///< collective
   void saveNodes(StateTables& out) const;
   void restoreNodes(const StateSource& in);
   void restoreNumbers(const StateSource& in);

@@ -43,8 +43,8 @@ public:
   /// A bound of the first step, for what looks ahead before it is known, from `elements`, the
   /// stable step of the elements of all ranks [s].
   void boundFirst(Real elements, Real thinnest, Real relativeSpeed);
-  /// Whether the step in which bodies may move, as their faces' motion bounds it, was below this
-  /// part of the stable step chosen from last.
+  /// Whether the motion of faces bounds the step below this part of what the stable step, with its
+  /// safety factor, allowed when the last step was chosen.
   bool motionIsFasterThan(Real part, Real relativeSpeed) const
   {
     return motionStep(thinnest_, relativeSpeed) < part * options_.stepFactor * stable_;

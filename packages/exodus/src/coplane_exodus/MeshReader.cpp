@@ -1,26 +1,16 @@
 #include <coplane_core/Error.hpp>
-#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Text.hpp>
 #include <coplane_exodus/ExodusCalls.hpp>
-#include <coplane_exodus/NetcdfHeader.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/detail/FileProbe.hpp>
 #include <coplane_exodus/detail/MeshReader.hpp>
 
 #include <exodusII.h>
 #include <netcdf.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <chrono>
 #include <cmath>
-#include <condition_variable>
-#include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <mutex>
-#include <thread>
-#include <unistd.h>
 #include <unordered_map>
 
 namespace coplane
@@ -34,98 +24,18 @@ std::string upperCase(std::string text)
   return text;
 }
 
-[[noreturn]] void refuse(const std::string& file)
-{
-  fail(ExitCode::Mesh,
-       "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
-       "damaged. Write the mesh with "
-       "coplane_mesh make, or export Exodus II from your mesh generator.",
-       file);
-}
-
-/// Whether the file starts like one of the netCDF kinds. Asked first, because the library prints
-/// about others.
-bool looksLikeNetcdf(std::ifstream& file)
-{
-  char magic[4] = {};
-  file.read(magic, 4);
-  return std::string(magic, 3) == "CDF" || std::string(magic, 4) == "\x89HDF";
-}
-
-/// Ends the program with a message when opening a file goes on for longer than a minute, or runs
-/// into a fault of memory. The HDF5 library (1.10) never comes back from some damaged files, and
-/// frees what it has not allocated in others: nothing else can be done about it.
-class OpeningGuard
-{
-public:
-  explicit OpeningGuard(const std::string& file)
-      : timer_(
-            [this, file]
-            {
-              std::unique_lock<std::mutex> lock(mutex_);
-              if (ended_.wait_for(lock, std::chrono::minutes(1), [this] { return isOver_; }))
-                return;
-              fmt::print(stderr,
-                         "ERROR: {}: opening the file takes more than a minute. It is damaged, or "
-                         "the disk does not answer; write the mesh again.\n",
-                         file);
-              std::_Exit(int(ExitCode::Mesh));
-            })
-  {
-    messageOnFault = fmt::format("ERROR: {}: the file is damaged: the HDF5 library fails while "
-                                 "opening it. Write the mesh again.\n",
-                                 file);
-    struct sigaction action = {};
-    action.sa_handler = endWithMessage;
-    for (std::size_t k = 0; k < faults.size(); ++k)
-      sigaction(faults[k], &action, &before_[k]);
-  }
-  ~OpeningGuard()
-  {
-    for (std::size_t k = 0; k < faults.size(); ++k)
-      sigaction(faults[k], &before_[k], nullptr);
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      isOver_ = true;
-    }
-    ended_.notify_one();
-    timer_.join();
-  }
-  OpeningGuard(const OpeningGuard&) = delete;
-  OpeningGuard& operator=(const OpeningGuard&) = delete;
-
-private:
-  static constexpr std::array<int, 4> faults{SIGSEGV, SIGBUS, SIGFPE, SIGABRT};
-  inline static std::string messageOnFault;
-
-  static void endWithMessage(int)
-  {
-    if (::write(STDERR_FILENO, messageOnFault.data(), messageOnFault.size()) < 0)
-      std::_Exit(int(ExitCode::Internal));
-    std::_Exit(int(ExitCode::Mesh));
-  }
-
-  std::array<struct sigaction, faults.size()> before_;
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool isOver_ = false;
-  std::thread timer_; // last: it uses the others
-};
-
 /// One open Exodus file and the steps of reading a slice of it.
 class Reader
 {
 public:
   Reader(const std::string& file, bool isPart, int rank, int ranks) : file_(file), isPart_(isPart)
   {
+    quietExodus();
     int memoryWord = 8, fileWord = 0;
     float version = 0;
-    {
-      const OpeningGuard guard(file);
-      exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
-    }
+    exoid_ = ex_open(file.c_str(), EX_READ | EX_ALL_INT64_API, &memoryWord, &fileWord, &version);
     if (exoid_ < 0)
-      refuse(file);
+      refuseMeshFile(file);
     ex_set_max_name_length(
         exoid_, int(std::max<int64_t>(ex_inquire_int(exoid_, EX_INQ_DB_MAX_USED_NAME_LENGTH), 32)));
     slice_.rank = rank;
@@ -503,24 +413,22 @@ private:
   int64_t elements_ = 0, blocks_ = 0, nodeSets_ = 0, sideSets_ = 0;
 };
 
-/// Whether the file may be given to the library; throws where it may not.
-void probeFile(const std::string& file)
-{
-  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
-    fail(ExitCode::Mesh, "{}: this is {}; name an Exodus II file.", file, kind);
-  std::ifstream probe(file, std::ios::binary);
-  if (!probe)
-    fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",
-         file);
-  if (!looksLikeNetcdf(probe) || !classicHeaderFitsFile(file))
-    refuse(file);
-}
 } // namespace
 
 ReadSlice readSliceOfFile(const std::string& file, bool isPart, int rank, int ranks)
 {
-  quietExodus();
-  probeFile(file);
   return Reader(file, isPart, rank, ranks).read();
+}
+
+void probeMeshFile(const std::string& file)
+{
+  constexpr int ranks = 1 << 20; // so that this one reads little
+  try
+  {
+    Reader(file, true, 0, ranks).read();
+  }
+  catch (const Error&) // told by who reads the whole
+  {
+  }
 }
 } // namespace coplane

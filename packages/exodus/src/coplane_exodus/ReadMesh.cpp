@@ -2,6 +2,7 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/SortOverRanks.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
+#include <coplane_exodus/detail/FileProbe.hpp>
 #include <coplane_exodus/detail/MeshParts.hpp>
 #include <coplane_exodus/detail/MeshReader.hpp>
 
@@ -27,6 +28,7 @@ MeshSlice readParts(const std::string& file, const std::vector<std::string>& nam
         const IndexRange mine = contiguousRange(int(names.size()), comm.rank(), comm.size());
         for (int p = mine.first; p < mine.first + mine.count; ++p)
         {
+          demandMeshFile(names[p]);
           ReadSlice read = readSliceOfFile(names[p], true, 0, 1);
           demandUniqueIds(names[p], read.slice, Comm::alone());
           parts.push_back(std::move(read.slice.mine));
@@ -47,6 +49,12 @@ MeshSlice readMesh(const std::string& file, const Comm& comm)
   std::vector<std::string> names;
   std::error_code error;
   const bool exists = comm.min(std::int64_t(std::filesystem::exists(file, error))) == 1;
+  comm.together(
+      [&]
+      {
+        if (exists && comm.isRoot())
+          demandMeshFile(file);
+      });
   comm.together(
       [&]
       {

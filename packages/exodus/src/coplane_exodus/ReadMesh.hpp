@@ -17,4 +17,9 @@ MeshSlice readMesh(const std::string& file, const Comm& comm);
 
 /// The whole mesh, in this process; no MPI.
 Mesh readMesh(const std::string& file);
+
+/// Opens a file, reads the beginning of every list in it and closes it; errors are for who reads
+/// the whole. `coplane_mesh probe` does it in a process of its own with files that the HDF5 library
+/// may not survive.
+void probeMeshFile(const std::string& file);
 } // namespace coplane

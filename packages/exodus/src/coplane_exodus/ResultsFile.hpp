@@ -46,7 +46,7 @@ class ResultsFile
 {
 public:
   /// QA records of the mesh are kept and Coplane's is appended. Lines of more than 80 characters
-  /// are split.
+  /// are split. Collective.
   ResultsFile(const std::string& file, const Comm& comm, const MeshSlice& mesh,
               const ResultsVariables& variables, const std::vector<std::string>& infoLines,
               bool filePerRank = false);
@@ -73,7 +73,7 @@ public:
   void putSide(int variable, int set, const std::vector<Real>& values);
   /// All global variables, the same on every rank.
   void putGlobals(const std::vector<Real>& values);
-  /// Makes the step part of the file.
+  /// Makes the step part of the file. Collective.
   void endStep();
   void close();
 
@@ -84,15 +84,16 @@ public:
   const std::string& file() const { return file_; }
 
 private:
+  /// Collective.
   void create(const MeshSlice& slice, const ResultsVariables& variables,
               const std::vector<std::string>& infoLines);
   MeshSlice meshOfThisRank(const MeshSlice& slice);
   template <class Action>
   void attempt(const Action& action);
   void put(const std::string& variable, int first, const std::vector<Real>& values);
-  void failTogether(const std::string& doing);
+  void failTogether(const std::string& doing); ///< collective
   void abandon();
-  /// Looks at the step that was written last, or is being written.
+  /// Looks at the step that was written last, or is being written. Collective.
   void warnIfCutOff(int step);
 
   std::string file_;

@@ -33,8 +33,8 @@ Names namesOf(const std::vector<Card>& cards)
 std::string unknown(const std::string& path, const std::string& name, const std::string& what,
                     const Names& names)
 {
-  return fmt::format("{} = '{}' is not {}.{} There {}.", path, name, what, didYouMean(name, names),
-                     names.empty() ? "are none" : "is: " + listOf(names));
+  return fmt::format("{} = '{}' is not {}.{} There {}.", path, shortened(name), what,
+                     didYouMean(name, names), names.empty() ? "are none" : "is: " + listOf(names));
 }
 
 bool fits(const std::string& pattern, const std::string& name)
@@ -200,6 +200,87 @@ void checkErosion(const Deck& deck, const DeckNode& root, Problems& problems)
                                  path, variable.name));
   }
 }
+
+void checkForces(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  if (const std::string reason = commonNormalBecauseOf(deck);
+      deck.contact.forces == "potential" && !reason.empty())
+    problems.add(nodeAt(root, {"contact", "forces"}),
+                 fmt::format("contact.forces = 'potential' does not go with {}; leave that out, or "
+                             "use common_normal.",
+                             reason));
+  if (deck.geometry == "axisymmetric")
+    for (const auto& block : deck.blocks)
+      if (block.rigid)
+        problems.add(nodeAt(root, {"blocks", block.name, "rigid"}),
+                     fmt::format("blocks.{}.rigid is not offered with geometry = 'axisymmetric'; "
+                                 "use a stiff material.",
+                                 block.name));
+}
+
+bool allZero(const std::array<Real, 6>& values)
+{
+  return std::all_of(values.begin(), values.end(), [](Real value) { return value == 0; });
+}
+
+void checkInitial(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  Names seen;
+  for (std::size_t i = 0; i < deck.initial.size(); ++i)
+  {
+    const auto& initial = deck.initial[i];
+    const DeckNode& card = nodeAt(root, {"initial", std::to_string(i)});
+    const auto block = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                    [&](const auto& b) { return b.name == initial.block; });
+    if (block != deck.blocks.end() && block->rigid &&
+        !(allZero(initial.stress) && allZero(initial.stressGradient)))
+      problems.add(card, fmt::format("initial.{}: block '{}' is rigid and carries no stress; "
+                                     "remove stress and stress_gradient, or rigid.",
+                                     i, initial.block));
+    if (allZero(initial.stressGradient))
+      for (const char* key : {"stress_axis", "stress_point"})
+        if (const DeckNode* given = card.find(key))
+          problems.add(*given, fmt::format("initial.{0}.{1} has no effect without "
+                                           "initial.{0}.stress_gradient; remove it or give that.",
+                                           i, key));
+    if (!initial.block.empty() && contains(seen, initial.block))
+      problems.add(nodeAt(root, {"initial", std::to_string(i), "block"}),
+                   fmt::format("initial.{}.block = '{}' has a card already; accepted: one for each "
+                               "block.",
+                               i, initial.block));
+    seen.push_back(initial.block);
+  }
+}
+
+/// Names of a list such as history.joints: "*" or those that there are.
+void checkListed(const std::string& key, const Names& listed, const std::string& what,
+                 const Names& there, const DeckNode& root, Problems& problems)
+{
+  for (std::size_t i = 0; i < listed.size(); ++i)
+    if (listed[i] != "*" && !contains(there, listed[i]))
+      problems.add(nodeAt(root, {"history", key, std::to_string(i)}),
+                   unknown(fmt::format("history.{}.{}", key, i), listed[i], what, there));
+}
+
+void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, Problems& problems)
+{
+  Names seen;
+  for (std::size_t i = 0; i < deck.history.probes.size(); ++i)
+  {
+    const auto& name = deck.history.probes[i].name;
+    if (!name.empty() && contains(seen, name))
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "name"}),
+                   fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
+                               i, name));
+    seen.push_back(name);
+  }
+  checkListed("joints", deck.history.joints, "a card in joints, or \"*\"", joints, root, problems);
+  Names rigid;
+  for (const auto& block : deck.blocks)
+    if (block.rigid)
+      rigid.push_back(block.name);
+  checkListed("rigid", deck.history.rigid, "a rigid block, or \"*\"", rigid, root, problems);
+}
 } // namespace
 
 void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
@@ -219,81 +300,10 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkPairs(deck, root, joints, problems);
   checkConditions(deck, root, problems);
   checkDamping(deck, root, problems);
-  if (const std::string reason = commonNormalBecauseOf(deck);
-      deck.contact.forces == "potential" && !reason.empty())
-    problems.add(nodeAt(root, {"contact", "forces"}),
-                 fmt::format("contact.forces = 'potential' does not go with {}; leave that out, or "
-                             "use common_normal.",
-                             reason));
-  if (deck.geometry == "axisymmetric")
-    for (const auto& block : deck.blocks)
-    {
-      if (block.rigid)
-        problems.add(nodeAt(root, {"blocks", block.name, "rigid"}),
-                     fmt::format("blocks.{}.rigid is not offered with geometry = 'axisymmetric'; "
-                                 "use a stiff material.",
-                                 block.name));
-    }
+  checkForces(deck, root, problems);
   checkErosion(deck, root, problems);
-
-  for (std::size_t i = 0; i < deck.initial.size(); ++i)
-  {
-    const auto& initial = deck.initial[i];
-    const auto given = [](const auto& values)
-    { return std::any_of(values.begin(), values.end(), [](Real value) { return value != 0; }); };
-    const auto block = std::find_if(deck.blocks.begin(), deck.blocks.end(),
-                                    [&](const auto& b) { return b.name == initial.block; });
-    if (block != deck.blocks.end() && block->rigid &&
-        (given(initial.stress) || given(initial.stressGradient)))
-      problems.add(nodeAt(root, {"initial", std::to_string(i)}),
-                   fmt::format("initial.{}: block '{}' is rigid and carries no stress; remove "
-                               "stress and stress_gradient, or rigid.",
-                               i, initial.block));
-  }
-
-  Names seen;
-  for (std::size_t i = 0; i < deck.initial.size(); ++i)
-  {
-    const auto& gradient = deck.initial[i].stressGradient;
-    const DeckNode& card = nodeAt(root, {"initial", std::to_string(i)});
-    if (std::all_of(gradient.begin(), gradient.end(), [](Real value) { return value == 0; }))
-      for (const char* key : {"stress_axis", "stress_point"})
-        if (const DeckNode* given = card.find(key))
-          problems.add(*given, fmt::format("initial.{0}.{1} has no effect without "
-                                           "initial.{0}.stress_gradient; remove it or give that.",
-                                           i, key));
-    const auto& block = deck.initial[i].block;
-    if (!block.empty() && contains(seen, block))
-      problems.add(nodeAt(root, {"initial", std::to_string(i), "block"}),
-                   fmt::format("initial.{}.block = '{}' has a card already; accepted: one for each "
-                               "block.",
-                               i, block));
-    seen.push_back(block);
-  }
-  seen.clear();
-  for (std::size_t i = 0; i < deck.history.probes.size(); ++i)
-  {
-    const auto& name = deck.history.probes[i].name;
-    if (!name.empty() && contains(seen, name))
-      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "name"}),
-                   fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
-                               i, name));
-    seen.push_back(name);
-  }
-  for (std::size_t i = 0; i < deck.history.joints.size(); ++i)
-    if (const auto& name = deck.history.joints[i]; name != "*" && !contains(joints, name))
-      problems.add(
-          nodeAt(root, {"history", "joints", std::to_string(i)}),
-          unknown(fmt::format("history.joints.{}", i), name, "a card in joints, or \"*\"", joints));
-  Names rigid;
-  for (const auto& block : deck.blocks)
-    if (block.rigid)
-      rigid.push_back(block.name);
-  for (std::size_t i = 0; i < deck.history.rigid.size(); ++i)
-    if (const auto& name = deck.history.rigid[i]; name != "*" && !contains(rigid, name))
-      problems.add(
-          nodeAt(root, {"history", "rigid", std::to_string(i)}),
-          unknown(fmt::format("history.rigid.{}", i), name, "a rigid block, or \"*\"", rigid));
+  checkInitial(deck, root, problems);
+  checkHistory(deck, root, joints, problems);
 }
 
 std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)

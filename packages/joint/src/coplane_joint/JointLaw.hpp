@@ -67,6 +67,11 @@ struct JointLaw
 
   /// Whether a declared joint with this law starts bonded.
   KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
+  /// Whether what the joint does hangs on how far it has slipped.
+  KOKKOS_INLINE_FUNCTION bool remembersSlip() const
+  {
+    return strength == Strength::BartonBandis || dilation > 0;
+  }
 
   /// 0: as at the start, 1: a bond that is broken, or never was. A joint without bond has none.
   KOKKOS_INLINE_FUNCTION Real damage(const JointState& state) const
@@ -281,16 +286,33 @@ private:
     state.bonded = false;
   }
 
+  /// What a slip begins with.
+  struct SlipStart
+  {
+    Vec3 before, trial; ///< shear traction before the step, and as if nothing slipped [Pa]
+    Real size;          ///< of the trial [Pa]
+    Real closure;       ///< with what a bond keeps open [m]
+    Real opened;        ///< beyond the closure at which nothing is carried [m]
+    Real pressed;       ///< compression [Pa]
+    Real speed;         ///< [m/s]
+    Real slip;          ///< path until now [m]
+    bool softening;
+    Real wear; ///< of the bond, if it softens
+    Real held; ///< strength without friction [Pa]
+    Real friction;
+  };
+
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
                                         Real dt, JointState& state) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
-    const Real shift = bond.permanentOpening(state);
-    const Real opened = close(fit, closure + shift, state, response);
+    SlipStart s;
+    s.closure = closure + bond.permanentOpening(state);
+    s.opened = close(fit, s.closure, state, response);
     if (wasBonded && response.normalTraction <= 0)
-      pull(fit, opened, state, response);
+      pull(fit, s.opened, state, response);
     if (state.bonded && bond.softens() && bond.share(state) < Bond::brokenAt)
       breakBond(state, response);
     if (response.normalTraction <= 0 && !state.bonded)
@@ -299,96 +321,113 @@ private:
       return response;
     }
 
-    const bool softening = state.bonded && bond.softens();
-    const Real q = softening ? bond.wear(state) : 0;
-    const Real pressed = response.normalTraction > 0 ? response.normalTraction : 0;
-    const Real speed = dt > 0 ? norm(increment) / dt : 0;
-    const Real slipBefore = state.slip;
-    Real mu = pressed > 0 ? frictionAt(pressed, slipBefore, speed) : 0;
-    Real held = softening ? bond.cohesion * bond.share(q) : cohesion;
-    const Vec3 before = state.shearTraction;
-    const Vec3 trial = before - fit.shearStiffness * increment;
-    const Real size = norm(trial);
-    if (!(size > held + mu * pressed))
+    s.softening = state.bonded && bond.softens();
+    s.wear = s.softening ? bond.wear(state) : 0;
+    s.pressed = response.normalTraction > 0 ? response.normalTraction : 0;
+    s.speed = dt > 0 ? norm(increment) / dt : 0;
+    s.slip = state.slip;
+    s.friction = s.pressed > 0 ? frictionAt(s.pressed, s.slip, s.speed) : 0;
+    s.held = s.softening ? bond.cohesion * bond.share(s.wear) : cohesion;
+    s.before = state.shearTraction;
+    s.trial = s.before - fit.shearStiffness * increment;
+    s.size = norm(s.trial);
+    if (!(s.size > s.held + s.friction * s.pressed))
     {
-      state.shearTraction = trial;
+      state.shearTraction = s.trial;
       return response;
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
     {
       breakBond(state, response);
-      if (pressed <= 0)
+      if (s.pressed <= 0)
       {
         response.fractureWork += release(fit, increment, state);
         return response;
       }
     }
+    slide(fit, s, state, response);
+    if (s.softening)
+      wearBySlip(fit, s, state, response);
+    return response;
+  }
 
+  /// Slip with dilation and softening; its work.
+  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, const SlipStart& s, JointState& state,
+                                    JointResponse& response) const
+  {
     // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
     Real tangent = 0;
-    if (pressed > 0 && slipBefore < dilationSlip)
-      tangent = strength == Strength::BartonBandis ? rough.dilation(pressed, slipBefore) : dilation;
-    const Real slope = fit.shearStiffness + mu * response.normalStiffness * tangent;
+    if (s.pressed > 0 && s.slip < dilationSlip)
+      tangent = strength == Strength::BartonBandis ? rough.dilation(s.pressed, s.slip) : dilation;
+    const Real slope = fit.shearStiffness + s.friction * response.normalStiffness * tangent;
     Real x = 0;
     if (slope > 0)
-      x = softening
-              ? bond.inelasticJump(size, slope, mu * pressed, bond.cohesion, bond.shearingLength, q)
-              : (size - held - mu * pressed) / slope;
-    Real lift = 0;
-    Real sigma = pressed;
+      x = s.softening ? bond.inelasticJump(s.size, slope, s.friction * s.pressed, bond.cohesion,
+                                           bond.shearingLength, s.wear)
+                      : (s.size - s.held - s.friction * s.pressed) / slope;
+    Real lift = 0, sigma = s.pressed, mu = s.friction, held = s.held;
     if (tangent > 0)
     {
-      const Real room = dilationSlip - slipBefore;
+      const Real room = dilationSlip - s.slip;
       if (strength == Strength::BartonBandis || !curve.straight())
-      {
-        // The strength is no straight function of the slip: false position between 0 and x.
-        const Real start = size - held - mu * pressed;
-        for (int i = 0; i < 4; ++i)
-        {
-          const Real at = pressedAt(fit, closure + shift + tangent * (x < room ? x : room), state);
-          const Real left =
-              softening ? bond.cohesion * bond.share(q + x / bond.shearingLength) : held;
-          const Real residual =
-              size - fit.shearStiffness * x - left - at * frictionAt(at, slipBefore, speed);
-          if (residual < start)
-            x *= start / (start - residual);
-        }
-      }
+        x = slipOnCurve(fit, s, tangent, room, x, state);
       lift = tangent * (x < room ? x : room);
-      close(fit, closure + shift + lift, state, response);
+      close(fit, s.closure + lift, state, response);
       sigma = response.normalTraction;
-      mu = frictionAt(sigma, slipBefore, speed);
+      mu = frictionAt(sigma, s.slip, s.speed);
       response.dilation += lift;
     }
-    if (softening)
+    if (s.softening)
     {
       state.shearing += x;
       held = bond.cohesion * bond.share(state);
     }
-    const Real most = std::fmin(held + mu * sigma, size);
-    const Real work = slip(fit, before, trial, size, most, state, response);
+    const Real most = std::fmin(held + mu * sigma, s.size);
+    const Real work = slip(fit, s.before, s.trial, s.size, most, state, response);
     // Raising the offset stores energy, which the slip pays for.
-    const Real paid = std::fmax(work - 0.5 * (pressed + sigma) * lift, 0.0);
-    const Real fracture = softening && most > 0 ? paid * (held / most) : 0;
+    const Real paid = std::fmax(work - 0.5 * (s.pressed + sigma) * lift, 0.0);
+    const Real fracture = s.softening && most > 0 ? paid * (held / most) : 0;
     response.fractureWork += fracture;
     response.frictionWork = paid - fracture;
+  }
 
-    if (softening && response.normalTraction < 0 && bond.kind == Bond::Kind::Linear)
+  /// Slip when the strength is no straight function of it: false position between 0 and x [m].
+  /// @param tangent of the dilation angle; room: slip path over which it acts [m]
+  KOKKOS_INLINE_FUNCTION Real slipOnCurve(const JointFit& fit, const SlipStart& s, Real tangent,
+                                          Real room, Real x, const JointState& state) const
+  {
+    const Real start = s.size - s.held - s.friction * s.pressed;
+    for (int i = 0; i < 4; ++i)
     {
-      // Slip has worn the tension as well: its secant is lower.
+      const Real at = pressedAt(fit, s.closure + tangent * (x < room ? x : room), state);
+      const Real left =
+          s.softening ? bond.cohesion * bond.share(s.wear + x / bond.shearingLength) : s.held;
+      const Real residual =
+          s.size - fit.shearStiffness * x - left - at * frictionAt(at, s.slip, s.speed);
+      if (residual < start)
+        x *= start / (start - residual);
+    }
+    return x;
+  }
+
+  /// What slip does to the tension of a bond that softens: its secant is lower, and it may break.
+  KOKKOS_INLINE_FUNCTION void wearBySlip(const JointFit& fit, const SlipStart& s, JointState& state,
+                                         JointResponse& response) const
+  {
+    if (response.normalTraction < 0 && bond.kind == Bond::Kind::Linear)
+    {
       const Real secant = bond.tensionStiffness(fit.normalStiffness, state);
-      const Real tension = -secant * opened;
-      response.fractureWork += 0.5 * (tension - response.normalTraction) * opened;
+      const Real tension = -secant * s.opened;
+      response.fractureWork += 0.5 * (tension - response.normalTraction) * s.opened;
       response.normalTraction = tension;
       response.normalStiffness = secant;
     }
-    if (softening && bond.share(state) < Bond::brokenAt)
+    if (bond.share(state) < Bond::brokenAt)
     {
       breakBond(state, response);
-      if (pressed <= 0)
+      if (s.pressed <= 0)
         response.fractureWork += release(fit, {}, state);
     }
-    return response;
   }
 };
 

@@ -101,44 +101,56 @@ void MaterialProbe::advance(const Mat3& l, Real dt)
   time_ += dt;
 }
 
-void MaterialProbe::advance(const ProbeStep& step)
+/// The strain increments that are sought for a step, and how far they are from what is asked.
+struct MaterialProbe::Search
 {
-  int unknown[6], unknowns = 0;
-  for (int k = 0; k < 6; ++k)
-    if (step.stressGiven[k])
-      unknown[unknowns++] = k;
-  std::array<Real, 6> increment = step.value;
-  for (int i = 0; i < unknowns; ++i)
-    increment[unknown[i]] = lastIncrement_[unknown[i]];
-  const auto after = [&](const std::array<Real, 6>& de)
+  Search(const MaterialProbe& from, const ProbeStep& asked)
+      : start(from), step(asked), increment(asked.value), modulus(pWaveModulus(from.material_)),
+        trial(from)
   {
-    MaterialProbe trial = *this;
-    trial.advance(gradientOf(de), step.dt);
-    return trial;
-  };
-  const auto missing = [&](const MaterialProbe& trial, Real(&r)[6])
+    for (int k = 0; k < 6; ++k)
+      if (step.stressGiven[k])
+      {
+        increment[k] = from.lastIncrement_[k];
+        unknown[unknowns++] = k;
+      }
+    look();
+  }
+
+  MaterialProbe after(const std::array<Real, 6>& de) const
   {
+    MaterialProbe probe = start;
+    probe.advance(gradientOf(de), step.dt);
+    return probe;
+  }
+
+  /// The trial with the present increment, and what is missing.
+  void look()
+  {
+    trial = after(increment);
     const auto s = componentsOf(trial.stress_);
-    Real worst = 0;
+    worst = 0;
     for (int i = 0; i < unknowns; ++i)
     {
-      r[i] = step.value[unknown[i]] - s[unknown[i]];
-      worst = std::max(worst, std::abs(r[i]));
+      residual[i] = step.value[unknown[i]] - s[unknown[i]];
+      worst = std::max(worst, std::abs(residual[i]));
     }
-    return worst;
-  };
+  }
 
-  const Real modulus = pWaveModulus(material_);
-  Real residual[6];
-  MaterialProbe trial = after(increment);
-  Real worst = missing(trial, residual);
-  const auto goodEnough = [&]
-  { return worst <= 1e-9 * (vonMises() + std::abs(pressure())) + 1e-13 * modulus; };
-  for (int iteration = 0; iteration < 1000 && !goodEnough(); ++iteration)
+  void moveFrom(const std::array<Real, 6>& from, const Real (&move)[6], Real part)
+  {
+    increment = from;
+    for (int i = 0; i < unknowns; ++i)
+      increment[unknown[i]] += part * move[i];
+    look();
+  }
+
+  /// Newton's move, with the elastic modulus where the law has no slope.
+  void newton(Real (&move)[6]) const
   {
     // Small enough to stay on one branch of the law, large enough for its digits.
     const Real h = std::max(1e-10, 1e-3 * worst / modulus);
-    Real jacobian[6][6], move[6];
+    Real jacobian[6][6];
     for (int j = 0; j < unknowns; ++j)
     {
       std::array<Real, 6> nudged = increment;
@@ -152,40 +164,53 @@ void MaterialProbe::advance(const ProbeStep& step)
     if (!solve(unknowns, jacobian, move))
       for (int i = 0; i < unknowns; ++i)
         move[i] = residual[i] / modulus;
-    // Shorter moves until one is better.
-    Real start[6];
-    std::copy(residual, residual + 6, start);
+  }
+
+  /// One iteration: shorter moves until one is better.
+  void improve()
+  {
+    Real move[6], creep[6];
+    newton(move);
+    for (int i = 0; i < unknowns; ++i)
+      creep[i] = residual[i] / modulus;
     const std::array<Real, 6> from = increment;
-    const Real worstBefore = worst;
+    const Real before = worst;
     Real part = 1;
     for (int cut = 0; cut < 12; ++cut, part *= 0.5)
     {
-      increment = from;
-      for (int i = 0; i < unknowns; ++i)
-        increment[unknown[i]] += part * move[i];
-      trial = after(increment);
-      worst = missing(trial, residual);
-      if (worst < worstBefore)
-        break;
+      moveFrom(from, move, part);
+      if (worst < before)
+        return;
     }
-    if (worst >= worstBefore)
-    {
-      // At a kink of the law no direction of Newton's helps: creep with the elastic modulus, which
-      // is stiffer than any answer.
-      increment = from;
-      for (int i = 0; i < unknowns; ++i)
-        increment[unknown[i]] += start[i] / modulus;
-      trial = after(increment);
-      worst = missing(trial, residual);
-    }
+    // At a kink of the law no direction of Newton's helps: creep with the elastic modulus, which
+    // is stiffer than any answer.
+    moveFrom(from, creep, 1);
   }
-  if (!(worst <= 1e-5 * (vonMises() + std::abs(pressure())) + 1e-9 * modulus))
+
+  const MaterialProbe& start;
+  const ProbeStep& step;
+  std::array<Real, 6> increment;
+  Real modulus;
+  int unknown[6], unknowns = 0;
+  MaterialProbe trial;
+  Real residual[6] = {};
+  Real worst = 0;
+};
+
+void MaterialProbe::advance(const ProbeStep& step)
+{
+  Search search(*this, step);
+  const auto goodEnough = [&]
+  { return search.worst <= 1e-9 * (vonMises() + std::abs(pressure())) + 1e-13 * search.modulus; };
+  for (int iteration = 0; iteration < 1000 && !goodEnough(); ++iteration)
+    search.improve();
+  if (!(search.worst <= 1e-5 * (vonMises() + std::abs(pressure())) + 1e-9 * search.modulus))
     fail(ExitCode::Computation,
          "no strain increment gives the stresses asked for at t = {} s (off by {:.3g} Pa). The "
          "material cannot bear them, or the step is too large: take more steps.",
-         time_ + step.dt, worst);
-  *this = trial;
-  lastIncrement_ = increment;
+         time_ + step.dt, search.worst);
+  *this = search.trial;
+  lastIncrement_ = search.increment;
 }
 
 Real MaterialProbe::pressure() const

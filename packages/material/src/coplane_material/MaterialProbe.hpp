@@ -45,6 +45,8 @@ public:
   const std::array<Real, maximumHistory>& history() const { return history_; }
 
 private:
+  struct Search;
+
   Material material_;
   std::vector<std::string> names_;
   Real size_;

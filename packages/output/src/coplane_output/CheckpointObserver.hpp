@@ -49,7 +49,7 @@ public:
   void finish(const Solver& solver, const std::string& ending) override;
 
 private:
-  void write(const Solver& solver);
+  void write(const Solver& solver); ///< collective
   void askByClockAndFile();
 
   using WallClock = std::chrono::steady_clock;

@@ -55,6 +55,7 @@ private:
     Real weight;
   };
 
+  // Collective.
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;

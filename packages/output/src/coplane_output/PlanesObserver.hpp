@@ -27,7 +27,7 @@ struct PlanesOptions
 class PlanesObserver : public Observer
 {
 public:
-  PlanesObserver(const Comm& comm, PlanesOptions options);
+  PlanesObserver(const Comm& comm, PlanesOptions options); ///< collective
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
@@ -39,7 +39,7 @@ public:
   std::string fileOf(const std::string& step) const; ///< with its folder
 
 private:
-  void write(const Solver& solver);
+  void write(const Solver& solver); ///< collective
   void clearTheWay();
   void writeSeries() const;
 

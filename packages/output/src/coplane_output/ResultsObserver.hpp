@@ -51,7 +51,7 @@ public:
   int steps() const { return file_ ? file_->steps() : 0; }
 
 private:
-  void continueSeries();
+  void continueSeries(); ///< collective
   void open();
   void prepare(const Solver& solver);
   void write(const Solver& solver);

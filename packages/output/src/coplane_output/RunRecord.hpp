@@ -29,14 +29,14 @@ struct RunRecordOptions
 class RunRecord : public Observer
 {
 public:
-  RunRecord(const Comm& comm, RunRecordOptions options);
+  RunRecord(const Comm& comm, RunRecordOptions options); ///< collective
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver&) override {}
   void finish(const Solver& solver, const std::string& ending) override;
 
 private:
-  void write(const Solver& solver, const std::string& ending) const;
+  void write(const Solver& solver, const std::string& ending) const; ///< collective
 
   RunRecordOptions options_;
   mutable ReplacedFile file_;       ///< on rank 0

@@ -45,6 +45,7 @@ private:
     Real mass;
   };
 
+  // Collective.
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::string blockLines(const Solver& solver) const;

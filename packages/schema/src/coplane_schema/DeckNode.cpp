@@ -1,5 +1,6 @@
 #include "DeckNode.hpp"
 
+#include "Suggestion.hpp"
 #include "detail/YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -125,6 +126,64 @@ DeckNode mapAt(const DeckNode& place)
   map.order = place.order;
   return map;
 }
+
+/// One step of a path from a map, which may be made for it: the value of a key, new if it is not
+/// there. `word` grows to a name with dots that fits further.
+DeckNode* valueInMap(DeckNode& map, const std::string& rest, std::string& word,
+                     const DeckNode& place)
+{
+  for (const auto& [key, ignored] : map.entries)
+    if (key.text.size() > word.size() && rest.rfind(key.text, 0) == 0 &&
+        (rest.size() == key.text.size() || rest[key.text.size()] == '.'))
+      word = key.text;
+  if (map.kind == DeckNode::Kind::Nothing)
+    map = mapAt(place);
+  if (!map.find(word))
+  {
+    DeckNode key;
+    key.kind = DeckNode::Kind::Scalar;
+    key.text = word;
+    key.where = place.where;
+    key.order = place.order;
+    map.entries.emplace_back(key, DeckNode{});
+  }
+  return map.find(word);
+}
+
+/// The value at a path "a.b.0.c", new if it is not there; nullptr and a problem: it cannot be.
+DeckNode* nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place,
+                     Problems& problems)
+{
+  DeckNode* node = &root;
+  std::string done;
+  for (std::string rest = path; !rest.empty();)
+  {
+    std::string word = rest.substr(0, rest.find('.'));
+    if (node->kind == DeckNode::Kind::List)
+    {
+      const auto index = listIndex(word);
+      if (!index || *index >= node->items.size())
+      {
+        problems.add(place, fmt::format("'{}' is no item of {}, which has {}; accepted: a whole "
+                                        "number, the first item is 0.",
+                                        shortened(word), done, node->items.size()));
+        return nullptr;
+      }
+      node = &node->items[*index];
+    }
+    else if (node->kind == DeckNode::Kind::Scalar)
+    {
+      problems.add(place, fmt::format("{} is the value '{}' and has no key '{}'.", done,
+                                      shortened(node->text), shortened(word)));
+      return nullptr;
+    }
+    else
+      node = valueInMap(*node, rest, word, place);
+    done += (done.empty() ? "" : ".") + word;
+    rest = rest.size() > word.size() ? rest.substr(word.size() + 1) : "";
+  }
+  return node;
+}
 } // namespace
 
 const DeckNode* DeckNode::find(const std::string& key) const
@@ -233,7 +292,7 @@ DeckNode parseYaml(const std::string& text, const std::string& file, const FileK
 void applyOverride(DeckNode& root, const std::string& assignment, int number, Problems& problems)
 {
   Source source;
-  source.set = "--set " + assignment;
+  source.set = "--set " + shortened(assignment);
   source.number = number;
   DeckNode place; // only where a message stands
   place.where = source.set;
@@ -260,48 +319,8 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
   {
     return problems.add(place, fmt::format("the value is not YAML: {}.", e.msg));
   }
-
-  DeckNode* node = &root;
-  std::string done;
-  for (std::string rest = path; !rest.empty();)
-  {
-    std::string word = rest.substr(0, rest.find('.'));
-    if (node->kind == DeckNode::Kind::List)
-    {
-      const auto index = listIndex(word);
-      if (!index || *index >= node->items.size())
-        return problems.add(place, fmt::format("'{}' is no item of {}, which has {}; accepted: a "
-                                               "whole number, the first item is 0.",
-                                               word, done, node->items.size()));
-      node = &node->items[*index];
-    }
-    else if (node->kind == DeckNode::Kind::Scalar)
-      return problems.add(
-          place, fmt::format("{} is the value '{}' and has no key '{}'.", done, node->text, word));
-    else
-    {
-      // Names may hold dots: an existing key that fits further than the next dot is meant.
-      for (const auto& [key, ignored] : node->entries)
-        if (key.text.size() > word.size() && rest.rfind(key.text, 0) == 0 &&
-            (rest.size() == key.text.size() || rest[key.text.size()] == '.'))
-          word = key.text;
-      if (node->kind == DeckNode::Kind::Nothing)
-        *node = mapAt(place);
-      if (!node->find(word))
-      {
-        DeckNode key;
-        key.kind = DeckNode::Kind::Scalar;
-        key.text = word;
-        key.where = place.where;
-        key.order = place.order;
-        node->entries.emplace_back(key, DeckNode{});
-      }
-      node = node->find(word);
-    }
-    done += (done.empty() ? "" : ".") + word;
-    rest = rest.size() > word.size() ? rest.substr(word.size() + 1) : "";
-  }
-  *node = value;
+  if (DeckNode* const node = nodeOfPath(root, path, place, problems))
+    *node = value;
 }
 
 std::string toYaml(const DeckNode& root)

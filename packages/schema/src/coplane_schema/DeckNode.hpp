@@ -1,5 +1,7 @@
 #pragma once
 
+#include <coplane_core/Real.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,12 +65,13 @@ struct CardPlace
   void problem(const std::string& key, const std::string& text) const;
 };
 
-/// What messages call a file.
+/// What messages call a file, and how large its lengths may be.
 struct FileKind
 {
   std::string name = "the deck";
   std::string help = "--help-deck"; ///< the option that lists its keys
   std::string example = "mesh: bricks.e";
+  Real longest = infinity; ///< numbers in metres beyond are refused [m]
 };
 
 /// The text of a file. Throws Error(Deck) when it cannot be read.

@@ -115,7 +115,7 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
                           Problems& problems)
 {
   const auto refuse = [&](const DeckNode& at, const std::string& text)
-  { problems.add(at, fmt::format("define.{} {}", name.text, text)); };
+  { problems.add(at, fmt::format("define.{} {}", shortened(name.text), text)); };
   if (const std::string problem = problemOfName(name.text); !problem.empty())
   {
     definitions_[name.text] = {0, name, true, false}; // one message is enough
@@ -149,10 +149,10 @@ void Definitions::readOne(const DeckNode& name, const DeckNode& value, const Dec
   definitions_[name.text] = {number.value_or(0), name, !isKnown, isKnown}; // one message is enough
   if (!isKnown && !followsFault)
   {
-    refuse(value,
-           fmt::format("{}; accepted: a number or an expression of names before it.",
-                       isWord ? fmt::format("= '{}' is not accepted ({})", value.text, problem)
-                              : "has no number"));
+    refuse(value, fmt::format("{}; accepted: a number or an expression of names before it.",
+                              isWord ? fmt::format("= '{}' is not accepted ({})",
+                                                   shortened(value.text), problem)
+                                     : "has no number"));
   }
 }
 

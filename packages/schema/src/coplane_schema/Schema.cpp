@@ -22,7 +22,9 @@ void fitToDimension(Key& key, int dimension)
     fitToDimension(one, dimension);
 }
 
-std::string acceptedText(const Key& key)
+namespace
+{
+std::string rangeOf(const Key& key)
 {
   std::string range;
   if (key.lower)
@@ -30,49 +32,71 @@ std::string acceptedText(const Key& key)
   if (key.upper)
     range +=
         fmt::format("{} {} {}", key.lower ? " and" : "", key.upperOpen ? "<" : "<=", *key.upper);
-  const std::string unit = key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+  return range;
+}
+
+std::string unitOf(const Key& key)
+{
+  return key.unit.empty() ? "" : fmt::format(" [{}]", key.unit);
+}
+
+/// "3 ", or nothing where any number of items is accepted.
+std::string countOf(const Key& key, std::size_t length)
+{
+  return length ? fmt::format("{} ", length) : key.byDimension ? "2 or 3 " : "";
+}
+
+/// What is accepted for a key that takes a list of values.
+std::string acceptedList(const Key& key)
+{
   const std::string words = fmt::format("{}", fmt::join(key.choices, ", "));
-  const auto countOf = [&](std::size_t length) {
-    return length ? fmt::format("{} ", length) : key.byDimension ? "2 or 3 " : "";
-  };
+  const std::string unit = unitOf(key);
   const std::string count = key.kind == KeyKind::Points
                                 ? (key.length ? fmt::format("{} ", key.length) : "")
-                                : countOf(key.length);
+                                : countOf(key, key.length);
   const std::string many = key.leastLength ? fmt::format("at least {} ", key.leastLength) : count;
   const std::string alone = key.aloneToo ? " or one alone" : "";
   switch (key.kind)
   {
-  case KeyKind::Text:
-    return key.choices.empty() ? "text" : "one of " + words;
-  case KeyKind::Number:
-    return "a number" + range + unit;
-  case KeyKind::Integer:
-    return "a whole number" + range + unit +
-           (words.empty() ? "" : fmt::format(" or {}", fmt::join(key.choices, " or ")));
-  case KeyKind::Flag:
-    return "true or false";
   case KeyKind::Numbers:
-    return fmt::format("a list of {}numbers{}{}{}{}", many, range,
+    return fmt::format("a list of {}numbers{}{}{}{}", many, rangeOf(key),
                        key.notAllZero ? ", not all zero" : "", unit, alone);
   case KeyKind::Integers:
-    return fmt::format("a list of {}whole numbers{}{}", many, range, unit);
+    return fmt::format("a list of {}whole numbers{}{}", many, rangeOf(key), unit);
   case KeyKind::Points:
     return fmt::format("a list of {}points, each a list of {}numbers{}", many,
-                       countOf(key.itemLength), unit);
+                       countOf(key, key.itemLength), unit);
   case KeyKind::Texts:
     return fmt::format("a list of {}names{}{}", count, words.empty() ? "" : " out of " + words,
                        alone);
   case KeyKind::TextLists:
     return fmt::format("{}{}a list of lists of {}names", fmt::join(key.choices, " or "),
-                       words.empty() ? "" : " or ", countOf(key.itemLength));
-  case KeyKind::TimeFunction:
-    return "a number" + range + ", an expression of t" + (key.ofPlaceToo ? ", x, y, z" : "") +
-           " or a table" + unit;
+                       words.empty() ? "" : " or ", countOf(key, key.itemLength));
   case KeyKind::TimeFunctions:
     return fmt::format("a list of {}numbers, expressions of t{} or tables{}", count,
                        key.ofPlaceToo ? ", x, y, z" : "", unit);
-  case KeyKind::PlaceFunctions:
+  default:
     return fmt::format("a list of {}numbers or expressions of x, y, z{}", count, unit);
+  }
+}
+} // namespace
+
+std::string acceptedText(const Key& key)
+{
+  switch (key.kind)
+  {
+  case KeyKind::Text:
+    return key.choices.empty() ? "text" : fmt::format("one of {}", fmt::join(key.choices, ", "));
+  case KeyKind::Number:
+    return "a number" + rangeOf(key) + unitOf(key);
+  case KeyKind::Integer:
+    return "a whole number" + rangeOf(key) + unitOf(key) +
+           (key.choices.empty() ? "" : fmt::format(" or {}", fmt::join(key.choices, " or ")));
+  case KeyKind::Flag:
+    return "true or false";
+  case KeyKind::TimeFunction:
+    return "a number" + rangeOf(key) + ", an expression of t" +
+           (key.ofPlaceToo ? ", x, y, z" : "") + " or a table" + unitOf(key);
   case KeyKind::Definitions:
     return "names, each with a number or an expression of names before it";
   case KeyKind::Changes:
@@ -84,7 +108,8 @@ std::string acceptedText(const Key& key)
   case KeyKind::GroupList:
     return "a list of items with keys and values" +
            std::string(key.aloneToo ? ", or one item alone" : "");
+  default:
+    return acceptedList(key);
   }
-  return "";
 }
 } // namespace coplane

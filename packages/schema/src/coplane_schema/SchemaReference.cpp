@@ -177,18 +177,41 @@ Json shortSchema(const Key& group)
   return Json{{"anyOf", accepted}};
 }
 
+/// A number or an expression, or a table.
+Json timeFunctionSchema()
+{
+  const Json numbers{{"type", "array"}, {"items", numberSchema(Key(), "number")}, {"minItems", 2}};
+  return Json{{"anyOf",
+               {{{"type", {"number", "string"}}},
+                {{"type", "object"},
+                 {"properties", {{"times", numbers}, {"values", numbers}}},
+                 {"required", {"times", "values"}},
+                 {"additionalProperties", false}}}}};
+}
+
+/// A key with groups of keys.
+Json groupsSchema(const Key& key)
+{
+  if (key.kind == KeyKind::Group)
+    return key.shortFor.empty() ? groupSchema(key) : shortSchema(key);
+  const Json item = groupSchema(key);
+  if (key.kind == KeyKind::NamedGroups)
+  {
+    Json schema{{"type", "object"}, {"additionalProperties", item}};
+    if (key.required)
+      schema["minProperties"] = 1;
+    return schema;
+  }
+  Json items{{"type", "array"}, {"items", item}};
+  if (key.required)
+    items["minItems"] = 1;
+  return key.aloneToo ? Json{{"anyOf", {item, items}}} : items;
+}
+
 Json valueSchema(const Key& key)
 {
   const Json word =
       key.choices.empty() ? Json{{"type", "string"}, {"minLength", 1}} : wordsSchema(key.choices);
-  const Json function{{"type", {"number", "string"}}};
-  const Json numbers{{"type", "array"}, {"items", numberSchema(Key(), "number")}, {"minItems", 2}};
-  const Json timeFunction{{"anyOf",
-                           {function,
-                            {{"type", "object"},
-                             {"properties", {{"times", numbers}, {"values", numbers}}},
-                             {"required", {"times", "values"}},
-                             {"additionalProperties", false}}}}};
   switch (key.kind)
   {
   case KeyKind::Text:
@@ -212,36 +235,20 @@ Json valueSchema(const Key& key)
   case KeyKind::TextLists:
     return listsSchema(key, KeyKind::Texts, Json{{"type", "string"}, {"minLength", 1}});
   case KeyKind::TimeFunction:
-    return timeFunction;
+    return timeFunctionSchema();
   case KeyKind::TimeFunctions:
-    return listSchema(key, timeFunction);
+    return listSchema(key, timeFunctionSchema());
   case KeyKind::PlaceFunctions:
-    return listSchema(key, function);
+    return listSchema(key, Json{{"type", {"number", "string"}}});
   case KeyKind::Definitions:
     return Json{{"type", "object"},
                 {"propertyNames", {{"pattern", "^[A-Za-z_][A-Za-z0-9_]*$"}}},
                 {"additionalProperties", {{"type", {"number", "string"}}}}};
   case KeyKind::Changes:
     return Json{{"type", "object"}};
-  case KeyKind::Group:
-    return key.shortFor.empty() ? groupSchema(key) : shortSchema(key);
-  case KeyKind::NamedGroups:
-  {
-    Json schema{{"type", "object"}, {"additionalProperties", groupSchema(key)}};
-    if (key.required)
-      schema["minProperties"] = 1;
-    return schema;
+  default:
+    return groupsSchema(key);
   }
-  case KeyKind::GroupList:
-  {
-    const Json item = groupSchema(key);
-    Json items{{"type", "array"}, {"items", item}};
-    if (key.required)
-      items["minItems"] = 1;
-    return key.aloneToo ? Json{{"anyOf", {item, items}}} : items;
-  }
-  }
-  return Json::object();
 }
 
 Json described(const Key& key)

@@ -64,4 +64,18 @@ std::string listOf(const std::vector<std::string>& names, std::size_t limit)
     text += fmt::format(", ... ({} more)", names.size() - limit);
   return text;
 }
+
+std::string shortened(const std::string& text)
+{
+  constexpr std::size_t most = 200;
+  const auto begins = [](char c)
+  { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }; // UTF-8
+  const auto letters = std::size_t(std::count_if(text.begin(), text.end(), begins));
+  if (letters <= most)
+    return text;
+  std::size_t end = 0;
+  for (std::size_t letter = 0; letter < most || !begins(text[end]); ++end)
+    letter += begins(text[end]);
+  return fmt::format("{}... ({} letters)", text.substr(0, end), letters);
+}
 } // namespace coplane

@@ -17,5 +17,8 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates);
 
 /// "a, b, c", and "... (37 more)" after `limit` names.
-std::string listOf(const std::vector<std::string>& names, std::size_t limit = 12);
+std::string listOf(const std::vector<std::string>& names, std::size_t limit = 20);
+
+/// What is longer than 200 letters as its beginning and its length: "abc... (5000 letters)".
+std::string shortened(const std::string& text);
 } // namespace coplane

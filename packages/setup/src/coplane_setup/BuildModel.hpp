@@ -7,6 +7,6 @@
 
 namespace coplane
 {
-/// Joins the deck to this rank's part of the mesh. Names have been checked before.
+/// Joins the deck to this rank's part of the mesh. Names have been checked before. Collective.
 Model buildModel(const Deck& deck, const MeshSlice& mesh, RankMesh part, const Comm& comm);
 } // namespace coplane

@@ -74,25 +74,55 @@ struct PairTables
   Activity* activity;
   Preparation::Todo* todo; ///< null: nothing is left to do
   const Preparation* preparation;
-  std::atomic<bool>* passed; ///< gets true when what a plane passes on is something else now
+  const JointLaw* laws;
+  bool incremental;          ///< closures are sums of increments
+  std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
 
-  /// Of a plane that passes on something, what other pairs would be wrong by if they had it from
-  /// before: where its surface is, and whether it is bonded.
+  /// What a plane that carries passes on, as far as a pair would be wrong with what it was at the
+  /// last search. Areas begin small, so shear tractions are not among it, and closures only where
+  /// they are the plane's memory, or so deep that without them a pair is taken for none.
   struct Passed
   {
-    Real offset;
-    bool bonded;
-    bool operator!=(const Passed& o) const { return offset != o.offset || bonded != o.bonded; }
+    Real offset = 0, bonded = 0, maximumClosure = 0, opening = 0, shearing = 0, slip = 0,
+         closure = 0;
+
+    bool operator!=(const Passed& o) const
+    {
+      return offset != o.offset || bonded != o.bonded || maximumClosure != o.maximumClosure ||
+             opening != o.opening || shearing != o.shearing || slip != o.slip ||
+             closure != o.closure;
+    }
   };
-  Passed passedBy(int p) const { return {planes[p].offset, planes[p].history.bonded}; }
+  Passed passedBy(int p) const
+  {
+    const Plane& plane = planes[p];
+    const JointState& history = plane.history;
+    const JointLaw& law = laws[plane.joint];
+    Passed of;
+    if (!(plane.area > 0))
+      return of;
+    of.offset = plane.offset;
+    of.bonded = history.bonded;
+    if (!law.curve.straight())
+      of.maximumClosure = history.maximumClosure;
+    if (law.bond.softens())
+    {
+      of.opening = history.opening;
+      of.shearing = history.shearing;
+    }
+    if (law.remembersSlip())
+      of.slip = history.slip;
+    if (incremental || plane.closure > 0.5 * deepestBirth * plane.depthLimit)
+      of.closure = plane.closure;
+    return of;
+  }
   /// After a pair has been evaluated; `before`: passedBy() before that.
   void book(int p, const Passed& before) const
   {
     activity[p] = activityOf(planes[p]);
-    if (passedBy(p) != before)
+    if (!passed->load(std::memory_order_relaxed) && passedBy(p) != before)
       passed->store(true, std::memory_order_relaxed);
   }
-
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
   /// For a pair that carries nothing and whose shadows share nothing.
   void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
@@ -119,9 +149,9 @@ struct PairTables
 class PairLanes
 {
 public:
-  PairLanes(const PairTables& pairs, const HalfStepFace* faces, const JointLaw* laws,
-            const ContactOptions& options, Real dt)
-      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), faces_(faces), laws_(laws),
+  PairLanes(const PairTables& pairs, const HalfStepFace* faces, const ContactOptions& options,
+            Real dt)
+      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), faces_(faces), laws_(pairs.laws),
         options_(options), leastOpposed_(leastOpposed(options)), dt_(dt)
   {
   }

@@ -39,9 +39,10 @@ public:
 
   /// @param donors all living planes of the faces, in any order, some of them twice. Collective.
   Preparation(Search search, std::vector<Donor> donors, const NodeLayout& layout);
+  Preparation(const Preparation&) = delete; // edges_ refers to the pairs
 
-  /// Tells the plane of a pair. Where `todo` is not done at the search itself, the pair shared no
-  /// area then.
+  /// Tells the plane of a pair. Where that is not done at the search itself, the pair had not been
+  /// evaluated by then, or shared no area.
   void prepare(int slot, Todo todo, Plane& plane) const;
 
 private:

@@ -15,6 +15,7 @@ struct ReadSlice
   std::vector<GlobalId> blockIds; ///< of all blocks, those that are skipped as empty too
 };
 
+/// The file is one that demandMeshFile() takes.
 /// @param isPart of a split mesh: it may be empty
 ReadSlice readSliceOfFile(const std::string& file, bool isPart, int rank, int ranks);
 } // namespace coplane

@@ -1,0 +1,300 @@
+#pragma once
+
+#include <coplane_contact/ContactPotential.hpp>
+
+// Steps of PairPotential: the overlap of two shadows, the part of it in contact, and its moments.
+
+namespace coplane
+{
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
+{
+  using namespace branchFree;
+  pieces_ = 0;
+  if constexpr (Dim == 2)
+  {
+    // A segment as a polygon without width: two "sides" that are its ends.
+    pieces_ = 1;
+    Owned& q = piece_[0];
+    q.sides.size = 2;
+    T low[2], high[2];
+    for (int f = 0; f < 2; ++f)
+    {
+      const T &p = shadow[f].p[0].x, &r = shadow[f].p[1].x;
+      low[f] = smaller(p, r);
+      high[f] = larger(p, r);
+    }
+    const bool lowIs0 = low[0] > low[1], highIs0 = high[0] < high[1];
+    const T from = lowIs0 ? low[0] : low[1], to = highIs0 ? high[0] : high[1];
+    q.sides.from[0] = q.sides.to[0] = {from, T(0.0)};
+    q.sides.from[1] = q.sides.to[1] = {to, T(0.0)};
+    const auto nodeAt = [&](int f, bool upper)
+    { return (shadow[f].p[1].x > shadow[f].p[0].x) == upper ? 1 : 0; };
+    q.owner[0] = lowIs0 ? nodeAt(0, false) : 4 + nodeAt(1, false);
+    q.owner[1] = highIs0 ? nodeAt(0, true) : 4 + nodeAt(1, true);
+    overlap = positivePart(to - from);
+    mostClosure = overlap > 0 ? larger(closureAt({from, 0}), closureAt({to, 0})) : -infinity;
+  }
+  else
+  {
+    const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
+    regular = isConvex(a.p, a.count) && isConvex(b.p, b.count);
+    Owned& q = piece_[0];
+    q.sides.size = a.count;
+    for (int i = 0; i < a.count; ++i)
+    {
+      q.sides.from[i] = a.p[i];
+      q.sides.to[i] = a.p[i + 1 == a.count ? 0 : i + 1];
+      q.owner[i] = i;
+    }
+    for (int e = 0; e < b.count; ++e)
+    {
+      const Vec2Of<T> start = b.p[e];
+      const Vec2Of<T> edge = b.p[e + 1 == b.count ? 0 : e + 1] - start;
+      T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
+      for (int k = 0; k < q.sides.size; ++k)
+      {
+        from[k] = cross(edge, q.sides.from[k] - start);
+        to[k] = cross(edge, q.sides.to[k] - start);
+      }
+      detail::cutOwned(q, from, to, 4 + e);
+    }
+    regular = regular && !q.sides.crossed;
+    pieces_ = 1;
+    measureOverlap();
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::measureOverlap()
+{
+  using namespace branchFree;
+  overlap = T(0.0);
+  mostClosure = T(-infinity);
+  for (int i = 0; i < pieces_; ++i)
+  {
+    const PolygonSides<T>& sides = piece_[i].sides;
+    const T area = areaAndCentroid(sides).area;
+    overlap += positivePart(area);
+    for (int k = 0; k < sides.size; ++k)
+      mostClosure = choose(sides.isThere(k) && area > 0.0,
+                           larger(closureAt(sides.from[k]), mostClosure), mostClosure);
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findPieces()
+{
+  const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
+  pieces_ = 0;
+  inOrder_ = true;
+  Owned partsA[2], partsB[2];
+  const int countA = convexParts(a, 0, partsA), countB = convexParts(b, 4, partsB);
+  for (int i = 0; i < countA; ++i)
+    for (int j = 0; j < countB; ++j)
+    {
+      Owned& q = piece_[pieces_++];
+      q = partsA[i];
+      for (int e = 0; e < partsB[j].sides.size; ++e)
+      {
+        const Vec2 start = partsB[j].sides.from[e], edge = partsB[j].sides.to[e] - start;
+        Real at[PolygonSides<Real>::capacity];
+        for (int k = 0; k < q.sides.size; ++k)
+          at[k] = cross(edge, q.sides.from[k] - start);
+        detail::cutOwnedInOrder(q, at, partsB[j].owner[e]);
+      }
+    }
+  measureOverlap();
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION int PairPotential<Dim, T>::convexParts(const detail::Outline<T>& outline,
+                                                              int firstOwner, Owned (&parts)[2])
+{
+  const auto fill = [&](Owned& part, const int* corners, int count)
+  {
+    part.sides.size = count;
+    for (int i = 0; i < count; ++i)
+    {
+      const int c = corners[i], d = corners[i + 1 == count ? 0 : i + 1];
+      part.sides.from[i] = outline.p[c];
+      part.sides.to[i] = outline.p[d];
+      part.owner[i] = d == (c + 1 == outline.count ? 0 : c + 1) ? firstOwner + c : Owned::noEdge;
+    }
+  };
+  if (isConvex(outline.p, outline.count))
+  {
+    const int all[4] = {0, 1, 2, 3};
+    fill(parts[0], all, outline.count);
+    return 1;
+  }
+  for (int d = 0; d < 2 && outline.count == 4; ++d)
+  {
+    const int first[3] = {d, d + 1, d + 2}, second[3] = {d, d + 2, (d + 3) % 4};
+    const auto convex = [&](const int* c)
+    { return cross(outline.p[c[1]] - outline.p[c[0]], outline.p[c[2]] - outline.p[c[1]]) > 0; };
+    if (!convex(first) || !convex(second))
+      continue;
+    fill(parts[0], first, 3);
+    fill(parts[1], second, 3);
+    return 2;
+  }
+  return 0; // folded: carries nothing
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::pressAll(const Mask& whole)
+{
+  moments = {};
+  ways[0] = ways[1] = T(0.0);
+  for (int f = 0; f < 2; ++f)
+    coveredSides_[f] = openSides_[f] = T(0.0);
+  for (int i = 0; i < pieces_; ++i)
+  {
+    if constexpr (branchFree::widthOf<T> == 1)
+      whole_[i] = piece_[i];
+    cutAndIntegrate(piece_[i], whole);
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::cutAndIntegrate(Owned& q, const Mask& whole)
+{
+  if constexpr (Dim == 2)
+  {
+    if (overlap > 0)
+      integrateSegment(q, whole);
+  }
+  else
+  {
+    cutPolygon(q, whole);
+    integratePolygon(q, whole);
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& q,
+                                                                         const Mask& whole)
+{
+  T &from = q.sides.from[0].x, &to = q.sides.from[1].x;
+  const T c0 = closureAt({from, 0}), c1 = closureAt({to, 0});
+  if (!whole && !(c0 > 0 || c1 > 0))
+    return;
+  const T cut = from + (to - from) * c0 / (c0 - c1);
+  if (!whole && c0 < 0)
+  {
+    from = cut;
+    q.owner[0] = Owned::closureLine;
+  }
+  if (!whole && c1 < 0)
+  {
+    to = cut;
+    q.owner[1] = Owned::closureLine;
+  }
+  const T u = closureAt({from, 0}), v = closureAt({to, 0}), width = to - from;
+  if (!(width > 0))
+    return;
+  moments.area = width;
+  moments.volume = 0.5 * width * (u + v);
+  moments.squares = width / 3.0 * (u * u + u * v + v * v);
+  moments.areaMoment.x = 0.5 * width * (from + to);
+  moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
+  for (int k = 0; k < 2; ++k)
+    if (const int owner = q.owner[k]; owner >= 0)
+    {
+      ways[owner / 4] += edges_.exits[owner] * closureAt(q.sides.from[k]);
+      addSide(owner, true);
+    }
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::cutPolygon(Owned& q, const Mask& whole)
+{
+  using namespace branchFree;
+  T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
+  for (int k = 0; k < q.sides.size; ++k)
+  {
+    from[k] = choose(whole, T(1.0), closureAt(q.sides.from[k]));
+    to[k] = choose(whole, T(1.0), closureAt(q.sides.to[k]));
+  }
+  if constexpr (widthOf<T> == 1)
+  {
+    if (inOrder_)
+      detail::cutOwnedInOrder(q, from, Owned::closureLine);
+    else
+    {
+      detail::cutOwned(q, from, to, Owned::closureLine);
+      regular = regular && !q.sides.crossed;
+    }
+  }
+  else
+  {
+    detail::cutOwned(q, from, to, Owned::closureLine);
+    regular = regular && !q.sides.crossed;
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const Owned& q,
+                                                                         const Mask& whole)
+{
+  using namespace branchFree;
+  Vec2Of<T> apex;
+  for (int k = 0; k < q.sides.size; ++k)
+    apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
+  const T atApex = closureAt(apex);
+  ContactMoments<T> sum;
+  T border[2]{};
+  for (int k = 0; k < q.sides.size; ++k)
+  {
+    const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
+    sum.add(apex, p, r, atApex, closureAt(p), closureAt(r));
+    if (q.owner[k] >= 0)
+    {
+      addSide(q.owner[k], q.sides.isThere(k));
+      const T& exit = edges_.exits[q.owner[k]];
+      if (anyOf(exit > 0.0))
+        border[q.owner[k] / 4] +=
+            0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureAt(p) + closureAt(r));
+    }
+  }
+  const auto there = sum.area > 0.0 && plane.opposed && (whole || sum.volume > 0.0);
+  const T none(0.0);
+  moments.area += choose(there, sum.area, none);
+  moments.volume += choose(there, sum.volume, none);
+  moments.squares += choose(there, sum.squares, none);
+  moments.areaMoment =
+      moments.areaMoment + coplane::choose(there, sum.areaMoment, Vec2Of<T>{none, none});
+  moments.volumeMoment =
+      moments.volumeMoment + coplane::choose(there, sum.volumeMoment, Vec2Of<T>{none, none});
+  for (int f = 0; f < 2; ++f)
+    ways[f] += choose(there, border[f], none);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addSide(int owner, const Mask& isThere)
+{
+  using namespace branchFree;
+  const T none(0.0);
+  const T& covered = edges_.covered[owner];
+  coveredSides_[owner / 4] += choose(isThere, covered, none);
+  openSides_[owner / 4] += choose(isThere && !(covered > 0.0), edges_.turns[owner], none);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::acrossStrip() const
+{
+  return 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
+         (1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findStrip(const Mask& whole)
+{
+  const T& v = moments.volume;
+  const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
+  strip_ = between && v * v < scale_.wayOutTo * moments.squares * acrossStrip();
+  if constexpr (branchFree::widthOf<T> != 1)
+    regular = regular && !strip_;
+}
+} // namespace coplane

@@ -1,0 +1,121 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/FileRoles.hpp>
+#include <coplane_exodus/NetcdfHeader.hpp>
+#include <coplane_exodus/detail/FileProbe.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <fcntl.h>
+#include <filesystem>
+#include <fstream>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace coplane
+{
+namespace
+{
+constexpr double longestLook = 60; // s
+
+/// The process, or -1. No fork: MPI does not stand that.
+pid_t start(std::vector<std::string>& command)
+{
+  std::vector<char*> arguments;
+  for (std::string& argument : command)
+    arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    posix_spawn_file_actions_addopen(&files, descriptor, "/dev/null", O_RDWR, 0);
+  pid_t process = -1;
+  if (::posix_spawn(&process, arguments[0], &files, nullptr, arguments.data(), environ) != 0)
+    process = -1;
+  posix_spawn_file_actions_destroy(&files);
+  return process;
+}
+
+/// The library does not come back from some damaged HDF5 files, and frees what it has not allocated
+/// in others: a program that nobody misses looks into them first.
+void demandThatItIsSurvived(const std::string& file)
+{
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error)
+    return;
+  switch (runProgram({program.parent_path() / "coplane_mesh", "probe", file}, longestLook))
+  {
+  case ProgramEnd::Success:
+  case ProgramEnd::NotStarted:
+    return;
+  case ProgramEnd::Failure:
+    fail(ExitCode::Mesh,
+         "{}: the file is damaged: the HDF5 library fails in it. Write the mesh again.", file);
+  case ProgramEnd::TooLong:
+    fail(ExitCode::Mesh,
+         "{}: looking into the file takes more than a minute. It is damaged, or the disk does not "
+         "answer; write the mesh again.",
+         file);
+  }
+}
+} // namespace
+
+ProgramEnd runProgram(std::vector<std::string> command, double seconds)
+{
+  const pid_t process = start(command);
+  if (process < 0)
+    return ProgramEnd::NotStarted;
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  for (bool killed = false;;)
+  {
+    int status = 0;
+    const pid_t ended = ::waitpid(process, &status, killed ? 0 : WNOHANG);
+    if (ended < 0 && errno != EINTR)
+      return ProgramEnd::Success; // whoever started us takes no notice of children
+    if (ended == process && killed)
+      return ProgramEnd::TooLong;
+    if (ended == process && WIFEXITED(status) && WEXITSTATUS(status) == 127)
+      return ProgramEnd::NotStarted;
+    if (ended == process)
+      return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ProgramEnd::Success
+                                                           : ProgramEnd::Failure;
+    if (!killed && std::chrono::duration<double>(Clock::now() - begin).count() > seconds)
+    {
+      ::kill(process, SIGKILL);
+      killed = true;
+    }
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+}
+
+void refuseMeshFile(const std::string& file)
+{
+  fail(ExitCode::Mesh,
+       "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
+       "damaged. Write the mesh with "
+       "coplane_mesh make, or export Exodus II from your mesh generator.",
+       file);
+}
+
+void demandMeshFile(const std::string& file)
+{
+  if (const std::string kind = kindOfSpecialFile(file); !kind.empty())
+    fail(ExitCode::Mesh, "{}: this is {}; name an Exodus II file.", file, kind);
+  std::ifstream in(file, std::ios::binary);
+  if (!in)
+    fail(ExitCode::Mesh, "{}: the mesh file cannot be opened for reading. Check its permissions.",
+         file);
+  // The library prints about files of other kinds.
+  char magic[4] = {};
+  in.read(magic, 4);
+  const bool isHdf5 = std::string(magic, 4) == "\x89HDF";
+  if ((!isHdf5 && std::string(magic, 3) != "CDF") || !classicHeaderFitsFile(file))
+    refuseMeshFile(file);
+  if (isHdf5)
+    demandThatItIsSurvived(file);
+}
+} // namespace coplane
