@@ -261,6 +261,11 @@ TEST(Inheritance, bondsGoOnWhereMostOfTheAreaIsBonded)
     EXPECT_EQ(plane.history.bonded, bondedArea > 2);
     EXPECT_EQ(plane.history.opening, bondedArea > 2 ? 3e-4 : 0);
     EXPECT_EQ(plane.history.shearing, bondedArea > 2 ? 2e-4 : 0);
+    // Bricks that are bonded to each other are not to what slides over their seam.
+    donors[0].ofSameBodies = false;
+    plane = pairOf10And22();
+    EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, donors));
+    EXPECT_FALSE(plane.history.bonded);
   }
 }
 } // namespace coplane

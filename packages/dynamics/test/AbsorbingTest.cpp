@@ -148,7 +148,7 @@ TEST(FaceTraction, keepsItsDirectionWhenTheFaceTurns)
   Conditions conditions;
   conditions.tractions = {
       {sidesWhere(part, [](const Vec3& x) { return x.z == 2; }), VectorOfTime(10, 20, -30)}};
-  conditions.applyLoads(3, part.ownedNodes, 0, state);
+  conditions.applyLoads(3, part.ownedNodes, 0, 0, state);
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {60, 120, -180}, 1e-12);
   // A quarter turn about y, and twice the length along y: twice the area, the same direction.
   for (int i = 0; i < part.nodes(); ++i)
@@ -156,7 +156,7 @@ TEST(FaceTraction, keepsItsDirectionWhenTheFaceTurns)
     const Vec3 x = at(state.x, i);
     set(state.x, i, {x.z, 2 * x.y, -x.x});
   }
-  conditions.applyLoads(3, part.ownedNodes, 0, state);
+  conditions.applyLoads(3, part.ownedNodes, 0, 0, state);
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {120, 240, -360}, 1e-12);
 }
 

@@ -173,6 +173,31 @@ TEST(AirBlast, theAngleDecidesBetweenReflectedAndIncidentPressure)
               1e-9 * v.reflectedPressure);
 }
 
+TEST(AirBlast, stepsThatFollowEachOtherGiveTheWholeImpulse)
+{
+  for (const Real decay : {0.0, 1e-9, 0.3, 4.0, 30.0})
+  {
+    BlastWave wave;
+    wave.arrival = 1;
+    wave.incident = {80, 2, decay};
+    wave.reflected = {500, 1.5, 2 * decay};
+    wave.reflection = 0.7;
+    wave.incidence = 0.4;
+    const Real all = 0.4 * wave.incident.impulse() + 0.7 * wave.reflected.impulse();
+    for (const Real dt : {0.01, 0.37, 5.0})
+      for (const Real phase : {0.0, 0.3, 0.9})
+      {
+        Real sum = 0;
+        for (int i = -1; i * dt < 12; ++i)
+          sum += dt * wave.meanPressure((i + phase) * dt, dt);
+        EXPECT_NEAR(sum, all, 1e-11 * all) << decay << " " << dt << " " << phase;
+      }
+    EXPECT_NEAR(wave.meanPressure(1.8, 1e-5), wave.pressure(1.8), 1e-7 * wave.pressure(1.8));
+    EXPECT_EQ(wave.meanPressure(0.5, 0.9), 0);
+    EXPECT_EQ(wave.meanPressure(4, 0.9), 0);
+  }
+}
+
 TEST(AirBlast, loadsFacesUntilTheyDie)
 {
   const Comm comm;
@@ -189,7 +214,7 @@ TEST(AirBlast, loadsFacesUntilTheyDie)
   conditions.airBlasts = {blast};
   const auto force = [&](Real t)
   {
-    conditions.applyLoads(3, part.ownedNodes, t, state);
+    conditions.applyLoads(3, part.ownedNodes, t, 0, state);
     return sumOverRanks(state.external, part.ownedNodes, comm);
   };
   EXPECT_EQ(force(0.9).z, 0);

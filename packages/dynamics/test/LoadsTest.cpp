@@ -28,7 +28,7 @@ TEST(FacePressure, isPressureTimesAreaAgainstTheOutwardNormalOfATurnedFace)
   Conditions conditions;
   conditions.pressures = {{sidesWhere(part, [&](const Vec3& x) { return dot(x, n) > 1.99; }),
                            [](Real time) { return 100 * time; }}};
-  conditions.applyLoads(3, part.ownedNodes, 0.5, state); // 50 Pa at t = 0.5 s
+  conditions.applyLoads(3, part.ownedNodes, 0.5, 0, state); // 50 Pa at t = 0.5 s
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), -300.0 * n, 1e-12);
 }
 
@@ -46,7 +46,7 @@ TEST(FacePressure, followsTheMotionOfItsFace)
     const Vec3 x = at(state.x, i);
     set(state.x, i, {x.z, 2 * x.y, -x.x});
   }
-  conditions.applyLoads(3, part.ownedNodes, 0, state);
+  conditions.applyLoads(3, part.ownedNodes, 0, 0, state);
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {-600, 0, 0}, 1e-12);
 }
 
@@ -60,7 +60,7 @@ TEST(FacePressure, onAllSidesOfABodyHasNoResultant)
   NodalState state(part);
   Conditions conditions;
   conditions.pressures = {pressureWhere(part, 50, [](const Vec3&) { return true; })};
-  conditions.applyLoads(3, part.ownedNodes, 0, state);
+  conditions.applyLoads(3, part.ownedNodes, 0, 0, state);
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {}, 1e-12);
 }
 
@@ -74,7 +74,7 @@ TEST(FacePressure, ofTwoDimensionsActsOnUnitThickness)
   NodalState state(part);
   Conditions conditions;
   conditions.pressures = {pressureWhere(part, 50, [](const Vec3& x) { return x.x == 3; })};
-  conditions.applyLoads(2, part.ownedNodes, 0, state);
+  conditions.applyLoads(2, part.ownedNodes, 0, 0, state);
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {-100, 0, 0}, 1e-12);
 }
 

@@ -28,6 +28,15 @@ JwlParameters tnt()
   return p;
 }
 
+/// The front is less than one and a half elements of 1 mm away.
+JwlParameters litSoon()
+{
+  JwlParameters p = tnt();
+  p.lightingPoints = {{0, 0, 0}};
+  p.lightingTimes = {1e-7};
+  return p;
+}
+
 JwlParameters litFarAway()
 {
   JwlParameters p = tnt();
@@ -77,8 +86,8 @@ TEST(Jwl, stateBehindADetonationIsWhereRayleighsLineTouchesTheIsentrope)
 
 TEST(Jwl, oneStepToTheDensityBehindADetonationBurnsAllAndGivesItsPressure)
 {
-  // The trapezoid of the energy over one step from rest is Hugoniot's. Beta burn: the front is far.
-  const Jwl law = makeLaw(litFarAway());
+  // The trapezoid of the energy over one step from rest is Hugoniot's. All is beta burn.
+  const Jwl law = makeLaw(litSoon());
   const DetonationState state = detonationState(law);
   MaterialProbe probe(law, 1e-3);
   const Real volume = law.detonationVolume - 1e-9;
@@ -153,17 +162,19 @@ TEST(Jwl, unburntExplosiveHasItsOwnStiffnessAndNoTension)
   p.bulkModulus = 9e9;
   MaterialProbe probe(makeLaw(p), 1e-3, {-5e6, -5e6, -5e6, 0, 0, 0});
   probe.advance(stretch(1, 1 - 1e-6), 1e-9);
-  // What beta burn adds at such a strain is 1e-6 / 0.27 of the products' 10 GPa.
-  EXPECT_NEAR(probe.pressure(), 5e6 + 9e3, 0.05e6);
-  probe.advance(stretch(1 - 1e-6, 1.01), 1e-9);
+  EXPECT_NEAR(probe.pressure(), 5e6 + 9e3, 1);
+  // A blow as hard as a detonation: the front has not come.
+  probe.advance(stretch(1 - 1e-6, 0.7), 1e-9);
+  EXPECT_NEAR(probe.pressure(), 5e6 + 9e9 * (1 / 0.7 - 1), 1e3);
+  probe.advance(stretch(0.7, 1.01), 1e-9);
   EXPECT_EQ(probe.pressure(), 0);
-  EXPECT_LT(probe.history("burn_fraction"), 1e-5);
+  EXPECT_EQ(probe.history("burn_fraction"), 0);
   EXPECT_NEAR(makeLaw(tnt()).unburntModulus, 1630 * 2310.0 * 2310.0, 1);
 }
 
 TEST(Jwl, everyLaneHasTheBitsOfTheScalar)
 {
-  const Jwl law = makeLaw(litFarAway());
+  const Jwl law = makeLaw(litSoon());
   MaterialPoint<Real> one[laneCount];
   for (int lane = 0; lane < laneCount; ++lane)
   {

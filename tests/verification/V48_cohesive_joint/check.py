@@ -73,4 +73,17 @@ for model in ("mortar", "bilinear"):
             stored = friction**2 / (2 * bond["shear_stiffness"])
             cohesive = area_under(path, traction) - friction * slip - stored
             case.check(f"{what}: area under the cohesive part [J/m^2]", cohesive, bond["shear_energy"], 0.01, relative=True)
+
+# A block slides over the seam of two that are bonded: it has never been bonded to either. With a card of its own, equal to that of
+# the bed, the seam must do the same.
+one = case.load("deck_seam.yaml")
+two = copy.deepcopy(one)
+two["joints"]["seam"] = dict(two["joints"]["bed"])
+two["contact"]["pairs"][0]["joint"] = "seam"
+seams = {cards: case.run(f"seam_{cards}", case.load("mesh_seam.yaml"), deck).history for cards, deck in (("one", one), ("two", two))}
+h = seams["one"]
+case.check("seam: contact remainder over the work of the drive", abs(h["contact_remainder"][-1]) / h["external_work"][-1], 0, 1e-4)
+case.check_within("seam: friction work [J]", h["contact_friction"][-1], 1e3, 1e4)
+for column in ("contact_friction", "contact_stored", "kinetic"):
+    case.check(f"seam: {column}, one card against two [J]", float(numpy.max(numpy.abs(h[column] - seams["two"][column]))), 0, 0)
 case.finish()

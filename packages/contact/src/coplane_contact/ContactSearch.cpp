@@ -99,6 +99,7 @@ Donor Contact::donor(const Plane& plane) const
     {
       const Face& face = faceTable_(plane.face[side]);
       donor.count[side] = face.count;
+      donor.body[side] = face.body;
       for (int k = 0; k < face.count; ++k)
       {
         donor.nodes[side][k] = nodeIds_[face.nodes[k]];
@@ -327,5 +328,30 @@ void Contact::prepareAll() const
                   preparation_->prepare(slot, todo_(slot), planes_(slot));
                 todo_(slot) = 0;
               });
+}
+
+void Contact::listFaces(const NodeLayout& layout)
+{
+  faces_ = localFaces_;
+  const auto localNode = [&](GlobalId id) { return layout.localNode(id); };
+  for (const GhostFace& ghost : ghosts_.faces)
+    faces_.push_back(toFace(ghost, localNode));
+}
+
+int Contact::faceHere(GlobalId id) const
+{
+  const auto less = [](const Face& face, GlobalId wanted) { return face.id < wanted; };
+  const auto ghosts = faces_.begin() + std::ptrdiff_t(localFaces_.size());
+  auto found = std::lower_bound(faces_.begin(), ghosts, id, less);
+  if (found == ghosts || found->id != id)
+    found = std::lower_bound(ghosts, faces_.end(), id, less);
+  return found != faces_.end() && found->id == id ? int(found - faces_.begin()) : -1;
+}
+
+void Contact::takeFaceTables()
+{
+  faceTable_ = Array<Face>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::faces"),
+                           faces_.size());
+  std::copy(faces_.begin(), faces_.end(), faceTable_.data());
 }
 } // namespace coplane

@@ -89,9 +89,12 @@ struct Donor
   GlobalId faceId[2] = {0, 0};
   GlobalId nodes[2][4] = {}; ///< ids of the nodes of its faces; 0: none
   int count[2] = {0, 0};     ///< nodes of its faces; 0: not known
+  int body[2] = {0, 0};      ///< of its faces
   Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
-  bool flush = false; ///< with the pair that looks for donors; not sent
+  // To the pair that looks for donors; not sent.
+  bool flush = false;
+  bool ofSameBodies = true; ///< the same two
   Vec3 normal{};
   Real area = 0;
   // What is passed on (PlaneState.hpp), as in its plane.

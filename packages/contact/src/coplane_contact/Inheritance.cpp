@@ -186,7 +186,7 @@ public:
   void add(const Donor& donor)
   {
     area_ += donor.area;
-    if (donor.history.bonded)
+    if (passesBond(donor))
       bondedArea_ += donor.area;
     forEachPassed([&](const auto& member) { add(member, donor); });
   }
@@ -197,6 +197,7 @@ public:
   }
 
 private:
+  static bool passesBond(const Donor& donor) { return donor.history.bonded && donor.ofSameBodies; }
   bool isBonded() const { return bondedArea_ > 0.5 * area_; }
 
   template <class Member>
@@ -210,7 +211,7 @@ private:
       sum += donor.area * turnIntoPlane(sign * value, sign * donor.normal, normal_, Vec3{}, 0);
     }
     else if constexpr (Member::passing != Passing::Majority)
-      if (Member::passing == Passing::Mean || donor.history.bonded)
+      if (Member::passing == Passing::Mean || passesBond(donor))
         sum += donor.area * value;
   }
   template <class Member, class T>

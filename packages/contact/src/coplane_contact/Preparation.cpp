@@ -86,6 +86,7 @@ void Preparation::takeOver(Plane& plane, Real sharedBefore) const
     if (!continuation.isNear(donor))
       continue;
     donor.flush = isFlush(now, donor, search_.dimension);
+    donor.ofSameBodies = std::is_permutation(donor.body, donor.body + 2, now.body);
     if (continuation.goesOn(donor))
       heirlooms.push_back(donor);
   }
@@ -113,6 +114,7 @@ NewPair Preparation::newPair(const Plane& plane, const Vec3& normal, Real shared
     const Face& mine = search_.faces(plane.face[side]);
     now.faceId[side] = mine.id;
     now.count[side] = mine.count;
+    now.body[side] = mine.body;
     for (int k = 0; k < mine.count; ++k)
     {
       now.nodes[side][k] = nodeIds_[mine.nodes[k]];

@@ -176,9 +176,14 @@ Real Friedlander::pressure(Real t) const
   return peak * (1 - s) * std::exp(-decay * s);
 }
 
-Real Friedlander::impulse() const
+Real Friedlander::impulseUntil(Real t) const
 {
-  return peak * duration * shareOf(decay);
+  if (!(t > 0))
+    return 0;
+  // With s = u x, x from 0 to 1: u times the integral of (1 - x) e^(-b u x) + (1 - u) x e^(-b u x).
+  const Real u = std::min(t / duration, 1.0), b = decay * u, falling = shareOf(b);
+  const Real even = b > 0 ? -std::expm1(-b) / b : 1;
+  return peak * duration * u * (falling + (1 - u) * (even - falling));
 }
 
 Friedlander friedlanderOf(Real peak, Real impulse, Real duration)
@@ -198,6 +203,18 @@ Friedlander friedlanderOf(Real peak, Real impulse, Real duration)
 Real BlastWave::pressure(Real t) const
 {
   return reflection * reflected.pressure(t - arrival) + incidence * incident.pressure(t - arrival);
+}
+
+Real BlastWave::meanPressure(Real t, Real dt) const
+{
+  if (!(dt > 0))
+    return pressure(t);
+  const Real from = t - arrival - 0.5 * dt, to = from + dt;
+  if (from >= 0 && to >= std::max(incident.duration, reflected.duration) + dt)
+    return 0;
+  const auto mean = [&](const Friedlander& wave)
+  { return (wave.impulseUntil(to) - wave.impulseUntil(from)) / dt; };
+  return reflection * mean(reflected) + incidence * mean(incident);
 }
 
 BlastWave blastWaveOn(const BlastCharge& charge, const Vec3& place, const Vec3& normal)

@@ -48,7 +48,8 @@ struct Friedlander
   Real decay = 0;    ///< b, not negative [-]
 
   Real pressure(Real sinceArrival) const;
-  Real impulse() const; ///< integral of p [Pa s]
+  Real impulseUntil(Real sinceArrival) const; ///< integral of p [Pa s]
+  Real impulse() const { return impulseUntil(duration); }
 };
 /// The curve with that impulse. A straight decay, b = 0, gives peak T / 2; when more is asked for,
 /// the phase becomes longer instead, T = 2 impulse / peak, so that the impulse is always met.
@@ -68,6 +69,9 @@ struct BlastWave
   Real incidence = 1;  ///< share of the incident pressure
 
   Real pressure(Real t) const; ///< [Pa]
+  /// Mean over the time dt around t [Pa]: steps that follow each other give the whole impulse,
+  /// however short the wave is.
+  Real meanPressure(Real t, Real dt) const;
 };
 /// @param normal unit, out of the body
 BlastWave blastWaveOn(const BlastCharge& charge, const Vec3& place, const Vec3& normal);

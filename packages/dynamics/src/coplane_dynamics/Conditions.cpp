@@ -53,7 +53,7 @@ void addToCorners(const LoadedSide& side, int ownedNodes, const NodeVectors& ext
 }
 } // namespace
 
-void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const
+void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const
 {
   const auto external = state.external;
   const ConstArray<Real> mass = state.mass;
@@ -89,7 +89,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, NodalState& s
   for (const AirBlast& blast : airBlasts)
     for (const BlastSide& face : blast.sides)
     {
-      const Real pressure = face.wave.pressure(t);
+      const Real pressure = face.wave.meanPressure(t, dt);
       if (!(pressure > 0))
         continue; // before it arrives and after it has passed
       const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);

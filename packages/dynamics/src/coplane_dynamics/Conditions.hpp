@@ -177,7 +177,8 @@ struct Conditions
 
   /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
   /// air blasts, and of absorbing sides what does not depend on the velocity.
-  void applyLoads(int dimension, int ownedNodes, Real t, NodalState& state) const;
+  /// @param dt of the step that ends at t: air blasts push with their mean over that time around t
+  void applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const;
 
   bool dampsAt(Real t) const { return t >= dampingFrom && t < dampingUntil; }
   Real massDampingAt(Real t) const { return massDamping && dampsAt(t) ? massDamping(t) : 0; }

@@ -47,9 +47,9 @@ void NodalMotion::drift(Real dt, const NodalState& state)
   bodies_.drift(dt);
 }
 
-void NodalMotion::applyLoads(const Conditions& conditions, Real t, NodalState& state) const
+void NodalMotion::applyLoads(const Conditions& conditions, Real t, Real dt, NodalState& state) const
 {
-  conditions.applyLoads(dimension_, state.owned(), t, state);
+  conditions.applyLoads(dimension_, state.owned(), t, dt, state);
 }
 
 void NodalMotion::sumForcesOnBodies(const NodalState& state, const ElementForces& elements)
@@ -236,7 +236,7 @@ Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalSt
         set(angularImpulse, n, at(angularImpulse, n) + cross(at(x, n), lost));
       });
   bodies_.stop(state);
-  applyLoads(conditions, times.t, state);
+  applyLoads(conditions, times.t, 0, state);
   kick({times.t, 0, times.after, times.damping}, conditions, state); // a start
   mirrorVelocities(state);
   return kinetic - kineticAtFullStep(state, comm);

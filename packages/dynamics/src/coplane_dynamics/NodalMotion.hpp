@@ -30,7 +30,7 @@ public:
   /// x(n) to x(n+1) with v(n+1/2), owned nodes.
   void drift(Real dt, const NodalState& state);
   /// Forces of conditions at t into state.external [N].
-  void applyLoads(const Conditions& conditions, Real t, NodalState& state) const;
+  void applyLoads(const Conditions& conditions, Real t, Real dt, NodalState& state) const;
   /// Forces on bodies, and their steps. Collective.
   void sumForcesOnBodies(const NodalState& state, const ElementForces& elements);
 

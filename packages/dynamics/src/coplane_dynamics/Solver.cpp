@@ -214,7 +214,7 @@ void Solver::addContactForces()
 
 void Solver::sumLoads()
 {
-  attempt([&] { motion_->applyLoads(model_.conditions, clock_.time, state_); });
+  attempt([&] { motion_->applyLoads(model_.conditions, clock_.time, clock_.nextStep, state_); });
   motion_->sumForcesOnBodies(state_, elements_);
 }
 

@@ -7,14 +7,6 @@
 
 namespace coplane
 {
-bool MeshReport::tooFar() const
-{
-  Real most = 0;
-  for (int c = 0; c < 3; ++c)
-    most = std::max({most, std::abs(lowest[c]), std::abs(highest[c])});
-  return shortestEdge > 0 && most > farthest * shortestEdge;
-}
-
 namespace
 {
 // Beyond these a mesh is told of, though it can be used.

@@ -240,6 +240,14 @@ void reportNodes(MeshReport& report, const MeshSlice& slice, const RankMesh& hom
 }
 } // namespace
 
+bool MeshReport::tooFar() const
+{
+  Real most = 0;
+  for (int c = 0; c < 3; ++c)
+    most = std::max({most, std::abs(lowest[c]), std::abs(highest[c])});
+  return shortestEdge > 0 && most > farthest * shortestEdge;
+}
+
 MeshReport reportMesh(const MeshSlice& slice, const RankMesh& home, const Comm& comm)
 {
   MeshReport report;

@@ -18,7 +18,8 @@ namespace coplane
 /// the largest so far of
 /// - programmed burn: D (t - t_b) / (1.5 h), t_b the time at which the front reaches the centre of
 ///   the element at the start, h its size: the front is one and a half elements wide;
-/// - beta burn: (1 - V) / (1 - V_CJ), all burnt when as dense as behind a detonation.
+/// - beta burn: (1 - V) / (1 - V_CJ), all burnt when as dense as behind a detonation; only from one
+///   and a half elements before the front on: blows do not light it.
 /// The energy of the point is only the work done on it (MaterialPoint); E0 is added here.
 struct Jwl
 {
@@ -30,6 +31,7 @@ struct Jwl
   Real speed;            ///< D [m/s]
   Real detonationVolume; ///< V_CJ = 1 - p_CJ / (rho0 D^2) [-]
   Real unburntModulus;   ///< K [Pa]
+  static constexpr Real frontWidth = 1.5; ///< elements
   static constexpr int mostPoints = 16;
   int points = 0;         ///< none: all burns from the start
   Vec3 point[mostPoints]; ///< where the explosive is lit [m]
@@ -83,8 +85,9 @@ struct Jwl
     const T zero(0.0), one(1.0), volume = point.volumeRatio;
     const SymTensorOf<T>& de = point.strainIncrement;
     h[TimeToBurn] -= T(point.dt);
-    const T beta = (one - volume) * T(1 / (1 - detonationVolume));
-    const T programmed = -h[TimeToBurn] * T(speed / 1.5) / point.size;
+    const T programmed = -h[TimeToBurn] * T(speed / frontWidth) / point.size;
+    const T beta = branchFree::choose(programmed > T(-1.0),
+                                      (one - volume) * T(1 / (1 - detonationVolume)), zero);
     const T fraction = smaller(larger(h[BurnFraction], larger(programmed, beta)), one);
     h[BurnFraction] = fraction;
 

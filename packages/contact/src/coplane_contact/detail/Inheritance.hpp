@@ -36,6 +36,7 @@ struct NewPair
   GlobalId faceId[2] = {0, 0};
   PairNodes nodes{};
   int count[2] = {0, 0};
+  int body[2] = {0, 0};
   Vec3 corners[2][4] = {}; ///< [m]
   Vec3 normal{};           ///< from face 0 to face 1
   /// Area that they shared when the pair was last looked at; negative: it is new [m^2].
@@ -84,6 +85,8 @@ bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
 /// their keys. Returns whether there were any that fit. A donor that has one face in common with
 /// the plane, and whose other face shares a node with the plane's other one, shows that the plane
-/// only slides on over the same surface. The plane is bonded if most of the area is.
+/// only slides on over the same surface. The plane is bonded if most of the area is, between the
+/// same two bodies: a bond holds together what has been bonded, and a third body that comes to one
+/// of them has not.
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors);
 } // namespace coplane
