@@ -5,8 +5,10 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import threading
 import time
 
 import netCDF4
@@ -205,6 +207,19 @@ with open(busy / "run.lock", "w") as lock:
     fcntl.flock(lock, fcntl.LOCK_EX)
     told("two runs in a folder", RuntimeError, lambda: coplane.run(checked, busy), "another run writes here", "run.lock")
 case.check_equal("the log of the first", ((busy / "run.log").read_text(), (busy / "run.yaml").exists()), ("of the first\n", False))
+shutil.copy("straight/run.csv", busy)
+os.utime(busy / "run.csv", (0, 0))
+seen = []
+with open(busy / "run.lock", "w") as lock:
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    watcher = threading.Thread(target=lambda: seen.extend(line["time"] for line in coplane.watch(busy / "run", 0.05)))
+    watcher.start()
+    time.sleep(0.3)
+    case.check_equal("watched before the new history is there", seen, [])
+    (busy / "run.csv").write_text("time[s]\n1\n")
+    time.sleep(0.3)
+watcher.join()
+case.check_equal("watched: the new history alone", seen, [1])
 tail = tables.Tail("growing.csv")
 for text, times in (("time[s]\n1\n2\n", [1, 2]), ("time[s]\n5\n6\n7\n", [5, 6, 7])):
     pathlib.Path("growing.csv").write_text(text)

@@ -394,7 +394,7 @@ def make(run, output=None, compare=None, pictures=True):
 
 def main():
     parser = argparse.ArgumentParser(prog="coplane report", description="Writes one HTML file about a run that has ended, goes on or has failed.")
-    parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files")
+    parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files (record, history, tables, results, planes, checkpoint, deck, log)")
     parser.add_argument("--compare", metavar="OTHER", help="another run, drawn over it, with the differences of both")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: <name>-report.html beside the files of the run")
     parser.add_argument("--no-pictures", action="store_true", help="do not draw with ParaView; pictures that are there are taken")

@@ -114,6 +114,14 @@ def run(deck, folder=None, ranks=1, threads=1, restart=False, options=(), wait=T
     return started.wait() if wait else started
 
 
+def _is_new(run):
+    """Whether the history is of the program that runs now, not what an earlier one has left."""
+    if isinstance(run, Started):
+        return run.has_begun
+    history, lock = _state(run.path(".csv")), _state(run.path(".lock"))
+    return not history or not lock or history[-1] >= lock[-1]
+
+
 def watch(run, every=1.0):
     """Iterates over the lines of the history of a run as they are written, each a dict of numbers by name of column, from the first one to
     the last one of the run. When another start replaces the history, its lines follow from the first one. Looks again after `every` seconds.
@@ -122,7 +130,7 @@ def watch(run, every=1.0):
     tail = tables.Tail(run.path(".csv"))
     while True:
         ended = not run.is_running  # asked first: all that it has written is read then
-        if not isinstance(run, Started) or run.has_begun:
+        if ended and not isinstance(run, Started) or _is_new(run):
             yield from tail.lines()
         if ended:
             return
