@@ -1,11 +1,14 @@
 """The Python package coplane on short runs: what it reads is what the files hold, whatever wrote them (README.md)."""
 
+import fcntl
 import json
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import threading
 import time
 
 import netCDF4
@@ -15,7 +18,7 @@ import pandas
 from coplanetest import Case, documents
 
 import coplane
-from coplane import exodus, needs, tables
+from coplane import exodus, needs, planes, tables
 from coplane.units import VARIABLES
 
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
@@ -169,6 +172,66 @@ case.check_equal("study: codes", list(table.code), [0, 3, 0, 3])
 case.check_equal("study: values", list(table["time.step_factor"]), [0.5, 2, 0.5, 2])
 case.check_within("study: time of the third run", table.time[2], 1e-3, 1.1e-3)
 told("a failed run", coplane.RunFailed, lambda: coplane.run("study/001/run.yaml"), "exit code 3", "step_factor")
+
+told("a value that is no list", ValueError, lambda: coplane.study(checked, {"time.end": 1e-3}, "study"), "time.end", "no list")
+measured = coplane.study(checked, {"time.end": numpy.array([5e-4])}, "measured", measure=lambda run: run.probes["nobody"])
+case.check_equal("study: a measure that fails", (list(measured.code), "nobody" in measured.error[0]), ([0], True))
+case.check_equal("study: the reason of a failure", ["step_factor" in text for text in table.error], [False, True, False, True])
+
+# Another start over an earlier run: nothing of that one is shown.
+again = coplane.Deck.read("straight/run.yaml")
+again["initial.0.velocity"] = [0, 0, 0] if "initial.0" in again else None
+again["time.end"] = 2e-3
+coplane.run(again, "stale")
+again["output.results"], again["output.planes"] = "none", False
+again["time.end"] = 1e-3
+del again["history.tables"]
+stale = coplane.run(again, "stale")
+case.check_equal("files of the earlier run are there", [pathlib.Path(name).exists() for name in ("stale/run.e", "stale/run_pairs.csv")], [True, True])
+told("results of an earlier run", FileNotFoundError, lambda: stale.results, "output.results: none")
+told("planes of an earlier run", FileNotFoundError, lambda: stale.planes, "output.planes: false")
+told("results of another run", FileNotFoundError, lambda: exodus.files_of("straight/run.e", "other"), "run.e", "another run")
+told("planes of another run", FileNotFoundError, lambda: planes.Planes("straight/run_planes.pvd", "other"), "run_planes.pvd", "another run")
+case.check_equal("tables of an earlier run", stale.tables, {})
+again["time.end"] = -1
+try:
+    coplane.run(again, "stale")
+except coplane.RunFailed as failed:
+    case.check_equal("a start that fails over an earlier run", (failed.run.ending, failed.run.record), ("failed", {}))
+    told("its history", FileNotFoundError, lambda: failed.run.columns, "earlier")
+    case.check_equal("what watch gives of it", list(coplane.watch(failed.run)), [])
+busy = pathlib.Path("busy")
+busy.mkdir(exist_ok=True)
+(busy / "run.log").write_text("of the first\n")
+with open(busy / "run.lock", "w") as lock:
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    told("two runs in a folder", RuntimeError, lambda: coplane.run(checked, busy), "another run writes here", "run.lock")
+case.check_equal("the log of the first", ((busy / "run.log").read_text(), (busy / "run.yaml").exists()), ("of the first\n", False))
+shutil.copy("straight/run.csv", busy)
+os.utime(busy / "run.csv", (0, 0))
+seen = []
+with open(busy / "run.lock", "w") as lock:
+    fcntl.flock(lock, fcntl.LOCK_EX)
+    watcher = threading.Thread(target=lambda: seen.extend(line["time"] for line in coplane.watch(busy / "run", 0.05)))
+    watcher.start()
+    time.sleep(0.3)
+    case.check_equal("watched before the new history is there", seen, [])
+    (busy / "run.csv").write_text("time[s]\n1\n")
+    time.sleep(0.3)
+watcher.join()
+case.check_equal("watched: the new history alone", seen, [1])
+tail = tables.Tail("growing.csv")
+for text, times in (("time[s]\n1\n2\n", [1, 2]), ("time[s]\n5\n6\n7\n", [5, 6, 7])):
+    pathlib.Path("growing.csv").write_text(text)
+    case.check_equal("lines of a file that is replaced", [line["time"] for line in tail.lines()], times)
+for name in ("run.e", "run_pairs.csv", "run_planes_0000.vtp", "run.run.json", "run.yaml"):
+    case.check_equal(f"opened by {name}", coplane.open(f"straight/{name}").name, "run")
+checked["time.end"] = numpy.float64(1e-3)
+checked["contact.skn"] = 1
+told("faults of schema and program", coplane.DeckError, checked.check, "Additional properties", "Did you mean")
+del checked["contact.skn"]
+checked["mesh"] = pathlib.Path("mesh.e")
+case.check_equal("values of numpy and paths", (type(checked["time.end"]).__name__, checked["mesh"]), ("float", "mesh.e"))
 
 # --- what is not there ------------------------------------------------------------------------------
 

@@ -70,7 +70,7 @@ for group in ("node_sets", "side_sets"):
 for name in ("after_5", "after_10"):
     recipe["node_sets"].pop(name)
 deck = case.load("exodus_inputs/jointed_rock_2d/deck.yaml")
-TITLE = 'a wave through "jointed" rock </script> & more'
+TITLE = 'a wave through "jointed" rock </script> <!--<script> & more'
 deck.update(title=TITLE, mesh="mesh.e", time={"end": 3e-3}, output={"every": 1e-3},
             history={"every": 0, "joints": ["*"], "tables": ["pairs"], "probes": [{"name": "near", "node_set": "near"}]})  # fmt: skip
 for folder, changes in (("a", {}), ("b", {"joints.tight.normal_stiffness": 1e10, "time.end": 2e-3})):
@@ -212,7 +212,8 @@ made("less/run.csv", "--no-pictures")
 says("with an empty history", Taken("less/run-report.html"), "has no line yet")
 pathlib.Path("less/run.run.json").write_text('{"ending": ')
 code, said = made("less/run.csv", "--no-pictures")
-case.check_equal("a damaged record", (code, "less/run.run.json: the record is damaged" in said), (2, True))
+case.check_equal("a damaged record", code, 0)
+says("a damaged record", Taken("less/run-report.html"), "less/run.run.json: the record is damaged")
 code, said = made("less/rum")
 case.check_equal("no such run", (code, "ERROR: less/rum: there is no run of this name" in said), (2, True))
 pathlib.Path("mine.html").write_text("mine")

@@ -28,7 +28,7 @@ class Deck:
     """
 
     def __init__(self, document, path=None):
-        self.document = document
+        self.document = documents.plain(document)
         self.path = pathlib.Path(path) if path else None
 
     @classmethod
@@ -65,7 +65,7 @@ class Deck:
         return documents.value_at(self.document, path)
 
     def __setitem__(self, path, value):
-        documents.change(self.document, path, value)
+        documents.change(self.document, path, documents.plain(value))
 
     def __delitem__(self, path):
         self[path]
@@ -107,16 +107,25 @@ class Deck:
         program finds.
         """
         name = self.path or "deck"
-        errors = self.schema_errors()
-        if errors:
-            raise DeckError("\n".join(f"{name}:{error}" for error in errors))
+        errors = [f"{name}:{error}" for error in self.schema_errors()]
         # Beside the deck, because names of files in it begin there.
-        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=self.folder, prefix=".check-", suffix=".yaml") as file:
+        if os.access(self.folder, os.W_OK):
+            code, printed = self._checked(self.folder)
+        else:
+            with tempfile.TemporaryDirectory() as folder:
+                moved = self.copy()
+                if "mesh" in moved:
+                    moved["mesh"] = str(self.mesh.resolve())
+                code, printed = moved._checked(folder)
+        if errors or code:
+            raise DeckError("\n".join([*errors, *([printed.strip()] if code else [])]))
+        return printed
+
+    def _checked(self, folder):
+        """Exit code and words of `coplane --check`, of a copy of the deck in a folder."""
+        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=folder, prefix=".check-", suffix=".yaml") as file:
             file.write(self.text)
             file.flush()
-            done = subprocess.run(program.command([os.path.abspath(file.name), "--check"]), cwd=self.folder, stdout=subprocess.PIPE,
+            done = subprocess.run(program.command([os.path.abspath(file.name), "--check"]), cwd=folder, stdout=subprocess.PIPE,
                                   stderr=subprocess.STDOUT, text=True)  # fmt: skip
-            printed = done.stdout.replace(os.path.abspath(file.name), str(name))
-        if done.returncode:
-            raise DeckError(printed.strip())
-        return printed
+        return done.returncode, done.stdout.replace(os.path.abspath(file.name), str(self.path or "deck"))

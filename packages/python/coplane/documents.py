@@ -1,5 +1,6 @@
 """Decks and mesh recipes as Python dictionaries."""
 
+import os
 import re
 
 import yaml
@@ -32,6 +33,17 @@ def save(document, path):
     """Numbers are written with all digits."""
     with open(path, "w", encoding="utf-8") as file:
         yaml.safe_dump(document, file, sort_keys=False, default_flow_style=None, width=120)
+
+
+def plain(value):
+    """The value without types of numpy and paths, which YAML does not know: arrays and tuples become lists."""
+    if hasattr(value, "tolist"):  # numpy's arrays and numbers
+        return value.tolist()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if type(value) is dict:
+        return {key: plain(entry) for key, entry in value.items()}
+    return [plain(entry) for entry in value] if type(value) in (list, tuple) else value
 
 
 def change(document, path, value):

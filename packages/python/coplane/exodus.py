@@ -197,9 +197,9 @@ class Series:
     nodes_of, centres = Results.nodes_of, Results.centres
 
 
-def files_of(results):
+def files_of(results, run=None):
     """Files of the run that wrote `wall.e`: for each part the shared one, or those of its ranks (`wall.e.2.0`), first ranks first. Parts
-    of other runs are left out. FileNotFoundError when there is none.
+    of other runs are left out. FileNotFoundError when there is none, or the first part is not of the run with the identity `run`.
     """
     results = pathlib.Path(results)
     pattern = re.compile(re.escape(results.name) + r"(?:-s([0-9]+))?(?:\.([0-9]+)\.([0-9]+))?")
@@ -216,7 +216,10 @@ def files_of(results):
         # An earlier run may have left what is shared, or files of other ranks.
         newest = max(found[part].values(), key=lambda files: max(path.stat().st_mtime for _, path in files))
         parts.append([path for _, path in sorted(newest)])
-    run = Results(parts[0][0]).run
+    found = Results(parts[0][0]).run
+    if run and found != run:
+        raise FileNotFoundError(f"{parts[0][0]}: is of another run ({found or 'without identity'}) than the record ({run}), and is left out.")
+    run = found
     return [parts[0]] + [files for files in parts[1:] if Results(files[0]).run == run]
 
 

@@ -20,6 +20,7 @@ h1{font-size:1.5em;margin:.7em 0 .1em}h2{font-size:1.2em;margin:1.6em 0 .4em;bor
 table{border-collapse:collapse;font-size:.92em}td,th{padding:2px 10px 2px 0;text-align:left;vertical-align:top;overflow-wrap:anywhere}
 th{font-weight:600}td.n,td.ok,td.look{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
 .ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}
+h1,p{overflow-wrap:anywhere}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
 """
@@ -124,8 +125,8 @@ class Page:
     @property
     def text(self):
         library = needs("plotly.offline", "A report").get_plotlyjs()
-        # A script element ends at the first </, wherever it stands.
-        figures = json.dumps(self.figures, allow_nan=False).replace("</", "<\\/")
+        # In a script element, </script and <!--<script mean something wherever they stand.
+        figures = json.dumps(self.figures, allow_nan=False).replace("<", "\\u003c")
         return "\n".join([
             "<!DOCTYPE html>", MARK, '<html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">', f"<title>{escape(self.title)}</title>",

@@ -2,6 +2,7 @@
 
 import base64
 import pathlib
+import re
 import xml.etree.ElementTree
 
 import numpy
@@ -34,8 +35,13 @@ class Planes:
     names of the file, vectors `_x, _y, _z` at their end; `x, y, z` is the point of contact and `joint` the name of the joint card.
     """
 
-    def __init__(self, series):
+    def __init__(self, series, run=None):
+        """FileNotFoundError when the series is not of the run with the identity `run`."""
         self.path = pathlib.Path(series)
+        with open(self.path, encoding="utf-8") as file:
+            found = re.search(r"<!-- coplane run (\w+) -->", file.read(200))
+        if run and found and found.group(1) != run:
+            raise FileNotFoundError(f"{self.path}: is of another run ({found.group(1)}) than the record ({run}), and is left out.")
         sets = list(xml.etree.ElementTree.parse(self.path).iter("DataSet"))
         self.times = numpy.array([float(item.get("timestep")) for item in sets])
         self.files = [self.path.parent / item.get("file") for item in sets]

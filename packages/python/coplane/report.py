@@ -50,7 +50,12 @@ def in_play(run):
 
 class Report:
     def __init__(self, runs, pictures=True):
-        self.runs, self.pictures = runs, pictures
+        self.runs, self.pictures, self.damaged = runs, pictures, {}
+        for which, run in enumerate(runs):
+            try:
+                run.records
+            except ValueError as error:
+                self.damaged[which], run.records = str(error), []
         self.page = Page(f"{runs[0].record.get('title') or runs[0].name}: report")
 
     # --- parts of sections -------------------------------------------------------------------------
@@ -99,9 +104,10 @@ class Report:
                      f'<span class="{kind}" data-ending="{escape(run.ending)}">{escape(run.ending)}</span></p>')  # fmt: skip
             if run.ending == "running":
                 page.note("The run goes on; this is what it had written when the page was made. Make it again to see more.")
-            errors = [line for line in run.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
-            if errors:
-                page.add(f"<pre>{escape(chr(10).join(errors[-8:]))}</pre>")
+            if which in self.damaged:
+                page.note(self.damaged[which])
+            if run.errors:
+                page.add(f"<pre>{escape(chr(10).join(run.errors[-8:]))}</pre>")
             elif run.ending in ("failed", "killed"):
                 page.note("The log has no error message." if run.log else f"The reason is not known: there is no log {run.path('.log').name}.")
         page.note(f"Made {datetime.datetime.now().astimezone():%Y-%m-%d %H:%M %Z}. Curves have at most {POINTS} points: of longer ones the smallest and "
@@ -181,9 +187,10 @@ class Report:
     @staticmethod
     def remainders(run):
         """Times and remainders by two blocks and a joint."""
-        if not run.path("_pairs.csv").exists():
+        path = run.table_path("pairs")
+        if not path:
             return {}
-        found = tables.columns(run.path("_pairs.csv"))
+        found = tables.columns(path)
         places = {}
         for place, key in enumerate(zip(*(found[name] for name in ("block_a", "block_b", "joint")))):
             places.setdefault(key, []).append(place)
@@ -239,8 +246,9 @@ class Report:
         for which, run in enumerate(self.runs):
             try:
                 series = run.planes
-            except FileNotFoundError:
-                self.page.note(f"There are no planes{self.of(which)}: {run.planes_path.name} is not there (output.planes, contact).")
+            except FileNotFoundError as error:
+                why = str(error) if run.planes_path.exists() else f"{run.planes_path.name} is not there (output.planes, contact)."
+                self.page.note(f"There are no planes{self.of(which)}: {why}")
                 continue
             if len(series) == 0:
                 self.page.note(f"{run.planes_path.name} has no step yet.")
@@ -346,6 +354,10 @@ def pictures_of(run, draw, most=12):
         return [], f"No pictures: {' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)."
     if not (run.folder / f"{run.name}.e").exists():
         return [], f"No pictures: there is no shared file {run.name}.e."
+    try:
+        run.results
+    except (OSError, ValueError) as error:
+        return [], f"No pictures: {error}"
     with tempfile.TemporaryDirectory() as folder:
         try:
             code, said = program.run_paraview(program.PARAVIEW / "report_pictures.py", [run.folder.resolve(), folder, run.name], folder, timeout=300)
@@ -382,7 +394,7 @@ def make(run, output=None, compare=None, pictures=True):
 
 def main():
     parser = argparse.ArgumentParser(prog="coplane report", description="Writes one HTML file about a run that has ended, goes on or has failed.")
-    parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files")
+    parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files (record, history, tables, results, planes, checkpoint, deck, log)")
     parser.add_argument("--compare", metavar="OTHER", help="another run, drawn over it, with the differences of both")
     parser.add_argument("-o", "--output", metavar="FILE", help="default: <name>-report.html beside the files of the run")
     parser.add_argument("--no-pictures", action="store_true", help="do not draw with ParaView; pictures that are there are taken")

@@ -15,7 +15,9 @@ _MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in
 _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
-_ENDS = (".run.json", ".csv", ".e", ".yaml", ".log", "_planes.pvd")
+# What follows the name of a run in the names of its files.
+_END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
+                  r"|_planes(\.pvd|_[0-9]+\.vtp)|-report\.html")  # fmt: skip
 
 
 class NoRun(FileNotFoundError):
@@ -38,8 +40,14 @@ def _place(path):
         many = f"has several runs; open one of {', '.join(str(path / stem) for stem in stems)}" if stems else \
             "has no record of a run (<name>.run.json) and no history beside its deck"
         raise NoRun(f"{path}: the folder {many}.")
-    stem = next((path.name[: -len(end)] for end in _ENDS if path.name.endswith(end) and path.exists()), path.name)
-    if not any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e")):
+
+    def is_run(stem):
+        return any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e"))
+
+    # Where a name can be taken apart in two ways (wall_pairs.csv), the shorter one that is a run.
+    stems = [path.name[:place] for place in range(1, len(path.name)) if _END.fullmatch(path.name, place)] if path.exists() else []
+    stem = next(filter(is_run, stems), stems[-1] if stems else path.name)
+    if not is_run(stem):
         there = _stems(path.parent)
         also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
             "Give the name of its deck without .yaml, with the folder in which it ran."
@@ -48,6 +56,18 @@ def _place(path):
         raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. "
                     + (f"{log} ends with: {said[0]}" if said else also))  # fmt: skip
     return path.parent, stem
+
+
+def is_held(lock):
+    """Whether a program that runs holds this lock."""
+    try:
+        with open(lock) as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except FileNotFoundError:
+        return False
+    except BlockingIOError:
+        return True
+    return False
 
 
 class Run:
@@ -65,6 +85,10 @@ class Run:
         """Path of a file of the run: its name and what follows."""
         return self.folder / (self.name + end)
 
+    def written(self, end):
+        """Path of a file that the run itself writes."""
+        return self.path(end)
+
     # --- what was run ------------------------------------------------------------------------------
 
     @functools.cached_property
@@ -75,9 +99,9 @@ class Run:
             name = _RECORD.fullmatch(path.name)
             if name and name.group(1) == self.name:
                 try:
-                    found.append((int(name.group(2) or 1), json.loads(path.read_text(encoding="utf-8"))))
-                except ValueError as error:
-                    raise ValueError(f"{path}: the record is damaged, no JSON: {error}. Without the file the rest of the run can be opened.") from error
+                    found.append((int(name.group(2) or 1), dict(json.loads(path.read_text(encoding="utf-8")))))
+                except (ValueError, TypeError) as error:
+                    raise ValueError(f"{path}: the record is damaged, no JSON of a record: {error}. Without the file the rest of the run can be opened.") from error
         records = [record for _, record in sorted(found, key=lambda item: item[0])]
         return [record for record in records if record.get("run") == records[0].get("run")]
 
@@ -87,16 +111,14 @@ class Run:
         return self.records[-1] if self.records else {}
 
     @property
+    def identity(self):
+        """What the record, results and planes of a run have in common; empty without a record."""
+        return self.record.get("run", "")
+
+    @property
     def is_running(self):
         """Whether a program writes the run now: it holds the lock."""
-        try:
-            with open(self.path(".lock")) as file:
-                fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        except FileNotFoundError:
-            return False
-        except BlockingIOError:
-            return True
-        return False
+        return is_held(self.path(".lock"))
 
     @property
     def ending(self):
@@ -122,28 +144,42 @@ class Run:
         """What the program printed, where that was kept in <name>.log; else empty."""
         return self.path(".log").read_text(encoding="utf-8", errors="replace") if self.path(".log").exists() else ""
 
+    @property
+    def errors(self):
+        """The lines of the log that say what was wrong."""
+        return [line for line in self.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
+
     # --- over time ---------------------------------------------------------------------------------
 
     @functools.cached_property
     def columns(self):
         """The history as arrays by name, without pandas."""
-        return tables.columns(self.path(".csv"))
+        return tables.columns(self.written(".csv"))
 
     @functools.cached_property
     def units(self):
         """Units by column of the history."""
-        return tables.units(self.path(".csv"))
+        return tables.units(self.written(".csv"))
 
     @functools.cached_property
     def history(self):
         """The history as a DataFrame: a line per time [s]; units in attrs["units"]."""
-        return tables.frame(self.path(".csv"))
+        return tables.frame(self.written(".csv"))
 
     @functools.cached_property
     def tables(self):
         """Energies by blocks, pairs and materials, of those that the run wrote, as DataFrames."""
-        names = ("blocks", "pairs", "materials")
-        return {name: tables.frame(self.path(f"_{name}.csv"), index=None) for name in names if self.path(f"_{name}.csv").exists()}
+        return {name: tables.frame(path, index=None) for name in ("blocks", "pairs", "materials") if (path := self.table_path(name))}
+
+    def table_path(self, name):
+        """Path of a table; None when the run wrote none: the deck of its record says so, whatever an earlier run has left."""
+        path = self.written(f"_{name}.csv")
+        return path if path.exists() and self._asked("history", "tables", lambda names: name in (names or [])) else None
+
+    def _asked(self, group, key, wants):
+        """Whether the deck of any part asks for an output; runs without a record have what is there. wants(value of the key, or None)."""
+        decks = [parse(record["deck"]["text"]) or {} for record in self.records if "deck" in record]
+        return not decks or any(wants((deck.get(group) or {}).get(key)) for deck in decks)
 
     def groups(self, ends):
         """Names with a column `<name>_<end>` for each of these ends."""
@@ -187,16 +223,27 @@ class Run:
 
     @property
     def _results_name(self):
-        """Of the Exodus file: that of the deck; else the deck's name, which that of the run may not be."""
+        """Of the Exodus file: that of the deck, if it is there; that of the run, which may have been renamed; else that of the deck's file, whose
+        name the run need not have."""
         named = ((parse(self.deck_text) or {}).get("output") or {}).get("results", "none")
-        return named if named != "none" else pathlib.Path(self.record.get("deck", {}).get("file", self.name + ".yaml")).stem + ".e"
+        of_deck = named if named != "none" else pathlib.Path(self.record.get("deck", {}).get("file", self.name + ".yaml")).stem + ".e"
+        places = [of_deck, f"{self.name}.e"]
+        for name in places:
+            try:
+                exodus.files_of(self.folder / name, self.identity)
+                return name
+            except OSError:  # not there, of another run, or damaged
+                continue
+        return next((name for name in places if (self.folder / name).exists()), of_deck)
 
     # --- fields ------------------------------------------------------------------------------------
 
     @functools.cached_property
     def results(self):
         """The Exodus files of the run as one series, with arrays of numpy."""
-        return exodus.Series(exodus.files_of(self.folder / self._results_name))
+        if not self._asked("output", "results", lambda name: name != "none"):
+            raise FileNotFoundError(f"{self.folder / self.name}: the run writes no results (output.results: none).")
+        return exodus.Series(exodus.files_of(self.written("").parent / self._results_name, self.identity))
 
     @functools.cached_property
     def nodes(self):
@@ -231,7 +278,10 @@ class Run:
     @functools.cached_property
     def planes(self):
         """The contact planes over time."""
-        return Planes(self.planes_path)
+        self.written("")
+        if not self._asked("output", "planes", lambda value: value is not False):
+            raise FileNotFoundError(f"{self.folder / self.name}: the run writes no planes (output.planes: false).")
+        return Planes(self.planes_path, self.identity)
 
     @property
     def planes_path(self):

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import os
 import re
 import warnings
 
@@ -39,20 +40,28 @@ def rows(path):
 
 
 class Tail:
-    """New lines of a file that grows."""
+    """New lines of a file that grows. Another file of the name, as a new start writes, is read from its first line."""
 
     def __init__(self, path):
-        self.path, self.offset, self.names = path, 0, None
+        self.path = path
+        self._begin(None)
+
+    def _begin(self, file):
+        self.file, self.offset, self.names, self.head = file, 0, None, b""
 
     def lines(self):
         """Those that were completed since the last call, as dicts of numbers by name of column."""
         try:
             with open(self.path, "rb") as file:
+                place = os.fstat(file.fileno())
+                if self.file != place.st_ino or place.st_size < self.offset or file.read(len(self.head)) != self.head:
+                    self._begin(place.st_ino)
                 file.seek(self.offset)
                 text = file.read()
         except FileNotFoundError:
             return []
         text = text[: text.rfind(b"\n") + 1]
+        self.head = self.head or text[:4096]
         self.offset += len(text)
         lines = _parsed(text.decode())
         if lines and self.names is None:
