@@ -29,6 +29,7 @@ Donor donorOf(const Plane& plane)
 void forgetPassed(Plane& plane)
 {
   plane.lineage = Lineage::Own;
+  plane.normal = {}; // came with the rest
   forEachPassed([&](const auto& member) { member.get(plane) = {}; });
 }
 
