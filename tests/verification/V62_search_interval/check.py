@@ -60,6 +60,20 @@ for name, recipe, deck in (
     if name == "slide":
         case.check_within("slide: searches, auto", int(runs["auto"].history["searches"][-1]), 2, int(runs[4].history["searches"][-1]) // 10)
 
+# --- over a seam: a search may see the front edge of the block flush with it, or may not ------------
+for name, recipe in (("seam", case.load("mesh_seam.yaml")), ("seam_3d", case.load("mesh_seam_3d.yaml"))):
+    for forces in ("potential", "common_normal"):
+        runs = {}
+        for every in (1, 100):
+            deck = case.load("deck_seam.yaml")
+            deck["contact"].update(forces=forces, search_every=every)
+            runs[every] = case.run(f"{name}_{forces}_{every}", recipe, deck)
+        friction = runs[100].history["contact_friction"][-1]
+        case.check(f"{name}, {forces}: friction work, every cycle against every 100 [J]", runs[1].history["contact_friction"][-1], friction, 1e-4, relative=True)
+        for every in runs:
+            remainder = numpy.max(numpy.abs(runs[every].history["contact_remainder"])) / friction
+            case.check(f"{name}, {forces}, {every}: remainder over friction work", remainder, 0, 2e-5 if forces == "potential" else 2e-3)
+
 # --- what neighbours pass on changes: auto searches as every fourth cycle does ----------------------
 def changed(**joint):
     deck = copy.deepcopy(slide)

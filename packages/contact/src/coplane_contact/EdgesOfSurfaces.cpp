@@ -190,48 +190,86 @@ void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
   flush_.refresh(layout);
 }
 
+/// What lies beyond one of the edges of a pair.
+struct EdgesOfSurfaces::Beyond
+{
+  const Edge* edge = nullptr; ///< nullptr: the surface does not turn there
+  Vec3 outward;               ///< on the common plane
+  int covers = -1;            ///< body that lies on the face there, flush at the edge; -1: none
+  int goesOn = -1;            ///< body on which the surface goes on over a seam; -1: none
+};
+
+/// The edges lie across from each other: bodies on them can leave each other sideways.
+bool EdgesOfSurfaces::isWayOut(const Beyond& a, const Beyond& b, const Vec3& normalA,
+                               const Vec3& normalB) const
+{
+  if (!a.edge || !b.edge || !(dot(a.edge->beyond, normalA) < sharp) ||
+      !(dot(b.edge->beyond, normalB) < sharp) || !(dot(a.outward, b.outward) < -faceAway))
+    return false;
+  const Vec3 alongA = cross(a.edge->outward, normalA), alongB = cross(b.edge->outward, normalB);
+  return dimension_ == 2 || std::abs(dot(alongA, alongB)) > parallel ||
+         (dot(normalA, normalB) > -muchLess &&
+          dot(a.edge->beyond, b.edge->beyond) < -DirectionsOfNodes::one);
+}
+
 void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
 {
   const int places[2] = {pairs_[pair].lower, pairs_[pair].higher};
   const Vec3 normals[2] = {planes_(places[0]).normal, planes_(places[1]).normal};
   const Vec3 common = normalised(normals[0] - normals[1]);
   const bool onEachOther = lieOn_[pair] > 0, slanted = dot(normals[0], normals[1]) > -muchLess;
-  unsigned turns = 0, exits = 0, covered = 0;
-  Vec3 outward[8], along[8], beyond[8];
+  Beyond all[8];
   for (int f = 0; f < 2; ++f)
   {
-    const Face& other = faces_[places[1 - f]];
+    const int other = faces_[places[1 - f]].body;
     for (int e = 0; e < faces_[places[f]].count; ++e)
     {
       const Edge& edge = this->edge(places[f], f, e);
       if (!edge.turns)
         continue;
-      const unsigned bit = 1u << (4 * f + e);
+      Beyond& here = all[4 * f + e];
+      here.edge = &edge;
+      here.outward = normalised(edge.outward - dot(edge.outward, common) * common);
       // Not by the body of the other face: that one comes with what lies there.
-      const int third = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond);
-      if (third >= 0 && third != other.body)
-        covered |= bit;
-      // Goes on over the seam; but a body that opposes a face just so, past the seam, does not
-      // press upon itself there.
-      const int next = hides(edge.nodes, edge.beyond, normals[f]);
-      if (next >= 0 && !(slanted && next == other.body))
-        continue;
-      turns |= bit;
-      outward[4 * f + e] = normalised(edge.outward - dot(edge.outward, common) * common);
-      along[4 * f + e] = cross(edge.outward, normals[f]);
-      beyond[4 * f + e] = edge.beyond;
-      if (dot(edge.beyond, normals[f]) < sharp)
-        exits |= bit;
+      const int covers = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond);
+      here.covers = covers == other ? -1 : covers;
+      // A body that opposes a face just so, past the seam, does not press upon itself there.
+      const int goesOn = hides(edge.nodes, edge.beyond, normals[f]);
+      here.goesOn = slanted && goesOn == other ? -1 : goesOn;
     }
   }
+  const auto forEachWayOut = [&](const auto& action)
+  {
+    for (int e = 0; e < 4; ++e)
+      for (int o = 4; o < 8; ++o)
+        if (isWayOut(all[e], all[o], normals[0], normals[1]))
+          action(e, o);
+  };
+  // Three bodies around a corner: one lies on both others, which meet at their edges only. The
+  // surface goes on both ways there; which one counts, the least way out tells.
+  forEachWayOut(
+      [&](int e, int o)
+      {
+        Beyond &a = all[e], &b = all[o];
+        if ((a.covers >= 0 && a.covers == b.goesOn) || (b.covers >= 0 && b.covers == a.goesOn))
+          a.covers = a.goesOn = b.covers = b.goesOn = -1;
+      });
+  unsigned turns = 0, exits = 0, covered = 0;
+  forEachWayOut(
+      [&](int e, int o)
+      {
+        if (all[e].goesOn < 0 && all[o].goesOn < 0)
+          exits |= 1u << e | 1u << o;
+      });
+  for (int k = 0; k < 8; ++k)
+  {
+    if (all[k].covers >= 0)
+      covered |= 1u << k;
+    if (all[k].edge && all[k].goesOn < 0)
+      turns |= 1u << k;
+  }
+  plane.exits = std::uint8_t(exits);
   plane.turns = std::uint8_t(turns);
   plane.covered = std::uint8_t(covered);
-  plane.exits = 0;
-  for (int e = 0; e < 4; ++e)
-    for (int o = 4; o < 8; ++o)
-      if ((exits >> e & exits >> o & 1u) != 0 && dot(outward[e], outward[o]) < -faceAway &&
-          (dimension_ == 2 || std::abs(dot(along[e], along[o])) > parallel ||
-           (slanted && dot(beyond[e], beyond[o]) < -DirectionsOfNodes::one)))
-        plane.exits = std::uint8_t(plane.exits | 1u << e | 1u << o);
 }
 } // namespace coplane

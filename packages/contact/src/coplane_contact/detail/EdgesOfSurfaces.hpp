@@ -38,6 +38,8 @@ private:
     bool turns;   ///< outwards
     Vec3 beyond;  ///< normal of the surface beyond an edge at which it turns
   };
+  struct Beyond;
+  bool isWayOut(const Beyond& a, const Beyond& b, const Vec3& normalA, const Vec3& normalB) const;
   Edge lookBeyond(const Face& face, int e, const Vec3& normal) const;
   void findEdges();
   /// Edge e of the outline of face 0 or 1 of a pair.
