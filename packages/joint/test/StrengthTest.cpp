@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 using namespace coplane;
 
@@ -61,6 +62,64 @@ TEST(Friction_Dilation, liftsUnderAConstantTraction)
   EXPECT_NEAR(run.gap + 2e-5, std::tan(10 * degree) * run.state.slip, 1.8e-8)
       << "the gap follows one step of 1e-7 m later";
   EXPECT_NEAR(run.imbalance(), 0, 1e-3 * run.work) << "k (lift of a step)^2 / 2 in each step";
+}
+
+// A caller that keeps the shear energy while the area A falls to A / r^2 raises the traction by r.
+
+namespace
+{
+/// Joints that slide at their strength, 1 mm on.
+std::vector<JointRun> slidingJoints()
+{
+  Joint dilating = linearJoint(1e11, 5e10, .6);
+  dilating.law.dilation = .1;
+  std::vector<JointRun> runs;
+  for (const Joint& joint : {linearJoint(1e11, 5e10, .6), dilating, roughJoint(), mortarJoint()})
+  {
+    runs.emplace_back(joint);
+    runs.back().go(-2e-5, {1e-3, 0, 0}, 1000);
+    EXPECT_GT(runs.back().state.slip, 8e-4);
+  }
+  return runs;
+}
+} // namespace
+
+TEST(Friction_OfAnAreaThatShrinks, slipsBackToTheStrengthWithoutASlipPath)
+{
+  for (const JointRun& run : slidingJoints())
+    for (const Real r : {1.5, 40., 1e4})
+    {
+      const Real most = norm(run.state.shearTraction), k = run.joint.fit.shearStiffness;
+      JointState state = run.state;
+      state.shearTraction = r * state.shearTraction;
+      const JointResponse response =
+          run.joint.law(run.joint.fit, run.closure(), {}, 1e-6, state, r);
+      EXPECT_NEAR(state.slip, run.state.slip, 1e-15);
+      EXPECT_NEAR(response.dilation, 0, 1e-16);
+      const Real left = norm(state.shearTraction);
+      EXPECT_NEAR(left / most, 1, 1e-3) << "the strength of rough joints falls with the slip";
+      const Real lost = .5 * (r * r * most * most - left * left) / k;
+      EXPECT_NEAR((response.frictionWork + response.fractureWork) / lost, 1, 1e-9);
+    }
+}
+
+TEST(Friction_OfAnAreaThatShrinks, countsTheSlipThatHappens)
+{
+  const Real d = 1e-6;
+  for (const JointRun& run : slidingJoints())
+    for (const Real r : {1.5, 40., 1e4})
+    {
+      JointState same = run.state, shrinking = run.state;
+      const JointResponse expected =
+          run.joint.law(run.joint.fit, run.closure(), {d, 0, 0}, 1e-6, same);
+      shrinking.shearTraction = r * shrinking.shearTraction;
+      const JointResponse response =
+          run.joint.law(run.joint.fit, run.closure(), {.5 * (r + 1) * d, 0, 0}, 1e-6, shrinking, r);
+      EXPECT_NEAR(shrinking.slip - run.state.slip, same.slip - run.state.slip, 1e-6 * d);
+      EXPECT_NEAR(response.dilation, expected.dilation, 1e-6 * d);
+      EXPECT_NEAR(norm(shrinking.shearTraction - same.shearTraction), 0,
+                  1e-6 * norm(same.shearTraction));
+    }
 }
 
 // JRC 8, JCS 100 MPa, phi_r 30 degrees, sigma 1 MPa: log10(100) = 2, i = 16 degrees.

@@ -87,17 +87,20 @@ struct JointLaw
   /// the lower one during it [m], its length [s]. The stored shear traction has been turned into
   /// the plane by the caller. The caller raises the plane's offset, hence the closure, by the
   /// dilation of the response.
+  /// @param shrunk where the caller keeps the shear energy of an area that changes: by what it has
+  ///        multiplied the stored traction for that, r, and the increment by (r + 1) / 2. What it
+  ///        raised slips back where it is beyond the strength, but nothing has moved for it. [-]
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
                                                   const Vec3& tangentialIncrement, Real dt,
-                                                  JointState& state) const
+                                                  JointState& state, Real shrunk = 1) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
           dilation <= 0))
-      return general(fit, closure, tangentialIncrement, dt, state);
+      return general(fit, closure, tangentialIncrement, dt, state, shrunk);
     JointResponse response;
     close(fit, closure, state, response);
     if (response.normalTraction > 0)
-      shear(fit, tangentialIncrement, cohesion + friction * response.normalTraction, state,
+      shear(fit, tangentialIncrement, cohesion + friction * response.normalTraction, shrunk, state,
             response);
     else
       response.frictionWork = release(fit, tangentialIncrement, state);
@@ -188,20 +191,32 @@ private:
   /// Elastic shear up to the strength, slip beyond. Work of the mean traction of the step is stored
   /// or dissipated to round-off, whatever the strength does.
   KOKKOS_INLINE_FUNCTION void shear(const JointFit& fit, const Vec3& increment, Real most,
-                                    JointState& state, JointResponse& response) const
+                                    Real shrunk, JointState& state, JointResponse& response) const
   {
     const Vec3 before = state.shearTraction;
     const Vec3 trial = before - fit.shearStiffness * increment;
     const Real size = norm(trial);
     if (size > most)
-      response.frictionWork = slip(fit, before, trial, size, most, state, response);
+      response.frictionWork = slip(fit, before, trial, size, most,
+                                   raised(fit, before, increment, size, shrunk), state, response);
     else
       state.shearTraction = trial;
   }
 
+  /// What of the trial traction nothing has moved for: it came with an area that shrinks [Pa].
+  KOKKOS_INLINE_FUNCTION Real raised(const JointFit& fit, const Vec3& before, const Vec3& increment,
+                                     Real size, Real shrunk) const
+  {
+    if (!(shrunk > 1))
+      return 0;
+    const Real moved =
+        norm((1 / shrunk) * before - (2 * fit.shearStiffness / (1 + shrunk)) * increment);
+    return size > moved ? size - moved : 0;
+  }
+
   /// Brings the traction from its trial back to the strength; work of the slip [J/m^2].
   KOKKOS_INLINE_FUNCTION Real slip(const JointFit& fit, const Vec3& before, const Vec3& trial,
-                                   Real size, Real most, JointState& state,
+                                   Real size, Real most, Real raised, JointState& state,
                                    JointResponse& response) const
   {
     response.slipping = true;
@@ -209,7 +224,8 @@ private:
     if (!(fit.shearStiffness > 0))
       return 0;
     const Vec3 path = (1 / fit.shearStiffness) * (state.shearTraction - trial);
-    state.slip += (size - most) / fit.shearStiffness;
+    if (size - raised > most)
+      state.slip += (size - raised - most) / fit.shearStiffness;
     const Real work = -0.5 * dot(before + state.shearTraction, path);
     return work > 0 ? work : 0;
   }
@@ -291,6 +307,7 @@ private:
   {
     Vec3 before, trial; ///< shear traction before the step, and as if nothing slipped [Pa]
     Real size;          ///< of the trial [Pa]
+    Real raised;        ///< what of it nothing has moved for [Pa]
     Real closure;       ///< with what a bond keeps open [m]
     Real opened;        ///< beyond the closure at which nothing is carried [m]
     Real pressed;       ///< compression [Pa]
@@ -304,7 +321,7 @@ private:
 
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
-                                        Real dt, JointState& state) const
+                                        Real dt, JointState& state, Real shrunk) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
@@ -324,7 +341,7 @@ private:
     s.softening = state.bonded && bond.softens();
     s.wear = s.softening ? bond.wear(state) : 0;
     s.pressed = response.normalTraction > 0 ? response.normalTraction : 0;
-    s.speed = dt > 0 ? norm(increment) / dt : 0;
+    s.speed = dt > 0 ? 2 / (1 + shrunk) * norm(increment) / dt : 0;
     s.slip = state.slip;
     s.friction = s.pressed > 0 ? frictionAt(s.pressed, s.slip, s.speed) : 0;
     s.held = s.softening ? bond.cohesion * bond.share(s.wear) : cohesion;
@@ -345,6 +362,7 @@ private:
         return response;
       }
     }
+    s.raised = raised(fit, s.before, increment, s.size, shrunk);
     slide(fit, s, state, response);
     if (s.softening)
       wearBySlip(fit, s, state, response);
@@ -356,17 +374,18 @@ private:
                                     JointResponse& response) const
   {
     // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
+    const Real size = s.size - s.raised, excess = size - s.held - s.friction * s.pressed;
     Real tangent = 0;
     if (s.pressed > 0 && s.slip < dilationSlip)
       tangent = strength == Strength::BartonBandis ? rough.dilation(s.pressed, s.slip) : dilation;
     const Real slope = fit.shearStiffness + s.friction * response.normalStiffness * tangent;
     Real x = 0;
-    if (slope > 0)
-      x = s.softening ? bond.inelasticJump(s.size, slope, s.friction * s.pressed, bond.cohesion,
+    if (slope > 0 && excess > 0)
+      x = s.softening ? bond.inelasticJump(size, slope, s.friction * s.pressed, bond.cohesion,
                                            bond.shearingLength, s.wear)
-                      : (s.size - s.held - s.friction * s.pressed) / slope;
+                      : excess / slope;
     Real lift = 0, sigma = s.pressed, mu = s.friction, held = s.held;
-    if (tangent > 0)
+    if (tangent > 0 && x > 0)
     {
       const Real room = dilationSlip - s.slip;
       if (strength == Strength::BartonBandis || !curve.straight())
@@ -383,7 +402,7 @@ private:
       held = bond.cohesion * bond.share(state);
     }
     const Real most = std::fmin(held + mu * sigma, s.size);
-    const Real work = slip(fit, s.before, s.trial, s.size, most, state, response);
+    const Real work = slip(fit, s.before, s.trial, s.size, most, s.raised, state, response);
     // Raising the offset stores energy, which the slip pays for.
     const Real paid = std::fmax(work - 0.5 * (s.pressed + sigma) * lift, 0.0);
     const Real fracture = s.softening && most > 0 ? paid * (held / most) : 0;
@@ -396,14 +415,14 @@ private:
   KOKKOS_INLINE_FUNCTION Real slipOnCurve(const JointFit& fit, const SlipStart& s, Real tangent,
                                           Real room, Real x, const JointState& state) const
   {
-    const Real start = s.size - s.held - s.friction * s.pressed;
+    const Real size = s.size - s.raised, start = size - s.held - s.friction * s.pressed;
     for (int i = 0; i < 4; ++i)
     {
       const Real at = pressedAt(fit, s.closure + tangent * (x < room ? x : room), state);
       const Real left =
           s.softening ? bond.cohesion * bond.share(s.wear + x / bond.shearingLength) : s.held;
       const Real residual =
-          s.size - fit.shearStiffness * x - left - at * frictionAt(at, s.slip, s.speed);
+          size - fit.shearStiffness * x - left - at * frictionAt(at, s.slip, s.speed);
       if (residual < start)
         x *= start / (start - residual);
     }

@@ -369,7 +369,8 @@ private:
     const Real closed = wasBonded  ? plane.closure
                         : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
                                    : permanents_[i];
-    const JointResponse response = law(plane.fit, closed, increment, dt_, state);
+    const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
+    const JointResponse response = law(plane.fit, closed, increment, dt_, state, shrunk);
     if (wasBonded)
     {
       plane.hysteresisWork += area * response.hysteresisWork;
