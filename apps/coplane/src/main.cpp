@@ -2,7 +2,7 @@
 #include "Observers.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
-#include "StartReport.hpp"
+#include "Subcommands.hpp"
 
 #include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
@@ -91,7 +91,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
 {
   CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
                "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
-  app.footer("coplane report RUN writes one HTML file about a run; coplane report --help.");
+  app.footer(subcommandsHelp());
   app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", line.overrides,
                  "Overrides a deck value: --set time.end=0.1 (may be repeated)")
@@ -413,7 +413,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
 
 int main(int argc, char** argv)
 {
-  startReport(argc, argv);
+  startSubcommand(argc, argv);
   coplane::beginProgram();
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();
