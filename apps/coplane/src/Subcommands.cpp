@@ -19,6 +19,7 @@ struct Subcommand
   const char *word, *arguments, *does;
 };
 constexpr Subcommand subcommands[] = {
+    {"new", "NAME --like EXAMPLE", "makes a folder with deck, recipe and check"},
     {"report", "RUN", "writes one HTML file about a run"},
     {"watch", "RUN", "shows a run in the terminal while it goes on"},
 };
