@@ -1,5 +1,6 @@
 """Checks of the documents and of the installed package; one per argument. Run by ctest, in a folder of its own."""
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -210,6 +211,39 @@ def check_names():
                 named += [key for key in (span.split(".")[0], span.split(".")[-1]) if key not in keys]
             wrong += [f"{page}: `{span}`: no {word}" for word in named if word not in NAMES_OF_OTHERS]
     assert not wrong, "\n".join(wrong)
+
+
+def check_site():
+    """The site has every page, every key, formulas and a search, and needs nothing from elsewhere; its maker finds links that lead nowhere."""
+    specification = importlib.util.spec_from_file_location("make_site", SOURCE / "packages/cmake/make-site.py")
+    maker = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(maker)
+    site = pathlib.Path("site").absolute()
+    shutil.rmtree(site, ignore_errors=True)
+    done = run([sys.executable, maker.__file__, str(site)])
+    assert done.returncode == 0, done.stdout[-3000:]
+    sources = [name for name in tracked("*.md") if not name.startswith("docs/developer/pictures")]
+    pages = [re.sub(r"README\.md$", "index.html", name).replace(".md", ".html") for name in sources]
+    missing = [page for page in [*pages, "docs/keys.html", "search.html"] if not (site / page).exists()]
+    assert not missing, f"pages that the site lacks: {missing}"
+    found = {entry["location"]: entry["text"] for entry in json.loads((site / "search/search_index.json").read_text())["docs"]}
+    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html", "remainder"),
+                        ("docs/user/coming-from.html#ls-dyna", "MAT_JOHNSON_COOK"), ("docs/verification.html#v14-incline", "friction")):  # fmt: skip
+        assert word in found[place], f"the search does not find {word} in {place}"
+    keys = (site / "docs/keys.html").read_text()
+    lost = [key for file in maker.FILES for names in maker.groups_of(file).values() for key in names if f"<code>{key}</code>" not in keys]
+    assert not lost, f"keys that docs/keys.html lacks: {lost}"
+    theory = (site / "docs/theory/scp.html").read_text()
+    assert theory.count('class="arithmatex"') > 90 and "auto-render.js" in theory, "formulas are lost"
+    elsewhere = [link for link in re.findall(r'<(?:script|img)[^>]*src="([^"]*)"|<link[^>]*href="([^"]*)"', theory) if "//" in "".join(link)]
+    assert not elsewhere, elsewhere
+    with open(site / "docs/user/deck.html", "a") as page:
+        page.write('<a href="nowhere.html"></a><a href="decks.html#nothing"></a>')
+    assert maker.dead_links(site) == ["docs/user/deck.html: nowhere.html", "docs/user/deck.html: decks.html#nothing: no such heading"]
+    os.makedirs("mine", exist_ok=True)
+    pathlib.Path("mine/notes.txt").write_text("mine")
+    done = run([sys.executable, maker.__file__, "mine"])
+    assert done.returncode == 1 and "no site" in done.stdout and os.listdir("mine") == ["notes.txt"], done.stdout
 
 
 def readme_commands():
