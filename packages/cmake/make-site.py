@@ -37,7 +37,7 @@ SCRIPT = """document.addEventListener("DOMContentLoaded", () => {
 });
 """
 STYLE = """.wy-nav-content{max-width:1100px}.wy-table-responsive table td,.wy-table-responsive table th{white-space:normal}
-.rst-content code{white-space:pre-wrap;overflow-wrap:anywhere}
+.rst-content code{white-space:pre-wrap;overflow-wrap:break-word}
 """
 # Files with keys, by their schemas: what they are, and the page of their reference.
 FILES = {
@@ -156,7 +156,9 @@ def links_in(text):
 
 
 def adapted(text):
-    """For Python-Markdown, which wants lists to follow an empty line and four blanks before what lies within an item."""
+    """For Python-Markdown, which wants lists to follow an empty line and four blanks before what lies within an item, and for KaTeX, which wants
+    braces around an index \\max."""
+    text = re.sub(r"([_^])(\\(?:max|min))\b", r"\1{\2}", text)
     lines, is_code, last = [], False, ""
     for line in text.split("\n"):
         is_code = is_code != line.lstrip().startswith("```")

@@ -235,6 +235,7 @@ def check_site():
     assert not lost, f"keys that docs/keys.html lacks: {lost}"
     theory = (site / "docs/theory/scp.html").read_text()
     assert theory.count('class="arithmatex"') > 90 and "auto-render.js" in theory, "formulas are lost"
+    assert r"c_{\max}" in (site / "docs/theory/joints.html").read_text(), "KaTeX cannot read an index \\max without braces"
     elsewhere = [link for link in re.findall(r'<(?:script|img)[^>]*src="([^"]*)"|<link[^>]*href="([^"]*)"', theory) if "//" in "".join(link)]
     assert not elsewhere, elsewhere
     with open(site / "docs/user/deck.html", "a") as page:
@@ -318,6 +319,13 @@ def check_install():
     assert checks and all(json.loads(line)["passed"] for line in checks), checks
     done = run([str(prefix / "bin/coplane"), "report", "coplane-examples/rocking_block_2d/coarse", "--no-pictures", "-o", "installed.html"], env=alone)
     assert done.returncode == 0 and pathlib.Path("installed.html").stat().st_size > 1e6, done.stdout
+    done = run([str(prefix / "bin/coplane"), "watch", "coplane-examples/rocking_block_2d/coarse"], env=alone)
+    assert done.returncode == 0 and "completed, exit code 0" in done.stdout, done.stdout
+    shutil.rmtree("made", ignore_errors=True)
+    done = run([str(prefix / "bin/coplane"), "new", "made/bars", "--like", "bars_2d"], env=alone)
+    assert done.returncode == 0 and str(tool) in done.stdout, done.stdout
+    done = run([str(prefix / "bin/coplane"), "made/bars/bars.yaml", "--check"], env=alone)
+    assert done.returncode == 0, done.stdout
 
 
 if __name__ == "__main__":

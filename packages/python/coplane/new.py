@@ -59,12 +59,11 @@ def renamed(texts, example, name):
     return texts
 
 
-def make_mesh(folder, settings):
-    """Makes mesh.e of the recipe, with its joints opened where the example has some."""
+def mesh_commands(folder, settings):
+    """Arguments of coplane_mesh that make mesh.e of the recipe, with its joints opened where the example has some."""
     joints = settings.get("joints")
-    program.make_mesh(folder / settings.get("recipe", "mesh.yaml"), folder / ("whole.e" if joints else "mesh.e"))
-    if joints:
-        program.split_mesh(folder / "whole.e", folder / joints, folder / "mesh.e")
+    commands = [["make", folder / settings.get("recipe", "mesh.yaml"), "-o", folder / ("whole.e" if joints else "mesh.e")]]
+    return commands + ([["split", folder / "whole.e", folder / joints, "-o", folder / "mesh.e"]] if joints else [])
 
 
 def new(folder, example):
@@ -83,7 +82,8 @@ def new(folder, example):
     try:
         for file, text in texts.items():
             (folder / file).write_text(text, encoding="utf-8")
-        make_mesh(folder, documents.parse(texts["example.yaml"]))
+        for command in mesh_commands(folder, documents.parse(texts["example.yaml"])):
+            program.mesh_program(*command)
     except BaseException:
         shutil.rmtree(folder)
         raise
@@ -92,14 +92,18 @@ def new(folder, example):
 
 def told(folder, example):
     """What is there, and what to do with it."""
-    deck, tool = shlex.quote(str(folder / f"{folder.name}.yaml")), shlex.quote(str(EXAMPLES / "run.py"))
-    mesh = shlex.quote(str(folder / "mesh"))
+
+    def line(*words):
+        return "  " + shlex.join(map(str, words)) + "\n"
+
+    check = ", check.py: what must be true of the results" if (folder / "check.py").exists() else ""
     return (f"{folder}: like {example} ({examples()[example]})\n"
             f"  {folder.name}.yaml: the deck, mesh.yaml: the recipe of its mesh, mesh.e: the mesh\n"
-            f"  example.yaml: sizes and variants" + (", check.py: what must be true of the results" if (folder / "check.py").exists() else "") + "\n"
-            f"Run it here:\n  coplane {deck}\n"
-            f"After a change of the recipe:\n  coplane_mesh make {mesh}.yaml -o {mesh}.e\n"
-            f"Or all at once, with checks, pictures and a report, in {folder / 'runs'}:\n  {tool} {shlex.quote(str(folder))}\n")  # fmt: skip
+            f"  example.yaml: sizes and variants{check}\n"
+            "Run it here:\n" + line("coplane", folder / f"{folder.name}.yaml")
+            + "After a change of the recipe:\n"
+            + "".join(line("coplane_mesh", *command) for command in mesh_commands(folder, documents.load(folder / "example.yaml")))
+            + f"Or all at once, with checks, pictures and a report, in {folder / 'runs'}:\n" + line(EXAMPLES / "run.py", folder))  # fmt: skip
 
 
 def main():
