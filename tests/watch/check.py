@@ -109,7 +109,7 @@ code, shown, _ = once(f"{ODD}/bars")
 last = run.history.iloc[-1]
 case.check_equal("completed: exit code", (code, run.exit_code), (0, 0))
 says("completed", shown, "bars: impact of two equal bars", "completed, exit code 0", "100.0 %", f"cycle {int(last.cycle)}", f"{last.kinetic:.3g}", f"{last.internal:.3g}",
-     f"planes {int(last.planes)}: {int(last.open)} open", f"{int(last.searches)} searches", "missed 0", "limited by contact at node", "1 ranks x 1 threads", "1200 elements")  # fmt: skip
+     f"planes {int(last.planes)}: {int(last.open)} open", f"{int(last.searches)} searches", "missed 0", "limited by contact at node", "against side", "1 ranks x 1 threads", "1200 elements")  # fmt: skip
 case.check_equal("completed: no orders to terminals in a pipe", "\x1b" in shown, False)
 case.check_equal("completed: the same by the folder, and with --once", [once(*place)[1] == shown for place in ([ODD], ["--once", f"{ODD}/bars.csv"])], [True, True])
 case.check_within("a line", max(map(len, shown.splitlines())), 70, 79)
@@ -197,8 +197,9 @@ for text, count in (("", 0), ("time[s],a", 0), ("time[s],a\n", 0), ("time[s],a\n
     pathlib.Path("short.csv").write_text(text)
     case.check_equal(f"lines of {text!r}", len(tables.sampled("short.csv").get("time", [])), count)
 x = numpy.arange(11.0)
-for what, y, end, curve in (("a rise", x, 10, "▂▂▃▄▅▅▆▇▇█"), ("half of the time", x, 20, "▂▄▅▇█"), ("below zero", -x, 10, "▇▇▆▅▅▄▃▂▂▁"), ("nothing", 0 * x, 10, "▁" * 10)):
-    case.check_equal(f"small curve: {what}", view.small_curve(x, y, end, 10, view.BLOCKS)[: len(curve)], curve)
+for what, y, curve in (("a rise", x, "▂▂▃▄▅▅▆▇▇█"), ("below zero", -x, "▇▇▆▅▅▄▃▂▂▁"), ("a jump", numpy.where(x < 5, -1, 1.0), "▁▁▁▁██████"), ("nothing", 0 * x, "▁" * 10)):
+    case.check_equal(f"small curve: {what}", view.small_curve(x, y, 10, view.BLOCKS), curve)
+case.check_equal("small curve of one line", view.small_curve(x[:1], x[1:2], 3, view.BLOCKS), "███")
 case.check_equal("cut at wide letters", view.cut("板板板", 5), "板板")
 case.check_equal("durations", [view.duration(s) for s in (59.4, 61, 3661)], ["59 s", "1 min 1 s", "1 h 1 min"])
 case.finish()

@@ -9,6 +9,7 @@ import re
 import shutil
 import socket
 import sys
+import textwrap
 import time
 import unicodedata
 
@@ -46,16 +47,14 @@ def cut(text, width):
     return text
 
 
-def small_curve(x, y, end, width, letters):
-    """One line of letters for values y at growing x, from the first one to `end`: the last value of each stretch, from the least value to the largest,
-    zero among them. What is not there yet is blank."""
+def small_curve(x, y, width, letters):
+    """One line of letters for values y at growing x: the last value of each stretch, between the least and the largest, zero among them."""
     low, high = min(y.min(), 0), max(y.max(), 0)
     levels = numpy.zeros(len(y), int) if high == low or not numpy.isfinite([low, high]).all() else \
         numpy.rint((numpy.nan_to_num(y) - low) / (high - low) * (len(letters) - 1)).astype(int)
-    edges = x[0] + (max(end, x[-1]) - x[0]) * numpy.arange(1, width + 1) / width
-    last = numpy.searchsorted(x, edges, side="right") - 1
-    reached = int(numpy.searchsorted(edges, x[-1])) + 1
-    return "".join(letters[levels[place]] for place in last[:reached])
+    ends = x[0] + (x[-1] - x[0]) * numpy.arange(1, width + 1) / width
+    ends[-1] = x[-1]
+    return "".join(letters[levels[place]] for place in numpy.searchsorted(x, ends, side="right") - 1)
 
 
 class Pace:
@@ -102,6 +101,11 @@ class View:
 
     def add(self, text, style=None):
         self.lines.append((cut(clean(text), self.width), style))
+
+    def wrap(self, text, style=None):
+        """A long text on four lines at most."""
+        for line in textwrap.wrap(clean(text), self.width, initial_indent="  ", subsequent_indent="    ")[:4]:
+            self.add(line, style)
 
     def head(self):
         record = self.record
@@ -163,12 +167,12 @@ class View:
         """A line: name, last value, and how it came to be."""
         text = f"{name:<17} {value:>10} "
         room = min(60, self.width - len(text))
-        self.add(text + (small_curve(self.h["time"], y, self.end, room, self.letters) if room >= 8 else ""))
+        self.add(text + (small_curve(self.h["time"], y, room, self.letters) if room >= 8 else ""))
 
     def step(self):
         self.curve("step [s]", f"{self.h['dt'][-1]:.3g}", self.h["dt"])
         if limits := self.run.limits:
-            self.add(f"  limited by {limits[-1]}")
+            self.wrap(f"limited by {limits[-1]}")
 
     def energies(self):
         least = 1e-9 * in_play(self.h)  # what is less is rounding
@@ -200,7 +204,7 @@ class View:
             self.add(f"warnings and errors of {self.run.log_path.name}, the last of {len(told)}" if len(told) > 4 else
                      f"warnings and errors of {self.run.log_path.name}", "bold")
         for line in told[-4:]:
-            self.add("  " + line, "note" if line.startswith("WARNING") else "look")
+            self.wrap(line, "note" if line.startswith("WARNING") else "look")
         if not lines:
             self.add(f"no log {self.run.log_path.name}: warnings, and what limits the step, are not known")
 
