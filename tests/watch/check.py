@@ -116,6 +116,11 @@ case.check_within("a line", max(map(len, shown.splitlines())), 70, 79)
 case.check_within("a line of 40 columns", max(map(len, once(ODD, environment={"COLUMNS": "40"})[1].splitlines())), 30, 39)
 ascii_only = once(ODD, environment={"PYTHONIOENCODING": "ascii"})[1]
 case.check_equal("a terminal without UTF-8", (ascii_only.isascii(), "#####" in ascii_only), (True, True))
+history = pathlib.Path(ODD, "bars.csv")
+whole = history.read_text()
+history.write_text("time[s],other\n0,1\n")
+says("a history of something else", once(ODD)[1], "none of coplane", "completed, exit code 0")
+history.write_text(whole)
 pathlib.Path(ODD, "bars.log").unlink()
 says("without a log", once(ODD)[1], "no log bars.log", "kinetic")
 pathlib.Path("told.txt").write_text("WARNING: one \x1b[2J\nERROR: two\n")
@@ -201,5 +206,8 @@ for what, y, curve in (("a rise", x, "▂▂▃▄▅▅▆▇▇█"), ("below 
     case.check_equal(f"small curve: {what}", view.small_curve(x, y, 10, view.BLOCKS), curve)
 case.check_equal("small curve of one line", view.small_curve(x[:1], x[1:2], 3, view.BLOCKS), "███")
 case.check_equal("cut at wide letters", view.cut("板板板", 5), "板板")
+for text, seconds in (("1.5e+03 cycles/s, 1.8e+06 element-cycles/s, 1 h 12 min left", 4320), ("2 cycles/s, 3 min 20 s left\n4 cycles/s, 42 s left\n", 42),
+                      ("4 cycles/s, unknown left", None)):  # fmt: skip
+    case.check_equal(f"left by the log: {text!r}", view.seconds_left(text), seconds)
 case.check_equal("durations", [view.duration(s) for s in (59.4, 61, 3661)], ["59 s", "1 min 1 s", "1 h 1 min"])
 case.finish()

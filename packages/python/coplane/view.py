@@ -21,6 +21,10 @@ from .results import NoRun, Run, SeveralRuns
 from .running import is_new
 
 CURVES = ["kinetic", "internal", "plastic", "contact_stored", "contact_friction", "external_work", "hourglass", "viscous", "eroded", "chemical"]
+COUNTS = ["planes", "open", "stick", "slip", "pairs", "searches", "missed", "too_deep", "released", "eroded_elements"]
+# Columns that every history has and that are shown.
+NEEDED = {"time", "cycle", "dt", "kinetic", "internal", "external_work", "contact_stored", "initial", "error", "contact_remainder", "hourglass", *COUNTS,
+          *(f"{name}_{axis}" for name in ("momentum", "momentum_error") for axis in "xyz")}  # fmt: skip
 BLOCKS, LETTERS = "▁▂▃▄▅▆▇█", "_.-~=+*#"  # where the terminal shows UTF-8, and where not
 COLORS = {"bold": "1", "good": "32", "look": "31", "note": "33"}
 ENDINGS = {"completed": "good", "running": "bold", "starting": "bold", "interrupted": "note", "interrupted after a checkpoint": "note"}
@@ -30,6 +34,15 @@ def duration(seconds):
     """42 s, 3 min 20 s, 5 h 12 min"""
     s = round(seconds)
     return f"{s} s" if s < 60 else f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"
+
+
+def seconds_left(log):
+    """What the last line of a log that tells it says is left [s]; None without one."""
+    said = re.findall(r"cycles/s, (?:(\d+) h )?(?:(\d+) min )?(?:(\d+) s )?left", log)
+    if not said:
+        return None
+    hours, minutes, seconds = (int(part or 0) for part in said[-1])
+    return 3600 * hours + 60 * minutes + seconds
 
 
 def clean(text):
@@ -88,14 +101,14 @@ class View:
         self.record = run.record if not goes_on or run.record.get("ending") == "running" and self.ending == "running" else {}
         self.h = tables.sampled(run.path(".csv")) if has_history and self.ending != "starting" else {}
         self.head()
-        if self.h:
+        if NEEDED <= self.h.keys():
             self.progress()
             self.step()
             self.energies()
             self.balances()
             self.counts()
         elif self.ending != "starting":
-            self.add(f"there is no history {run.path('.csv').name}, or it has no line yet")
+            self.add(f"there is no history {run.path('.csv').name}, it has no line yet, or is none of coplane")
         self.log()
         self.last()
 
@@ -139,10 +152,9 @@ class View:
         speed = self.pace.per_second()[0]
         if speed > 0:
             return (end - now) / speed
-        said = re.findall(r"cycles/s, (?:(\d+) h )?(?:(\d+) min ?)?(?:(\d+) s )?left", self.run.log)
-        if said:
-            hours, minutes, seconds = (int(part or 0) for part in said[-1])
-            return 3600 * hours + 60 * minutes + seconds
+        said = seconds_left(self.run.log)
+        if said is not None:
+            return said
         elapsed = self.elapsed()
         return (end - now) / now * elapsed if elapsed and now > 0 and len(self.run.records) == 1 else None
 
@@ -192,7 +204,7 @@ class View:
             self.add(f"  {name:<17} {value:>10.1e}{'' if good else f'  above {MOST[key]:g}: look at it'}", "good" if good else "look")
 
     def counts(self):
-        last = {name: int(self.h[name][-1]) for name in ("planes", "open", "stick", "slip", "pairs", "searches", "missed", "too_deep", "released", "eroded_elements")}
+        last = {name: int(self.h[name][-1]) for name in COUNTS}
         self.add("planes {planes}: {open} open, {stick} stick, {slip} slip; {pairs} slots; {searches} searches".format(**last))
         self.add("missed {missed}, too deep {too_deep}, released {released}".format(**last)
                  + (f", eroded {last['eroded_elements']} elements" if last["eroded_elements"] else ""), "look" if last["missed"] or last["too_deep"] else None)
