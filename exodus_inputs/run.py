@@ -5,10 +5,12 @@
     exodus_inputs/run.py projectile_wall_2d
     exodus_inputs/run.py projectile_wall_2d --size M --variant B
     exodus_inputs/run.py jointed_rock_2d --variant a b c --no-pictures
+    exodus_inputs/run.py ~/problems/wall
 
-An example is a folder beside this file with an `example.yaml` that names its sizes and variants: what they change in the mesh recipe
-and in the deck. A run makes, in its folder (default NAME/SIZE or NAME/SIZE-VARIANT in build/examples; of an installed run.py in
-coplane-examples, in the working folder),
+An example is a folder beside this file, or any other, with an `example.yaml` that names its sizes and variants: what they change in the
+mesh recipe and in the deck; a folder of your own may have a deck.yaml and a mesh.yaml alone. `coplane new` makes one. A run makes, in its
+folder (default NAME/SIZE or NAME/SIZE-VARIANT in build/examples; of an installed run.py in coplane-examples, in the working folder; of a
+folder elsewhere in `runs` there),
 
     mesh.yaml, mesh.e    the recipe with all changes, and its mesh
     run.yaml             the deck with all changes
@@ -57,7 +59,7 @@ def examples():
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("name", nargs="?", help="folder of the example")
+    parser.add_argument("name", nargs="?", help="name of the example, or a folder anywhere")
     parser.add_argument("--list", action="store_true", help="print the examples with their sizes and variants")
     parser.add_argument("--size", help="one of the example's sizes; default: its `default`")
     parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; base: none; a+b: both together")
@@ -71,10 +73,21 @@ def arguments():
     return parser.parse_args()
 
 
-def read_example(name):
-    path = INPUTS / name / "example.yaml"
+def folder_of(name):
+    """The folder that a name means: such a folder, else the example beside this file."""
+    path = pathlib.Path(name)
+    if any((path / file).exists() for file in ("example.yaml", "deck.yaml")):
+        return path.resolve()
+    if not (INPUTS / name / "example.yaml").exists():
+        fail(f"there is no example '{name}', and no such folder with an example.yaml, or with deck.yaml and mesh.yaml; there are "
+             f"{', '.join(examples())}. `coplane new` makes a folder.")
+    return INPUTS / name
+
+
+def read_example(source):
+    path = source / "example.yaml"
     if not path.exists():
-        fail(f"there is no example '{name}'; there are {', '.join(examples())}.")
+        return {"title": source.name, "sizes": {"S": {}}}
     os.environ.setdefault("COPLANE_BIN", str(BINARIES))
     reader = program.binary("coplane_mesh")
     if not os.path.exists(reader):
@@ -142,22 +155,24 @@ class OwnFiles:
 class ExampleRun:
     """One run: an example in one size, with the changes of one variant (or a combination)."""
 
-    def __init__(self, name, example, size, variant, options):
+    def __init__(self, source, example, size, variant, options):
         sizes, variants = example["sizes"], example.get("variants") or {}
-        self.name, self.example, self.size = name, example, size
+        self.source, self.name, self.example, self.size = source, source.name, example, size
         if size not in sizes:
-            fail(f"{name} has no size '{size}'; it has {', '.join(sizes)}.")
+            fail(f"{self.name} has no size '{size}'; it has {', '.join(sizes)}.")
         chosen = [item for item in variant.split("+") if item and item != "base"]
         self.variant = variant = "+".join(chosen)
         for item in chosen:
             if item not in variants:
-                fail(f"{name} has no variant '{item}'; it has {', '.join(variants) or 'none'}.")
+                fail(f"{self.name} has no variant '{item}'; it has {', '.join(variants) or 'none'}.")
         self.settings = {"recipe": "mesh.yaml", "deck": "deck.yaml", "ranks": 2}
         changes = [example, sizes[size] or {}] + [variants[item] or {} for item in chosen]
         for item in changes:
             self.settings.update({key: item[key] for key in ("title", "recipe", "joints", "deck", "ranks") if key in item})
         self.ranks = options.ranks or self.settings["ranks"]
-        source = INPUTS / name
+        for key in ("recipe", "deck"):
+            if not (source / self.settings[key]).exists():
+                fail(f"{source / self.settings[key]}, the {key} of {self.name}, is not there.")
         self.recipe = documents.load(source / self.settings["recipe"])
         self.deck = documents.load(source / self.settings["deck"])
         self.joints = documents.load(source / self.settings["joints"]) if self.settings.get("joints") else None
@@ -177,7 +192,7 @@ class ExampleRun:
         self.overwrite = options.overwrite
         label = size + ("-" + variant if variant else "")
         if options.output is None:
-            self.folder = RUNS / name / label
+            self.folder = (RUNS / self.name if source.parent == INPUTS else source / "runs") / label
         elif len(options.variant) > 1:
             self.folder = options.output.resolve() / label
         else:
@@ -249,7 +264,7 @@ class ExampleRun:
         except program.ProgramFailed as error:
             fail(error)
         (self.folder / "example.json").write_text(json.dumps(
-            {"example": self.name, "size": self.size, "variant": self.variant, "ranks": self.ranks}))
+            {"example": self.name, "source": str(self.source), "size": self.size, "variant": self.variant, "ranks": self.ranks}))
         command = program.command(["run.yaml", "--backend", "serial"], self.ranks)
         self.say("running: " + " ".join(command))
         start = time.monotonic()
@@ -262,7 +277,7 @@ class ExampleRun:
         (self.folder / "done").write_text(self.run_key)
 
     def draw(self):
-        script = INPUTS / self.name / self.example.get("pictures", "pictures.py")
+        script = self.source / self.example.get("pictures", "pictures.py")
         if not script.exists():
             return
         key = self.key(self.run_key.encode(), script, *sorted(program.PARAVIEW.glob("*.py")))
@@ -292,13 +307,13 @@ class ExampleRun:
 
     def check(self):
         """The example's own check.py on the results; returns whether all is well."""
-        script = INPUTS / self.name / self.example.get("check", "check.py")
+        script = self.source / self.example.get("check", "check.py")
         return not script.exists() or python(script, [self.folder], self.folder) == 0
 
 
 def python(script, parameters, folder):
     path = os.pathsep.join([str(INPUTS), os.environ.get("PYTHONPATH", "")]).rstrip(os.pathsep)
-    environment = dict(os.environ, PYTHONPATH=path, PYTHONDONTWRITEBYTECODE="1", COPLANE_SOURCE=str(TOP))
+    environment = dict(os.environ, PYTHONPATH=path, PYTHONDONTWRITEBYTECODE="1")
     return subprocess.run([sys.executable, str(script), *map(str, parameters)], cwd=folder, env=environment).returncode
 
 
@@ -306,14 +321,14 @@ def main():
     options = arguments()
     if options.list or not options.name:
         for name in examples():
-            example = read_example(name)
+            example = read_example(INPUTS / name)
             print(f"{name}: {example['title']}\n    sizes: {', '.join(example['sizes'])}"
                   + (f"; variants: {', '.join(example['variants'])}" if example.get("variants") else ""))
         return
-    name = pathlib.Path(options.name).name
-    example = read_example(name)
+    source = folder_of(options.name)
+    example = read_example(source)
     size = options.size or example.get("default", next(iter(example["sizes"])))
-    runs = [ExampleRun(name, example, size, variant, options) for variant in options.variant]
+    runs = [ExampleRun(source, example, size, variant, options) for variant in options.variant]
     well = True
     for run in runs:
         run.compute()
@@ -322,7 +337,7 @@ def main():
         if not options.no_pictures:
             run.draw()
         run.report()
-    summary = INPUTS / name / example.get("summary", "summary.py")
+    summary = source / example.get("summary", "summary.py")
     if summary.exists() and not options.no_check:
         well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well
     for run in runs:

@@ -1,7 +1,6 @@
 """Checks on a run of exodus_inputs/run.py: an example's check.py uses this."""
 
 import json
-import os
 import pathlib
 import sys
 
@@ -26,7 +25,7 @@ class Example(Checks):
         chosen = json.loads((self.folder / "example.json").read_text())
         self.size, self.variant = chosen["size"], chosen["variant"]
         self.name = "_".join(filter(None, (chosen["example"], self.size, self.variant)))
-        self.source = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs" / chosen["example"]
+        self.source = pathlib.Path(chosen["source"])
         self.failures = 0
         self.record = self.folder / "checks.jsonl"
         self.record.write_text("")

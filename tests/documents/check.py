@@ -1,5 +1,6 @@
 """Checks of the documents and of the installed package; one per argument. Run by ctest, in a folder of its own."""
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -212,6 +213,40 @@ def check_names():
     assert not wrong, "\n".join(wrong)
 
 
+def check_site():
+    """The site has every page, every key, formulas and a search, and needs nothing from elsewhere; its maker finds links that lead nowhere."""
+    specification = importlib.util.spec_from_file_location("make_site", SOURCE / "packages/cmake/make-site.py")
+    maker = importlib.util.module_from_spec(specification)
+    specification.loader.exec_module(maker)
+    site = pathlib.Path("site").absolute()
+    shutil.rmtree(site, ignore_errors=True)
+    done = run([sys.executable, maker.__file__, str(site)])
+    assert done.returncode == 0, done.stdout[-3000:]
+    sources = [name for name in tracked("*.md") if not name.startswith("docs/developer/pictures")]
+    pages = [re.sub(r"README\.md$", "index.html", name).replace(".md", ".html") for name in sources]
+    missing = [page for page in [*pages, "docs/keys.html", "search.html"] if not (site / page).exists()]
+    assert not missing, f"pages that the site lacks: {missing}"
+    found = {entry["location"]: entry["text"] for entry in json.loads((site / "search/search_index.json").read_text())["docs"]}
+    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html", "remainder"),
+                        ("docs/user/coming-from.html#ls-dyna", "MAT_JOHNSON_COOK"), ("docs/verification.html#v14-incline", "friction")):  # fmt: skip
+        assert word in found[place], f"the search does not find {word} in {place}"
+    keys = (site / "docs/keys.html").read_text()
+    lost = [key for file in maker.FILES for names in maker.groups_of(file).values() for key in names if f"<code>{key}</code>" not in keys]
+    assert not lost, f"keys that docs/keys.html lacks: {lost}"
+    theory = (site / "docs/theory/scp.html").read_text()
+    assert theory.count('class="arithmatex"') > 90 and "auto-render.js" in theory, "formulas are lost"
+    assert r"c_{\max}" in (site / "docs/theory/joints.html").read_text(), "KaTeX cannot read an index \\max without braces"
+    elsewhere = [link for link in re.findall(r'<(?:script|img)[^>]*src="([^"]*)"|<link[^>]*href="([^"]*)"', theory) if "//" in "".join(link)]
+    assert not elsewhere, elsewhere
+    with open(site / "docs/user/deck.html", "a") as page:
+        page.write('<a href="nowhere.html"></a><a href="decks.html#nothing"></a>')
+    assert maker.dead_links(site) == ["docs/user/deck.html: nowhere.html", "docs/user/deck.html: decks.html#nothing: no such heading"]
+    os.makedirs("mine", exist_ok=True)
+    pathlib.Path("mine/notes.txt").write_text("mine")
+    done = run([sys.executable, maker.__file__, "mine"])
+    assert done.returncode == 1 and "no site" in done.stdout and os.listdir("mine") == ["notes.txt"], done.stdout
+
+
 def readme_commands():
     text = (SOURCE / "README.md").read_text()
     return [line for block in re.findall(r"```bash\n(.*?)```", text, flags=re.S) for line in block.splitlines() if line]
@@ -284,6 +319,13 @@ def check_install():
     assert checks and all(json.loads(line)["passed"] for line in checks), checks
     done = run([str(prefix / "bin/coplane"), "report", "coplane-examples/rocking_block_2d/coarse", "--no-pictures", "-o", "installed.html"], env=alone)
     assert done.returncode == 0 and pathlib.Path("installed.html").stat().st_size > 1e6, done.stdout
+    done = run([str(prefix / "bin/coplane"), "watch", "coplane-examples/rocking_block_2d/coarse"], env=alone)
+    assert done.returncode == 0 and "completed, exit code 0" in done.stdout, done.stdout
+    shutil.rmtree("made", ignore_errors=True)
+    done = run([str(prefix / "bin/coplane"), "new", "made/bars", "--like", "bars_2d"], env=alone)
+    assert done.returncode == 0 and str(tool) in done.stdout, done.stdout
+    done = run([str(prefix / "bin/coplane"), "made/bars/bars.yaml", "--check"], env=alone)
+    assert done.returncode == 0, done.stdout
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 #include "Observers.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
-#include "StartReport.hpp"
+#include "Subcommands.hpp"
 
 #include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
@@ -57,6 +57,7 @@ struct CommandLine
   std::string checkpoint; ///< to restart from; empty: the newest
   double maxWall = 0;     ///< [s]; 0: no limit
   bool check = false, quiet = false, helpDeck = false, helpDeckMarkdown = false, schema = false;
+  std::string topic; ///< of --help-deck; empty: everything
   bool helpCodes = false;
 };
 
@@ -91,7 +92,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
 {
   CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
                "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
-  app.footer("coplane report RUN writes one HTML file about a run; coplane report --help.");
+  app.footer(subcommandsHelp());
   app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", line.overrides,
                  "Overrides a deck value: --set time.end=0.1 (may be repeated)")
@@ -119,7 +120,11 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_flag("--check", line.check,
                "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
-  app.add_flag("--help-deck", line.helpDeck, "Print every key of a deck and stop");
+  CLI::Option* helpDeck =
+      app.add_option("--help-deck", line.topic,
+                     "Print every key of a deck and stop; of one TOPIC: a section, key or model")
+          ->type_name("[TOPIC]")
+          ->expected(0, 1);
   app.add_flag("--help-deck-markdown", line.helpDeckMarkdown, "The same as Markdown");
   app.add_flag("--help-codes", line.helpCodes,
                "Print the table of exit codes as Markdown and stop");
@@ -136,6 +141,7 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   {
     app.parse(argc, argv);
     line.restart = restart->count() > 0;
+    line.helpDeck = helpDeck->count() > 0;
     if (!asksForHelp(line) && line.deck.empty())
       throw CLI::RequiredError("deck");
   }
@@ -360,6 +366,21 @@ Kokkos::InitArguments kokkosArguments(const CommandLine& line, const Comm& comm)
   return arguments;
 }
 
+void printHelp(const CommandLine& line, const Comm& comm)
+{
+  std::string text;
+  comm.together(
+      [&]
+      {
+        text = line.helpCodes  ? exitCodesMarkdown()
+               : line.schema   ? deckJsonSchema()
+               : line.helpDeck ? deckReferenceText(line.topic)
+                               : deckReferenceMarkdown();
+      });
+  if (comm.isRoot())
+    std::cout << text;
+}
+
 /// Everything between the start and the end of MPI. Errors of all ranks at once end here, those of
 /// this rank alone are for the caller.
 int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
@@ -380,13 +401,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
     const auto work = [&]
     {
       if (asksForHelp(line))
-      {
-        if (comm.isRoot())
-          std::cout << (line.helpCodes  ? exitCodesMarkdown()
-                        : line.schema   ? deckJsonSchema()
-                        : line.helpDeck ? deckReferenceText()
-                                        : deckReferenceMarkdown());
-      }
+        printHelp(line, comm);
       else
         code = std::max(runDeck(line, comm, command), 0);
       logSummary();
@@ -413,7 +428,7 @@ int runProgram(int argc, char** argv, const Comm& comm, std::string& failure)
 
 int main(int argc, char** argv)
 {
-  startReport(argc, argv);
+  startSubcommand(argc, argv);
   coplane::beginProgram();
   coplane::keepFreedMemory();
   coplane::limitMemoryToMachine();

@@ -26,12 +26,12 @@ std::string markdown()
          referenceMarkdown(exampleSchema());
 }
 
-std::string plain(const std::string& what, const Key& schema)
+std::string plain(const std::string& what, const Key& schema, const std::string& topic)
 {
   return "Keys of " + what + " (YAML). " + units +
          "\n<name> is a name of yours, <index> an item of a list, the first is 0; --set path=value "
          "uses\nthe same paths.\n\n" +
-         referenceText(schema);
+         (topic.empty() ? referenceText(schema) : topicText(schema, topic));
 }
 } // namespace
 
@@ -39,18 +39,22 @@ const std::vector<Reference>& recipeReferences()
 {
   static const std::vector<Reference> references{
       {"--help-recipe", "Print every key of a recipe and stop",
-       [] { return plain("a recipe", recipeSchema()); }},
+       [](const std::string& topic) { return plain("a recipe", recipeSchema(), topic); }, true},
       {"--help-split", "Print every key of a recipe of joints and stop",
-       [] { return plain("a recipe of joints", jointRecipeSchema()); }},
+       [](const std::string& topic)
+       { return plain("a recipe of joints", jointRecipeSchema(), topic); },
+       true},
       {"--help-example", "Print every key of an example.yaml and stop",
-       [] { return plain("an example.yaml", exampleSchema()); }},
-      {"--help-recipe-markdown", "All of these as Markdown", markdown},
+       [](const std::string& topic) { return plain("an example.yaml", exampleSchema(), topic); },
+       true},
+      {"--help-recipe-markdown", "All of these as Markdown",
+       [](const std::string&) { return markdown(); }},
       {"--recipe-schema", "Print the JSON Schema of recipes and stop",
-       [] { return jsonSchema(recipeSchema(), "Coplane mesh recipe"); }},
+       [](const std::string&) { return jsonSchema(recipeSchema(), "Coplane mesh recipe"); }},
       {"--split-schema", "Print the JSON Schema of recipes of joints and stop",
-       [] { return jsonSchema(jointRecipeSchema(), "Coplane joint recipe"); }},
+       [](const std::string&) { return jsonSchema(jointRecipeSchema(), "Coplane joint recipe"); }},
       {"--example-schema", "Print the JSON Schema of example.yaml files and stop",
-       [] { return jsonSchema(exampleSchema(), "Coplane example"); }}};
+       [](const std::string&) { return jsonSchema(exampleSchema(), "Coplane example"); }}};
   return references;
 }
 } // namespace coplane

@@ -247,9 +247,16 @@ int run(int argc, char** argv)
   app.set_version_flag("--version",
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
   const std::vector<Reference>& references = recipeReferences();
-  std::deque<bool> asked(references.size(), false);
+  std::deque<std::string> topics(references.size());
+  std::vector<const CLI::Option*> asked;
   for (std::size_t r = 0; r < references.size(); ++r)
-    app.add_flag(references[r].option, asked[r], references[r].meaning);
+    asked.push_back(
+        references[r].hasTopics
+            ? app.add_option(references[r].option, topics[r],
+                             references[r].meaning + "; of one TOPIC: a section, key, shape")
+                  ->type_name("[TOPIC]")
+                  ->expected(0, 1)
+            : app.add_flag(references[r].option, references[r].meaning));
   Arguments given;
   const std::vector<Command> commands = commandsOf(app, given);
   app.require_subcommand(0, 1);
@@ -262,9 +269,9 @@ int run(int argc, char** argv)
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
   for (std::size_t r = 0; r < references.size(); ++r)
-    if (asked[r])
+    if (*asked[r])
     {
-      std::fputs(references[r].text().c_str(), stdout);
+      std::fputs(references[r].text(topics[r]).c_str(), stdout);
       return int(ExitCode::Success);
     }
   for (const Command& command : commands)

@@ -75,7 +75,7 @@ void demandDistinctFiles(const PointDeck& deck)
     fail(ExitCode::Deck, "{}: {}", deck.file, fmt::join(problems, "\n"));
 }
 
-std::string reference(bool markdown)
+std::string reference(bool markdown, const std::string& topic)
 {
   return markdown
              ? "# Decks of coplane_point\n\nMade from the schema that checks decks. Numbers are "
@@ -83,7 +83,7 @@ std::string reference(bool markdown)
                    referenceMarkdown(pointSchema())
              : "Keys of a deck of coplane_point (YAML). Numbers are SI. <name> is a name of "
                "yours; --set path=value\nuses the same paths.\n\n" +
-                   referenceText(pointSchema());
+                   (topic.empty() ? referenceText(pointSchema()) : topicText(pointSchema(), topic));
 }
 
 int run(int argc, char** argv)
@@ -94,29 +94,35 @@ int run(int argc, char** argv)
                        fmt::format("coplane_point {} ({})", version().number, version().revision));
   std::string file;
   std::vector<std::string> overrides;
-  bool check = false, help = false, markdown = false, schema = false;
+  std::string topic;
+  bool check = false, markdown = false, schema = false;
   app.add_option("deck", file, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", overrides,
                  "Overrides a deck value: --set joint_paths.test.steps=1000 (may be repeated)")
       ->allow_extra_args(false);
   app.add_flag("--check", check, "Check the deck and stop");
-  app.add_flag("--help-deck", help, "Print every key of a deck and stop");
+  CLI::Option* help =
+      app.add_option("--help-deck", topic,
+                     "Print every key of a deck and stop; of one TOPIC: a section, key or model")
+          ->type_name("[TOPIC]")
+          ->expected(0, 1);
   app.add_flag("--help-deck-markdown", markdown, "The same as Markdown");
   app.add_flag("--schema", schema, "Print the JSON Schema of decks and stop");
   try
   {
     app.parse(argc, argv);
-    if (!help && !markdown && !schema && file.empty())
+    if (!*help && !markdown && !schema && file.empty())
       throw CLI::RequiredError("deck");
   }
   catch (const CLI::ParseError& error)
   {
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
-  if (help || markdown || schema)
+  if (*help || markdown || schema)
   {
     std::fputs(
-        (schema ? jsonSchema(pointSchema(), "Coplane point deck") : reference(markdown)).c_str(),
+        (schema ? jsonSchema(pointSchema(), "Coplane point deck") : reference(markdown, topic))
+            .c_str(),
         stdout);
     return int(ExitCode::Success);
   }

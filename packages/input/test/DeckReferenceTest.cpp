@@ -15,7 +15,7 @@ nlohmann::json schema()
 
 TEST(DeckReferenceText, showsPathTypeUnitDefaultAndMeaning)
 {
-  const std::string text = deckReferenceText();
+  const std::string text = deckReferenceText("");
   EXPECT_NE(text.find("time.step_factor\n"
                       "    a number > 0 and <= 1 [-]; default: 0.8\n"
                       "    time step over the stable step. Example: 0.9\n"),
@@ -25,9 +25,17 @@ TEST(DeckReferenceText, showsPathTypeUnitDefaultAndMeaning)
 
 TEST(DeckReferenceText, saysForWhichModelAKeyIs)
 {
-  EXPECT_NE(deckReferenceText().find("materials.<name>.fracture_energy   (model: pseudo_cap)\n"
-                                     "    a number > 0 [J/m^2]; required\n"),
+  EXPECT_NE(deckReferenceText("").find("materials.<name>.fracture_energy   (model: pseudo_cap)\n"
+                                       "    a number > 0 [J/m^2]; required\n"),
             std::string::npos);
+}
+
+TEST(DeckReferenceText, aTopicIsPartOfTheReference)
+{
+  const std::string all = deckReferenceText(""), contact = deckReferenceText("contact");
+  EXPECT_LT(contact.size(), all.size() / 4);
+  EXPECT_NE(contact.find("contact.search_every\n"), std::string::npos);
+  EXPECT_EQ(contact.find("materials."), std::string::npos);
 }
 
 TEST(DeckReferenceMarkdown, hasATableForEachGroup)

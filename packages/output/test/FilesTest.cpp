@@ -430,6 +430,8 @@ TEST_F(Files, runRecordTellsHowTheRunEnded)
 {
   const auto json = nlohmann::json::parse(contentOf(file("all.run.json")));
   EXPECT_EQ(json["ending"], "completed");
+  EXPECT_EQ(json["exit_code"], 0);
+  EXPECT_GT(json["end_s"].get<Real>(), 0);
   EXPECT_EQ(json["ranks"], Comm().size());
   EXPECT_EQ(json["placement"].size(), std::size_t(Comm().size()));
   EXPECT_EQ(json["sizes"]["nodes"], 54);

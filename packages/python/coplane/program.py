@@ -62,7 +62,8 @@ def run_program(arguments, folder, ranks=1, prefix=(), timeout=550):
     return done.returncode, done.stdout
 
 
-def _mesh_program(*arguments):
+def mesh_program(*arguments):
+    """Runs coplane_mesh and returns what it printed."""
     arguments = [str(argument) for argument in arguments]
     done = subprocess.run([binary("coplane_mesh"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     if done.returncode:
@@ -72,12 +73,12 @@ def _mesh_program(*arguments):
 
 def make_mesh(recipe, output):
     """Makes the mesh of a recipe; both are paths. Returns what the program printed."""
-    return _mesh_program("make", recipe, "-o", output)
+    return mesh_program("make", recipe, "-o", output)
 
 
 def split_mesh(mesh, joints, output):
     """Opens the joints of a recipe; returns what the program printed."""
-    return _mesh_program("split", mesh, joints, "-o", output)
+    return mesh_program("split", mesh, joints, "-o", output)
 
 
 def change_coordinates(mesh, change):

@@ -13,6 +13,7 @@ import tempfile
 import numpy
 
 from . import program, tables
+from .balances import MOST, in_play, momentum_in_play
 from .page import COLORS, MARK, POINTS, Page, bars, curve, escape, number
 from .planes import joint_names, planes
 from .results import NoRun, Run
@@ -40,12 +41,6 @@ def has(run, *names):
         raise Missing(f"The history {run.path('.csv').name} has no column {', '.join(missing)}.")
     if len(run.columns["time"]) == 0:
         raise Missing(f"The history {run.path('.csv').name} has no line yet.")
-
-
-def in_play(run):
-    """The largest energy that was kinetic, internal, stored or came from outside [J]."""
-    h = run.columns
-    return max(abs(h[name]).max() for name in ("kinetic", "internal", "external_work", "contact_stored", "initial")) or 1.0
 
 
 class Report:
@@ -144,8 +139,8 @@ class Report:
 
     @staticmethod
     def balances(run):
-        h, scale = run.columns, in_play(run)
-        momentum = max(abs(h[f"momentum_{axis}"]).max() for axis in "xyz") or 1.0
+        h, scale = run.columns, in_play(run.columns)
+        momentum = momentum_in_play(h)
 
         def marked(value, most):
             return ("ok" if abs(value) <= most else "look", number(value))
@@ -153,11 +148,11 @@ class Report:
         largest = h["contact_remainder"][numpy.argmax(abs(h["contact_remainder"]))]
         return {
             "time reached [s]": float(h["time"][-1]), "cycles": int(h["cycle"][-1]), "energy in play [J]": float(scale),
-            "largest error of the energy balance over it": marked(abs(h["error"]).max() / scale, 0.01),
-            "largest contact remainder over it": marked(largest / scale, 0.05),
-            "largest hourglass energy over it": marked(abs(h["hourglass"]).max() / scale, 0.05),
+            "largest error of the energy balance over it": marked(abs(h["error"]).max() / scale, MOST["error"]),
+            "largest contact remainder over it": marked(largest / scale, MOST["contact_remainder"]),
+            "largest hourglass energy over it": marked(abs(h["hourglass"]).max() / scale, MOST["hourglass"]),
             "largest momentum without impulses over the largest momentum":
-                marked(max(abs(h[f"momentum_error_{axis}"]).max() for axis in "xyz") / momentum, 1e-6),
+                marked(max(abs(h[f"momentum_error_{axis}"]).max() for axis in "xyz") / momentum, MOST["momentum_error"]),
             "contacts missed": marked(int(h["missed"][-1]), 0), "planes too deep, at most": marked(int(h["too_deep"].max()), 0),
             "searches": int(h["searches"][-1]),
         }  # fmt: skip
@@ -167,7 +162,8 @@ class Report:
             has(run, "time", "initial", *ENERGIES[:5], "error", "nodal_error")
         self.page.add(self.each(self.balances))
         self.page.grid(self.curves("Energies", ENERGIES, "J"),
-                       self.curves("Error of the balance", ["error", "nodal_error"], "over the energy in play", scale=in_play))  # fmt: skip
+                       self.curves("Error of the balance", ["error", "nodal_error"], "over the energy in play",
+                                   scale=lambda run: in_play(run.columns)))  # fmt: skip
 
     def contact(self):
         for run in self.runs:
@@ -225,12 +221,12 @@ class Report:
             has(run, "time", "dt")
         self.page.grid(self.curves("Time step", ["dt"], "s"))
         for which, run in enumerate(self.runs):
-            limits = re.findall(r"limited by (.*)|dt = \S+ s \((.*?)\), kinetic", run.log)
+            limits = run.limits
             if not limits:
                 self.page.note(f"What limited the step{self.of(which)}: there is no log {run.path('.log').name} that says it.")
                 continue
             counts = {}
-            for text in ("".join(found) for found in limits):
+            for text in limits:
                 counts[text] = counts.get(text, 0) + 1
             most = sorted(counts.items(), key=lambda item: -item[1])[:10]
             self.page.add(self.page.table([f"what limited the step{self.of(which)}", "lines of the log"], most))

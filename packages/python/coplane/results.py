@@ -24,6 +24,10 @@ class NoRun(FileNotFoundError):
     """There is no run of a name, or more than one in a folder."""
 
 
+class SeveralRuns(NoRun):
+    """There is more than one in a folder."""
+
+
 def _stems(folder):
     """Names of the runs in a folder: of their records."""
     names = [_RECORD.fullmatch(path.name) for path in folder.iterdir()] if folder.is_dir() else []
@@ -37,9 +41,9 @@ def _place(path):
         stems = _stems(path) or sorted(file.stem for file in path.glob("*.csv") if file.with_suffix(".yaml").exists())
         if len(stems) == 1:
             return path, stems[0]
-        many = f"has several runs; open one of {', '.join(str(path / stem) for stem in stems)}" if stems else \
-            "has no record of a run (<name>.run.json) and no history beside its deck"
-        raise NoRun(f"{path}: the folder {many}.")
+        if stems:
+            raise SeveralRuns(f"{path}: the folder has several runs; open one of {', '.join(str(path / stem) for stem in stems)}.")
+        raise NoRun(f"{path}: the folder has no record of a run (<name>.run.json) and no history beside its deck.")
 
     def is_run(stem):
         return any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e"))
@@ -127,6 +131,11 @@ class Run:
         return "killed" if ending == "running" and not self.is_running else ending
 
     @property
+    def exit_code(self):
+        """That of the program (docs/user/exit-codes.md), as the record of the last part says it; None while it runs, and when it was killed."""
+        return self.record.get("exit_code")
+
+    @property
     def deck_text(self):
         """The deck as it was used; empty when neither the record nor a deck beside it has it."""
         if "deck" in self.record:
@@ -139,15 +148,25 @@ class Run:
 
         return Deck.from_text(self.deck_text, self.path(".yaml"))
 
+    @functools.cached_property
+    def log_path(self):
+        """Of what the program printed; may be set to another file."""
+        return self.path(".log")
+
     @property
     def log(self):
-        """What the program printed, where that was kept in <name>.log; else empty."""
-        return self.path(".log").read_text(encoding="utf-8", errors="replace") if self.path(".log").exists() else ""
+        """What the program printed, where that was kept in `log_path`; else empty."""
+        return self.log_path.read_text(encoding="utf-8", errors="replace") if self.log_path.exists() else ""
 
     @property
     def errors(self):
         """The lines of the log that say what was wrong."""
         return [line for line in self.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
+
+    @property
+    def limits(self):
+        """What limited the step, in the lines of the log that say it."""
+        return ["".join(found) for found in re.findall(r"limited by (.*)|dt = \S+ s \((.*?)\), kinetic", self.log)]
 
     # --- over time ---------------------------------------------------------------------------------
 

@@ -114,7 +114,7 @@ def run(deck, folder=None, ranks=1, threads=1, restart=False, options=(), wait=T
     return started.wait() if wait else started
 
 
-def _is_new(run):
+def is_new(run):
     """Whether the history is of the program that runs now, not what an earlier one has left."""
     if isinstance(run, Started):
         return run.has_begun
@@ -130,7 +130,7 @@ def watch(run, every=1.0):
     tail = tables.Tail(run.path(".csv"))
     while True:
         ended = not run.is_running  # asked first: all that it has written is read then
-        if ended and not isinstance(run, Started) or _is_new(run):
+        if ended and not isinstance(run, Started) or is_new(run):
             yield from tail.lines()
         if ended:
             return

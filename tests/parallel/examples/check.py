@@ -14,14 +14,14 @@ from coplanetest import Case, differences, program, series_differences
 
 name, part = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 1
 case = Case(f"example {name}", __file__)
-source = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs/run.py"
-specification = importlib.util.spec_from_file_location("run_example", source)
+INPUTS = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs"
+specification = importlib.util.spec_from_file_location("run_example", INPUTS / "run.py")
 examples = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(examples)
-example = examples.read_example(name)
+example = examples.read_example(INPUTS / name)
 size = "coarse" if "coarse" in example["sizes"] else next(iter(example["sizes"]))
 options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[""], overwrite=False)
-chosen = examples.ExampleRun(name, example, size, "", options)
+chosen = examples.ExampleRun(INPUTS / name, example, size, "", options)
 recipe, deck, joints = chosen.recipe, chosen.deck, chosen.joints
 deck["time"]["end"] *= part
 tables = [f"run_{table}.csv" for table in deck.get("history", {}).get("tables", [])]

@@ -285,7 +285,6 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   observer.start(*this);
   std::string ending = "completed";
-  ExitCode code = ExitCode::Success;
   while (!isOver())
   {
     advance();
@@ -297,27 +296,27 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     catch (const Error& error)
     {
       if (error.onAllRanks())
-        finishBeforeFailing(observer, error.what());
+        finishBeforeFailing(observer, error.code(), error.what());
       throw;
     }
     if (requests_.stop)
     {
       ending = requests_.checkpoint ? "interrupted after a checkpoint" : "interrupted";
-      code = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
+      exitCode_ = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
       break;
     }
     if (rebalancer && !isOver() && rebalancer->look(*this))
       observer.repartitioned(*this);
   }
   observer.finish(*this, ending);
-  return code;
+  return exitCode_;
 }
 
 void Solver::judge(Observer& observer)
 {
   if (failed_)
   {
-    finishBeforeFailing(observer);
+    finishBeforeFailing(observer, ExitCode::Computation);
     failTogether("element");
   }
   if (contactCannotStop())
@@ -349,14 +348,15 @@ bool Solver::contactCannotStop() const
   return counts.tooDeep > 0 || counts.missed > 0;
 }
 
-void Solver::failAfter(Observer& observer, const std::string& why) const
+void Solver::failAfter(Observer& observer, const std::string& why)
 {
-  finishBeforeFailing(observer);
+  finishBeforeFailing(observer, ExitCode::Computation);
   failOnAllRanks(ExitCode::Computation, "{}", why);
 }
 
-void Solver::finishBeforeFailing(Observer& observer, const std::string& why) const
+void Solver::finishBeforeFailing(Observer& observer, ExitCode code, const std::string& why)
 {
+  exitCode_ = code;
   // Outputs that fail, too, are told of and do not hide why the run ends.
   try
   {

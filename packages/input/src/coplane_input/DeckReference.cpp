@@ -6,13 +6,13 @@
 
 namespace coplane
 {
-std::string deckReferenceText()
+std::string deckReferenceText(const std::string& topic)
 {
-  std::string out =
+  const std::string out =
       "Keys of a Coplane deck (YAML). Numbers are SI. <name> is a name of yours or of "
       "the mesh,\n<index> an item of a list, the first is 0; --set path=value uses "
       "the same paths.\n\n";
-  return out + referenceText(deckSchema());
+  return out + (topic.empty() ? referenceText(deckSchema()) : topicText(deckSchema(), topic));
 }
 
 std::string deckReferenceMarkdown()

@@ -276,10 +276,12 @@ void RunRecord::write(const Solver& solver, const std::string& ending) const
   if (!census_.empty())
     json["census"] = Json::parse(census_);
   json["started"] = startDate_;
+  json["end_s"] = solver.model().time.end;
   if (ending != "running")
   {
     const std::int64_t memory = peakMemory();
     json["ended"] = dateNow();
+    json["exit_code"] = int(solver.exitCode());
     json["wall_seconds"] = seconds;
     json["time_s"] = solver.clock().time;
     json["energies_J"] = energiesOf(solver.energy());

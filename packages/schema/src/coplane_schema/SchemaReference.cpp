@@ -1,5 +1,7 @@
 #include "SchemaReference.hpp"
 
+#include "detail/ReferenceText.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -11,68 +13,6 @@ namespace coplane
 namespace
 {
 using Json = nlohmann::ordered_json;
-
-std::string pathOf(const std::string& path, const Key& key)
-{
-  std::string here = path + (path.empty() ? "" : ".") + key.name;
-  if (key.kind == KeyKind::NamedGroups)
-    here += ".<name>";
-  if (key.kind == KeyKind::GroupList)
-    here += ".<index>";
-  return here;
-}
-
-/// "model: j2; 3D", or an empty string for a key that is always there.
-std::string conditionText(const Key& group, const Key& key)
-{
-  std::string text = key.models.empty()
-                         ? ""
-                         : fmt::format("{}: {}", group.discriminator, fmt::join(key.models, ", "));
-  if (key.dimension)
-    text += fmt::format("{}{}D", text.empty() ? "" : "; ", key.dimension);
-  return text;
-}
-
-std::string alternativesText(const Key& group)
-{
-  std::string text;
-  for (const auto& one : group.alternatives)
-    text += fmt::format("{} one of {}.", one.oneNeeded ? "Exactly" : "At most",
-                        fmt::join(one.names, ", "));
-  if (!group.shortFor.empty())
-    text += fmt::format("{}A value without keys is that of {}.", text.empty() ? "" : " ",
-                        group.shortFor);
-  if (group.aloneToo)
-    text += fmt::format("{}One item may stand without the list.", text.empty() ? "" : " ");
-  return text;
-}
-
-std::string necessity(const Key& key)
-{
-  if (key.required)
-    return "required";
-  return key.defaultText.empty() ? "optional" : "default: " + key.defaultText;
-}
-
-void writeText(const Key& group, const std::string& path, std::string& out)
-{
-  for (const auto& key : group.keys)
-  {
-    const std::string here = pathOf(path, key);
-    const std::string condition = conditionText(group, key);
-    out += fmt::format("{}{}\n", here, condition.empty() ? "" : "   (" + condition + ")");
-    if (key.isGroup())
-    {
-      const std::string rules = alternativesText(key);
-      out += fmt::format("    {}{}{}\n\n", key.meaning, key.required ? "; required" : "",
-                         rules.empty() ? "" : ". " + rules);
-      writeText(key, here, out);
-    }
-    else
-      out += fmt::format("    {}; {}\n    {}. Example: {}\n\n", acceptedText(key), necessity(key),
-                         key.meaning, key.example);
-  }
-}
 
 std::string cell(std::string text)
 {
@@ -327,7 +267,8 @@ Json groupSchema(const Key& group)
 std::string referenceText(const Key& schema)
 {
   std::string out;
-  writeText(schema, "", out);
+  for (const Key& key : schema.keys)
+    writeText(schema, key, "", out);
   return out;
 }
 

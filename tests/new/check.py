@@ -1,0 +1,95 @@
+"""`coplane new` for every example, and run.py on folders anywhere (README.md)."""
+
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import jsonschema
+
+from coplanetest import Case, documents, program
+
+from coplane import new
+
+SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
+RUN = [sys.executable, str(SOURCE / "exodus_inputs/run.py")]
+# Those with few elements; `coplane --check` on the others takes seconds each.
+CHECKED = ["bars_2d", "perforation", "penetration", "rocking_block_2d"]
+case = Case("new", __file__)
+
+
+def called(command, folder="."):
+    done = subprocess.run(list(map(str, command)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.returncode, done.stdout
+
+
+def made(*arguments):
+    """Runs `coplane new`."""
+    return called([program.binary("coplane"), "new", *arguments], place)
+
+
+def wrong(file):
+    """What its schema, which its first line names, finds in an input file."""
+    schema = re.fullmatch(r"# yaml-language-server: \$schema=(/.*)", file.read_text().splitlines()[0])
+    return [f"{file.name}: {error.message}" for error in jsonschema.Draft7Validator(documents.load(schema[1])).iter_errors(documents.load(file))]
+
+
+scratch = tempfile.TemporaryDirectory(prefix="my own ", ignore_cleanup_errors=True)
+place = pathlib.Path(scratch.name)
+for example in new.examples():
+    folder = place / f"like-{example[:3]}"
+    shutil.rmtree(folder, ignore_errors=True)
+    code, said = made(folder, "--like", example)
+    if not case.check_equal(f"{example}: exit code", code, 0):
+        print(said)
+        continue
+    texts = {path.name: path.read_text() for path in folder.iterdir() if path.suffix != ".e"}
+    case.check_equal(f"{example}: files that name it, or others outside", [name for name, text in texts.items() if example in text or re.search(r"\.\./[a-z]", text)], [])
+    case.check_equal(f"{example}: against the schemas", [text for name in texts if name.endswith(".yaml") for text in wrong(folder / name)], [])
+    case.check_equal(f"{example}: check", (folder / "check.py").exists(), True)
+    if example not in CHECKED:
+        continue
+    code, said = called([program.binary("coplane"), folder / f"{folder.name}.yaml", "--check"])
+    case.check_equal(f"{example}: coplane --check", (code, "check: deck and mesh are fine" in said), (0, True))
+
+# --- what it says, and refuses ---------------------------------------------------------------------------
+
+code, said = made("bars", "--like", "bars_2d")
+case.check_equal("made: it says how to run it", [word for word in ("coplane bars/bars.yaml", "run.py bars", "mesh.yaml -o bars/mesh.e") if word not in said], [])
+before = {path.name: path.read_bytes() for path in (place / "bars").iterdir()}
+code, said = made("bars", "--like", "arch_2d")
+case.check_equal("there already", (code, "is there already" in said, {path.name: path.read_bytes() for path in (place / "bars").iterdir()} == before), (2, True, True))
+for arguments, words in (
+    (("x",), ["--like EXAMPLE is missing", "  bars_2d ", "a bar hits another one"]),
+    (("x", "--like", "rocking_block"), ["Did you mean rocking_block_2d?", "  explosion_3d "]),
+    (("x", "--like", "../tests"), ["no such example"]),
+    (("2 x", "--like", "bars_2d"), ["a letter first"]),
+    (("mesh", "--like", "bars_2d"), ["Choose another name"]),
+):
+    code, said = made(*arguments)
+    case.check_equal(f"new {' '.join(arguments)}", (code, [word for word in words if word not in said]), (2, []))
+case.check_equal("refused: nothing was made", [name for name in ("x", "2 x", "mesh") if (place / name).exists()], [])
+case.check_equal("a folder that cannot be made", made("bars/bars.yaml/x", "--like", "bars_2d")[0], 5)
+
+# --- run.py on folders outside the tree --------------------------------------------------------------------
+
+code, said = called([*RUN, "bars", "--no-pictures", "--set", "time.end=5e-4"], place)
+case.check_equal("run.py: exit code", code, 0)
+results = place / "bars/runs/S"
+checks = [json.loads(line) for line in (results / "checks.jsonl").read_text().splitlines()]
+case.check_equal("run.py: checks, results", (len(checks) > 5 and all(line["passed"] for line in checks), (results / "run.e").exists()), (True, True))
+alone = place / "alone"
+alone.mkdir()
+shutil.copy(place / "bars/bars.yaml", alone / "deck.yaml")
+code, said = called([*RUN, alone, "--no-pictures"])
+case.check_equal("run.py without a recipe", (code, "mesh.yaml, the recipe of alone, is not there" in said), (1, True))
+shutil.copy(place / "bars/mesh.yaml", alone)
+code, said = called([*RUN, ".", "--no-pictures", "--set", "time.end=1e-5"], alone)
+case.check_equal("run.py on a deck and a recipe", (code, (alone / "runs/S/run.csv").exists()), (0, True))
+code, said = called([*RUN, "nothing"], place)
+case.check_equal("run.py: no such folder", (code, [word for word in ("no example 'nothing'", "bars_2d", "coplane new") if word not in said]), (1, []))
+case.finish()
