@@ -5,6 +5,7 @@ import pathlib
 from collections.abc import Callable
 
 import netCDF4
+from coplanetest import program
 
 FINE, USAGE, DECK, MESH, OUTPUT, RESTART = 0, 2, 3, 4, 5, 9
 
@@ -79,7 +80,7 @@ warned("a step that is too large", {"end: 1e-3": "end: 1e-3, fixed_step: 1e-3"},
 warned("two conditions on the same nodes", {"node_set: base": "node_set: top"}, "run.yaml:12:5 (fixed of 'top') and run.yaml:13:5 (velocity of 'top')",
        "the same component of 3 nodes", "the second acts there", two_ranks=True)
 warned("motion across a symmetry", {"{type: fixed, node_set: base}": "{type: symmetry, node_set: top, normal: [0, 1, 0]}"},
-       "run.yaml:12:5 (symmetry of 'top') and run.yaml:13:5 (velocity of 'top')", "the second acts there")  # fmt: skip
+       "run.yaml:12:5 (symmetry of 'top') and run.yaml:13:5 (velocity of 'top')", "the second acts there", two_ranks=True)  # fmt: skip
 warned("a joint within one block", {"dry}": "dry, pairs: [{blocks: [lower, lower], joint: dry, declared: true}]}"}, "contact.pairs.0",
        "no faces of its two sides overlap")  # fmt: skip
 
@@ -218,6 +219,10 @@ cooked("millimetres in a recipe", "size: [1,", "size: [1000 mm,", "parts.0.size.
 cooked("one number of divisions", "divisions: [2, 1]", "divisions: 2", "parts.0.divisions = '2'", "a list of 2 whole numbers >= 1")
 cooked("a set of a misspelt block", "block: lower, where", "block: lwoer, where", "node_sets.base.block = 'lwoer' is no block of the parts", "Did you mean 'lower'?")
 
+def with_checkpoint(folder):
+    program.run_program(["run.yaml", "--set", "checkpoint.at_end=true"], folder)
+
+
 # --- the command line ----------------------------------------------------------------------------------------------
 typed("no deck", "", "deck is required", "coplane DECK")
 typed("two decks", "run.yaml run.yaml", "one deck")
@@ -230,6 +235,8 @@ typed("a key of --set without its group", "run.yaml --set end=0.1", "end is not 
 typed("restart in front of the deck", "--restart run.yaml", "deck is required", "coplane run.yaml --restart", two_ranks=True)
 typed("a restart without a checkpoint", "run.yaml --restart", "there is no checkpoint to restart from", "run.chk.0", code=RESTART)
 typed("a restart from the mesh", "run.yaml --restart mesh.e", "it is not a checkpoint of Coplane", code=RESTART)
+typed("a restart of another deck", "run.yaml --restart --set materials.granite.density=2600", "the deck run.yaml is not that of the checkpoint",
+      "materials.granite.density was 2650 and is 2600 now", code=RESTART, prepare=with_checkpoint, two_ranks=True)  # fmt: skip
 typed("threads of the serial back end", "run.yaml --backend serial --threads 4", "4 threads, but --backend serial has one", two_ranks=True)
 typed("threads above the machine", "run.yaml --threads 128", "WARNING", "share cores", code=FINE)
 typed("an hour of --max-wall", "run.yaml --max-wall 1h", "1h; accepted: a number of seconds")
