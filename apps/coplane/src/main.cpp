@@ -212,7 +212,7 @@ void warnOfUnusualValues(const Deck& deck)
 {
   if (!deck.warnings.empty())
     logWarning("unusual values",
-               fmt::format("values that are accepted, but most likely not meant:\n  {}\nThe usual "
+               fmt::format("values that are accepted, but perhaps not meant:\n  {}\nThe usual "
                            "ranges are those of SI units; others serve as well when all of them "
                            "agree with each other.",
                            fmt::join(deck.warnings, "\n  ")));
