@@ -7,6 +7,41 @@
 
 namespace coplane
 {
+namespace
+{
+/// The first step and what limits it. Collective.
+void reportStep(const Solver& solver, const Deck& deck)
+{
+  const StepControl control = solver.stepControl();
+  const TimeOptions& time = solver.model().time;
+  const Real step = solver.clock().nextStep, rest = deck.time.end - solver.clock().time;
+  const char* const key = time.fixedStep && step == *time.fixedStep       ? "fixed_step"
+                          : time.maximumStep && step == *time.maximumStep ? "maximum_step"
+                                                                          : nullptr;
+  if (!(control.stableStep < infinity))
+    logInfo("first step: {:.6e} s{}; its stability is limited by {}", step,
+            key ? fmt::format(", time.{}", key) : "", control.text());
+  else if (key)
+    logInfo("stable step: {:.6e} s, limited by {}; first step {:.6e} s, time.{}",
+            control.stableStep, control.text(), step, key);
+  else
+    logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",
+            control.stableStep, time.stepFactor, step, control.text());
+  constexpr Real manyCycles = 1e8;
+  const std::string where = fmt::format("{}: time.end = {:g} s", deck.file, deck.time.end);
+  if (rest > manyCycles * step)
+    logWarning("a long run",
+               fmt::format("{} is {:.2g} steps of {:.3g} s away: this will take very long. Seconds "
+                           "are meant: 1 ms is 1e-3.",
+                           where, rest / step, step));
+  if (solver.clock().cycle == 0 && deck.time.end < step)
+    logWarning("a short run",
+               fmt::format("{} is less than the first step, {:.3g} s: there is one cycle. Seconds "
+                           "are meant.",
+                           where, step));
+}
+} // namespace
+
 void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
 {
   const Comm& comm = solver.comm();
@@ -22,11 +57,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
     logInfo("  block '{}' ({}): {} elements, mass {:.9g} kg", mesh.mine.blocks[b].name,
             mesh.mine.blocks[b].id, mesh.elementsOf(int(b)), totals[b]);
 
-  const StepControl control = solver.stepControl();
-  logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",
-          control.stableStep, solver.model().time.stepFactor, solver.clock().nextStep,
-          control.text());
-
+  reportStep(solver, deck);
   if (!solver.hasContact())
   {
     logInfo("contact: off");

@@ -2,7 +2,9 @@
 #include "Observers.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
+#include "StartReport.hpp"
 #include "Subcommands.hpp"
+#include "UsageHint.hpp"
 
 #include <coplane_core/Abort.hpp>
 #include <coplane_core/Backend.hpp>
@@ -112,8 +114,9 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
       ->check(
           [](const std::string& text)
           {
-            const double seconds = std::strtod(text.c_str(), nullptr);
-            return seconds > 0 && std::isfinite(seconds)
+            char* end = nullptr;
+            const double seconds = std::strtod(text.c_str(), &end);
+            return seconds > 0 && std::isfinite(seconds) && *end == 0
                        ? ""
                        : text + "; accepted: a number of seconds above 0";
           });
@@ -131,11 +134,11 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
   app.set_version_flag("--version", build);
   app.failure_message(
-      [](const CLI::App*, const CLI::Error& error)
+      [argc, argv](const CLI::App* failed, const CLI::Error& error)
       {
-        return fmt::format("ERROR: {}\nAccepted: coplane DECK [options], one deck. All options: "
+        return fmt::format("ERROR: {}\n{}Accepted: coplane DECK [options], one deck. All options: "
                            "coplane --help\n",
-                           error.what());
+                           error.what(), usageHint({argv + 1, argv + argc}, *failed));
       });
   try
   {
@@ -144,6 +147,11 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
     line.helpDeck = helpDeck->count() > 0;
     if (!asksForHelp(line) && line.deck.empty())
       throw CLI::RequiredError("deck");
+    if (line.backend == "serial" && line.threads > 1)
+      throw CLI::ValidationError(
+          "--threads", fmt::format("{} threads, but --backend serial has one; leave one of the two "
+                                   "options out",
+                                   line.threads));
   }
   catch (const CLI::ParseError& error)
   {
@@ -207,6 +215,32 @@ Deck deckOf(const CommandLine& line, const Comm& comm)
   return deck;
 }
 
+void warnOfUnusualValues(const Deck& deck)
+{
+  if (!deck.warnings.empty())
+    logWarning("unusual values",
+               fmt::format("values that are accepted, but perhaps not meant:\n  {}\nThe usual "
+                           "ranges are those of SI units; others serve as well when all of them "
+                           "agree with each other.",
+                           fmt::join(deck.warnings, "\n  ")));
+}
+
+/// The mesh that the deck names; errors say where it does. Collective.
+MeshSlice meshOf(const Deck& deck, const Comm& comm)
+{
+  try
+  {
+    return readMesh(deck.mesh, comm);
+  }
+  catch (const Error& error)
+  {
+    if (error.code() != ExitCode::Mesh)
+      throw;
+    throw Error(error.code(), fmt::format("{} It is named at {}.", error.what(), deck.meshWhere),
+                error.onAllRanks());
+  }
+}
+
 template <class Items>
 std::vector<std::string> namesOf(const Items& items)
 {
@@ -261,6 +295,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   if (line.maxWall > 0)
     settings.maxWall = line.maxWall;
   const Deck deck = deckOf(line, comm);
+  warnOfUnusualValues(deck);
   std::vector<FileLock> locks;
   if (!line.check)
   {
@@ -268,7 +303,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     removeOldStopFile(deck, comm);
     demandWritableFiles(deck, comm);
   }
-  const MeshSlice mesh = readMesh(deck.mesh, comm);
+  const MeshSlice mesh = meshOf(deck, comm);
   RankMesh home = partAtHome(mesh, comm);
   checkTogether(deck, mesh, home, comm);
   logInfo("coplane {} ({}), {}; {} ranks x {} threads, back end {}", version().number,

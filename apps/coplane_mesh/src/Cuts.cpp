@@ -4,7 +4,7 @@
 #include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
-#include <coplane_schema/Suggestion.hpp>
+#include <coplane_core/Suggestion.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #include "ExampleFile.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Suggestion.hpp>
 #include <coplane_schema/Definitions.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 #include <coplane_schema/SchemaReader.hpp>
-#include <coplane_schema/Suggestion.hpp>
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,7 @@
 #include "MeshFaces.hpp"
 #include "ShapeModel.hpp"
 
-#include <coplane_schema/Suggestion.hpp>
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 

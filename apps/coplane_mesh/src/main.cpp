@@ -260,6 +260,14 @@ int run(int argc, char** argv)
   Arguments given;
   const std::vector<Command> commands = commandsOf(app, given);
   app.require_subcommand(0, 1);
+  app.failure_message(
+      [](const CLI::App*, const CLI::Error& error)
+      {
+        return fmt::format(
+            "error: {}\nAccepted: coplane_mesh make RECIPE --output MESH, or another "
+            "command: coplane_mesh --help\n",
+            error.what());
+      });
   try
   {
     app.parse(argc, argv);

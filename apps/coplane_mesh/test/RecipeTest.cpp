@@ -252,7 +252,7 @@ TEST(Recipe, anEmptySelectionIsRefused)
 
 TEST(Recipe, invalidYamlIsNamedWithItsPlace)
 {
-  EXPECT_EQ(errorOf("dimension: [2\n").substr(0, 8), "r.yaml:2");
+  EXPECT_EQ(errorOf("dimension: [2\n").substr(0, 11), "r.yaml:1:12");
 }
 
 TEST(Recipe, allProblemsAreToldAtOnce)

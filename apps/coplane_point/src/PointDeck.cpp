@@ -3,13 +3,13 @@
 #include "PathFile.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Suggestion.hpp>
 #include <coplane_input/ContactSchema.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 #include <coplane_schema/SchemaReader.hpp>
-#include <coplane_schema/Suggestion.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -320,6 +320,7 @@ PointDeck parsePointDeck(const std::string& text, const std::string& file,
                        "one of them.");
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
+  deck.warnings = problems.warnings();
   for (JointPathCard& card : deck.jointPaths)
     if (!card.file.empty())
       readPathFile(card.file, card);

@@ -38,6 +38,7 @@ struct JointPathCard
 struct PointDeck
 {
   std::string file;
+  std::vector<std::string> warnings; ///< about values that are accepted, but most likely not meant
   std::string title;
   std::vector<JointCard> joints;
   ElementCard elements;

@@ -127,6 +127,8 @@ int run(int argc, char** argv)
     return int(ExitCode::Success);
   }
   const PointDeck deck = readPointDeck(file, overrides);
+  for (const std::string& warning : deck.warnings)
+    std::fputs(("warning: " + warning + "\n").c_str(), stderr);
   demandDistinctFiles(deck);
   if (check)
   {

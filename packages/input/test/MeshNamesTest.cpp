@@ -58,7 +58,7 @@ TEST(CheckNamesAgainstMesh, setsOfConditionsMustExist)
                 "wall.yaml:6:5: conditions.0.node_set = 'bass' is not a node set of the mesh. Did "
                 "you mean 'base'? There is: base, tip.",
                 "wall.yaml:7:5: conditions.1.side_set = 'base' is not a side set of the mesh. "
-                "There is: top."}));
+                "There is: top. 'base' is a node set."}));
 }
 
 TEST(CheckNamesAgainstMesh, contactPairsInitialStatesAndProbesMustExist)

@@ -155,7 +155,7 @@ TEST(Define, anUnknownNameIsRefusedWithItsPlaceAndASuggestion)
   EXPECT_EQ(problemsOf("speed: fast\n"),
             "f.yaml:1:8: speed = 'fast' is not a number; accepted: a number > 0 [m/s].");
   EXPECT_EQ(problemsOf("speed: 2*3\n"),
-            "f.yaml:1:8: speed = '2*3' is not a number; accepted: a number > 0 [m/s].");
+            "f.yaml:1:8: speed = '2*3' is not a number: write 6; accepted: a number > 0 [m/s].");
 }
 
 TEST(Define, whatANumberDemandsHoldsForExpressions)

@@ -1,6 +1,7 @@
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Suggestion.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 #include <coplane_schema/SchemaReader.hpp>
-#include <coplane_schema/Suggestion.hpp>
 
 #include <gtest/gtest.h>
 
@@ -176,5 +177,102 @@ TEST(SchemaReader, aValueInPlaceOfAGroupIsThatOfOneKey)
   EXPECT_EQ(got.problems, "c.yaml:1:8: line.divisions do not fit.");
   EXPECT_EQ(read("{line: [0]}").problems,
             "c.yaml:1:8: line = a list of 1; accepted: a list of at least 2 numbers [m].");
+}
+namespace
+{
+struct Solid
+{
+  std::string kind;
+  Real density = 0, modulus = 0;
+  Vec3 pull;
+};
+
+Problems problemsOfSolid(const std::string& text)
+{
+  const Key schema =
+      section("", {
+                      schema::text("kind", &Solid::kind)
+                          .oneOf({"rock", "soil"})
+                          .wordsElsewhere({{"stone", "rock"}}),
+                      number("density", &Solid::density)
+                          .in("kg/m^3")
+                          .needed()
+                          .usually({20, 3e4, "Not in g/cm^3."})
+                          .elsewhere({"rho"}),
+                      number("modulus", &Solid::modulus).in("Pa"),
+                      vector("pull", &Solid::pull).in("m/s^2").usually({0, 100, "Not in mm/s^2."}),
+                  });
+  Problems problems;
+  Solid solid;
+  readBySchema(schema, text, "c.yaml", {}, &solid, problems);
+  return problems;
+}
+
+std::string warningsOf(const std::string& text)
+{
+  const Problems problems = problemsOfSolid(text);
+  EXPECT_EQ(problems.text(), "");
+  return fmt::format("{}", fmt::join(problems.warnings(), "|"));
+}
+
+/// The problem of a number, from what is wrong with it on.
+std::string hintOf(const std::string& number)
+{
+  const std::string text = problemsOfSolid("{density: 1e3, modulus: " + number + "}").text();
+  const std::size_t at = text.find("is not a number");
+  return at == std::string::npos ? text : text.substr(at, text.find(";") - at);
+}
+} // namespace
+
+TEST(SchemaReader, unusualValuesAreWarningsWithTheLikelyMistake)
+{
+  EXPECT_EQ(warningsOf("{density: 2650, pull: [0, -100, 0]}"), "");
+  EXPECT_EQ(warningsOf("{density: 2.65}"), "c.yaml:1:11: density = 2.65 kg/m^3 is unusually small; "
+                                           "usual: from 20 on. Not in g/cm^3.");
+  EXPECT_EQ(warningsOf("{pull: [0, -9810, 0], density: 1e5}"),
+            "c.yaml:1:8: pull = -9810 m/s^2 is unusually large; usual: up to 100. Not in mm/s^2.|"
+            "c.yaml:1:32: density = 100000 kg/m^3 is unusually large; usual: up to 30000. Not in "
+            "g/cm^3.");
+}
+
+TEST(SchemaReader, wordsOfOtherProgramsAreTranslated)
+{
+  EXPECT_EQ(problemsOfSolid("{density: 1e3, Rho: 3}").text(),
+            "c.yaml:1:16: Rho is not known. It is called 'density' here. Accepted here: kind, "
+            "density, modulus, pull.");
+  EXPECT_EQ(problemsOfSolid("{density: 1e3, kind: stone}").text(),
+            "c.yaml:1:22: kind = 'stone' is not known. It is called 'rock' here. Accepted: one of "
+            "rock, soil.");
+}
+
+TEST(SchemaReader, numbersWrittenOtherwiseAreRewrittenInTheMessage)
+{
+  const std::string is = "is not a number";
+  EXPECT_EQ(hintOf("60 GPa"), is + ": values have no units, write 60000000000");
+  EXPECT_EQ(hintOf("-2.5kPa"), is + ": values have no units, write -2500");
+  EXPECT_EQ(hintOf("60 psi"), is + ": values have no units, write the number in Pa alone");
+  EXPECT_EQ(hintOf("25 %"), is + ": write 0.25");
+  EXPECT_EQ(hintOf("60d9"), is + ": write 60e9");
+  EXPECT_EQ(hintOf("2 650"), is + ": write 2650");
+  EXPECT_EQ(hintOf("\"0,5\""), is + ": numbers have a decimal point, write 0.5");
+  EXPECT_EQ(hintOf("60*10^9"), is + ": write 60000000000");
+  EXPECT_EQ(hintOf("much"), is);
+  EXPECT_EQ(hintOf("1/0"), is);
+}
+
+TEST(SchemaReader, aFileOfAnotherKindIsRefusedAsAWhole)
+{
+  try
+  {
+    problemsOfSolid("{parts: [], dimension: 2}");
+    FAIL() << "accepted";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_STREQ(error.what(),
+                 "c.yaml: this is a recipe of a mesh, for coplane_mesh make, with the "
+                 "key 'parts'; accepted for the deck: keys that --help-deck lists.");
+  }
+  EXPECT_NE(problemsOfSolid("{parts: [], density: 1e3}").text(), "") << "a key in a wrong place";
 }
 } // namespace coplane

@@ -11,6 +11,8 @@ namespace coplane
 {
 std::string StepControl::text() const
 {
+  if (!(stableStep < infinity) && !motion)
+    return "nothing: no element deforms and nothing touches";
   if (motion)
     return fmt::format(
         "the motion of faces: at {:.4g} m/s relative to each other they may not pass "

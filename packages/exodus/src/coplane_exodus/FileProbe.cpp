@@ -3,11 +3,13 @@
 #include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/detail/FileProbe.hpp>
 
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <thread>
@@ -92,13 +94,45 @@ ProgramEnd runProgram(std::vector<std::string> command, double seconds)
   }
 }
 
+namespace
+{
+/// What to do with a file of another kind, by the ending of its name.
+std::string wayToExodus(const std::string& file)
+{
+  const std::filesystem::path path(file);
+  std::string ending = path.extension().string();
+  for (char& c : ending)
+    c = char(std::tolower(static_cast<unsigned char>(c)));
+  const std::string mesh = std::filesystem::path(file).replace_extension(".e").string();
+  const auto is = [&](const std::set<std::string>& endings) { return endings.count(ending) > 0; };
+  if (is({".msh"}))
+    return fmt::format("It seems to come from Gmsh: coplane_mesh convert {} --output {}", file,
+                       mesh);
+  if (is({".yaml", ".yml"}))
+    return fmt::format("A recipe becomes a mesh with coplane_mesh make {} --output {}", file, mesh);
+  if (is({".geo"}))
+    return fmt::format(
+        "Mesh it with Gmsh in format 4.1 (gmsh -3 -format msh41), then: coplane_mesh "
+        "convert {} --output {}",
+        std::filesystem::path(file).replace_extension(".msh").string(), mesh);
+  if (is({".stl", ".step", ".stp", ".iges", ".igs", ".obj", ".brep"}))
+    return "It describes surfaces, not elements: mesh it, in Gmsh for example, and save that as "
+           ".msh "
+           "4.1 for coplane_mesh convert, or as Exodus II";
+  if (is({".inp", ".k", ".key", ".bdf", ".nas", ".cdb", ".unv", ".med", ".vtk", ".vtu", ".f3grid"}))
+    return "Coplane does not read this kind: save the mesh as Exodus II in the program that made "
+           "it, "
+           "or as .msh 4.1 of Gmsh for coplane_mesh convert";
+  return "Write the mesh with coplane_mesh make, or export Exodus II from your mesh generator";
+}
+} // namespace
+
 void refuseMeshFile(const std::string& file)
 {
   fail(ExitCode::Mesh,
        "{}: the file is not an Exodus II file (netCDF classic, 64-bit or netCDF-4), or it is "
-       "damaged. Write the mesh with "
-       "coplane_mesh make, or export Exodus II from your mesh generator.",
-       file);
+       "damaged. {}.",
+       file, wayToExodus(file));
 }
 
 void demandMeshFile(const std::string& file)

@@ -1,5 +1,6 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/MissingFile.hpp>
 #include <coplane_core/SortOverRanks.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
 #include <coplane_exodus/detail/FileProbe.hpp>
@@ -16,10 +17,11 @@ MeshSlice readParts(const std::string& file, const std::vector<std::string>& nam
                     const Comm& comm)
 {
   if (names.empty())
-    failOnAllRanks(ExitCode::Mesh,
-                   "{}: the mesh file does not exist (looked in '{}'). Check the name, or write it "
-                   "with coplane_mesh make.",
-                   file, folderOf(file));
+    failOnAllRanks(
+        ExitCode::Mesh,
+        "{}: the mesh file does not exist (looked in '{}').{} Check the name, or write it "
+        "with coplane_mesh make.",
+        file, folderOf(file), hintOfMissingFile(file));
   std::vector<Mesh> parts;
   std::vector<GlobalId> blocks;
   comm.together(

@@ -56,7 +56,13 @@ Key contactPairs()
 
 std::vector<Key> jointCardKeys()
 {
-  return keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
+  std::vector<Key> keys = keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
+  keys[0] = KeyBuilder(keys[0]).wordsElsewhere({{"coulomb", "linear"},
+                                                {"mohr_coulomb", "linear"},
+                                                {"area", "linear"},
+                                                {"cohesive", "bilinear"},
+                                                {"barton", "barton_bandis"}});
+  return keys;
 }
 
 Key jointKeys()
@@ -177,11 +183,13 @@ Key contactKeys()
                          {
                              number("normal", &ContactCard::dampNormal)
                                  .in("-")
+                                 .usually(usual::fraction)
                                  .atLeast(0)
                                  .like("0.1")
                                  .means("of closure, fraction of critical"),
                              number("shear", &ContactCard::dampShear)
                                  .in("-")
+                                 .usually(usual::fraction)
                                  .atLeast(0)
                                  .like("0.1")
                                  .means("of slip, fraction of critical"),

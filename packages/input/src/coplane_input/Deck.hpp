@@ -200,8 +200,9 @@ struct CheckpointCard
 
 struct Deck
 {
-  std::string file; ///< as given on the command line
-  std::string text; ///< the whole deck after --set, for the info records
+  std::string file;                  ///< as given on the command line
+  std::string text;                  ///< the whole deck after --set, for the info records
+  std::vector<std::string> warnings; ///< about values that are accepted, but most likely not meant
   std::string title;
   std::string mesh,
       meshWhere; ///< path, relative paths are relative to the deck's folder (resolved)

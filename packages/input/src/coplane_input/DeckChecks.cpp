@@ -3,7 +3,7 @@
 #include "JointCards.hpp"
 #include "MaterialCards.hpp"
 
-#include <coplane_schema/Suggestion.hpp>
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 
@@ -281,6 +281,39 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
       rigid.push_back(block.name);
   checkListed("rigid", deck.history.rigid, "a rigid block, or \"*\"", rigid, root, problems);
 }
+/// Outputs that a run never comes to.
+void warnOfLateOutputs(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  const Real end = deck.time.end;
+  const auto warn = [&](const std::string& group, Real every)
+  {
+    if (every > end)
+      problems.warn(
+          nodeAt(root, {group, "every"}),
+          fmt::format("{}.every = {:g} s is longer than the run (time.end = {:g} s): only "
+                      "its first and last state are written.",
+                      group, every, end));
+  };
+  warn("output", deck.output.every);
+  warn("history", deck.history.every);
+  const auto& times = deck.output.times;
+  if (const auto late = std::find_if(times.begin(), times.end(), [&](Real t) { return t > end; });
+      late != times.end())
+    problems.warn(
+        nodeAt(root, {"output", "times"}),
+        fmt::format("output.times has {:g} s, but the run ends at time.end = {:g} s.", *late, end));
+}
+
+/// A weight of the earth that lifts.
+void warnOfGravityUpwards(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  for (int c = 1; c < 3; ++c)
+    if (const Real g = deck.gravity[c].constant; g > 9.7 && g < 9.9)
+      problems.warn(nodeAt(root, {"gravity", std::to_string(c)}),
+                    fmt::format("gravity.{0} = {1:g} m/s^2 pulls along +{2}, upwards where {2} "
+                                "points up; there it is -{1:g}.",
+                                c, g, "xyz"[c]));
+}
 } // namespace
 
 void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
@@ -304,6 +337,8 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkErosion(deck, root, problems);
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);
+  warnOfLateOutputs(deck, root, problems);
+  warnOfGravityUpwards(deck, root, problems);
 }
 
 std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
@@ -337,6 +372,10 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
     demand(nothing(card.traction[2]), card.where, "a traction along z");
     demand(nothing(card.velocity[2]), card.where, "a velocity along z");
     demand(nothing(card.displacement[2]), card.where, "a displacement along z");
+    if (const auto& axes = card.components; axes[2] && !axes[0] && !axes[1])
+      messages.push_back(fmt::format("{}: components: [z] holds nothing: the mesh has two "
+                                     "dimensions. Accepted: x, y or both.",
+                                     card.where));
   }
   return messages;
 }
@@ -345,13 +384,25 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
                                                const Names& nodeSetNames, const Names& sideSetNames)
 {
   std::vector<std::string> messages;
+  const std::string block = "an element block", nodeSet = "a node set", sideSet = "a side set";
+  const auto hint = [&](const std::string& name) -> std::string
+  {
+    for (const auto& [what, names] :
+         {std::pair(block, blockNames), std::pair(nodeSet, nodeSetNames),
+          std::pair(sideSet, sideSetNames)})
+      if (contains(names, name))
+        return fmt::format(" '{}' is {}.", name, what);
+    return name.find_first_not_of("0123456789") == std::string::npos
+               ? " Names are wanted, not numbers: coplane_mesh check MESH lists both."
+               : "";
+  };
   const auto check = [&](const std::string& where, const std::string& path, const std::string& name,
                          const std::string& what, const Names& names)
   {
     if (!name.empty() && !contains(names, name))
-      messages.push_back(where + ": " + unknown(path, name, what + " of the mesh", names));
+      messages.push_back(where + ": " + unknown(path, name, what + " of the mesh", names) +
+                         hint(name));
   };
-  const std::string block = "an element block", nodeSet = "a node set", sideSet = "a side set";
 
   const Names cards = namesOf(deck.blocks);
   for (const auto& name : blockNames)

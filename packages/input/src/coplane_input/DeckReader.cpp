@@ -42,6 +42,7 @@ Deck parseDeck(const std::string& text, const std::string& file,
   checkDeck(deck, root, problems);
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
+  deck.warnings = problems.warnings();
   deck.mesh = (path.parent_path() / deck.mesh).lexically_normal().string();
   return deck;
 }

@@ -89,6 +89,7 @@ Key blocks()
                            {
                                number("stiffness", &BlockCard::hourglassStiffness)
                                    .in("-")
+                                   .usually(usual::fraction)
                                    .atLeast(0)
                                    .like("0.1")
                                    .means("stiffness against hourglass modes, relative to the "
@@ -96,6 +97,7 @@ Key blocks()
                                           "the resistance yields with the material"),
                                number("viscosity", &BlockCard::hourglassViscosity)
                                    .in("-")
+                                   .usually(usual::fraction)
                                    .atLeast(0)
                                    .like("0.02")
                                    .means("viscous resistance to hourglass modes"),
@@ -153,6 +155,15 @@ Key conditions()
                      .needed()
                      .oneOf({"fixed", "velocity", "displacement", "symmetry", "pressure",
                              "traction", "air_blast", "absorbing", "rigid_motion"})
+                     .wordsElsewhere({{"encastre", "fixed"},
+                                      {"pinned", "fixed"},
+                                      {"clamped", "fixed"},
+                                      {"spc", "fixed"},
+                                      {"roller", "symmetry"},
+                                      {"quiet", "absorbing"},
+                                      {"viscous", "absorbing"},
+                                      {"nonreflecting", "absorbing"},
+                                      {"non_reflecting", "absorbing"}})
                      .like("fixed")
                      .means("fixed: no motion; velocity, displacement: prescribed motion; "
                             "symmetry: no motion "
@@ -195,6 +206,7 @@ Key conditions()
                      .needed()
                      .ofPlaceToo()
                      .in("m/s")
+                     .usually(usual::speed)
                      .like("[\"0.1*t\", 0, 0]")
                      .means("velocity in x, y, z; 0 for components that are left free; x, y, z: "
                             "place at t = 0"),
@@ -215,6 +227,7 @@ Key conditions()
                      .needed()
                      .ofPlaceToo()
                      .in("Pa")
+                     .usually(usual::stress)
                      .like("[0, \"-1e5*min(t/0.01, 1)\", 0]")
                      .means("force per present area, in fixed axes; x, y, z: middle of the face at "
                             "t = 0"),
@@ -255,6 +268,7 @@ Key conditions()
                      .needed()
                      .ofPlaceToo()
                      .in("Pa")
+                     .usually(usual::stress)
                      .like("\"1e5*min(t/0.01, 1)\"")
                      .means(
                          "pressure; positive pushes into the body; x, y, z: middle of the face at "
@@ -268,6 +282,7 @@ Key conditions()
                      .means("normal of the plane, of any length"),
              })
       .decidedBy("type")
+      .elsewhere({"boundary", "boundaries", "bc", "bcs", "boundary_conditions", "loads"})
       .means("boundary conditions; t is the time [s], _pi is 3.14159...");
 }
 
@@ -293,6 +308,8 @@ Key initial()
                       .means("element block of the mesh"),
                   vector("velocity", &InitialCard::velocity)
                       .in("m/s")
+                      .usually(usual::speed)
+                      .elsewhere({"v0", "vel"})
                       .like("[0, -35, 60.6]")
                       .means("velocity of the point `center` of the block, a rigid body at t = 0"),
                   vector("angular_velocity", &InitialCard::angularVelocity)
@@ -306,6 +323,7 @@ Key initial()
                   velocityField,
                   numbers("stress", &InitialCard::stress, 6)
                       .in("Pa")
+                      .usually(usual::stress)
                       .like("[-1e6, 0, 0, 0, 0, 0]")
                       .means("xx, yy, zz, xy, yz, zx; tension is positive"),
                   numbers("stress_gradient", &InitialCard::stressGradient, 6)
@@ -333,23 +351,28 @@ Key timeGroup()
                    number("end", &TimeCard::end)
                        .needed()
                        .in("s")
+                       .elsewhere({"endtim", "endtime", "t_end", "tend", "termination", "duration",
+                                   "total", "period"})
                        .above(0)
                        .like("0.041")
                        .means("time at which the run ends"),
                    number("step_factor", &TimeCard::stepFactor)
                        .in("-")
+                       .elsewhere({"tssfac", "cfl", "courant", "safety", "scale"})
                        .above(0)
                        .atMost(1)
                        .like("0.9")
                        .means("time step over the stable step"),
                    number("maximum_step", &TimeCard::maximumStep)
                        .in("s")
+                       .elsewhere({"dtmax", "max_step"})
                        .above(0)
                        .defaultIs("no limit")
                        .like("1e-5")
                        .means("largest time step"),
                    number("fixed_step", &TimeCard::fixedStep)
                        .in("s")
+                       .elsewhere({"dt", "step", "time_step", "timestep"})
                        .above(0)
                        .defaultIs("the step follows the stable step")
                        .like("1e-6")
@@ -381,6 +404,8 @@ Key gravity()
                   field = {v[0], v[1], v[2]};
                 })
                 .in("m/s^2")
+                .usually(usual::acceleration)
+                .elsewhere({"g", "body_force", "load_body"})
                 .defaultIs("[0, 0, 0]")
                 .like("[0, \"-9.81*min(t/0.5, 1)\", 0]")
                 .means("acceleration of everything");
@@ -469,6 +494,7 @@ Key makeSchema()
                       {
                           number("linear", &Deck::viscosityLinear)
                               .in("-")
+                              .usually(usual::fraction)
                               .atLeast(0)
                               .like("0.1")
                               .means("bulk viscosity b1, in compression"),

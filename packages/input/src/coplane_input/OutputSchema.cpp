@@ -23,6 +23,7 @@ Key outputKeys()
                        .means("Exodus file, relative to the working folder; none: no results"),
                    number("every", &OutputCard::every)
                        .in("s")
+                       .elsewhere({"dt", "interval", "frequency"})
                        .atLeast(0)
                        .like("1e-3")
                        .means("interval between results; 0: only at `times`, start and end"),
@@ -52,6 +53,7 @@ Key historyKeys()
                      .means("CSV file, relative to the working folder"),
                  number("every", &HistoryCard::every)
                      .in("s")
+                     .elsewhere({"dt", "interval", "frequency"})
                      .atLeast(0)
                      .like("1e-4")
                      .means("interval between lines; 0: every cycle"),

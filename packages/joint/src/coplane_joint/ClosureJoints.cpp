@@ -73,6 +73,8 @@ JointModel ClosureCurveParameters::model()
           number("initial_stiffness", &P::initialStiffness)
               .needed()
               .in("Pa/m")
+              .usually(usual::stiffness)
+              .elsewhere({"kn", "jkn", "kni"})
               .above(0)
               .like("2e10")
               .means("slope of the closure curve at zero closure"),

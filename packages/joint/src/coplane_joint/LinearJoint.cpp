@@ -23,6 +23,8 @@ JointModel LinearParameters::model()
           number("normal_stiffness", &P::normalStiffness)
               .needed()
               .in("Pa/m")
+              .usually(usual::stiffness)
+              .elsewhere({"kn", "jkn"})
               .above(0)
               .means("traction per closure, and per opening of a bond")
               .like("2e10"),
@@ -32,6 +34,8 @@ JointModel LinearParameters::model()
           cohesionKey<P>(),
           number("tensile_strength", &P::tensileStrength)
               .in("Pa")
+              .usually(usual::stress)
+              .elsewhere({"jten", "ft", "tension"})
               .atLeast(0)
               .like("2e5")
               .means("of a declared joint, until it breaks at once: in tension, or when it slips; "

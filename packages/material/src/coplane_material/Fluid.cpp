@@ -59,7 +59,7 @@ MaterialModel IdealGasParameters::model()
   using namespace schema;
   return MaterialModelOf<P>("ideal_gas", "gas")
       .has({
-          schema::density<P>(),
+          schema::density<P>(usual::gasDensity),
           number("heat_ratio", &P::heatRatio)
               .needed()
               .in("-")

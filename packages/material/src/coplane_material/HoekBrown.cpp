@@ -82,6 +82,8 @@ MaterialModel HoekBrownParameters::model()
           number("intact_strength", &P::intactStrength)
               .needed()
               .in("Pa")
+              .usually(usual::strength)
+              .elsewhere({"sigci", "ucs"})
               .above(0)
               .like("50e6")
               .means("sigma_ci, uniaxial strength of pieces without joints"),

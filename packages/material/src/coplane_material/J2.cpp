@@ -100,6 +100,8 @@ MaterialModel J2Parameters::model()
       .has({
           number("yield_stress", &P::yieldStress)
               .in("Pa")
+              .usually(usual::strength)
+              .elsewhere({"sigy", "yield", "sy", "yield_strength"})
               .above(0)
               .defaultIs("none")
               .like("1e9")
@@ -116,6 +118,7 @@ MaterialModel J2Parameters::model()
               .means("equivalent plastic strains of a table, rising from 0; at most 16"),
           numbers("yield_stresses", &P::yieldStresses)
               .in("Pa")
+              .usually(usual::strength)
               .above(0)
               .like("[300e6, 340e6, 400e6]")
               .means("yield stresses at plastic_strains, not falling; the last one stays beyond "

@@ -54,6 +54,8 @@ MaterialModel JohnsonCookParameters::model()
           number("yield_stress", &P::yieldStress)
               .needed()
               .in("Pa")
+              .usually(usual::strength)
+              .elsewhere({"A", "sigy", "yield", "yield_strength"})
               .above(0)
               .like("792e6")
               .means("A, static yield stress at room temperature"),
@@ -80,11 +82,13 @@ MaterialModel JohnsonCookParameters::model()
               .means("m of the softening 1 - T*^m"),
           number("melting_temperature", &P::meltingTemperature)
               .in("K")
+              .usually(usual::temperature)
               .atLeast(0)
               .like("1793")
               .means("at which strength is lost; 0: no thermal softening"),
           number("room_temperature", &P::roomTemperature)
               .in("K")
+              .usually(usual::temperature)
               .above(0)
               .like("300")
               .means("at the start"),

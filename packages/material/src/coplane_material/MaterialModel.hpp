@@ -67,11 +67,13 @@ namespace schema
 // Keys that several laws have. P has to have the members.
 
 template <class P>
-Key density()
+Key density(const UsualRange& range = usual::density)
 {
   return number<P, Real>("density", &P::density)
       .needed()
       .in("kg/m^3")
+      .usually(range)
+      .elsewhere({"rho", "ro", "dens", "mass_density"})
       .above(0)
       .like("7850")
       .means("mass per reference volume");
@@ -86,12 +88,16 @@ std::vector<Key> elasticKeys()
       number<P, Real>("youngs_modulus", &P::youngsModulus)
           .needed()
           .in("Pa")
+          .usually(usual::modulus)
+          .elsewhere({"E", "young", "elastic_modulus", "modulus", "Emod"})
           .above(0)
           .like("210e9")
           .means("Young's modulus"),
       number<P, Real>("poisson_ratio", &P::poissonRatio)
           .needed()
           .in("-")
+          .usually(usual::poisson)
+          .elsewhere({"nu", "pr", "poisson", "poissons_ratio"})
           .above(-1)
           .below(0.5)
           .like("0.3")
@@ -147,14 +153,24 @@ template <class P>
 std::vector<Key> frictionKeys()
 {
   return {
-      number<P, Real>("cohesion", &P::cohesion).in("Pa").atLeast(0).like("5e6").means("c"),
+      number<P, Real>("cohesion", &P::cohesion)
+          .in("Pa")
+          .usually(usual::strength)
+          .elsewhere({"c", "coh"})
+          .atLeast(0)
+          .like("5e6")
+          .means("c"),
       number<P, Real>("friction", &P::friction)
           .in("-")
+          .usually(usual::friction)
+          .elsewhere({"phi", "friction_angle", "fric", "mu"})
           .atLeast(0)
           .like("0.6")
           .means("tangent of the friction angle"),
       number<P, Real>("dilation", &P::dilation)
           .in("-")
+          .usually(usual::friction)
+          .elsewhere({"psi", "dilation_angle", "dil"})
           .atLeast(0)
           .like("0.2")
           .means("tangent of the dilation angle; at most friction"),
@@ -173,6 +189,8 @@ std::vector<Key> mohrCoulombKeys()
           .means("c after much slip, when shear_energy is given"),
       number<P, Real>("tensile_strength", &P::tensileStrength)
           .in("Pa")
+          .usually(usual::strength)
+          .elsewhere({"ft", "tension", "ten", "tensile"})
           .atLeast(0)
           .like("2e6")
           .means("cut-off of the largest principal stress; at most cohesion / friction"),
@@ -183,6 +201,8 @@ std::vector<Key> mohrCoulombKeys()
           .means("by which cohesion falls, per area of a slip plane; 0: it stays"),
       number<P, Real>("fracture_energy", &P::fractureEnergy)
           .in("J/m^2")
+          .usually(usual::fractureEnergy)
+          .elsewhere({"gf"})
           .atLeast(0)
           .like("100")
           .means("by which tensile strength falls, per area of a crack; 0: it stays"),

@@ -132,6 +132,12 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
           const auto own = owner->find(card.model);
           return own == owner->end() ? "" : own->second.show(card.parameters.get());
         };
+        const Key own = key;
+        shared.ofModel = [owner, own](const void* target) -> const Key&
+        {
+          const auto found = owner->find(static_cast<const Card*>(target)->model);
+          return found == owner->end() ? own : found->second;
+        };
         if (key.isGroup())
           shared.enter = [owner](void* target, const std::string& name, const std::string& where)
           {

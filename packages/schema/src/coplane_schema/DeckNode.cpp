@@ -1,10 +1,12 @@
 #include "DeckNode.hpp"
 
-#include "Suggestion.hpp"
+#include "detail/YamlFault.hpp"
 #include "detail/YamlText.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/MissingFile.hpp>
+#include <coplane_core/Suggestion.hpp>
 #include <coplane_core/Text.hpp>
 
 #include <yaml-cpp/yaml.h>
@@ -215,24 +217,46 @@ const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& pat
   return *node;
 }
 
-void Problems::add(const DeckNode& at, const std::string& text)
+namespace
 {
-  // A quoted word may hold line ends; a problem is one line.
+/// A quoted word may hold line ends; a problem is one line.
+std::pair<long, std::string> lineOf(const DeckNode& at, const std::string& text)
+{
   std::string line = fmt::format("{}: {}", at.where, text);
   for (std::size_t end = 0; (end = line.find('\n', end)) != std::string::npos;)
     line.replace(end, 1, "\\n");
-  problems_.emplace_back(at.order, line);
+  return {at.order, line};
+}
+
+std::vector<std::string> inOrder(std::vector<std::pair<long, std::string>> lines)
+{
+  std::stable_sort(lines.begin(), lines.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> texts;
+  for (const auto& line : lines)
+    texts.push_back(line.second);
+  return texts;
+}
+} // namespace
+
+void Problems::add(const DeckNode& at, const std::string& text)
+{
+  problems_.push_back(lineOf(at, text));
+}
+
+void Problems::warn(const DeckNode& at, const std::string& text)
+{
+  warnings_.push_back(lineOf(at, text));
 }
 
 std::string Problems::text() const
 {
-  auto sorted = problems_;
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::string text;
-  for (const auto& problem : sorted)
-    text += (text.empty() ? "" : "\n") + problem.second;
-  return text;
+  return fmt::format("{}", fmt::join(inOrder(problems_), "\n"));
+}
+
+std::vector<std::string> Problems::warnings() const
+{
+  return inOrder(warnings_);
 }
 
 void CardPlace::problem(const std::string& key, const std::string& text) const
@@ -249,17 +273,25 @@ std::string readTextFile(const std::string& file, const FileKind& kind)
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf() || stream.peek() == EOF))
-    fail(ExitCode::Deck, "{}: {} cannot be read ({}). Check the path and its permissions.", file,
-         kind.name, std::generic_category().message(errno));
+    fail(ExitCode::Deck, "{}: {} cannot be read ({}). Check the path and its permissions.{}", file,
+         kind.name, std::generic_category().message(errno),
+         errno == ENOENT ? hintOfMissingFile(file) : "");
   return text.str();
 }
 
 DeckNode parseYaml(const std::string& text, const std::string& file, const FileKind& kind)
 {
+  if (const std::string foreign = foreignKindOf(text); !foreign.empty())
+    fail(ExitCode::Deck,
+         "{}: this is {}; accepted for {}: a YAML file, with keys such as '{}'. {} "
+         "lists them.",
+         file, foreign, kind.name, kind.example, kind.help);
   demandPlainText(text, file);
   Source source;
   source.file = file;
   source.most += text.size(); // every value that is written has a character
+  const auto refuse = [&](const YamlFault& fault)
+  { fail(ExitCode::Deck, "{}:{}:{}: {}", file, fault.line + 1, fault.column + 1, fault.text); };
   YamlText yaml;
   try
   {
@@ -267,12 +299,10 @@ DeckNode parseYaml(const std::string& text, const std::string& file, const FileK
   }
   catch (const YAML::Exception& e)
   {
-    fail(ExitCode::Deck,
-         "{}: this is not YAML: {}. Look at this line and the one before for a missing colon, "
-         "bracket or quote, or a wrong indentation.{}",
-         source.where(e.mark), e.msg == "bad file" ? "it is nested too deeply" : e.msg,
-         hintOfTabs(text));
+    refuse(faultOf(text, e));
   }
+  if (const auto quote = openQuoteOf(text))
+    refuse(*quote);
   if (yaml.rest)
     fail(ExitCode::Deck,
          "{}: here something begins that does not belong to what is above; a file is one document. "

@@ -38,19 +38,23 @@ struct DeckNode
 /// Value at a path such as {"conditions", "0", "value"}, or the deepest value on the way to it.
 const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& path);
 
-/// Collects all errors of a deck, to be thrown together.
+/// Collects all errors of a deck, to be thrown together, and what is odd in it.
 class Problems
 {
 public:
   void add(const DeckNode& at, const std::string& text);
+  /// Of a value that is accepted, but most likely not meant.
+  void warn(const DeckNode& at, const std::string& text);
   bool empty() const { return problems_.empty(); }
   std::size_t size() const { return problems_.size(); }
 
   /// One line each, "where: text", in the order of the file.
   std::string text() const;
+  /// The same of what is odd, a line each.
+  std::vector<std::string> warnings() const;
 
 private:
-  std::vector<std::pair<long, std::string>> problems_;
+  std::vector<std::pair<long, std::string>> problems_, warnings_;
 };
 
 /// A card where it stands in its file, for what one of its keys demands of another.

@@ -1,7 +1,8 @@
 #include "Definitions.hpp"
 
-#include "Suggestion.hpp"
 #include "TimeFunctionEvaluator.hpp"
+
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 #include <muParser.h>

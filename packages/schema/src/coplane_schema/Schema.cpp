@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coplane
 {
@@ -14,12 +15,57 @@ bool Key::appliesTo(const std::string& model) const
 void fitToDimension(Key& key, int dimension)
 {
   if (key.byDimension)
+  {
     (key.kind == KeyKind::Points ? key.itemLength : key.length) = std::size_t(dimension);
+    key.example.clear(); // which is that of either dimension
+  }
   key.byDimension = false;
   if (key.dimension && key.dimension != dimension)
     key.noPlace = fmt::format("is for {} dimensions only", key.dimension == 2 ? "two" : "three");
   for (Key& one : key.keys)
     fitToDimension(one, dimension);
+}
+
+namespace
+{
+void addNumbers(Real value, std::vector<Real>& numbers)
+{
+  numbers.push_back(value);
+}
+
+void addNumbers(const TimeFunction& function, std::vector<Real>& numbers)
+{
+  numbers.push_back(function.constant);
+  numbers.insert(numbers.end(), function.values.begin(), function.values.end());
+}
+
+/// The numbers that are written in a value.
+std::vector<Real> numbersIn(const KeyValue& value)
+{
+  std::vector<Real> numbers;
+  if (const auto* one = std::get_if<Real>(&value))
+    addNumbers(*one, numbers);
+  else if (const auto* list = std::get_if<std::vector<Real>>(&value))
+    numbers = *list;
+  else if (const auto* functions = std::get_if<std::vector<TimeFunction>>(&value))
+    for (const TimeFunction& function : *functions)
+      addNumbers(function, numbers);
+  return numbers;
+}
+} // namespace
+
+std::string oddityOf(const Key& key, const KeyValue& value)
+{
+  const UsualRange& usual = key.usual;
+  for (const Real number : numbersIn(value))
+    if (const Real size = std::abs(number);
+        size > 0 && (size < usual.least || size > usual.largest))
+      return fmt::format("{:g}{} is {}. {}", number, key.unit == "-" ? "" : " " + key.unit,
+                         size < usual.least
+                             ? fmt::format("unusually small; usual: from {:g} on", usual.least)
+                             : fmt::format("unusually large; usual: up to {:g}", usual.largest),
+                         usual.slip);
+  return "";
 }
 
 namespace
@@ -102,6 +148,9 @@ std::string acceptedText(const Key& key)
   case KeyKind::Changes:
     return "paths of keys, each with a value";
   case KeyKind::Group:
+    for (const Key& one : key.keys)
+      if (one.required && !one.example.empty())
+        return fmt::format("keys with values, such as {{{}: {}}}", one.name, one.example);
     return "keys with values";
   case KeyKind::NamedGroups:
     return "names, each with keys and values";

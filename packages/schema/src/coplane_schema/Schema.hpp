@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <typeinfo>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -54,6 +55,14 @@ struct RemovedKey
   std::string instead; ///< whole sentences
 };
 
+/// Where the magnitudes of a value lie as a rule; zero is always usual. What lies outside is a
+/// warning, not an error.
+struct UsualRange
+{
+  Real least = 0, largest = infinity;
+  std::string slip; ///< the likely mistake, as sentences
+};
+
 /// One key of an input file: everything that is said about it anywhere is said here. The checks,
 /// --help-deck, the manual's page and the JSON Schema are made from it, and `store` or `enter`
 /// binds it to a field of a card, so that no key can be without effect.
@@ -75,15 +84,21 @@ struct Key
                ///< TextLists: words that may stand in place of the list
   std::optional<Real> lower, upper;
   bool lowerOpen = false, upperOpen = false; ///< the limit itself is refused
-  std::size_t length = 0;                    ///< of a list; 0: any
-  std::size_t itemLength = 0;                ///< of the lists in it (Points, TextLists); 0: any
-  std::size_t leastLength = 0;               ///< of a list
-  bool byDimension = false;                  ///< 2 or 3 numbers, in a list or in each of its points
-  bool aloneToo = false;                     ///< an item may stand without its list
-  bool notAllZero = false;                   ///< Numbers: a direction
-  bool ofPlaceToo = false; ///< TimeFunction(s): expressions may have x, y, z beside t
+  UsualRange usual;
+  std::vector<std::string> habits; ///< what other programs call the key
+  std::vector<std::pair<std::string, std::string>>
+      habitualWords;           ///< what others call one of `choices`, and the choice
+  std::size_t length = 0;      ///< of a list; 0: any
+  std::size_t itemLength = 0;  ///< of the lists in it (Points, TextLists); 0: any
+  std::size_t leastLength = 0; ///< of a list
+  bool byDimension = false;    ///< 2 or 3 numbers, in a list or in each of its points
+  bool aloneToo = false;       ///< an item may stand without its list
+  bool notAllZero = false;     ///< Numbers: a direction
+  bool ofPlaceToo = false;     ///< TimeFunction(s): expressions may have x, y, z beside t
   std::function<void(void* target, const KeyValue&)> store;
   std::function<std::string(const void* target)> show; ///< the value there, if it can be shown
+  /// The key of the card's own model, where those of several models are one (keysOfModels).
+  std::function<const Key&(const void* target)> ofModel;
   const std::type_info* card = nullptr; ///< what `store` or `enter` takes its target for
   int dimension = 0;                    ///< the only one in which the key may be given; 0: any
   std::string noPlace;                  ///< why the key may not be given here; see fitToDimension
@@ -110,6 +125,9 @@ struct Key
 /// Makes a schema that of one dimension, 2 or 3: lists with a number per axis get their length,
 /// keys of the other dimension are refused.
 void fitToDimension(Key& key, int dimension);
+
+/// What is odd in a value, as sentences: it lies outside of the usual range; or empty.
+std::string oddityOf(const Key& key, const KeyValue& value);
 
 /// What may be written: "a number > 0 [kg/m^3]", "linear_elastic or j2", "a list of 3 numbers
 /// [m/s]".

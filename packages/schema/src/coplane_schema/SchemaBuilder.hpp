@@ -3,6 +3,7 @@
 #include <coplane_core/Vec3.hpp>
 #include <coplane_schema/DeckNode.hpp>
 #include <coplane_schema/Schema.hpp>
+#include <coplane_schema/UsualRanges.hpp>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,16 @@ public:
   KeyBuilder& atLeast(Real limit) { return lower(limit, false); }
   KeyBuilder& below(Real limit) { return upper(limit, true); }
   KeyBuilder& atMost(Real limit) { return upper(limit, false); }
+
+  /// Magnitudes beyond are a warning, with the likely mistake.
+  KeyBuilder& usually(const UsualRange& range) { return set(key_.usual, range); }
+  /// What other programs call the key.
+  KeyBuilder& elsewhere(std::vector<std::string> names) { return set(key_.habits, names); }
+  /// What they call one of the words of oneOf.
+  KeyBuilder& wordsElsewhere(std::vector<std::pair<std::string, std::string>> words)
+  {
+    return set(key_.habitualWords, words);
+  }
 
   /// After the value is stored: something else in the same card that follows from it.
   template <class Card>

@@ -1,7 +1,9 @@
 #include "SchemaReader.hpp"
 
-#include "Suggestion.hpp"
 #include "detail/ValueReader.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 
@@ -65,7 +67,7 @@ private:
     if (!group.shortFor.empty() && node.kind != Kind::Map)
       return readShort(group, node, path, target);
     if (node.kind != Kind::Map)
-      return reading_.wrong(node, path, "", "keys with values");
+      return reading_.wrong(node, path, "", acceptedText(group));
     const std::size_t before = problems_.size();
     const std::optional<std::string> model = modelOf(group, node);
     if (const DeckNode* place = model ? node.find(group.discriminator) : nullptr;
@@ -162,7 +164,7 @@ private:
       if (gone.name == name.text)
         return problems_.add(
             name, fmt::format("{} is no longer a key. {}", join(path, name.text), gone.instead));
-    std::string hint = didYouMean(name.text, names);
+    std::string hint = hintOfName(group, name.text, names);
     if (hint.empty())
     {
       std::vector<std::string> places;
@@ -172,6 +174,20 @@ private:
     }
     problems_.add(name, fmt::format("{} is not known.{} Accepted here: {}.", join(path, name.text),
                                     hint, listOf(names)));
+  }
+
+  /// The key that is meant: by its name in other programs, or by its letters.
+  static std::string hintOfName(const Key& group, const std::string& name,
+                                const std::vector<std::string>& names)
+  {
+    for (const Key& key : group.keys)
+      for (const std::string& theirs : key.habits)
+        if (editDistance(name, theirs) == 0 &&
+            std::find(names.begin(), names.end(), key.name) != names.end())
+          return fmt::format(" It is called '{}' here.", key.name);
+    if (name.find_first_not_of("0123456789") == std::string::npos)
+      return " If it stands after a decimal comma: numbers have a point, as 0.25.";
+    return didYouMean(name, names);
   }
 
   void checkAlternatives(const Key& group, const DeckNode& node, const std::string& path)
@@ -209,7 +225,12 @@ private:
                                     : reading_.wrong(node, path, "", acceptedText(key));
     default:
       if (const auto value = readValue(reading_, key, node, path))
+      {
         key.store(target, *value);
+        const Key& own = key.ofModel ? key.ofModel(target) : key;
+        if (const std::string odd = oddityOf(own, *value); !odd.empty())
+          problems_.warn(node, fmt::format("{} = {}", path, odd));
+      }
     }
   }
 
@@ -227,7 +248,9 @@ private:
   void readNamedGroups(const Key& key, DeckNode& node, const std::string& path, void* target)
   {
     if (node.kind != Kind::Map || (key.required && node.entries.empty()))
-      return reading_.wrong(node, path, "", acceptedText(key));
+      return reading_.wrong(node, path,
+                            node.kind == Kind::List ? ": names are wanted, not items with '-'" : "",
+                            acceptedText(key));
     reading_.checkNames(node, path);
     const bool mayBeEmpty = std::none_of(key.keys.begin(), key.keys.end(),
                                          [](const Key& inner) { return inner.required; });
@@ -246,7 +269,9 @@ private:
     if (key.aloneToo && node.kind == Kind::Map)
       return readGroup(key, node, path, key.enter(target, "", node.where));
     if (node.kind != Kind::List || ((key.required || key.aloneToo) && node.items.empty()))
-      return reading_.wrong(node, path, "", acceptedText(key));
+      return reading_.wrong(
+          node, path, node.kind == Kind::Map ? ": items are wanted, each with '-' before it" : "",
+          acceptedText(key));
     for (std::size_t i = 0; i < node.items.size(); ++i)
       readGroup(key, node.items[i], fmt::format("{}.{}", path, i),
                 key.enter(target, "", node.items[i].where));
@@ -256,6 +281,28 @@ private:
   Problems& problems_;
   Reading reading_;
 };
+
+/// Refuses a file of another kind as a whole, by a key that only that kind has.
+void demandKind(const Key& schema, const DeckNode& root, const std::string& file,
+                const FileKind& kind)
+{
+  const auto has = [&](const std::string& name)
+  {
+    return std::any_of(schema.keys.begin(), schema.keys.end(),
+                       [&](const Key& key) { return key.name == name; });
+  };
+  for (const Key& key : schema.keys)
+    if (key.required && root.find(key.name))
+      return;
+  for (const auto& [name, what] : {std::pair("parts", "a recipe of a mesh, for coplane_mesh make"),
+                                   std::pair("joint_paths", "a deck of coplane_point"),
+                                   std::pair("material_paths", "a deck of coplane_point"),
+                                   std::pair("time", "a deck of coplane")})
+    if (root.find(name) && !has(name))
+      fail(ExitCode::Deck,
+           "{}: this is {}, with the key '{}'; accepted for {}: keys that {} lists.", file, what,
+           name, kind.name, kind.help);
+}
 } // namespace
 
 DeckNode readBySchema(const Key& schema, const std::string& text, const std::string& file,
@@ -263,6 +310,7 @@ DeckNode readBySchema(const Key& schema, const std::string& text, const std::str
                       const std::function<void(DeckNode&)>& prepare, const FileKind& kind)
 {
   DeckNode root = parseYaml(text, file, kind);
+  demandKind(schema, root, file, kind);
   for (std::size_t i = 0; i < overrides.size(); ++i)
     applyOverride(root, overrides[i], static_cast<int>(i), problems);
   if (prepare)

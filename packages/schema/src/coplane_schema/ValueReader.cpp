@@ -1,7 +1,9 @@
 #include "detail/ValueReader.hpp"
 
-#include "Suggestion.hpp"
 #include "TimeFunctionEvaluator.hpp"
+#include "detail/ValueHints.hpp"
+
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 
@@ -87,7 +89,7 @@ private:
 
   /// The number of a scalar: as written, or what an expression of defined names gives, which then
   /// stands in the tree. Else `problem` says why there is none.
-  std::optional<Real> numberOf(DeckNode& node, std::string& problem)
+  std::optional<Real> numberOf(const Key& key, DeckNode& node, std::string& problem)
   {
     auto number = node.kind == Kind::Scalar ? numberIn(node.text) : std::nullopt;
     if (number && node.quoted)
@@ -107,7 +109,8 @@ private:
                               reading_.definitions.suggestionFor(node.text));
     }
     else if (!number)
-      problem = " is not a number" + reading_.definitions.suggestionFor(node.text);
+      problem = " is not a number" + reading_.definitions.suggestionFor(node.text) +
+                hintOfNumber(node.text, key.unit);
     return problem.empty() ? number : std::nullopt;
   }
 
@@ -127,7 +130,7 @@ private:
   {
     const std::string written = node.text;
     std::string problem;
-    const auto value = numberOf(node, problem);
+    const auto value = numberOf(key, node, problem);
     if (value && key.unit == "m" && std::abs(*value) > reading_.file.longest)
       problem = fmt::format(" is beyond {:g} m", reading_.file.longest);
     else if (value && isOutside(key, *value))
@@ -192,6 +195,15 @@ private:
     return "";
   }
 
+  /// The word that is meant: by its name in other programs, or by its letters.
+  static std::string hintOfWord(const Key& key, const std::string& word)
+  {
+    for (const auto& [theirs, ours] : key.habitualWords)
+      if (editDistance(word, theirs) == 0)
+        return fmt::format(" It is called '{}' here.", ours);
+    return didYouMean(word, key.choices);
+  }
+
   std::optional<std::string> readWord(const Key& key, const DeckNode& node, const std::string& path)
   {
     const auto& words = key.choices;
@@ -199,7 +211,7 @@ private:
       reading_.wrong(node, path, " is not text", acceptedText(key));
     else if (!words.empty() && std::find(words.begin(), words.end(), node.text) == words.end())
       reading_.problems.add(node, fmt::format("{} = {} is not known.{} Accepted: {}.", path,
-                                              foundText(node), didYouMean(node.text, words),
+                                              foundText(node), hintOfWord(key, node.text),
                                               acceptedText(key)));
     else
       return node.text;
@@ -228,7 +240,9 @@ private:
       {
         reading_.wrong(node, path,
                        fmt::format(" is not an expression of {} ({}){}", fmt::join(variables, ", "),
-                                   problem, reading_.definitions.suggestionFor(node.text)),
+                                   problem,
+                                   reading_.definitions.suggestionFor(node.text) +
+                                       hintOfExpression(node.text)),
                        acceptedText(key));
         return std::nullopt;
       }
@@ -338,7 +352,8 @@ private:
     {
       const bool isCut = std::any_of(node.items.begin(), node.items.end(), hasOpenParenthesis);
       reading_.wrong(node, path, isCut ? ": an expression with a comma in it wants quotes" : "",
-                     acceptedText(key));
+                     acceptedText(key) +
+                         (key.length && !key.example.empty() ? ", such as " + key.example : ""));
       return std::nullopt;
     }
     std::vector<T> values;

@@ -69,19 +69,6 @@ void demandPlainText(const std::string& text, const std::string& file)
            file, number);
 }
 
-std::string hintOfTabs(const std::string& text)
-{
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);)
-  {
-    ++number;
-    if (line.substr(0, line.find_first_not_of(" \t")).find('\t') != std::string::npos)
-      return fmt::format(" Line {} is indented with a tab; accepted: blanks.", number);
-  }
-  return "";
-}
-
 YamlText readYaml(const std::string& text)
 {
   YamlText read;

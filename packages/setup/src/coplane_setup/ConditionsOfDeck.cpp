@@ -237,52 +237,111 @@ void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Condition
   conditions.symmetries.insert(conditions.symmetries.begin(), axis);
 }
 
+namespace
+{
+bool prescribesMotion(const ConditionCard& card)
+{
+  return card.type == "fixed" || card.type == "velocity" || card.type == "displacement";
+}
+
+bool isZero(const TimeFunction& function)
+{
+  return function.expression.empty() && function.constant == 0 &&
+         std::all_of(function.values.begin(), function.values.end(),
+                     [](Real value) { return value == 0; });
+}
+
+/// Whether a card of prescribed motion moves nodes along the normal of a symmetry.
+bool movesAcross(const ConditionCard& card, const Vec3& normal)
+{
+  const Real along[] = {normal.x, normal.y, normal.z};
+  const auto& motion = card.type == "displacement" ? card.displacement : card.velocity;
+  for (int c = 0; c < 3 && card.type != "fixed"; ++c)
+    if (card.components[c] && along[c] != 0 && !isZero(motion[c]))
+      return true;
+  return false;
+}
+
+/// Nodes on which two conditions contradict each other, for each pair of conditions.
+class Contradictions
+{
+public:
+  explicit Contradictions(const Deck& deck)
+      : conditions_(deck.conditions), nodes_(count() * count(), 0),
+        lowest_(count() * count(), INT64_MAX)
+  {
+  }
+  void add(std::size_t first, std::size_t second, GlobalId node)
+  {
+    const std::size_t pair = first * count() + second;
+    ++nodes_[pair];
+    lowest_[pair] = std::min(lowest_[pair], std::int64_t(node));
+  }
+  /// Collective.
+  void warn(const Comm& comm)
+  {
+    comm.sum(nodes_);
+    for (std::size_t pair = 0; pair < nodes_.size(); ++pair)
+      if (nodes_[pair] > 0)
+      {
+        const ConditionCard &first = conditions_[pair / count()],
+                            &second = conditions_[pair % count()];
+        logWarning("two conditions on one node",
+                   fmt::format("{} ({} of '{}') and {} ({} of '{}') prescribe the same component "
+                               "of {} nodes, the first of which is node {}: the second acts there. "
+                               "Take these nodes out of one of the sets.",
+                               first.where, first.type, first.set, second.where, second.type,
+                               second.set, nodes_[pair], comm.min(lowest_[pair])));
+      }
+  }
+
+private:
+  std::size_t count() const { return conditions_.size(); }
+
+  const std::vector<ConditionCard>& conditions_;
+  std::vector<std::int64_t> nodes_, lowest_;
+};
+} // namespace
+
 void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,
                             const Comm& comm)
 {
-  const auto prescribes = [](const ConditionCard& card)
-  { return card.type == "fixed" || card.type == "velocity" || card.type == "displacement"; };
-  const std::size_t count = deck.conditions.size();
+  Contradictions found(deck);
+  const auto& cards = deck.conditions;
+  const auto nodesOf = [&](const ConditionCard& card) -> const std::vector<int>&
+  { return part.nodeSets[std::size_t(indexOf(mesh.nodeSets, card.set))]; };
   std::vector<std::array<int, 3>> last(std::size_t(part.nodes()), {-1, -1, -1}); // condition
-  std::vector<std::int64_t> nodes(count * count, 0);
-  std::vector<std::int64_t> lowest(count * count, INT64_MAX);
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    const ConditionCard& card = deck.conditions[i];
-    if (!prescribes(card))
-      continue;
-    for (const int node : part.nodeSets[std::size_t(indexOf(mesh.nodeSets, card.set))])
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    for (const int node : prescribesMotion(cards[i]) ? nodesOf(cards[i]) : std::vector<int>())
     {
-      std::int64_t with = -1; // the condition whose component is taken over
+      int with = -1; // the condition whose component is taken over
       for (int c = 0; c < part.dimension; ++c)
-        if (card.components[c])
+        if (cards[i].components[c])
         {
           int& before = last[std::size_t(node)][std::size_t(c)];
           if (before >= 0 &&
-              !(card.type == "fixed" && deck.conditions[std::size_t(before)].type == "fixed"))
+              !(cards[i].type == "fixed" && cards[std::size_t(before)].type == "fixed"))
             with = before;
           before = int(i);
         }
-      if (with < 0 || node >= part.ownedNodes)
-        continue;
-      const std::size_t pair = std::size_t(with) * count + i;
-      ++nodes[pair];
-      lowest[pair] = std::min(lowest[pair], std::int64_t(part.nodeIds[node]));
+      if (with >= 0 && node < part.ownedNodes)
+        found.add(std::size_t(with), i, part.nodeIds[node]);
     }
+  for (std::size_t i = 0; i < cards.size(); ++i)
+  {
+    if (cards[i].type != "symmetry")
+      continue;
+    std::vector<char> held(std::size_t(part.nodes()), 0);
+    for (const int node : nodesOf(cards[i]))
+      held[std::size_t(node)] = 1;
+    for (std::size_t k = 0; k < cards.size(); ++k)
+      for (const int node : prescribesMotion(cards[k]) && movesAcross(cards[k], cards[i].normal)
+                                ? nodesOf(cards[k])
+                                : std::vector<int>())
+        if (held[std::size_t(node)] && node < part.ownedNodes)
+          found.add(i, k, part.nodeIds[node]);
   }
-  comm.sum(nodes);
-  for (std::size_t pair = 0; pair < nodes.size(); ++pair)
-    if (nodes[pair] > 0)
-    {
-      const ConditionCard &first = deck.conditions[pair / count],
-                          &second = deck.conditions[pair % count];
-      logWarning("two conditions on one node",
-                 fmt::format("{} ({} of '{}') and {} ({} of '{}') prescribe the same component of "
-                             "{} nodes, the first of which is node {}: the second acts there. Take "
-                             "these nodes out of one of the sets.",
-                             first.where, first.type, first.set, second.where, second.type,
-                             second.set, nodes[pair], comm.min(lowest[pair])));
-    }
+  found.warn(comm);
 }
 
 namespace

@@ -26,7 +26,8 @@ void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Condition
 std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
                                              const RankMesh& part, const Comm& comm);
 
-/// Warns of conditions that prescribe one component of one node differently: the later one acts.
+/// Warns of conditions that prescribe one component of one node differently: of prescribed motions
+/// the later one acts, and any of them instead of a symmetry.
 /// Collective.
 /// @param part with every node of this rank
 void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& part,

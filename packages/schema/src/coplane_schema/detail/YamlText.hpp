@@ -11,10 +11,6 @@ namespace coplane
 /// and the YAML library (0.7) never comes back from some. Exit code Deck.
 void demandPlainText(const std::string& text, const std::string& file);
 
-/// For messages about text that is not YAML: the first line that is indented with a tab, as a
-/// sentence with a blank before it; empty if there is none.
-std::string hintOfTabs(const std::string& text);
-
 /// What a text of YAML holds.
 struct YamlText
 {

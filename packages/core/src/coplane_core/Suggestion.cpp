@@ -1,4 +1,4 @@
-#include "Suggestion.hpp"
+#include <coplane_core/Suggestion.hpp>
 
 #include <fmt/format.h>
 
@@ -32,6 +32,41 @@ int editDistance(const std::string& a, const std::string& b)
   return d[n][m];
 }
 
+namespace
+{
+std::string lowerCase(std::string text)
+{
+  for (char& c : text)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+/// Whether one of the names ("linear_elastic") has the other in it, from the beginning of a word
+/// on.
+bool isPartOf(const std::string& part, const std::string& name)
+{
+  constexpr std::size_t least = 3;
+  const std::size_t at = part.size() < least ? std::string::npos : name.find(part);
+  return at != std::string::npos && (at == 0 || name[at - 1] == '_');
+}
+
+/// The only candidate that has the word as a part, or is a part of it; or an empty string.
+std::string ofWhichItIsPart(const std::string& word, const std::vector<std::string>& candidates)
+{
+  std::string found;
+  for (const auto& candidate : candidates)
+  {
+    const std::string a = lowerCase(word), b = lowerCase(candidate);
+    if (!isPartOf(a, b) && !isPartOf(b, a))
+      continue;
+    if (!found.empty())
+      return "";
+    found = candidate;
+  }
+  return found;
+}
+} // namespace
+
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates)
 {
   // A third of the letters may be wrong: 'densty' finds 'density', 'mesh' does not find 'time'.
@@ -46,7 +81,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
       found = candidate;
     }
   }
-  return found;
+  return found.empty() ? ofWhichItIsPart(word, candidates) : found;
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& candidates)

@@ -9,8 +9,8 @@ namespace coplane
 /// `a`; upper and lower case are one.
 int editDistance(const std::string& a, const std::string& b);
 
-/// The candidate nearest to `word`, or an empty string when none is near enough to be a slip of the
-/// keyboard.
+/// The candidate nearest to `word`, as a slip of the keyboard leaves it; or the only one of which
+/// it is a part, as 'elastic' of 'linear_elastic'; or an empty string.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 /// " Did you mean 'x'?" with a space in front, or an empty string.
