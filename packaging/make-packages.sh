@@ -16,7 +16,7 @@ umask 022
 . "$top/packages/cmake/environment.sh"
 
 say "dependencies"
-trilinos=$("$top/packages/cmake/dependencies.sh" | tail -n 1)
+trilinos=$(env -u COPLANE_TRILINOS -u Trilinos_DIR "$top/packages/cmake/dependencies.sh" | tail -n 1)
 others=
 for level in "${levels[@]:1}"; do others+="${others:+;}$top/build-package/$level"; done
 for level in "${levels[@]}"; do

@@ -1,6 +1,6 @@
 # cmake --install build --prefix <folder>: all of it can be moved, and read by everybody:
 #   bin                 the programs; with COPLANE_LEVELS a launcher of them, and the programs in lib/coplane/levels/<COPLANE_ARCH>
-#   lib/coplane         libraries that are not the system's, Trilinos above all
+#   lib/coplane         libraries of the Trilinos that packages/cmake/dependencies.sh built; one of the user's own stays where it is
 #   lib, include        libraries, headers and the CMake package (find_package(Coplane)); lib/coplane/trilinos: the Trilinos that it uses
 #   share/coplane       the Python package, examples with run.py, what pictures share, documents
 #   share/man, share/bash-completion   made from what the programs say with --help
@@ -15,10 +15,14 @@ else()
   set(COPLANE_PROGRAMS ${CMAKE_INSTALL_BINDIR})
 endif()
 
-# coplane_install_programs(<target> ...): with the libraries they need that are not the system's.
+# coplane_install_programs(<target> ...): where they find their libraries.
 function(coplane_install_programs)
-  file(RELATIVE_PATH _to_libraries "/${COPLANE_PROGRAMS}" "/${COPLANE_PRIVATE_LIBRARIES}")
-  set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH "$ORIGIN/${_to_libraries}")
+  if(COPLANE_OWN_TRILINOS)
+    file(RELATIVE_PATH _to_libraries "/${COPLANE_PROGRAMS}" "/${COPLANE_PRIVATE_LIBRARIES}")
+    set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH "$ORIGIN/${_to_libraries}")
+  else()
+    set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH_USE_LINK_PATH ON)
+  endif()
   install(TARGETS ${ARGN} RUNTIME_DEPENDENCY_SET coplane_libraries DESTINATION ${COPLANE_PROGRAMS} COMPONENT programs)
 endfunction()
 
@@ -72,9 +76,13 @@ endfunction()
 function(coplane_install)
   _coplane_install_cmake_package()
   _coplane_install_manuals()
-  install(RUNTIME_DEPENDENCY_SET coplane_libraries POST_EXCLUDE_REGEXES "^/lib" "^/usr/lib"
-    LIBRARY DESTINATION ${COPLANE_PRIVATE_LIBRARIES} COMPONENT common)
-  install(SCRIPT "${PROJECT_SOURCE_DIR}/packages/cmake/MoveLibraries.cmake" COMPONENT common)
+  if(COPLANE_OWN_TRILINOS)
+    file(REAL_PATH "${COPLANE_TRILINOS}" _trilinos)
+    string(REGEX REPLACE "([][+.*()^$?|])" "\\\\\\1" _trilinos "${_trilinos}")
+    install(RUNTIME_DEPENDENCY_SET coplane_libraries POST_INCLUDE_REGEXES "^${_trilinos}/" POST_EXCLUDE_REGEXES ".*"
+      LIBRARY DESTINATION ${COPLANE_PRIVATE_LIBRARIES} COMPONENT common)
+    install(SCRIPT "${PROJECT_SOURCE_DIR}/packages/cmake/MoveLibraries.cmake" COMPONENT common)
+  endif()
   install(DIRECTORY exodus_inputs docs DESTINATION ${CMAKE_INSTALL_DATADIR}/coplane COMPONENT common PATTERN "__pycache__" EXCLUDE PATTERN "*.e" EXCLUDE
     PATTERN run.py EXCLUDE)
   install(PROGRAMS exodus_inputs/run.py DESTINATION ${CMAKE_INSTALL_DATADIR}/coplane/exodus_inputs COMPONENT common)

@@ -1,5 +1,9 @@
 # cpack -G DEB: two packages for Debian 12, coplane and coplane-dev. packaging/make-packages.sh makes them for every processor; made in
-# a single build they are for processors with what COPLANE_ARCH names, and their version says so.
+# a single build they are for processors with what COPLANE_ARCH names, and their version says so. A Trilinos of the user's own does not
+# go into a package.
+if(NOT COPLANE_OWN_TRILINOS)
+  return()
+endif()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME coplane)
 set(CPACK_PACKAGE_VENDOR Coplane)

@@ -243,7 +243,8 @@ def check_readme():
 def check_install():
     """The install target gives a package that another project finds, links and runs, and examples that run."""
     prefix = pathlib.Path("prefix").absolute()
-    shutil.rmtree(prefix, ignore_errors=True)
+    for folder in (prefix, pathlib.Path("user-build")):
+        shutil.rmtree(folder, ignore_errors=True)
     done = run(["cmake", "--install", str(BUILD), "--prefix", str(prefix)])
     assert done.returncode == 0, done.stdout[-3000:]
     done = run(["cmake", "-S", str(SOURCE / "tests/package/user"), "-B", "user-build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"])

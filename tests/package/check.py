@@ -1,4 +1,4 @@
-"""The Debian packages. Argument: launcher, this_build (both with what is built), or every_processor (builds packaging/make-packages.sh,
+"""The Debian packages. Argument: launcher, spack, this_build (these with what is built), or every_processor (builds packaging/make-packages.sh,
 and installs with apt in a system that debootstrap makes). Packages are installed in a root folder of their own, and used by somebody
 without a home who can read neither the sources nor the build nor its Trilinos. Needs root; ends with 77 where that cannot be."""
 
@@ -71,6 +71,21 @@ def check_launcher():
     done = subprocess.run([program], stderr=subprocess.PIPE, text=True)
     assert done.returncode == 2 and "coplane for this processor" in done.stderr and str(folder) in done.stderr, done
     passed(f"launcher: {' '.join(supported)}")
+
+
+# The recipe of Spack: the one thing about it that can be said here.
+
+
+def check_spack():
+    """It is Python, and what it sets is there to be set."""
+    recipe = (SOURCE / "packaging/spack/packages/coplane/package.py").read_text()
+    compile(recipe, "package.py", "exec")
+    options = "".join(path.read_text() for path in (SOURCE / "packages/cmake").glob("*.cmake"))
+    names = re.findall(r"define(?:_from_variant)?\(\"(\w+)\"", recipe)
+    assert names and all(re.search(rf"(set|option)\({name} ", options) for name in names), names
+    number = re.search(r"Coplane VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
+    assert f'version("{number}")' in recipe, f"not of version {number}"
+    passed(f"recipe of Spack: {' '.join(names)}")
 
 
 # Roots to install in.
@@ -256,7 +271,7 @@ def check_levels(same_as):
 
 
 if __name__ == "__main__":
-    if sys.argv[1] != "launcher" and "COPLANE_OWN_MOUNTS" not in os.environ:
+    if sys.argv[1] in ("this_build", "every_processor") and "COPLANE_OWN_MOUNTS" not in os.environ:
         if os.geteuid() != 0:
             skip("only root can install packages")
         # What is mounted goes with this process.
