@@ -12,7 +12,6 @@ mkdir -p "$output"
 output=$(cd "$output" && pwd)
 levels=(x86-64 x86-64-v3) # the first one is for everybody else, and gives all that is not compiled for one level
 say() { printf 'make-packages [%4d s]: %s\n' "$SECONDS" "$*"; }
-umask 022
 . "$top/packages/cmake/environment.sh"
 
 say "dependencies"

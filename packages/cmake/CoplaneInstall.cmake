@@ -1,4 +1,4 @@
-# cmake --install build --prefix <folder>: all of it can be moved, and read by everybody:
+# cmake --install build --prefix <folder>: all of it can be moved:
 #   bin                 the programs; with COPLANE_LEVELS a launcher of them, and the programs in lib/coplane/levels/<COPLANE_ARCH>
 #   lib/coplane         libraries of the Trilinos that packages/cmake/dependencies.sh built; one of the user's own stays where it is
 #   lib, include        libraries, headers and the CMake package (find_package(Coplane)); lib/coplane/trilinos: the Trilinos that it uses
@@ -7,7 +7,6 @@
 # Components: programs (of one processor level), common, development. CoplanePackaging.cmake makes Debian packages of them.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
-set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(COPLANE_PRIVATE_LIBRARIES lib/coplane) # relative, as all of these
 if(COPLANE_LEVELS)
   set(COPLANE_PROGRAMS ${COPLANE_PRIVATE_LIBRARIES}/levels/${COPLANE_ARCH})
