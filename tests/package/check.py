@@ -98,10 +98,15 @@ def mount_common(root):
     run(["mount", "-t", "tmpfs", "-o", "mode=1777", "tmpfs", root / "tmp"])
 
 
-def overlay():
-    """This machine, with all changes elsewhere, and without the sources, the build and its Trilinos."""
+def own_file_system():
+    """For ROOT; it goes with this process."""
     ROOT.parent.mkdir(exist_ok=True)
     run(["mount", "-t", "tmpfs", "tmpfs", ROOT.parent])
+
+
+def overlay():
+    """This machine, with all changes elsewhere, and without the sources, the build and its Trilinos."""
+    own_file_system()
     for folder in (ROOT, UPPER, ROOT.parent / "work"):
         folder.mkdir()
     layers = f"lowerdir=/,upperdir={UPPER},workdir={ROOT.parent}/work"
@@ -118,10 +123,8 @@ def debootstrap():
     """A new Debian 12."""
     if not shutil.which("debootstrap"):
         skip("apt-get install debootstrap")
-    mirror = re.search(r"^(?:URIs:|deb(?: \[.*\])?) (http\S+/debian/?)(?:\s|$)", "\n".join(
-        path.read_text() for path in pathlib.Path("/etc/apt").glob("sources.list*/**/*") if path.is_file()), flags=re.M)
-    ROOT.parent.mkdir(exist_ok=True)
-    run(["debootstrap", "--variant=minbase", "bookworm", ROOT, mirror.group(1) if mirror else "http://deb.debian.org/debian"])
+    own_file_system()
+    run(["debootstrap", "--variant=minbase", "bookworm", ROOT])
     mount_common(ROOT)
 
 
