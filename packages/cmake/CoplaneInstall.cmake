@@ -27,7 +27,7 @@ endfunction()
 
 function(_coplane_install_trilinos)
   install(DIRECTORY "${COPLANE_TRILINOS}/include" "${COPLANE_TRILINOS}/lib" DESTINATION ${COPLANE_TRILINOS_INSTALLED}
-    COMPONENT development PATTERN "*.py" EXCLUDE)
+    COMPONENT development PATTERN "*.py" EXCLUDE PATTERN tribits EXCLUDE)
   install(FILES "${COPLANE_TRILINOS}/recipe.txt" DESTINATION ${COPLANE_TRILINOS_INSTALLED} COMPONENT development)
   configure_file("${PROJECT_SOURCE_DIR}/packages/cmake/MoveTrilinos.cmake.in" "${PROJECT_BINARY_DIR}/MoveTrilinos.cmake" @ONLY)
   install(SCRIPT "${PROJECT_BINARY_DIR}/MoveTrilinos.cmake" COMPONENT development)
