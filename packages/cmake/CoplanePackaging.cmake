@@ -40,12 +40,13 @@ exterior faces may all touch each other. Programs, examples, the Python package,
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME coplane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, cmake, libopenmpi-dev, libhdf5-openmpi-dev, libnetcdf-pnetcdf-dev, libpnetcdf-dev,\
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "g++, make, cmake, libopenmpi-dev, libhdf5-openmpi-dev, libnetcdf-pnetcdf-dev, libpnetcdf-dev,\
  libcurl4-gnutls-dev, liblapack-dev, libblas-dev, libfmt-dev, libspdlog-dev, libyaml-cpp-dev, nlohmann-json3-dev, libssl-dev, libmuparser-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "Libraries, headers and the CMake package, with the part of Trilinos that they use.")
 
 if(COPLANE_LEVELS)
   # Programs of the builds for other levels beside this one; everything else is of this one.
+  set(CPACK_COMPONENTS_PROGRAMS programs)
   set(CPACK_INSTALL_CMAKE_PROJECTS "${PROJECT_BINARY_DIR};Coplane;ALL;/")
   foreach(_build IN LISTS COPLANE_OTHER_LEVELS)
     list(APPEND CPACK_INSTALL_CMAKE_PROJECTS "${_build};Coplane;programs;/")

@@ -1,4 +1,5 @@
 # Run by cpack before it packs: folders of a package are for everybody, whatever the umask of who makes it.
+cmake_policy(VERSION 3.25)
 file(GLOB_RECURSE _all LIST_DIRECTORIES true "${CPACK_TEMPORARY_DIRECTORY}/*")
 foreach(_folder IN LISTS _all)
   if(IS_DIRECTORY "${_folder}" AND NOT IS_SYMLINK "${_folder}")
