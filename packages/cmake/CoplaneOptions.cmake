@@ -1,6 +1,7 @@
 # What a user can choose when configuring.
 set(COPLANE_ARCH "native" CACHE STRING "Processor to compile for (-march=...): native, x86-64-v3, ...; empty for the compiler's default")
 option(COPLANE_LEVELS "Install programs for COPLANE_ARCH beside those of other builds, and a launcher that takes the best for the processor" OFF)
+set(COPLANE_OTHER_LEVELS "" CACHE STRING "Build folders whose programs go into the packages of this one, with COPLANE_LEVELS")
 option(COPLANE_TESTS "Build the tests" ON)
 option(COPLANE_BENCHMARKS "Build the benchmarks" ON)
 option(COPLANE_WARNINGS_AS_ERRORS "Treat warnings as errors (CI does)" OFF)
