@@ -276,17 +276,23 @@ class ExampleRun:
         self.say(f"computed in {time.monotonic() - start:.0f} s")
         (self.folder / "done").write_text(self.run_key)
 
+    def picture_script(self):
+        return self.source / self.example.get("pictures", "pictures.py")
+
+    def demand_what_draws(self):
+        """Before anything is computed."""
+        missing = program.missing_for_pictures()
+        if missing and self.picture_script().exists():
+            fail(f"{' and '.join(missing)} not found, which the pictures need. Debian: apt-get install paraview python3-paraview xvfb xauth. "
+                 "Or leave the pictures out with --no-pictures.")
+
     def draw(self):
-        script = self.source / self.example.get("pictures", "pictures.py")
+        script = self.picture_script()
         if not script.exists():
             return
         key = self.key(self.run_key.encode(), script, *sorted(program.PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
-        missing = program.missing_for_pictures()
-        if missing:
-            fail(f"{' and '.join(missing)} not found: packages/cmake/dependencies.sh --with-paraview installs ParaView on Debian 12; "
-                 "or leave the pictures out with --no-pictures.")
         self.say("drawing")
         before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
@@ -331,6 +337,8 @@ def main():
     runs = [ExampleRun(source, example, size, variant, options) for variant in options.variant]
     well = True
     for run in runs:
+        if not options.no_pictures:
+            run.demand_what_draws()
         run.compute()
         if not options.no_check:
             well = run.check() and well

@@ -1,5 +1,7 @@
 # What a user can choose when configuring.
 set(COPLANE_ARCH "native" CACHE STRING "Processor to compile for (-march=...): native, x86-64-v3, ...; empty for the compiler's default")
+option(COPLANE_LEVELS "Install programs for COPLANE_ARCH beside those of other builds, and a launcher that takes the best for the processor" OFF)
+set(COPLANE_OTHER_LEVELS "" CACHE STRING "Build folders whose programs go into the packages of this one, with COPLANE_LEVELS")
 option(COPLANE_TESTS "Build the tests" ON)
 option(COPLANE_BENCHMARKS "Build the benchmarks" ON)
 option(COPLANE_WARNINGS_AS_ERRORS "Treat warnings as errors (CI does)" OFF)
@@ -12,7 +14,6 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON) # installed programs find the Trilinos they were built with
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG" CACHE STRING "" FORCE)
 set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined")
 set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")

@@ -43,8 +43,8 @@ function(coplane_package name)
     target_link_libraries(${_library} PRIVATE ${_D_PRIVATE_LIBRARIES})
   endif()
 
-  install(TARGETS ${_library} EXPORT CoplaneTargets)
-  install(DIRECTORY src/ DESTINATION include FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
+  install(TARGETS ${_library} EXPORT CoplaneTargets COMPONENT development)
+  install(DIRECTORY src/ DESTINATION include COMPONENT development FILES_MATCHING PATTERN "*.hpp" PATTERN detail EXCLUDE)
 
   if(COPLANE_TESTS)
     _coplane_headers_stand_alone(${name})

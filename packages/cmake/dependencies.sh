@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Brings everything Coplane needs onto a Debian 12 machine and prints, as its last line, the folder of Trilinos.
 #
-#   packages/cmake/dependencies.sh [--with-paraview]
+#   packages/cmake/dependencies.sh [--with-paraview | --only-paraview]
 #
 # 1. installs the Debian packages of debian-packages.txt that are missing (as root, or through sudo);
-# 2. unless COPLANE_TRILINOS or Trilinos_DIR names a Trilinos that is already there, builds the subset described in
-#    trilinos/recipe.sh into a per-user cache ($COPLANE_CACHE, else $XDG_CACHE_HOME/coplane, else ~/.cache/coplane).
+# 2. unless COPLANE_TRILINOS or Trilinos_DIR names a Trilinos that is already there, or the Debian package coplane-dev has brought the
+#    same one, builds the subset described in trilinos/recipe.sh into a per-user cache ($COPLANE_CACHE, else $XDG_CACHE_HOME/coplane,
+#    else ~/.cache/coplane).
+# --only-paraview installs what draws pictures, and does nothing else.
 #
 # Every stage leaves a stamp: an interrupted run goes on where it stopped, and nothing is ever built twice. Takes about 12
 # minutes on two cores the first time, under a second when all is there.
@@ -14,11 +16,12 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 say() { printf 'dependencies: %s\n' "$*" >&2; }
 die() { say "ERROR: $*"; exit 1; }
 
-with_paraview=no
+with_paraview=no only_paraview=no
 for argument in "$@"; do
   case $argument in
     --with-paraview) with_paraview=yes ;;
-    *) die "unknown argument '$argument'; accepted: --with-paraview" ;;
+    --only-paraview) only_paraview=yes ;;
+    *) die "unknown argument '$argument'; accepted: --with-paraview, --only-paraview" ;;
   esac
 done
 
@@ -45,6 +48,7 @@ install_packages() { # files with package names
   rm -f "$log"
 }
 
+[ $only_paraview = no ] || { install_packages "$here/debian-packages-paraview.txt"; exit 0; }
 install_packages "$here/debian-packages.txt"
 [ $with_paraview = no ] || install_packages "$here/debian-packages-paraview.txt"
 
@@ -56,6 +60,9 @@ if [ -n "$given" ]; then
   done
   die "COPLANE_TRILINOS or Trilinos_DIR is '$given', but there is no TrilinosConfig.cmake there or in lib/cmake/Trilinos below it"
 fi
+
+packaged=/usr/lib/coplane/trilinos
+cmp -s "$here/trilinos/recipe.sh" "$packaged/recipe.txt" && { say "using the Trilinos of the Debian package coplane-dev"; echo "$packaged"; exit 0; }
 
 . "$here/trilinos/recipe.sh"
 multiarch=$(gcc -print-multiarch)

@@ -278,22 +278,11 @@ def check_readme():
 def check_install():
     """The install target gives a package that another project finds, links and runs, and examples that run."""
     prefix = pathlib.Path("prefix").absolute()
-    shutil.rmtree(prefix, ignore_errors=True)
+    for folder in (prefix, pathlib.Path("user-build")):
+        shutil.rmtree(folder, ignore_errors=True)
     done = run(["cmake", "--install", str(BUILD), "--prefix", str(prefix)])
     assert done.returncode == 0, done.stdout[-3000:]
-    user = pathlib.Path("user")
-    user.mkdir(exist_ok=True)
-    (user / "CMakeLists.txt").write_text(
-        "cmake_minimum_required(VERSION 3.25)\nproject(user C CXX)\nfind_package(Coplane 0.1 REQUIRED)\n"
-        "add_executable(user main.cpp)\ntarget_link_libraries(user coplane::contact)\n"
-    )
-    (user / "main.cpp").write_text(
-        "#include <coplane_core/Version.hpp>\n#include <coplane_joint/JointLaw.hpp>\n#include <cstdio>\n"
-        'int main() { coplane::JointLaw law; law.penalty = false; law.initialStiffness = 2; '
-        'std::printf("%s %g\\n", coplane::version().number.c_str(), '
-        'law.curve.at(law.fittedTo(1, 1, 1, 1), 3).traction); }\n'
-    )
-    done = run(["cmake", "-S", str(user), "-B", "user-build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"])
+    done = run(["cmake", "-S", str(SOURCE / "tests/package/user"), "-B", "user-build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}"])
     assert done.returncode == 0, done.stdout[-3000:]
     done = run(["cmake", "--build", "user-build"])
     assert done.returncode == 0, done.stdout[-3000:]

@@ -89,6 +89,14 @@ std::string build()
                      version().compiler, version().flags, version().trilinos);
 }
 
+/// What has to be the same on all ranks. Not the processor: machines of a cluster may have
+/// different ones, for which the program is compiled differently with the same bits.
+std::string sameEverywhere()
+{
+  return fmt::format("coplane {} ({}; {}; Trilinos {})", version().number, version().revision,
+                     version().compiler, version().trilinos);
+}
+
 /// Exit code when the program should end now, -1 to go on.
 int parse(int argc, char** argv, bool isRoot, CommandLine& line)
 {
@@ -372,7 +380,7 @@ int parseTogether(int argc, char** argv, const Comm& comm, CommandLine& line)
   const int parsed = parse(argc, argv, comm.isRoot(), line);
   logSetup(comm.isRoot(), line.quiet);
   setDraftToken(comm.broadcast(draftToken()));
-  comm.demandSame("the program", build(), ExitCode::Usage);
+  comm.demandSame("the program", sameEverywhere(), ExitCode::Usage);
   comm.demandSame("the command line",
                   optionsOf(line) + (parsed > 0 ? " (cannot be understood)" : ""), ExitCode::Usage);
   const auto code = comm.max(std::int64_t(parsed));

@@ -347,7 +347,7 @@ def pictures_of(run, draw, most=12):
         return [], "Pictures were not asked for."
     missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
-        return [], f"No pictures: {' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)."
+        return [], f"No pictures: {' and '.join(missing)} not found (Debian: apt-get install paraview python3-paraview xvfb xauth)."
     if not (run.folder / f"{run.name}.e").exists():
         return [], f"No pictures: there is no shared file {run.name}.e."
     try:

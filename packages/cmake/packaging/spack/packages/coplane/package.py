@@ -1,0 +1,56 @@
+# Spack: from the source tree,
+#   spack repo add packaging/spack
+#   spack dev-build coplane@0.1.0
+from spack.package import *
+
+
+class Coplane(CMakePackage):
+    """Explicit Lagrangian finite elements with Simple Common Plane contact: jointed rock, masonry, things that break and collide."""
+
+    license("BSD-3-Clause")
+    version("0.1.0")
+
+    variant("processor", default="native", description="what to compile for, as for -march=")
+
+    depends_on("c", type="build")
+    depends_on("cxx", type="build")
+    depends_on("cmake@3.25:", type="build")
+    depends_on("ninja", type="build")
+    depends_on("mpi")
+    depends_on("trilinos@13.2.0 +mpi+openmp+tpetra+zoltan+zoltan2+exodus~fortran gotype=long_long cxxstd=17")
+    depends_on("hdf5+mpi")
+    depends_on("netcdf-c+mpi+parallel-netcdf")
+    depends_on("parallel-netcdf")
+    depends_on("cli11")
+    depends_on("fmt")
+    depends_on("spdlog+fmt_external")
+    depends_on("yaml-cpp")
+    depends_on("nlohmann-json")
+    depends_on("openssl")
+    depends_on("muparser")
+    depends_on("python@3.11:", type=("build", "run"))
+    depends_on("py-numpy", type="run")
+    depends_on("py-netcdf4", type="run")
+    depends_on("py-pyyaml", type="run")
+    depends_on("py-plotly", type="run")
+
+    requires("%gcc@11:", msg="std::experimental::simd of GCC's standard library")
+
+    generator("ninja")
+
+    def cmake_args(self):
+        return [
+            self.define_from_variant("COPLANE_ARCH", "processor"),
+            self.define("COPLANE_TESTS", False),
+            self.define("COPLANE_BENCHMARKS", False),
+            self.define("COPLANE_TRILINOS", self.spec["trilinos"].prefix),
+        ]
+
+    @run_after("install")
+    def use_python_of_spack(self):
+        scripts = [join_path(self.prefix.bin, f"coplane_{word}") for word in ("new", "report", "watch")]
+        scripts += [join_path(self.prefix, "share/coplane/exodus_inputs/run.py")]
+        filter_file(r"^#!/usr/bin/python3$", "#!" + self.spec["python"].command.path, *scripts)
+
+    def setup_run_environment(self, env):
+        env.prepend_path("PYTHONPATH", self.prefix.share.coplane.python)
