@@ -1,5 +1,5 @@
 # Spack: from the source tree,
-#   spack repo add packaging/spack
+#   spack repo add packages/cmake/packaging/spack
 #   spack dev-build coplane@0.1.0
 from spack.package import *
 
