@@ -2,7 +2,6 @@
 #include "Observers.hpp"
 #include "Report.hpp"
 #include "Restart.hpp"
-#include "StartReport.hpp"
 #include "Subcommands.hpp"
 #include "UsageHint.hpp"
 
