@@ -14,7 +14,6 @@ import numpy
 
 from . import program, tables
 from .page import COLORS, MARK, POINTS, Page, bars, curve, escape, number
-from .planes import joint_names, planes
 from .results import NoRun, Run
 
 ENERGIES = ["kinetic", "internal", "contact_stored", "plastic", "external_work", "hourglass", "viscous", "eroded", "mass_damping", "local_damping",
@@ -253,7 +252,7 @@ class Report:
             if len(series) == 0:
                 self.page.note(f"{run.planes_path.name} has no step yet.")
                 continue
-            fields, names = planes(series.files[-1]), joint_names(series.files[-1])
+            fields, names = series.fields(-1), series.joint_names(-1)
             lost = fields["remainder"]
             self.page.note(f"{len(fields['area'])} planes at t = {series.times[-1]:.6g} s{self.of(which)}; the remainders of all sum up to "
                            f"{lost.sum():.6g} J: {lost.clip(min=0).sum():.6g} J lost, {abs(lost.clip(max=0).sum()):.6g} J gained.")  # fmt: skip
