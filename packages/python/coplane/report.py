@@ -12,7 +12,7 @@ import tempfile
 
 import numpy
 
-from . import program, tables
+from . import pictures, tables
 from .page import COLORS, MARK, POINTS, Page, bars, curve, escape, number
 from .results import NoRun, Run
 
@@ -348,22 +348,14 @@ def pictures_of(run, draw, most=12):
         return [(path, path.read_bytes()) for path in there[:most]], f"The first {most} of {len(there)} pictures." if len(there) > most else ""
     if not draw:
         return [], "Pictures were not asked for."
-    missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
-    if missing:
-        return [], f"No pictures: {' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)."
-    if not (run.folder / f"{run.name}.e").exists():
-        return [], f"No pictures: there is no shared file {run.name}.e."
     try:
-        run.results
-    except (OSError, ValueError) as error:
-        return [], f"No pictures: {error}"
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            code, said = program.run_paraview(program.PARAVIEW / "report_pictures.py", [run.folder.resolve(), folder, run.name], folder, timeout=300)
-        except subprocess.TimeoutExpired:
-            return [], "No pictures: ParaView took more than 300 s."
-        drawn = [(path, path.read_bytes()) for path in sorted(pathlib.Path(folder).glob("*.png"))]
-    return drawn, "" if drawn else f"No pictures: ParaView ended with exit code {code}: {' '.join(said.strip().splitlines()[-1:])}"
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = [(path, path.read_bytes()) for path in pictures.draw(run, folder, color="von_mises", size=(900, 600), timeout=300)]
+    except subprocess.TimeoutExpired:
+        return [], "No pictures: ParaView took more than 300 s."
+    except (OSError, ValueError, pictures.PicturesFailed) as error:
+        return [], f"No pictures: {error}."
+    return drawn, ""
 
 
 def write(path, text):

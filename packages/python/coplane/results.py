@@ -284,6 +284,11 @@ class Run:
         return Planes(self.planes_path, self.identity)
 
     @property
+    def results_path(self):
+        """Path of the shared file of results, or of its first part."""
+        return self.written("").parent / self._results_name
+
+    @property
     def planes_path(self):
         """Path of the series of planes: that of the format which the deck asks for, or what is there when there is no deck."""
         stem = self.folder / f"{pathlib.Path(self._results_name).with_suffix('')}_planes"
