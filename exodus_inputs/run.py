@@ -44,7 +44,7 @@ RUNS = pathlib.Path("coplane-examples").resolve() if IS_INSTALLED else TOP / "bu
 sys.dont_write_bytecode = True
 try:
     from coplanetools import documents, program
-    from coplane import report
+    from coplane import Run, pictures, report
 except ImportError as error:
     sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
 
@@ -238,7 +238,7 @@ class ExampleRun:
         self.results = ["run.csv", "run.run.json"] + [f"run_{table}.csv" for table in history.get("tables") or []]
         self.results += [] if (self.deck.get("output") or {}).get("results") == "none" else ["run.e"]
         made = ["mesh.yaml", "run.yaml", "mesh.e", "example.json", "run.log", "done", "pictures.done", "pictures.log", "checks.jsonl",
-                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run.chk.0", "run.chk.1", *self.results]
+                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run_planes.vtkhdf", "run_planes.xmf", "run.chk.0", "run.chk.1", *self.results]
         if self.joints is not None:
             made += ["joints.yaml", "whole.e"]
         self.own.claim(made, self.overwrite)
@@ -288,18 +288,25 @@ class ExampleRun:
 
     def draw(self):
         script = self.picture_script()
-        if not script.exists():
+        own = [script] if script.exists() else []  # without one it is drawn as any run
+        if not own and program.missing_for_pictures():
             return
-        key = self.key(self.run_key.encode(), script, *sorted(program.PARAVIEW.glob("*.py")))
+        key = self.key(self.run_key.encode(), *own, *sorted(program.PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
         self.say("drawing")
         before = self.own.there()
         (self.folder / "pictures").mkdir(exist_ok=True)
-        code, said = program.run_paraview(script, [".", "pictures"], self.folder)
-        (self.folder / "pictures.log").write_text(said)
-        if code:
-            fail("drawing failed:\n" + "".join(said.splitlines(True)[-20:]))
+        if own:
+            code, said = program.run_paraview(script, [".", "pictures"], self.folder)
+            (self.folder / "pictures.log").write_text(said)
+            if code:
+                fail("drawing failed:\n" + "".join(said.splitlines(True)[-20:]))
+        else:
+            try:
+                pictures.draw(Run(self.folder / "run"), self.folder / "pictures", color="von_mises")
+            except pictures.PicturesFailed as error:
+                fail(f"drawing failed: {error}")
         self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")

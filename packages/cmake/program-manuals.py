@@ -17,12 +17,13 @@ import sys
 PROGRAMS = {
     "coplane": "explicit dynamics of solids in contact by common planes",
     "coplane_mesh": "make, check, convert and split meshes for coplane",
+    "coplane_pictures": "pictures and films of a run of coplane",
     "coplane_point": "lead material and joint laws along paths at one point",
     "coplane_new": "a folder of your own like an example of coplane",
     "coplane_report": "one HTML file about a run of coplane",
     "coplane_watch": "a view of a run of coplane in the terminal",
 }
-COMMANDS_OF_OTHERS = {"coplane": {name.partition("_")[2]: name for name in ("coplane_new", "coplane_report", "coplane_watch")}}
+COMMANDS_OF_OTHERS = {"coplane": {name.partition("_")[2]: name for name in ("coplane_new", "coplane_pictures", "coplane_report", "coplane_watch")}}
 FOLDER_NOTE = "Examples and documents: the folder share/coplane of the installation, for instance /usr/share/coplane."
 
 

@@ -188,7 +188,7 @@ def check_use(same_as):
     assert state_hash(said) == same_as, f"state hash {state_hash(said)}, of the build {same_as}"
     as_user("coplane report coplane-examples/bar_wall_3d/S --no-pictures -o report.html && test -s report.html")
     passed(f"main job to 0.3 ms: state hash {same_as}")
-    for name in ("coplane", "coplane_mesh", "coplane_new", "coplane_point", "coplane_report", "coplane_watch"):
+    for name in ("coplane", "coplane_mesh", "coplane_new", "coplane_pictures", "coplane_point", "coplane_report", "coplane_watch"):
         page = as_user(f"man -P cat {name}") if (ROOT / "usr/bin/man").exists() else run(["man", "-P", "cat", ROOT / f"usr/share/man/man1/{name}.1.gz"])
         assert re.search(rf"{name} - \w+", page) and "--help" in page, page
     complete = ". /usr/share/bash-completion/completions/{}; COMP_WORDS=({}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); _coplane_programs; echo ${{COMPREPLY[*]}}"

@@ -144,7 +144,7 @@ says("deck", one, "normal_stiffness: 20000000000.0")
 if shutil.which("pvbatch") and shutil.which("xvfb-run"):
     case.check_equal("with ParaView", made("a/run", "-o", "drawn.html"), (0, "drawn.html\n"))
     case.check_equal("states that are drawn", re.findall(r'alt="(\w+)" src="data:image/png;base64,iVBOR', pathlib.Path("drawn.html").read_text()),
-                     [f"state_{round(1e6 * time):06d}us" for time in run.results.times[[0, -1]]])  # fmt: skip
+                     [f"state_{number:04d}_{round(1e6 * time):06d}us" for number, time in enumerate(run.results.times[[0, -1]])])  # fmt: skip
 x = numpy.linspace(0, 1, 100000)
 y = numpy.sin(40 * x)
 y[54321] = 7

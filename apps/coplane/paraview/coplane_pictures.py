@@ -11,6 +11,7 @@
 The reader moves the mesh by the nodal variable `displacement` by itself: no Warp By Vector, it would move it twice. Dead elements
 (`alive` = 0) are left out. Tested with ParaView 5.11.
 """
+import math
 import os
 import sys
 
@@ -23,26 +24,35 @@ import paraview.simple
 
 paraview.simple._DisableFirstRenderCameraReset()
 
+# Where the camera stands and what is up, by name, where y is up; x runs to the right in `front`, as in the plane of a flat mesh.
+CAMERAS = {"front": ((0, 0, 1), (0, 1, 0)), "back": ((0, 0, -1), (0, 1, 0)), "left": ((-1, 0, 0), (0, 1, 0)), "right": ((1, 0, 0), (0, 1, 0)),
+           "top": ((0, 1, 0), (0, 0, -1)), "bottom": ((0, -1, 0), (0, 0, 1)), "iso": ((1, 0.8, 1.6), (0, 1, 0))}
+PALETTE = [(0.45, 0.52, 0.60), (0.85, 0.72, 0.55), (0.56, 0.68, 0.50), (0.75, 0.50, 0.46), (0.62, 0.55, 0.72), (0.50, 0.70, 0.74), (0.80, 0.78, 0.45),
+           (0.70, 0.70, 0.70)]
 STEEL, BRICK, EDGE, BLACK = [0.45, 0.52, 0.60], [0.85, 0.82, 0.76], [0.35, 0.35, 0.35], [0, 0, 0]
 LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be dark
 
 
 class Run:
-    """Results `run.e` and planes `run_planes.pvd` in a folder."""
+    """Results `run.e`, with the parts that restarts have written, and planes `run_planes.pvd` or `.xmf` in a folder."""
 
-    def __init__(self, results=None, pictures=None, stem="run"):
-        self.folder = results or sys.argv[1]
+    def __init__(self, results=None, pictures=None, stem="run", deformed=True):
+        # Given with its folder: for a bare name the reader does not look for the other parts.
+        self.folder = os.path.abspath(results or sys.argv[1])
+        self.deformed = deformed
         self.pictures = pictures or sys.argv[2]
         os.makedirs(self.pictures, exist_ok=True)
         self.file = os.path.join(self.folder, stem + ".e")
         self.reader = self._open()
         self.names = list(self.reader.ElementBlocks)
         self.times = list(self.reader.TimestepValues)
-        self.planes_file = os.path.join(self.folder, stem + "_planes.pvd")
-        self._planes = None
+        places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".pvd", ".xmf")]
+        # Of a run that has changed its format, what was written last.
+        self.planes_file = max(filter(os.path.exists, places), key=os.path.getmtime, default=places[0])
 
     def _open(self):
         reader = IOSSReader(FileName=[self.file])
+        reader.ApplyDisplacements = int(self.deformed)
         reader.UpdatePipelineInformation()
         return reader
 
@@ -65,9 +75,21 @@ class Run:
     def has_planes(self):
         return os.path.exists(self.planes_file)
 
+    def planes_reader(self):
+        return PVDReader(FileName=self.planes_file) if self.planes_file.endswith(".pvd") else Xdmf3ReaderS(FileName=[self.planes_file])
+
+    def bounds(self, times):
+        """x0, x1, y0, y1, z0, z1 of all bodies over these times."""
+        found = []
+        bodies = self.blocks()
+        for time in times:
+            bodies.UpdatePipeline(time)
+            found.append(bodies.GetDataInformation().GetBounds())
+        return [(min if side % 2 == 0 else max)(box[side] for box in found) for side in range(6)]
+
     def planes(self, touching=True):
         """Planes as points; `touching`: only those that carry traction."""
-        series = PVDReader(FileName=self.planes_file)
+        series = self.planes_reader()
         if not touching:
             return series
         return Threshold(Input=series, Scalars=["POINTS", "area"], LowerThreshold=1e-15, UpperThreshold=1e-15,
@@ -76,7 +98,7 @@ class Run:
 
 def slipping(run, more_than):
     """Points of planes that have slipped by more than this [m]."""
-    return Threshold(Input=PVDReader(FileName=run.planes_file), Scalars=["POINTS", "slip"], LowerThreshold=more_than,
+    return Threshold(Input=run.planes_reader(), Scalars=["POINTS", "slip"], LowerThreshold=more_than,
                      UpperThreshold=more_than, ThresholdMethod="Above Upper Threshold")
 
 
@@ -89,6 +111,8 @@ def values(source, variable, time):
     """Numbers, or lengths of vectors, at one time."""
     source.UpdatePipeline(time)
     data = servermanager.Fetch(source)
+    if data.GetNumberOfPoints() == 0:
+        return numpy.zeros(0)
     attributes = data.GetPointData() if data.GetPointData().GetArray(variable) else data.GetCellData()
     array = vtk_to_numpy(attributes.GetArray(variable))
     return numpy.linalg.norm(array, axis=1) if array.ndim > 1 else array
@@ -96,7 +120,8 @@ def values(source, variable, time):
 
 def percentile(source, variable, times, share=98):
     """Below which this share of all values at all times lies."""
-    return max(numpy.percentile(values(source, variable, time), share) for time in times) or 1.0
+    found = [values(source, variable, time) for time in times]
+    return max((numpy.percentile(some, share) for some in found if len(some)), default=0) or 1.0
 
 
 def dark(top):
@@ -104,11 +129,27 @@ def dark(top):
     return [(0, 0.55, 0.75, 0.92), (0.25 * top, 0.2, 0.45, 0.75), (0.5 * top, 0.45, 0.25, 0.6), (top, 0.7, 0.05, 0.1)]
 
 
-class Picture:
-    """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up)."""
+def round_length(most):
+    """The largest of 1, 2, 5 times a power of ten that is not more."""
+    power = 10 ** math.floor(math.log10(most))
+    return max(factor * power for factor in (1, 2, 5) if factor * power <= most * (1 + 1e-9))
 
-    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30):
+
+def words_of_length(metres):
+    for unit, size in (("km", 1e3), ("m", 1), ("mm", 1e-3)):
+        if metres >= size:
+            return f"{metres / size:g} {unit}"
+    return f"{metres * 1e6:g} \u00b5m"
+
+
+class Picture:
+    """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up), or one of
+    CAMERAS with `bounds` of what shall be seen and the axis that is `up`, y or z, without perspective."""
+
+    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y"):
         self.run, self.time, self.size = run, time, list(size)
+        # Pictures of any run may be small; those of the examples choose their letters.
+        self.letters = min(1.0, size[1] / 800) if isinstance(camera, str) else 1.0
         view = self.view = CreateView("RenderView")
         view.ViewSize = self.size
         view.UseColorPaletteForBackground = 0
@@ -123,16 +164,78 @@ class Picture:
             view.CameraPosition = middle + [10 * (box[3] - box[2])]
             view.CameraViewUp = [0, 1, 0]
             view.CameraParallelScale = max((box[3] - box[2]) / 2, (box[1] - box[0]) / 2 * size[1] / size[0])
+        elif isinstance(camera, str):
+            self._look(camera, bounds, up)
         else:
             view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera
             view.CameraViewAngle = angle
         self.flat = bool(box)
         if label:
-            self.text(f"t = {1e3 * time:.2f} ms")
+            self.text(f"t = {1e3 * time:.4g} ms")
+
+    def _look(self, name, bounds, axis_up):
+        toward, up = (numpy.array(vector, float) if axis_up == "y" else numpy.array([vector[0], -vector[2], vector[1]], float) for vector in CAMERAS[name])
+        toward /= numpy.linalg.norm(toward)
+        right = numpy.cross(up, toward)
+        right /= numpy.linalg.norm(right)
+        up = numpy.cross(toward, right)
+        sides = numpy.reshape(bounds, (3, 2))
+        corners = numpy.array([[sides[axis, bit >> axis & 1] for axis in range(3)] for bit in range(8)])
+        width, height = (numpy.ptp(corners @ axis) for axis in (right, up))
+        middle = sides.mean(axis=1)
+        view = self.view
+        view.CameraParallelProjection = 1
+        view.CameraFocalPoint = list(middle)
+        view.CameraPosition = list(middle + 3 * numpy.linalg.norm(numpy.ptp(sides, axis=1)) * toward)
+        view.CameraViewUp = list(up)
+        # Room for the colour bar at the right and for time and scale above and below.
+        view.CameraParallelScale = 0.6 * max(height, width * self.size[1] / self.size[0], 1e-300)
+
+    def scale_bar(self):
+        """A length in the lower left corner; only where there is no perspective."""
+        view = self.view
+        focus, position, up = (numpy.array(vector) for vector in (view.CameraFocalPoint, view.CameraPosition, view.CameraViewUp))
+        toward = (position - focus) / numpy.linalg.norm(position - focus)
+        right = numpy.cross(up / numpy.linalg.norm(up), toward)
+        half = numpy.array([view.CameraParallelScale * self.size[0] / self.size[1], view.CameraParallelScale])
+        length = round_length(0.4 * half[0])
+        first = focus + right * (-0.95 * half[0]) + numpy.cross(toward, right) * (-0.93 * half[1])
+        first = first + toward * 0.5 * numpy.linalg.norm(position - focus)  # before everything
+        shown = Show(Line(Point1=list(first), Point2=list(first + length * right)), view)
+        shown.LineWidth, shown.ColorArrayName = 4, ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = BLACK
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
+        display = Show(Text(Text=words_of_length(length)), view)
+        display.Color, display.FontSize, display.WindowLocation, display.Position = BLACK, round(18 * self.letters), "Any Location", [0.025, 0.045]
+
+    def bodies(self, names=(), opacity=1.0):
+        """Every block in a colour of its own, named at the right."""
+        for place, name in enumerate(self.run.names):
+            if names and name not in names:
+                continue
+            color = PALETTE[place % len(PALETTE)]
+            source = self.run.blocks(name)
+            source.UpdatePipeline(self.time)
+            if source.GetDataInformation().GetNumberOfCells() == 0:
+                continue
+            self.solid(source, list(color), opacity=opacity)
+            display = Show(Text(Text=name), self.view)
+            display.Color, display.FontSize, display.WindowLocation = [0.8 * part for part in color], round(20 * self.letters), "Any Location"
+            display.Bold, display.Position = 1, [0.84, 0.93 - 0.045 * place]
+
+    def arrows(self, length, top, vector="force"):
+        """Planes that carry traction as arrows of this length [m] where the vector is as large as `top`."""
+        source = self.run.planes()
+        source.UpdatePipeline(self.time)
+        if source.GetDataInformation().GetNumberOfPoints() == 0:
+            return
+        glyphs = Glyph(Input=source, GlyphType="Arrow", OrientationArray=["POINTS", vector], ScaleArray=["POINTS", vector],
+                       ScaleFactor=length / (top or 1), GlyphMode="All Points")
+        self.solid(glyphs, [0.75, 0.1, 0.1], edges=False)
 
     def text(self, words, where="Upper Left Corner", size=24):
         display = Show(Text(Text=words), self.view)
-        display.Color, display.FontSize, display.WindowLocation = BLACK, size, where
+        display.Color, display.FontSize, display.WindowLocation = BLACK, round(size * self.letters), where
 
     def _show(self, source, representation, opacity=1.0):
         shown = Show(source, self.view)

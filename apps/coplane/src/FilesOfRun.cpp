@@ -103,8 +103,14 @@ void addOutputs(FileRoles& roles, const Deck& deck)
     if (deck.output.planes && deck.contact.enabled)
     {
       const std::string series = planesBase(deck) + "_planes";
-      replaces(series + ".pvd", planes);
-      replacesSeries({series + "_", ".vtp"}, planes);
+      if (deck.output.planesFormat == "vtkhdf")
+        for (const char* extension : {".vtkhdf", ".xmf"})
+          replaces(series + extension, planes);
+      else
+      {
+        replaces(series + ".pvd", planes);
+        replacesSeries({series + "_", ".vtp"}, planes);
+      }
     }
   }
   for (const char* slot : {".0", ".1"})

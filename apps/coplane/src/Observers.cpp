@@ -158,8 +158,10 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
-          comm, PlanesOptions{planesBase(deck), results.when, positionOfOutput(settings, "planes"),
-                              run}));
+          comm,
+          PlanesOptions{planesBase(deck), results.when, positionOfOutput(settings, "planes"), run,
+                        deck.output.planesFormat == "vtkhdf" ? PlanesFormat::VtkHdf
+                                                             : PlanesFormat::Vtp}));
   }
   observers.add(std::make_unique<ProgressObserver>());
   // The last: it asks the others where they stand.

@@ -20,6 +20,7 @@ struct Subcommand
 };
 constexpr Subcommand subcommands[] = {
     {"new", "NAME --like EXAMPLE", "makes a folder with deck, recipe and check"},
+    {"pictures", "RUN", "draws any run: states, strips, films, two runs side by side"},
     {"report", "RUN", "writes one HTML file about a run"},
     {"watch", "RUN", "shows a run in the terminal while it goes on"},
 };

@@ -186,7 +186,8 @@ std::string show(const Deck& d)
             i.stressGradient, i.stressAxis, i.stressPoint);
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance, d.time.contactGainTolerance);
-  showAll(out, d.output.results, d.output.every, d.output.planes, d.output.filePerRank);
+  showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
+          d.output.filePerRank);
   for (const Real t : d.output.times)
     showAll(out, t);
   showAll(out, d.history.file, d.history.every);

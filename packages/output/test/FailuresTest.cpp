@@ -79,6 +79,10 @@ TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)
 {
   const Comm comm;
   expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.pvd");
+  PlanesOptions inOneFile;
+  inOneFile.base = nowhere + "a";
+  inOneFile.format = PlanesFormat::VtkHdf;
+  expectOutputError([&] { PlanesObserver(comm, inOneFile); }, nowhere + "a_planes.xmf");
 }
 
 TEST(MissingFolder, ofTheHistoryIsAnErrorOnAllRanks)
@@ -135,6 +139,65 @@ TEST(ReplaceFile, aFileThatIsTooLargeIsAnErrorAndKeepsTheOldText)
   EXPECT_NE(said.find("File too large"), std::string::npos) << said;
   EXPECT_EQ(contentOf(folder / "a.txt"), "old");
   EXPECT_FALSE(std::filesystem::exists(draftOf(folder / "a.txt")));
+}
+
+TEST(PlanesInOneFile, loseNoStepOnADiskThatIsFullForAWhile)
+{
+  const Comm world;
+  const TestFolder folder(world);
+  if (!world.isRoot())
+    GTEST_SKIP() << "one rank is enough";
+  const Comm comm(MPI_COMM_SELF);
+  const Mesh mesh = twoCubes();
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto signalBefore = std::signal(SIGXFSZ, SIG_IGN);
+  // A step in every cycle until one fails, or so many; then the end, with room again.
+  const auto run = [&](const std::string& base, rlim_t most, int& cycles)
+  {
+    Solver solver(cubesInContact(mesh, comm), comm);
+    PlanesOptions options;
+    options.base = folder / base;
+    options.when.every = 1e-12;
+    options.format = PlanesFormat::VtkHdf;
+    PlanesObserver planes(comm, options);
+    solver.prepare();
+    planes.start(solver);
+    rlimit limit = before;
+    limit.rlim_cur = most;
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+    std::string said;
+    int done = 0;
+    try
+    {
+      while (done < cycles)
+      {
+        solver.advance();
+        ++done;
+        planes.endOfCycle(solver);
+      }
+    }
+    catch (const Error& error)
+    {
+      said = error.what();
+    }
+    EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    planes.finish(solver, "completed");
+    cycles = done;
+    return said;
+  };
+  for (const rlim_t most : {60000, 100000, 200000, 300000})
+  {
+    int cycles = 100;
+    const std::string said = run("limited", most, cycles);
+    EXPECT_NE(said.find("limited_planes."), std::string::npos) << said;
+    EXPECT_NE(said.find("File too large"), std::string::npos) << said;
+    EXPECT_EQ(run("free", before.rlim_cur, cycles), "");
+    EXPECT_TRUE(contentOf(folder / "limited_planes.vtkhdf") ==
+                contentOf(folder / "free_planes.vtkhdf"))
+        << most << " bytes, " << cycles << " cycles";
+  }
+  std::signal(SIGXFSZ, signalBefore);
 }
 
 TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)

@@ -31,6 +31,8 @@ void run(const Comm& comm, const std::string& base)
   observers.add(std::make_unique<ResultsObserver>(
       comm, slice, ResultsOptions{base + ".e", when, false, {"command: test"}}));
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
+  observers.add(std::make_unique<PlanesObserver>(
+      comm, PlanesOptions{base, when, "", "", PlanesFormat::VtkHdf}));
   HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));
   observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true, true}));
@@ -205,6 +207,18 @@ TEST_F(Files, planesAreTheSameBytesOnAnyNumberOfRanks)
     EXPECT_EQ(contentOf(file("all" + name)), contentOf(file("one" + name))) << name;
   }
   EXPECT_EQ(steps, Exodus(file("one.e")).steps());
+}
+
+TEST_F(Files, planesInOneFileAreTheSameBytesOnAnyNumberOfRanks)
+{
+  const std::string all = contentOf(file("all_planes.vtkhdf"));
+  EXPECT_FALSE(all.empty());
+  EXPECT_TRUE(all == contentOf(file("one_planes.vtkhdf")));
+  // Every table of the index names the file.
+  std::string index = contentOf(file("all_planes.xmf"));
+  for (std::size_t at; (at = index.find(">all_")) != std::string::npos;)
+    index.replace(at, 5, ">one_");
+  EXPECT_TRUE(index == contentOf(file("one_planes.xmf")));
 }
 
 TEST_F(Files, historyIsTheSameTextOnAnyNumberOfRanks)

@@ -5,7 +5,7 @@ import pathlib
 import sys
 
 # Modules with a main() by subcommand.
-MODULES = {"report": "report", "watch": "view", "new": "new"}
+MODULES = {"new": "new", "pictures": "pictures", "report": "report", "watch": "view"}
 
 
 def main():

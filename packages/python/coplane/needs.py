@@ -4,7 +4,9 @@ import importlib
 
 # What Debian calls them.
 DEBIAN = {
+    "PIL": "python3-pil",
     "jsonschema": "python3-jsonschema",
+    "matplotlib": "python3-matplotlib",
     "pandas": "python3-pandas",
     "plotly": "python3-plotly",
     "ruamel.yaml": "python3-ruamel.yaml",

@@ -1,10 +1,11 @@
-"""Contact planes: the series `<name>_planes.pvd` and its files `.vtp`."""
+"""Contact planes over time: `<name>_planes.pvd` with its files `.vtp`, or `<name>_planes.vtkhdf`."""
 
 import base64
 import pathlib
 import re
 import xml.etree.ElementTree
 
+import netCDF4
 import numpy
 
 from .needs import needs
@@ -30,36 +31,85 @@ def joint_names(path):
     return []
 
 
+class _VtpSteps:
+    """The series `<name>_planes.pvd`: a file for each step."""
+
+    def __init__(self, path):
+        with open(path, encoding="utf-8") as file:
+            found = re.search(r"<!-- coplane run (\w+) -->", file.read(200))
+        self.run = found.group(1) if found else ""
+        sets = list(xml.etree.ElementTree.parse(path).iter("DataSet"))
+        self.times = numpy.array([float(item.get("timestep")) for item in sets])
+        self.files = [path.parent / item.get("file") for item in sets]
+
+    def fields(self, step):
+        found = planes(self.files[step])
+        return {name: values for name, values in found.items() if name not in ("connectivity", "offsets")}
+
+    def joint_names(self, step):
+        return joint_names(self.files[step])
+
+
+class _VtkHdfSteps:
+    """All steps in `<name>_planes.vtkhdf`. It is opened anew each time: a run that goes on may replace it."""
+
+    def __init__(self, path):
+        self.path = path
+        with netCDF4.Dataset(path) as file:
+            steps = file["VTKHDF/Steps"]
+            self.run = str(file["VTKHDF"].Writer).split()[2]
+            self.times = numpy.array(steps["Values"][: int(steps.NSteps)])
+            self.first = numpy.array(steps["PointOffsets"][: len(self.times)])
+            self.counts = numpy.array(file["VTKHDF/NumberOfPoints"][: len(self.times)])
+            self.names = [str(name) for name in file["VTKHDF/FieldData/joint_names"][:]]
+
+    def fields(self, step):
+        rows = slice(self.first[step], self.first[step] + self.counts[step])
+        with netCDF4.Dataset(self.path) as file:
+            group = file["VTKHDF"]
+            found = {"Points": numpy.array(group["Points"][rows])}
+            found.update({name: numpy.array(values[rows]) for name, values in group["PointData"].variables.items()})
+        return found
+
+    def joint_names(self, step):
+        return self.names
+
+
 class Planes:
     """The contact planes of a run over time: `planes[step]` is a pandas DataFrame with a line for each plane. Its columns have the
     names of the file, vectors `_x, _y, _z` at their end; `x, y, z` is the point of contact and `joint` the name of the joint card.
     """
 
     def __init__(self, series, run=None):
-        """FileNotFoundError when the series is not of the run with the identity `run`."""
+        """From a .pvd or .vtkhdf. FileNotFoundError when the series is not of the run with the identity `run`."""
         self.path = pathlib.Path(series)
-        with open(self.path, encoding="utf-8") as file:
-            found = re.search(r"<!-- coplane run (\w+) -->", file.read(200))
-        if run and found and found.group(1) != run:
-            raise FileNotFoundError(f"{self.path}: is of another run ({found.group(1)}) than the record ({run}), and is left out.")
-        sets = list(xml.etree.ElementTree.parse(self.path).iter("DataSet"))
-        self.times = numpy.array([float(item.get("timestep")) for item in sets])
-        self.files = [self.path.parent / item.get("file") for item in sets]
+        self._steps = (_VtkHdfSteps if self.path.suffix == ".vtkhdf" else _VtpSteps)(self.path)
+        if run and self._steps.run and self._steps.run != run:
+            raise FileNotFoundError(f"{self.path}: is of another run ({self._steps.run}) than the record ({run}), and is left out.")
+        self.times = self._steps.times
 
     def __len__(self):
-        return len(self.files)
+        return len(self.times)
+
+    def fields(self, step):
+        """Fields of the planes of a step as arrays, by name; `Points` are the points of contact."""
+        return self._steps.fields(range(len(self))[step])
+
+    def joint_names(self, step):
+        """Names that the field `joint` counts, from 0."""
+        return self._steps.joint_names(range(len(self))[step])
 
     def __getitem__(self, step):
         pandas = needs("pandas", "A table of planes")
         columns = {}
-        for name, values in planes(self.files[step]).items():
+        for name, values in self.fields(step).items():
             stem = "" if name == "Points" else name + "_"
             if values.ndim == 1:
                 columns[name] = values
             elif values.shape[1] == 3:
                 columns.update({stem + axis: values[:, i] for i, axis in enumerate("xyz")})
-        table = pandas.DataFrame({name: values for name, values in columns.items() if name not in ("connectivity", "offsets")})
-        table["joint"] = numpy.array(joint_names(self.files[step]), object)[table["joint"]]
+        table = pandas.DataFrame(columns)
+        table["joint"] = numpy.array(self.joint_names(step), object)[table["joint"]]
         table.attrs["time"] = self.times[step]
         return table
 
@@ -69,7 +119,18 @@ class Planes:
 
     def vtk(self, step=-1):
         """The planes of a step as a vtkPolyData, which pyvista.wrap takes."""
-        reader = needs("vtkmodules.vtkIOXML", "An object of VTK").vtkXMLPolyDataReader()
-        reader.SetFileName(str(self.files[step]))
-        reader.Update()
-        return reader.GetOutput()
+        model = needs("vtkmodules.vtkCommonDataModel", "An object of VTK")
+        core = needs("vtkmodules.vtkCommonCore", "An object of VTK")
+        convert = needs("vtkmodules.util.numpy_support", "An object of VTK")
+        found, points, vertices = model.vtkPolyData(), core.vtkPoints(), model.vtkCellArray()
+        fields = self.fields(step)
+        points.SetData(convert.numpy_to_vtk(numpy.ascontiguousarray(fields.pop("Points")), deep=True))
+        for place in range(points.GetNumberOfPoints()):
+            vertices.InsertNextCell(1, [place])
+        found.SetPoints(points)
+        found.SetVerts(vertices)
+        for name, values in fields.items():
+            array = convert.numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
+            array.SetName(name)
+            found.GetPointData().AddArray(array)
+        return found

@@ -12,10 +12,9 @@ import tempfile
 
 import numpy
 
-from . import program, tables
+from . import pictures, tables
 from .balances import MOST, in_play, momentum_in_play
 from .page import COLORS, MARK, POINTS, Page, bars, curve, escape, number
-from .planes import joint_names, planes
 from .results import NoRun, Run
 
 ENERGIES = ["kinetic", "internal", "contact_stored", "plastic", "external_work", "hourglass", "viscous", "eroded", "mass_damping", "local_damping",
@@ -249,7 +248,7 @@ class Report:
             if len(series) == 0:
                 self.page.note(f"{run.planes_path.name} has no step yet.")
                 continue
-            fields, names = planes(series.files[-1]), joint_names(series.files[-1])
+            fields, names = series.fields(-1), series.joint_names(-1)
             lost = fields["remainder"]
             self.page.note(f"{len(fields['area'])} planes at t = {series.times[-1]:.6g} s{self.of(which)}; the remainders of all sum up to "
                            f"{lost.sum():.6g} J: {lost.clip(min=0).sum():.6g} J lost, {abs(lost.clip(max=0).sum()):.6g} J gained.")  # fmt: skip
@@ -345,22 +344,14 @@ def pictures_of(run, draw, most=12):
         return [(path, path.read_bytes()) for path in there[:most]], f"The first {most} of {len(there)} pictures." if len(there) > most else ""
     if not draw:
         return [], "Pictures were not asked for."
-    missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
-    if missing:
-        return [], f"No pictures: {' and '.join(missing)} not found (Debian: apt-get install paraview python3-paraview xvfb xauth)."
-    if not (run.folder / f"{run.name}.e").exists():
-        return [], f"No pictures: there is no shared file {run.name}.e."
     try:
-        run.results
-    except (OSError, ValueError) as error:
-        return [], f"No pictures: {error}"
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            code, said = program.run_paraview(program.PARAVIEW / "report_pictures.py", [run.folder.resolve(), folder, run.name], folder, timeout=300)
-        except subprocess.TimeoutExpired:
-            return [], "No pictures: ParaView took more than 300 s."
-        drawn = [(path, path.read_bytes()) for path in sorted(pathlib.Path(folder).glob("*.png"))]
-    return drawn, "" if drawn else f"No pictures: ParaView ended with exit code {code}: {' '.join(said.strip().splitlines()[-1:])}"
+        with tempfile.TemporaryDirectory() as folder:
+            drawn = [(path, path.read_bytes()) for path in pictures.draw(run, folder, color="von_mises", size=(900, 600), timeout=300)]
+    except subprocess.TimeoutExpired:
+        return [], "No pictures: ParaView took more than 300 s."
+    except (OSError, ValueError, pictures.PicturesFailed) as error:
+        return [], f"No pictures: {error}."
+    return drawn, ""
 
 
 def write(path, text):

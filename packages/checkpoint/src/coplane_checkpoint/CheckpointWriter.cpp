@@ -3,6 +3,7 @@
 #include <coplane_checkpoint/detail/Hdf5Calls.hpp>
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/PlacesOfFile.hpp>
 #include <coplane_core/Version.hpp>
 
 #include <algorithm>
@@ -52,129 +53,6 @@ std::string makeSafe(const std::string& path)
   ::close(descriptor);
   return reason;
 }
-
-/// Writes at a place of a file that is there. Returns the reason if that fails.
-class PlaceWriter
-{
-public:
-  explicit PlaceWriter(const std::string& file)
-      : descriptor_(::open(file.c_str(), O_RDWR | O_CLOEXEC))
-  {
-    if (descriptor_ < 0)
-      reason_ = systemsReason();
-  }
-  ~PlaceWriter() { close(); }
-  PlaceWriter(const PlaceWriter&) = delete;
-  PlaceWriter& operator=(const PlaceWriter&) = delete;
-
-  void write(std::uint64_t at, const void* values, std::size_t count)
-  {
-    const char* bytes = static_cast<const char*>(values);
-    while (reason_.empty() && count > 0)
-    {
-      const ssize_t done = ::pwrite(descriptor_, bytes, count, off_t(at));
-      if (done < 0 && errno == EINTR)
-        continue;
-      if (done <= 0)
-        reason_ = done == 0 ? std::strerror(ENOSPC) : systemsReason();
-      bytes += done;
-      at += std::uint64_t(done);
-      count -= std::size_t(done);
-    }
-  }
-
-  void resize(off_t bytes)
-  {
-    if (reason_.empty() && ::ftruncate(descriptor_, bytes) != 0)
-      reason_ = systemsReason();
-  }
-
-  /// Whether the file has these bytes there.
-  void compare(std::uint64_t at, const void* values, std::size_t count)
-  {
-    std::vector<char> there(std::min<std::size_t>(count, 1 << 20));
-    const char* bytes = static_cast<const char*>(values);
-    while (reason_.empty() && count > 0)
-    {
-      const ssize_t got =
-          ::pread(descriptor_, there.data(), std::min(count, there.size()), off_t(at));
-      if (got < 0 && errno == EINTR)
-        continue;
-      if (got < 0)
-        reason_ = "reading back: " + systemsReason();
-      else if (got == 0 || std::memcmp(there.data(), bytes, std::size_t(got)) != 0)
-        reason_ = "what was read back differs from what was written";
-      bytes += got;
-      at += std::uint64_t(got);
-      count -= std::size_t(got);
-    }
-  }
-
-  /// Here some file systems tell of writes that failed.
-  void close()
-  {
-    if (descriptor_ >= 0 && ::close(descriptor_) != 0 && reason_.empty())
-      reason_ = systemsReason();
-    descriptor_ = -1;
-  }
-
-  const std::string& reason() const { return reason_; }
-
-private:
-  int descriptor_;
-  std::string reason_; ///< the first one
-};
-
-/// A file in memory with the name of one on a disk, for a library that does not survive an error of
-/// a disk (HDF5 1.10 crashes when the program ends).
-class MemoryFile
-{
-public:
-  MemoryFile() : descriptor_(::mkostemp(name_, O_CLOEXEC))
-  {
-    if (descriptor_ < 0)
-      throw hdf5::Failure(fmt::format("a file in memory, {}: {}", name_, systemsReason()));
-  }
-  ~MemoryFile()
-  {
-    forgetName();
-    ::close(descriptor_);
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  std::string name() const { return name_; }
-  /// So that nothing is left behind when the program is killed.
-  void forgetName()
-  {
-    if (name_[0] != '\0')
-      ::unlink(name_);
-    name_[0] = '\0';
-  }
-  off_t size() const { return ::lseek(descriptor_, 0, SEEK_END); }
-
-  /// action(place, bytes, count) for all that was written; holes are passed over.
-  template <class Action>
-  void forEachPiece(const Action& action) const
-  {
-    std::vector<char> piece(1 << 16);
-    for (off_t at = ::lseek(descriptor_, 0, SEEK_DATA); at >= 0;
-         at = ::lseek(descriptor_, at, SEEK_DATA))
-      for (const off_t end = ::lseek(descriptor_, at, SEEK_HOLE); at < end;)
-      {
-        const ssize_t got = ::pread(descriptor_, piece.data(),
-                                    std::min<std::size_t>(piece.size(), std::size_t(end - at)), at);
-        if (got <= 0)
-          throw hdf5::Failure("a file in memory: " + systemsReason());
-        action(std::uint64_t(at), piece.data(), std::size_t(got));
-        at += got;
-      }
-  }
-
-private:
-  char name_[32] = "/dev/shm/coplane_XXXXXX"; ///< HDF5 takes no name that is a link (/proc/self/fd)
-  int descriptor_;
-};
 
 std::string writeHead(const std::string& file, const std::string& text)
 {
@@ -299,6 +177,10 @@ std::string CheckpointWriter::writeSkeleton(const std::string& draft,
       places = makeFile(skeleton.emplace().name());
   }
   catch (const hdf5::Failure& reason)
+  {
+    failure = reason.what();
+  }
+  catch (const MemoryFile::Failure& reason)
   {
     failure = reason.what();
   }

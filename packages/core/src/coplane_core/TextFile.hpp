@@ -69,6 +69,7 @@ public:
   const std::string& file() const { return file_; }
   /// What has the name now is what this program left there, or found and may replace.
   void remember();
+  bool isAsLeft() const { return lookAt(file_) == left_; }
   /// The draft, which is whole, takes its place. What has the name and is not as it was left is put
   /// aside, as by putForeignFileAside, also when it came there this very moment. Returns errno, 0:
   /// it is done.

@@ -34,7 +34,12 @@ Key outputKeys()
                        .means("times at which results are written besides"),
                    flag("planes", &OutputCard::planes)
                        .like("false")
-                       .means("contact planes as .pvd and .vtp beside the results"),
+                       .means("contact planes as points beside the results"),
+                   text("planes_format", &OutputCard::planesFormat)
+                       .oneOf({"vtp", "vtkhdf"})
+                       .like("vtkhdf")
+                       .means("vtp: a .vtp file for each step, and a .pvd that names them; vtkhdf: "
+                              "one file for all steps, and its index .xmf"),
                    flag("file_per_rank", &OutputCard::filePerRank)
                        .like("true")
                        .means("one results file for each rank instead of a shared one"),

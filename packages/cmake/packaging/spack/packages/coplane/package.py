@@ -48,7 +48,7 @@ class Coplane(CMakePackage):
 
     @run_after("install")
     def use_python_of_spack(self):
-        scripts = [join_path(self.prefix.bin, f"coplane_{word}") for word in ("new", "report", "watch")]
+        scripts = [join_path(self.prefix.bin, f"coplane_{word}") for word in ("new", "pictures", "report", "watch")]
         scripts += [join_path(self.prefix, "share/coplane/exodus_inputs/run.py")]
         filter_file(r"^#!/usr/bin/python3$", "#!" + self.spec["python"].command.path, *scripts)
 
