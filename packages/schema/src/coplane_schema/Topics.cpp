@@ -1,8 +1,8 @@
 #include "SchemaReference.hpp"
-#include "Suggestion.hpp"
 #include "detail/ReferenceText.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Suggestion.hpp>
 
 #include <algorithm>
 #include <set>
