@@ -127,6 +127,11 @@ def cut(parts, open_by=0.0, step=0.0):
     return problem
 
 
+def searched(problem, every):
+    problem.deck["contact"]["search_every"] = every
+    return problem
+
+
 def meshed(part, finer=1, split=False):
     problem = scene.problem()
     chosen = problem.recipe["parts"][part]
@@ -205,6 +210,8 @@ flush = 1e-2 if rough and not thrown else 1e-3
 if scene.along == 0:
     near("2 flush slabs", cut(2), flush)
     near("7 flush slabs", cut(7), flush)
+    if kind == "slide":  # a search may come just when an edge of the block lies on a seam
+        near("7 flush slabs, searched every cycle", searched(cut(7), 1), flush)
     if everything or scene.thorough:
         near("2 slabs a hair open", cut(2, open_by=1e-6), flush)
         near("7 slabs a hair open", cut(7, open_by=1e-6), flush)
