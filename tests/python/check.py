@@ -272,5 +272,12 @@ build = "import shutil, os; from setuptools import build_meta; " \
 done = subprocess.run([sys.executable, "-c", build], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 version = re.search(r"project\(Coplane VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
 case.check_equal("the wheel", done.stdout.splitlines()[-1], f"coplane-{version}-py3-none-any.whl")
+# Where only the wheel is installed, coplane itself tells the schema of decks.
+alone = "import coplane; coplane.Deck({'mesh': 'mesh.e', 'materials': {'steel': {'model': 'linear_elastc'}}}).schema_errors() or exit(1); " \
+    "print(coplane.program.schema('deck').exists())"
+done = subprocess.run([sys.executable, "-c", alone], cwd="wheel", stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                      env=dict(os.environ, PYTHONPATH="", COPLANE_BIN=str(pathlib.Path(coplane.program.binary("coplane")).parent)))  # fmt: skip
+print(done.stdout[-3000:])
+case.check_equal("the wheel alone: faults of a deck are found", (done.returncode, done.stdout.split()[-1:]), (0, ["False"]))
 
 case.finish()

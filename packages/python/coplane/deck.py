@@ -88,7 +88,7 @@ class Deck:
 
     def schema_errors(self):
         """What the JSON Schema of decks finds, each with its line, the path of the value, and what is wrong there."""
-        validator = needs("jsonschema", "Checking a deck against its schema").Draft7Validator(documents.load(program.schema("deck")))
+        validator = needs("jsonschema", "Checking a deck against its schema").Draft7Validator(program.deck_schema())
         plain = documents.parse(self.text)  # as Coplane reads it: numbers such as 5e10 are none to every reader of YAML
         return [f"{self.line(error.absolute_path)}: {'.'.join(map(str, error.absolute_path)) or 'deck'}: {error.message}" for error in validator.iter_errors(plain)]
 

@@ -1,5 +1,6 @@
 """Runs the programs. COPLANE_BIN is the folder that holds them; else they are sought beside this package, then on PATH."""
 
+import json
 import os
 import pathlib
 import shutil
@@ -46,6 +47,12 @@ def binary(name):
 def schema(name):
     """Path of a JSON Schema of input files: deck, point-deck, recipe, joint-recipe or example."""
     return TOP / f"docs/schemas/{name}.json"
+
+
+def deck_schema():
+    """The JSON Schema of decks: the file of the source tree or the installation; where only this package is installed, what coplane prints."""
+    path = schema("deck")
+    return json.loads(path.read_text() if path.exists() else subprocess.run([binary("coplane"), "--schema"], stdout=subprocess.PIPE, text=True, check=True).stdout)
 
 
 def command(arguments, ranks=1, prefix=()):
