@@ -32,7 +32,7 @@ is_of_this_tree() {
   local number revision
   number=$(sed -nE 's/^project\(Coplane VERSION ([0-9.]+).*/\1/p' "$top/CMakeLists.txt")
   revision=$(git -C "$top" describe --always --dirty 2>/dev/null || true)
-  case $revision in *-dirty) return 1 ;; esac
+  case $revision in '' | *-dirty) return 1 ;; esac # without git nobody knows
   case $("$1" --version 2>/dev/null) in "coplane $number ($revision;"*) ;; *) return 1 ;; esac
 }
 

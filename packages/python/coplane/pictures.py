@@ -48,7 +48,7 @@ def _demand(series, color, blocks):
 
 def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None, blocks=(), camera=None, deformed=True, planes="dots",
          size=(1200, 800), timeout=None):  # fmt: skip
-    """Draws states with ParaView into a folder; returns the PNG files, in order of time."""
+    """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time."""
     missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
         raise PicturesFailed(f"{' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)")
@@ -58,13 +58,20 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
         if not one.results_path.exists():
             raise PicturesFailed(f"there is no shared file {one.results_path.name}")
         _demand(one.results, color, blocks)
-    want = {"runs": [[str(one.folder.resolve()), one.results_path.stem] for one in runs], "folder": str(folder), "color": color,
-            "frames": _steps(numpy.array(run.results.times), times, steps), "unit": attributes(color).get("units", ""), "range": range,
-            "blocks": list(blocks), "camera": camera, "up": _up(run), "deformed": deformed, "planes": planes, "size": list(size)}  # fmt: skip
-    before = set(pathlib.Path(folder).glob("*.png"))
+    with tempfile.TemporaryDirectory() as draft:
+        files = _drawn(runs, draft, dict(color=color, range=range, blocks=list(blocks), camera=camera, deformed=deformed, planes=planes, size=list(size)),
+                       _steps(numpy.array(run.results.times), times, steps), timeout)  # fmt: skip
+        pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
+        return [pathlib.Path(shutil.copy(file, folder)) for file in files]
+
+
+def _drawn(runs, folder, want, frames, timeout):
+    """What ParaView draws into an empty folder."""
+    want = {"runs": [[str(one.folder.resolve()), one.results_path.stem] for one in runs], "folder": folder,
+            "frames": frames, "unit": attributes(want["color"]).get("units", ""), "up": _up(runs[0]), **want}  # fmt: skip
     code, said = program.run_paraview(program.PARAVIEW / "draw_run.py", [json.dumps(want)], folder, timeout=timeout)
-    found = sorted(set(pathlib.Path(folder).glob("*.png")) - before)
-    if code or len(found) != len(want["frames"]):
+    found = sorted(pathlib.Path(folder).glob("*.png"))
+    if code or len(found) != len(frames):
         raise PicturesFailed(f"ParaView ended with exit code {code}: {' '.join(said.strip().splitlines()[-1:])}")
     return found
 
@@ -153,8 +160,10 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
     pyplot.close(figure)
 
 
-def _numbers(words):
-    return [float(word) for word in words]
+def _count(word):
+    if not word.isdecimal() or int(word) < 1:
+        raise argparse.ArgumentTypeError(f"'{word}'; accepted: whole numbers from 1 on")
+    return int(word)
 
 
 def _arguments():
@@ -163,7 +172,7 @@ def _arguments():
     parser.add_argument("--compare", metavar="OTHER", help="another run, drawn beside it at the same times")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="default: the folder pictures beside the run")
     parser.add_argument("--times", nargs="+", type=float, default=[], metavar="T", help="times [s]; default: the first and the last")
-    parser.add_argument("--steps", type=int, default=2, metavar="N", help="so many states from the first to the last")
+    parser.add_argument("--steps", type=_count, metavar="N", help="so many states from the first to the last; default: 2, of a film all")
     parser.add_argument("--color", default="block", metavar="VARIABLE", help="block (default) or a variable: von_mises, velocity, damage, ...")
     parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours; default: of all that is drawn")
     parser.add_argument("--blocks", nargs="+", default=[], metavar="NAME", help="only these")
@@ -171,7 +180,7 @@ def _arguments():
     parser.add_argument("--planes", choices=("dots", "arrows", "none"), default="dots", help="as dots, as arrows of their force, or not")
     parser.add_argument("--undeformed", action="store_true", help="at the coordinates of the start")
     parser.add_argument("--size", nargs=2, type=int, default=[1200, 800], metavar=("WIDTH", "HEIGHT"))
-    parser.add_argument("--strip", type=int, metavar="COLUMNS", help="one picture of all states, so many in a row")
+    parser.add_argument("--strip", type=_count, metavar="COLUMNS", help="one picture of all states, so many in a row")
     parser.add_argument("--animation", metavar="FILE", help=".mp4 or .gif of all steps, or of those that --times or --steps choose")
     parser.add_argument("--vector", metavar="FILE", help=".svg or .pdf of a run in two dimensions, at the last of the times")
     return parser.parse_args()
@@ -196,7 +205,7 @@ def _make(options):
         return [path]
     film = _file_of(options.animation, (".mp4", ".gif")) if options.animation else None
     other = Run(options.compare) if options.compare else None
-    steps = len(run.results.times) if film and options.steps == 2 else options.steps
+    steps = options.steps or (len(run.results.times) if film else 2)
     folder = pathlib.Path(options.output or run.folder / "pictures")
     with tempfile.TemporaryDirectory() as draft:
         files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, options.camera, not options.undeformed,
