@@ -112,10 +112,10 @@ def run_paraview(script, arguments, folder, timeout=None):
     environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
     for attempt in range(3):
         # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
-        # display may not be there in time; then once more.
+        # display may not be there in time, or ParaView aborts on it (134); then once more.
         display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
         done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), *map(str, arguments)], cwd=folder, env=environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout)  # fmt: skip
-        if not done.returncode or "CreateAWindow" not in done.stdout:
+        if done.returncode != 134 and (not done.returncode or "CreateAWindow" not in done.stdout):
             break
     return done.returncode, done.stdout
