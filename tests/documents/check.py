@@ -275,6 +275,56 @@ def check_readme():
         assert (folder / name).stat().st_size > 0, name
 
 
+# Numbers with a point or an exponent may be off in the last digits where a compiler or a library is another one.
+NUMBER = r"(?<![\w.])[-+]?\d+(?:\.\d+(?:e[-+]?\d+)?|e[-+]?\d+)"
+ELAPSED = r"after \d+ s"
+
+
+def is_as_printed(quoted, printed):
+    """Whether a line of a page is one that was printed; one that ends with ... need only begin like it."""
+    quoted, printed = (re.sub(ELAPSED, "after", line) for line in (quoted, printed))
+    begins, end = (quoted[:-3], ".*") if quoted.endswith("...") else (quoted, "")
+    found = re.fullmatch(f"({NUMBER})".join(map(re.escape, re.split(NUMBER, begins))) + end, printed)
+    numbers = map(float, re.findall(NUMBER, quoted))
+    return bool(found) and all(abs(float(value) - number) <= 1e-3 * abs(number) for value, number in zip(found.groups(), numbers))
+
+
+def lost_line(quoted, printed):
+    """The first of the quoted lines that does not follow the one before in what was printed, where ... stands for any lines; or None."""
+    anywhere = True
+    for line in quoted:
+        if line.strip() == "...":
+            anywhere = True
+            continue
+        at = next((i for i, candidate in enumerate(printed if anywhere else printed[:1]) if is_as_printed(line, candidate)), None)
+        if at is None:
+            return line
+        printed, anywhere = printed[at + 1:], False
+    return None
+
+
+def check_output():
+    """Blocks of output in pages are what the commands in the block before them print."""
+    printed = ["after 7 s: 1.0000e+00 J, 3 planes", "  a", "  b", "  gaps 5.176e-03, 9"]
+    assert lost_line(["after 1 s: 1.0005e+00 J, 3 planes", "...", "  gaps 5.176e-03, ..."], printed) is None
+    for wrong in (["after 1 s: 1.0020e+00 J, 3 planes"], ["after 1 s: 1.0000e+00 J, 4 planes"], ["  a", "  gaps 5.176e-03, 9"], ["  gaps 5.176e-03"]):
+        assert lost_line(wrong, printed) == wrong[-1], wrong
+    folder = pathlib.Path("output").absolute()
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    (folder / "exodus_inputs").symlink_to(SOURCE / "exodus_inputs")
+    environment = dict(os.environ, PWD=str(folder), PATH=f"{BINARIES}:{os.environ['PATH']}")
+    for page, blocks in (("first-run", 5), ("joint-paths", 1)):
+        text = (SOURCE / f"docs/user/{page}.md").read_text()
+        pairs = re.findall(r"```(?:bash|sh)\n([^`]*)```(?:(?!```).)*?```text\n(.*?)```", text, flags=re.S)
+        assert len(pairs) == blocks == text.count("```text\n"), f"{page}.md: blocks of output without a block of commands before them"
+        for commands, quoted in pairs:
+            done = run(["bash", "-euc", commands], cwd=folder, env=environment)
+            assert done.returncode == 0, f"{page}.md: exit code {done.returncode}: {commands}\n{done.stdout[-3000:]}"
+            line = lost_line(quoted.splitlines(), done.stdout.splitlines())
+            assert line is None, f"{page}.md says\n{line}\nand the commands before it print\n{done.stdout[-6000:]}"
+
+
 def check_install():
     """The install target gives a package that another project finds, links and runs, and examples that run."""
     prefix = pathlib.Path("prefix").absolute()
