@@ -54,17 +54,16 @@ def in_size(texts, size):
         raise NotMade(f"--size {size}: the example has no such size; it has {', '.join(sizes)}.")
     chosen = sizes[size] or {}
     settings = {"recipe": "mesh.yaml", "deck": "deck.yaml", **example, **chosen}
-    inputs = [settings[key] for key in ("recipe", "deck", "joints") if key in settings]
-    summary = settings.get("summary", "summary.py")
-    example_text = texts["example.yaml"]
-    texts = {file: text for file, text in texts.items() if file in inputs or not file.endswith(".yaml") and file != summary}
     for file, changes in ((settings["recipe"], "mesh"), (settings["deck"], "set")):
         if chosen.get(changes):
             document = Deck.from_text(texts[file])
-            as_written = Deck.from_text(example_text).document["sizes"][size][changes]  # 5e-3 stays 5e-3
+            as_written = Deck.from_text(texts["example.yaml"]).document["sizes"][size][changes]  # 5e-3 stays 5e-3
             for path, value in as_written.items():
                 document[path] = value
             texts[file] = document.text
+    inputs = [settings[key] for key in ("recipe", "deck", "joints") if key in settings]
+    summary = settings.get("summary", "summary.py")
+    texts = {file: text for file, text in texts.items() if file in inputs or not file.endswith(".yaml") and file != summary}
     kept = ("title", "recipe", "joints", "deck", "check", "pictures", "ranks")
     return texts, {**{key: settings[key] for key in kept if key in settings}, "sizes": {size: {}}}
 
