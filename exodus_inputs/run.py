@@ -176,11 +176,12 @@ class ExampleRun:
         self.recipe = documents.load(source / self.settings["recipe"])
         self.deck = documents.load(source / self.settings["deck"])
         self.joints = documents.load(source / self.settings["joints"]) if self.settings.get("joints") else None
+        self.changed = {}  # by example.yaml: values by path, by file
         for item in changes[1:]:
-            for path, value in (item.get("mesh") or {}).items():
-                change(self.recipe, path, value)
-            for path, value in (item.get("set") or {}).items():
-                change(self.deck, path, value)
+            for key, document, file in (("mesh", self.recipe, self.settings["recipe"]), ("set", self.deck, self.settings["deck"])):
+                for path, value in (item.get(key) or {}).items():
+                    change(document, path, value)
+                    self.changed.setdefault(file, {})[path] = value
         for text in options.set:
             path, equals, value = text.partition("=")
             if not equals:
@@ -252,6 +253,8 @@ class ExampleRun:
         if self.is_done("done", self.run_key) and all((self.folder / name).exists() for name in self.results):
             self.say(f"computed already, in {self.folder}")
             return
+        for file, values in self.changed.items():
+            self.say(f"example.yaml changes {file}: " + ", ".join(f"{path}: {json.dumps(value)}" for path, value in values.items()))
         self.own.remove(keep=["mesh.yaml", "run.yaml", "joints.yaml"])
         self.own.claim(made, self.overwrite)
         before = self.own.there()

@@ -13,6 +13,7 @@ import jsonschema
 
 from coplanetest import Case, documents, program
 
+import coplane
 from coplane import new
 
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
@@ -38,6 +39,18 @@ def wrong(file):
     return [f"{file.name}: {error.message}" for error in jsonschema.Draft7Validator(documents.load(schema[1])).iter_errors(documents.load(file))]
 
 
+def in_default_size(example):
+    """Recipe and deck of an example as run.py runs them in its default size."""
+    source = SOURCE / "exodus_inputs" / example
+    settings = documents.load(source / "example.yaml")
+    size = settings["sizes"][settings.get("default", next(iter(settings["sizes"])))] or {}
+    found = [documents.load(source / settings.get(key, f"{other}.yaml")) for key, other in (("recipe", "mesh"), ("deck", "deck"))]
+    for document, key in zip(found, ("mesh", "set")):
+        for path, value in (size.get(key) or {}).items():
+            documents.change(document, path, value)
+    return found
+
+
 scratch = tempfile.TemporaryDirectory(prefix="my own ", ignore_cleanup_errors=True)
 place = pathlib.Path(scratch.name)
 for example in new.examples():
@@ -50,6 +63,13 @@ for example in new.examples():
     texts = {path.name: path.read_text() for path in folder.iterdir() if path.suffix != ".e"}
     case.check_equal(f"{example}: files that name it, or others outside", [name for name, text in texts.items() if example in text or re.search(r"\.\./[a-z]", text)], [])
     case.check_equal(f"{example}: against the schemas", [text for name in texts if name.endswith(".yaml") for text in wrong(folder / name)], [])
+    recipe, deck = in_default_size(example)
+    settings = documents.load(folder / "example.yaml")
+    case.check_equal(f"{example}: recipe and deck are those of its default size",
+                     (documents.load(folder / settings["recipe"]), documents.load(folder / settings["deck"])), (recipe, {**deck, "mesh": "mesh.e"}))  # fmt: skip
+    case.check_equal(f"{example}: example.yaml changes nothing", ([*settings["sizes"].values()], "variants" in settings), ([{}], False))
+    case.check_equal(f"{example}: other input files", [name for name in texts if name.endswith(".yaml")],
+                     [name for name in texts if name in ("example.yaml", settings["recipe"], settings["deck"])])  # fmt: skip
     case.check_equal(f"{example}: check", (folder / "check.py").exists(), True)
     if example not in CHECKED:
         continue
@@ -64,7 +84,9 @@ before = {path.name: path.read_bytes() for path in (place / "bars").iterdir()}
 code, said = made("bars", "--like", "arch_2d")
 case.check_equal("there already", (code, "is there already" in said, {path.name: path.read_bytes() for path in (place / "bars").iterdir()} == before), (2, True, True))
 for arguments, words in (
-    (("x",), ["--like EXAMPLE is missing", "  bars_2d ", "a bar hits another one"]),
+    ((), ["NAME and --like EXAMPLE missing", "  bars_2d "]),
+    (("x", "--like", "bars_2d", "--size", "XL"), ["no such size", "it has S"]),
+    (("x",), ["--like EXAMPLE missing", "  bars_2d ", "a bar hits another one"]),
     (("x", "--like", "rocking_block"), ["Did you mean rocking_block_2d?", "  explosion_3d "]),
     (("x", "--like", "../tests"), ["no such example"]),
     (("2 x", "--like", "bars_2d"), ["a letter first"]),
@@ -90,6 +112,19 @@ case.check_equal("run.py without a recipe", (code, "mesh.yaml, the recipe of alo
 shutil.copy(place / "bars/mesh.yaml", alone)
 code, said = called([*RUN, ".", "--no-pictures", "--set", "time.end=1e-5"], alone)
 case.check_equal("run.py on a deck and a recipe", (code, (alone / "runs/S/run.csv").exists()), (0, True))
+made("rocks", "--like", "rocking_block_2d", "--size", "coarse")
+mine = coplane.Deck.read(place / "rocks/rocks.yaml")
+case.check_equal("another size", mine["time.end"], 0.5)
+mine["time.end"] = 1e-3
+mine.write(place / "rocks/rocks.yaml")
+code, said = called([*RUN, "rocks", "--no-pictures", "--no-check"], place)
+run = documents.load(place / "rocks/runs/coarse/run.yaml")
+case.check_equal("run.py: the deck of a new folder is not changed", (code, "example.yaml changes" in said, run),
+                 (0, False, documents.load(place / "rocks/rocks.yaml")))  # fmt: skip
+(place / "rocks/example.yaml").write_text("title: rocks\ndeck: rocks.yaml\nsizes:\n  S: {set: {time.end: 2e-3}, mesh: {parts.1.rotate: -3}}\n")
+code, said = called([*RUN, "rocks", "--no-pictures", "--no-check", "--ranks", 1], place)
+case.check_equal("run.py: what example.yaml changes is told", (code, [word for word in ("example.yaml changes rocks.yaml: time.end: 0.002", "mesh.yaml: parts.1.rotate: -3") if word not in said]),
+                 (0, []))  # fmt: skip
 code, said = called([*RUN, "nothing"], place)
 case.check_equal("run.py: no such folder", (code, [word for word in ("no example 'nothing'", "bars_2d", "coplane new") if word not in said]), (1, []))
 case.finish()

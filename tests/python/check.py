@@ -147,7 +147,11 @@ checked = coplane.Deck.read("straight/run.yaml")
 case.check_equal("check: prints the model", "deck and mesh are fine" in checked.check(), True)
 checked["contact.skn"] = 1
 place = 1 + pathlib.Path("straight/run.yaml").read_text().splitlines().index("contact:")
-told("a wrong key", coplane.DeckError, checked.check, "'skn'", f"straight/run.yaml:{place}: contact: ")
+try:
+    checked.check()
+except coplane.DeckError as error:
+    case.check_equal("a wrong key: told once, with what was meant", (str(error).count("skn"), "contact.skn is not known. Did you mean 'skin'?" in str(error)), (1, True))
+case.check_equal("a wrong key: its line", [error.startswith(f"{place}: contact: ") for error in checked.schema_errors()], [True])
 del checked["contact.skn"]
 checked["blocks.rok"] = checked["blocks.rock"]
 told("a wrong name", coplane.DeckError, checked.check, "'rok'", "Did you mean 'rock'?", "straight/run.yaml:")
@@ -228,13 +232,27 @@ for name in ("run.e", "run_pairs.csv", "run_planes_0000.vtp", "run.run.json", "r
     case.check_equal(f"opened by {name}", coplane.open(f"straight/{name}").name, "run")
 checked["time.end"] = numpy.float64(1e-3)
 checked["contact.skn"] = 1
-told("faults of schema and program", coplane.DeckError, checked.check, "Additional properties", "Did you mean")
+checked["contact.skin"] = "wide"
+told("all faults", coplane.DeckError, checked.check, "contact.skn is not known", "skin", "wide")
+del checked["contact.skin"]
 del checked["contact.skn"]
 checked["mesh"] = pathlib.Path("mesh.e")
 case.check_equal("values of numpy and paths", (type(checked["time.end"]).__name__, checked["mesh"]), ("float", "mesh.e"))
 
 # --- what is not there ------------------------------------------------------------------------------
 
+for what, get, words in (
+    ("probe", lambda: whole.probes["nope"], ("'nope'", "near", "history.probes")), ("joint", lambda: whole.joints["dry"], ("'dry'", "tight", "history.joints")),
+    ("table", lambda: stale.tables["pairs"], ("'pairs'", "it has none", "history.tables")), ("block", lambda: whole.blocks["beem"], ("'beem'", "rock")),
+    ("body", lambda: whole.bodies["near"], ("'near'", "history.rigid")), ("node set", lambda: whole.node_sets["lft"], ("'lft'", "left")),
+):  # fmt: skip
+    told(f"no such {what}", KeyError, get, *words)
+told("a mesh", FileNotFoundError, lambda: coplane.open("straight/mesh.e"), "mesh.e is a mesh", "straight/run")
+os.makedirs("bare", exist_ok=True)
+shutil.copy("straight/run.e", "bare")
+bare = coplane.open("bare/run")
+case.check_equal("results alone are a run", len(bare.results.times), len(whole.results.times))
+told("results without a history", FileNotFoundError, lambda: bare.history, "bare/run.csv", "no history")
 told("no such run", FileNotFoundError, lambda: coplane.open("straight/rum"), "rum.run.json", "straight/run")
 told("a run that has not begun", FileNotFoundError, lambda: coplane.open("study/001/run"), "study/001/run.log ends with", "step_factor")
 told("no run in a folder", FileNotFoundError, lambda: coplane.open("study"), "study", "no record")

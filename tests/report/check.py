@@ -187,7 +187,12 @@ for name, changes in (("going", {"time.end": 10}), ("failed", {"conditions.0.val
     started.process.send_signal(signal.SIGKILL)
     started.process.wait()
     report.make("going", pictures=False)
-    case.check_equal("a killed run", Taken("going/run-report.html").ending(), ["killed"])
+    killed, last = Taken("going/run-report.html"), coplane.open("going").history.iloc[-1]
+    case.check_equal("a killed run", killed.ending(), ["killed"])
+    says("a killed run: its last numbers", killed, f"planes {int(last.planes)} searches {int(last.searches)} cycles {int(last.cycle)} ")
+    started.path(".csv").rename("going/away.csv")
+    report.make("going", pictures=False)
+    case.check_equal("a killed run without history: numbers of its start are left out", re.findall("searches [0-9]+ cycles", Taken("going/run-report.html").text), [])
 case.check_equal("report of a failed run", made("failed", "--no-pictures")[0], 0)
 failed = Taken("failed/run-report.html")
 case.check_equal("a failed run", failed.ending(), ["failed"])
@@ -219,7 +224,10 @@ case.check_equal("no such run", (code, "ERROR: less/rum: there is no run of this
 pathlib.Path("mine.html").write_text("mine")
 code, said = made("a", "--no-pictures", "-o", "mine.html")
 case.check_equal("a file of mine", (code, "no report of coplane" in said, pathlib.Path("mine.html").read_text()), (5, True, "mine"))
-case.check_equal("no such folder", made("a", "--no-pictures", "-o", "nowhere/a.html")[0], 5)
+code, said = made("a", "--no-pictures", "-o", "nowhere/a.html")
+case.check_equal("no such folder", (code, said), (5, "ERROR: the report cannot be written: nowhere/a.html: there is no folder nowhere; make it first.\n"))
+code, said = made("a/mesh.e", "--no-pictures")
+case.check_equal("a mesh", (code, "mesh.e is a mesh" in said, pathlib.Path("a/mesh-report.html").exists()), (2, True, False))
 case.check_equal("drafts that are left", [path.name for path in pathlib.Path().glob("*.part-*")], [])
 
 # An example ends well without its report.

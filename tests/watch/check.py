@@ -112,8 +112,13 @@ says("completed", shown, "bars: impact of two equal bars", "completed, exit code
      f"planes {int(last.planes)}: {int(last.open)} open", f"{int(last.searches)} searches", "missed 0", "limited by contact at node", "against side", "1 ranks x 1 threads", "1200 elements")  # fmt: skip
 case.check_equal("completed: no orders to terminals in a pipe", "\x1b" in shown, False)
 case.check_equal("completed: the same by the folder, and with --once", [once(*place)[1] == shown for place in ([ODD], ["--once", f"{ODD}/bars.csv"])], [True, True])
-case.check_within("a line", max(map(len, shown.splitlines())), 70, 79)
-case.check_within("a line of 40 columns", max(map(len, once(ODD, environment={"COLUMNS": "40"})[1].splitlines())), 30, 39)
+def widest(shown):
+    """Of the lines that are no sentences of a log, which are whole where there is no terminal."""
+    return max(len(line) for line in shown.splitlines() if not line.startswith(("  limited by ", "  WARNING")))
+
+
+case.check_within("a line", widest(shown), 70, 79)
+case.check_within("a line of 40 columns", widest(once(ODD, environment={"COLUMNS": "40"})[1]), 30, 39)
 ascii_only = once(ODD, environment={"PYTHONIOENCODING": "ascii"})[1]
 case.check_equal("a terminal without UTF-8", (ascii_only.isascii(), "#####" in ascii_only), (True, True))
 history = pathlib.Path(ODD, "bars.csv")
@@ -132,6 +137,16 @@ quiet = Terminal(ODD, TERM="xterm", NO_COLOR="1", columns=40)
 quiet.ended()
 case.check_equal("NO_COLOR", "\x1b[3" in quiet.text, False)
 case.check_within("40 columns", quiet.widest(), 30, 39)
+
+# --- what is no run ----------------------------------------------------------------------------------------
+
+for name in ("mesh.e", "mesh.yaml", "mesh"):
+    code, _, said = once(name)
+    case.check_equal(f"{name}: refused", (code, "mesh.e is a mesh" in said), (2, True))
+seen = Terminal("mesh.e", TERM="xterm")
+case.check_equal("a mesh is not waited for", (seen.ended(), "mesh.e is a mesh" in seen.text), (2, True))
+code, _, said = once("--wait", "--once", ODD)
+case.check_equal("--wait and --once", (code, "one of them" in said), (2, True))
 
 # --- a run that begins later, goes on, and is stopped ----------------------------------------------------
 
@@ -176,8 +191,15 @@ watching = Terminal("killed/bars", TERM="xterm")
 watching.until("kinetic")
 started.process.kill()
 started.process.wait()
-case.check_equal("killed: exit codes", (watching.ended(), once("killed")[0]), (1, 1))
-says("killed", watching.text, "killed: the record says running")
+code, shown, _ = once("killed")
+case.check_equal("killed: exit codes", (watching.ended(), code), (1, 1))
+KILLED = "killed: the record says running, but no program writes the run, and it left no exit code"
+says("killed", shown, KILLED + "\n", "it left no checkpoint to go on from with --restart")
+pathlib.Path("killed/bars.chk.1").touch()
+narrow = Terminal("killed", TERM="xterm", NO_COLOR="1", columns=40)
+narrow.ended()
+says("killed, on a terminal of 40 columns", " ".join(narrow.text.split()), KILLED, "with --restart goes on from the newest checkpoint, bars.chk.1")
+case.check_within("killed: 40 columns", narrow.widest(), 30, 39)
 prepared("failed", initial__0__velocity=[20000, 0, 0])
 try:
     coplane.run("failed/bars.yaml")

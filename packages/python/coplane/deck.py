@@ -3,6 +3,7 @@
 import io
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 
@@ -86,11 +87,18 @@ class Deck:
         pathlib.Path(path).write_text(self.text, encoding="utf-8")
         self.path = pathlib.Path(path)
 
-    def schema_errors(self):
-        """What the JSON Schema of decks finds, each with its line, the path of the value, and what is wrong there."""
+    def _faults(self):
+        """Errors of jsonschema."""
         validator = needs("jsonschema", "Checking a deck against its schema").Draft7Validator(program.deck_schema())
         plain = documents.parse(self.text)  # as Coplane reads it: numbers such as 5e10 are none to every reader of YAML
-        return [f"{self.line(error.absolute_path)}: {'.'.join(map(str, error.absolute_path)) or 'deck'}: {error.message}" for error in validator.iter_errors(plain)]
+        return list(validator.iter_errors(plain))
+
+    def _described(self, fault):
+        return f"{self.line(fault.absolute_path)}: {'.'.join(map(str, fault.absolute_path)) or 'deck'}: {fault.message}"
+
+    def schema_errors(self):
+        """What the JSON Schema of decks finds, each with its line, the path of the value, and what is wrong there."""
+        return [self._described(fault) for fault in self._faults()]
 
     def line(self, keys):
         """Number of the line, from 1, on which the value that these keys lead to begins in the file that was read; of a new one: that of the group
@@ -106,8 +114,7 @@ class Deck:
         """What `coplane --check` prints: masses, step, contact before the first step. DeckError with every fault that the schema or the
         program finds.
         """
-        name = self.path or "deck"
-        errors = [f"{name}:{error}" for error in self.schema_errors()]
+        faults = self._faults()
         # Beside the deck, because names of files in it begin there.
         if os.access(self.folder, os.W_OK):
             code, printed = self._checked(self.folder)
@@ -117,6 +124,9 @@ class Deck:
                 if "mesh" in moved:
                     moved["mesh"] = str(self.mesh.resolve())
                 code, printed = moved._checked(folder)
+        # Of keys that are not known the program says more.
+        errors = [f"{self.path or 'deck'}:{self._described(fault)}" for fault in faults
+                  if fault.validator != "additionalProperties" or not all(f"{key} is not known" in printed for key in re.findall("'(.*?)'", fault.message))]
         if errors or code:
             raise DeckError("\n".join([*errors, *([printed.strip()] if code else [])]))
         return printed

@@ -29,10 +29,15 @@ def load(path):
         return parse(file)
 
 
+def text(document):
+    """As YAML; numbers with all digits."""
+    return yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=120)
+
+
 def save(document, path):
-    """Numbers are written with all digits."""
+    """Writes the text of a deck or recipe."""
     with open(path, "w", encoding="utf-8") as file:
-        yaml.safe_dump(document, file, sort_keys=False, default_flow_style=None, width=120)
+        file.write(text(document))
 
 
 def plain(value):

@@ -24,6 +24,11 @@ COUNTS = ["pairs", "planes", "open", "stick", "slip"]
 TROUBLE = ["missed", "too_deep", "released"]
 
 
+# Sizes of the record that change during a run, with their columns of the history.
+CHANGING = {"candidate_pairs": "pairs", "planes": "planes", "searches": "searches", "cycles": "cycle", "eroded_elements": "eroded_elements",
+            "eroded_mass_kg": "eroded_mass"}  # fmt: skip
+
+
 class Missing(Exception):
     """Something that a section needs is not there; the page says so."""
 
@@ -115,11 +120,25 @@ class Report:
             return "none"
 
     @staticmethod
-    def what(run):
+    def sizes(run):
+        """Of the record; that of a run that goes on or was killed has those of its start, and what has changed since is in the last line of the history."""
+        sizes = run.record.get("sizes", {})
+        if run.record.get("ending") != "running":
+            return {**sizes, "time [s]": run.record.get("time_s")}
+        try:
+            last = {name: values[-1] for name, values in run.columns.items() if len(values)}
+        except (OSError, ValueError):
+            last = {}
+        now = {name: last.get(column) for name, column in CHANGING.items() if name in sizes}
+        now = {name: value if value is None or name.endswith("_kg") else int(value) for name, value in now.items()}
+        return {**sizes, **now, "time [s]": last.get("time")}
+
+    @classmethod
+    def what(cls, run):
         record = run.record
         if not record:
             return {"record": f"there is no {run.name}.run.json: what was run is not known"}
-        software, deck, mesh, sizes = (record.get(name, {}) for name in ("software", "deck", "mesh", "sizes"))
+        software, deck, mesh = (record.get(name, {}) for name in ("software", "deck", "mesh"))
         places = [f"{place.get('host')}: cores {place.get('cores')}" for place in record.get("placement", [])]
         memory = record.get("peak_memory_bytes", {}).get("sum")
         rows = {
@@ -132,7 +151,7 @@ class Report:
             "machine": "; ".join(dict.fromkeys(places)), "parts": len(run.records), "restarted from": record.get("restarted_from"),
             "started": record.get("started"), "ended": record.get("ended"), "wall-clock time [s]": record.get("wall_seconds"),
             "memory of all ranks [MB]": round(memory / 1e6) if memory else None,
-            **{name.replace("_", " "): value for name, value in sizes.items()}, "time [s]": record.get("time_s"),
+            **{name.replace("_", " "): value for name, value in cls.sizes(run).items()},
         }  # fmt: skip
         return {name: value for name, value in rows.items() if value not in (None, "")}
 
@@ -357,7 +376,7 @@ def pictures_of(run, draw, most=12):
 def write(path, text):
     """Replaces an earlier report; any other file of the name is refused."""
     path = pathlib.Path(path)
-    if path.exists():
+    if path.is_file():
         with open(path, errors="replace") as file:
             if MARK not in file.read(200):
                 raise FileExistsError(f"{path}: there is a file of this name that is no report of coplane. Nothing was changed; choose another name with -o.")
@@ -365,8 +384,11 @@ def write(path, text):
     try:
         draft.write_text(text, encoding="utf-8", errors="replace")  # names of folders may be no text
         os.replace(draft, path)
+    except OSError as error:
+        raise OSError(f"{path}: {error.strerror or error}") from None
     finally:
-        draft.unlink(missing_ok=True)
+        if os.path.lexists(draft):
+            draft.unlink()
 
 
 def make(run, output=None, compare=None, pictures=True):
@@ -375,6 +397,8 @@ def make(run, output=None, compare=None, pictures=True):
     """
     runs = [Run(path) for path in ([run] if compare is None else [run, compare])]
     output = pathlib.Path(output or runs[0].path("-report.html"))
+    if not output.parent.is_dir():
+        raise FileNotFoundError(f"{output}: there is no folder {output.parent}; make it first.")
     write(output, Report(runs, pictures).text())
     return output
 

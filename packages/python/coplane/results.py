@@ -28,10 +28,34 @@ class SeveralRuns(NoRun):
     """There is more than one in a folder."""
 
 
+class IsMesh(NoRun):
+    """A mesh was named, not the results of a run."""
+
+
+class _Named(dict):
+    """Parts of a run by name; the KeyError of a name that is not there lists those that are, and says what gives more."""
+
+    def __init__(self, what, given_by, parts):
+        super().__init__(parts)
+        self.what, self.given_by = what, given_by
+
+    def __missing__(self, name):
+        raise KeyError(f"the run has no {self.what} '{name}'; it has {', '.join(self) or 'none'}. {self.given_by}")
+
+
 def _stems(folder):
     """Names of the runs in a folder: of their records."""
     names = [_RECORD.fullmatch(path.name) for path in folder.iterdir()] if folder.is_dir() else []
     return sorted({name.group(1) for name in names if name})
+
+
+def _is_results(path):
+    """Whether an Exodus file is of a run: it has its identity, or steps."""
+    try:
+        file = exodus.Results(path)
+    except (OSError, KeyError, ValueError):  # damaged, or something else
+        return False
+    return bool(file.run) or len(file.times) > 0
 
 
 def _place(path):
@@ -46,7 +70,8 @@ def _place(path):
         raise NoRun(f"{path}: the folder has no record of a run (<name>.run.json) and no history beside its deck.")
 
     def is_run(stem):
-        return any((path.parent / (stem + end)).exists() for end in (".run.json", ".csv", ".e"))
+        there = {end for end in (".run.json", ".csv", "_planes.pvd", "_planes.vtkhdf", ".e") if (path.parent / (stem + end)).exists()}
+        return bool(there - {".e"}) or bool(there) and _is_results(path.parent / (stem + ".e"))
 
     # Where a name can be taken apart in two ways (wall_pairs.csv), the shorter one that is a run.
     stems = [path.name[:place] for place in range(1, len(path.name)) if _END.fullmatch(path.name, place)] if path.exists() else []
@@ -55,6 +80,9 @@ def _place(path):
         there = _stems(path.parent)
         also = f"There are {', '.join(str(path.parent / name) for name in there)}." if there else \
             "Give the name of its deck without .yaml, with the folder in which it ran."
+        if (path.parent / (stem + ".e")).exists():
+            why = f"{path}: no run: {stem}.e is a mesh, or no Exodus file, and there is no {stem}.run.json or {stem}.csv. {also}"
+            raise IsMesh(why) if path.suffix == ".e" else NoRun(why)
         log = path.parent / (stem + ".log")
         said = log.read_text(encoding="utf-8", errors="replace").splitlines()[-1:] if log.exists() else []
         raise NoRun(f"{path}: there is no run of this name: no {stem}.run.json, {stem}.csv or {stem}.e. "
@@ -136,6 +164,13 @@ class Run:
         return self.record.get("exit_code")
 
     @property
+    def newest_checkpoint(self):
+        """Path of the last one that it has written; None when there is none."""
+        named = ((parse(self.deck_text) or {}).get("checkpoint") or {}).get("file", f"{self.name}.chk")
+        there = [path for number in "01" if (path := self.folder / f"{named}.{number}").exists()]
+        return max(there, key=lambda path: path.stat().st_mtime, default=None)
+
+    @property
     def deck_text(self):
         """The deck as it was used; empty when neither the record nor a deck beside it has it."""
         if "deck" in self.record:
@@ -170,25 +205,33 @@ class Run:
 
     # --- over time ---------------------------------------------------------------------------------
 
+    @property
+    def _history_path(self):
+        path = self.written(".csv")
+        if not path.exists():
+            raise FileNotFoundError(f"{path}: there is no history of this run; it is written from the first cycle on, beside the record.")
+        return path
+
     @functools.cached_property
     def columns(self):
         """The history as arrays by name, without pandas."""
-        return tables.columns(self.written(".csv"))
+        return tables.columns(self._history_path)
 
     @functools.cached_property
     def units(self):
         """Units by column of the history."""
-        return tables.units(self.written(".csv"))
+        return tables.units(self._history_path)
 
     @functools.cached_property
     def history(self):
         """The history as a DataFrame: a line per time [s]; units in attrs["units"]."""
-        return tables.frame(self.written(".csv"))
+        return tables.frame(self._history_path)
 
     @functools.cached_property
     def tables(self):
         """Energies by blocks, pairs and materials, of those that the run wrote, as DataFrames."""
-        return {name: tables.frame(path, index=None) for name in ("blocks", "pairs", "materials") if (path := self.table_path(name))}
+        return _Named("table", "history.tables in the deck gives blocks, pairs, materials.",
+                      {name: tables.frame(path, index=None) for name in ("blocks", "pairs", "materials") if (path := self.table_path(name))})
 
     def table_path(self, name):
         """Path of a table; None when the run wrote none: the deck of its record says so, whatever an earlier run has left."""
@@ -205,8 +248,8 @@ class Run:
         names = [name[: -len(ends[0]) - 1] for name in self.columns if name.endswith("_" + ends[0])]
         return [name for name in names if all(f"{name}_{end}" in self.columns for end in ends)]
 
-    def _of(self, names, ends):
-        found = {}
+    def _of(self, names, ends, what, key):
+        found = _Named(what, f"{key} in the deck names them.", {})
         for name in names:
             table = self.history[[f"{name}_{end}" for end in ends]].set_axis(ends, axis=1)
             table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in ends}
@@ -220,7 +263,7 @@ class Run:
     @property
     def probes(self):
         """Motion of every probe: displacement_x..z, velocity_x..z, as DataFrames."""
-        return self._of(self.probe_names, _MOTION)
+        return self._of(self.probe_names, _MOTION, "probe", "history.probes")
 
     @property
     def joint_names(self):
@@ -229,7 +272,7 @@ class Run:
     @property
     def joints(self):
         """Areas, closure, slip, force and energies of every joint of `history.joints`, as DataFrames."""
-        return self._of(self.joint_names, _JOINT)
+        return self._of(self.joint_names, _JOINT, "joint in its history", "history.joints")
 
     @property
     def body_names(self):
@@ -238,7 +281,7 @@ class Run:
     @property
     def bodies(self):
         """Motion, spin and reactions of every body of `history.rigid`, as DataFrames."""
-        return self._of(self.body_names, _BODY)
+        return self._of(self.body_names, _BODY, "body", "history.rigid")
 
     @property
     def _results_name(self):
@@ -277,17 +320,17 @@ class Run:
     @functools.cached_property
     def blocks(self):
         """Fields on the elements of each block, with their connectivity."""
-        return {name: fields.block(self.results, name) for name in self.results.blocks}
+        return _Named("block", "The mesh names them.", {name: fields.block(self.results, name) for name in self.results.blocks})
 
     @functools.cached_property
     def node_sets(self):
         """Positions of the nodes of each set: `run.nodes.isel(node=run.node_sets["tip"])`."""
-        return {name: self.results.set_nodes(name) for name in self.results.node_sets}
+        return _Named("node set", "The mesh names them.", {name: self.results.set_nodes(name) for name in self.results.node_sets})
 
     @functools.cached_property
     def side_sets(self):
         """Fields of contact on the sides of each set: dimensions time and side."""
-        return {name: fields.sides(self.results, name) for name in self.results.side_sets}
+        return _Named("side set", "The mesh names them.", {name: fields.sides(self.results, name) for name in self.results.side_sets})
 
     @functools.cached_property
     def globals(self):

@@ -17,7 +17,7 @@ import numpy
 
 from . import documents, tables
 from .balances import MOST, in_play, momentum_in_play
-from .results import NoRun, Run, SeveralRuns
+from .results import IsMesh, NoRun, Run, SeveralRuns
 from .running import is_new
 
 CURVES = ["kinetic", "internal", "plastic", "contact_stored", "contact_friction", "external_work", "hourglass", "viscous", "eroded", "chemical"]
@@ -93,8 +93,9 @@ class Pace:
 class View:
     """What is shown of a run at one moment: `lines`, pairs of text and style; `ending`."""
 
-    def __init__(self, run, pace, width, letters):
-        self.run, self.pace, self.width, self.letters, self.lines = run, pace, width, letters, []
+    def __init__(self, run, pace, width, letters, whole=False):
+        """whole: sentences stay on one line, however long."""
+        self.run, self.pace, self.width, self.letters, self.whole, self.lines = run, pace, width, letters, whole, []
         has_history = run.path(".csv").exists()
         self.ending = run.ending if not run.is_running else "running" if has_history and is_new(run) else "starting"
         goes_on = self.ending in ("running", "starting")
@@ -108,24 +109,31 @@ class View:
             self.balances()
             self.counts()
         elif self.ending != "starting":
-            self.add(f"there is no history {run.path('.csv').name}, it has no line yet, or is none of coplane")
+            self.say(f"there is no history {run.path('.csv').name}, it has no line yet, or is none of coplane")
         self.log()
         self.last()
 
     def add(self, text, style=None):
         self.lines.append((cut(clean(text), self.width), style))
 
-    def wrap(self, text, style=None):
-        """A long text on four lines at most."""
-        for line in textwrap.wrap(clean(text), self.width, initial_indent="  ", subsequent_indent="    ")[:4]:
+    def say(self, text, style=None, indent="", most=None):
+        """A sentence on as many lines as it needs, or at most so many."""
+        if self.whole:
+            self.lines.append((indent + clean(text), style))
+            return
+        for line in textwrap.wrap(clean(text), self.width, initial_indent=indent, subsequent_indent=indent + "  ")[:most]:
             self.add(line, style)
+
+    def wrap(self, text, style=None):
+        """Of a log, whose lines may be of any length."""
+        self.say(text, style, "  ", 4)
 
     def head(self):
         record = self.record
         self.add(f"{self.run.name}: {record['title']}" if record.get("title") else self.run.name, "bold")
         self.add(f"{self.ending}   {self.run.folder.resolve() / self.run.name}", ENDINGS.get(self.ending, "look"))
         if self.ending == "starting":
-            self.add("the program reads deck and mesh, or finds contacts; it has written nothing yet")
+            self.say("the program reads deck and mesh, or finds contacts; it has written nothing yet")
         if record:
             hosts = dict.fromkeys(place.get("host") for place in record.get("placement", []))
             self.add(f"{record.get('ranks')} ranks x {record.get('threads_per_rank')} threads on {', '.join(map(str, hosts))}, "
@@ -218,7 +226,7 @@ class View:
         for line in told[-4:]:
             self.wrap(line, "note" if line.startswith("WARNING") else "look")
         if not lines:
-            self.add(f"no log {self.run.log_path.name}: warnings, and what limits the step, are not known")
+            self.say(f"no log {self.run.log_path.name}: warnings, and what limits the step, are not known")
 
     def last(self):
         if self.ending in ("running", "starting"):
@@ -230,7 +238,11 @@ class View:
             text = "killed: the record says running, but no program writes the run, and it left no exit code"
             if host and host != socket.gethostname():
                 text += f" (or it runs on {host}, whose locks this machine does not see)"
-        self.add(text, ENDINGS.get(self.ending, "look"))
+        self.say(text, ENDINGS.get(self.ending, "look"))
+        if self.ending == "killed":
+            newest = self.run.newest_checkpoint
+            self.say(f"its command with --restart goes on from the newest checkpoint, {newest.name}" if newest else
+                     "it left no checkpoint to go on from with --restart (checkpoint.every_seconds in the deck writes some)")
 
 
 class Screen:
@@ -248,11 +260,12 @@ class Screen:
     def width(self):
         return max(20, shutil.get_terminal_size().columns - 1)
 
-    def show(self, lines):
+    def show(self, lines, is_last):
+        """is_last: nothing will be shown in its place, so it may be longer than the screen."""
         size = shutil.get_terminal_size()
         begin = ""
         if self.is_terminal:
-            lines = lines if len(lines) < size.lines else lines[: max(1, size.lines - 2)] + lines[-1:]
+            lines = lines if is_last or len(lines) < size.lines else lines[: max(1, size.lines - 2)] + lines[-1:]
             if self.shown:
                 begin = f"\033[{self.shown}A\033[J" if size == self.size else "\033[H\033[2J"
         text = "".join(f"\033[{COLORS[style]}m{line}\033[0m\n" if self.colored and style else line + "\n" for line, style in lines)
@@ -277,7 +290,7 @@ def wait_for(path, log, new, every):
             if not new or run.is_running:
                 return run
             why = f"{run.folder / run.name}: {run.ending}; waiting for a new start"
-        except SeveralRuns:
+        except (SeveralRuns, IsMesh):
             raise
         except NoRun as error:
             why = f"{error} Waiting for it."
@@ -295,10 +308,10 @@ def watch(options):
         wait_for(options.run, options.log, options.wait, options.every)
     before = None
     while True:
-        view = View(opened(options.run, options.log), pace, screen.width, screen.letters)
+        view = View(opened(options.run, options.log), pace, screen.width, screen.letters, whole=not sys.stdout.isatty())
         goes_on = view.ending in ("running", "starting")
         if once or screen.is_terminal or not goes_on:
-            screen.show(view.lines)
+            screen.show(view.lines, not goes_on)
         elif (short := [text for text, _ in view.lines if text.startswith(("[", "t =", "starting"))]) != before:
             print("  ".join(short), flush=True)  # a terminal that cannot go back
             before = short
@@ -319,6 +332,8 @@ def main():
     options = parser.parse_args()
     if not options.every > 0:
         parser.error("argument --every: a number of seconds above 0 is accepted")
+    if options.wait and options.once:
+        parser.error("--once shows what is there now, and --wait waits for a start: one of them is accepted")
     try:
         sys.exit(watch(options))
     except KeyboardInterrupt:
