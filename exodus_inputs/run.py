@@ -308,7 +308,7 @@ class ExampleRun:
         else:
             try:
                 pictures.draw(Run(self.folder / "run"), self.folder / "pictures", color="von_mises")
-            except pictures.PicturesFailed as error:
+            except (OSError, ValueError, pictures.PicturesFailed) as error:
                 fail(f"drawing failed: {error}")
         self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
@@ -352,14 +352,17 @@ def main():
         run.compute()
         if not options.no_check:
             well = run.check() and well
-        if not options.no_pictures:
-            run.draw()
-        run.report()
+        try:
+            if not options.no_pictures:
+                run.draw()
+        finally:
+            run.report()
     summary = source / example.get("summary", "summary.py")
     if summary.exists() and not options.no_check:
         well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well
     for run in runs:
-        run.say(f"results: {run.folder}/run.e (fields), run_planes.pvd (contact planes), run.csv (history)")
+        planes = [f", {name} (contact planes)" for name in ("run_planes.pvd", "run_planes.xmf") if (run.folder / name).exists()]
+        run.say(f"results: {run.folder}/run.e (fields){''.join(planes[:1])}, run.csv (history)")
     sys.exit(0 if well else 1)
 
 
