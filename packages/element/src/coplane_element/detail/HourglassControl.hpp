@@ -95,10 +95,14 @@ struct HourglassControl
           sum -= motion.middle.modes[j][dim + a] * point.displacementGradient(i, j);
         step.increment.mode[a][i] = sum;
       }
-    if (data.options.form == ElementForm::AssumedStrain)
-      addAssumedStrain(motion, v, step, force);
-    else
-      addStiffness(motion, step, force);
+    const Vectors added = data.options.form == ElementForm::AssumedStrain
+                              ? assumedStrain(motion, v, step)
+                              : byStiffness(motion, step);
+    for (int a = 0; a < count; ++a)
+      addTurnedToEnd(point.rotation, added.mode[a], force.mode[a]);
+    if (hasHoopSlopes())
+      for (int k = 0; k < 2; ++k)
+        force.hoop[k] += added.hoop[k];
     if (law.hasStrength)
       point.bendingSquared = aboveFloor(before, bendingOf(motion, force), step.floor);
   }
@@ -136,19 +140,43 @@ struct HourglassControl
 
 private:
   /// By HourglassOptions::stiffness.
-  KOKKOS_FORCEINLINE_FUNCTION void addStiffness(const Motion& motion, const Step& step,
-                                                Vectors& force) const
+  KOKKOS_FORCEINLINE_FUNCTION Vectors byStiffness(const Motion& motion, const Step& step) const
   {
+    Vectors added;
     const Lanes stiffness = step.stiffness *
                             Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) *
                             motion.volume * motion.traceG;
     for (int a = 0; a < count; ++a)
       for (int i = 0; i < dim; ++i)
-        force.mode[a][i] += stiffness * step.increment.mode[a][i];
+        added.mode[a][i] = stiffness * step.increment.mode[a][i];
+    return added;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION void addAssumedStrain(const Motion& motion, const Field& v,
-                                                    Step& step, Vectors& force) const
+  /// Forces that amplitudes measured at the middle of the step make, at its end: f + (R - R^T) f /
+  /// 4, as strain increments are turned. Not turned they would lag by half of the turn, and the
+  /// vibrations of a body that spins would grow by a fifth of the spin.
+  static KOKKOS_FORCEINLINE_FUNCTION void
+  addTurnedToEnd(const Mat3Of<Lanes>& r, const Lanes (&added)[dim], Lanes (&force)[dim])
+  {
+    if constexpr (dim == 3)
+    {
+      const Lanes quarter(0.25);
+      const Lanes x = quarter * (r(2, 1) - r(1, 2)), y = quarter * (r(0, 2) - r(2, 0)),
+                  z = quarter * (r(1, 0) - r(0, 1));
+      force[0] += added[0] + (y * added[2] - z * added[1]);
+      force[1] += added[1] + (z * added[0] - x * added[2]);
+      force[2] += added[2] + (x * added[1] - y * added[0]);
+    }
+    else
+    {
+      const Lanes half = Lanes(0.5) * r(1, 0);
+      force[0] += added[0] - half * added[1];
+      force[1] += added[1] + half * added[0];
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Vectors assumedStrain(const Motion& motion, const Field& v,
+                                                    Step& step) const
   {
     Vectors added;
     const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
@@ -161,14 +189,15 @@ private:
         slope *= Lanes(data.dt);
       assumedStrainForcesOfRing(frame, moduli, motion.volume, motion.middle.mean,
                                 step.increment.mode, slopes, added.mode, added.hoop);
-      for (int k = 0; k < 2; ++k)
-        force.hoop[k] += step.stiffness * added.hoop[k];
+      for (Lanes& hoop : added.hoop)
+        hoop *= step.stiffness;
     }
     else
       assumedStrainForces(frame, moduli, motion.volume, step.increment.mode, added.mode);
     for (int a = 0; a < count; ++a)
       for (int i = 0; i < dim; ++i)
-        force.mode[a][i] += step.stiffness * added.mode[a][i];
+        added.mode[a][i] *= step.stiffness;
+    return added;
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION Lanes bendingOf(const Motion& motion, const Vectors& force)
