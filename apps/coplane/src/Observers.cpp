@@ -29,22 +29,6 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
-/// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
-/// are written anyway are left out.
-std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
-{
-  std::vector<std::string> names;
-  for (const Mesh::Block& block : mesh.mine.blocks)
-  {
-    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
-    for (const std::string& name : historyNames(materialOf(material)))
-      if (name != "equivalent_plastic_strain" &&
-          std::find(names.begin(), names.end(), name) == names.end())
-        names.push_back(name);
-  }
-  return names;
-}
-
 /// Where an output stands, for those that go on from a checkpoint.
 std::string positionOfOutput(const RunSettings& settings, const char* output)
 {
@@ -143,6 +127,20 @@ CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, con
   return checkpoint;
 }
 } // namespace
+
+std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
+{
+  std::vector<std::string> names;
+  for (const Mesh::Block& block : mesh.mine.blocks)
+  {
+    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
+    for (const std::string& name : historyNames(materialOf(material)))
+      if (name != "equivalent_plastic_strain" &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  }
+  return names;
+}
 
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
                   const Comm& comm, const RunSettings& settings)

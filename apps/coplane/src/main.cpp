@@ -1,3 +1,4 @@
+#include "Estimate.hpp"
 #include "FilesOfRun.hpp"
 #include "Observers.hpp"
 #include "Report.hpp"
@@ -335,7 +336,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     reportSoftening(deck, mesh, solver, comm);
     if (line.check)
     {
-      logInfo("check: deck and mesh are fine; nothing was run");
+      reportEstimate(solver, mesh, deck);
+      logInfo("check: deck and mesh are fine; nothing was written");
       return;
     }
     putAsideOtherCheckpoints(deck, mesh, settings.restartedFrom, comm);

@@ -53,7 +53,8 @@ struct BlockSetup
 
 struct TimeOptions
 {
-  Real end = 0; ///< [s]
+  Real end = 0;           ///< [s]
+  bool endAtRest = false; ///< already when relaxation has found the state of rest
   Real stepFactor = 0.8;
   std::optional<Real> maximumStep, fixedStep; ///< [s]
   Real energyTolerance = 0.1;                 ///< fraction of the energy in play

@@ -278,6 +278,8 @@ WorkTimes Solver::takeWorkTimes()
 /// outputs.
 bool Solver::isOver() const
 {
+  if (model_.time.endAtRest && relaxation_.state().ended)
+    return true;
   return clock_.time + 1e-10 * std::abs(clock_.time) >= model_.time.end;
 }
 

@@ -157,6 +157,7 @@ struct TimeCard
   Real stepFactor = 0.8;           ///< fraction of the stable step [-]
   std::optional<Real> maximumStep; ///< [s]
   std::optional<Real> fixedStep;   ///< [s]; refused above the stable step only by a warning
+  bool endAtRest = false; ///< the run ends when damping does, by a ratio of the section damping
   Real energyTolerance =
       0.1; ///< stop when the balance is off by this fraction of the energy in play [-]
   Real contactGainTolerance =

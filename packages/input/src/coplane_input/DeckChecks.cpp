@@ -127,6 +127,10 @@ void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
                                        "damping.local or damping.kinetic; remove it or give one "
                                        "of them.",
                                        key));
+  if (deck.time.endAtRest && !deck.dampingEnergyRatio && !deck.dampingForceRatio)
+    problems.add(nodeAt(root, {"time", "end_at_rest"}),
+                 "time.end_at_rest has no effect without damping.until_energy_ratio or "
+                 "damping.until_force_ratio, which say what rest is; give one of them.");
   if (deck.dampingUntil && *deck.dampingUntil <= deck.dampingFrom)
     problems.add(nodeAt(node, {"until"}),
                  fmt::format("damping.until = {} s is not after damping.from = {} s; accepted: a "

@@ -15,8 +15,9 @@ double secondsBetween(std::chrono::steady_clock::time_point a,
   return std::chrono::duration<double>(b - a).count();
 }
 
-/// "42 s", "3 min 20 s", "5 h 12 min"
-std::string duration(double seconds)
+} // namespace
+
+std::string durationText(double seconds)
 {
   if (!(seconds < 1e9))
     return "unknown";
@@ -27,7 +28,6 @@ std::string duration(double seconds)
     return fmt::format("{} min {} s", s / 60, s % 60);
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
-} // namespace
 
 ProgressObserver::ProgressObserver(ProgressOptions options) : options_(options)
 {
@@ -83,7 +83,7 @@ void ProgressObserver::print(const Solver& solver, double secondsSinceLine) cons
           "J, balance error {:.1e}, {} planes, {:.3g} cycles/s, {:.3g} element-cycles/s, {} left",
           clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep, control.text(),
           energy.kinetic, energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
-          rate * double(elements_), duration(left));
+          rate * double(elements_), durationText(left));
 }
 
 void ProgressObserver::finish(const Solver& solver, const std::string& ending)
@@ -92,7 +92,7 @@ void ProgressObserver::finish(const Solver& solver, const std::string& ending)
   const EnergyBalance energy = solver.energy();
   const double seconds = secondsBetween(begin_, WallClock::now());
   logInfo("{} at cycle {}, t = {:.5e} s, after {}: kinetic energy {:.4e} J, balance error {:.1e}",
-          ending, clock.cycle, clock.time, duration(seconds), energy.kinetic,
+          ending, clock.cycle, clock.time, durationText(seconds), energy.kinetic,
           energy.scale() > 0 ? energy.error() / energy.scale() : 0.0);
 }
 } // namespace coplane

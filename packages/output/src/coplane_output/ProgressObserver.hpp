@@ -8,6 +8,9 @@
 
 namespace coplane
 {
+/// "42 s", "3 min 20 s", "5 h 12 min"
+std::string durationText(double seconds);
+
 struct ProgressOptions
 {
   double seconds = 5; ///< wall-clock time between lines

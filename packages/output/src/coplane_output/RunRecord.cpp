@@ -1,6 +1,7 @@
 #include <coplane_contact/Census.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/Version.hpp>
@@ -15,7 +16,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sys/resource.h>
 
 namespace coplane
 {
@@ -201,13 +201,6 @@ void removeRecordsOfRestarts(const std::string& file)
   }
 }
 
-/// Largest resident memory of a rank so far [bytes].
-std::int64_t peakMemory()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t(usage.ru_maxrss) * 1024;
-}
 } // namespace
 
 RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)

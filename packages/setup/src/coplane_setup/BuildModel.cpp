@@ -69,6 +69,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.time.stepFactor = deck.time.stepFactor;
   model.time.maximumStep = deck.time.maximumStep;
   model.time.fixedStep = deck.time.fixedStep;
+  model.time.endAtRest = deck.time.endAtRest;
   model.time.energyTolerance = deck.time.energyTolerance;
   model.time.contactGainTolerance = deck.time.contactGainTolerance;
   return model;
