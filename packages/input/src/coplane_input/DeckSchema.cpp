@@ -360,8 +360,8 @@ Key timeGroup()
                        .elsewhere({"until_rest", "steady_state"})
                        .like("true")
                        .means("the run ends as soon as damping ends by one of its ratios, "
-                              "damping.until_energy_ratio or damping.until_force_ratio; at `end` if "
-                              "that does not happen"),
+                              "damping.until_energy_ratio or damping.until_force_ratio; at `end` "
+                              "if that does not happen"),
                    number("step_factor", &TimeCard::stepFactor)
                        .in("-")
                        .elsewhere({"tssfac", "cfl", "courant", "safety", "scale"})
