@@ -150,11 +150,10 @@ public:
       problem("joint", fmt::format(" = '{}' is not a card in joints.{} There {}.", card_.joint,
                                    didYouMean(card_.joint, names),
                                    names.empty() ? "are none" : "is: " + listOf(names)));
-    else if (found != names.end() &&
-             deck_.joints[std::size_t(found - names.begin())].model == "penalty" &&
-             (deck_.elements.thickness <= 0 || deck_.elements.modulus <= 0))
-      problem("joint", fmt::format(" = '{}' is a penalty, whose stiffness comes from the elements; "
-                                   "give elements.thickness [m] and elements.modulus [Pa].",
+    else if (found != names.end() && deck_.elements.isRigid() &&
+             needsElements(deck_.joints[std::size_t(found - names.begin())]))
+      problem("joint", fmt::format(" = '{}' has a stiffness that comes from the elements; give "
+                                   "elements.thickness [m] and elements.modulus [Pa].",
                                    card_.joint));
     if (card_.type == "closing" && given("closures") && card_.closures.empty())
       problem("closures", " is empty; accepted: at least one number.");
