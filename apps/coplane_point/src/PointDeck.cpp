@@ -181,11 +181,18 @@ private:
   {
     if (!card_.file.empty())
     {
+      bool alone = true;
       for (const char* key : {"times", "gaps", "slips_x", "slips_y"})
         if (given(key))
+        {
           problem(key, " and file exclude each other; keep one of them.");
+          alone = false;
+        }
       const auto folder = std::filesystem::path(deck_.file).parent_path();
       card_.file = (folder / card_.file).lexically_normal().string();
+      if (alone)
+        readPathFile(card_.file, card_, nodeAt(root_, {"joint_paths", card_.name, "file"}),
+                     problems_);
       return;
     }
     if (!given("times"))
@@ -320,9 +327,6 @@ PointDeck parsePointDeck(const std::string& text, const std::string& file,
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
   deck.warnings = problems.warnings();
-  for (JointPathCard& card : deck.jointPaths)
-    if (!card.file.empty())
-      readPathFile(card.file, card);
   return deck;
 }
 
