@@ -3,6 +3,9 @@
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/MissingFile.hpp>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
