@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two builds of the program side by side: whether every run has the same bits, and how much processor time each takes.
 
-    python3 tests/measure/compare_builds.py BEFORE/bin AFTER/bin [NAME ...] [--all] [--jobs N] [--folder FOLDER] > table.md
+    python3 tests/measure/compare_builds.py BEFORE/bin AFTER/bin [NAME ...] [--all] [--turns N] [--jobs N] > table.md
 
 Runs the examples of exodus_inputs in their coarse size, the scenes of tests/parallel, the decks of coplane_point, and every deck that the cases of
 tests/verification run: their check.py is executed once, and each run that it asks for is made with both programs, in turns, from the same mesh, the
@@ -32,6 +32,7 @@ import time
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "tests/support"))
 sys.dont_write_bytecode = True
+import netCDF4  # noqa: E402
 from coplanetest import Case, examples, program, scenes  # noqa: E402
 
 # Left out without --all: cases whose runs with one build take more than 25 s of processor time.
@@ -42,10 +43,10 @@ LEAST_SECONDS = 1.0  # of a run that says something about speed
 class TwoBuilds:
     """Takes the place of program.run_program: the run in the folder with the first build, the same in a folder `after` with the second."""
 
-    def __init__(self, folders, record):
-        self.folders, self.record = folders, record
+    def __init__(self, folders, record, turns):
+        self.folders, self.record, self.turns = folders, record, turns
         self.done = set()
-        self.turn = 0
+        self.first = 0  # which build begins
 
     def __call__(self, arguments, folder, ranks=1, prefix=(), timeout=550):
         first = pathlib.Path(folder)
@@ -55,15 +56,24 @@ class TwoBuilds:
                 return self.run(self.folders[0], arguments, first, ranks, prefix, timeout)[:2]
             shutil.rmtree(second, ignore_errors=True)
             shutil.copytree(first, second)
-        builds = [(self.folders[0], first), (self.folders[1], second)]
-        ended = {}
-        for which in (0, 1) if self.turn % 2 == 0 else (1, 0):
-            build, place = builds[which]
-            ended[which] = self.run(build, arguments, place, ranks, prefix, timeout)
-        self.turn += 1
+        start = None
+        if self.turns > 1 and "--restart" not in arguments:
+            start = pathlib.Path("start").resolve()
+            shutil.rmtree(start, ignore_errors=True)
+            shutil.copytree(first, start)
+        ended, seconds = {}, {0: [], 1: []}
+        for turn in range(self.turns if start else 1):
+            for which in (0, 1) if self.first == 0 else (1, 0):
+                place = (first, second)[which]
+                if turn:
+                    shutil.rmtree(place)
+                    shutil.copytree(start, place)
+                *ended[which], used = self.run(self.folders[which], arguments, place, ranks, prefix, timeout)
+                seconds[which].append(used)
+            self.first = 1 - self.first
         one_thread = "--threads" not in arguments or str(arguments[arguments.index("--threads") + 1]) == "1"
-        self.compare(first, second, ended, ranks == 1 and one_thread)
-        return ended[0][:2]
+        self.compare(first, second, ended, [min(seconds[0]), min(seconds[1])] if ranks == 1 and one_thread else None)
+        return tuple(ended[0])
 
     def points(self, deck, folder):
         """The paths of a deck of coplane_point, with both builds."""
@@ -72,7 +82,7 @@ class TwoBuilds:
         for build, place in zip(self.folders, places):
             place.mkdir(parents=True)
             ended.append(self.timed([os.path.join(build, "coplane_point"), str(deck)], place, 550))
-        self.compare(*places, ended, True)
+        self.compare(*places, [run[:2] for run in ended], [run[2] for run in ended])
 
     def is_known(self, arguments, folder):
         """Whether the run has been compared already, on whatever ranks and threads."""
@@ -82,7 +92,7 @@ class TwoBuilds:
                 del words[words.index(option) : words.index(option) + 2]
         key.update("\0".join(words).encode())
         for path in sorted(path for path in folder.rglob("*") if path.is_file()):
-            key.update(path.read_bytes())
+            key.update(contents(path))
         known = key.digest() in self.done
         self.done.add(key.digest())
         return known
@@ -106,24 +116,33 @@ class TwoBuilds:
             log.seek(0)
             return process.returncode, log.read(), usage.ru_utime + usage.ru_stime
 
-    def compare(self, first, second, ended, timed):
+    def compare(self, first, second, ended, seconds):
         names = {path.name for place in (first, second) for path in place.glob("*.csv")}
-        hashes = [state_hash(place, *run[:2]) for place, run in ((first, ended[0]), (second, ended[1]))]
+        states = [state_hash(place, code) for place, (code, _) in ((first, ended[0]), (second, ended[1]))]
         line = {
-            "run": os.path.relpath(first), "code": [ended[0][0], ended[1][0]], "state": hashes,
+            "run": os.path.relpath(first), "code": [ended[0][0], ended[1][0]], "state": states,
             "tables_that_differ": sorted(name for name in names if not same_bytes(first / name, second / name)),
-            "seconds": [round(ended[0][2], 3), round(ended[1][2], 3)] if timed else None,
+            "seconds": [round(used, 3) for used in seconds] if seconds else None,
         }
         with open(self.record, "a") as file:
             file.write(json.dumps(line) + "\n")
 
 
-def state_hash(folder, code, output):
-    """Of the last record that the run has left; the last words of a run that has none."""
+def contents(path):
+    """Bytes of a file; of a mesh those of its variables, without the records of when it was made."""
+    if path.suffix != ".e":
+        return path.read_bytes()
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_mask(False)
+        return b"".join(variable[:].tobytes() for name, variable in sorted(file.variables.items()) if name not in ("qa_records", "info_records"))
+
+
+def state_hash(folder, code):
+    """Of the last record that the run has left; of a run that failed, and of coplane_point, the exit code."""
     records = sorted(folder.glob("*.run*.json"), key=lambda path: path.stat().st_mtime)
     if records and code == 0:
         return json.loads(records[-1].read_text())["state_hash"]
-    return f"exit code {code}"  # and of coplane_point, which has no state
+    return f"exit code {code}"
 
 
 def same_bytes(a, b):
@@ -161,14 +180,14 @@ def everything():
 
 def make(job):
     """All runs of one case, in a folder of its own; what is wrong with its check."""
-    name, builds, top = job
+    name, builds, top, turns = job
     folder = top / name.replace(" ", "_")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     os.chdir(folder)
     os.environ.update(COPLANE_BIN=builds[0], COPLANE_SOURCE=str(SOURCE))
     os.environ.pop("COPLANE_CHECKS_DIR", None)
-    program.run_program = TwoBuilds(builds, folder / "runs.jsonl")
+    program.run_program = TwoBuilds(builds, folder / "runs.jsonl", turns)
     begin, wrong = time.monotonic(), ""
     with open("check.log", "w") as log, contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
         function, argument = everything()[name]
@@ -205,6 +224,7 @@ def arguments():
     parser.add_argument("after", help="folder with those of the second")
     parser.add_argument("names", nargs="*", metavar="NAME", help="such as V24*, 'example arch_2d' or 'scene *'")
     parser.add_argument("--all", action="store_true", help="also the long cases")
+    parser.add_argument("--turns", type=int, default=1, help="how often each run is made with each build; the least time counts (default: 1)")
     parser.add_argument("--jobs", type=int, default=2, help="cases at a time; 1 for the least noise in times (default: 2)")
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("compare_builds"), help="where all is run (default: compare_builds)")
     return parser.parse_args()
@@ -227,7 +247,7 @@ def main():
     show(["---"] * 7)
     notes = []
     # Long ones first, so that the processors end together; each in a process of its own.
-    jobs = [(name, builds, options.folder.resolve()) for name in sorted(names, key=lambda name: name not in LONG)]
+    jobs = [(name, builds, options.folder.resolve(), options.turns) for name in sorted(names, key=lambda name: name not in LONG)]
     with multiprocessing.get_context("fork").Pool(options.jobs, maxtasksperchild=1) as pool:
         for name, lines, wrong, _ in pool.imap(make, jobs, chunksize=1):
             every += [{"case": name, **line} for line in lines]
