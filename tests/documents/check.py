@@ -67,6 +67,22 @@ def check_verification():
     assert kept == [name.replace("_", " ") for name in names], (
         f"docs/verification.md is old ({missing}): python3 tests/support/verification_page.py <build folder>, best after the case has run there"
     )
+    # The table of numbers: each number that is used anywhere has a row, and leads to the case that it names.
+    assert maker.index() in (SOURCE / "docs/verification.md").read_text(), (
+        "docs/verification.md: the table of numbers is old: python3 tests/support/verification_page.py <build folder>"
+    )
+    claims = {folder: {number for number, _ in maker.claims(title)} for folder, title in maker.titles()}
+    for folder, numbers in claims.items():
+        cases = re.findall(r"(?:Case\(|case\.name = )f?\"(.*?)\"", (folder / "check.py").read_text())
+        named = set(re.findall(r"V\d\d", " ".join([folder.name, *cases])))
+        assert named <= numbers, f"{folder.name}/README.md: the title does not say what {sorted(named - numbers)} show"
+    known = set().union(*claims.values())
+    pages = tracked("docs/*.md", "tests/*.md", "tests/*.py", "packages/*.md", "packages/*.?pp", "apps/*.md", "apps/*.?pp", "exodus_inputs/*.md", "exodus_inputs/*.py")
+    used = {(number, name) for name in pages for number in re.findall(r"\bV\d\d\b", (SOURCE / name).read_text())}
+    assert not (lost := sorted(pair for pair in used if pair[0] not in known)), f"numbers that no case has: {lost}"
+    assert maker.claims("Two bars (V21), in other frames (V58) and waves (V12 to V14)") == [
+        ("V21", "Two bars"), ("V58", "Two bars, in other frames"), ("V12", "Waves"), ("V13", "Waves"), ("V14", "Waves"),
+    ]  # fmt: skip
     results = pathlib.Path("results")
     shutil.rmtree(results, ignore_errors=True)
     own = results / f"verification.{names[0]}"

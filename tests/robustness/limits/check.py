@@ -267,6 +267,7 @@ shutil.copy(program.binary("coplane"), folder)
 prober = folder / "coplane_mesh"
 damaged = "mesh.e: the file is damaged: the HDF5 library fails in it."
 empty = "mesh.e: the file is not an Exodus II file"  # said by who reads it
+unprobed = "WARNING: mesh.e: this HDF5 file is read without having been probed"
 for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that ends well", '[ "$*" = "probe mesh.e" ]', empty), ("that is not there", "", empty)]:
     if script:
         prober.write_text(f"#!/bin/sh\n{script}\n")
@@ -277,6 +278,7 @@ for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that e
         launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
         done = subprocess.run([*launch, folder / "coplane", "run.yaml", "--check"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
         case.check_equal(f"a prober {name}, {ranks} ranks: code and cause", (done.returncode, words in done.stdout), (MESH, True))
+        case.check_equal(f"a prober {name}, {ranks} ranks: warnings", done.stdout.count(unprobed), 0 if script else 1)
         if words not in done.stdout:
             print(done.stdout[-2000:])
 case.finish()

@@ -56,13 +56,7 @@ Key contactPairs()
 
 std::vector<Key> jointCardKeys()
 {
-  std::vector<Key> keys = keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
-  keys[0] = KeyBuilder(keys[0]).wordsElsewhere({{"coulomb", "linear"},
-                                                {"mohr_coulomb", "linear"},
-                                                {"area", "linear"},
-                                                {"cohesive", "bilinear"},
-                                                {"barton", "barton_bandis"}});
-  return keys;
+  return keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
 }
 
 Key jointKeys()

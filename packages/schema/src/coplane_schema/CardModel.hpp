@@ -21,6 +21,7 @@ struct CardModel
 
   std::string name;                                  ///< the word of the deck
   std::string meaning;                               ///< a few words for the reference
+  std::vector<std::string> habits;                   ///< what other programs call it
   std::vector<Key> keys;                             ///< their target is what `parameters` makes
   std::function<std::shared_ptr<void>()> parameters; ///< with their defaults
   /// What one key demands of another; empty: nothing.
@@ -44,6 +45,13 @@ public:
     { return makeLaw(*static_cast<const P*>(parameters)); };
   }
   operator Model() const { return model_; }
+
+  /// What other programs call the model: a message about such a word names it.
+  Derived& elsewhere(const std::vector<std::string>& names)
+  {
+    model_.habits = names;
+    return self();
+  }
 
   Derived& has(const std::vector<Key>& keys)
   {
@@ -95,15 +103,19 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
                               const std::string& example, const std::string& word = "model")
 {
   std::vector<std::string> names, meanings;
+  std::vector<std::pair<std::string, std::string>> namesElsewhere;
   for (const Model& model : models)
   {
     names.push_back(model.name);
     meanings.push_back(model.meaning);
+    for (const std::string& habit : model.habits)
+      namesElsewhere.emplace_back(habit, model.name);
   }
   std::vector<Key> keys{schema::text(word, &Card::model)
                             .oneOf(names)
                             .means(fmt::format("{}: {}", meaning, fmt::join(meanings, "; ")))
                             .like(example)
+                            .wordsElsewhere(namesElsewhere)
                             .template andThen<Card>(
                                 [&models](Card& card) {
                                   card.parameters = findModel(models, card.model)->parameters();
