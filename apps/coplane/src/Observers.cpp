@@ -71,6 +71,7 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.name = card.name;
     probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
     probe.block = indexOf(mesh.blocks, card.block);
+    probe.reaction = card.reaction;
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)

@@ -266,6 +266,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
   const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
   const Mesh& known = mesh.mine;
   const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(deck, known, home, comm);
+  const std::vector<std::string> ofReactions = problemsOfReactions(deck, known, home, comm);
   comm.together(
       [&]
       {
@@ -273,7 +274,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
                                               namesOf(known.sideSets));
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
-              ofRigidBlocks, ofAirBlasts})
+              ofRigidBlocks, ofAirBlasts, ofReactions})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));

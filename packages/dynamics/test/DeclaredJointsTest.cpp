@@ -79,6 +79,35 @@ TEST(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
 }
 
+TEST(DeclaredJoint, carriesTheInitialStressLessThePressureOnItsFaces)
+{
+  // 1 MPa of compression in the blocks and on their ends, water of 0.4 MPa in the joint: both are
+  // at rest when the joint starts with 0.6 MPa. Meshes do not match, so planes of one face have two
+  // faces on the other side.
+  const Comm comm;
+  Model model = declaredStack(0, comm);
+  for (BlockSetup& block : model.blocks)
+    block.stress.zz = -1e6;
+  press(model, 1e6);
+  model.conditions.pressures.push_back(
+      pressureWhere(model.mesh, 0.4e6, [](const Vec3& x) { return x.z == 1; }));
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+  Real least = infinity, most = -infinity;
+  const auto planes = solver.contact().planes();
+  for (std::size_t p = 0; p < planes.extent(0); ++p)
+    if (planes(p).state != PlaneState::Open)
+    {
+      const Real traction = norm(planes(p).forceOn(1)) / planes(p).area;
+      least = std::min(least, traction);
+      most = std::max(most, traction);
+    }
+  EXPECT_NEAR(comm.min(least), 0.6e6, 1);
+  EXPECT_NEAR(comm.max(most), 0.6e6, 1);
+}
+
 TEST(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
 {
   // Two cubes of 1 t part at 1 m/s; the bond softens by exp(-opening / 0.1 m), the skin is 5 cm.

@@ -448,6 +448,13 @@ TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
             "other; keep one of them.");
 }
 
+TEST(DeckErrors, aReactionOfABlock)
+{
+  EXPECT_EQ(errorWith("history: {probes: [{name: a, block: b, reaction: true}]}\n"),
+            "wall.yaml:5:50: history.probes.0.reaction belongs to node_set; name a node set that "
+            "conditions hold, or remove it.");
+}
+
 TEST(DeckErrors, twoProbesOfOneName)
 {
   EXPECT_EQ(errorWith("history: {probes: [{name: a, block: b}, {name: a, block: c}]}\n"),

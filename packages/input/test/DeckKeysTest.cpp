@@ -199,7 +199,7 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction);
   return out;
 }
 

@@ -12,6 +12,7 @@ from .planes import Planes
 
 # Ends of the columns that each of these has in the history (docs/user/outputs.md).
 _MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in "xyz"]
+_REACTION = [f"reaction_{axis}" for axis in "xyz"]
 _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
@@ -248,11 +249,13 @@ class Run:
         names = [name[: -len(ends[0]) - 1] for name in self.columns if name.endswith("_" + ends[0])]
         return [name for name in names if all(f"{name}_{end}" in self.columns for end in ends)]
 
-    def _of(self, names, ends, what, key):
+    def _of(self, names, ends, what, key, also=()):
+        """also: ends of columns that not every one has."""
         found = _Named(what, f"{key} in the deck names them.", {})
         for name in names:
-            table = self.history[[f"{name}_{end}" for end in ends]].set_axis(ends, axis=1)
-            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in ends}
+            there = [*ends, *(end for end in also if f"{name}_{end}" in self.columns)]
+            table = self.history[[f"{name}_{end}" for end in there]].set_axis(there, axis=1)
+            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in there}
             found[name] = table
         return found
 
@@ -262,8 +265,8 @@ class Run:
 
     @property
     def probes(self):
-        """Motion of every probe: displacement_x..z, velocity_x..z, as DataFrames."""
-        return self._of(self.probe_names, _MOTION, "probe", "history.probes")
+        """Motion of every probe: displacement_x..z, velocity_x..z, and reaction_x..z where the deck asks for it, as DataFrames."""
+        return self._of(self.probe_names, _MOTION, "probe", "history.probes", also=_REACTION)
 
     @property
     def joint_names(self):

@@ -53,7 +53,7 @@ public:
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
-  /// at the point of contact [Pa, tension positive].
+  /// at the point of contact [Pa, tension positive], less the pressure on their faces.
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
   void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 

@@ -65,10 +65,13 @@ SymTensor mean(const SymTensor& a, const SymTensor& b)
 
 /// Closes a plane at its gap, in equilibrium with a stress: closure and shear traction that carry
 /// it. The traction on face 1 is minus that of the solid of face 0 across the plane.
+/// @param pressure that conditions put on both faces, which the plane does not carry [Pa]
 /// @param area of its overlap [m^2]
-void closeUnder(const SymTensor& stress, const JointLaw& law, Real area, Plane& plane)
+void closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Real area,
+                Plane& plane)
 {
-  const Vec3 t = traction(stress, plane.normal);
+  const Vec3 total = traction(stress, plane.normal);
+  const Vec3 t = total + pressure * plane.normal; // effective
   const Real compression = -dot(t, plane.normal);
   plane.history.bonded = law.cohesive();
   const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
@@ -134,7 +137,7 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
                     stressOfBlock(faceB.block, plane.pointOfContact)),
-               lawOf(plane), area, plane);
+               0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), area, plane);
   }
 }
 } // namespace coplane

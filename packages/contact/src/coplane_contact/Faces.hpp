@@ -20,6 +20,7 @@ struct Face
   int body = 0;                    ///< number of the body at the start, the same on all ranks
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
+  Real pressure = 0;  ///< of conditions on it at t = 0: a declared joint does not carry it [Pa]
   bool local = false; ///< this rank owns at least one node
   bool ownedHere =
       false;          ///< this rank owns the node with the lowest id: it sends the face to others
@@ -38,6 +39,7 @@ struct GhostFace
   int body = 0;
   Real thickness = 0;
   Real modulus = 0;
+  Real pressure = 0;
   bool young = false;
 };
 
@@ -52,6 +54,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.body = face.body;
   ghost.thickness = face.thickness;
   ghost.modulus = face.modulus;
+  ghost.pressure = face.pressure;
   ghost.young = face.young;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
@@ -72,6 +75,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.body = ghost.body;
   face.thickness = ghost.thickness;
   face.modulus = ghost.modulus;
+  face.pressure = ghost.pressure;
   face.young = ghost.young;
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);

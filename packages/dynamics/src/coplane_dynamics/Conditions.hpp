@@ -96,6 +96,11 @@ struct FacePressure
   std::vector<LoadedSide> sides;
   OfTime pressure;        ///< [Pa]
   OfTimeAndPlace field{}; ///< instead, where it varies with the place
+
+  Real at(Real t, const Vec3& place) const
+  {
+    return field ? field(t, place) : pressure(t);
+  } ///< [Pa]
 };
 
 /// Force per present area on faces, in fixed axes: its direction does not follow the faces.

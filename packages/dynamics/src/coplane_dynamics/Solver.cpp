@@ -17,6 +17,20 @@ constexpr std::int64_t energyCheckEvery = 100; // cycles
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
 constexpr Real fasterThanWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
+
+/// What conditions push faces with at t = 0.
+/// @param faces sorted by id
+void setPressures(const Conditions& conditions, std::vector<Face>& faces)
+{
+  for (const FacePressure& load : conditions.pressures)
+    for (const LoadedSide& side : load.sides)
+    {
+      const auto face = std::lower_bound(faces.begin(), faces.end(), side.id,
+                                         [](const Face& f, GlobalId id) { return f.id < id; });
+      if (face != faces.end() && face->id == side.id)
+        face->pressure += load.at(0, side.place);
+    }
+}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -47,6 +61,7 @@ void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
   std::vector<Face> faces = facesOf(exteriorFaces(mesh()));
+  attempt([&] { setPressures(model_.conditions, faces); });
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
   const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,

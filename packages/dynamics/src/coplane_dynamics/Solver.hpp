@@ -75,6 +75,8 @@ public:
   const Contact& contact() const { return *contact_; }
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return motion_->bodies(); }
+  /// Of conditions on the motion of an owned node, at the end of the cycle [N].
+  Vec3 reaction(int node) const { return motion_->reaction(node); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
   // By signals or by an observer (Signals.hpp), decided together for the cycle that has ended.

@@ -95,7 +95,7 @@ void Solver::save(StateTables& out) const
   elements_.save(mesh(), out);
   if (contact_)
     contact_->save(out);
-  motion_->save(out);
+  motion_->save(layout_.ids(), out);
   erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
@@ -117,7 +117,7 @@ void Solver::restore(const StateSource& in)
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));
     contact_->restorePlanes(in, layout_);
   }
-  motion_->restore(in);
+  motion_->restore(layout_.ids(), in);
   findElementForces();
   restoreNumbers(in);
   if (contact_)

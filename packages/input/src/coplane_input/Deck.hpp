@@ -178,8 +178,9 @@ struct OutputCard
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet; ///< mean motion of a node set ...
-  std::string block;   ///< ... or mass-weighted mean motion of a block
+  std::string nodeSet;   ///< mean motion of a node set ...
+  std::string block;     ///< ... or mass-weighted mean motion of a block
+  bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };
 
 struct HistoryCard

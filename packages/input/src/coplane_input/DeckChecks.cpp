@@ -277,6 +277,11 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
+    if (deck.history.probes[i].reaction && !deck.history.probes[i].block.empty())
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
+                   fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
+                               "that conditions hold, or remove it.",
+                               i));
   }
   checkListed("joints", deck.history.joints, "a card in joints, or \"*\"", joints, root, problems);
   Names rigid;

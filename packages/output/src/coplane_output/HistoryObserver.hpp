@@ -15,8 +15,9 @@ namespace coplane
 struct Probe
 {
   std::string name;
-  int nodeSet = -1; ///< position in Mesh::nodeSets, or
-  int block = -1;   ///< position in Mesh::blocks
+  int nodeSet = -1;      ///< position in Mesh::nodeSets, or
+  int block = -1;        ///< position in Mesh::blocks
+  bool reaction = false; ///< also the sum of the reactions on the nodes of the set
 };
 
 struct HistoryOptions
@@ -59,6 +60,7 @@ private:
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;
+  std::vector<Vec3> reactions(const Solver& solver) const; ///< per probe, zero if not wanted [N]
 
   HistoryOptions options_;
   OutputSchedule schedule_;
