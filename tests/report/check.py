@@ -110,7 +110,7 @@ if "browser" in sys.argv:
 
 one = Taken("a/run-report.html")
 own = re.sub(r'<script type="text/plain".*?</script>', "", one.html, flags=re.S)
-case.check_equal("addresses of things outside", re.findall(r'<link|(?:src|href)="(?!data:)|@import|url\(', own), [])
+case.check_equal("addresses of things outside", re.findall(r'<link|(?:src|href)="(?!data:|#)|@import|url\(', own), [])
 case.check_equal("for phones", '<meta name="viewport" content="width=device-width' in one.html, True)
 library = gzip.decompress(base64.b64decode(re.search(r'id="library">(.*?)</script>', one.html).group(1)))
 case.check_equal("plotly.js is in it", b"plotly.js v" in library[:100], True)
@@ -125,9 +125,9 @@ says("balances", one, "largest error of the energy balance", "contacts missed", 
 for title, name in (("Energies", "kinetic"), ("Energies", "external work"), ("Energies of contact", "contact stored"), ("Contact remainder", "contact remainder"),
                     ("Momentum and impulse", "momentum x"), ("tight: areas", "stick area"), ("tight: closure and slip", "mean closure"),
                     ("tight: normal force", "normal force"),
-                    ("Time step", "dt"), ("Slots and planes", "slots"), ("near: velocity", "x"), ("Remainder by pairs of blocks", "rock – rock, tight"),
+                    ("Time step", "time step"), ("Slots and planes", "slots"), ("near: velocity", "x"), ("Remainder by pairs of blocks", "rock – rock, tight"),
                     ("Searches", "searches")):  # fmt: skip
-    column = {"slots": "pairs", "x": "near_velocity_x", "rock – rock, tight": "contact_remainder"}.get(name, name.replace(" ", "_"))
+    column = {"slots": "pairs", "time step": "dt", "x": "near_velocity_x", "rock – rock, tight": "contact_remainder"}.get(name, name.replace(" ", "_"))
     column = column if column in run.columns else f"tight_{column}"
     drawn = one.curves(title)[name]["y"]
     exact = run.columns[column]
@@ -139,6 +139,7 @@ worst = run.planes[-1].sort_values("closure").iloc[-1]
 says("the deepest plane", one, f"{worst.closure:.6g}")
 case.check_equal("time used", "output::history" in one.curves("Seconds of the slowest rank")["run"]["y"], True)
 says("pictures", one, "Pictures were not asked for.")
+says("warnings", one, "No warnings.")
 says("deck", one, "normal_stiffness: 20000000000.0")
 
 if shutil.which("pvbatch") and shutil.which("xvfb-run"):
@@ -155,8 +156,8 @@ case.check_equal("a long curve: its peak, ends and length", (thin[1].max(), thin
 
 case.check_equal("two runs", made("a", "--compare", "b/run.csv", "-o", "two.html", "--no-pictures"), (0, "two.html\n"))
 two = Taken("two.html")
-case.check_equal("both are drawn", sorted(two.curves("Time step")), ["dt (A)", "dt (B)"])
-case.check_equal("the second one is dotted", two.curves("Time step")["dt (B)"]["line"]["dash"], "dot")
+case.check_equal("both are drawn", sorted(two.curves("Time step")), ["time step (A)", "time step (B)"])
+case.check_equal("the second one is dotted", two.curves("Time step")["time step (B)"]["line"]["dash"], "dot")
 case.check("its last value", two.curves("Energies")["kinetic (B)"]["y"][-1], coplane.open("b").history.kinetic.iloc[-1], 1e-5, relative=True)
 kinetic = [coplane.open(name).history.kinetic.iloc[-1] for name in "ab"]
 says("differences", two, "State hashes: different", f"kinetic [J] {kinetic[0]:.6g} {kinetic[1]:.6g} {kinetic[1] - kinetic[0]:.6g}",
@@ -183,7 +184,7 @@ for name, changes in (("going", {"time.end": 10}), ("failed", {"conditions.0.val
     going = Taken("going/run-report.html")
     case.check_equal("a run that goes on", going.ending(), ["running"])
     says("a run that goes on", going, "The run goes on", "they are written when the run ends")
-    case.check_within("lines that are drawn", len(going.curves("Time step")["dt"]["x"]), 15, page.POINTS)
+    case.check_within("lines that are drawn", len(going.curves("Time step")["time step"]["x"]), 15, page.POINTS)
     started.process.send_signal(signal.SIGKILL)
     started.process.wait()
     report.make("going", pictures=False)
@@ -197,6 +198,9 @@ case.check_equal("report of a failed run", made("failed", "--no-pictures")[0], 0
 failed = Taken("failed/run-report.html")
 case.check_equal("a failed run", failed.ending(), ["failed"])
 says("a failed run", failed, "has turned inside out or has a force that is not finite")
+pathlib.Path("failed/run.log").unlink()
+made("failed", "--no-pictures")
+says("a failed run without a log", Taken("failed/run-report.html"), "ERROR: ", "has turned inside out or has a force that is not finite")
 
 # --- what is missing -----------------------------------------------------------------------------------
 
@@ -207,7 +211,7 @@ lines = pathlib.Path("a/run.csv").read_text().splitlines(keepends=True)
 pathlib.Path("less/run.csv").write_text("".join(lines[:-1]) + lines[-1][:30])
 case.check_equal("with less", made("less/run", "--no-pictures")[0], 0)
 less = Taken("less/run-report.html")
-says("with less", less, "there is no run.run.json", "run_planes.pvd is not there", "there is no log run.log", "Neither the record nor run.yaml has the deck",
+says("with less", less, "there is no run.run.json", "run_planes.pvd is not there", "there is no record that says it", "there is no record that has them", "Neither the record nor run.yaml has the deck",
      "gives the remainder by pairs", f"{len(lines) - 2} lines")  # fmt: skip
 pathlib.Path("less/run.csv").write_text("".join(lines[:9]) + lines[9][:30] + "\n" + lines[10])
 case.check_equal("with a damaged history", made("less/run.csv", "--no-pictures")[0], 0)
