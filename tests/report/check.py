@@ -16,7 +16,7 @@ import time
 import numpy
 import plotly.graph_objects
 
-from coplanetest import Case, documents, program
+from coplanetest import Case, browser, documents, program
 
 import coplane
 from coplane import page, report
@@ -24,15 +24,18 @@ from coplane import page, report
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 case = Case("report", __file__)
 
-
-# Shows the page this wide, and says what became of it.
-FRAME = """<iframe src="a/run-report.html" style="width:WIDTHpx;height:3000px;border:0"></iframe><p></p><script>
-setInterval(() => {
-  const page = document.querySelector('iframe').contentDocument, plots = [...page.querySelectorAll('.plot')];
-  document.querySelector('p').textContent = JSON.stringify({drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth,
-    plots: plots.filter(plot => plot.querySelector('.main-svg')).length,
-    widest: Math.max(...[...page.querySelectorAll('.main-svg')].map(plot => plot.getBoundingClientRect().width))});
-}, 500)</script>"""
+# Shows pages in a width, and says what became of them.
+LOOK = """
+const seen = [];
+for (const [name, width] of PAGES) {
+  const page = await show(name, width, 3000), each = words => [...page.querySelectorAll(words)], box = thing => thing.getBoundingClientRect();
+  await until(() => page.body.dataset.drawn);
+  seen.push({drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth, plots: each('.plot').filter(plot => plot.querySelector('.main-svg')).length,
+    widest: Math.max(...each('.main-svg').map(plot => box(plot).width)), row: Math.max(...each('tr').map(row => box(row).height)),
+    scrolls: each('.legend .scrollbar').filter(bar => box(bar).height > 0).length});
+}
+return seen;
+"""
 
 
 class Taken:
@@ -87,22 +90,18 @@ run = coplane.open("a")
 case.check_equal("a report", made("a/run", "--no-pictures"), (0, "a/run-report.html\n"))
 
 if "browser" in sys.argv:
-    browser = shutil.which("chromium")
-    if not browser:
+    if not browser.chromium():
         print("skipped: chromium is not installed (apt-get install chromium)")
         sys.exit(77)
-    figures = len(Taken("a/run-report.html").figures)
-    for width in (1400, 400):
-        # In a frame: windows of browsers have a least width.
-        pathlib.Path("frame.html").write_text(FRAME.replace("WIDTH", str(width)))
-        done = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=1500,4000", "--virtual-time-budget=30000",
-                               "--allow-file-access-from-files", f"--user-data-dir={pathlib.Path('browser').absolute()}", "--dump-dom",
-                               pathlib.Path("frame.html").absolute().as_uri()],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=200)  # fmt: skip
-        seen = json.loads(re.search(r"<p>(.*)</p>", done.stdout).group(1))
-        case.check_equal(f"{width} pixels: drawn, plots", (seen["drawn"], seen["plots"]), ("yes", figures))
-        case.check_within(f"{width} pixels: widest plot", seen["widest"], 300, width)
-        case.check_within(f"{width} pixels: width of the page", seen["page"], width - 20, width)
+    made("a", "--compare", "b", "-o", "two.html", "--no-pictures")
+    pages = [("a/run-report.html", 1400), ("a/run-report.html", 390), ("two.html", 390)]
+    for (name, width), seen in zip(pages, browser.seen(".", LOOK.replace("PAGES", json.dumps(pages)))):
+        what = f"{name}, {width} pixels"
+        case.check_equal(f"{what}: drawn, plots", (seen["drawn"], seen["plots"]), ("yes", len(Taken(name).figures)))
+        case.check_within(f"{what}: widest plot", seen["widest"], 300, width)
+        case.check_within(f"{what}: width of the page", seen["page"], width - 20, width)
+        case.check_within(f"{what}: highest row of a table", seen["row"], 10, 125)  # six lines of text; letters below each other are more
+        case.check_equal(f"{what}: legends that have to be scrolled", seen["scrolls"], 0)
     case.finish()
     sys.exit()
 

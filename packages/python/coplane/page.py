@@ -21,6 +21,7 @@ table{border-collapse:collapse;font-size:.92em}td,th{padding:2px 10px 2px 0;text
 th{font-weight:600}td.n,td.ok,td.look{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
 .ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}
 h1,p{overflow-wrap:anywhere}
+.columns td,.columns th{white-space:nowrap}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
 """
@@ -32,7 +33,9 @@ SCRIPT = """
     const text=await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).text();
     const script=document.createElement('script');script.textContent=text;document.head.appendChild(script);
     const figures=JSON.parse(document.getElementById('figures').textContent);
-    const draw=d=>{const f=figures[d.id];Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:false})};
+    const draw=d=>{const f=figures[d.id];
+      if(d.clientWidth<500&&f.layout.showlegend)d.style.height=Math.max(d.clientHeight,300+19*f.data.length)+'px';
+      Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:false})};
     for(const d of document.querySelectorAll('.plot'))draw(d);
     document.body.dataset.drawn=document.querySelectorAll('.plot .main-svg').length?'yes':'no';
   }catch(e){say('The plots need a browser of 2023 or later: '+e)}
@@ -126,7 +129,8 @@ class Page:
             return f"<td{kind}>{escape(number(value))}</td>"
 
         head = "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in header) + "</tr>" if header else ""
-        return f'<div class="wide"><table>{head}{"".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)}</table></div>'
+        wraps = "" if max(map(len, [header, *rows])) < 4 else ' class="columns"'  # many columns stay whole, and scroll on a phone
+        return f'<div class="wide"><table{wraps}>{head}{"".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)}</table></div>'
 
     def picture(self, name, png):
         return f'<div><h3>{escape(name)}</h3><img alt="{escape(name)}" src="data:image/png;base64,{base64.b64encode(png).decode()}"></div>'
