@@ -9,6 +9,8 @@ import shutil
 import subprocess
 import sys
 
+from coplanetest import browser
+
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 BINARIES = pathlib.Path(os.environ["COPLANE_BIN"])
 BUILD = BINARIES.parent
@@ -229,6 +231,28 @@ def check_names():
     assert not wrong, "\n".join(wrong)
 
 
+SEARCH = """
+const found = {};
+for (const words of WORDS) {
+  const page = await show('/search.html?q=' + encodeURIComponent(words), 1200, 1600);
+  const box = await until(() => page.getElementById('mkdocs-search-results').children.length && page.getElementById('mkdocs-search-results'));
+  found[words] = box ? [...box.querySelectorAll('article a')].map(link => [link.getAttribute('href'), link.textContent]) : null;
+}
+return found;
+"""
+
+
+def check_search(site):
+    """Typed into the search of the site in a browser, words lead to the pages of the manual, with the name of the page; other words to nothing."""
+    first = {"search_every": ["./docs/user/deck.html#contact", "Deck reference: contact"], "restart": ["./docs/user/checkpoints.html#restart", "Checkpoints and restart: Restart"],
+             "own problem": ["./docs/user/first-run.html#a-problem-of-your-own", "A first run: A problem of your own"]}  # fmt: skip
+    found = browser.seen(site, SEARCH.replace("WORDS", json.dumps([*first, "friction", "blender"])))
+    for words, entry in first.items():
+        assert found[words][0] == entry, f"the search for {words}: {found[words][:3]}"
+    assert ["./docs/user/deck.html#jointsname", "Deck reference: joints.<name>"] in found["friction"][:4], found["friction"][:4]
+    assert found["blender"] == [], found["blender"]
+
+
 def check_site():
     """The site has every page, every key, formulas and a search, and needs nothing from elsewhere; its maker finds links that lead nowhere."""
     specification = importlib.util.spec_from_file_location("make_site", SOURCE / "packages/cmake/make-site.py")
@@ -243,9 +267,13 @@ def check_site():
     missing = [page for page in [*pages, "docs/keys.html", "search.html"] if not (site / page).exists()]
     assert not missing, f"pages that the site lacks: {missing}"
     found = {entry["location"]: entry["text"] for entry in json.loads((site / "search/search_index.json").read_text())["docs"]}
-    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html", "remainder"),
+    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html#glossary", "remainder"),
                         ("docs/user/coming-from.html#ls-dyna", "MAT_JOHNSON_COOK"), ("docs/verification.html#v14-incline", "friction")):  # fmt: skip
         assert word in found[place], f"the search does not find {word} in {place}"
+    if browser.chromium():
+        check_search(site)
+    else:
+        print("the search was not tried: chromium is not installed (apt-get install chromium)")
     keys = (site / "docs/keys.html").read_text()
     lost = [key for file in maker.FILES for names in maker.groups_of(file).values() for key in names if f"<code>{key}</code>" not in keys]
     assert not lost, f"keys that docs/keys.html lacks: {lost}"

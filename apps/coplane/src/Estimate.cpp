@@ -28,7 +28,7 @@ public:
     if (cycles_ >= enoughCycles || seconds_ > enoughSeconds)
       request({false, false, true}); // one more cycle goes by until all ranks know
   }
-  void finish(const Solver&, const std::string&) override {}
+  void finish(const Solver&, const Ending&) override {}
 
   std::int64_t cycles() const { return cycles_; }
   double secondsOfCycle() const { return seconds_ / double(std::max<std::int64_t>(1, cycles_)); }

@@ -147,7 +147,9 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
                   const Comm& comm, const RunSettings& settings)
 {
   const std::string run = identityOf(deck, mesh, comm);
-  observers.add(std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings)));
+  auto record = std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings));
+  RunRecord* const ofRun = record.get();
+  observers.add(std::move(record));
   observers.add(std::make_unique<HistoryObserver>(comm, historyOptions(deck, mesh.mine, settings)));
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(comm, tablesOptions(deck, settings)));
@@ -162,7 +164,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
                         deck.output.planesFormat == "vtkhdf" ? PlanesFormat::VtkHdf
                                                              : PlanesFormat::Vtp}));
   }
-  observers.add(std::make_unique<ProgressObserver>());
+  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{}, ofRun));
   // The last: it asks the others where they stand.
   observers.add(std::make_unique<CheckpointObserver>(
       comm, checkpointOptions(deck, mesh, comm, settings), observers));

@@ -169,9 +169,9 @@ inline void cycles(Solver& solver, int n)
 struct Recorder : Observer
 {
   int starts = 0, ends = 0;
-  std::string ending;
+  Ending ending;
   void start(const Solver&) override { ++starts; }
   void endOfCycle(const Solver&) override { ++ends; }
-  void finish(const Solver&, const std::string& how) override { ending = how; }
+  void finish(const Solver&, const Ending& how) override { ending = how; }
 };
 } // namespace coplane

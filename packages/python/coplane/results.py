@@ -1,5 +1,6 @@
 """A run, with everything that it has written."""
 
+import collections
 import fcntl
 import functools
 import json
@@ -195,14 +196,33 @@ class Run:
         return self.log_path.read_text(encoding="utf-8", errors="replace") if self.log_path.exists() else ""
 
     @property
+    def messages(self):
+        """Warnings and errors as the program showed them: of every part the last 40, each text once."""
+        return list(dict.fromkeys(text for record in self.records for text in record.get("messages", [])))
+
+    @property
+    def warnings(self):
+        """Number of warnings by kind, of all parts, with those that were not shown."""
+        counts = collections.Counter()
+        for record in self.records:
+            counts.update(record.get("warnings", {}))
+        return dict(counts)
+
+    @property
     def errors(self):
-        """The lines of the log that say what was wrong."""
+        """Why the run failed, as its record says it; else the lines of the log that say what was wrong: a start that fails, or is killed, leaves no
+        reason in the record."""
+        if "reason" in self.record:
+            return [f"ERROR: {self.record['reason']}"]
         return [line for line in self.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
 
     @property
     def limits(self):
-        """What limited the step, in the lines of the log that say it."""
-        return ["".join(found) for found in re.findall(r"limited by (.*)|dt = \S+ s \((.*?)\), kinetic", self.log)]
+        """What limited the step, and how often it was seen to (the program looks about every five seconds): a dict, what was seen last at its end."""
+        counts = {}
+        for limit in (limit for record in self.records for limit in record.get("step_limits", [])):
+            counts[limit["limited_by"]] = counts.pop(limit["limited_by"], 0) + limit["looks"]
+        return counts
 
     # --- over time ---------------------------------------------------------------------------------
 

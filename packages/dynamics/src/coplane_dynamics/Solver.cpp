@@ -31,6 +31,12 @@ void setPressures(const Conditions& conditions, std::vector<Face>& faces)
         face->pressure += load.at(0, side.place);
     }
 }
+
+/// Of all ranks, which found it together.
+Error computationFailed(const std::string& why)
+{
+  return {ExitCode::Computation, why, true};
+}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -301,7 +307,7 @@ bool Solver::isOver() const
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   observer.start(*this);
-  std::string ending = "completed";
+  Ending ending;
   while (!isOver())
   {
     advance();
@@ -313,43 +319,50 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     catch (const Error& error)
     {
       if (error.onAllRanks())
-        finishBeforeFailing(observer, error.code(), error.what());
+        failAfter(observer, error);
       throw;
     }
     if (requests_.stop)
     {
-      ending = requests_.checkpoint ? "interrupted after a checkpoint" : "interrupted";
-      exitCode_ = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
+      ending = requests_.checkpoint ? Ending{"interrupted after a checkpoint", ExitCode::Resumable}
+                                    : Ending{"interrupted", ExitCode::Interrupted};
       break;
     }
     if (rebalancer && !isOver() && rebalancer->look(*this))
       observer.repartitioned(*this);
   }
   observer.finish(*this, ending);
-  return exitCode_;
+  return ending.code;
 }
 
 void Solver::judge(Observer& observer)
 {
   if (failed_)
-  {
-    finishBeforeFailing(observer, ExitCode::Computation);
-    failTogether("element");
-  }
+    try
+    {
+      failTogether("element");
+    }
+    catch (const Error& error)
+    {
+      if (error.onAllRanks())
+        failAfter(observer, error);
+      throw;
+    }
   if (contactCannotStop())
     failAfter(observer,
-              fmt::format("cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each "
-                          "other, faster than waves run in them, and faces lie deeper in them than "
-                          "contact.depth_max, or in each other before they were found: contact "
-                          "cannot stop them. Raise joints.<name>.stiffness_fraction, or use a "
-                          "material that stiffens under pressure. {}",
-                          clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities()));
+              computationFailed(fmt::format(
+                  "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, "
+                  "faster than waves run in them, and faces lie deeper in them than "
+                  "contact.depth_max, or in each other before they were found: contact cannot stop "
+                  "them. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
+                  "under pressure. {}",
+                  clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities())));
   if (clock_.cycle % energyCheckEvery != 0 && !isOver())
     return;
   const EnergyBalance balance = energy();
   const std::string broken = watch_.broken(balance, parts());
   if (!broken.empty())
-    failAfter(observer, broken);
+    failAfter(observer, computationFailed(broken));
   watch_.warn(balance, parts());
 }
 
@@ -365,31 +378,24 @@ bool Solver::contactCannotStop() const
   return counts.tooDeep > 0 || counts.missed > 0;
 }
 
-void Solver::failAfter(Observer& observer, const std::string& why)
+void Solver::failAfter(Observer& observer, const Error& why)
 {
-  finishBeforeFailing(observer, ExitCode::Computation);
-  failOnAllRanks(ExitCode::Computation, "{}", why);
-}
-
-void Solver::finishBeforeFailing(Observer& observer, ExitCode code, const std::string& why)
-{
-  exitCode_ = code;
   // Outputs that fail, too, are told of and do not hide why the run ends.
   try
   {
-    observer.finish(*this, "failed");
+    observer.finish(*this, {"failed", why.code(), why.what()});
   }
   catch (const Error& error)
   {
     if (!error.onAllRanks())
     {
-      if (!why.empty())
-        logError(why);
+      logError(why.what());
       throw;
     }
-    if (error.what() != why)
+    if (error.what() != std::string(why.what()))
       logError(error.what());
   }
+  throw why;
 }
 
 void Solver::failTogether(const std::string& what)

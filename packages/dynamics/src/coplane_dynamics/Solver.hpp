@@ -100,7 +100,6 @@ public:
   std::string worstEntities() const { return coplane::worstEntities(parts()); }
 
   /// With which the run ends, for observers that finish; Success before that.
-  ExitCode exitCode() const { return exitCode_; }
   const Repartitions& repartitions() const { return repartitions_; }
   /// What the last change of the partition took [s], and how many nodes went to another rank.
   void bookRepartition(double seconds, std::int64_t nodesMoved)
@@ -155,9 +154,8 @@ private:
   bool contactCannotStop() const;
   /// Fails, after the observers have finished, when the run cannot go on. Collective.
   void judge(Observer& observer);
-  [[noreturn]] void failAfter(Observer& observer, const std::string& why);
-  /// @param why what has been caught already; empty: the caller fails next, and says why
-  void finishBeforeFailing(Observer& observer, ExitCode code, const std::string& why = "");
+  /// @param why an error of all ranks
+  [[noreturn]] void failAfter(Observer& observer, const Error& why);
   [[noreturn]] void failTogether(const std::string& what); ///< collective
   void saveNodes(StateTables& out) const;
   void restoreNodes(const StateSource& in);
@@ -198,7 +196,6 @@ private:
   bool failed_ = false;          ///< the same on all ranks
   std::optional<Error> trouble_; ///< of this rank
   Requests requests_;
-  ExitCode exitCode_ = ExitCode::Success;
   Repartitions repartitions_;
   WorkTimes work_;
 };

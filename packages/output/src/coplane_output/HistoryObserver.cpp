@@ -153,7 +153,7 @@ void HistoryObserver::savePosition(std::map<std::string, std::string>& positions
     positions["history"] = table_.position(lastCycle_).text();
 }
 
-void HistoryObserver::finish(const Solver& solver, const std::string&)
+void HistoryObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
     write(solver);

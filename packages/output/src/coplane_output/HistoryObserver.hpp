@@ -46,7 +46,7 @@ public:
   void endOfCycle(const Solver& solver) override;
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   /// A node of a probe and its share of the mean (not divided by the sum of all shares).

@@ -282,7 +282,7 @@ void ResultsObserver::repartitioned(const Solver&)
   sides_.reset();
 }
 
-void ResultsObserver::finish(const Solver& solver, const std::string&)
+void ResultsObserver::finish(const Solver& solver, const Ending&)
 {
   if (file_ && !file_->isOpen())
     return; // it is what failed

@@ -50,7 +50,7 @@ public:
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Writes the last state, unless the last cycle has been written, and closes the file.
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
   int steps() const { return file_ ? file_->steps() : 0; }
 
