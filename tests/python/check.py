@@ -118,14 +118,6 @@ case.check_equal("tables", sorted(whole.tables), ["blocks", "materials", "pairs"
 equal("planes of the pairs", whole.tables["pairs"].groupby("time").planes.sum(), history.planes)
 case.check_equal("planes of the last step", len(whole.planes[-1]), int(history.planes.iloc[-1]))
 case.check_equal("joints of the planes", sorted(set(whole.planes.at(0).joint)), ["tight"])
-try:
-    import vtkmodules  # noqa: F401
-
-    points = whole.planes.vtk(-1)
-    case.check_equal("planes as VTK sees them", (points.GetNumberOfPoints(), points.GetPointData().GetArray("closure").GetValue(3)),
-                     (len(whole.planes[-1]), float(whole.planes[-1].closure[3])))  # fmt: skip
-except ImportError:
-    print("no VTK here: planes are not compared with what it reads")
 case.check("stored energy of the planes", whole.planes[-1].stored.sum(), history.contact_stored.iloc[-1], 1e-12, relative=True)
 figure = whole.history.plot(y=["kinetic", "internal"], backend="plotly")
 case.check_equal("lines of a plot", [trace.name for trace in figure.data], ["kinetic", "internal"])
@@ -273,16 +265,35 @@ done = subprocess.run([sys.executable, "-c", alone, *needs.DEBIAN], stdout=subpr
 case.check_equal("numpy alone: the history", done.stdout.split()[:1], [str(len(history))])
 case.check_equal("numpy alone: what is missing", "apt-get install python3-pandas" in done.stderr, True)
 
-# --- the page's notebook, and a wheel ----------------------------------------------------------------
+# --- notebooks, what the page shows of a deck from nothing, and a wheel --------------------------------
 
-notebook = json.loads((SOURCE / "docs/examples/python.ipynb").read_text())
-code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
-folder = pathlib.Path("notebook")
-folder.mkdir(exist_ok=True)
-done = subprocess.run([sys.executable, "-c", "\n\n".join(code)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
-print(done.stdout[-3000:])
-case.check_equal("the notebook: exit code", done.returncode, 0)
+
+def executed(what, code):
+    """Runs a program in a folder of its own; returns what it printed."""
+    folder = pathlib.Path("notebooks") / what
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
+    print(done.stdout[-3000:])
+    case.check_equal(f"{what}: exit code", done.returncode, 0)
+    return done.stdout
+
+
+books = sorted((SOURCE / "docs/examples").glob("*.ipynb"))
+case.check_within("notebooks", len(books), 4, 100)
+for book in books:
+    cells = ["".join(cell["source"]) for cell in json.loads(book.read_text())["cells"] if cell["cell_type"] == "code"]
+    executed(book.stem, "\n\n".join(cells))
+page = (SOURCE / "docs/user/python.md").read_text()
+for number, code in enumerate(re.findall(r"```python\n(import coplane\n.*?)```", page, flags=re.S)):
+    if "coplane.Deck({" in code:
+        case.check_equal("a deck from nothing: ending", executed(f"page_{number}", code + "print(run.ending)\n").split()[-1:], ["completed"])
+        break
+else:
+    case.check_equal("the page makes a deck from nothing", False, True)
+told("a recipe with a mistake", coplane.program.ProgramFailed, lambda: coplane.make_mesh({"dimension": 2, "parts": [{"shape": "bx"}]}, "no.e"),
+     "recipe:", "'bx'")  # fmt: skip
 
 build = "import shutil, os; from setuptools import build_meta; " \
     "shutil.rmtree('wheel', True); shutil.copytree(os.environ['COPLANE_SOURCE'] + '/packages/python', 'wheel'); os.chdir('wheel'); " \

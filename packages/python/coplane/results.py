@@ -7,7 +7,7 @@ import json
 import pathlib
 import re
 
-from . import exodus, fields, tables
+from . import exodus, fields, grids, tables
 from .documents import parse
 from .planes import Planes
 
@@ -344,6 +344,15 @@ class Run:
     def blocks(self):
         """Fields on the elements of each block, with their connectivity."""
         return _Named("block", "The mesh names them.", {name: fields.block(self.results, name) for name in self.results.blocks})
+
+    def vtk(self, step=-1, blocks=None, deformed=True, dead=False):
+        """A step of the results as a vtkUnstructuredGrid with all fields on nodes and elements, which pyvista.wrap takes.
+
+        blocks: names, default all. deformed: points moved by the displacement, else as at the start [m]. dead: also elements that are no
+        longer there. Vectors have three components, in two dimensions the last is 0; `stress` has xx, yy, zz, xy, yz, zx. `node_id` and
+        `element_id` are the ids of the mesh, `block_id` those of the blocks, whose names are `block_names`, and `body_id` is there when the mesh has it; `TimeValue` is the time [s].
+        """
+        return grids.grid(self.results, step, blocks, deformed, dead)
 
     @functools.cached_property
     def node_sets(self):
