@@ -107,7 +107,7 @@ public:
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   /// Whether since the last search planes of this rank have changed what they pass on, as far as
-  /// pairs that take over from them may not have it from that search (PairTables::Passed).
+  /// pairs that take over from them may not have it from that search (detail/PassedOn.hpp).
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
   std::int64_t searches() const { return searches_; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
