@@ -174,21 +174,12 @@ std::vector<GlobalId> Contact::nodesOfGhosts() const
 
 void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
 {
-  const auto less = [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; };
   std::vector<GlobalId> wanted;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)
     if (planes_(p).area > 0)
       for (const GlobalId id : planes_(p).faceId)
-      {
-        GhostFace face;
-        face.id = id;
-        const auto local =
-            std::lower_bound(localFaces_.begin(), localFaces_.end(), id,
-                             [](const Face& f, GlobalId wantedId) { return f.id < wantedId; });
-        if ((local == localFaces_.end() || local->id != id) &&
-            !std::binary_search(ghosts_.faces.begin(), ghosts_.faces.end(), face, less))
+        if (!hasFace(localFaces_, id) && !hasFace(ghosts_.faces, id))
           wanted.push_back(id);
-      }
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   if (comm_->max(std::int64_t(wanted.size())) == 0)
@@ -197,7 +188,8 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
   if (comm_->max(std::int64_t(fetched.size() != wanted.size())) > 0)
     failOnAllRanks(ExitCode::Internal, "A contact plane has lost one of its faces.");
   const auto middle = ghosts_.faces.insert(ghosts_.faces.end(), fetched.begin(), fetched.end());
-  std::inplace_merge(ghosts_.faces.begin(), middle, ghosts_.faces.end(), less);
+  std::inplace_merge(ghosts_.faces.begin(), middle, ghosts_.faces.end(),
+                     [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
 }
 
 CandidateRules Contact::candidateRules() const
@@ -340,12 +332,11 @@ void Contact::listFaces(const NodeLayout& layout)
 
 int Contact::faceHere(GlobalId id) const
 {
-  const auto less = [](const Face& face, GlobalId wanted) { return face.id < wanted; };
   const auto ghosts = faces_.begin() + std::ptrdiff_t(localFaces_.size());
-  auto found = std::lower_bound(faces_.begin(), ghosts, id, less);
-  if (found == ghosts || found->id != id)
-    found = std::lower_bound(ghosts, faces_.end(), id, less);
-  return found != faces_.end() && found->id == id ? int(found - faces_.begin()) : -1;
+  auto found = findFace(faces_.begin(), ghosts, id);
+  if (found == ghosts)
+    found = findFace(ghosts, faces_.end(), id);
+  return found != faces_.end() ? int(found - faces_.begin()) : -1;
 }
 
 void Contact::takeFaceTables()

@@ -144,11 +144,8 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   const std::vector<WantedFace> mine = comm_->exchange(toOwner);
   std::vector<std::vector<GhostFace>> answer(comm_->size());
   for (const WantedFace& one : mine)
-  {
-    const auto found = std::lower_bound(localFaces_.begin(), localFaces_.end(), one.face,
-                                        [](const Face& face, GlobalId id) { return face.id < id; });
-    answer[one.byRank].push_back(toGhostFace(*found, nodeIds));
-  }
+    answer[one.byRank].push_back(
+        toGhostFace(*findFace(localFaces_.begin(), localFaces_.end(), one.face), nodeIds));
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
