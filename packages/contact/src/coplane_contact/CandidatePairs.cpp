@@ -1,5 +1,5 @@
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/RadixSort.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
@@ -12,12 +12,7 @@ namespace coplane
 {
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
-  FaceNodes nodes;
-  nodes.count = face.count;
-  for (int k = 0; k < face.count; ++k)
-    nodes.x[k] = at(x, face.nodes[k]);
-  const HalfStepFace now =
-      dimension == 2 ? stepA_halfStepFace<2>(nodes, 0) : stepA_halfStepFace<3>(nodes, 0);
+  const HalfStepFace now = stepA_halfStepFace(nodesOf(face, x), 0, dimension);
   return {now.center, now.normal};
 }
 

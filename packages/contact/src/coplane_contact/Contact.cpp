@@ -1,6 +1,8 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/detail/FacePairLanes.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_core/Timers.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -89,23 +91,10 @@ Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVe
   Real smallest = infinity;
   for (const Face& face : faces)
   {
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-      corners[k] = at(x, face.nodes[k]);
-    const Real area = norm(dimension == 2 ? vectorArea<2>(corners, face.count)
-                                          : vectorArea<3>(corners, face.count));
-    smallest = std::min(smallest, dimension == 2 ? area : std::sqrt(area));
+    const Real area = norm(cornersAt(x, face).area(dimension));
+    smallest = std::min(smallest, faceSize(area, dimension));
   }
   return comm.min(smallest);
-}
-
-FaceNodes Contact::nodesOf(const Face& face, const ConstNodeVectors& x) const
-{
-  FaceNodes nodes;
-  nodes.count = face.count;
-  for (int k = 0; k < face.count; ++k)
-    nodes.x[k] = at(x, face.nodes[k]);
-  return nodes;
 }
 
 void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const ConstNodeVectors& x,
@@ -121,7 +110,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const Const
       nodes.v[k] = at(v, faces_[face].nodes[k]);
       nodes.mass[k] = 1; // masses matter for damping only
     }
-    return dimension_ == 2 ? stepA_halfStepFace<2>(nodes, dt) : stepA_halfStepFace<3>(nodes, dt);
+    return stepA_halfStepFace(nodes, dt, dimension_);
   };
   std::vector<std::size_t> kept;
   for (std::size_t p = 0; p < planes_.extent(0); ++p)

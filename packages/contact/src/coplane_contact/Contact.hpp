@@ -156,7 +156,6 @@ private:
   void buildLists(int ownedNodes);
   CandidateRules candidateRules() const; ///< with those of groups; while this lives
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
-  FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
   /// A search is forced when the next step takes nodes farther than half a skin along an axis,
   /// which is less than 0.87 skins in space. The step to that search may add an eighth.

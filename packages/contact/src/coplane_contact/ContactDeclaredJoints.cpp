@@ -1,5 +1,6 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <algorithm>
