@@ -131,6 +131,22 @@ KOKKOS_INLINE_FUNCTION void affineWeights(const Shadow& shadow, const Vec2& at, 
     w[i] = 1.0 / shadow.count + dot(shadow.p[i] - mean, s);
 }
 
+/// Where the pressure between two segments acts, as a place along the plane [m]: the closure is
+/// linear between the ends of the part that is closed, and counts with the depth there.
+/// @param lo, hi ends of that part [m]; closureLo, closureHi closures there [m], not both 0
+KOKKOS_INLINE_FUNCTION Real centreOfPressure(Real lo, Real hi, Real closureLo, Real closureHi,
+                                             const Depth& depth)
+{
+  Real first = closureLo + 2 * closureHi, total = 3 * (closureLo + closureHi);
+  if (depth.slope != 0)
+  {
+    const Real d0 = depth.at(lo), d1 = depth.at(hi);
+    first = closureLo * (d0 + d1) + closureHi * (d0 + 3 * d1);
+    total = closureLo * (4 * d0 + 2 * d1) + closureHi * (2 * d0 + 4 * d1);
+  }
+  return lo + (hi - lo) * first / total;
+}
+
 KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, Real offset,
                                              AreaInUse use, bool byPressure, const Depth& depth)
 {
@@ -172,16 +188,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   {
     const Real closureLo = gapLo > 0 ? 0 : -gapLo, closureHi = gapHi > 0 ? 0 : -gapHi;
     if (closureLo + closureHi > 0)
-    {
-      Real first = closureLo + 2 * closureHi, total = 3 * (closureLo + closureHi);
-      if (depth.slope != 0)
-      {
-        const Real d0 = depth.at(closedLo), d1 = depth.at(closedHi);
-        first = closureLo * (d0 + d1) + closureHi * (d0 + 3 * d1);
-        total = closureLo * (4 * d0 + 2 * d1) + closureHi * (2 * d0 + 4 * d1);
-      }
-      at = closedLo + (closedHi - closedLo) * first / total;
-    }
+      at = centreOfPressure(closedLo, closedHi, closureLo, closureHi, depth);
   }
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)

@@ -1,5 +1,6 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <algorithm>
@@ -120,14 +121,14 @@ Real declare(Plane& plane, const FaceNodes& nodesA, const FaceNodes& nodesB,
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
-  prepareAll(); // neighbours pass on nothing to planes that are closed here
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  planes_.prepareAll(); // neighbours pass on nothing to planes that are closed here
+  for (std::size_t p = 0; p < planes_.count(); ++p)
   {
-    Plane& plane = planes_(p);
+    Plane& plane = planes()(p);
     if (plane.face[0] < 0)
       continue;
-    const Face& faceA = faces_[plane.face[0]];
-    const Face& faceB = faces_[plane.face[1]];
+    const Face& faceA = faces()[plane.face[0]];
+    const Face& faceB = faces()[plane.face[1]];
     if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);

@@ -4,6 +4,7 @@
 #include <coplane_core/Vec3.hpp>
 #include <coplane_joint/JointState.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace coplane
@@ -42,6 +43,20 @@ struct GhostFace
   Real pressure = 0;
   bool young = false;
 };
+
+/// The face with this id among faces, or ghost faces, that are sorted by id; `last`: not there.
+template <class Iterator>
+Iterator findFace(Iterator first, Iterator last, GlobalId id)
+{
+  const Iterator found = std::lower_bound(
+      first, last, id, [](const auto& face, GlobalId wanted) { return face.id < wanted; });
+  return found != last && found->id == id ? found : last;
+}
+template <class AnyFace>
+bool hasFace(const std::vector<AnyFace>& faces, GlobalId id)
+{
+  return findFace(faces.begin(), faces.end(), id) != faces.end();
+}
 
 /// A face as it is sent; `nodeIds` turns local nodes into ids.
 inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds)

@@ -17,6 +17,11 @@ constexpr std::int64_t energyCheckEvery = 100; // cycles
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
 constexpr Real fasterThanWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
+/// Default skin over the smallest face [-]; the larger one where searches come by motion only.
+constexpr Real skinOfFace = 0.1, skinOfFaceWithOneSearch = 0.5;
+/// Faces that need more steps than this for a skin are not fast: a search covers the motion of
+/// eight of them (SearchReach.hpp).
+constexpr Real stepsThroughSkin = 10;
 
 /// What conditions push faces with at t = 0.
 /// @param faces sorted by id
@@ -69,7 +74,8 @@ void Solver::makeContact()
   std::vector<Face> faces = facesOf(exteriorFaces(mesh()));
   attempt([&] { setPressures(model_.conditions, faces); });
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
-  const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
+  const Real skin = model_.skin.value_or(
+      (model_.searchEvery == 0 ? skinOfFaceWithOneSearch : skinOfFace) * smallest);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
                                        model_.contactRules, skin, smallest);
 }
@@ -370,7 +376,8 @@ void Solver::judge(Observer& observer)
 /// each other. The skin tells at no cost whether anything is fast at all.
 bool Solver::contactCannotStop() const
 {
-  if (!contact_ || 10 * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
+  if (!contact_ ||
+      stepsThroughSkin * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
   if (!step_.motionIsFasterThan(fasterThanWaves, searches_.relativeSpeed()))
     return false;

@@ -61,7 +61,7 @@ public:
   /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may
   /// change the partition at the end of cycles. Collective.
   ExitCode run(Observer& observer, Rebalancer* rebalancer = nullptr);
-  /// One cycle. Public for tests and benchmarks.
+  /// One cycle. Public for tests and benchmarks. Collective.
   void advance();
 
   const Comm& comm() const { return *comm_; }
@@ -83,6 +83,7 @@ public:
   bool resultsRequested() const { return requests_.results; }
   bool checkpointRequested() const { return requests_.checkpoint; }
   bool stopRequested() const { return requests_.stop; }
+  bool isOver() const; ///< the end time is reached
 
   // Over all ranks, the same bits on all. Collective.
   EnergyBalance energy() const { return ledger_.energy(parts(), relaxation_.state()); }
@@ -91,7 +92,6 @@ public:
   ErosionTotals erosion() const { return erosion_->totals(*comm_); }
   Momenta momenta() const { return ledger_.momenta(parts()); }
   StepControl stepControl() const { return step_.control(parts(), searches_.relativeSpeed()); }
-  bool isOver() const;
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;

@@ -224,15 +224,11 @@ std::uint64_t Solver::stateHash() const
           ++field;
         });
   }
-  if (contact_)
+  for (std::size_t p = 0; contact_ && p < contact_->planes().extent(0); ++p)
   {
-    contact_->prepareAll();
-    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
-    {
-      const Plane& plane = contact_->planes()(p);
-      if (plane.countedHere && plane.isBorn())
-        addTo(hash, PlaneField, plane);
-    }
+    const Plane& plane = contact_->planes()(p);
+    if (plane.countedHere && plane.isBorn())
+      addTo(hash, PlaneField, contact_->prepared(p));
   }
   if (comm_->isRoot())
   {

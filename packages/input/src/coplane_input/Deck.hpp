@@ -97,7 +97,10 @@ struct ContactCard
   bool inherit = true;
   std::string shareNode = "skip";       ///< skip | allow
   std::string initialOverlap = "error"; ///< error | allow
-  std::optional<Real> cosOpposed; ///< [-]; default 0.004, with forces along the common normal 0.1
+  /// Defaults of cosOpposed [-]. With the potential needles and crossing edges of 10 degrees come
+  /// into contact; along a common normal forces would jump as pairs of such faces come and go.
+  static constexpr Real cosOpposedOfPotential = 0.004, cosOpposedOfCommonNormal = 0.1;
+  std::optional<Real> cosOpposed; ///< [-]
   Real depthMax = 0.6;
   Real areaMin = 1e-8;
   std::optional<Real> skin; ///< [m]; default 0.1 (once: 0.5) of the smallest face size

@@ -29,8 +29,9 @@ ContactOptions optionsOf(const Deck& deck)
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
   options.sharedNodes = card.shareNode == "allow";
-  options.cosOpposed =
-      card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential ? 0.004 : 0.1);
+  options.cosOpposed = card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential
+                                                    ? ContactCard::cosOpposedOfPotential
+                                                    : ContactCard::cosOpposedOfCommonNormal);
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
   options.dampNormal = card.dampNormal;

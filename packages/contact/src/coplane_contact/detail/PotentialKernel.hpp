@@ -512,20 +512,22 @@ private:
     }
   }
 
+  // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
+  // on, by so many times the fraction beyond (docs/theory/contact-potential.md, "Stable step").
+  static constexpr Real rimsCountFrom = 0.02, rimStiffening = 3;
+
   /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
   {
     using branchFree::positivePart;
-    const int fewer = a_.count < b_.count ? a_.count : b_.count;
-    // Rims make a contact stiffer that is deep for its width.
-    const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - 0.02);
+    const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - rimsCountFrom);
     const T z = hardening_ * positivePart(deepest_ + ahead), z2 = z * z;
-    // The slope of the hardened law is largest at 0.3455, where it is 12.3: from there on it stays.
-    const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(0.3455));
+    // Beyond the steepest place the largest slope stays.
+    const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(PenaltyHardening::steepest));
     const T hardened =
         1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
-    return overlap_ * (1.0 + 3.0 * deep) * hardened *
-           (2.000002 * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0));
+    return overlap_ * (1.0 + rimStiffening * deep) * hardened *
+           (rowSum * shareOfOverlap(a_.count, b_.count));
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)

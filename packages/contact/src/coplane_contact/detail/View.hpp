@@ -1,7 +1,7 @@
 #pragma once
 
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,13 +47,9 @@ public:
   /// Height of a face over the plane at a point of it: that of the flat face through its middle.
   Real height(const Vec3* corners, int count, const Vec2& p) const
   {
-    Vec3 center{};
-    for (int k = 0; k < count; ++k)
-      center += (1.0 / count) * corners[k];
-    const Vec3 area =
-        dimension_ == 2 ? vectorArea<2>(corners, count) : vectorArea<3>(corners, count);
+    const Vec3 area = vectorArea(corners, count, dimension_);
     const Vec3 foot = origin_ + p.x * e1_ + (dimension_ == 2 ? 0 : p.y) * e2_;
-    return dot(center - foot, area) / dot(normal_, area);
+    return dot(centerOf(corners, count) - foot, area) / dot(normal_, area);
   }
 
 private:
