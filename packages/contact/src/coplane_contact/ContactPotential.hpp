@@ -220,6 +220,7 @@ public:
   /// Weights of the nodes of both faces that reproduce a place in the plane: affine, of least norm.
   KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2Of<T>& at, T (&weights)[2][4]) const
   {
+    using branchFree::allOf;
     for (int f = 0; f < 2; ++f)
     {
       const ShadowOf<T>& s = shadow[f];
@@ -244,9 +245,17 @@ public:
           xy += r.x * r.y;
           yy += r.y * r.y;
         }
-        const T inverse = 1.0 / (xx * yy - xy * xy);
+        const T determinant = xx * yy - xy * xy, trace = xx + yy;
+        const T inverse = 1.0 / determinant;
         const Vec2Of<T> d = at - mean;
-        const Vec2Of<T> slope{inverse * (yy * d.x - xy * d.y), inverse * (xx * d.y - xy * d.x)};
+        Vec2Of<T> slope{inverse * (yy * d.x - xy * d.y), inverse * (xx * d.y - xy * d.x)};
+        // A face a million times as long as it is wide is a line: round-off eats the determinant.
+        if (const auto wide = determinant > 1e-12 * trace * trace; !allOf(wide))
+        {
+          const T along = 1.0 / (trace * trace);
+          slope = coplane::choose(
+              wide, slope, Vec2Of<T>{along * (xx * d.x + xy * d.y), along * (xy * d.x + yy * d.y)});
+        }
         for (int i = 0; i < s.count; ++i)
           weights[f][i] = 1.0 / s.count + dot(s.p[i] - mean, slope);
       }

@@ -14,10 +14,9 @@ namespace
 ContactOptions optionsOf(const Deck& deck)
 {
   const ContactCard& card = deck.contact;
-  ContactOptions options;
-  options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
-                       ? ContactOptions::Forces::Potential
-                       : ContactOptions::Forces::CommonNormal;
+  const bool potential = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty();
+  ContactOptions options = ContactOptions::with(potential ? ContactOptions::Forces::Potential
+                                                          : ContactOptions::Forces::CommonNormal);
   options.area =
       card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
@@ -29,8 +28,7 @@ ContactOptions optionsOf(const Deck& deck)
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
   options.sharedNodes = card.shareNode == "allow";
-  options.cosOpposed =
-      card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential ? 0.004 : 0.1);
+  options.cosOpposed = card.cosOpposed.value_or(options.cosOpposed);
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
   options.dampNormal = card.dampNormal;
