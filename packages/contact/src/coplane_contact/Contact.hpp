@@ -120,6 +120,14 @@ public:
   /// Law of a plane.
   const JointLaw& lawOf(const Plane& plane) const { return rules_.joints[plane.joint].law; }
 
+  /// Whether the faces of a candidate pair opposed each other in the last update. With the
+  /// potential those that may begin to before the next search are candidates, too.
+  bool isOpposed(const Plane& plane) const
+  {
+    return -dot(halfStepFaces_(plane.face[0]).normal, halfStepFaces_(plane.face[1]).normal) >
+           options_.cosOpposed;
+  }
+
   /// This rank's planes to count and to write: those whose lower face it owns, that exist and
   /// overlap.
   bool isWrittenHere(const Plane& plane) const

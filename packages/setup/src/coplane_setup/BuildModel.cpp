@@ -11,13 +11,19 @@ namespace coplane
 {
 namespace
 {
+using Forces = ContactOptions::Forces;
+static_assert(ContactCard::cosOpposedOfPotential ==
+                      ContactOptions::usualCosOpposed(Forces::Potential) &&
+                  ContactCard::cosOpposedOfCommonNormal ==
+                      ContactOptions::usualCosOpposed(Forces::CommonNormal),
+              "what the reference of decks says of cos_opposed is what contact takes");
+
 ContactOptions optionsOf(const Deck& deck)
 {
   const ContactCard& card = deck.contact;
-  ContactOptions options;
-  options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
-                       ? ContactOptions::Forces::Potential
-                       : ContactOptions::Forces::CommonNormal;
+  const bool potential = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty();
+  ContactOptions options =
+      ContactOptions::with(potential ? Forces::Potential : Forces::CommonNormal);
   options.area =
       card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
@@ -29,9 +35,7 @@ ContactOptions optionsOf(const Deck& deck)
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
   options.sharedNodes = card.shareNode == "allow";
-  options.cosOpposed = card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential
-                                                    ? ContactCard::cosOpposedOfPotential
-                                                    : ContactCard::cosOpposedOfCommonNormal);
+  options.cosOpposed = card.cosOpposed.value_or(options.cosOpposed);
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
   options.dampNormal = card.dampNormal;

@@ -208,6 +208,7 @@ private:
                  Plane& plane = *planes_.plane[i];
                  const bool inside = branchFree::lane(inContact, i);
                  plane.overlap = branchFree::lane(overlap_, i);
+                 leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
                  late_[i] = wasFoundLate(plane, inside);
                  if (!inside)
                    plane.refusal = Refusal::None;
@@ -231,8 +232,7 @@ private:
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
     // Overlap that exists when a pair is found has no energy.
-    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i),
-                      plane.offset - branchFree::lane(deepest_, i));
+    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
     plane.maximumBefore = plane.history.maximumClosure;
     return !((late_[i] || plane.sighting == Sighting::Woken) && !plane.isInherited());
   }
@@ -501,7 +501,7 @@ private:
           plane.frictionWork += plane.shearEnergy();
         carryNothing(plane);
         if (plane.overlap > 0)
-          plane.gap = plane.offset - branchFree::lane(deepest_, i);
+          plane.gap = leastGaps_[i];
       }
       plane.sighting = late_[i] ? Sighting::FoundLate : Sighting::Known;
       plane.nodeStiffness = branchFree::lane(near, i)
@@ -546,6 +546,7 @@ private:
   T overlap_;                              ///< area of the shadows in common [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
   T deepest_;                              ///< closure; negative: least distance [m]
+  PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
   T speed_;                                ///< of approach [m/s]
   bool late_[branchFree::widthOf<T>] = {}; ///< found later than they should have been
 };
