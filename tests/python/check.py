@@ -279,10 +279,15 @@ notebook = json.loads((SOURCE / "docs/examples/python.ipynb").read_text())
 code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
 folder = pathlib.Path("notebook")
 folder.mkdir(exist_ok=True)
+# As notebooks do, figures are shown and closed after each cell.
+code = ["from matplotlib import pyplot\nfigures = []"] + [
+    f"{cell}\nfigures += [[len(axes.lines), axes.get_xlabel() != ''] for number in pyplot.get_fignums() for axes in pyplot.figure(number).axes]\npyplot.close('all')"
+    for cell in code] + ["print(figures)"]  # fmt: skip
 done = subprocess.run([sys.executable, "-c", "\n\n".join(code)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
+                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python"), MPLBACKEND="agg"))  # fmt: skip
 print(done.stdout[-3000:])
 case.check_equal("the notebook: exit code", done.returncode, 0)
+case.check_equal("the notebook: curves and labels of its figures", done.stdout.splitlines()[-1:], ["[[2, True], [2, True], [3, True], [1, True]]"])
 
 build = "import shutil, os; from setuptools import build_meta; " \
     "shutil.rmtree('wheel', True); shutil.copytree(os.environ['COPLANE_SOURCE'] + '/packages/python', 'wheel'); os.chdir('wheel'); " \
