@@ -367,6 +367,13 @@ def check_output():
             assert done.returncode == 0, f"{page}.md: exit code {done.returncode}: {commands}\n{done.stdout[-3000:]}"
             line = lost_line(quoted.splitlines(), done.stdout.splitlines())
             assert line is None, f"{page}.md says\n{line}\nand the commands before it print\n{done.stdout[-6000:]}"
+    # The problem that begins with an empty folder.
+    inputs = re.findall(r"```yaml\n(.*?)```", (SOURCE / "docs/user/first-run.md").read_text(), flags=re.S)
+    assert len(inputs) == 2, "first-run.md: a recipe and a deck"
+    for name, text in zip(("mesh.yaml", "stones.yaml"), inputs):
+        (folder / name).write_text(text)
+    done = run(["bash", "-euc", "coplane_mesh make mesh.yaml -o mesh.e && coplane stones.yaml --set time.end=0.011 --backend serial"], cwd=folder, env=environment)
+    assert done.returncode == 0 and "WARNING" not in done.stdout, done.stdout[-3000:]
 
 
 def check_install():

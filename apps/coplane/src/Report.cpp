@@ -5,6 +5,8 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 
+#include <cmath>
+
 namespace coplane
 {
 namespace
@@ -27,6 +29,9 @@ void reportStep(const Solver& solver, const Deck& deck)
   else
     logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",
             control.stableStep, time.stepFactor, step, control.text());
+  if (rest > step)
+    logInfo("  {:.3g} cycles of this step to time.end = {:g} s", std::ceil(rest / step),
+            deck.time.end);
   constexpr Real manyCycles = 1e8;
   const std::string where = fmt::format("{}: time.end = {:g} s", deck.file, deck.time.end);
   if (rest > manyCycles * step)

@@ -221,7 +221,6 @@ public:
   /// Weights of the nodes of both faces that reproduce a place in the plane: affine, of least norm.
   KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2Of<T>& at, T (&weights)[2][4]) const
   {
-    using branchFree::allOf;
     for (int f = 0; f < 2; ++f)
     {
       const ShadowOf<T>& s = shadow[f];
