@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Two builds of the program side by side: whether every run has the same bits, and how much processor time each takes.
 
-    python3 tests/measure/compare_builds.py BEFORE/bin AFTER/bin [NAME ...] [--all] [--turns N] [--jobs N] > table.md
+    python3 tests/measure/compare_builds.py BEFORE/bin AFTER/bin [NAME ...] [--turns N] [--jobs N] > table.md
 
 Runs the examples of exodus_inputs in their coarse size, the scenes of tests/parallel, the decks of coplane_point, and every deck that the cases of
-tests/verification run: their check.py is executed once, and each run that it asks for is made with both programs, in turns, from the same mesh, the
-second time in the folder `after`. NAMEs choose some of them and may have * and ?. Without --all the cases in LONG are left out.
+tests/verification run: their check.py is executed once, and each run that it asks for is made with both programs, in turns, from the mesh of the first, the second time in the
+folder `after`. That the second one's mesh is the same is checked, too. NAMEs choose some of them and may have * and ?.
 
 A row compares the runs of a case: how many have the same state hash, the same bytes in all their tables (history among them) and the same exit
 code; processor seconds of runs on one rank and thread; their ratio, above 1 where the second build is faster. Runs of less than a second say little
@@ -35,8 +35,6 @@ sys.dont_write_bytecode = True
 import netCDF4  # noqa: E402
 from coplanetest import Case, examples, program, scenes  # noqa: E402
 
-# Left out without --all: cases whose runs with one build take more than 25 s of processor time.
-LONG = ()
 LEAST_SECONDS = 1.0  # of a run that says something about speed
 
 
@@ -47,6 +45,7 @@ class TwoBuilds:
         self.folders, self.record, self.turns = folders, record, turns
         self.done = set()
         self.first = 0  # which build begins
+        self.mesh_program = program.mesh_program
 
     def __call__(self, arguments, folder, ranks=1, prefix=(), timeout=550):
         first = pathlib.Path(folder)
@@ -74,6 +73,18 @@ class TwoBuilds:
         one_thread = "--threads" not in arguments or str(arguments[arguments.index("--threads") + 1]) == "1"
         self.compare(first, second, ended, [min(seconds[0]), min(seconds[1])] if ranks == 1 and one_thread else None)
         return tuple(ended[0])
+
+    def mesh(self, *arguments):
+        """Takes the place of program.mesh_program: the first build's mesh is used; another one of the second build is told."""
+        printed = self.mesh_program(*arguments)
+        words = list(map(str, arguments))
+        if "-o" in words:
+            made = pathlib.Path(words[words.index("-o") + 1])
+            words[words.index("-o") + 1] = "second.e"
+            code = self.timed([os.path.join(self.folders[1], "coplane_mesh"), *words], ".", 550)[0]
+            if code or contents(made) != contents(pathlib.Path("second.e")):
+                self.write({"run": f"mesh {os.path.relpath(made)}", "code": [0, code], "state": ["mesh", "another mesh"], "tables_that_differ": [], "seconds": None})
+        return printed
 
     def points(self, deck, folder):
         """The paths of a deck of coplane_point, with both builds."""
@@ -106,7 +117,7 @@ class TwoBuilds:
 
     @staticmethod
     def timed(command, folder, timeout):
-        with open(folder / "compared.log", "w+") as log:
+        with open(pathlib.Path(folder, "compared.log"), "w+") as log:
             process = subprocess.Popen(command, cwd=folder, stdout=log, stderr=subprocess.STDOUT)
             limit = threading.Timer(timeout, process.kill)
             limit.start()
@@ -119,11 +130,13 @@ class TwoBuilds:
     def compare(self, first, second, ended, seconds):
         names = {path.name for place in (first, second) for path in place.glob("*.csv")}
         states = [state_hash(place, code) for place, (code, _) in ((first, ended[0]), (second, ended[1]))]
-        line = {
+        self.write({
             "run": os.path.relpath(first), "code": [ended[0][0], ended[1][0]], "state": states,
             "tables_that_differ": sorted(name for name in names if not same_bytes(first / name, second / name)),
             "seconds": [round(used, 3) for used in seconds] if seconds else None,
-        }
+        })  # fmt: skip
+
+    def write(self, line):
         with open(self.record, "a") as file:
             file.write(json.dumps(line) + "\n")
 
@@ -188,17 +201,18 @@ def make(job):
     os.environ.update(COPLANE_BIN=builds[0], COPLANE_SOURCE=str(SOURCE))
     os.environ.pop("COPLANE_CHECKS_DIR", None)
     program.run_program = TwoBuilds(builds, folder / "runs.jsonl", turns)
-    begin, wrong = time.monotonic(), ""
+    program.mesh_program = program.run_program.mesh
+    wrong = []
     with open("check.log", "w") as log, contextlib.redirect_stdout(log), contextlib.redirect_stderr(log):
         function, argument = everything()[name]
         try:
             function(argument)
         except SystemExit as end:
-            wrong = str(end.code or "").strip().splitlines()[:1]
+            wrong = [str(end.code or "").strip().partition("\n")[0]]
         except Exception as error:  # noqa: BLE001 (whatever it is, other cases go on)
             wrong = [f"{type(error).__name__}: {error}".splitlines()[0]]
     lines = [json.loads(line) for line in (folder / "runs.jsonl").read_text().splitlines()] if (folder / "runs.jsonl").exists() else []
-    return name, lines, wrong[0] if wrong else "", time.monotonic() - begin
+    return name, lines, wrong[0] if wrong else ""
 
 
 def is_equal(line):
@@ -223,7 +237,6 @@ def arguments():
     parser.add_argument("before", help="folder with the programs of the first build")
     parser.add_argument("after", help="folder with those of the second")
     parser.add_argument("names", nargs="*", metavar="NAME", help="such as V24*, 'example arch_2d' or 'scene *'")
-    parser.add_argument("--all", action="store_true", help="also the long cases")
     parser.add_argument("--turns", type=int, default=1, help="how often each run is made with each build; the least time counts (default: 1)")
     parser.add_argument("--jobs", type=int, default=2, help="cases at a time; 1 for the least noise in times (default: 2)")
     parser.add_argument("--folder", type=pathlib.Path, default=pathlib.Path("compare_builds"), help="where all is run (default: compare_builds)")
@@ -238,18 +251,15 @@ def main():
             if not os.access(os.path.join(build, name), os.X_OK):
                 sys.exit(f"compare_builds.py: {build} has no program {name}.")
     names = [name for name in everything() if not options.names or any(fnmatch.fnmatch(name, pattern) for pattern in options.names)]
-    if not options.names and not options.all:
-        names = [name for name in names if name not in LONG]
     if not names:
         sys.exit(f"compare_builds.py: no case is called {' or '.join(options.names)}; there are {', '.join(everything())}.")
     begin, every = time.monotonic(), []
     show(["case", "runs", "same state", "same tables", "seconds before", "seconds after", "before / after"])
     show(["---"] * 7)
     notes = []
-    # Long ones first, so that the processors end together; each in a process of its own.
-    jobs = [(name, builds, options.folder.resolve(), options.turns) for name in sorted(names, key=lambda name: name not in LONG)]
+    jobs = [(name, builds, options.folder.resolve(), options.turns) for name in names]  # each in a process of its own
     with multiprocessing.get_context("fork").Pool(options.jobs, maxtasksperchild=1) as pool:
-        for name, lines, wrong, _ in pool.imap(make, jobs, chunksize=1):
+        for name, lines, wrong in pool.imap(make, jobs, chunksize=1):
             every += [{"case": name, **line} for line in lines]
             show(cells(name, lines))
             notes += [f"- {name}: its check with the first build: {wrong}"] if wrong else []
@@ -257,7 +267,7 @@ def main():
     show(cells(f"runs of {LEAST_SECONDS:g} s and more", [line for line in every if line["seconds"] and min(line["seconds"]) >= LEAST_SECONDS]))
     (options.folder / "runs.jsonl").write_text("".join(json.dumps(line) + "\n" for line in every))
     different = [line for line in every if not is_equal(line)]
-    notes += [f"- {line['case']}, {line['run']}: exit codes {line['code']}, states {line['state']}, tables {line['tables_that_differ']}" for line in different]
+    notes += [f"- {line['case']}, {line['run']}: exit codes {line['code']}, states {line['state']}, tables that differ {line['tables_that_differ']}" for line in different]
     print(f"\n{len(every)} runs, {len(different)} different, in {time.monotonic() - begin:.0f} s.\n" + "\n".join(notes))
     sys.exit(1 if different else 0)
 
