@@ -41,14 +41,14 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
     edge.nodes[1] = face.nodes[e + 1 == face.count ? 0 : e + 1];
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
-  // The surface beyond is the one that both nodes have beside this one, the sharpest turn if there
+  // The surface beyond is the face that both nodes have beside this one, the sharpest turn if there
   // are two.
   Real least = DirectionsOfNodes::one;
-  for (int i = 0; i < DirectionsOfNodes::most; ++i)
+  for (int i = 0; i < normals_.most(); ++i)
   {
-    const Vec3 other = normals_.direction(edge.nodes[0], i);
+    const Vec3 other = normals_.normal(edge.nodes[0], i);
     if (dot(other, edge.outward) > convex && dot(other, normal) < least &&
-        normals_.find(edge.nodes[1], other) >= 0)
+        normals_.has(edge.nodes[1], other))
     {
       edge.turns = true;
       edge.beyond = other;
@@ -67,7 +67,7 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
   for (std::size_t f = 0; f < localFaces; ++f)
     for (int k = 0; k < faces[f].count; ++k)
       if (faces[f].nodes[k] < layout.owned())
-        normals_.add(faces[f].nodes[k], planes(f).normal, 0);
+        normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
   findEdges();
   parallelFor("coplane::contact::lieOn", int(pairs.size()),
