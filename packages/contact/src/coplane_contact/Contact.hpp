@@ -124,8 +124,8 @@ public:
   /// potential those that may begin to before the next search are candidates, too.
   bool isOpposed(const Plane& plane) const
   {
-    return -dot(halfStepFaces_(plane.face[0]).normal, halfStepFaces_(plane.face[1]).normal) >
-           options_.cosOpposed;
+    const HalfStepFace* const faces = pairedFaces_.data();
+    return -dot(faces[plane.face[0]].normal, faces[plane.face[1]].normal) > options_.cosOpposed;
   }
 
   /// This rank's planes to count and to write: those whose lower face it owns, that exist and
