@@ -104,7 +104,7 @@ void addOutputs(FileRoles& roles, const Deck& deck)
     {
       const std::string series = planesBase(deck) + "_planes";
       if (deck.output.planesFormat == "vtkhdf")
-        for (const char* extension : {".vtkhdf", ".xmf"})
+        for (const char* extension : {".vtkhdf", ".xmf3"})
           replaces(series + extension, planes);
       else
       {
