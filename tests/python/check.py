@@ -153,6 +153,7 @@ case.check_equal("nothing is left beside the deck", [path.name for path in pathl
 # --- runs -------------------------------------------------------------------------------------------
 
 checked["time.end"] = 2e-3
+checked["output.planes_format"] = "vtp"
 told("changes without a file", ValueError, lambda: coplane.run(checked), "Deck.write")
 started = coplane.run(checked, "watched", ranks=2, wait=False)
 seen = [line["time"] for line in coplane.watch(started, 0.05)]
@@ -187,7 +188,8 @@ case.check_equal("files of the earlier run are there", [pathlib.Path(name).exist
 told("results of an earlier run", FileNotFoundError, lambda: stale.results, "output.results: none")
 told("planes of an earlier run", FileNotFoundError, lambda: stale.planes, "output.planes: false")
 told("results of another run", FileNotFoundError, lambda: exodus.files_of("straight/run.e", "other"), "run.e", "another run")
-told("planes of another run", FileNotFoundError, lambda: planes.Planes("straight/run_planes.pvd", "other"), "run_planes.pvd", "another run")
+for series in ("straight/run_planes.vtkhdf", "watched/run_planes.pvd"):
+    told("planes of another run", FileNotFoundError, lambda: planes.Planes(series, "other"), series, "another run")
 case.check_equal("tables of an earlier run", stale.tables, {})
 again["time.end"] = -1
 try:
@@ -220,8 +222,9 @@ tail = tables.Tail("growing.csv")
 for text, times in (("time[s]\n1\n2\n", [1, 2]), ("time[s]\n5\n6\n7\n", [5, 6, 7])):
     pathlib.Path("growing.csv").write_text(text)
     case.check_equal("lines of a file that is replaced", [line["time"] for line in tail.lines()], times)
-for name in ("run.e", "run_pairs.csv", "run_planes_0000.vtp", "run.run.json", "run.yaml"):
-    case.check_equal(f"opened by {name}", coplane.open(f"straight/{name}").name, "run")
+for name in ("straight/run.e", "straight/run_pairs.csv", "straight/run_planes.vtkhdf", "straight/run_planes.xmf3", "watched/run_planes.pvd",
+             "watched/run_planes_0000.vtp", "straight/run.run.json", "straight/run.yaml"):  # fmt: skip
+    case.check_equal(f"opened by {name}", coplane.open(name).name, "run")
 checked["time.end"] = numpy.float64(1e-3)
 checked["contact.skn"] = 1
 checked["contact.skin"] = "wide"

@@ -210,7 +210,7 @@ lines = pathlib.Path("a/run.csv").read_text().splitlines(keepends=True)
 pathlib.Path("less/run.csv").write_text("".join(lines[:-1]) + lines[-1][:30])
 case.check_equal("with less", made("less/run", "--no-pictures")[0], 0)
 less = Taken("less/run-report.html")
-says("with less", less, "there is no run.run.json", "run_planes.pvd is not there", "there is no record that says it", "there is no record that has them", "Neither the record nor run.yaml has the deck",
+says("with less", less, "there is no run.run.json", "run_planes.vtkhdf is not there", "there is no record that says it", "there is no record that has them", "Neither the record nor run.yaml has the deck",
      "gives the remainder by pairs", f"{len(lines) - 2} lines")  # fmt: skip
 pathlib.Path("less/run.csv").write_text("".join(lines[:9]) + lines[9][:30] + "\n" + lines[10])
 case.check_equal("with a damaged history", made("less/run.csv", "--no-pictures")[0], 0)

@@ -118,7 +118,7 @@ void addResults(Outputs& outputs, const Deck& deck)
     return;
   const std::string series = planesBase(deck) + "_planes";
   if (deck.output.planesFormat == "vtkhdf")
-    for (const char* extension : {".vtkhdf", ".xmf"})
+    for (const char* extension : {".vtkhdf", ".xmf3"})
       outputs.replaces(series + extension, planes);
   else
   {

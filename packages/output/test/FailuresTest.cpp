@@ -83,11 +83,11 @@ TEST(MissingFolder, ofResultsIsAnErrorOnAllRanks)
 TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)
 {
   const Comm comm;
-  expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.pvd");
-  PlanesOptions inOneFile;
-  inOneFile.base = nowhere + "a";
-  inOneFile.format = PlanesFormat::VtkHdf;
-  expectOutputError([&] { PlanesObserver(comm, inOneFile); }, nowhere + "a_planes.xmf");
+  expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.xmf3");
+  PlanesOptions inManyFiles;
+  inManyFiles.base = nowhere + "a";
+  inManyFiles.format = PlanesFormat::Vtp;
+  expectOutputError([&] { PlanesObserver(comm, inManyFiles); }, nowhere + "a_planes.pvd");
 }
 
 TEST(MissingFolder, ofTheHistoryIsAnErrorOnAllRanks)

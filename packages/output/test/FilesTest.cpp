@@ -31,9 +31,9 @@ void run(const Comm& comm, const std::string& base)
   MultiObserver observers;
   observers.add(std::make_unique<ResultsObserver>(
       comm, slice, ResultsOptions{base + ".e", when, false, {"command: test"}}));
+  observers.add(
+      std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when, "", "", PlanesFormat::Vtp}));
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
-  observers.add(std::make_unique<PlanesObserver>(
-      comm, PlanesOptions{base, when, "", "", PlanesFormat::VtkHdf}));
   HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));
   observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true, true}));
@@ -220,10 +220,10 @@ TEST_F(Files, planesInOneFileAreTheSameBytesOnAnyNumberOfRanks)
   EXPECT_FALSE(all.empty());
   EXPECT_TRUE(all == contentOf(file("one_planes.vtkhdf")));
   // Every table of the index names the file.
-  std::string index = contentOf(file("all_planes.xmf"));
+  std::string index = contentOf(file("all_planes.xmf3"));
   for (std::size_t at; (at = index.find(">all_")) != std::string::npos;)
     index.replace(at, 5, ">one_");
-  EXPECT_TRUE(index == contentOf(file("one_planes.xmf")));
+  EXPECT_TRUE(index == contentOf(file("one_planes.xmf3")));
 }
 
 TEST_F(Files, historyIsTheSameTextOnAnyNumberOfRanks)

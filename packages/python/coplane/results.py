@@ -19,7 +19,7 @@ _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip"
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
 # What follows the name of a run in the names of its files.
 _END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
-                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf)|-report\.html")  # fmt: skip
+                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf3)|-report\.html")  # fmt: skip
 
 
 class NoRun(FileNotFoundError):
@@ -384,9 +384,9 @@ class Run:
 
     @property
     def planes_path(self):
-        """Path of the series of planes: that of the format which the deck asks for, or what is there when there is no deck."""
+        """Path of the series of planes: that of the format which the deck asks for, or what is there when it asks for none."""
         stem = self.folder / f"{pathlib.Path(self._results_name).with_suffix('')}_planes"
         output = (parse(self.deck_text) or {}).get("output") or {}
-        one = stem.with_name(stem.name + ".vtkhdf")
-        is_one = output.get("planes_format", "vtp") == "vtkhdf" if self.deck_text else one.exists()
-        return one if is_one else stem.with_name(stem.name + ".pvd")
+        one, many = stem.with_name(stem.name + ".vtkhdf"), stem.with_name(stem.name + ".pvd")
+        wanted = output.get("planes_format", "vtkhdf" if one.exists() or not many.exists() else "vtp")
+        return one if wanted == "vtkhdf" else many

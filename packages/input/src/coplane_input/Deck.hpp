@@ -172,9 +172,9 @@ struct OutputCard
   std::string results; ///< Exodus file; default <deck>.e in the working folder; empty: switched off
                        ///< (deck: none)
   Real every = 0;      ///< [s]; 0: only `times` (and first and last state)
-  std::vector<Real> times;          ///< [s]
-  bool planes = true;               ///< contact planes beside the results
-  std::string planesFormat = "vtp"; ///< vtp: .pvd and .vtp for each step | vtkhdf: one file
+  std::vector<Real> times;             ///< [s]
+  bool planes = true;                  ///< contact planes beside the results
+  std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
 };
 
