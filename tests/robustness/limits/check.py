@@ -235,8 +235,12 @@ documents.save({"mesh": str(mesh), **deck}, folder / "run.yaml")
 shutil.copy(folder / "run.yaml", "gone.yaml")
 for ranks in (1, 2):
     folder.mkdir(exist_ok=True)
+    for path in pathlib.Path().glob("inside.*"):
+        path.unlink()
     launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
-    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
+    # The folder goes when all are inside.
+    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && : > {folder.parent}/inside.$$ && until [ $(ls {folder.parent}/inside.* | wc -l) = {ranks} ]; do sleep 0.01; done; "
+                        f"until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
                         f"exec {program.binary('coplane')} {pathlib.Path('gone.yaml').resolve()}'"])
     try:
         done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
