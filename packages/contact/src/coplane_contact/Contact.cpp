@@ -150,6 +150,12 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 }
 } // namespace
 
+void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                        const ConstArray<Real>& mass) const
+{
+  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, 0);
+}
+
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                        const ConstArray<Real>& mass, Real dt, Real lookAhead)
 {

@@ -72,6 +72,9 @@ public:
   std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
   void restorePlanes(const StateSource& in, const NodeLayout& layout);
+  /// Step A where faces stand still: for those who look at them before the next update.
+  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                 const ConstArray<Real>& mass) const;
 
   /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
   /// stable step; at least the two largest steps that may follow [s]

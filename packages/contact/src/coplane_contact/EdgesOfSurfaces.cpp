@@ -70,6 +70,7 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
         normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
   findEdges();
+  normals_ = NormalsOfNodes(0); // nobody asks any more, and there may be many
   parallelFor("coplane::contact::lieOn", int(pairs.size()),
               [&](const int p) { lieOn_[p] = lieOn(pairs[p].lower, pairs[p].higher); });
   findHidden(layout);

@@ -50,8 +50,6 @@ public:
   Plane prepared(std::size_t p) const;
 
 private:
-  void makeTables();
-
   Planes planes_;
   Slots slotFaces_;
   Array<Activity> activity_;

@@ -53,12 +53,12 @@ struct BlockSetup
 
 struct TimeOptions
 {
-  Real end = 0;           ///< [s]
-  bool endAtRest = false; ///< already when relaxation has found the state of rest
+  Real end = 0; ///< [s]
   Real stepFactor = 0.8;
   std::optional<Real> maximumStep, fixedStep; ///< [s]
   Real energyTolerance = 0.1;                 ///< fraction of the energy in play
   Real contactGainTolerance = 0.5;            ///< the same, of what contact may gain
+  bool endAtRest = false; ///< the end has come when relaxation has found the state of rest
 };
 
 /// Everything the solver needs to know, on this rank.

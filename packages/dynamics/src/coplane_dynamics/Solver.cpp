@@ -257,13 +257,17 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
     return std::nullopt;
   const Real step = step_.choose(-extremes[0], -extremes[4], searches_.relativeSpeed(), parts());
   if (step * mostCycles < model_.time.end)
-    failOnAllRanks(
+  {
+    failed_ = true;
+    trouble_ = Error(
         ExitCode::Computation,
-        "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
-        "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
-        "time.maximum_step, elements that are far too small or stiff, and velocities that "
-        "are far too large.",
-        clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
+        fmt::format("cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
+                    "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
+                    "time.maximum_step, elements that are far too small or stiff, and velocities "
+                    "that are far too large.",
+                    clock_.cycle, clock_.time, step, mostCycles, model_.time.end));
+    return std::nullopt;
+  }
   return step;
 }
 

@@ -99,7 +99,6 @@ public:
   /// elements whose volume has changed most.
   std::string worstEntities() const { return coplane::worstEntities(parts()); }
 
-  /// With which the run ends, for observers that finish; Success before that.
   const Repartitions& repartitions() const { return repartitions_; }
   /// What the last change of the partition took [s], and how many nodes went to another rank.
   void bookRepartition(double seconds, std::int64_t nodesMoved)
@@ -129,7 +128,7 @@ private:
   void findForces(Real dt);
   void sumLoads();
   /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
-  /// or a force has failed. Collective.
+  /// or a force has failed, or the step is far too small. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
   void kick(Real step);
   void relax(Real step);

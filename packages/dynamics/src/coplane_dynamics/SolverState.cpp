@@ -121,7 +121,10 @@ void Solver::restore(const StateSource& in)
   findElementForces();
   restoreNumbers(in);
   if (contact_)
+  {
     contact_->setSkin(searches_.skin());
+    contact_->findFaces(state_.x, state_.v, state_.mass);
+  }
   Ledger::forEachStruct(ledger_,
                         [&](const char* name, auto& values) { setNumbers(values, in, name); });
 }

@@ -44,10 +44,10 @@ pid_t start(std::vector<std::string>& command)
 /// in others: a program that nobody misses looks into them first.
 void demandThatItIsSurvived(const std::string& file)
 {
-  std::error_code noProc; // then the program is not found either
+  std::error_code noProc;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", noProc);
   const std::string prober = program.parent_path() / "coplane_mesh";
-  switch (runProgram({prober, "probe", file}, longestLook))
+  switch (noProc ? ProgramEnd::Unknown : runProgram({prober, "probe", file}, longestLook))
   {
   case ProgramEnd::Success:
     return;
