@@ -570,10 +570,12 @@ TEST_P(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
     {
       ASSERT_LE(largest, 1e3 * norm(plane.forceOn(1))) << n;
     }
-    // Closures of round-off, 1e-16 m, give forces without digits: 1e-13 N per square metre, which
-    // the turning of faces of little area enlarges up to some hundred times.
-    const Real size = potential() ? largest + 1e-3 : norm(plane.forceOn(1));
-    ASSERT_LE(norm(sum.force), (potential() ? 1e-7 : 1e-9) * size) << n; // round-off of needles
+    // Closures of round-off give forces without digits.
+    const Real size = potential() ? largest + 1e-7 : norm(plane.forceOn(1));
+    // Round-off of needles; of those with less than 2e-5 m^2 it grows as their area falls: 6.8e-7
+    // of the forces at 1.4e-6 m^2, the most in four million pairs.
+    const Real thin = std::min(a.area, b.area);
+    ASSERT_LE(norm(sum.force), (potential() ? std::max(1e-7, 2e-12 / thin) : 1e-9) * size) << n;
     worstMoment = std::max(worstMoment, norm(sum.moment) / size);
   }
   EXPECT_GT(touching, pairs / comm.size() / 10);
