@@ -54,13 +54,15 @@ class Checks:
         elif not passed:
             self.failures += 1
         print(json.dumps(record), flush=True)
-        record["folder"] = self.source.name
         if kept:
             record["kept"] = kept
         if relative:
             record["relative"] = True
+        self.append(record)
+
+    def append(self, record):
         with open(self.record, "a") as file:
-            file.write(json.dumps(record) + "\n")
+            file.write(json.dumps({**record, "folder": self.source.name}) + "\n")
 
     def finish(self):
         """Call last: the exit code tells whether all checks passed."""

@@ -12,5 +12,6 @@ from coplanetools import Results, differences, documents, program, series_differ
 from . import examples  # noqa: E402
 from .case import Case  # noqa: E402
 from .frames import rotation, turned, turned_deck  # noqa: E402
+from .validation import ValidationCase  # noqa: E402
 
-__all__ = ["Case", "Results", "differences", "documents", "examples", "program", "rotation", "series_differences", "tables", "turned", "turned_deck", "waves"]
+__all__ = ["Case", "Results", "ValidationCase", "differences", "documents", "examples", "program", "rotation", "series_differences", "tables", "turned", "turned_deck", "waves"]
