@@ -61,6 +61,14 @@ def check_verification():
     sys.path.insert(0, str(SOURCE / "tests/support"))
     import verification_page as maker
 
+    listed = re.search(r"^foreach\(_case (.*)\)\n  coplane_check\(validation/", (SOURCE / "tests/CMakeLists.txt").read_text(), flags=re.M)
+    names = [folder.name for folder in maker.cases("validation")]
+    assert listed[1].split() == names, "tests/CMakeLists.txt does not register all of tests/validation, or more, or in another order"
+    page = (SOURCE / "docs/validation.md").read_text()
+    assert re.findall(r"^## (.*)", page, flags=re.M) == [name.replace("_", " ") for name in names] and maker.validation_index() in page, (
+        "docs/validation.md is old: python3 tests/support/verification_page.py <build folder> validation, best after the case has run there"
+    )
+    assert "No results yet" not in page, "docs/validation.md has cases without results"
     names = [folder.name for folder in maker.cases()]
     registered = re.findall(r"^coplane_check\(verification/(\S+)", (SOURCE / "tests/CMakeLists.txt").read_text(), flags=re.M)
     assert sorted(set(registered)) == sorted(names), "tests/CMakeLists.txt does not register all of tests/verification, or more"
@@ -214,7 +222,7 @@ def check_names():
 
     wrong = []
     for page in tracked("*.md"):
-        if page in ("docs/CHANGELOG.md", "docs/verification.md"):  # of the past, of results
+        if page in ("docs/CHANGELOG.md", "docs/verification.md", "docs/validation.md"):  # of the past, of results
             continue
         text = re.sub(r"```.*?```", "", (SOURCE / page).read_text(), flags=re.S)
         for span in re.findall(r"(?<!`)`([^`\n]+)`(?!`)", text):
