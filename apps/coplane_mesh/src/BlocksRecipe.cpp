@@ -365,6 +365,13 @@ Key sliversKey()
                      .defaultIs("a tenth of the element size")
                      .like("0.05")
                      .means("the same of blocks whose volume over their largest face is less"),
+                 number("stub", &SliverCard::stub)
+                     .in("m")
+                     .atLeast(0)
+                     .defaultIs("half the element size")
+                     .like("0.2")
+                     .means("the end of a joint inside a block is left out where it reaches less "
+                            "than this beyond another joint"),
              })
       .means("blocks that are too small to stay");
 }

@@ -257,6 +257,10 @@ private:
       for (const Entity& piece : pieces[t])
         if (piece.first == dimension_ - 1 && taken.insert(piece).second)
           pieces_[piece] = joints[t];
+    for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
+      if (std::none_of(pieces_.begin(), pieces_.end(),
+                       [&](const auto& piece) { return piece.second == int(j); }))
+        refuseJoint(j);
   }
 
   static int addPoint(const Vec3& x) { return occ::addPoint(x.x, x.y, x.z); }
@@ -273,6 +277,13 @@ private:
     }
     for (const auto& [piece, joint] : pieces_)
       tools.push_back(piece);
+    if (tools.empty()) // Gmsh wants some
+    {
+      tools.assign(objects.begin() + 1, objects.end());
+      objects.resize(1);
+    }
+    if (tools.empty())
+      refuseJoint(result_.joints.size() - 1);
     std::vector<Entities> parts;
     occ::fragment(objects, tools, all, parts);
     blocks_.clear();
@@ -477,6 +488,30 @@ private:
     occ::synchronize();
     if (blocks_.empty())
       fail(ExitCode::Deck, "{}: the openings leave nothing of the domain.", recipeFile_);
+    forgetPiecesInOpenings();
+  }
+
+  /// Parts of joints that are in what was removed, which took most of them along.
+  void forgetPiecesInOpenings()
+  {
+    Entities left, loose;
+    gmsh::model::getEntities(left, dimension_ - 1);
+    const std::set<Entity> there(left.begin(), left.end());
+    const std::set<int> inside = loosePieces();
+    for (auto piece = pieces_.begin(); piece != pieces_.end();)
+    {
+      const bool exists = there.count(piece->first) > 0;
+      if (exists && (inside.count(piece->first.second) || !blocksAt(piece->first.second).empty()))
+      {
+        ++piece;
+        continue;
+      }
+      if (exists)
+        loose.push_back(piece->first);
+      piece = pieces_.erase(piece);
+    }
+    occ::remove(loose, true);
+    occ::synchronize();
   }
 
   void nameEntities()
@@ -501,13 +536,18 @@ private:
     for (std::size_t j = 0; j < faces.size(); ++j)
     {
       if (faces[j].empty())
-        fail(ExitCode::Deck,
-             "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
-             "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m.",
-             recipeFile_, result_.joints[j].name, low_.x, low_.y, low_.z, high_.x, high_.y,
-             high_.z);
+        refuseJoint(j);
       addGroup(dimension_ - 1, faces[j], result_.joints[j].name);
     }
+  }
+
+  [[noreturn]] void refuseJoint(std::size_t joint) const
+  {
+    fail(ExitCode::Deck,
+         "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
+         "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m{}.",
+         recipeFile_, result_.joints[joint].name, low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
+         result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
   }
 
   void addGroup(int dimension, const std::vector<int>& tags, const std::string& name)

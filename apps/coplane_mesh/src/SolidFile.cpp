@@ -69,8 +69,7 @@ std::vector<Polyhedron> readSolids(const std::string& file)
   // Points and lines have no inside.
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* const scene =
-      importer.ReadFile(file, aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  const aiScene* const scene = importer.ReadFile(file, aiProcess_SortByPType);
   if (!scene || scene->mNumMeshes == 0)
     fail(ExitCode::Mesh, "{}: no surfaces of solids can be read: {}", file,
          scene ? "it has no faces" : importer.GetErrorString());

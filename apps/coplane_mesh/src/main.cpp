@@ -4,6 +4,7 @@
 #include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
 #include "MeshCommand.hpp"
+#include "Recipe.hpp"
 #include "RecipeReference.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -26,12 +27,9 @@ namespace coplane
 {
 namespace
 {
-/// `coplane_mesh blocks` is a program of its own, so that the others need not load Gmsh. Does not
-/// return when the first word is blocks.
-void startBlocks(int argc, char** argv)
+/// `coplane_mesh blocks` is a program of its own, so that the others need not load Gmsh.
+[[noreturn]] void startBlocks(char** argv)
 {
-  if (argc < 2 || std::string(argv[1]) != "blocks")
-    return;
   std::error_code unknown;
   const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
   std::string program = own.parent_path() / "coplane_mesh_blocks";
@@ -43,9 +41,18 @@ void startBlocks(int argc, char** argv)
        program, std::strerror(errno));
 }
 
-void make(const std::string& recipe, const std::vector<std::string>& overrides,
-          const std::string& output)
+/// A recipe of blocks, which `make` takes as well.
+bool isOfBlocks(const std::string& recipe)
 {
+  const DeckNode root = parseYaml(readTextFile(recipe, recipeFile()), recipe, recipeFile());
+  return root.find("domain") && !root.find("parts");
+}
+
+void make(const std::string& recipe, const std::vector<std::string>& overrides,
+          const std::string& output, char** argv)
+{
+  if (isOfBlocks(recipe))
+    startBlocks(argv);
   demandDistinct({{recipe, "the recipe"}}, output);
   reportAndWrite(makeMesh(recipe, overrides), recipe, output);
 }
@@ -132,7 +139,7 @@ void takeOutput(CLI::App* line, Arguments& given)
       ->check(isName);
 }
 
-std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
+std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
 {
   CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
   making->add_option("recipe", given.recipe, "recipe, a YAML file")->required();
@@ -157,7 +164,7 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
   CLI::App* showing = app.add_subcommand(
       "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
   showing->add_option("file", given.file, "example.yaml")->required();
-  return {{making, [&] { make(given.recipe, given.overrides, given.output); }},
+  return {{making, [&, argv] { make(given.recipe, given.overrides, given.output, argv); }},
           {checking, [&] { check(given.file); }},
           {probing, [&] { probeMeshFile(given.file); }},
           {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
@@ -182,7 +189,7 @@ int run(int argc, char** argv)
                   ->expected(0, 1)
             : app.add_flag(references[r].option, references[r].meaning));
   Arguments given;
-  const std::vector<Command> commands = commandsOf(app, given);
+  const std::vector<Command> commands = commandsOf(app, given, argv);
   app.require_subcommand(0, 1);
   app.failure_message(
       [](const CLI::App*, const CLI::Error& error)
@@ -225,7 +232,8 @@ int main(int argc, char** argv)
   return coplane::exitCodeOf(
       [&]
       {
-        coplane::startBlocks(argc, argv);
+        if (argc > 1 && std::string(argv[1]) == "blocks")
+          coplane::startBlocks(argv);
         coplane::demandOpenFiles();
         return coplane::run(argc, argv);
       });
