@@ -3,12 +3,16 @@
 import math
 import pathlib
 import re
+import sys
 
 import numpy
 from coplanetest import Case
 from coplanetools import program
 
 case = Case("cut blocks", __file__)
+if not pathlib.Path(program.binary("coplane_mesh_blocks")).exists():
+    print("skipped: built without Gmsh, Voro++ or Assimp, so there is no `coplane_mesh blocks`")
+    sys.exit(77)
 
 
 def cut(name, recipe):
