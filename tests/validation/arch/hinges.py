@@ -39,7 +39,7 @@ def multiplier(stones, thickness):
             w2 = -(ab[0] * cd[1] - ab[1] * cd[0]) / determinant
             w3 = -(bc[0] * ab[1] - bc[1] * ab[0]) / determinant
             # Work of the weights per unit w1: vertical and horizontal, v = w (-(y - y0), x - x0) about a hinge that moves.
-            work, base, spin, at = numpy.zeros(2), numpy.zeros(2), 1.0, p[0]
+            work, base = numpy.zeros(2), numpy.zeros(2)
             for w, (low, high), start, end in zip((1.0, w2, w3), zip(where, where[1:]), p, p[1:]):
                 mass, moment = sums[high] - sums[low], moments[high] - moments[low]
                 arm = moment - mass * start
@@ -51,7 +51,7 @@ def multiplier(stones, thickness):
             share = work[1] / work[0]  # what the load gives is what lifting the weight takes
             if not 0 < share < best[0]:
                 continue
-            # Relative spins at a, b, c, d, anticlockwise is positive: the joint opens outside where the hinge is inside, and that needs the spin after the joint to be larger or smaller.
+            # Relative spins at a, b, c, d, anticlockwise is positive: with its hinge at the intrados a joint opens outside where the part behind it turns faster.
             relative = numpy.array([1.0, w2 - 1.0, w3 - w2, -w3]) * sign
             opens = [r > 0 if side == 0 else r < 0 for r, side in zip(relative, sides)]
             if all(opens):
