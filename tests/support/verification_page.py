@@ -45,7 +45,7 @@ Cases whose verdict is not "agrees" are meant to be read: there the program is w
 numbers were computed again by a method of one's own, and the section says so.
 
 Not here: shear walls J4D to J7D (they need a cap in compression on joints), the 42 tilted walls of Restrepo Velez et al. and blast-loaded brick walls (their tables could not be read), a boulder on a brick wall (Mavrouli et al. 2024: damage in words and pictures, no numbers to
-compare), a sphere on a plate by another code.
+compare).
 
 """
 

@@ -35,7 +35,7 @@ class Input:
 
         points = [(x, y, z) for z in lines[2] for y in lines[1] for x in lines[0]]
         self.nodes += len(points)
-        self.mesh += [f"*NODE, NSET=N{name}", *(f"{first + n}, {x!r}, {y!r}, {z!r}" for n, (x, y, z) in enumerate([tuple(map(float, p)) for p in points]))]
+        self.mesh += [f"*NODE, NSET=N{name}", *(f"{first + n}, {x:.11e}, {y:.11e}, {z:.11e}" for n, (x, y, z) in enumerate(points))]  # 20 characters at most
         self.mesh.append(f"*ELEMENT, TYPE={self.element}, ELSET=E{name}")
         sides = {key: [] for key in ("x0", "x1", "y0", "y1", "z0", "z1")}
         for k in range(nz):

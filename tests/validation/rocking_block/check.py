@@ -106,7 +106,7 @@ def calculix_rock(name, step):
     begin = next(i for i, line in enumerate(deck.mesh) if line == "*NODE, NSET=NB") + 1
     for row, (x, y, z) in enumerate(points):
         dx = x - WIDTH
-        turned.append(f"{first + row}, {float(WIDTH + dx * math.cos(tilt) + z * math.sin(tilt))!r}, {float(y)!r}, {float(-dx * math.sin(tilt) + z * math.cos(tilt))!r}")
+        turned.append(f"{first + row}, {WIDTH + dx * math.cos(tilt) + z * math.sin(tilt):.11e}, {y:.11e}, {-dx * math.sin(tilt) + z * math.cos(tilt):.11e}")
     deck.mesh[begin : begin + len(points)] = turned
     deck.say(f"""
         *MATERIAL, NAME=STONE
