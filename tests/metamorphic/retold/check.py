@@ -1,0 +1,127 @@
+"""A verification case told in other words: its own checks must pass, and what moved must be the same. See ../README.md.
+
+Arguments: the folder of a case, and `all` for all words, or some words.
+"""
+
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+import numpy
+from coplanetest import Case
+
+from cases import CASES, EXACT
+
+name, rest = sys.argv[1], sys.argv[2:]
+known = CASES[name]
+words = known.words(True) if rest == ["all"] else rest or known.often
+case = Case(name, __file__)
+source = case.source.parents[1] / "verification" / name / "check.py"
+
+
+def ask(word):
+    """Runs the check of the case in these words; the exit code and the lines of the check."""
+    folder = pathlib.Path(word.replace(":", "_")).resolve()
+    folder.mkdir(exist_ok=True)
+    environment = dict(os.environ, COPLANE_TOLD_AS=word, COPLANE_CHECKS_DIR=str(folder))
+    done = subprocess.run([sys.executable, str(source)], cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    (folder / "output.txt").write_text(done.stdout)
+    lines = {}
+    for path in folder.glob("*.jsonl"):
+        for text in path.read_text().splitlines():
+            line = json.loads(text)
+            lines[line["case"], line["quantity"]] = line
+    return folder, done, lines
+
+
+def number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def apart(lines, first):
+    """Largest difference of the answers of both, over the tolerances of the check; and the answers that must be equal and are not."""
+    worst, unequal = 0.0, []
+    for key, line in lines.items():
+        if "kept" in line or line.get("reported") or key not in first:
+            continue
+        value, other = line["value"], first[key]["value"]
+        if number(value) and number(line["reference"]):  # not intervals
+            allowed = line["tolerance"] * (abs(line["reference"]) if line.get("relative") else 1.0)
+            if not line["tolerance"] and value != other:
+                unequal.append(key[1])
+            if line["tolerance"] > 1e-6:  # others are about round-off themselves
+                worst = max(worst, abs(value - other) / allowed)
+            continue
+        if not number(value) and value != other:
+            unequal.append(key[1])
+    return worst, unequal
+
+
+def largest(values):
+    return float(numpy.max(numpy.abs(values), initial=0.0))
+
+
+def motion(folder, base):
+    """Largest difference of any motion of any run, over the largest of the run; how many runs were told and how many were not, with a reason; and the
+    largest rounding of a coordinate over the largest displacement of its run.
+    """
+    worst, told, untold, why, rounding = 0.0, 0, 0, "", 0.0
+    for path in sorted(folder.rglob("told.json")):
+        answer = json.loads(path.read_text())
+        if not answer["told"]:
+            untold, why = untold + 1, answer["why"]
+            continue
+        told += 1
+        seen, first = path.parent / "seen.npz", base / path.parent.relative_to(folder) / "seen.npz" if base else None
+        if not (first and first.exists() and seen.exists()):
+            continue
+        a, b = numpy.load(seen), numpy.load(first)
+        length = max([largest(b[key]) for key in b if "displacement" in key] or [0.0])
+        speed = max([largest(b[key]) for key in b if "velocity" in key] or [0.0])
+        if length and "reach" in a:
+            rounding = max(rounding, float(a["reach"]) * 2.0**-53 / length)
+        for key in set(a) & set(b):
+            scale = length if "displacement" in key else speed if "velocity" in key else 0.0
+            if scale and a[key].shape == b[key].shape:
+                worst = max(worst, largest(a[key] - b[key]) / scale)
+            elif scale:
+                worst = numpy.inf
+    return worst, told, untold, why, rounding
+
+
+base = None
+if known.base or rest:
+    base, done, first = ask("as_it_is")
+    case.check_equal("as it is: exit code", done.returncode, 0, kept="exit code")
+for word in words:
+    folder, done, lines = ask(word)
+    moved, told, untold, why, rounding = motion(folder, base)
+    if not told:
+        case.line(f"{word}: {untold} runs cannot be told so: {why}", 0, 0, 0, 0, True, report=True)
+        continue
+    runs = f"{told} runs" if not untold else f"{told} of {told + untold} runs"
+    failed = sorted({line["quantity"] for line in lines.values() if not line["passed"] and not line.get("reported")})
+    crashed = done.returncode not in (0, 1) or (done.returncode and not failed)
+    if crashed:
+        failed.append(done.stdout.strip().splitlines()[-1][:200])
+    reason = known.other.get(word)
+    case.line(f"{word}: checks of the case that fail ({runs})", len(failed), 0, len(failed), 0, not failed, report=bool(reason))
+    for what in failed:
+        print(f"    {what}", flush=True)
+    if base is None:
+        continue
+    answers, unequal = apart(lines, first)
+    exact = EXACT.get(word)
+    if exact is None:
+        case.check(f"{word}: answers over tolerances", answers, 0, 1, report=True)
+        continue
+    if exact:
+        exact += (20 if word == "powers_of_two" else 200) * rounding
+    bound = known.bounds.get(word, exact)
+    case.check(f"{word}: any motion", moved, 0, exact if bound is None else bound, report=bound is None)
+    # Energies seen from 100 m/s are known from lines of the history only, to the work of half a step.
+    case.check(f"{word}: answers over tolerances", answers, 0, 1e-3, report=bound is None or word == "drifting")
+    case.check_equal(f"{word}: answers that differ", unequal, [], kept="equal answers")
+case.finish()
