@@ -104,6 +104,78 @@ def check_verification():
     assert f"## {names[1].replace('_', ' ')}\n\nkept\n" in text and text.count("No results yet.") == len(names) - 2
 
 
+def check_citation():
+    """CITATION.cff is what the format 1.2.0 wants, and of this version; every source that is cited has a row in docs/theory/references.md, with a DOI
+    that looks like one, and every set of the library and data file a row of data."""
+    from coplanetest import documents
+
+    cited = documents.load(SOURCE / "CITATION.cff")
+    required = {"authors", "cff-version", "message", "title"}
+    allowed = required | {"abstract", "commit", "contact", "date-released", "doi", "identifiers", "keywords", "license", "license-url", "preferred-citation", "references", "repository",
+                          "repository-artifact", "repository-code", "type", "url", "version"}  # fmt: skip
+    assert required <= set(cited) <= allowed, f"CITATION.cff: {sorted(set(cited) ^ required)}"
+    assert cited["cff-version"] == "1.2.0" and cited["type"] == "software" and cited["license"] == "BSD-3-Clause", cited
+    people = {"family-names", "given-names", "name-particle", "name-suffix", "affiliation", "email", "orcid", "alias", "website"}
+    for reference in [cited, *cited["references"]]:
+        assert {"authors", "title", "type"} <= set(reference), reference
+        for author in reference["authors"]:
+            assert "name" in author or author and set(author) <= people, author
+    version = re.search(r"project\(Coplane VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
+    assert str(cited["version"]) == version, f"CITATION.cff: version {cited['version']}, the project has {version}"
+
+    page = (SOURCE / "docs/theory/references.md").read_text()
+    rows = [line.split("|")[1:-1] for line in page.splitlines() if line.startswith("| ") and not line.startswith("| cited as")]
+    entries = [" ".join(row) for row in rows]
+    for row in rows:
+        link = re.search(r"\[(.*)\]\(https://doi\.org/(.*)\)", row[2])
+        assert not link or re.fullmatch(r"10\.\d{4,5}/\S+", link.group(1)), row
+    lost = []
+    for name in tracked("docs/theory/*.md", "docs/user/*.md", "docs/examples/*.md", "packages/*.md", "packages/*.hpp", "packages/*.cpp", "packages/*.py", "apps/*.md", "tests/verification/*.md",
+                        "exodus_inputs/*.md", "exodus_inputs/*.csv"):  # fmt: skip
+        if name == "docs/theory/references.md":
+            continue
+        text = re.sub(r"\s*\n\s*(///?|\*|#)?\s*", " ", (SOURCE / name).read_text(errors="replace"))
+        for who, *years in re.findall(r"([A-Z][A-Za-zéüöçšč-]+)(?: et al\.?)?,? \(?(1[789]\d\d|200\d|201\d)(?:, (1[789]\d\d))?\)?(?![\d.%])", text):
+            if who not in ("Intel", "AMD"):
+                lost += [f"{name}: {who} {year}" for year in years if year and not any(who in entry and year in entry for entry in entries)]
+    assert not lost, "cited, but not in docs/theory/references.md:\n" + "\n".join(sorted(set(lost)))
+    sets = re.findall(r"^\| `(\w+)` \| `\w+` \| \d", (SOURCE / "docs/user/materials.md").read_text(), flags=re.M)
+    data = [*(f"`{name}`" for name in sets), *tracked("exodus_inputs/*.csv")]
+    assert len(sets) > 10 and not (missing := [name for name in data if name not in page]), f"docs/theory/references.md has no origin of {missing}"
+
+
+def check_trust():
+    """The page of trust has a row for every law, form of element, law of joints and condition that decks know, and was made when the tests were those of today."""
+    sys.path.insert(0, str(SOURCE / "tests/support"))
+    import trust_page as maker
+
+    page = maker.PAGE.read_text()
+    assert maker.MARK in page, f"docs/trust.md lacks {maker.MARK}"
+    head, made = page.split(maker.MARK)
+    how = "python3 tests/support/trust_page.py <build folder>, after the tests have run there"
+    schema = json.loads((SOURCE / "docs/schemas/deck.json").read_text())
+    for group, words in maker.words_of(schema).items():
+        for word in words:
+            shown = re.search(rf"^\| (?:\w+, )?{word} \|", made, flags=re.M)
+            assert shown, f"docs/trust.md is old: no row of the {group} {word}: {how}"
+    listed = set(re.findall(r"- `(.*)`", made))
+    unknown = sorted(listed - set(maker.all_keys(schema)))
+    assert not unknown, f"docs/trust.md is old: decks have no {unknown}: {how}"
+    cases = {path.parent.name for path in (SOURCE / "tests/verification").glob("*/check.py")}
+    tests = set(re.search(r"^Tests: (.*)$", made, flags=re.M).group(1).split(", "))
+    ran = {name.split(".")[1] for name in tests if name.startswith("verification.")}
+    # Cases of one point and of decks that must fail leave no runs.
+    assert ran <= cases, f"docs/trust.md is old: {sorted(ran - cases)} are no cases: {how}"
+    assert cases - ran <= maker.WITHOUT_RUNS, f"docs/trust.md is old: it does not know the cases {sorted(cases - ran - maker.WITHOUT_RUNS)}: {how}"
+    # What runs have is read from decks as they are: a run with two features.
+    run = dict(dimension="plane", blocks={("quadrilaterals, one_point", "j2")}, joints={"linear"}, conditions={"fixed"}, switches={"friction"}, layout="1 rank, serial", keys={"title"})
+    text = maker.made([("verification.X", run), ("parallel.Y", dict(run, joints=set(), keys={"mesh"}))], schema)
+    assert re.search(r"^\| j2 \| XB \| – \| – \|", text, flags=re.M) and "| linear | X | – | – |" in text, text[:3000]
+    assert "- `gravity`" in text and "- `title`" not in text, text[-3000:]
+    keys = set(maker.keys_of({"joints": {"mine": {"model": "table"}}, "conditions": [{"type": "fixed"}]}, schema))
+    assert keys == {"joints", "joints.model", "joints.model: table", "conditions", "conditions.type", "conditions.type: fixed"}, keys
+
+
 def check_deck():
     """The deck reference is what the program prints."""
     printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])

@@ -216,6 +216,7 @@ def made(runs, schema):
     text = ["", f"{len(runs)} runs of {len(tests)} tests:", "", "| letter | evidence | runs | tests |", "|---|---|---|---|"]
     for letter, what in EVIDENCE.items():
         text.append(f"| {letter} | {what} | {sum(evidence(t) == letter for t, _ in runs)} | {sum(evidence(t) == letter for t in tests)} |")
+    text += ["", f"Tests: {', '.join(sorted(tests))}"]
     text += ["", "## By feature", "", "A dash: no run of any test has it. Tests: those with the strongest evidence first. At one point: driven along paths by `coplane_point`, without a mesh (V46, V48).", ""]
     points = at_one_point()
     features = {
@@ -255,6 +256,9 @@ def made(runs, schema):
     text += ["".join(f"- `{key}`\n" for key in unused) or "None.\n"]
     return "\n".join(text)
 
+
+# Cases whose runs are not those of decks with meshes: laws at one point, decks that fail.
+WITHOUT_RUNS = {"V46_concrete_point", "V48_joint_paths"}
 
 FORMS = [f"{shape}, {form}" for shape in SHAPES.values() for form in ("one_point", "assumed_strain", "full_integration", "full_integration_plain", "nodal_pressure")
          if (form == "nodal_pressure") == (shape in ("triangles", "tetrahedra")) or form == "one_point"]  # fmt: skip

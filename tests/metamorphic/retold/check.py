@@ -41,20 +41,21 @@ def number(value):
 
 
 def apart(lines, first):
-    """Largest difference of the answers of both, over the tolerances of the check; and the answers that must be equal and are not."""
+    """By how much answers lie elsewhere than those of the original, over the tolerances of the check: the largest; and the answers that must be equal
+    and are not. An answer is what the check compares: value less reference.
+    """
     worst, unequal = 0.0, []
     for key, line in lines.items():
         if "kept" in line or line.get("reported") or key not in first:
             continue
-        value, other = line["value"], first[key]["value"]
-        if number(value) and number(line["reference"]):  # not intervals
-            allowed = line["tolerance"] * (abs(line["reference"]) if line.get("relative") else 1.0)
-            if not line["tolerance"] and value != other:
-                unequal.append(key[1])
-            if line["tolerance"] > 1e-6:  # others are about round-off themselves
-                worst = max(worst, abs(value - other) / allowed)
-            continue
-        if not number(value) and value != other:
+        found = []
+        for told in (line, first[key]):
+            if number(told["value"]) and number(told["reference"]):  # not intervals
+                off = told["value"] - told["reference"]
+                found.append(off / abs(told["reference"]) if told.get("relative") else off)
+        if len(found) == 2 and line["tolerance"] > 1e-6:  # smaller ones are about round-off themselves
+            worst = max(worst, abs(found[0] - found[1]) / line["tolerance"])
+        elif line["value"] != first[key]["value"] and not (len(found) == 2 and line["tolerance"]) and not isinstance(line["reference"], list):
             unequal.append(key[1])
     return worst, unequal
 

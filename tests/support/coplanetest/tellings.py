@@ -168,6 +168,8 @@ def declared(mesh, deck):
     deck = copy.deepcopy(deck)
     pairs = deck.setdefault("contact", {}).get("pairs", [])
     if any(pair.get("declared") for pair in pairs):
+        if any("stress" in item for item in deck.get("initial", [])):
+            raise CannotTell("a joint that is met bears no initial stress")
         for pair in pairs:
             pair["declared"] = False
     else:
