@@ -176,6 +176,26 @@ def check_trust():
     assert keys == {"joints", "joints.model", "joints.model: table", "conditions", "conditions.type", "conditions.type: fixed"}, keys
 
 
+def check_retold():
+    """The cases that are told in other words are registered; every case once and every way of telling it twice are told without `slow`, but for cases that only `slow` tells."""
+    sys.path.insert(0, str(SOURCE / "tests/metamorphic/retold"))
+    from cases import CASES
+    from coplanetest import tellings
+
+    text = (SOURCE / "tests/CMakeLists.txt").read_text()
+    often, slow = (re.search(rf"set\({name} (.*?)\)", text, flags=re.S).group(1).split() for name in ("_retold", "_retold_slow"))
+    assert sorted(often + slow) == sorted(CASES), f"tests/CMakeLists.txt: {sorted(set(often + slow) ^ set(CASES))}"
+    assert [name for name in CASES if CASES[name].often] == [name for name in CASES if name in often], "cases without words that are told often are in _retold_slow"
+    folders = [name for name in CASES if not (SOURCE / "tests/verification" / name).is_dir() and not (SOURCE / "exodus_inputs" / name).is_dir()]
+    assert not folders, f"no verification cases or examples: {folders}"
+    for word in [*tellings.WORDS, *tellings.WITH]:
+        cases = [name for name, known in CASES.items() if any(told.split(":")[0] == word for told in known.often)]
+        assert len(cases) >= 2, f"{word} is told of {cases} only"
+    page = (SOURCE / "tests/metamorphic/README.md").read_text()
+    missing = [word for word in [*tellings.WORDS, *tellings.WITH] if not re.search(rf"`{word}[`:]", page)]
+    assert not missing, f"tests/metamorphic/README.md does not say what {missing} are"
+
+
 def check_deck():
     """The deck reference is what the program prints."""
     printed = run([str(BINARIES / "coplane"), "--help-deck-markdown"])
