@@ -158,19 +158,21 @@ def check_trust():
         for word in words:
             shown = re.search(rf"^\| (?:\w+, )?{word} \|", made, flags=re.M)
             assert shown, f"docs/trust.md is old: no row of the {group} {word}: {how}"
-    listed = set(re.findall(r"- `(.*)`", made))
-    unknown = sorted(listed - set(maker.all_keys(schema)))
-    assert not unknown, f"docs/trust.md is old: decks have no {unknown}: {how}"
+    data = json.loads(maker.DATA.read_text())
+    assert made == maker.made(data, schema), f"docs/trust.md is not what tests/support/trust.json and the schema of decks give: {how}"
+    gone = [test for test in data["tests"] if not maker.exists(test)]
+    assert not gone, f"docs/trust.md is old: there are no tests {gone}: {how}"
     cases = {path.parent.name for path in (SOURCE / "tests/verification").glob("*/check.py")}
-    tests = set(re.search(r"^Tests: (.*)$", made, flags=re.M).group(1).split(", "))
-    ran = {name.split(".")[1] for name in tests if name.startswith("verification.")}
-    # Cases of one point and of decks that must fail leave no runs.
-    assert ran <= cases, f"docs/trust.md is old: {sorted(ran - cases)} are no cases: {how}"
-    assert cases - ran <= maker.WITHOUT_RUNS, f"docs/trust.md is old: it does not know the cases {sorted(cases - ran - maker.WITHOUT_RUNS)}: {how}"
-    # What runs have is read from decks as they are: a run with two features.
-    run = dict(dimension="plane", blocks={("quadrilaterals, one_point", "j2")}, joints={"linear"}, conditions={"fixed"}, switches={"friction"}, layout="1 rank, serial", keys={"title"})
-    text = maker.made([("verification.X", run), ("parallel.Y", dict(run, joints=set(), keys={"mesh"}))], schema)
-    assert re.search(r"^\| j2 \| XB \| – \| – \|", text, flags=re.M) and "| linear | X | – | – |" in text, text[:3000]
+    ran = {test.split(".")[1] for test in data["tests"] if test.startswith("verification.")}
+    lost = sorted(cases - ran - maker.WITHOUT_RUNS)
+    assert not lost, f"docs/trust.md is old: it does not know the cases {lost}: {how}"
+    # What runs have is read from decks as they are.
+    run = dict(dimension="plane", blocks=[["quadrilaterals, one_point", "j2"]], joints=["linear"], conditions=["fixed"], switches=["friction"], layout="1 rank, serial")
+    data = maker.updated({"tests": {"parallel.memory": [[3, run]], "verification.gone": [[1, run]]}, "keys": {"mesh": "parallel.memory", "gravity": "verification.gone"}},
+                         [("verification.V14_incline", run, {"title"}), ("verification.V14_incline", run, {"title"})])  # fmt: skip
+    assert data["tests"] == {"parallel.memory": [[3, run]], "verification.V14_incline": [[2, run]]} and set(data["keys"]) == {"mesh", "title"}, data
+    text = maker.made(data, schema)
+    assert re.search(r"^\| j2 \| XB \| – \| – \|", text, flags=re.M) and "| linear | XB | – | – |" in text and "5 runs of 2 tests" in text, text[:3000]
     assert "- `gravity`" in text and "- `title`" not in text, text[-3000:]
     keys = set(maker.keys_of({"joints": {"mine": {"model": "table"}}, "conditions": [{"type": "fixed"}]}, schema))
     assert keys == {"joints", "joints.model", "joints.model: table", "conditions", "conditions.type", "conditions.type: fixed"}, keys

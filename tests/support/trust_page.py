@@ -2,8 +2,9 @@
 
 Usage: trust_page.py <build folder> ... [-o <page>]
 
-Reads the record (`*.run*.json`) of every run that a whole-program test has left below <build>/tests, with the deck in it and the mesh beside it. Kinds of evidence
-hang on the family of the test: EVIDENCE below. What the page says in words stands in docs/trust.md in front of the mark; all behind it is made.
+Reads the record (`*.run*.json`) of every run that a whole-program test has left below <build>/tests, with the deck in it and the mesh beside it. What they had
+goes to trust.json beside this program, so one test can be run again alone: ctest -R V25, then this program; tests that are no more leave it. Kinds of evidence hang on the family of the test: EVIDENCE
+below. What the page says in words stands in docs/trust.md in front of the mark; all behind it is made.
 """
 
 import json
@@ -16,6 +17,7 @@ from coplanetest import Results, documents  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGE = SOURCE / "docs/trust.md"
+DATA = SOURCE / "tests/support/trust.json"
 MARK = "<!-- made by tests/support/trust_page.py -->\n"
 
 # Against measurements: these decks are of experiments that were published, or of the charts that stand for them.
@@ -121,7 +123,7 @@ DIMENSIONS = ("plane", "axisymmetric", "3D")
 
 
 def features(record, folder, schema, sets):
-    """What a run had: dimension, ranks, layout, blocks as (form, law), joint laws, conditions, switches and keys."""
+    """What a run had: dimension, ranks, layout, blocks as (form, law), joint laws, conditions and switches; and the keys that it set."""
     deck = documents.parse(record["deck"]["text"])
     mesh = folder / record["mesh"]["file"]
     if not isinstance(deck, dict) or not mesh.exists():
@@ -163,22 +165,54 @@ def features(record, folder, schema, sets):
     }
     ranks = record["ranks"]
     layout = f"{'1 rank' if ranks == 1 else '2 ranks' if ranks == 2 else '3 ranks and more'}, {record['backend']}"
-    return dict(dimension=dimension, blocks=blocks, joints=joints, conditions=conditions, switches={name for name, on in switches.items() if on}, layout=layout,
-                keys=set(keys_of(deck, schema)) | set(given(command, schema)))  # fmt: skip
+    had = dict(dimension=dimension, blocks=sorted(map(list, blocks)), joints=sorted(joints), conditions=sorted(conditions), switches=sorted(name for name, on in switches.items() if on), layout=layout)
+    return had, set(keys_of(deck, schema)) | set(given(command, schema))
 
 
 def gather(build):
-    """(test, features) of every run."""
+    """(test, what the run had, keys) of every run."""
     schema, sets, found = json.loads((SOURCE / "docs/schemas/deck.json").read_text()), library(), []
     top = pathlib.Path(build, "tests") if pathlib.Path(build, "tests").is_dir() else pathlib.Path(build)
     for path in sorted([*top.rglob("*.run.json"), *top.rglob("*.run-s*.json")]):
+        test = path.relative_to(top).parts[0]
+        if test.startswith(("documents", "package")):  # they run decks of others
+            continue
         try:
             seen = features(json.loads(path.read_text()), path.parent, schema, sets)
         except (ValueError, KeyError, OSError, RuntimeError, AttributeError, TypeError):
             continue  # tests of bad input and of killed runs leave such
         if seen:
-            found.append((path.relative_to(top).parts[0], seen))
+            found.append((test, *seen))
     return found
+
+
+def exists(test):
+    """Whether a test of this name can still be: its folder is there."""
+    family, *rest = test.split(".")
+    return family in ("gallery", "paper") or any((SOURCE / "tests" / family / "/".join(rest[:n])).is_dir() for n in range(1, len(rest) + 1)) or (SOURCE / "tests" / family / "check.py").exists()
+
+
+def updated(data, found):
+    """The data with new runs: tests that have run anew replace what they had; equal runs of a test are counted."""
+    tests = {test: list(runs) for test, runs in data.get("tests", {}).items() if exists(test)}
+    keys = {key: test for key, test in data.get("keys", {}).items() if test in tests}
+    for test in {test for test, *_ in found}:
+        tests[test] = []
+    for test, had, used in found:
+        same = [run for run in tests[test] if run[1] == had]
+        if same:
+            same[0][0] += 1
+        else:
+            tests[test].append([1, had])
+        for key in used:
+            keys.setdefault(key, test)
+    return {"tests": dict(sorted(tests.items())), "keys": dict(sorted(keys.items()))}
+
+
+def runs_of(data):
+    """[(test, what the run had, how many such)], with sets for lists."""
+    return [(test, {key: {tuple(item) if isinstance(item, list) else item for item in value} if isinstance(value, list) else value for key, value in had.items()}, count)
+            for test, runs in data["tests"].items() for count, had in runs]  # fmt: skip
 
 
 def letters(tests):
@@ -203,19 +237,19 @@ def table(rows, columns, where, corner):
 def collected(runs, pairs):
     """{pair: tests} of what pairs(features) gives."""
     found = {}
-    for test, seen in runs:
+    for test, seen, _ in runs:
         for pair in pairs(seen):
             found.setdefault(pair, set()).add(test)
     return found
 
 
-def made(runs, schema):
+def made(data, schema):
     """The part of the page behind the mark."""
-    words = words_of(schema)
-    tests = {test for test, _ in runs}
-    text = ["", f"{len(runs)} runs of {len(tests)} tests:", "", "| letter | evidence | runs | tests |", "|---|---|---|---|"]
+    words, runs = words_of(schema), runs_of(data)
+    tests = set(data["tests"])
+    text = ["", f"{sum(count for *_, count in runs)} runs of {len(tests)} tests:", "", "| letter | evidence | runs | tests |", "|---|---|---|---|"]
     for letter, what in EVIDENCE.items():
-        text.append(f"| {letter} | {what} | {sum(evidence(t) == letter for t, _ in runs)} | {sum(evidence(t) == letter for t in tests)} |")
+        text.append(f"| {letter} | {what} | {sum(count for t, _, count in runs if evidence(t) == letter)} | {sum(evidence(t) == letter for t in tests)} |")
     text += ["", f"Tests: {', '.join(sorted(tests))}"]
     text += ["", "## By feature", "", "A dash: no run of any test has it. Tests: those with the strongest evidence first. At one point: driven along paths by `coplane_point`, without a mesh (V46, V48).", ""]
     points = at_one_point()
@@ -230,7 +264,7 @@ def made(runs, schema):
         point = [" at one point |"] if group.startswith("laws") else [""]
         text += [f"| {group} | " + " | ".join(DIMENSIONS) + f" |{point[0]} tests |", "|---|---|---|---|---|" + "---|" * bool(point[0])]
         for word, has in rows:
-            having = [(test, seen["dimension"]) for test, seen in runs if has(seen)]
+            having = [(test, seen["dimension"]) for test, seen, _ in runs if has(seen)]
             cells = [letters({test for test, d in having if d == dimension}) for dimension in DIMENSIONS]
             if point[0]:
                 cells.append("X" if word in points else "–")
@@ -246,12 +280,11 @@ def made(runs, schema):
     text += ["## Law and condition", "", "In one run.", "", table(laws, words["condition"], pairs, "law"), ""]
     pairs = collected(runs, lambda seen: {(joint, condition) for joint in seen["joints"] for condition in seen["conditions"]})
     text += ["## Joint and condition", "", "In one run.", "", table(words["joint"], words["condition"], pairs, "joint"), ""]
-    layouts = sorted({seen["layout"] for _, seen in runs})
+    layouts = sorted({seen["layout"] for _, seen, _ in runs})
     features = collected(runs, lambda seen: {(word, seen["layout"]) for word in [*(law for _, law in seen["blocks"]), *seen["joints"], *seen["conditions"], *seen["switches"]]})
     rows = list(dict.fromkeys([*laws, *words["joint"], *words["condition"], *SWITCHES]))
     text += ["## Ranks and back ends", "", "In one run.", "", table(rows, layouts, features, "feature"), ""]
-    used = set().union(*(seen["keys"] for _, seen in runs))
-    unused = sorted(set(all_keys(schema)) - used - set(defaults(schema)))
+    unused = sorted(set(all_keys(schema)) - set(data["keys"]) - set(defaults(schema)))
     text += ["## What no run of any test has", "", "Keys and words that no deck of the runs above sets; where a key has a default, that is what runs had.", ""]
     text += ["".join(f"- `{key}`\n" for key in unused) or "None.\n"]
     return "\n".join(text)
@@ -270,8 +303,11 @@ if __name__ == "__main__":
     arguments = sys.argv[1:]
     page = pathlib.Path(arguments[-1]) if arguments[-2:-1] == ["-o"] else PAGE
     builds = arguments[:-2] if arguments[-2:-1] == ["-o"] else arguments
-    runs = [run for build in builds for run in gather(build)]
-    if not runs:
+    found = [run for build in builds for run in gather(build)]
+    if not found:
         sys.exit(f"{' '.join(builds)}: no records of runs below tests; run some tests there first\n\n{__doc__}")
+    data = updated(json.loads(DATA.read_text()) if DATA.exists() else {}, found)
+    lines = [f"  {json.dumps(test)}: [\n" + ",\n".join(f"   {json.dumps(run)}" for run in runs) + "\n  ]" for test, runs in data["tests"].items()]
+    DATA.write_text('{"tests": {\n' + ",\n".join(lines) + '\n },\n "keys": ' + json.dumps(data["keys"], indent=1) + "}\n")
     head = PAGE.read_text().split(MARK)[0]
-    page.write_text(head + MARK + made(runs, json.loads((SOURCE / "docs/schemas/deck.json").read_text())))
+    page.write_text(head + MARK + made(data, json.loads((SOURCE / "docs/schemas/deck.json").read_text())))
