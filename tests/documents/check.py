@@ -164,7 +164,8 @@ def check_trust():
     assert not gone, f"docs/trust.md is old: there are no tests {gone}: {how}"
     cases = {path.parent.name for path in (SOURCE / "tests/verification").glob("*/check.py")}
     ran = {test.split(".")[1] for test in data["tests"] if test.startswith("verification.")}
-    lost = sorted(cases - ran - maker.WITHOUT_RUNS)
+    skipped = {name for name in cases if "sys.exit(77)" in (SOURCE / f"tests/verification/{name}/check.py").read_text()}  # not in every build
+    lost = sorted(cases - ran - maker.WITHOUT_RUNS - skipped)
     assert not lost, f"docs/trust.md is old: it does not know the cases {lost}: {how}"
     # What runs have is read from decks as they are.
     run = dict(dimension="plane", blocks=[["quadrilaterals, one_point", "j2"]], joints=["linear"], conditions=["fixed"], switches=["friction"], layout="1 rank, serial")

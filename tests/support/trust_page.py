@@ -35,7 +35,7 @@ EVIDENCE = {
 def evidence(test):
     if test.startswith(EXPERIMENTS):
         return "M"
-    return {"verification": "X", "metamorphic": "W", "parallel": "B"}.get(test.split(".")[0], "R")
+    return {"verification": "X", "validation": "M", "metamorphic": "W", "parallel": "B"}.get(test.split(".")[0], "R")
 
 
 def words_of(schema):
