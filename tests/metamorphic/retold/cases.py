@@ -34,6 +34,7 @@ CASES = {
     "V10_dynamic_patch": Retold(["renumbered"], base=False),
     "V12_V13_one_joint": Retold(["quarter", "restarted", "millimetres"], ["refined:lower", "refined:upper"]),
     "V14_incline": Retold(["drifting", "cut:slab:0:3"], ["cut:slab:0:2", "cut:slab:0:3", "refined:slab"],
+                           other={"split": "a block that sticks walks: docs/user/contact.md, friction feeds vibrations"},
                            apart={"seed": "closures that are summed up from velocities hang on the cycle in which a pair is found; searches come in other cycles in another frame"}),
     "V15_stick_slip": Retold(["mirrored"], ["cut:slab:0:3", "refined:slab"], bounds=dict.fromkeys(["mirrored", "turned", "quarter", "renumbered", "millimetres"], WALL), base=False),
     "V19_hertz_line": Retold(["quarter"], ["cut:flat:0:3"], base=False),

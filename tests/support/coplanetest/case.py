@@ -124,6 +124,7 @@ class Case(Checks):
         """
         if isinstance(run, tellings.ToldRun):  # balances are those of the run as it is
             run, deck = run.raw, run.deck
+            momentum, angular = 10 * momentum, 10 * angular  # odd angles, more nodes and other orders are rounded otherwise
         h = run.history
         in_play = max(
             numpy.max(h["kinetic"]),
