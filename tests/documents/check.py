@@ -179,6 +179,68 @@ def check_trust():
     assert keys == {"joints", "joints.model", "joints.model: table", "conditions", "conditions.type", "conditions.type: fixed"}, keys
 
 
+def check_tellings():
+    """Meshes that are told otherwise have the same volume and the same sides; decks have the same numbers in other units and frames."""
+    import numpy
+    from coplanetest import meshes, rotation, turned_deck, units
+
+    places = numpy.array([(x, y, z) for z in (0, 1.0) for y in (0, 1.0) for x in (0, 0.7, 2.0)])
+    nodes = numpy.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
+    solid = meshes.Mesh(places, [meshes.Block("a", 1, nodes)], {"left": numpy.array([0, 3, 6, 9])}, {"end": numpy.array([[1, 2]]), "top": numpy.array([[0, 6], [1, 6]])})
+    flat = meshes.Mesh(places[:6, :2], [meshes.Block("a", 1, nodes[:, :4])], {"left": numpy.array([0, 3])}, {"end": numpy.array([[1, 2]])})
+
+    def sizes(mesh):
+        """Volume, and area of each side set as a vector, by triangles and tetrahedra about a point."""
+        volume, areas = 0.0, {}
+        for block in mesh.blocks:
+            for element, row in enumerate(block.nodes):
+                kind = mesh.dimension, len(row)
+                middle = mesh.points[row].mean(axis=0)
+                for number, side in enumerate(meshes.SIDES[kind], start=1):
+                    p = mesh.points[row[list(side)]]
+                    if mesh.dimension == 2:
+                        area = numpy.array([p[1, 1] - p[0, 1], p[0, 0] - p[1, 0]])
+                    else:
+                        area = sum(numpy.cross(p[k] - p[0], p[k + 1] - p[0]) for k in range(1, len(p) - 1)) / 2
+                    volume += float((p.mean(axis=0) - middle) @ area) / mesh.dimension
+                    for name, members in mesh.side_sets.items():
+                        if [element + mesh.first(block.name), number] in members.tolist():
+                            areas[name] = areas.get(name, 0.0) + area
+        return volume, areas
+
+    for mesh in (solid, flat):
+        volume, areas = sizes(mesh)
+        assert abs(volume - 2) < 1e-14 and numpy.allclose(areas["end"], [1, 0, 0][: mesh.dimension]), (volume, areas)
+        turn = rotation(17.3 if mesh.dimension == 2 else [17.3, -31.7, 23.9])
+        told = {"turned": (meshes.moved(mesh, turn), turn), "mirrored": (meshes.moved(mesh, numpy.diag([-1.0, 1, 1])), numpy.diag([-1.0, 1, 1])),
+                **{f.__name__: (f(*arguments), numpy.eye(3)) for f, *arguments in ((meshes.renumbered, mesh), (meshes.split, mesh), (meshes.refined, mesh, "a"), (meshes.cut, mesh, "a", 0, 2))}}  # fmt: skip
+        for name, (other, matrix) in told.items():
+            d = mesh.dimension
+            size, sides = sizes(other)
+            assert abs(size - volume) < 1e-13, f"{name}: volume {size}"
+            assert all(numpy.allclose(sides[key], matrix[:d, :d] @ areas[key]) for key in areas), f"{name}: sides {sides}"
+            here, there, weights = other.shares
+            back = numpy.zeros_like(mesh.points)
+            numpy.add.at(back, there[weights == 1], other.points[here[weights == 1]] @ matrix[:d, :d])
+            count = numpy.bincount(there[weights == 1], minlength=len(back))
+            assert numpy.allclose(back / count[:, None], mesh.points), f"{name}: nodes do not lead back"
+            assert len(other.node_sets["left"]) >= len(mesh.node_sets["left"]), name
+    slice = meshes.extruded(flat)
+    assert abs(sizes(slice)[0] - 2) < 1e-14 and numpy.allclose(sizes(slice)[1]["end"], [1, 0, 0]), "extruded"
+
+    assert units.powers("kg/m^3") == (-3, 0, 1) and units.powers("J/(kg K)") == (2, -2, 0) and units.powers("1/s") == (0, -1, 0)
+    deck = {"materials": {"a": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e9, "poisson_ratio": 0.2}}, "blocks": {"a": {"material": "a"}}, "gravity": [0, "-9.81*min(t/0.5, 1)", 0],
+            "conditions": [{"type": "velocity", "node_set": "n", "value": ["2*t + x", 0, 0]}, {"type": "pressure", "side_set": "s", "value": 5.0}], "time": {"end": 2.0}}  # fmt: skip
+    told = units.deck_in(deck, (1e3, 1e3, 1e3))
+    card = told["materials"]["a"]
+    assert numpy.allclose([card["density"], card["youngs_modulus"], card["poisson_ratio"], told["time"]["end"]], [2e-3, 1e3, 0.2, 2e3], rtol=1e-14, atol=0), told
+    value = eval(told["conditions"][0]["value"][0], {"t": 3000.0, "x": 4000.0})  # at 3 s and 4 m: 10 m/s, which are 10 mm/ms
+    assert abs(value - 10) < 1e-12 and abs(told["conditions"][1]["value"] - 5.0 * 1e3 / 1e3 / 1e6) < 1e-18, told["conditions"]
+    quarter = numpy.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    told = turned_deck(deck, quarter, (7.0, 0, 0), (0.0, 0, 0))["conditions"][0]["value"]
+    assert told[0] == 0.0 and abs(eval(told[1], {"t": 3.0, "x": 7.0, "y": 4.0}) - 10) < 1e-12, told  # x there is y here
+
+
 def check_retold():
     """The cases that are told in other words are registered; every case once and every way of telling it twice are told without `slow`, but for cases that only `slow` tells."""
     sys.path.insert(0, str(SOURCE / "tests/metamorphic/retold"))
@@ -194,6 +256,7 @@ def check_retold():
     for word in [*tellings.WORDS, *tellings.WITH]:
         cases = [name for name, known in CASES.items() if any(told.split(":")[0] == word for told in known.often)]
         assert len(cases) >= 2, f"{word} is told of {cases} only"
+    check_tellings()
     page = (SOURCE / "tests/metamorphic/README.md").read_text()
     missing = [word for word in [*tellings.WORDS, *tellings.WITH] if not re.search(rf"`{word}[`:]", page)]
     assert not missing, f"tests/metamorphic/README.md does not say what {missing} are"
