@@ -1,3 +1,4 @@
+#include "AbaqusFile.hpp"
 #include "ConvertGmsh.hpp"
 #include "Cuts.hpp"
 #include "ExampleFile.hpp"
@@ -86,10 +87,22 @@ void split(const std::string& file, const std::string& recipe,
   reportAndWrite(result.mesh, file, output);
 }
 
+bool isOfAbaqus(const std::string& file)
+{
+  const std::string ending = std::filesystem::path(file).extension();
+  return ending == ".inp" || ending == ".INP";
+}
+
 void convert(const std::string& file, const std::string& output)
 {
-  demandDistinct({{file, "the file of Gmsh"}}, output);
-  ConvertedMesh converted = convertGmsh(readGmshFile(file), file);
+  demandDistinct({{file, "the file to convert"}}, output);
+  AbaqusFile read;
+  if (isOfAbaqus(file))
+    read = readAbaqusFile(file);
+  else
+    read.mesh = readGmshFile(file);
+  ConvertedMesh converted = convertGmsh(read.mesh, file);
+  converted.notes.insert(converted.notes.begin(), read.notes.begin(), read.notes.end());
   for (const std::string& note : converted.notes)
     print("note: " + note);
   converted.mesh.title = std::filesystem::path(file).filename().string();
@@ -158,8 +171,11 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
   takeOverrides(splitting, given, "joints.fault.planes.tolerance=0.01");
   takeOutput(splitting, given);
   app.add_subcommand("blocks", "Cut a domain into blocks by joints, with openings, and mesh it");
-  CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
-  converting->add_option("mesh", given.file, "file of Gmsh, format 4.1")->required();
+  CLI::App* converting =
+      app.add_subcommand("convert", "Write a mesh of Gmsh, Abaqus or CalculiX as Exodus II");
+  converting
+      ->add_option("mesh", given.file, "file of Gmsh, format 4.1, or of Abaqus or CalculiX, .inp")
+      ->required();
   takeOutput(converting, given);
   CLI::App* showing = app.add_subcommand(
       "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
