@@ -2,9 +2,9 @@
 
 Usage: trust_page.py <build folder> ... [-o <page>]
 
-Reads the record (`*.run*.json`) of every run that a whole-program test has left below <build>/tests, with the deck in it and the mesh beside it. What they had
-goes to trust.json beside this program, so one test can be run again alone: ctest -R V25, then this program; tests that are no more leave it. Kinds of evidence hang on the family of the test: EVIDENCE
-below. What the page says in words stands in docs/trust.md in front of the mark; all behind it is made.
+Reads the record (`*.run*.json`) of every run that a whole-program test has left below <build>/tests, with the deck in it and the mesh beside it. What
+they had goes to trust.json beside this program, so one test can be run again alone: ctest -R V25, then this program; tests that are no more
+leave it. Kinds of evidence hang on the family of the test: EVIDENCE below. What the page says in words stands in docs/trust.md in front of the mark; all behind it is made.
 """
 
 import json
@@ -165,7 +165,8 @@ def features(record, folder, schema, sets):
     }
     ranks = record["ranks"]
     layout = f"{'1 rank' if ranks == 1 else '2 ranks' if ranks == 2 else '3 ranks and more'}, {record['backend']}"
-    had = dict(dimension=dimension, blocks=sorted(map(list, blocks)), joints=sorted(joints), conditions=sorted(conditions), switches=sorted(name for name, on in switches.items() if on), layout=layout)
+    had = dict(dimension=dimension, blocks=sorted(map(list, blocks)), joints=sorted(joints), conditions=sorted(conditions),
+               switches=sorted(name for name, on in switches.items() if on), layout=layout)  # fmt: skip
     return had, set(keys_of(deck, schema)) | set(given(command, schema))
 
 
@@ -189,7 +190,8 @@ def gather(build):
 def exists(test):
     """Whether a test of this name can still be: its folder is there."""
     family, *rest = test.split(".")
-    return family in ("gallery", "paper") or any((SOURCE / "tests" / family / "/".join(rest[:n])).is_dir() for n in range(1, len(rest) + 1)) or (SOURCE / "tests" / family / "check.py").exists()
+    top = SOURCE / "tests" / family
+    return family in ("gallery", "paper") or (top / "check.py").exists() or any((top / "/".join(rest[:n])).is_dir() for n in range(1, len(rest) + 1))
 
 
 def updated(data, found):

@@ -12,7 +12,6 @@ import os
 import pathlib
 import re
 import shutil
-import typing
 
 import numpy
 from coplane import tables
