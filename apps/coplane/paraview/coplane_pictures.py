@@ -164,7 +164,7 @@ class Picture:
     def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y", room=1.2):
         self.run, self.time, self.size = run, time, list(size)
         # Pictures of any run may be small; those of scripts choose their letters.
-        self.letters = min(1.0, size[1] / 800) if bounds else 1.0
+        self.letters = max(0.6, min(1.0, size[1] / 800)) if bounds else 1.0
         view = self.view = CreateView("RenderView")
         view.ViewSize = self.size
         view.UseColorPaletteForBackground = 0
@@ -184,7 +184,7 @@ class Picture:
         else:
             view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera
             view.CameraViewAngle = angle
-        self.flat = bool(box)
+        self.flat = bool(box) or bool(bounds) and bounds[5] <= bounds[4]
         if label:
             self.text(f"t = {1e3 * time:.4g} ms")
 
@@ -227,7 +227,7 @@ class Picture:
         display = Show(Text(Text=words_of_length(length)), view)
         display.Color, display.FontSize, display.WindowLocation, display.Position = BLACK, round(18 * self.letters), "Any Location", [0.025, 0.045]
 
-    def bodies(self, names=(), opacity=1.0, legend=True, change=lambda source: source):
+    def bodies(self, names=(), opacity=1.0, legend=True, change=lambda source: source, edges=True):
         """Every block in a colour of its own, named at the right. change(source): what is drawn of each."""
         for place, name in enumerate(self.run.names):
             if names and name not in names:
@@ -237,7 +237,7 @@ class Picture:
             source.UpdatePipeline(self.time)
             if source.GetDataInformation().GetNumberOfCells() == 0:
                 continue
-            self.solid(source, list(color), opacity=opacity)
+            self.solid(source, list(color), edges, opacity)
             if not legend:
                 continue
             display = Show(Text(Text=name), self.view)

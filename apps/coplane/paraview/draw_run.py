@@ -5,8 +5,8 @@
     color: a variable, an expression of variables, or "block"   title: of its bar   range: [lowest, highest] or null: of all frames
     palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
     camera: a name, a direction [x, y, z] or null   window: what is seen, [x0, x1, y0, y1] or with z0, z1, or null   up: y or z
-    planes: dots, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
-    mirror, deformed: bool   size: [width, height]   legend: all, or last: in the last picture only
+    planes: dots (of those that carry traction), all, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
+    mirror, deformed, edges: bool   size: [width, height]   legend: all, or last: in the last picture only
 """
 import json
 import os
@@ -30,7 +30,7 @@ view = {"size": want["size"], "camera": want["camera"] or ("iso" if in_space els
 chosen = want["blocks"] or runs[0].names
 colored = [name for name in chosen if name not in want["plain"]]
 by_block = want["color"] == "block" or not colored
-of_planes = want["planes"] not in ("dots", "arrows", "none")
+of_planes = want["planes"] not in ("dots", "all", "arrows", "none")
 has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
 # Planes lie between bodies: their arrows and values shall be seen through them.
 opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
@@ -79,15 +79,15 @@ def draw(run, time, name):
     picture = cp.Picture(run, nearest, **view)
     with_legend = want["legend"] == "all" or time == times[-1]
     if of_planes and want["color"] == "block":
-        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], opacity=opacity, edge=[0.85, 0.84, 0.82])
+        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], want["edges"], opacity, [0.85, 0.84, 0.82])
     elif by_block:
-        picture.bodies(chosen, opacity, with_legend, whole)
+        picture.bodies(chosen, opacity, with_legend, whole, want["edges"])
     else:
         source, variable = bodies(run)
-        picture.surface(whole(source), variable, colors, want["title"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
-        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole)
-    if has_planes and want["planes"] == "dots":
-        picture.dots(whole(run.planes()) if want["mirror"] else None, size=want["dot_size"])
+        picture.surface(whole(source), variable, colors, want["title"], edges=want["edges"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
+        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole, want["edges"])
+    if has_planes and want["planes"] in ("dots", "all"):
+        picture.dots(whole(run.planes(touching=want["planes"] == "dots")), size=want["dot_size"])
     elif has_planes and want["planes"] == "arrows":
         picture.arrows(0.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]), most)
     elif has_planes and of_planes:
@@ -97,6 +97,8 @@ def draw(run, time, name):
                          ThresholdMethod="Above Upper Threshold")  # fmt: skip
         picture.points(some, want["planes"], plane_colors, want["planes_title"], size=want["dot_size"], bar=with_legend,
                        points=cp.palette("dark", *plane_colors))  # fmt: skip
+        if len(cp.values(some, want["planes"], nearest)) == 0:
+            picture.text(f"{want['planes']}: 0", "Lower Right Corner")
     picture.scale_bar()
     if len(runs) > 1:
         stem = os.path.basename(run.file)[:-2]
