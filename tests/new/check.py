@@ -19,7 +19,7 @@ from coplane import new
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 RUN = [sys.executable, str(SOURCE / "exodus_inputs/run.py")]
 # Those with few elements; `coplane --check` on the others takes seconds each.
-CHECKED = ["bars_2d", "perforation", "penetration", "rocking_block_2d"]
+CHECKED = ["bars_2d", "cut_rock_2d", "perforation", "penetration", "rocking_block_2d"]
 case = Case("new", __file__)
 
 
@@ -69,7 +69,7 @@ for example in new.examples():
                      (documents.load(folder / settings["recipe"]), documents.load(folder / settings["deck"])), (recipe, {**deck, "mesh": "mesh.e"}))  # fmt: skip
     case.check_equal(f"{example}: example.yaml changes nothing", ([*settings["sizes"].values()], "variants" in settings), ([{}], False))
     case.check_equal(f"{example}: other input files", [name for name in texts if name.endswith(".yaml")],
-                     [name for name in texts if name in ("example.yaml", settings["recipe"], settings["deck"])])  # fmt: skip
+                     [name for name in texts if name in ("example.yaml", settings["recipe"], settings["deck"], settings.get("joints"))])  # fmt: skip
     case.check_equal(f"{example}: check", (folder / "check.py").exists(), True)
     if example not in CHECKED:
         continue
@@ -96,6 +96,13 @@ for arguments, words in (
     case.check_equal(f"new {' '.join(arguments)}", (code, [word for word in words if word not in said]), (2, []))
 case.check_equal("refused: nothing was made", [name for name in ("x", "2 x", "mesh") if (place / name).exists()], [])
 case.check_equal("a folder that cannot be made", made("bars/bars.yaml/x", "--like", "bars_2d")[0], 5)
+
+# As it says, beside the folder; then the folder means this run, and after a run in it that one.
+code, said = called([program.binary("coplane"), "bars/bars.yaml", "--set", "time.end=1e-6"], place)
+case.check_equal("a run beside its folder: exit code", code, 0)
+one = coplane.open(place / "bars")
+case.check_equal("a run beside its folder, by the name of both", (str(one.folder), one.name), (str(place), "bars"))
+case.check_equal("watch", called([program.binary("coplane"), "watch", "bars"], place)[0], 0)
 
 # --- run.py on folders outside the tree --------------------------------------------------------------------
 

@@ -277,7 +277,7 @@ def executed(what, code):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     done = subprocess.run([sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
+                          env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python"), MPLBACKEND="agg"))  # fmt: skip
     print(done.stdout[-3000:])
     case.check_equal(f"{what}: exit code", done.returncode, 0)
     return done.stdout
@@ -287,7 +287,13 @@ books = sorted((SOURCE / "docs/examples").glob("*.ipynb"))
 case.check_within("notebooks", len(books), 4, 100)
 for book in books:
     cells = ["".join(cell["source"]) for cell in json.loads(book.read_text())["cells"] if cell["cell_type"] == "code"]
-    executed(book.stem, "\n\n".join(cells))
+    # As notebooks do, figures are shown and closed after each cell.
+    code = ["from matplotlib import pyplot\nfigures = []"] + [
+        f"{cell}\nfigures += [[len(axes.lines), axes.get_xlabel() != ''] for number in pyplot.get_fignums() for axes in pyplot.figure(number).axes]\npyplot.close('all')"
+        for cell in cells] + ["print(figures)"]  # fmt: skip
+    figures = json.loads(executed(book.stem, "\n\n".join(code)).splitlines()[-1].replace("True", "true").replace("False", "false"))
+    case.check_equal(f"{book.stem}: figures without curves or labels", [figure for figure in figures if not (figure[0] and figure[1])], [])
+    case.check_within(f"{book.stem}: figures", len(figures), 4 if book.stem == "python" else 0, 10)  # others may have tables only
 page = (SOURCE / "docs/user/python.md").read_text()
 for number, code in enumerate(re.findall(r"```python\n(import coplane\n.*?)```", page, flags=re.S)):
     if "coplane.Deck({" in code:

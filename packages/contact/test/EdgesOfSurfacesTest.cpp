@@ -163,6 +163,29 @@ constexpr Vec3 cube{1, 1, 1};
 constexpr Real closed = 1e-5; ///< closure of joints [m]
 } // namespace
 
+TEST(NormalsOfNodes, aNodeHasAllItsNormalsInAnyOrder)
+{
+  // Within 20 degrees of each other, and more than three: a node that keeps some of them only has
+  // others when faces come in another order, and a body then differs from its mirror image.
+  std::vector<Vec3> all;
+  for (int i = 0; i < 7; ++i)
+    all.push_back(normalised({std::cos(0.1 * i), std::sin(0.1 * i), 1}));
+  NormalsOfNodes forth(2), back(2);
+  for (int i = 0; i < 7; ++i)
+  {
+    forth.add(1, all[i]);
+    back.add(1, all[6 - i]);
+    forth.add(1, all[0]);
+  }
+  EXPECT_EQ(forth.most(), 7);
+  for (const Vec3& normal : all)
+  {
+    EXPECT_TRUE(forth.has(1, normal));
+    EXPECT_TRUE(back.has(1, normal));
+    EXPECT_FALSE(forth.has(0, normal));
+  }
+}
+
 TEST(EdgesOfSurfaces, aBlockThatHangsOverAnEndMayLeaveOverIt)
 {
   Scene scene({{{0, 0, 0}, cube}, {{0.9, 1, 0}, cube}});

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <functional>
+#include <set>
 #include <sstream>
 
 namespace coplane
@@ -82,7 +83,7 @@ conditions:
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
   - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
-damping: {local: 0.5}
+damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
 history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
 )";
@@ -148,8 +149,8 @@ std::string show(const Deck& d)
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
           d.localDamping, d.kineticDamping, d.dampingFrom, d.dampingUntil, d.dampingEnergyRatio,
           d.dampingForceRatio, d.partitionMethod, d.partitionBalance, d.rebalance, d.rebalanceEvery,
-          d.rebalanceAbove, d.geometry, d.checkpoint.file, d.checkpoint.everyCycles,
-          d.checkpoint.everySeconds, d.checkpoint.atEnd);
+          d.rebalanceAbove, d.geometry, d.time.endAtRest, d.checkpoint.file,
+          d.checkpoint.everyCycles, d.checkpoint.everySeconds, d.checkpoint.atEnd);
   for (const auto& m : d.materials)
   {
     showAll(out, m.name, m.set, m.model);
@@ -198,7 +199,7 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction);
   return out;
 }
 
@@ -341,6 +342,25 @@ TEST(DeckKeys, eachKeyIsDocumented)
                                 key.kind == KeyKind::PlaceFunctions;
             EXPECT_EQ(number, !key.unit.empty()) << key.name << " [" << key.unit << "]";
           });
+}
+
+/// Names that other programs have for models lead to one model, and hide none of ours.
+template <class Model>
+void expectClearHabits(const std::vector<Model>& models)
+{
+  std::set<std::string> seen;
+  for (const Model& model : models)
+    for (const std::string& habit : model.habits)
+    {
+      EXPECT_EQ(findModel(models, habit), nullptr) << habit;
+      EXPECT_TRUE(seen.insert(habit).second) << habit;
+    }
+}
+
+TEST(DeckKeys, namesOfModelsInOtherProgramsAreClear)
+{
+  expectClearHabits(materialModels());
+  expectClearHabits(jointModels());
 }
 
 TEST(DeckKeys, modelsOfAKeyAreChoicesOfItsGroup)

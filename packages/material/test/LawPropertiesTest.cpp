@@ -280,6 +280,75 @@ TEST_P(LawProperties, bendingFlowsWithTheDeviatorOrIsLeftAlone)
   }
 }
 
+TEST_P(LawProperties, theAnswerIsAContinuousFunctionOfTheStrain)
+{
+  // Between two strain increments from one state, the half over which the answer changes more is
+  // halved again and again. What is left then is a jump: there round-off decides, and bodies that
+  // are each other's mirror images part.
+  constexpr int halvings = 44; // to 6e-14 of the strain
+  std::mt19937 random(7);
+  std::array<Real, maximumHistory> largest{};
+  Real stress = 0;
+  for (int trial = 0; trial < 300; ++trial)
+  {
+    MaterialProbe probe(law(), 0.01);
+    const auto some = [&](Real reach)
+    {
+      Mat3 l = randomGradient(random, reach);
+      const Real volume = std::uniform_real_distribution<Real>(-reach, reach)(random);
+      for (int k = 0; k < 3; ++k)
+        l(k, k) += volume;
+      return l;
+    };
+    for (int turn = 0; turn < trial % 4; ++turn)
+    {
+      const Mat3 l = some(0.1 * strain());
+      for (int i = 0; i < 10; ++i)
+        probe.advance(l, 1e-6);
+    }
+    const Mat3 first = some(0.1 * strain()), last = some(0.1 * strain());
+    const auto answerAt = [&](Real share)
+    {
+      Mat3 l;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+          l(i, j) = (1 - share) * first(i, j) + share * last(i, j);
+      MaterialPoint<Real> point = pointOf(probe, l, 1e-6, 0.01);
+      point.bendingSquared = trial % 2 * std::pow(0.01 * strain() * shearModulus(), 2);
+      lawFunction(law())(point);
+      for (const Real s : componentsOf(point.stress))
+        stress = std::max(stress, std::abs(s));
+      for (int k = 0; k < histories(); ++k)
+        largest[k] = std::max(largest[k], std::abs(point.history[k]));
+      return point;
+    };
+    const auto changeOver = [&](const MaterialPoint<Real>& a, const MaterialPoint<Real>& b)
+    {
+      Real change = 0;
+      for (int k = 0; k < 6; ++k)
+        change = std::max(change,
+                          std::abs(componentsOf(a.stress)[k] - componentsOf(b.stress)[k]) / stress);
+      for (int k = 0; k < histories(); ++k)
+        if (largest[k] > 0)
+          change = std::max(change, std::abs(a.history[k] - b.history[k]) / largest[k]);
+      return change;
+    };
+    Real low = 0, high = 1;
+    MaterialPoint<Real> atLow = answerAt(low), atHigh = answerAt(high);
+    for (int i = 0; i < halvings; ++i)
+    {
+      const Real middle = 0.5 * (low + high);
+      const MaterialPoint<Real> atMiddle = answerAt(middle);
+      const bool lower = changeOver(atLow, atMiddle) > changeOver(atMiddle, atHigh);
+      (lower ? high : low) = middle;
+      (lower ? atHigh : atLow) = atMiddle;
+    }
+    EXPECT_LT(changeOver(atLow, atHigh), 1e-10)
+        << "trial " << trial << ", pressures " << -meanOf(atLow.stress) << " and "
+        << -meanOf(atHigh.stress) << " Pa";
+  }
+}
+
 TEST_P(LawProperties, nothingMovesWithoutMotion)
 {
   MaterialProbe probe(law(), 0.01);

@@ -268,6 +268,63 @@ TEST(PseudoCap, crackClosesAtZeroPressureAndThenBearsAgain)
   EXPECT_NEAR(probe.pressure(), c40.pressure(1e-3, 0.0), 1e-6 * 18e6);
 }
 
+TEST(PseudoCap, volumeFollowsShearAsThePressureAtTheEndOfTheStepAsks)
+{
+  // Isochoric shear in steps of 0.3 % from pressures below the knee, below the cap and on it.
+  for (const Real start : {5e6, 25e6, 60e6})
+  {
+    MaterialProbe probe(concrete, size, {-start, -start, -start, 0, 0, 0});
+    Mat3 shear;
+    shear(0, 1) = 3e-3;
+    for (int i = 0; i < 6; ++i)
+    {
+      const MaterialProbe before = probe;
+      probe.advance(shear, 1);
+      const auto change = [&](const char* name)
+      { return probe.history(name) - before.history(name); };
+      const Real p = probe.pressure(), plastic = change("equivalent_plastic_strain");
+      const Real pc = c40.crushCurve(probe.history("compaction")), cap = 0.5 * pc, knee = 40e6 / 3;
+      const Real intact = 1 - before.history("damage");
+      const Real bulking =
+          p < knee ? 1.5 - 0.9 * p / knee : std::max(0.6 * (cap - p) / (cap - knee), 0.0);
+      EXPECT_GT(plastic, i > 1 ? 1e-4 : -1e-15);
+      EXPECT_NEAR(change("bulking"), intact * bulking * plastic, 1e-12) << start << " " << i;
+      EXPECT_NEAR(change("compaction"), std::max(2 * (p - cap) / (pc - cap), 0.0) * plastic, 1e-12)
+          << start << " " << i;
+    }
+  }
+}
+
+TEST(PseudoCap, shearAtNoPressureFillsOpenCracksBeforeItMeetsOne)
+{
+  // A crack of 2e-3, closed by half: no pressure, and none under shear until bulking has filled it.
+  // Bulking is 1.5 (1 - D) per shear, and breaks what is left.
+  MaterialProbe probe(concrete, size);
+  for (const Real e : {2e-3, 1e-3})
+    strainPath(probe, {e, 0, 0, 0, 0, 0}, 200, [](const MaterialProbe&) {});
+  strainPath(probe, {1e-3, 1e-5, -1e-5, 0, 0, 0}, 1, [](const MaterialProbe&) {});
+  const Real opened = probe.history("crack_opening"), intact = 1 - probe.history("damage");
+  ASSERT_GT(opened, 5e-4);
+  ASSERT_NEAR(probe.pressure(), 0, 1e-5);
+  const MaterialProbe before = probe;
+  Mat3 shear;
+  shear(1, 2) = 4e-4;
+  probe.advance(shear, 1);
+  const Real plastic =
+      probe.history("equivalent_plastic_strain") - before.history("equivalent_plastic_strain");
+  const Real bulking = probe.history("bulking") - before.history("bulking");
+  EXPECT_NEAR(probe.pressure(), 0, 1e-5);
+  EXPECT_GT(plastic, 1e-4);
+  EXPECT_NEAR(bulking, 1.5 * intact * plastic, 1e-12);
+  EXPECT_NEAR(probe.history("crack_opening"), opened - bulking, 1e-12);
+  EXPECT_NEAR(1 - probe.history("damage"), intact * std::exp(-bulking * 4e6 * size / 120), 1e-9);
+  shear(1, 2) = 0.02;
+  for (int i = 0; i < 5; ++i)
+    probe.advance(shear, 1);
+  EXPECT_GT(probe.pressure(), 1e5);
+  EXPECT_NEAR(probe.history("crack_opening"), 0, 1e-15);
+}
+
 TEST(PseudoCap, strengthConstantsReproduceTheUniaxialStrengthsExactly)
 {
   // On the compression meridian at p = fc / 3, Yh = fc; on the tension meridian at p = -ft / 3, q =

@@ -1,5 +1,6 @@
 """A run, with everything that it has written."""
 
+import collections
 import fcntl
 import functools
 import json
@@ -12,6 +13,7 @@ from .planes import Planes
 
 # Ends of the columns that each of these has in the history (docs/user/outputs.md).
 _MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in "xyz"]
+_REACTION = [f"reaction_{axis}" for axis in "xyz"]
 _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
@@ -67,6 +69,8 @@ def _place(path):
             return path, stems[0]
         if stems:
             raise SeveralRuns(f"{path}: the folder has several runs; open one of {', '.join(str(path / stem) for stem in stems)}.")
+        if path.name in _stems(path.parent):  # `coplane wall/wall.yaml` runs beside the folder `wall`
+            return path.parent, path.name
         raise NoRun(f"{path}: the folder has no record of a run (<name>.run.json) and no history beside its deck.")
 
     def is_run(stem):
@@ -194,14 +198,33 @@ class Run:
         return self.log_path.read_text(encoding="utf-8", errors="replace") if self.log_path.exists() else ""
 
     @property
+    def messages(self):
+        """Warnings and errors as the program showed them: of every part the last 40, each text once."""
+        return list(dict.fromkeys(text for record in self.records for text in record.get("messages", [])))
+
+    @property
+    def warnings(self):
+        """Number of warnings by kind, of all parts, with those that were not shown."""
+        counts = collections.Counter()
+        for record in self.records:
+            counts.update(record.get("warnings", {}))
+        return dict(counts)
+
+    @property
     def errors(self):
-        """The lines of the log that say what was wrong."""
+        """Why the run failed, as its record says it; else the lines of the log that say what was wrong: a start that fails, or is killed, leaves no
+        reason in the record."""
+        if "reason" in self.record:
+            return [f"ERROR: {self.record['reason']}"]
         return [line for line in self.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
 
     @property
     def limits(self):
-        """What limited the step, in the lines of the log that say it."""
-        return ["".join(found) for found in re.findall(r"limited by (.*)|dt = \S+ s \((.*?)\), kinetic", self.log)]
+        """What limited the step, and how often it was seen to (the program looks about every five seconds): a dict, what was seen last at its end."""
+        counts = {}
+        for limit in (limit for record in self.records for limit in record.get("step_limits", [])):
+            counts[limit["limited_by"]] = counts.pop(limit["limited_by"], 0) + limit["looks"]
+        return counts
 
     # --- over time ---------------------------------------------------------------------------------
 
@@ -248,11 +271,13 @@ class Run:
         names = [name[: -len(ends[0]) - 1] for name in self.columns if name.endswith("_" + ends[0])]
         return [name for name in names if all(f"{name}_{end}" in self.columns for end in ends)]
 
-    def _of(self, names, ends, what, key):
+    def _of(self, names, ends, what, key, also=()):
+        """also: ends of columns that not every one has."""
         found = _Named(what, f"{key} in the deck names them.", {})
         for name in names:
-            table = self.history[[f"{name}_{end}" for end in ends]].set_axis(ends, axis=1)
-            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in ends}
+            there = [*ends, *(end for end in also if f"{name}_{end}" in self.columns)]
+            table = self.history[[f"{name}_{end}" for end in there]].set_axis(there, axis=1)
+            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in there}
             found[name] = table
         return found
 
@@ -262,8 +287,8 @@ class Run:
 
     @property
     def probes(self):
-        """Motion of every probe: displacement_x..z, velocity_x..z, as DataFrames."""
-        return self._of(self.probe_names, _MOTION, "probe", "history.probes")
+        """Motion of every probe: displacement_x..z, velocity_x..z, and reaction_x..z where the deck asks for it, as DataFrames."""
+        return self._of(self.probe_names, _MOTION, "probe", "history.probes", also=_REACTION)
 
     @property
     def joint_names(self):

@@ -235,8 +235,12 @@ documents.save({"mesh": str(mesh), **deck}, folder / "run.yaml")
 shutil.copy(folder / "run.yaml", "gone.yaml")
 for ranks in (1, 2):
     folder.mkdir(exist_ok=True)
+    for path in pathlib.Path().glob("inside.*"):
+        path.unlink()
     launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
-    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
+    # The folder goes when all are inside.
+    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && : > {folder.parent}/inside.$$ && until [ $(ls {folder.parent}/inside.* | wc -l) = {ranks} ]; do sleep 0.01; done; "
+                        f"until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
                         f"exec {program.binary('coplane')} {pathlib.Path('gone.yaml').resolve()}'"])
     try:
         done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
@@ -267,6 +271,7 @@ shutil.copy(program.binary("coplane"), folder)
 prober = folder / "coplane_mesh"
 damaged = "mesh.e: the file is damaged: the HDF5 library fails in it."
 empty = "mesh.e: the file is not an Exodus II file"  # said by who reads it
+unprobed = "WARNING: mesh.e: this HDF5 file is read without having been probed"
 for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that ends well", '[ "$*" = "probe mesh.e" ]', empty), ("that is not there", "", empty)]:
     if script:
         prober.write_text(f"#!/bin/sh\n{script}\n")
@@ -277,6 +282,7 @@ for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that e
         launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
         done = subprocess.run([*launch, folder / "coplane", "run.yaml", "--check"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
         case.check_equal(f"a prober {name}, {ranks} ranks: code and cause", (done.returncode, words in done.stdout), (MESH, True))
+        case.check_equal(f"a prober {name}, {ranks} ranks: warnings", done.stdout.count(unprobed), 0 if script else 1)
         if words not in done.stdout:
             print(done.stdout[-2000:])
 case.finish()

@@ -41,14 +41,14 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
     edge.nodes[1] = face.nodes[e + 1 == face.count ? 0 : e + 1];
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
-  // The surface beyond is the one that both nodes have beside this one, the sharpest turn if there
+  // The surface beyond is the face that both nodes have beside this one, the sharpest turn if there
   // are two.
   Real least = DirectionsOfNodes::one;
-  for (int i = 0; i < DirectionsOfNodes::most; ++i)
+  for (int i = 0; i < normals_.most(); ++i)
   {
-    const Vec3 other = normals_.direction(edge.nodes[0], i);
+    const Vec3 other = normals_.normal(edge.nodes[0], i);
     if (dot(other, edge.outward) > convex && dot(other, normal) < least &&
-        normals_.find(edge.nodes[1], other) >= 0)
+        normals_.has(edge.nodes[1], other))
     {
       edge.turns = true;
       edge.beyond = other;
@@ -67,9 +67,10 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
   for (std::size_t f = 0; f < localFaces; ++f)
     for (int k = 0; k < faces[f].count; ++k)
       if (faces[f].nodes[k] < layout.owned())
-        normals_.add(faces[f].nodes[k], planes(f).normal, 0);
+        normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
   findEdges();
+  normals_ = NormalsOfNodes(0); // nobody asks any more, and there may be many
   parallelFor("coplane::contact::lieOn", int(pairs.size()),
               [&](const int p) { lieOn_[p] = lieOn(pairs[p].lower, pairs[p].higher); });
   findHidden(layout);
@@ -132,17 +133,12 @@ Real EdgesOfSurfaces::lieOn(int lower, int higher) const
   Vec3 centers[2];
   for (int f = 0; f < 2; ++f)
   {
-    const Face& face = f == 0 ? a : b;
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-    {
-      corners[k] = at(x_, face.nodes[k]);
-      centers[f] += (1.0 / face.count) * corners[k];
-    }
-    shadows[f] = view.shadow(corners, face.count);
+    const FaceCorners corners = cornersAt(x_, f == 0 ? a : b);
+    centers[f] = corners.center();
+    shadows[f] = view.shadow(corners.x, corners.count);
   }
   const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
-  const Real size = dimension_ == 2 ? smaller : std::sqrt(smaller);
+  const Real size = faceSize(smaller, dimension_);
   const Real gap = dot(normal, centers[1] - centers[0]);
   const bool near =
       gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&

@@ -74,6 +74,10 @@ Key historyKeys()
                           text("block", &ProbeCard::block)
                               .like("bar")
                               .means("mass-weighted mean motion of an element block"),
+                          flag("reaction", &ProbeCard::reaction)
+                              .like("true")
+                              .means("of a node set: also the sum of the forces with which fixed, "
+                                     "velocity, displacement and symmetry hold its nodes"),
                       })
                      .exactlyOneOf({"node_set", "block"})
                      .means("motions to be recorded"),

@@ -28,10 +28,11 @@ PseudoCap makeLaw(const PseudoCapParameters& p)
   law.elastic = makeLaw(static_cast<const ElasticParameters&>(p));
   demand(p.compressiveStrength > 0, "compressive strength", p.compressiveStrength, "Pa",
          "positive, e.g. 40e6");
-  demand(p.tensileStrength > 0 && p.tensileStrength < p.compressiveStrength / 3, "tensile strength",
+  // From 0.2655 fc on, uniaxial tension would meet the fracture surface of no pressure.
+  demand(p.tensileStrength > 0 && p.tensileStrength < p.compressiveStrength / 4, "tensile strength",
          p.tensileStrength, "Pa",
-         fmt::format("between 0 and a third of the compressive strength ({:.6g} Pa)",
-                     p.compressiveStrength / 3));
+         fmt::format("between 0 and a quarter of the compressive strength ({:.6g} Pa)",
+                     p.compressiveStrength / 4));
   demand(p.fractureEnergy > 0, "fracture energy", p.fractureEnergy, "J/m^2", "positive, e.g. 120");
   demand(p.porosity > 0 && p.porosity < 0.6, "porosity", p.porosity, "",
          "between 0 and 0.6; the law lives on its pores");

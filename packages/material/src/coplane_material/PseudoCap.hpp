@@ -14,7 +14,8 @@ namespace coplane
 /// softening Bazant and Oh's crack band (1983). docs/theory/materials.md has all formulas.
 ///
 /// The pressure is a function of volume and porosity, so it has no drift; the deviator is
-/// hypoelastic. Compression is positive in pressures and volume strains here.
+/// hypoelastic. Compression is positive in pressures and volume strains here. What a step gives is
+/// a continuous function of what it gets, to 1e-11 of fc: nowhere does round-off choose a branch.
 struct PseudoCap
 {
   LinearElastic elastic;      ///< of the intact, porous material: K0, G
@@ -140,8 +141,7 @@ struct PseudoCap
         T(strength / (strength / 3 + tensileStrength)) * (p + intact * T(tensileStrength));
     const T residual = compression / (T(a1f) + T(a2f / strength) * compression);
     const T sheared = intact * intactStrength(compression) + damage * residual;
-    const T both = branchFree::choose(p > T(0.0), branchFree::smaller(tension, sheared), tension);
-    return branchFree::positivePart(both);
+    return branchFree::positivePart(branchFree::smaller(tension, sheared));
   }
 
   /// psi: strength on the meridian of triaxial tension over that of compression.
@@ -244,6 +244,19 @@ private:
     T scale = T(1.0);         ///< of the trial deviator
   };
 
+  /// How the volume changes in a step that yields: pores close, or cracks open, or it bulks.
+  template <class T>
+  struct Way
+  {
+    branchFree::MaskOf<T> compacts;
+    branchFree::MaskOf<T> opens; ///< and some tension is left at the end of the step
+    T start;                     ///< v from where on it does
+    T passed = T(0.0);           ///< cracks opened before, until there was no tension
+    T cracks;                    ///< open ones, which bulking fills before it meets a pressure
+    T lack;                      ///< that of returnShear at the start [Pa]
+    T most;                      ///< bound of the change of v from there on
+  };
+
   /// Of stresses over fc.
   static constexpr Real toleranceShare = 1e-11;
   KOKKOS_INLINE_FUNCTION Real tolerance() const { return toleranceShare * strength; }
@@ -330,73 +343,118 @@ private:
     return shear;
   }
 
-  /// Volume strain v per plastic shear strain.
+  /// Volume strain v per plastic shear strain where there is no tension. It never falls with the
+  /// pressure and is 0 where the cap begins.
   template <class T>
-  KOKKOS_INLINE_FUNCTION T volumePerShear(const State<T>& state) const
+  KOKKOS_INLINE_FUNCTION T volumePerShear(const T& p, const T& pc, const T& intact) const
   {
     using branchFree::choose;
-    const T start = T(capRatio) * state.pc, knee(strength / 3);
+    const T start = T(capRatio) * pc, knee(strength / 3);
     const T dilatant =
-        choose(state.p < knee,
-               T(tensileDilation) + (T(kneeDilation) - T(tensileDilation)) * state.p / knee,
-               T(kneeDilation) * (start - state.p) / (start - knee));
+        choose(p < knee, T(tensileDilation) + T(kneeDilation - tensileDilation) * p / knee,
+               T(kneeDilation) * (start - p) / (start - knee));
     const T compacting =
-        T(shearCompaction) * branchFree::smaller((state.p - start) / (state.pc - start), T(1.0));
-    return choose(
-        state.p < T(0.0), T(-tensileDilation),
-        choose(state.p >= start, compacting, -state.intact * branchFree::positivePart(dilatant)));
+        T(shearCompaction) * branchFree::smaller((p - start) / (pc - start), T(1.0));
+    return choose(p > start, compacting, -intact * branchFree::positivePart(dilatant));
   }
 
-  /// The deviator returns along itself to the strength, and the volume follows.
+  /// Y of the step, at a pressure and a crush pressure.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T strengthAt(const T& p, const T& pc, const State<T>& state,
+                                      const Shear<T>& shear) const
+  {
+    if (!rates.counts())
+      return shearStrength(p, pc, state.damage, shear.cosTheta);
+    const T& faster = shear.faster;
+    return faster * shearStrength(p / faster, pc / faster, state.damage, shear.cosTheta);
+  }
+
+  /// Under tension cracks open, until there is none: against a pressure they would give work back.
+  /// There bulking takes over, or the flow stays where bulking would fall behind.
+  /// @param over q - Y at the start of the step [Pa]
+  template <class T>
+  KOKKOS_INLINE_FUNCTION Way<T> wayOf(const State<T>& state, const Shear<T>& shear,
+                                      const T& over) const
+  {
+    using branchFree::choose;
+    const T zero(0.0), threeG(3 * elastic.shearModulus), opening(tensileDilation);
+    const T toNone = branchFree::positivePart(state.v - state.ebar);
+    Way<T> way;
+    way.compacts = state.p > T(capRatio) * state.pc;
+    way.opens = toNone > zero;
+    const T perShear = choose(
+        way.opens, opening, branchFree::absolute(volumePerShear(state.p, state.pc, state.intact)));
+    way.lack = perShear * over;
+    way.start = state.v;
+    if (branchFree::anyOf(way.opens))
+    {
+      const T needed = threeG * toNone,
+              overAtNone = shear.q - strengthAt(zero, state.pc, state, shear);
+      const auto passes = way.opens && opening * overAtNone > needed;
+      way.opens = way.opens && !passes;
+      way.passed = choose(passes, toNone, zero);
+      way.start = choose(passes, state.ebar, state.v);
+      way.lack = choose(passes, state.intact * opening * overAtNone - needed, way.lack);
+    }
+    way.cracks = state.et + way.passed;
+    // Strength does not fall while cracks open or the volume bulks; it may while pores close.
+    way.most = choose(way.compacts, perShear * shear.q, way.lack) / threeG;
+    return way;
+  }
+
+  /// The deviator returns along itself to the strength and the volume follows, by as much per shear
+  /// as belongs to the pressure at the end. Sought is the change of volume, of which pressure,
+  /// strength Y and plastic shear (q - Y) / 3G are functions. All flow leads to the start of the
+  /// cap, where no volume follows; so what the change lacks falls on the way, and its root is a
+  /// continuous function of the trial stress.
   template <class T>
   KOKKOS_INLINE_FUNCTION void returnShear(State<T>& state, Shear<T>& shear) const
   {
-    using branchFree::choose;
+    using branchFree::choose, branchFree::smaller, branchFree::larger, branchFree::positivePart;
     const T zero(0.0), one(1.0), threeG(3 * elastic.shearModulus), q = shear.q;
-    const auto pulled = state.p < zero, compacts = state.p >= T(capRatio) * state.pc;
-    const T rate = volumePerShear(state);
-    const Real fullest = fullCompaction() * (1 - std::exp(-closedPores));
-    const auto compactionAt = [&](const T& dl)
-    { return branchFree::smaller(state.ec + branchFree::positivePart(rate) * dl, T(fullest)); };
-    // Opening under tension ends at no pressure: against a pressure it would give work back.
-    const T widest = branchFree::smaller(state.v, state.ebar);
-    const auto volumeAt = [&](const T& dl)
-    {
-      const T moved = state.v + choose(compacts, compactionAt(dl) - state.ec, rate * dl);
-      return choose(pulled, branchFree::larger(moved, widest), moved);
-    };
-    const auto strengthAt = [&](const T& p, const T& pc)
-    {
-      if (!rates.counts())
-        return shearStrength(p, pc, state.damage, shear.cosTheta);
-      const T& faster = shear.faster;
-      return faster * shearStrength(p / faster, pc / faster, state.damage, shear.cosTheta);
-    };
-    const auto excess = [&](const T& dl)
-    {
-      return q - threeG * dl -
-             strengthAt(pressure(state.ebar, volumeAt(dl)), crushCurve(compactionAt(dl)));
-    };
-    const T over = q - strengthAt(state.p, state.pc);
-    const auto yields = over > T(tolerance());
+    const T over = q - strengthAt(state.p, state.pc, state, shear);
+    const auto yields = over > zero;
     if (!branchFree::anyOf(yields))
       return;
-    const T most = q / threeG;
-    const T root =
-        branchFree::fallingRoot(excess, zero * q, most, over, excess(most), T(tolerance()), yields);
-    shear.plastic = choose(yields, root, zero);
-    const T compacted = choose(yields && compacts, compactionAt(shear.plastic) - state.ec, zero);
-    state.opened = choose(yields && pulled, state.v - volumeAt(shear.plastic), zero);
-    state.dilated = choose(yields && !pulled && !compacts, -rate * shear.plastic, zero);
-    state.ec += compacted;
-    state.et += state.opened;
+    const Way<T> way = wayOf(state, shear, over);
+    const T fullest = larger(state.ec, T(fullCompaction() * (1 - std::exp(-closedPores))));
+    const auto compactionAfter = [&](const T& gone)
+    { return choose(way.compacts, smaller(state.ec + gone, fullest), state.ec); };
+    const auto volumeAfter = [&](const T& gone)
+    {
+      const T open = way.start - gone;
+      const T filled = larger(open, smaller(state.ebar, open + way.cracks));
+      return choose(way.compacts, way.start + (compactionAfter(gone) - state.ec),
+                    choose(way.opens, open, filled));
+    };
+    const auto lack = [&](const T& gone)
+    {
+      const T p = pressure(state.ebar, volumeAfter(gone)), pc = crushCurve(compactionAfter(gone));
+      const T follows = volumePerShear(p, pc, state.intact);
+      const T perShear = choose(way.opens, T(tensileDilation),
+                                positivePart(choose(way.compacts, follows, -follows)));
+      return perShear * (q - strengthAt(p, pc, state, shear)) - threeG * (way.passed + gone);
+    };
+    const T root = branchFree::fallingRoot(lack, zero * q, way.most, way.lack, lack(way.most),
+                                           T(tolerance()), yields);
+
+    const T gone = choose(yields, root, zero);
+    const auto bulks = yields && !way.opens && !way.compacts;
+    state.opened = choose(yields, choose(way.opens, gone, way.passed), zero);
+    state.dilated = choose(bulks, gone, zero);
+    state.et +=
+        state.opened -
+        choose(bulks, positivePart(smaller(state.ebar - (way.start - gone), way.cracks)), zero);
     state.ed += state.dilated;
-    state.v = choose(yields, volumeAt(shear.plastic), state.v);
+    state.ec = compactionAfter(gone);
+    state.v = choose(yields, volumeAfter(gone), state.v);
     state.p = choose(yields, pressure(state.ebar, state.v), state.p);
     state.pc = choose(yields, crushCurve(state.ec), state.pc);
-    shear.scale = choose(yields, one - threeG * shear.plastic / q, one);
-    state.dissipation += shear.scale * q * shear.plastic * shear.partOfMean +
-                         state.p * (compacted - state.dilated - state.opened);
+    const T borne = smaller(strengthAt(state.p, state.pc, state, shear), q);
+    shear.plastic = choose(yields, (q - borne) / threeG, zero);
+    shear.scale = choose(yields, borne / q, one);
+    state.dissipation += choose(
+        yields, borne * shear.plastic * shear.partOfMean + state.p * (state.v - way.start), zero);
   }
 
   /// No mean tension above the strength: cracks open.

@@ -18,6 +18,7 @@ class NodeLayout
 public:
   NodeLayout(const Comm& comm, const RankMesh& mesh);
 
+  const Comm& comm() const { return *comm_; }
   int owned() const { return owned_; }
   int ofElements() const { return ofElements_; } ///< owned and other nodes of held elements
   int size() const { return int(ids_.size()); }

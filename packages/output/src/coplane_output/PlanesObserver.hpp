@@ -38,7 +38,7 @@ public:
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   void write(const Solver& solver); ///< collective

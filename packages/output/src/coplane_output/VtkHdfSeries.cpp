@@ -1,3 +1,4 @@
+#include <coplane_checkpoint/Hdf5Guard.hpp>
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Log.hpp>
@@ -136,15 +137,21 @@ std::string VtkHdfSeries::writer(const VtkHdfRoom& room) const
 
 VtkHdfSkeleton VtkHdfSeries::skeleton(const VtkHdfRoom& room) const
 {
+  std::string why;
   try
   {
     return vtkHdfSkeleton(writer(room), columns_, joints_, room, std::int64_t(steps_.size()));
   }
   catch (const MemoryFile::Failure& failure)
   {
-    fail(ExitCode::Output, "{}_planes.vtkhdf: the file cannot be prepared: {}. Is /dev/shm full?",
-         base_, failure.what());
+    why = failure.what();
   }
+  catch (const hdf5::Failure& failure)
+  {
+    why = std::string("HDF5: ") + failure.what();
+  }
+  fail(ExitCode::Output, "{}_planes.vtkhdf: the file cannot be prepared: {}. Is /dev/shm full?",
+       base_, why);
 }
 
 std::string VtkHdfSeries::position() const

@@ -4,6 +4,7 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_contact/detail/DirectionsOfNodes.hpp>
+#include <coplane_contact/detail/NormalsOfNodes.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -58,9 +59,9 @@ private:
   int dimension_;
   std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
   std::vector<Edge> edges_;
-  std::vector<Real> lieOn_;   ///< by pair
-  DirectionsOfNodes normals_; ///< of the surfaces around a node
-  DirectionsOfNodes hidden_;  ///< normals of hidden faces that end at a node, and who lies on them
-  DirectionsOfNodes flush_;   ///< out over the edges at which they end
+  std::vector<Real> lieOn_;  ///< by pair
+  NormalsOfNodes normals_;   ///< of the faces around a node
+  DirectionsOfNodes hidden_; ///< normals of hidden faces that end at a node, and who lies on them
+  DirectionsOfNodes flush_;  ///< out over the edges at which they end
 };
 } // namespace coplane
