@@ -84,7 +84,19 @@ pictures.draw(coplane.open(flat.folder), "drawn", times=[0], size=(300, 200))
 # --- strip, comparison, film ---------------------------------------------------------------------------------------------
 (strip,) = drawn("strip", flat.folder, "-o", "drawn", "--steps", "3", "--strip", "2", "--size", "300", "200")
 image = seen(strip)
-case.check_equal("strip: two columns, two rows, the last place empty", (image.shape, bool((image[200:, 300:] == 255).all())), ((400, 600, 3), True))
+case.check_equal("strip: two columns, two rows, in the last place only names", (image.shape, bool((image[200:260, 300:] < 160).any()), bool((image[260:, 300:] == 255).all())),
+                 ((400, 600, 3), True, True))
+# Of a body that is as wide as the picture nothing is hidden: the bar stands beside it, in each picture within its size, in a strip beside the last.
+for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide body, strip", ["--strip", "2"], 564)):
+    (file,) = drawn(what, flat.folder, "-o", "drawn", "--times", "2e-4", "--color", "velocity", "--size", "480", "160", "--window", "0", "1", "-0.1", "0.2", "--no-edges",
+                    "--planes", "none", "--name", "wide", *words)  # fmt: skip
+    image = seen(file)
+    white = numpy.flatnonzero((image > 250).all(axis=(0, 2)))  # columns with nothing on them
+    left, right = image[:, : white[0]], image[:, white[0] :]
+    colors_right = (right.max(axis=2) - right.min(axis=2) > 40).any(axis=0).sum()
+    case.check_equal(f"{what}: width of the picture", image.shape[1], width)
+    case.check_within(f"{what}: columns of the body, then white, then a bar", int(white[0]), width - 86, width - 82)
+    case.check_within(f"{what}: columns of the bar", int(colors_right), 6, 20)
 (pair,) = drawn("comparison", flat.folder, "--compare", other.folder, "-o", "drawn", "--times", "8e-5", "--color", "von_mises", "--size", "400", "300")
 image = seen(pair)
 case.check_equal("comparison: size", image.shape, (300, 800, 3))
@@ -172,9 +184,12 @@ def red(image):
 image = seen(with_arrows)
 case.check_within("arrows: their points", red(image), 50, 20000)
 case.check_equal("no arrows: none", red(seen("drawn/iso_000000us.png")), 0)
-rows, columns = numpy.nonzero((image[..., 0] > 90) & (image[..., 1] < 60) & (image[..., 2] < 60))
-case.check_within("arrows lie along x, the force between the bars: width over height", numpy.ptp(columns) / numpy.ptp(rows), 0.8, 20)
-body = numpy.flatnonzero((image[195:205, :480] < 250).any(axis=(0, 2)))
+bodies = (image < 250).any(axis=2)
+bodies[:150] = bodies[-50:] = False  # without time, names and scale
+body = numpy.flatnonzero(bodies.any(axis=0))
+middle = int(numpy.flatnonzero(bodies.any(axis=1)).mean())
+rows, columns = numpy.nonzero(((image[..., 0] > 90) & (image[..., 1] < 60) & (image[..., 2] < 60))[middle:])  # of the lower of the two rows of faces
+case.check_within("an arrow lies along x, the force between the bars: width over height", numpy.ptp(columns) / numpy.ptp(rows), 3, 20)
 case.check_within("arrows begin between the bars", abs(columns.min() - body.mean()) / numpy.ptp(body), 0, 0.06)
 
 # --- files of ranks, the contents of pictures --------------------------------------------------------------------------------
@@ -186,8 +201,10 @@ looks = ["-o", "drawn", "--times", "4e-5", "1e-4", "--color", "velocity", "--ran
 (one,), (other_file,) = drawn("one file", flat.folder, *looks, "--name", "one"), drawn("files of ranks", ranks.folder, *looks, "--name", "many")
 case.check_equal("files of ranks: the same picture as of one file", bool((seen(one) == seen(other_file)).all()), True)
 (dots,) = drawn("dots", flat.folder, "-o", "drawn", "--times", "6e-5", "--size", "600", "400", "--dot-size", "8", "--window", "0.4", "0.6", "0", "0.1", "--no-edges", "--name", "dots")
-image = seen(dots)
-case.check_within("dots on flat bodies: black points in the middle", int((image[150:250, 250:350] < 60).all(axis=2).sum()), 40, 4000)
+# Two faces meet: a dot of 8 by 8 points at a quarter and at three quarters of the height.
+dark = (seen(dots)[60:340, 60:] < 60).all(axis=2)
+case.check_within("dots on flat bodies: their points", int(dark.sum()), 100, 140)
+case.check_within("dots on flat bodies: where they are, of the height of the bodies", numpy.ptp(numpy.flatnonzero(dark.any(axis=1))) / 300, 0.45, 0.6)
 (expression,) = drawn("expression", flat.folder, "-o", "drawn", "--times", "4e-5", "--color", "0*density+1", "--range", "0", "1", "--palette", "white_to_blue", "--planes", "none",
                       "--no-edges", "--size", "300", "200", "--name", "expression")  # fmt: skip
 case.check_equal("expression: the colour of the highest value", tuple(seen(expression)[100, 100]), (26, 64, 140))

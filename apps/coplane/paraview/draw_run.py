@@ -6,7 +6,8 @@
     palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
     camera: a name, a direction [x, y, z] or null   window: what is seen, [x0, x1, y0, y1] or with z0, z1, or null   up: y or z
     planes: dots (of those that carry traction), all, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
-    mirror, deformed, edges: bool   size: [width, height]   legend: all, or last: in the last picture only
+    mirror, deformed, edges: bool   size: [width, height]
+    legend: names and colour bars at the right of the bodies, within the width, in all pictures; or last: only in the last, which is so much wider
 """
 import json
 import os
@@ -25,7 +26,7 @@ if want["mirror"]:
     bounds[0] = min(bounds[0], -bounds[1])
 if want["window"]:
     bounds[: len(want["window"])] = want["window"]
-view = {"size": want["size"], "camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
+view = {"camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
         "room": 1.0 if want["window"] else 1.2}  # fmt: skip
 chosen = want["blocks"] or runs[0].names
 colored = [name for name in chosen if name not in want["plain"]]
@@ -33,6 +34,9 @@ by_block = want["color"] == "block" or not colored
 of_planes = want["planes"] not in ("dots", "all", "arrows", "none")
 has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
 # Planes lie between bodies: their arrows and values shall be seen through them.
+bars = (not by_block) + (of_planes and has_planes)
+margin = cp.margin_for(want["size"], chosen if by_block and not of_planes else (), bars)
+width = want["size"][0] - (margin if want["legend"] == "all" else 0)
 opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
 
 
@@ -76,8 +80,8 @@ def styled(name, range):
 
 def draw(run, time, name):
     nearest = run.nearest(time)[0]
-    picture = cp.Picture(run, nearest, **view)
     with_legend = want["legend"] == "all" or time == times[-1]
+    picture = cp.Picture(run, nearest, size=[width + (margin if with_legend else 0), want["size"][1]], margin=margin if with_legend else 0, **view)
     if of_planes and want["color"] == "block":
         picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], want["edges"], opacity, [0.85, 0.84, 0.82])
     elif by_block:

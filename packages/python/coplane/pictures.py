@@ -82,7 +82,7 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time.
 
     Meanings are those of the options of `coplane pictures` (docs/user/paraview.md). camera: a name or a direction; window: 4 or 6 numbers [m];
-    legend: all, or last, in the last picture alone. PicturesFailed when ParaView is missing or fails, ValueError for what the run has not.
+    legend: names and colour bars at the right of all pictures, within their size; or last, of the last picture alone, which is so much wider. PicturesFailed when ParaView is missing or fails, ValueError for what the run has not.
     """
     missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
@@ -113,13 +113,14 @@ def _drawn(want, timeout):
 
 
 def strip(files, output, columns):
-    """Pictures of one size beside each other, in rows of so many."""
+    """Pictures of one size beside each other, in rows of so many; the last may be wider, by its legend."""
     Image = needs("PIL.Image", "A strip")
     images = [Image.open(file).convert("RGB") for file in files]
     width, height = images[0].size
-    whole = Image.new("RGB", (width * min(columns, len(images)), height * -(-len(images) // columns)), "white")
-    for place, image in enumerate(images):
-        whole.paste(image, (width * (place % columns), height * (place // columns)))
+    places = [(width * (place % columns), height * (place // columns)) for place, _ in enumerate(images)]
+    whole = Image.new("RGB", (max(x + image.width for (x, _), image in zip(places, images)), places[-1][1] + height), "white")
+    for place, image in zip(places, images):
+        whole.paste(image, place)
     whole.save(output)
 
 
