@@ -147,7 +147,7 @@ script = """
 import coplane_pictures as cp
 run = cp.Run()
 for name, camera, up in [(name, name, "z") for name in cp.CAMERAS] + [("up_y", "front", "y")]:
-    picture = cp.Picture(run, 0, size=(400, 300), camera=camera, bounds=run.bounds([0]), up=up, label=False)
+    picture = cp.Picture(run, 0, size=(400, 300), camera=camera, bounds=run.bounds([0]), up=up, label=False, margin=cp.margin_for((400, 300), run.names))
     picture.bodies(legend=False, edges=False)
     picture.save(name)
 """
@@ -180,12 +180,12 @@ def red(image):
     return int(((image[..., 0] > 90) & (image[..., 1] < 60) & (image[..., 2] < 60)).sum())
 
 
-(with_arrows,) = drawn("arrows", space.folder, "-o", "drawn", "--times", "6e-5", "--planes", "arrows", "--camera", "front", "--size", "600", "400", "--name", "arrows")
+(with_arrows,) = drawn("arrows", space.folder, "-o", "drawn", "--times", "6e-5", "--planes", "arrows", "--camera", "front", "--size", "900", "600", "--name", "arrows")
 image = seen(with_arrows)
 case.check_within("arrows: their points", red(image), 50, 20000)
 case.check_equal("no arrows: none", red(seen("drawn/iso_000000us.png")), 0)
 bodies = (image < 250).any(axis=2)
-bodies[:150] = bodies[-50:] = False  # without time, names and scale
+bodies[:200] = bodies[-80:] = False  # without time, names and scale
 body = numpy.flatnonzero(bodies.any(axis=0))
 middle = int(numpy.flatnonzero(bodies.any(axis=1)).mean())
 rows, columns = numpy.nonzero(((image[..., 0] > 90) & (image[..., 1] < 60) & (image[..., 2] < 60))[middle:])  # of the lower of the two rows of faces

@@ -223,6 +223,19 @@ class Picture:
         view.CameraPosition = list(middle + 3 * numpy.linalg.norm(numpy.ptp(sides, axis=1)) * toward)
         view.CameraViewUp = list(up)
         view.CameraParallelScale = scale
+        if self.margin:
+            self._blank_margin(scale, toward, right, up)
+
+    def _blank_margin(self, scale, toward, right, up):
+        """White before bodies that are wider than the bounds."""
+        half = scale * self.size[0] / self.size[1]
+        place = (numpy.array(self.view.CameraFocalPoint) + numpy.array(self.view.CameraPosition)) / 2
+        corner = place + right * half * (1 - 2 * self.margin / self.size[0]) - up * 1.01 * scale
+        sheet = Plane(Origin=list(corner), Point1=list(corner + right * 2.02 * half * self.margin / self.size[0]), Point2=list(corner + up * 2.02 * scale))
+        shown = Show(sheet, self.view)
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = [1, 1, 1]
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
 
     def scale_bar(self):
         """A length in the lower left corner; only where there is no perspective."""
