@@ -87,7 +87,7 @@ image = seen(strip)
 case.check_equal("strip: two columns, two rows, in the last place only names", (image.shape, bool((image[200:260, 300:] < 160).any()), bool((image[260:, 300:] == 255).all())),
                  ((400, 600, 3), True, True))
 # Of a body that is as wide as the picture nothing is hidden: the bar stands beside it, in each picture within its size, in a strip beside the last.
-for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide body, strip", ["--strip", "2"], 564)):
+for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide body, strip", ["--strip", "2"], 585)):
     (file,) = drawn(what, flat.folder, "-o", "drawn", "--times", "2e-4", "--color", "velocity", "--size", "480", "160", "--window", "0", "1", "-0.1", "0.2", "--no-edges",
                     "--planes", "none", "--name", "wide", *words)  # fmt: skip
     image = seen(file)
@@ -95,7 +95,7 @@ for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide 
     left, right = image[:, : white[0]], image[:, white[0] :]
     colors_right = (right.max(axis=2) - right.min(axis=2) > 40).any(axis=0).sum()
     case.check_equal(f"{what}: width of the picture", image.shape[1], width)
-    case.check_within(f"{what}: columns of the body, then white, then a bar", int(white[0]), width - 86, width - 82)
+    case.check_within(f"{what}: columns of the body, then white, then a bar", int(white[0]), width - 107, width - 103)
     case.check_within(f"{what}: columns of the bar", int(colors_right), 6, 20)
 (pair,) = drawn("comparison", flat.folder, "--compare", other.folder, "-o", "drawn", "--times", "8e-5", "--color", "von_mises", "--size", "400", "300")
 image = seen(pair)
@@ -214,6 +214,23 @@ image = seen(mirrored)[90:110]
 case.check_within("mirror: first and last column of the bodies", numpy.ptp(numpy.flatnonzero((image < 253).any(axis=(0, 2)))), 380, 400)
 case.check_within("planes by a variable: points in colours", int((image.max(axis=2) - image.min(axis=2) > 60).sum()), 20, 2000)
 
+# Names of blocks with capitals, spaces and letters of other languages, in a folder and a run of such names.
+odd = case.attempt("odd", {"dimension": 2, "parts": [{"shape": "box", "block": name, "min": [x, 0], "size": [0.5, 0.1], "divisions": [10, 2]}
+                                                    for name, x in (("Linker Balken", 0), ("Zweiter_Körper", 0.5))]},
+                   {**deck(2), "blocks": {name: {"material": "steel"} for name in ("Linker Balken", "Zweiter_Körper")}, "initial": []})  # fmt: skip
+if odd.code:
+    sys.exit(odd.output)
+moved = pathlib.Path("Ein schöner Ordner")
+shutil.rmtree(moved, ignore_errors=True)
+shutil.copytree(odd.folder, moved)
+look = ["-o", "drawn", "--shares", "1", "--size", "400", "200", "--planes", "none", "--no-edges", "--window", "0", "1", "-0.1", "0.2"]
+(left_only,) = drawn("odd names", moved, *look, "--name", "links von hier", "--blocks", "Linker Balken")
+body = (numpy.abs(seen(left_only) - [115, 133, 153]).max(axis=2) < 8).any(axis=0)
+(plain,) = drawn("odd names, plain", moved, *look, "--name", "plain", "--color", "velocity", "--plain", "Zweiter_Körper", "--window", "0", "1", "-0.1", "0.2")
+second = (numpy.abs(seen(plain) - [217, 184, 140]).max(axis=2) < 8).any(axis=0)
+case.check_within("odd names: columns of the block that is chosen", int(body.sum()), 80, 400)
+case.check_within("odd names: columns of the block in its own colour", int(second.sum()), 80, 220)
+
 # The cards of example.yaml have the options of the program, and no others.
 schema = json.loads((pathlib.Path(os.environ["COPLANE_SOURCE"]) / "docs/schemas/example.json").read_text())
 keys = set(schema["properties"]["pictures"]["additionalProperties"]["properties"])
@@ -248,4 +265,14 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("a run", ["nobody"], ["there is no run of this name"])):  # fmt: skip
     code, said = draw(*words)
     case.check_equal(f"{what}: refused with these words", (code, [word for word in told if word not in said]), (2, []))
+# That ffmpeg is missing is told before anything is drawn: here nothing that draws is found either.
+which, told = shutil.which, ""
+shutil.which = lambda name: None
+try:
+    pictures.make([str(flat.folder), "--animation", "drawn/late.mp4"])
+except pictures.PicturesFailed as error:
+    told = str(error)
+finally:
+    shutil.which = which
+case.check_equal("a film without ffmpeg: told first", [word for word in ("late.mp4", "ffmpeg not found", ".gif") if word not in told], [])
 case.finish()

@@ -38,8 +38,9 @@ LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be d
 class Run:
     """Results `run.e`, with the parts that restarts have written and the files of ranks, and planes `run_planes.xmf3` or `.pvd` in a folder."""
 
-    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None):
-        """files: all files of the results, and planes: the series, in place of those in the folder."""
+    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None, names=None):
+        """files: all files of the results, and planes: the series, in place of those in the folder. names: of the blocks as the mesh has them; the
+        reader of ParaView writes them small, with _ for spaces."""
         self.folder = os.path.abspath(results or sys.argv[1])
         self.deformed = deformed
         self.pictures = pictures or sys.argv[2]
@@ -48,7 +49,9 @@ class Run:
         # All parts and ranks by their names: the reader seeks no files of ranks of other parts.
         self.files = files or sorted(glob.glob(glob.escape(self.file)) + glob.glob(glob.escape(self.file) + "[.-][s0-9]*"))
         self.reader = self._open()
-        self.names = list(self.reader.ElementBlocks)
+        of_reader = list(self.reader.ElementBlocks)
+        self.names = list(names) if names and len(names) == len(of_reader) else of_reader
+        self._of_reader = dict(zip(self.names, of_reader))
         self.times = list(self.reader.TimestepValues)
         places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".xmf3", ".pvd")]
         # Of a run that has changed its format, what was written last.
@@ -71,7 +74,7 @@ class Run:
             if name not in self.names:
                 raise SystemExit(f"{self.file} has no element block '{name}'; it has {', '.join(self.names)}.")
         reader = self._open()
-        reader.ElementBlocks = list(names)
+        reader.ElementBlocks = [self._of_reader[name] for name in names]
         grid = MergeBlocks(Input=reader, MergePoints=0)
         return Threshold(Input=grid, Scalars=["CELLS", "alive"], LowerThreshold=0.5, ThresholdMethod="Above Upper Threshold",
                          UpperThreshold=0.5)
@@ -158,7 +161,7 @@ def letters_of(size):
 def margin_for(size, names=(), bars=0):
     """Points of the screen that names of blocks, or colour bars, take at the right of a picture."""
     longest = max((min(len(name), MOST_LETTERS) for name in names), default=0)
-    return round(min(0.45 * size[0], letters_of(size) * max(12.5 * longest + 12 if names else 0, 140 if bars else 0)))
+    return round(min(0.45 * size[0], letters_of(size) * max(12.5 * longest + 12 if names else 0, 175 if bars else 0)))
 
 
 def words_of_length(metres):

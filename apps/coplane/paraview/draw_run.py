@@ -1,6 +1,6 @@
 """Pictures of any run, for pvbatch: what coplane.pictures asks for, as JSON in the first argument; prints the files, a line each.
 
-    runs: [{folder, name, files (of the results), planes (the series, or null)}, ...]   one, or two to be compared
+    runs: [{folder, name, files (of the results), planes (the series, or null), blocks (their names, as in the mesh)}, ...]   one, or two to be compared
     folder: of the pictures   frames: positions in the times of the first run
     color: a variable, an expression of variables, or "block"   title: of its bar   range: [lowest, highest] or null: of all frames
     palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
@@ -17,7 +17,7 @@ import coplane_pictures as cp
 from paraview.simple import MergeBlocks, Reflect, Threshold
 
 want = json.loads(sys.argv[1])
-runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"]) for run in want["runs"]]
+runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"], run["blocks"]) for run in want["runs"]]
 times = [runs[0].times[frame] for frame in want["frames"]]
 boxes = [run.bounds(run.nearest(times[0], times[-1]), want["blocks"]) for run in runs]
 bounds = [(min if side % 2 == 0 else max)(box[side] for box in boxes) for side in range(6)]

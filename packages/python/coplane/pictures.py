@@ -90,7 +90,7 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     runs, told = [run] if compare is None else [run, compare], []
     for one in runs:
         _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
-        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes),
+        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "blocks": one.results.blocks,
                      "files": [str(file.path if pathlib.Path(file.path).is_absolute() else pathlib.Path(file.path).resolve()) for part in one.results.parts for file in part]})
     if isinstance(camera, str) and camera not in CAMERAS:
         raise ValueError(f"no camera '{camera}'; there are {', '.join(CAMERAS)}, or a direction of three numbers")
@@ -124,6 +124,12 @@ def strip(files, output, columns):
     whole.save(output)
 
 
+def _demand_film(output):
+    """PicturesFailed when there is nothing that makes such a film."""
+    if pathlib.Path(output).suffix == ".mp4" and not shutil.which("ffmpeg"):
+        raise PicturesFailed(f"{output}: ffmpeg not found, which makes .mp4: apt-get install ffmpeg, or choose a file .gif")
+
+
 def animate(files, output, rate=12):
     """A film of pictures: .gif, or .mp4 where ffmpeg is installed."""
     if pathlib.Path(output).suffix == ".gif":
@@ -131,8 +137,7 @@ def animate(files, output, rate=12):
         images = [Image.open(file).convert("RGB").quantize(128) for file in files]
         images[0].save(output, save_all=True, append_images=images[1:], duration=round(1000 / rate), loop=0)
         return
-    if not shutil.which("ffmpeg"):
-        raise PicturesFailed("ffmpeg not found: apt-get install ffmpeg, or choose a file .gif")
+    _demand_film(output)
     with tempfile.TemporaryDirectory() as folder:
         for place, file in enumerate(files):
             shutil.copy(file, f"{folder}/{place:06d}.png")
@@ -188,7 +193,7 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
         axes.set(xlim=window[:2], ylim=window[2:4])
     axes.set(aspect="equal", title=f"t = {1e3 * times[step]:.4g} ms", xlabel="x [m]", ylabel="y [m]")
     if values:
-        figure.colorbar(polygons, label=_titled(color))
+        figure.colorbar(polygons, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=_titled(color))  # as tall as what is seen
     else:
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1))
     if planes and run.planes_path.exists() and len(run.planes):
@@ -289,6 +294,8 @@ def make(words):
                options.planes != "none", options.window)  # fmt: skip
         return [path]
     film = _file_of(options.animation, (".mp4", ".gif")) if options.animation else None
+    if film:
+        _demand_film(film)  # before minutes of drawing
     other = Run(options.compare) if options.compare else None
     steps = options.steps or (len(run.results.times) if film else 2)
     folder, name = pathlib.Path(options.output or run.folder / "pictures"), options.name or run.name
