@@ -153,6 +153,12 @@ void HistoryObserver::savePosition(std::map<std::string, std::string>& positions
     positions["history"] = table_.position(lastCycle_).text();
 }
 
+void HistoryObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void HistoryObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
