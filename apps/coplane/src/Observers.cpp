@@ -72,6 +72,8 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
     probe.block = indexOf(mesh.blocks, card.block);
     probe.reaction = card.reaction;
+    probe.point = card.point;
+    probe.variables = card.variables;
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)

@@ -103,8 +103,12 @@ TEST(Stages, aBlockLeavesWithItsMassMomentumAndEnergy)
   expectClosedBooks(solver);
   // Nodes without elements stay where they are.
   for (int n = 0; n < solver.layout().owned(); ++n)
+  {
     if (solver.state().mass(n) == 0)
+    {
       EXPECT_EQ(norm(at(solver.state().v, n)), 0);
+    }
+  }
 }
 
 TEST(Stages, aBlockComesInFreeOfStressWhereItsNodesAre)

@@ -443,7 +443,7 @@ TEST(DeckErrors, requiredKeysThatAreMissing)
 TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
 {
   EXPECT_EQ(errorWith("history: {probes: [{name: a}, {name: b, block: c, node_set: d}]}\n"),
-            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block.\n"
+            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block, point.\n"
             "wall.yaml:5:48: history.probes.1.node_set and history.probes.1.block exclude each "
             "other; keep one of them.");
 }

@@ -98,7 +98,7 @@ h = run.history
 begins = [numpy.searchsorted(h["time"], 2e-3 * (1 + 1e-9)), None, len(h["time"])]
 case.check(f"{name}: nothing moves before [m]", numpy.max(numpy.abs(h["upper_displacement_y"][: begins[0]])), 0, 1e-15)
 case.check(f"{name}: force of the floor before [N]", h["foot_reaction_y"][begins[0] - 1], weight, 1e-12, relative=True)
-case.check(f"{name}: force of the floor at the end [N]", h["foot_reaction_y"][-1], 3 * weight, 1e-8, relative=True)
+case.check(f"{name}: force of the floor at the end [N]", h["foot_reaction_y"][-1], 3 * weight, 1e-5, relative=True)
 # The last displacements are those under the last block: the base and the middle are shortened by its weight, and it is by its own.
 case.check(f"{name}: settlement of the base [m]", h["upper_displacement_y"][-1], -weight / modulus, 1e-5, relative=True)
 results = run.results
@@ -115,8 +115,9 @@ for what, problem, reference in (("dig", runs["apart"][0], runs["apart"][1]), ("
     for place, cycle in (("border", 100), ("first stage", 130)):  # the stage that stands still ends at cycle 100
         name = f"{what}_{place.replace(' ', '_')}"
         until = (cycle + 4.5) * 2e-5
-        short = [still, {**problem["stages"][1], "until": until, "at_rest": False}]
-        stopped = case.attempt(name, None, {**problem, "stages": short, "time": {"end": until, "fixed_step": 2e-5}, "checkpoint": {"every_cycles": cycle}}, ranks=2)
+        # The last stage has begun when the run stops, the checkpoint is from before.
+        short = [still, {**problem["stages"][1], "until": until}, problem["stages"][2]]
+        stopped = case.attempt(name, None, {**problem, "stages": short, "time": {"end": until + 4e-5, "fixed_step": 2e-5}, "checkpoint": {"every_cycles": cycle}}, ranks=2)
         case.check_equal(f"{what}, {place}: exit code", stopped.code, 0)
         documents.save({**problem, "checkpoint": {"every_cycles": 100000}}, f"{name}/run.yaml")
         code, output = program.run_program(["run.yaml", "--restart"], name, ranks=3)
@@ -124,11 +125,10 @@ for what, problem, reference in (("dig", runs["apart"][0], runs["apart"][1]), ("
         case.check_equal(f"{what}, {place}: it says what differs", "stages.1.until was" in output, True)
         record = json.loads(pathlib.Path(name, "run.run-s0002.json").read_text()) if code == 0 else {"state_hash": output}
         case.check_equal(f"{what}, {place}: state hash", record["state_hash"], reference.state_hash)
-        same = stopped.bytes_of("run.csv") == reference.bytes_of("run.csv")
-        case.check_equal(f"{what}, {place}: history differs", not same, False)
+        case.check_equal(f"{what}, {place}: history differs", stopped.bytes_of("run.csv") != reference.bytes_of("run.csv"), False)
 
 # What is done cannot change any more, nor what the state holds.
-for told, change in (("stages.1.remove.0 was top", {"stages": [still, {**dig[1], "remove": ["middle"]}, dig[2]]}),
+for told, change in (("stages.1.remove.0 was top", {"stages": [still, {**dig[1], "remove": ["middle"]}, {**dig[2], "remove": ["top"]}]}),
                      ("materials.rock.density was 2000", {"materials": {"rock": {**problem["materials"]["rock"], "density": 2100.0}}})):  # fmt: skip
     documents.save({**runs["apart"][0], **change}, "dig_first_stage/run.yaml")
     code, output = program.run_program(["run.yaml", "--restart", "run.chk.0"], "dig_first_stage")

@@ -178,13 +178,13 @@ bool Solver::erode(Real dt)
   const bool facesChange = std::exchange(facesChange_, false);
   const std::vector<GlobalId> dead =
       erosion_->erode(mesh(), elements_, state_.v, dt, leaving, *comm_);
-  takeMassAlong(leaving);
   if (dead.empty() && !facesChange)
     return false;
   if (contact_)
     contact_->endPlanesOf(dead, facesChange ? facesThatGo() : std::vector<GlobalId>(), state_.x,
                           state_.v, dt);
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
+  takeMassAlong(leaving); // planes have ended with the velocities that there were
   return true;
 }
 

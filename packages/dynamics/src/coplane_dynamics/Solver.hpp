@@ -168,6 +168,7 @@ private:
   void rebuild(Model model);
   bool goOn(Observer& observer, const NextStage& nextStage);
   void demandNoRigidNodes(const std::vector<int>& blocks) const;
+  void demandThere(const std::vector<int>& blocks, bool there) const;
   void comeIn(const std::vector<int>& blocks);
   void leaveAbsentBlocks();
   void takeMassAlong(const std::vector<int>& blocks);

@@ -64,6 +64,8 @@ void Solver::beginStage(Stage stage)
   }
   demandNoRigidNodes(stage.add);
   demandNoRigidNodes(stage.remove);
+  demandThere(stage.remove, true);
+  demandThere(stage.add, false);
   comeIn(stage.add);
   leaving_ = std::move(stage.remove);
 }
@@ -80,6 +82,24 @@ void Solver::demandNoRigidNodes(const std::vector<int>& blocks) const
                      "stages: block '{}' shares nodes with a rigid body; accepted for blocks that "
                      "are removed or added: nodes of their own, or shared with blocks that deform.",
                      model_.blocks[std::size_t(b)].name);
+  }
+}
+
+/// The deck knows, but a restart may have changed it.
+void Solver::demandThere(const std::vector<int>& blocks, bool there) const
+{
+  for (const int b : blocks)
+  {
+    const ElementBlock& block = this->blocks()[std::size_t(b)];
+    std::int64_t present = 0;
+    for (int e = 0; e < block.count(); ++e)
+      present |= std::int64_t(!block.isTakenOut(e));
+    if ((comm_->max(present) > 0) != there)
+      failOnAllRanks(ExitCode::Deck,
+                     "stages.{}: block '{}' is {} there, so it cannot be {}. Blocks that a stage "
+                     "adds are absent from the start of the run on: a restart cannot change which.",
+                     stage_.index, model_.blocks[std::size_t(b)].name, there ? "not" : "already",
+                     there ? "removed" : "added");
   }
 }
 

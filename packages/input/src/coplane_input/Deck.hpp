@@ -195,6 +195,9 @@ struct ProbeCard
   std::string name, where;
   std::string nodeSet;   ///< mean motion of a node set ...
   std::string block;     ///< ... or mass-weighted mean motion of a block
+  std::optional<Vec3> point; ///< ... or of the nearest node [m]
+  /// Of the element nearest to the point, or least and largest of the block.
+  std::vector<std::string> variables;
   bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };
 

@@ -286,7 +286,12 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
-    if (deck.history.probes[i].reaction && !deck.history.probes[i].block.empty())
+    if (!deck.history.probes[i].variables.empty() && !deck.history.probes[i].nodeSet.empty())
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "variables"}),
+                   fmt::format("history.probes.{}.variables belongs to point or block; name one of "
+                               "these, or remove it.",
+                               i));
+    if (deck.history.probes[i].reaction && deck.history.probes[i].nodeSet.empty())
       problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
                    fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
                                "that conditions hold, or remove it.",

@@ -28,14 +28,18 @@ void applyStages(DeckNode& root, int last, Problems& problems)
   if (last == 0 || !stages)
     return;
   const std::vector<DeckNode> items = stages->items;
+  const auto apply = [&](int i, const DeckNode& path, const DeckNode& value)
+  {
+    if (isOfStages(path.text))
+      applyChange(root, path, value, problems);
+    else
+      problems.add(path, fmt::format("stages.{}.set: a stage cannot change {}. {}", i, path.text,
+                                     whatStagesMayChange()));
+  };
   for (int i = 1; i <= last; ++i)
     if (const DeckNode* set = items[std::size_t(i)].find("set"))
       for (const auto& [path, value] : set->entries)
-        if (isOfStages(path.text))
-          applyChange(root, path, value, problems);
-        else
-          problems.add(path, fmt::format("stages.{}.set: a stage cannot change {}. {}", i,
-                                         path.text, whatStagesMayChange()));
+        apply(i, path, value);
 }
 
 /// @param stage whose deck is wanted; the first is 0
