@@ -134,7 +134,7 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
           "title, mesh, "
           "geometry, "
           "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-          "time, output, history, checkpoint, partition.");
+          "time, stages, output, history, checkpoint, partition.");
 }
 
 TEST(DeckErrors, controlCharactersAreRefusedWithTheirLine)
@@ -726,7 +726,7 @@ TEST(DeckSetErrors, comeAfterThoseOfTheFile)
             "title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-            "time, output, history, checkpoint, partition.\n"
+            "time, stages, output, history, checkpoint, partition.\n"
             "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"
             "--set time.end=-1: time.end = '-1' is out of range; accepted: a number > 0 [s].");
 }

@@ -142,6 +142,7 @@ TEST(DeckChanges, ofStrengthsLoadsAndDampingsAreAllowedAndOfWhatTheStateHoldsRef
   EXPECT_TRUE(change("cohesion: 1e5}\n  glued", "cohesion: 2e5}\n  glued"));
   EXPECT_FALSE(change("cohesion: 1e5}\ncond", "cohesion: 2e5}\ncond"));
   EXPECT_TRUE(change("value: 1", "value: 2"));
+  EXPECT_FALSE(change("joints:\n", "joints:\n  new: {friction: 0.5}\n"));
   EXPECT_TRUE(change("-9.81", "-9.8"));
   EXPECT_TRUE(change("normal: 0.1", "normal: 0.2"));
   EXPECT_FALSE(change("skin: 0.1", "skin: 0.2"));

@@ -89,7 +89,7 @@ def deck(name, material, stress, cores, stages, end):
         "time": {"end": end},
         "stages": stages,
         "output": {"planes": False},
-        "history": {"every": end},
+        "history": {"every": 1e-3},
     }
 
 
@@ -117,7 +117,7 @@ stress = [horizontal, vertical, poisson * (horizontal + vertical)]
 mesh("kirsch.e", [0.75, a, *outside], {"core": a})
 stages = [{"name": "rock", "until": 1e-4}, {"name": "dug", "at_rest": True, "remove": ["core"]}]
 problem = deck("kirsch", elastic, stress, ["core"], stages, 1)
-run = case.run("kirsch", None, problem, energy=1e-3)
+run = case.run("kirsch", None, problem, energy=1e-5, load=-(horizontal + vertical) * far)
 at_rest("kirsch", run, ["dug"])
 mean, half = 0.5 * (horizontal + vertical), 0.5 * (horizontal - vertical)
 r, theta, rr, tt, rt = polar(run, "rock")
@@ -130,16 +130,15 @@ exact = {
 near = r < 4 * a
 for name, found in (("rr", rr), ("tt", tt), ("rt", rt)):
     case.check(f"kirsch: stress {name} within 4 a, farthest from Kirsch over the vertical one [-]",
-               numpy.max(numpy.abs(found - exact[name])[near]) / abs(vertical), 0, 0.03)  # fmt: skip
+               numpy.max(numpy.abs(found - exact[name])[near]) / abs(vertical), 0, 0.01)  # fmt: skip
 # Displacements by the opening, at its wall in plane strain.
 results = run.results
 place, moved = results.coordinates, results.nodal("displacement")
-radius = numpy.hypot(*place.T[:2])
-for name, axis, sign in (("side", 0, 1), ("roof", 1, -1)):
+compliance = a * (1 + poisson) / young
+exact = {"side": compliance * (mean + half * (3 - 4 * poisson)), "roof": compliance * (mean - half * (3 - 4 * poisson))}
+for axis, name in enumerate(exact):
     node = numpy.argmin(numpy.hypot(place[:, axis] - a, place[:, 1 - axis]))
-    shear = young / (2 * (1 + poisson))
-    expected = a / (2 * shear) * (mean + sign * half * (4 * (1 - poisson) - 1))
-    case.check(f"kirsch: displacement of the {name} [m]", moved[node, axis], expected, 0.02, relative=True)
+    case.check(f"kirsch: displacement of the {name} [m]", moved[node, axis], exact[name], 0.01 * abs(exact["roof"]))
 case.check("kirsch: mass that has left over that of a quarter circle [-]", run.history["eroded_mass"][-1] / (2600 * math.pi / 4 * a**2), 1, 2e-3)
 case.same_bits("kirsch", None, problem, run, ranks=3)
 
@@ -156,7 +155,7 @@ for share in steps:
 stages[1]["remove"] = ["core"]
 problem = deck("kirsch", plastic, [-pressure] * 3, ["core"], stages, 0.1 * (len(stages) + 1))
 problem["conditions"].append({"type": "pressure", "side_set": "wall", "value": 0})
-run = case.run("mohr_coulomb", None, problem, energy=1e-3)
+run = case.run("mohr_coulomb", None, problem, energy=1e-5, load=2 * pressure * far)
 at_rest("mohr_coulomb", run, [f"support {share}" for share in steps])
 ring = a * ((2 / (factor + 1)) * (pressure + shift) / shift) ** (1 / (factor - 1))
 edge = 2 * (pressure + shift) / (factor + 1) - shift  # radial stress at the edge of the ring
@@ -174,5 +173,6 @@ radii = numpy.array([a, *outside])
 rings = numpy.searchsorted(radii, r)
 reach = [radii[rings[yielded & (abs(theta - angle) < 0.5 * math.pi / around)].max()] for angle in (math.pi / 8, math.pi / 4, 3 * math.pi / 8)]
 size = numpy.diff(radii)[numpy.searchsorted(radii, ring) - 1]
+case.same_bits("mohr_coulomb", None, problem, run, ranks=2)
 case.check("mohr_coulomb: radius of the plastic ring, by elements that have yielded [m]", float(numpy.mean(reach)), ring, size)
 case.finish()

@@ -159,6 +159,14 @@ bool mayChangeInStages(const std::string& path, const std::map<std::string, std:
   const std::string& section = words[0];
   if (has(freeInStages, section))
     return true;
+  // A card that was not there would make others out of those behind it.
+  if (has({"joints", "materials", "blocks"}, section) && words.size() > 1)
+  {
+    const std::string card = section + "." + words[1] + ".";
+    const auto first = before.lower_bound(card);
+    if (first == before.end() || first->first.rfind(card, 0) != 0)
+      return false;
+  }
   if (section == "time" && words.size() > 1)
     return has(timesFreeInStages, words[1]);
   if (section == "contact" && words.size() > 1)
