@@ -51,12 +51,22 @@ def deck(mesh, stages, height, blocks=("base", "middle", "top"), **changes):
         "time": {"end": 1, "fixed_step": 2e-5},
         "stages": stages,
         "history": {"probes": [{"name": "foot", "node_set": "floor", "reaction": True}, {"name": "upper", "node_set": "base_top"}]
-                    + [{"name": block, "block": block} for block in ("base", "middle", "top")]},
+                    + [{"name": block, "block": block, "variables": ["stress_yy"]} for block in ("base", "middle", "top")]
+                    + [{"name": "low", "point": [0.5, 0.1, 0], "variables": ["stress_yy", "density"]}]},
         **changes,
     }
 
 
 still = {"name": "still", "until": 2e-3}
+
+
+def same_bits(name, problem, run):
+    """On three ranks, in every line of the history too; and where the mesh is dealt out anew again and again."""
+    case.same_bits(name, None, problem, run, ranks=3)
+    again = case.attempt(f"{name}_rebalanced", None, {**problem, "partition": {"rebalance": "always", "rebalance_every": 37}}, ranks=2)
+    case.check_equal(f"{name}: state hash with rebalancing", again.state_hash, run.state_hash)
+    for folder in (f"{name}_again", f"{name}_rebalanced"):
+        case.check_equal(f"{folder}: history differs", pathlib.Path(folder, "run.csv").read_bytes() != run.bytes_of("run.csv"), False)
 
 
 def ends_at_rest(name, run, stages):
@@ -83,9 +93,7 @@ for mesh in ("shared", "apart"):
         # The base is relieved of so many blocks: the same stress everywhere.
         case.check(f"{name}: {what}: rise of the base [m]", h["upper_displacement_y"][at], (3 - left) * weight / modulus, 1e-5, relative=left < 3)
     case.check(f"{name}: mass that has left [kg]", h["eroded_mass"][-1], 2 * density, 1e-12, relative=True)
-    case.same_bits(name, None, problem, run, ranks=3)
-    again = case.attempt(f"{name}_rebalanced", None, {**problem, "partition": {"rebalance": "always", "rebalance_every": 37}}, ranks=2)
-    case.check_equal(f"{name}: state hash with rebalancing", again.state_hash, run.state_hash)
+    same_bits(name, problem, run)
 
 # --- blocks come in: the middle one, then the one above, each at rest on what has settled before -----------------------------
 
@@ -107,7 +115,17 @@ for block, above in (("base", 2.0), ("middle", 1.0), ("top", 0.0)):
     exact = [-weight * (above + 1 - (row + 0.5) / 4) for row in range(4)]
     case.check(f"{name}: stress of {block}, farthest from its weight [Pa]", numpy.max(numpy.abs(stress[block] - exact)), 0, 1e-5 * weight)
 ends_at_rest(name, run, ("first", "second"))
-case.same_bits(name, None, problem, run, ranks=3)
+same_bits(name, problem, run)
+
+# Probes: the element nearest to a point, and the least and the largest of a block with their places.
+case.check_equal(f"{name}: stress at a point is that of the lowest element", float(h["low_stress_yy"][-1]), float(stress["base"][0]))
+case.check(f"{name}: density there [kg/m^3]", h["low_density"][-1], density, 1e-5, relative=True)
+case.check(f"{name}: the node that is nearest is held [m]", numpy.max(numpy.abs(h["low_displacement_y"])), 0, 1e-15)
+for which, row in (("least", 0), ("largest", 3)):  # compression is negative
+    case.check_equal(f"{name}: {which} stress of the base", float(h[f"base_stress_yy_{which}"][-1]), float(stress["base"][row]))
+    case.check(f"{name}: its height [m]", h[f"base_stress_yy_{which}_place_y"][-1], (row + 0.5) / 4, 1e-5)
+    case.check_equal(f"{name}: its element", int(h[f"base_stress_yy_{which}_element"][-1]), int(results.ids_of("base")[row]))
+case.check_equal(f"{name}: a block that is not there has none", bool(numpy.isnan(h["top_stress_yy_least"][0])), True)
 
 # --- restarts in the middle of a stage and at its border, with what is to come changed -----------------------------------------
 
