@@ -24,7 +24,8 @@ std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm
 std::string identityIn(const CheckpointReader& checkpoint);
 
 /// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
-/// those of the checkpoint; says what of the deck differs that a stage may change. Warns when another version of the program has written it. Collective.
+/// those of the checkpoint; says what of the deck differs that a stage may change. Warns when
+/// another version of the program has written it. Collective.
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
                    const Comm& comm);
 

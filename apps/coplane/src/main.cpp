@@ -350,7 +350,7 @@ void tellEndOfStage(const Solver& solver, const StageCard& stage)
   logInfo("stage '{}' ends at cycle {}, t = {:.6e} s, {}: kinetic energy is {:.2g} of the internal "
           "one, forces out of balance are {:.2g} of loads and reactions",
           stage.name, solver.clock().cycle, solver.clock().time,
-          !stage.atRest                ? "by its time"
+          !stage.atRest               ? "by its time"
           : solver.relaxation().ended ? "at rest"
                                       : "by its time, not at rest",
           ratios.energy, ratios.force);

@@ -75,8 +75,11 @@ TEST(Loads, actInTheirWindowsOnly)
   conditions.pressures = {pressureWhere(part, 50, top)};
   conditions.pressures[0].when = {1, 2};
   conditions.tractions = {{sidesWhere(part, top), VectorOfTime(7, 0, 0), {}, {2, 3}}};
-  for (const auto& [t, force] : {std::pair{0.5, Vec3{}}, {1.0, Vec3{0, 0, -300}}, {1.5, {0, 0, -300}},
-                                 {2.0, {42, 0, 0}}, {3.0, {}}})
+  for (const auto& [t, force] : {std::pair{0.5, Vec3{}},
+                                 {1.0, Vec3{0, 0, -300}},
+                                 {1.5, {0, 0, -300}},
+                                 {2.0, {42, 0, 0}},
+                                 {3.0, {}}})
   {
     conditions.applyLoads(3, part.ownedNodes, t, 0, state);
     expectNear(sumOverRanks(state.external, part.ownedNodes, comm), force, 1e-12);

@@ -304,7 +304,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
       if (path == from)
         place = to;
     const std::string assignment = place + "=" + key.example;
-    const std::string& deck = path == "geometry"              ? withoutRigid
+    const std::string& deck = path == "geometry"             ? withoutRigid
                               : path.rfind("stages", 0) == 0 ? deckWithStages
                                                              : deckOfAllModels;
     try

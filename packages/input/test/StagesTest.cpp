@@ -47,12 +47,13 @@ void expectError(const std::string& stages, const std::string& text)
 
 TEST(Stages, areDecksWithTheChangesOfThoseBefore)
 {
-  const auto decks = decksOf("stages:\n"
-                             "  - {name: a, until: 1, at_rest: true}\n"
-                             "  - {name: b, until: 2, remove: [core], set: {joints.dry.friction: mu, "
-                             "conditions.0.value: \"2*p*t\"}}\n"
-                             "  - {name: c, add: [lining], zero_displacements: true, set: {damping: "
-                             "null, gravity: [0, -9.81, 0], conditions.0.until: null}}\n");
+  const auto decks =
+      decksOf("stages:\n"
+              "  - {name: a, until: 1, at_rest: true}\n"
+              "  - {name: b, until: 2, remove: [core], set: {joints.dry.friction: mu, "
+              "conditions.0.value: \"2*p*t\"}}\n"
+              "  - {name: c, add: [lining], zero_displacements: true, set: {damping: "
+              "null, gravity: [0, -9.81, 0], conditions.0.until: null}}\n");
   ASSERT_EQ(decks.size(), 3u);
   EXPECT_EQ(decks[0].time.end, 1);
   EXPECT_TRUE(decks[0].time.endAtRest);

@@ -48,7 +48,8 @@ struct Window
 {
   Real from = 0, until = infinity;
 
-  /// A time that falls short by the rounding of summed steps only counts as reached, as for the end.
+  /// A time that falls short by the rounding of summed steps only counts as reached, as for the
+  /// end.
   static bool isReached(Real mark, Real t) { return t + 1e-10 * std::abs(t) >= mark; }
   bool holds(Real t) const { return isReached(from, t) && !isReached(until, t); }
   bool isAlways() const { return from <= 0 && until == infinity; }
@@ -229,9 +230,9 @@ struct Conditions
   /// Copies the components of velocities that are prescribed at t.
   void keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const;
 
-  /// What the symmetry planes that act at t forbid, node by node: the normals of planes that meet at a node are
-  /// made orthogonal (Gram and Schmidt), so that taking them out one after the other satisfies all;
-  /// a normal that depends on earlier ones is left out.
+  /// What the symmetry planes that act at t forbid, node by node: the normals of planes that meet
+  /// at a node are made orthogonal (Gram and Schmidt), so that taking them out one after the other
+  /// satisfies all; a normal that depends on earlier ones is left out.
   std::vector<Projection> projections(Real t) const;
   /// Which of the symmetry planes act at t.
   std::vector<char> activeSymmetries(Real t) const;

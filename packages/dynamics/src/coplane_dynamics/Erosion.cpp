@@ -82,8 +82,8 @@ std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements,
 }
 
 std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elements,
-                                     const NodeVectors& v, Real dt,
-                                     const std::vector<int>& leaving, const Comm& comm)
+                                     const NodeVectors& v, Real dt, const std::vector<int>& leaving,
+                                     const Comm& comm)
 {
   if (!acts_)
     return {};

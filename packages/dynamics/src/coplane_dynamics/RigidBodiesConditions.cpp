@@ -48,7 +48,8 @@ void RigidBodies::takeConditions(Conditions& conditions)
   for (PrescribedVelocity& condition : conditions.velocities)
   {
     const std::size_t before = condition.nodes.size();
-    const auto held = take(condition.nodes, condition.when, "a condition of type fixed or velocity");
+    const auto held =
+        take(condition.nodes, condition.when, "a condition of type fixed or velocity");
     for (std::size_t b = 0; b < held.size(); ++b)
       for (int c = 0; c < 3 && held[b] > 0; ++c)
         if (condition.components[c] && c < dimension_)

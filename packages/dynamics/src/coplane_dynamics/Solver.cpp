@@ -28,8 +28,7 @@ constexpr Real stepsThroughSkin = 10;
 void setPressures(const Conditions& conditions, std::vector<Face>& faces)
 {
   for (const FacePressure& load : conditions.pressures)
-    for (const LoadedSide& side :
-         load.when.holds(0) ? load.sides : std::vector<LoadedSide>())
+    for (const LoadedSide& side : load.when.holds(0) ? load.sides : std::vector<LoadedSide>())
     {
       const auto face = std::lower_bound(faces.begin(), faces.end(), side.id,
                                          [](const Face& f, GlobalId id) { return f.id < id; });

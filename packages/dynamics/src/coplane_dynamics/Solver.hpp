@@ -66,9 +66,9 @@ public:
   /// same run. Call between cycles. What is known of the parts of ranks (local numbers) is void
   /// afterwards. For a moment the state is there twice. Collective.
   void repartition(Model model);
-  /// Goes on with another stage; call between cycles. Blocks that come in are there at once, free of
-  /// stress, with their nodes where these are; those that leave do so in the next cycle, as elements
-  /// that erode, but with their mass. Collective.
+  /// Goes on with another stage; call between cycles. Blocks that come in are there at once, free
+  /// of stress, with their nodes where these are; those that leave do so in the next cycle, as
+  /// elements that erode, but with their mass. Collective.
   void beginStage(Stage stage);
   /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
   /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may

@@ -152,8 +152,8 @@ void Solver::comeIn(const std::vector<int>& blocks)
                        {
                          const ElementBlock& block = this->blocks()[std::size_t(b)];
                          const Vec3 v = at(state_.v, node);
-                         erosion_->bookEnergy(b, -0.5 * block.cornerMass(element, corner) *
-                                                     dot(v, v));
+                         erosion_->bookEnergy(b,
+                                              -0.5 * block.cornerMass(element, corner) * dot(v, v));
                        });
   }
   const std::vector<Real> before(state_.mass.data(), state_.mass.data() + layout_.owned());
@@ -163,8 +163,7 @@ void Solver::comeIn(const std::vector<int>& blocks)
     const Vec3 momentum = (state_.mass(n) - before[std::size_t(n)]) * at(state_.v, n);
     state_.totalWork(n) += 0.5 * dot(momentum, at(state_.v, n));
     set(state_.impulse, n, at(state_.impulse, n) + momentum);
-    set(state_.angularImpulse, n,
-        at(state_.angularImpulse, n) + cross(at(state_.x, n), momentum));
+    set(state_.angularImpulse, n, at(state_.angularImpulse, n) + cross(at(state_.x, n), momentum));
   }
   layout_.refresh(state_.mass);
   erosion_->recount(mesh(), elements_);
@@ -194,8 +193,7 @@ void Solver::takeMassAlong(const std::vector<int>& blocks)
     const Vec3 momentum = (before[std::size_t(n)] - state_.mass(n)) * at(state_.v, n);
     state_.totalWork(n) -= 0.5 * dot(momentum, at(state_.v, n));
     set(state_.impulse, n, at(state_.impulse, n) - momentum);
-    set(state_.angularImpulse, n,
-        at(state_.angularImpulse, n) - cross(at(state_.x, n), momentum));
+    set(state_.angularImpulse, n, at(state_.angularImpulse, n) - cross(at(state_.x, n), momentum));
     if (!(state_.mass(n) > 0) && before[std::size_t(n)] > 0)
     {
       set(state_.v, n, {});
@@ -300,9 +298,9 @@ void Solver::restoreStage(const StateSource& in)
   }
   if (!displacementsZeroed_)
     return;
-  const KeyedRows rows =
-      in.rowsOf(zeroPlaces, placeColumns,
-                std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + layout_.owned()));
+  const KeyedRows rows = in.rowsOf(
+      zeroPlaces, placeColumns,
+      std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + layout_.owned()));
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
       state_.reference(n, c) = rows.row(std::size_t(n))[c];

@@ -14,8 +14,8 @@ class Solver;
 /// same mesh, blocks and laws, and what happens at its beginning.
 struct Stage
 {
-  int index = 0; ///< the first is 0
-  Model model;   ///< of the solver's part of the mesh
+  int index = 0;                ///< the first is 0
+  Model model;                  ///< of the solver's part of the mesh
   std::vector<int> remove, add; ///< blocks of the mesh
   bool zeroDisplacements = false;
 };

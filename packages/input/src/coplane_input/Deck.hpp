@@ -193,8 +193,8 @@ struct OutputCard
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet;   ///< mean motion of a node set ...
-  std::string block;     ///< ... or mass-weighted mean motion of a block
+  std::string nodeSet;       ///< mean motion of a node set ...
+  std::string block;         ///< ... or mass-weighted mean motion of a block
   std::optional<Vec3> point; ///< ... or of the nearest node [m]
   /// Of the element nearest to the point, or least and largest of the block.
   std::vector<std::string> variables;

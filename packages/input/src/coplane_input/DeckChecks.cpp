@@ -327,15 +327,16 @@ void checkStages(const Deck& deck, const DeckNode& root, Problems& problems)
     const DeckNode& node = nodeAt(root, {"stages", std::to_string(i)});
     const std::string path = fmt::format("stages.{}", i);
     if (!stage.name.empty() && contains(seen, stage.name))
-      problems.add(nodeAt(node, {"name"}),
-                   fmt::format("{}.name = '{}' is taken; accepted: each name once.", path,
-                               stage.name));
+      problems.add(
+          nodeAt(node, {"name"}),
+          fmt::format("{}.name = '{}' is taken; accepted: each name once.", path, stage.name));
     seen.push_back(stage.name);
     const Real until = stage.until.value_or(deck.time.end);
     if (!stage.until && i + 1 < stages.size())
-      problems.add(node, fmt::format("{}.until is missing: only the last stage goes on to time.end; "
-                                     "accepted: a time.",
-                                     path));
+      problems.add(node,
+                   fmt::format("{}.until is missing: only the last stage goes on to time.end; "
+                               "accepted: a time.",
+                               path));
     else if (until <= before || until > deck.time.end)
       problems.add(nodeAt(node, {"until"}),
                    fmt::format("{}.until = {} s; accepted: later than the end of the stage before, "

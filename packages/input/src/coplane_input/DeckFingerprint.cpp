@@ -137,15 +137,15 @@ bool has(const Words& words, const std::string& word)
 const Words freeInStages{"conditions", "gravity", "damping"};
 const Words timesFreeInStages{"step_factor", "maximum_step", "fixed_step"};
 /// Of joints: strengths. A stiffness would change the energy that is stored in what is closed.
-const Words jointKeysFreeInStages{"friction",      "dynamic_friction", "slip_speed",
-                                  "dilation",      "dilation_slip",    "cohesion",
+const Words jointKeysFreeInStages{"friction",         "dynamic_friction", "slip_speed",
+                                  "dilation",         "dilation_slip",    "cohesion",
                                   "residual_friction"};
 /// Laws in rate form, whose stress stays what it is when their parameters change.
 const Words lawsFreeInStages{"linear_elastic", "j2",         "drucker_prager",
                              "mohr_coulomb",   "hoek_brown", "ubiquitous_joints"};
-const Words lawKeysFixedInStages{"model",       "set",         "density",      "joint_normal",
-                                 "eos",         "sound_speed", "shock_slope",  "grueneisen",
-                                 "distension",  "crush_start", "crush_end"};
+const Words lawKeysFixedInStages{"model",      "set",         "density",     "joint_normal",
+                                 "eos",        "sound_speed", "shock_slope", "grueneisen",
+                                 "distension", "crush_start", "crush_end"};
 
 bool mayChangeInStages(const std::string& path, const std::map<std::string, std::string>& before,
                        int stage)
@@ -214,7 +214,8 @@ DeckChanges deckChanges(const std::string& before, const std::string& now, int s
 std::string whatStagesMayChange()
 {
   return fmt::format(
-      "Accepted: {}; time.{}; contact.damping; blocks.<name>.erosion; of joints {} (cohesion not of "
+      "Accepted: {}; time.{}; contact.damping; blocks.<name>.erosion; of joints {} (cohesion not "
+      "of "
       "mortar and bilinear); of materials {} all numbers but density, normals and equations of "
       "state.",
       fmt::join(freeInStages, ", "), fmt::join(timesFreeInStages, ", time."),

@@ -85,10 +85,11 @@ void checkStage(const std::vector<Deck>& decks, std::size_t i, Problems& problem
   place.order = long(i);
   const std::string path = fmt::format("stages.{}", i);
   if (card.atRest && !deck.dampingEnergyRatio && !deck.dampingForceRatio)
-    problems.add(place, fmt::format("{}.at_rest has no effect without damping.until_energy_ratio or "
-                                    "damping.until_force_ratio, which say what rest is; give one "
-                                    "of them.",
-                                    path));
+    problems.add(place,
+                 fmt::format("{}.at_rest has no effect without damping.until_energy_ratio or "
+                             "damping.until_force_ratio, which say what rest is; give one "
+                             "of them.",
+                             path));
   if (i == 0)
     return;
   const DeckChanges changes = deckChanges(deckFingerprint(decks[i - 1].text, deck.file),

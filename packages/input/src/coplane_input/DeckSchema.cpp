@@ -420,37 +420,40 @@ Key timeGroup()
 
 Key stages()
 {
-  return list("stages", &Deck::stages,
-              {
-                  text("name", &StageCard::name)
-                      .needed()
-                      .like("heading")
-                      .means("in messages; each once"),
-                  number("until", &StageCard::until)
-                      .in("s")
-                      .above(0)
-                      .defaultIs("of the last stage: time.end")
-                      .like("0.5")
-                      .means("time at which the stage ends"),
-                  flag("at_rest", &StageCard::atRest)
-                      .like("true")
-                      .means("it ends before as soon as damping ends by one of its ratios, "
-                             "damping.until_energy_ratio or damping.until_force_ratio"),
-                  texts("remove", &StageCard::remove)
-                      .like("[core]")
-                      .means("element blocks that leave at its beginning, with their mass; the "
-                             "faces behind them are free and in contact from then on"),
-                  texts("add", &StageCard::add)
-                      .like("[lining]")
-                      .means("element blocks that are not there before, and come in free of stress "
-                             "with their nodes where these are then"),
-                  changes("set").like("{joints.dry.friction: 0.4}").means(
-                      "values of the deck that change, by paths of its keys, for this stage and "
-                      "those after it; null takes a key out"),
-                  flag("zero_displacements", &StageCard::zeroDisplacements)
-                      .like("true")
-                      .means("displacements that are written count from its beginning"),
-              })
+  return list(
+             "stages", &Deck::stages,
+             {
+                 text("name", &StageCard::name)
+                     .needed()
+                     .like("heading")
+                     .means("in messages; each once"),
+                 number("until", &StageCard::until)
+                     .in("s")
+                     .above(0)
+                     .defaultIs("of the last stage: time.end")
+                     .like("0.5")
+                     .means("time at which the stage ends"),
+                 flag("at_rest", &StageCard::atRest)
+                     .like("true")
+                     .means("it ends before as soon as damping ends by one of its ratios, "
+                            "damping.until_energy_ratio or damping.until_force_ratio"),
+                 texts("remove", &StageCard::remove)
+                     .like("[core]")
+                     .means("element blocks that leave at its beginning, with their mass; the "
+                            "faces behind them are free and in contact from then on"),
+                 texts("add", &StageCard::add)
+                     .like("[lining]")
+                     .means("element blocks that are not there before, and come in free of stress "
+                            "with their nodes where these are then"),
+                 changes("set")
+                     .like("{joints.dry.friction: 0.4}")
+                     .means(
+                         "values of the deck that change, by paths of its keys, for this stage and "
+                         "those after it; null takes a key out"),
+                 flag("zero_displacements", &StageCard::zeroDisplacements)
+                     .like("true")
+                     .means("displacements that are written count from its beginning"),
+             })
       .elsewhere({"steps", "phases"})
       .means("parts of the run, one after the other; the first is the deck as it stands. Results "
              "are written at the end of each");

@@ -13,14 +13,14 @@
 
 namespace coplane
 {
-/// A place whose motion is recorded: the mean over a node set, the mass-weighted mean over the nodes
-/// of an element block, or the node nearest to a point.
+/// A place whose motion is recorded: the mean over a node set, the mass-weighted mean over the
+/// nodes of an element block, or the node nearest to a point.
 struct Probe
 {
   std::string name;
-  int nodeSet = -1;      ///< position in Mesh::nodeSets, or
-  int block = -1;        ///< position in Mesh::blocks
-  bool reaction = false; ///< also the sum of the reactions on the nodes of the set
+  int nodeSet = -1;               ///< position in Mesh::nodeSets, or
+  int block = -1;                 ///< position in Mesh::blocks
+  bool reaction = false;          ///< also the sum of the reactions on the nodes of the set
   std::optional<Vec3> point = {}; ///< or that, at the start [m]
   /// Of the element nearest to the point, or least and largest of the block.
   std::vector<std::string> variables = {};
@@ -78,9 +78,9 @@ private:
   TextTable table_;             ///< open on rank 0
   std::int64_t lastCycle_ = -1; ///< that was written
   bool hasHeader_ = false;
-  Real initialKinetic_ = 0;                ///< [J]
-  std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
-  std::vector<Real> totalWeight_;          ///< per probe, over all ranks
+  Real initialKinetic_ = 0;                  ///< [J]
+  std::vector<std::vector<Share>> shares_;   ///< per probe, owned nodes
+  std::vector<Real> totalWeight_;            ///< per probe, over all ranks
   std::vector<std::pair<int, int>> nearest_; ///< per probe, block and element here, or -1
 };
 } // namespace coplane

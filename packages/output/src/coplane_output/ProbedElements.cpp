@@ -31,8 +31,7 @@ bool isNearest(const Comm& comm, Real distance, GlobalId id)
 }
 } // namespace
 
-std::optional<Real> elementVariable(const ElementBlock& block, int element,
-                                    const std::string& name)
+std::optional<Real> elementVariable(const ElementBlock& block, int element, const std::string& name)
 {
   const auto stress = std::find(stresses.begin(), stresses.end(), name);
   if (stress != stresses.end())
@@ -144,7 +143,8 @@ std::vector<Extreme> extremesOf(const Solver& solver, int b,
   std::vector<Extreme> extremes(count);
   for (std::size_t i = 0; i < count; ++i)
     if (most[i] > -infinity)
-      extremes[i] = {i % 2 == 0 ? -most[i] : most[i], GlobalId(-ids[i]),
+      extremes[i] = {i % 2 == 0 ? -most[i] : most[i],
+                     GlobalId(-ids[i]),
                      {places[3 * i], places[3 * i + 1], places[3 * i + 2]}};
     else
       extremes[i].value = std::numeric_limits<Real>::quiet_NaN();

@@ -373,8 +373,7 @@ void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Pr
   if (value.kind != DeckNode::Kind::Nothing)
     return;
   DeckNode* const parent =
-      dot == std::string::npos ? &root
-                               : nodeOfPath(root, path.text.substr(0, dot), path, problems);
+      dot == std::string::npos ? &root : nodeOfPath(root, path.text.substr(0, dot), path, problems);
   auto& entries = parent->entries;
   const std::string key = dot == std::string::npos ? path.text : path.text.substr(dot + 1);
   entries.erase(std::remove_if(entries.begin(), entries.end(),

@@ -75,9 +75,9 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
     model.contact.axisymmetric = true;
   }
   model.inStages = deck.stages.size() > 1;
-  model.blocksComeOrGo =
-      std::any_of(deck.stages.begin(), deck.stages.end(), [](const StageCard& stage)
-                  { return !stage.remove.empty() || !stage.add.empty(); });
+  model.blocksComeOrGo = std::any_of(deck.stages.begin(), deck.stages.end(),
+                                     [](const StageCard& stage)
+                                     { return !stage.remove.empty() || !stage.add.empty(); });
   model.absentBlocks = blocksNamed(mesh, absentAtStart(deck));
   model.mesh = std::move(part);
   addContactRules(deck, mesh, comm, model);

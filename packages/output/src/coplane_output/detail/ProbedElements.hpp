@@ -9,8 +9,8 @@
 
 namespace coplane
 {
-/// A variable of an element by its name in the results, such as stress_yy; nothing: its law has none
-/// of this name.
+/// A variable of an element by its name in the results, such as stress_yy; nothing: its law has
+/// none of this name.
 std::optional<Real> elementVariable(const ElementBlock& block, int element,
                                     const std::string& name);
 /// "[Pa]" and the like; empty for variables of laws.
