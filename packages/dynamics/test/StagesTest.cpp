@@ -111,6 +111,23 @@ TEST(Stages, aBlockLeavesWithItsMassMomentumAndEnergy)
   }
 }
 
+TEST(Stages, facesBehindWhatHasLeftAreInContact)
+{
+  // The stone falls by two metres through where the block was, and beats on the one below.
+  const Comm comm;
+  Model model = flying(comm);
+  model.blocks[2].velocity = {1, 2, -103};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  solver.beginStage(stage(comm, {1}, {}));
+  cycles(solver, 180); // 1.8 m
+  EXPECT_EQ(solver.contact().counts().stick + solver.contact().counts().slip, 0);
+  cycles(solver, 30);
+  EXPECT_GT(solver.contact().counts().stick + solver.contact().counts().slip, 0);
+  EXPECT_EQ(solver.contact().counts().missed, 0);
+  expectClosedBooks(solver);
+}
+
 TEST(Stages, aBlockComesInFreeOfStressWhereItsNodesAre)
 {
   const Comm comm;
