@@ -72,6 +72,8 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
     probe.block = indexOf(mesh.blocks, card.block);
     probe.reaction = card.reaction;
+    probe.point = card.point;
+    probe.variables = card.variables;
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)
@@ -112,7 +114,7 @@ ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std
 }
 
 CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, const Comm& comm,
-                                    const RunSettings& settings)
+                                    const std::string& run, const RunSettings& settings)
 {
   CheckpointOptions checkpoint;
   checkpoint.file = deck.checkpoint.file;
@@ -124,6 +126,7 @@ CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, con
   checkpoint.restartedFrom = settings.restartedFrom;
   checkpoint.positions = settings.positions;
   checkpoint.texts = fingerprintsOf(deck, mesh, settings.part, comm);
+  checkpoint.texts.emplace_back("identity", run);
   checkpoint.begin = settings.begin;
   return checkpoint;
 }
@@ -146,7 +149,8 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
                   const Comm& comm, const RunSettings& settings)
 {
-  const std::string run = identityOf(deck, mesh, comm);
+  const std::string run =
+      settings.identity.empty() ? identityOf(deck, mesh, comm) : settings.identity;
   auto record = std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings));
   RunRecord* const ofRun = record.get();
   observers.add(std::move(record));
@@ -167,6 +171,6 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   observers.add(std::make_unique<ProgressObserver>(ProgressOptions{}, ofRun));
   // The last: it asks the others where they stand.
   observers.add(std::make_unique<CheckpointObserver>(
-      comm, checkpointOptions(deck, mesh, comm, settings), observers));
+      comm, checkpointOptions(deck, mesh, comm, run, settings), observers));
 }
 } // namespace coplane

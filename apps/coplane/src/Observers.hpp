@@ -18,8 +18,9 @@ struct RunSettings
   std::string command;
   std::string restartedFrom;                    ///< checkpoint; empty: a new run
   std::map<std::string, std::string> positions; ///< of the outputs in that checkpoint
-  int part = 1;                                 ///< of the series of results
-  std::optional<Real> maxWall;                  ///< [s], from `begin` on
+  std::string identity;        ///< that of the run in that checkpoint; empty: a new run
+  int part = 1;                ///< of the series of results
+  std::optional<Real> maxWall; ///< [s], from `begin` on
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
 

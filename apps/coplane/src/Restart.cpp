@@ -3,9 +3,11 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/StateHash.hpp>
 #include <coplane_core/Version.hpp>
+#include <coplane_dynamics/Solver.hpp>
 #include <coplane_input/DeckFingerprint.hpp>
 #include <coplane_output/Sha256.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <sstream>
@@ -112,10 +114,40 @@ fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& co
           {"part", std::to_string(part)}};
 }
 
+namespace
+{
+std::string identity(const std::string& mesh, const std::string& deck)
+{
+  return sha256(mesh + deck).substr(0, 16);
+}
+} // namespace
+
+std::string identityIn(const CheckpointReader& checkpoint)
+{
+  if (checkpoint.has("identity")) // the deck may have changed at a restart
+    return checkpoint.text("identity");
+  return identity(checkpoint.text("mesh"), checkpoint.text("deck"));
+}
+
 std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm)
 {
-  return sha256(meshFingerprint(mesh, comm) + deckFingerprint(deck.text, deck.file)).substr(0, 16);
+  return identity(meshFingerprint(mesh, comm), deckFingerprint(deck.text, deck.file));
 }
+
+namespace
+{
+/// A few of them, and how many more there are.
+std::vector<std::string> firstOf(std::vector<std::string> texts)
+{
+  constexpr std::size_t most = 10;
+  if (texts.size() <= most)
+    return texts;
+  const std::size_t rest = texts.size() - most;
+  texts.resize(most);
+  texts.push_back(fmt::format("{} more", rest));
+  return texts;
+}
+} // namespace
 
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
                    const Comm& comm)
@@ -126,17 +158,28 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
                    "{}: the mesh {} is not that of the checkpoint: {}. Restart with the mesh that "
                    "the checkpoint was written with, or start without --restart.",
                    checkpoint.file(), deck.mesh, fmt::join(texts, "; "));
-  const auto changes =
-      deckDifferences(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file));
-  if (!changes.empty())
+  const int stage = Solver::stageIn(checkpoint).index;
+  const DeckChanges changes =
+      deckChanges(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file), stage);
+  if (!changes.refused.empty())
     failOnAllRanks(
         ExitCode::Checkpoint,
         "{}: the deck {} is not that of the checkpoint: {}. What may change at a restart "
         "are title, mesh (its path), time.end, time.end_at_rest, time.energy_tolerance, "
         "time.contact_gain_tolerance, output, history.every, history.file, history.tables, "
-        "checkpoint and partition. Restart "
+        "checkpoint and partition, and what a stage may change, beside stages to come. {} Restart "
         "with the deck that the checkpoint was written with, or start without --restart.",
-        checkpoint.file(), deck.file, fmt::join(changes, "; "));
+        checkpoint.file(), deck.file, fmt::join(firstOf(changes.refused), "; "),
+        whatStagesMayChange());
+  if (stage >= std::max(1, int(deck.stages.size())))
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "{}: the checkpoint is of stage {} (the first is 0), and the deck {} has {}. "
+                   "Restart with the deck that the checkpoint was written with.",
+                   checkpoint.file(), stage, deck.file, deck.stages.size());
+  if (!changes.allowed.empty())
+    logWarning("another deck",
+               fmt::format("{}: the run goes on with another deck than it had: {}",
+                           checkpoint.file(), fmt::join(firstOf(changes.allowed), "; ")));
   if (checkpoint.head().program != version().number)
     logWarning("version",
                fmt::format("{} was written by coplane {}; this is {}: the results from here "
@@ -148,7 +191,9 @@ bool isOfRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSli
              const Comm& comm)
 {
   return meshDifferences(checkpoint.text("mesh"), meshFingerprint(mesh, comm)).empty() &&
-         deckDifferences(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file)).empty();
+         deckChanges(checkpoint.text("deck"), deckFingerprint(deck.text, deck.file),
+                     Solver::stageIn(checkpoint).index)
+             .refused.empty();
 }
 
 int partIn(const CheckpointReader& checkpoint)

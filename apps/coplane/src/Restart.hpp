@@ -20,8 +20,12 @@ fingerprintsOf(const Deck& deck, const MeshSlice& mesh, int part, const Comm& co
 /// which a run knows what it may go on with or overwrite. Collective.
 std::string identityOf(const Deck& deck, const MeshSlice& mesh, const Comm& comm);
 
+/// The identity that the checkpoint's run had. Collective.
+std::string identityIn(const CheckpointReader& checkpoint);
+
 /// Throws Error(ExitCode::Checkpoint) on all ranks, naming what differs, when mesh or deck are not
-/// those of the checkpoint. Warns when another version of the program has written it. Collective.
+/// those of the checkpoint; says what of the deck differs that a stage may change. Warns when
+/// another version of the program has written it. Collective.
 void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const MeshSlice& mesh,
                    const Comm& comm);
 

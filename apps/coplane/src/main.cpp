@@ -41,8 +41,11 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace
@@ -192,13 +195,20 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   return -1;
 }
 
-void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std::string& wanted,
+/// The checkpoint to go on from: the one that is wanted, or the newest. Collective.
+std::unique_ptr<CheckpointReader> checkpointOf(const CommandLine& line, const Deck& deck,
+                                               const MeshSlice& mesh, const Comm& comm)
+{
+  auto checkpoint = std::make_unique<CheckpointReader>(
+      line.checkpoint.empty() ? newestCheckpoint(deck.checkpoint.file, comm) : line.checkpoint,
+      comm);
+  demandSameRun(*checkpoint, deck, mesh, comm);
+  return checkpoint;
+}
+
+void restart(Solver& solver, const Deck& deck, const CheckpointReader& checkpoint,
              RunSettings& settings)
 {
-  const Comm& comm = solver.comm();
-  const CheckpointReader checkpoint(
-      wanted.empty() ? newestCheckpoint(deck.checkpoint.file, comm) : wanted, comm);
-  demandSameRun(checkpoint, deck, mesh, comm);
   solver.restore(checkpoint);
   const Clock& clock = solver.clock();
   if (clock.time - clock.step > deck.time.end)
@@ -209,6 +219,7 @@ void restart(Solver& solver, const Deck& deck, const MeshSlice& mesh, const std:
                    deck.file, deck.time.end, checkpoint.file(), clock.time);
   settings.restartedFrom = checkpoint.file();
   settings.positions = positionsIn(checkpoint);
+  settings.identity = identityIn(checkpoint);
   settings.part = partIn(checkpoint) + 1;
   logInfo("restart from {}: cycle {}, t = {:.9e} s, part {} of the results", checkpoint.file(),
           solver.clock().cycle, solver.clock().time, settings.part);
@@ -233,15 +244,16 @@ void endAllRanksOnOwnError(const Work& work)
   }
 }
 
-/// Reads the deck, and demands that all ranks have the same one.
-Deck deckOf(const CommandLine& line, const Comm& comm)
+/// Reads the deck, as it is in each stage, and demands that all ranks have the same one.
+std::vector<Deck> decksOf(const CommandLine& line, const Comm& comm)
 {
-  Deck deck;
-  comm.together([&] { deck = readDeck(line.deck, line.overrides); });
+  std::vector<Deck> decks;
+  comm.together([&] { decks = readStages(line.deck, line.overrides); });
+  const Deck& deck = decks[0];
   comm.demandSame("the deck", deck.text, ExitCode::Deck);
   demandSameFiles(deck, comm);
   demandDistinctFiles(deck, line.checkpoint, comm);
-  return deck;
+  return decks;
 }
 
 void warnOfUnusualValues(const Deck& deck)
@@ -306,6 +318,56 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
       });
 }
 
+/// What only the mesh shows of the decks of later stages. Collective.
+void checkStages(const std::vector<Deck>& decks, const MeshSlice& mesh, const RankMesh& home,
+                 const Comm& comm)
+{
+  const Mesh& known = mesh.mine;
+  for (std::size_t i = 1; i < decks.size(); ++i)
+  {
+    const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(decks[i], known, home, comm);
+    comm.together(
+        [&]
+        {
+          auto problems = checkNamesAgainstMesh(decks[i], namesOf(known.blocks),
+                                                namesOf(known.nodeSets), namesOf(known.sideSets));
+          for (const std::vector<std::string>& more :
+               {problemsOfDimension(decks[i], known.dimension),
+                problemsOfLaws(decks[i], known.dimension), ofAirBlasts})
+            problems.insert(problems.end(), more.begin(), more.end());
+          if (!problems.empty())
+            fail(ExitCode::Deck, "stages.{} ('{}'): {}", i, decks[i].stages[i].name,
+                 fmt::join(problems, "\n"));
+        });
+    warnOfDoubleConditions(decks[i], known, home, comm);
+  }
+}
+
+/// Says how a stage has ended. Collective.
+void tellEndOfStage(const Solver& solver, const StageCard& stage)
+{
+  const RestRatios ratios = solver.restRatios();
+  logInfo("stage '{}' ends at cycle {}, t = {:.6e} s, {}: kinetic energy is {:.2g} of the internal "
+          "one, forces out of balance are {:.2g} of loads and reactions",
+          stage.name, solver.clock().cycle, solver.clock().time,
+          !stage.atRest               ? "by its time"
+          : solver.relaxation().ended ? "at rest"
+                                      : "by its time, not at rest",
+          ratios.energy, ratios.force);
+}
+
+void tellStage(const StageCard& stage)
+{
+  std::vector<std::string> acts;
+  for (const auto& [what, names] :
+       {std::pair("removes", &stage.remove), std::pair("adds", &stage.add)})
+    if (!names->empty())
+      acts.push_back(fmt::format("{} {}", what, fmt::join(*names, ", ")));
+  if (stage.zeroDisplacements)
+    acts.push_back("counts displacements anew");
+  logInfo("stage '{}' begins{}{}", stage.name, acts.empty() ? "" : ": ", fmt::join(acts, "; "));
+}
+
 /// Checkpoints that this run does not go on from are of another, or may be.
 void putAsideOtherCheckpoints(const Deck& deck, const MeshSlice& mesh, const std::string& from,
                               const Comm& comm)
@@ -324,8 +386,10 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   settings.command = command;
   if (line.maxWall > 0)
     settings.maxWall = line.maxWall;
-  const Deck deck = deckOf(line, comm);
-  warnOfUnusualValues(deck);
+  const std::vector<Deck> decks = decksOf(line, comm);
+  const Deck& deck = decks[0];
+  for (const Deck& ofStage : decks)
+    warnOfUnusualValues(ofStage);
   std::vector<FileLock> locks;
   if (!line.check)
   {
@@ -340,8 +404,28 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
           version().revision, version().flags, comm.size(), threadCount(), name(currentBackend()));
   logInfo("deck {}{}{}", line.deck, deck.title.empty() ? "" : ": ", deck.title);
   warnOfDoubleConditions(deck, mesh.mine, home, comm);
+  checkStages(decks, mesh, home, comm);
 
-  const auto modelOf = [&](RankMesh part) { return buildModel(deck, mesh, std::move(part), comm); };
+  std::unique_ptr<CheckpointReader> checkpoint;
+  std::size_t stage = 0; // the present one
+  if (line.restart)
+  {
+    checkpoint = checkpointOf(line, deck, mesh, comm);
+    stage = std::size_t(Solver::stageIn(*checkpoint).index);
+  }
+  const auto modelOf = [&](RankMesh part)
+  { return buildModel(decks[stage], mesh, std::move(part), comm); };
+  const auto nextStage = [&](const Solver& solver) -> std::optional<Stage>
+  {
+    if (deck.stages.empty())
+      return std::nullopt;
+    tellEndOfStage(solver, deck.stages[stage]);
+    if (stage + 1 == decks.size())
+      return std::nullopt;
+    ++stage;
+    tellStage(deck.stages[stage]);
+    return stageOf(decks[stage], int(stage), mesh, solver.mesh(), comm);
+  };
   const auto begin = std::chrono::steady_clock::now();
   Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
   const std::chrono::duration<double> toBuild = std::chrono::steady_clock::now() - begin;
@@ -350,22 +434,23 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
   ExitCode code = ExitCode::Success;
   const auto work = [&]
   {
-    if (line.restart)
-      restart(solver, deck, mesh, line.checkpoint, settings);
+    if (checkpoint)
+      restart(solver, decks.back(), *checkpoint, settings);
     else
       solver.prepare();
     reportModel(solver, mesh, deck);
     reportSoftening(deck, mesh, solver, comm);
     if (line.check)
     {
-      reportEstimate(solver, mesh, deck);
+      reportEstimate(solver, mesh, decks.back());
       logInfo("check: deck and mesh are fine; nothing was written");
       return;
     }
     putAsideOtherCheckpoints(deck, mesh, settings.restartedFrom, comm);
     addObservers(observers, deck, mesh, comm, settings);
     listenToSignals();
-    code = solver.run(observers, &rebalancer);
+    checkpoint.reset();
+    code = solver.run(observers, &rebalancer, nextStage);
     reportEnd(solver);
   };
   endAllRanksOnOwnError(work);

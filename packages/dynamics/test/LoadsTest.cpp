@@ -64,6 +64,28 @@ TEST(FacePressure, onAllSidesOfABodyHasNoResultant)
   expectNear(sumOverRanks(state.external, part.ownedNodes, comm), {}, 1e-12);
 }
 
+TEST(Loads, actInTheirWindowsOnly)
+{
+  const Comm comm;
+  const Mesh mesh = unitBox(2, 3, 2);
+  const RankMesh part = distribute(mesh, nodeOwners(mesh, comm, "rcb"), comm.rank());
+  NodalState state(part);
+  Conditions conditions;
+  const auto top = [](const Vec3& x) { return x.z == 2; };
+  conditions.pressures = {pressureWhere(part, 50, top)};
+  conditions.pressures[0].when = {1, 2};
+  conditions.tractions = {{sidesWhere(part, top), VectorOfTime(7, 0, 0), {}, {2, 3}}};
+  for (const auto& [t, force] : {std::pair{0.5, Vec3{}},
+                                 {1.0, Vec3{0, 0, -300}},
+                                 {1.5, {0, 0, -300}},
+                                 {2.0, {42, 0, 0}},
+                                 {3.0, {}}})
+  {
+    conditions.applyLoads(3, part.ownedNodes, t, 0, state);
+    expectNear(sumOverRanks(state.external, part.ownedNodes, comm), force, 1e-12);
+  }
+}
+
 TEST(FacePressure, ofTwoDimensionsActsOnUnitThickness)
 {
   // The side x = 3 of a 3 x 2 rectangle is 2 m long.

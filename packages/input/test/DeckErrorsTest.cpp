@@ -134,7 +134,7 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
           "title, mesh, "
           "geometry, "
           "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-          "time, output, history, checkpoint, partition.");
+          "time, stages, output, history, checkpoint, partition.");
 }
 
 TEST(DeckErrors, controlCharactersAreRefusedWithTheirLine)
@@ -443,7 +443,7 @@ TEST(DeckErrors, requiredKeysThatAreMissing)
 TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
 {
   EXPECT_EQ(errorWith("history: {probes: [{name: a}, {name: b, block: c, node_set: d}]}\n"),
-            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block.\n"
+            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block, point.\n"
             "wall.yaml:5:48: history.probes.1.node_set and history.probes.1.block exclude each "
             "other; keep one of them.");
 }
@@ -726,7 +726,7 @@ TEST(DeckSetErrors, comeAfterThoseOfTheFile)
             "title, mesh, "
             "geometry, "
             "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-            "time, output, history, checkpoint, partition.\n"
+            "time, stages, output, history, checkpoint, partition.\n"
             "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"
             "--set time.end=-1: time.end = '-1' is out of range; accepted: a number > 0 [s].");
 }

@@ -16,9 +16,20 @@ const std::string deck = "title: a\n"
                          "history: {every: 1e-3, joints: [\"*\"]}\n"
                          "output: {every: 0.1}\n";
 
-std::vector<std::string> changes(const std::string& other)
+using Texts = std::vector<std::string>;
+
+DeckChanges between(const std::string& before, const std::string& now, int stage = 0)
 {
-  return deckDifferences(deckFingerprint(deck, "a.yaml"), deckFingerprint(other, "b.yaml"));
+  return deckChanges(deckFingerprint(before, "a.yaml"), deckFingerprint(now, "b.yaml"), stage);
+}
+
+/// All of them.
+Texts changes(const std::string& other)
+{
+  const DeckChanges found = between(deck, other);
+  Texts texts = found.refused;
+  texts.insert(texts.end(), found.allowed.begin(), found.allowed.end());
+  return texts;
 }
 
 std::string with(const std::string& old, const std::string& text)
@@ -48,9 +59,9 @@ TEST(DeckFingerprint, aDeckWithNamesIsThatWithNumbers)
   EXPECT_EQ(named.initial[0].velocity.x, 7 * 0.1);
   EXPECT_EQ(named.text.find("define"), std::string::npos);
   EXPECT_NE(named.text.find("0.7000000000000001*t"), std::string::npos) << named.text;
-  EXPECT_EQ(deckDifferences(deckFingerprint(deckOf("define: {v: 0.7}\n", "v").text, "a.yaml"),
-                            deckFingerprint(plain.text, "a.yaml")),
-            std::vector<std::string>());
+  const DeckChanges found = between(deckOf("define: {v: 0.7}\n", "v").text, plain.text);
+  EXPECT_EQ(found.refused, Texts());
+  EXPECT_EQ(found.allowed, Texts());
 }
 
 TEST(DeckFingerprint, listsValuesByTheirPlacesInOrder)
@@ -91,7 +102,6 @@ TEST(DeckFingerprint, leavesOutWhatMayChange)
 
 TEST(DeckDifferences, nameWhatChangedWhatIsNewAndWhatIsGone)
 {
-  using Texts = std::vector<std::string>;
   EXPECT_EQ(changes(with("7850", "7800")),
             Texts{"materials.steel.density was 7850 and is 7800 now"});
   EXPECT_EQ(changes(with(", step_factor: 0.8", "")),
@@ -102,11 +112,45 @@ TEST(DeckDifferences, nameWhatChangedWhatIsNewAndWhatIsGone)
              "gravity.2 is 0 now and was not there"}));
 }
 
-TEST(DeckDifferences, areCountedWhereThereAreMany)
+TEST(DeckChanges, ofStrengthsLoadsAndDampingsAreAllowedAndOfWhatTheStateHoldsRefused)
 {
-  const auto texts =
-      deckDifferences(deckFingerprint(deck, "a.yaml"), deckFingerprint("mesh: a.e\n", "b.yaml"), 2);
-  ASSERT_EQ(texts.size(), 3u);
-  EXPECT_EQ(texts[2], "4 more");
+  const std::string plain =
+      "materials:\n"
+      "  rock: {model: mohr_coulomb, density: 2600, youngs_modulus: 1e10, cohesion: 1e6}\n"
+      "  gas: {model: ideal_gas, density: 1, heat_ratio: 1.4}\n"
+      "joints:\n"
+      "  dry: {model: linear, normal_stiffness: 1e10, friction: 0.6, cohesion: 1e5}\n"
+      "  glued: {model: mortar, normal_stiffness: 1e10, friction: 0.6, cohesion: 1e5}\n"
+      "conditions: [{type: pressure, side_set: a, value: 1}]\n"
+      "gravity: [0, -9.81, 0]\n"
+      "contact: {skin: 0.1, damping: {normal: 0.1}}\n"
+      "stages: [{name: a, until: 1}, {name: b, until: 2, remove: [core]}, {name: c}]\n";
+  const auto change = [&](const std::string& old, const std::string& text, int stage = 0)
+  {
+    std::string other = plain;
+    other.replace(other.find(old), old.size(), text);
+    const DeckChanges found = between(plain, other, stage);
+    EXPECT_EQ(found.allowed.size() + found.refused.size(), 1u) << text;
+    return found.refused.empty();
+  };
+  EXPECT_TRUE(change("cohesion: 1e6", "cohesion: 2e6"));
+  EXPECT_TRUE(change("youngs_modulus: 1e10", "youngs_modulus: 2e10"));
+  EXPECT_FALSE(change("density: 2600", "density: 2700"));
+  EXPECT_FALSE(change("heat_ratio: 1.4", "heat_ratio: 1.3"));
+  EXPECT_TRUE(change("friction: 0.6", "friction: 0.5"));
+  EXPECT_FALSE(change("normal_stiffness: 1e10", "normal_stiffness: 2e10"));
+  EXPECT_TRUE(change("cohesion: 1e5}\n  glued", "cohesion: 2e5}\n  glued"));
+  EXPECT_FALSE(change("cohesion: 1e5}\ncond", "cohesion: 2e5}\ncond"));
+  EXPECT_TRUE(change("value: 1", "value: 2"));
+  EXPECT_FALSE(change("joints:\n", "joints:\n  new: {friction: 0.5}\n"));
+  EXPECT_TRUE(change("-9.81", "-9.8"));
+  EXPECT_TRUE(change("normal: 0.1", "normal: 0.2"));
+  EXPECT_FALSE(change("skin: 0.1", "skin: 0.2"));
+  // Of stages those to come, and the end of the present one.
+  EXPECT_TRUE(change("until: 1", "until: 1.5", 0));
+  EXPECT_FALSE(change("until: 1", "until: 1.5", 1));
+  EXPECT_TRUE(change("remove: [core]", "remove: [roof]", 0));
+  EXPECT_FALSE(change("remove: [core]", "remove: [roof]", 1));
+  EXPECT_TRUE(change("until: 2", "until: 3", 1));
 }
 } // namespace coplane

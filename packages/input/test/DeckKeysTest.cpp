@@ -56,6 +56,8 @@ blocks:
   b: {material: j2}
   c: {material: j2, rigid: true}
   tool: {material: j2, rigid: true}
+  core: {material: j2}
+  lining: {material: j2}
 joints:
   penalty: {model: penalty, friction: 0.7, dynamic_friction: 0.5, slip_speed: 0.2, dilation: 0.05}
   linear: {model: linear, normal_stiffness: 1}
@@ -85,8 +87,11 @@ conditions:
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
-history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
+history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]}]}
 )";
+// What needs stages, and what does not go with them.
+const std::string deckWithStages =
+    deckOfAllModels + "stages: [{name: a, until: 0.25}, {name: b, until: 0.75}]\n";
 
 void show(std::string& out, const std::string& value)
 {
@@ -111,6 +116,11 @@ void show(std::string& out, const std::optional<Real>& v)
 void show(std::string& out, const Vec3& v)
 {
   out += fmt::format("[{} {} {}] ", v.x, v.y, v.z);
+}
+void show(std::string& out, const std::optional<Vec3>& v)
+{
+  if (v)
+    show(out, *v);
 }
 void show(std::string& out, const TimeFunction& f)
 {
@@ -181,7 +191,7 @@ std::string show(const Deck& d)
   for (const auto& k : d.conditions)
     showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.normal, k.pressure,
             k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass, k.chargePlace,
-            k.detonationTime);
+            k.detonationTime, k.from, k.until);
   for (const auto& i : d.initial)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
@@ -199,7 +209,11 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block, p.reaction);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point,
+            fmt::format("{}", fmt::join(p.variables, " ")));
+  for (const auto& s : d.stages)
+    showAll(out, s.name, s.until, s.atRest, fmt::format("{}", fmt::join(s.remove, " ")),
+            fmt::format("{}", fmt::join(s.add, " ")), s.zeroDisplacements);
   return out;
 }
 
@@ -232,11 +246,15 @@ std::string cardFor(const Key& group, const Key& key)
            : key.appliesTo("rigid_motion") ? ".7"
            : key.appliesTo("air_blast")    ? ".8"
                                            : ".0";
-  return key.name == "block" && group.name == "probes" ? ".1" : ".0";
+  if (group.name == "probes")
+    return key.name == "block" || key.name == "variables" ? ".1"
+           : key.name == "point"                          ? ".2"
+                                                          : ".0";
+  return group.name == "stages" ? ".1" : ".0";
 }
 
 /// All keys with values but those that decide about others, of which each value is in
-/// deckOfAllModels, and `define`, which acts through others.
+/// deckOfAllModels, and `define` and changes, which act through others.
 void collect(const Key& group, const std::string& path, std::vector<Leaf>& leaves)
 {
   for (const auto& key : group.keys)
@@ -244,7 +262,8 @@ void collect(const Key& group, const std::string& path, std::vector<Leaf>& leave
     const std::string here = path + (path.empty() ? "" : cardFor(group, key) + ".") + key.name;
     if (key.isGroup())
       collect(key, here, leaves);
-    else if (key.name != group.discriminator && key.kind != KeyKind::Definitions)
+    else if (key.name != group.discriminator && key.kind != KeyKind::Definitions &&
+             key.kind != KeyKind::Changes)
       leaves.push_back({here, key});
   }
 }
@@ -285,7 +304,9 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
       if (path == from)
         place = to;
     const std::string assignment = place + "=" + key.example;
-    const std::string& deck = path == "geometry" ? withoutRigid : deckOfAllModels;
+    const std::string& deck = path == "geometry"             ? withoutRigid
+                              : path.rfind("stages", 0) == 0 ? deckWithStages
+                                                             : deckOfAllModels;
     try
     {
       EXPECT_NE(show(parseDeck(deck, "x.yaml")), show(parseDeck(deck, "x.yaml", {assignment})))

@@ -34,6 +34,9 @@ conditions = {
         {"block": "other", "components": ["x"], "velocity": [{"times": [0, 0.02], "values": [0, 1]}, 0, 0], "angular_velocity": [0, 0, 5]},
     ),
 }
+for kind, (_, others) in conditions.items():
+    if kind != "rigid_motion":
+        others.update({"from": 0.01, "until": 1e-3 if kind == "air_blast" else 0.01})  # a blast is over soon
 start = (
     {"velocity": [1, 0, 0], "angular_velocity": [0, 0, 1], "stress": [1e5, 0, 0, 0, 0, 0], "stress_gradient": [0, 1e5, 0, 0, 0, 0]},
     {

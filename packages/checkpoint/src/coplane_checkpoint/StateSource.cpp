@@ -6,7 +6,7 @@
 namespace coplane
 {
 KeyedRows StateSource::rowsOf(const std::string& name, const std::vector<std::string>& columns,
-                              const std::vector<GlobalId>& keys) const
+                              const std::vector<GlobalId>& keys, Missing ofMissing) const
 {
   const KeyedRows mine = part(name, columns);
   // Which rank has which keys: the first key of each part. A part without rows takes that of the
@@ -38,7 +38,10 @@ KeyedRows StateSource::rowsOf(const std::string& name, const std::vector<std::st
       const auto found = std::lower_bound(mine.keys.begin(), mine.keys.end(), key);
       if (found == mine.keys.end() || *found != key)
       {
-        missing = key;
+        if (ofMissing == Missing::Refused)
+          missing = key;
+        else
+          answer[r].insert(answer[r].end(), columns.size(), 0.0);
         continue;
       }
       const Real* row = mine.row(std::size_t(found - mine.keys.begin()));

@@ -31,10 +31,14 @@ public:
   virtual std::vector<Real> numbers(const std::string& name) const = 0;
   virtual std::string text(const std::string& name) const = 0;
 
-  /// The rows of these keys in their order, wherever they stand; for keys of one id. Every key has
-  /// to be there.
+  enum class Missing
+  {
+    Refused,
+    Zero ///< a row of zeros
+  };
+  /// The rows of these keys in their order, wherever they stand; for keys of one id.
   KeyedRows rowsOf(const std::string& name, const std::vector<std::string>& columns,
-                   const std::vector<GlobalId>& keys) const;
+                   const std::vector<GlobalId>& keys, Missing missing = Missing::Refused) const;
 
 protected:
   const Comm* comm_;

@@ -52,11 +52,15 @@ Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVe
   return comm.min(smallest);
 }
 
-void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements, const ConstNodeVectors& x,
+void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
+                          const std::vector<GlobalId>& gone, const ConstNodeVectors& x,
                           const ConstNodeVectors& v, Real dt)
 {
   const auto isDead = [&](GlobalId face)
-  { return std::binary_search(deadElements.begin(), deadElements.end(), elementOfFace(face)); };
+  {
+    return std::binary_search(deadElements.begin(), deadElements.end(), elementOfFace(face)) ||
+           std::binary_search(gone.begin(), gone.end(), face);
+  };
   const auto halfStep = [&](int face)
   {
     const Face& of = faces()[face];

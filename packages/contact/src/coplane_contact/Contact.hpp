@@ -56,10 +56,11 @@ public:
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
   void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
-  /// Ends the planes of faces of these elements (sorted), with their energy booked as eroded: the
-  /// elements have died on the way to x. Every rank needs the same list.
-  void endPlanesOf(const std::vector<GlobalId>& deadElements, const ConstNodeVectors& x,
-                   const ConstNodeVectors& v, Real dt);
+  /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy
+  /// booked as eroded: the elements have died, the faces have been covered, on the way to x. Every
+  /// rank needs the same lists.
+  void endPlanesOf(const std::vector<GlobalId>& deadElements, const std::vector<GlobalId>& faces,
+                   const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
   /// Other local faces, sorted by id; those that were there before keep their planes. A search has
   /// to follow.
   void replaceLocalFaces(std::vector<Face> localFaces);

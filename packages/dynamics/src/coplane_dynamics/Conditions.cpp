@@ -60,6 +60,8 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
       KOKKOS_LAMBDA(const int n) { set(external, n, mass(n) * g); });
   for (const FacePressure& load : pressures)
   {
+    if (!load.when.holds(t))
+      continue;
     const Real everywhere = load.field ? 0 : load.pressure(t);
     for (const LoadedSide& side : load.sides)
     {
@@ -70,6 +72,8 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
   }
   for (const FaceTraction& load : tractions)
   {
+    if (!load.when.holds(t))
+      continue;
     const bool varies = bool(load.field[0]);
     const Vec3 everywhere = varies ? Vec3{} : load.traction(t);
     for (const LoadedSide& side : load.sides)
@@ -86,7 +90,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
   for (const AirBlast& blast : airBlasts)
     for (const BlastSide& face : blast.sides)
     {
-      const Real pressure = face.wave.meanPressure(t, dt);
+      const Real pressure = blast.when.holds(t) ? face.wave.meanPressure(t, dt) : 0;
       if (!(pressure > 0))
         continue; // before it arrives and after it has passed
       const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);
@@ -94,6 +98,8 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
     }
   for (const AbsorbingBoundary& boundary : absorbing)
   {
+    if (!boundary.when.holds(t))
+      continue;
     const Vec3 incident = boundary.incident(t);
     for (const AbsorbingSide& face : boundary.sides)
     {
@@ -109,7 +115,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
   }
 }
 
-void Conditions::clearConstrained(const std::vector<Projection>& fromSymmetry,
+void Conditions::clearConstrained(Real t, const std::vector<Projection>& fromSymmetry,
                                   const NodeVectors& forces) const
 {
   for (const Projection& projection : fromSymmetry)
@@ -119,18 +125,26 @@ void Conditions::clearConstrained(const std::vector<Projection>& fromSymmetry,
   }
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
-      if (condition.components[c])
+      if (condition.components[c] && condition.when.holds(t))
         for (const int n : condition.nodes)
           forces(n, c) = 0;
 }
 
-std::vector<Conditions::Projection> Conditions::projections() const
+std::vector<char> Conditions::activeSymmetries(Real t) const
+{
+  std::vector<char> active;
+  for (const SymmetryPlane& plane : symmetries)
+    active.push_back(plane.when.holds(t));
+  return active;
+}
+
+std::vector<Conditions::Projection> Conditions::projections(Real t) const
 {
   constexpr Real dependent =
       1e-6; // sine of the angle below which a normal counts as one that is there already
   std::map<int, std::vector<Vec3>> normalsOf;
   for (const SymmetryPlane& plane : symmetries)
-    for (const int node : plane.nodes)
+    for (const int node : plane.when.holds(t) ? plane.nodes : std::vector<int>())
     {
       std::vector<Vec3>& earlier = normalsOf[node];
       Vec3 normal = plane.normal;
@@ -164,7 +178,7 @@ void Conditions::endLoadsOn(const std::vector<GlobalId>& dead)
 
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const
 {
-  prescribeVelocities(t, 0, v, projections());
+  prescribeVelocities(t, 0, v, projections(t));
 }
 
 void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
@@ -178,7 +192,7 @@ void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
     {
-      if (!condition.components[c])
+      if (!condition.components[c] || !condition.when.holds(t))
         continue;
       if (condition.isDisplacement && !(dt > 0))
         continue; // at the start: the velocities that are given there
@@ -196,11 +210,11 @@ void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
     }
 }
 
-void Conditions::keepPrescribed(const ConstNodeVectors& from, const NodeVectors& to) const
+void Conditions::keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const
 {
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
-      if (condition.components[c])
+      if (condition.components[c] && condition.when.holds(t))
         for (const int n : condition.nodes)
           to(n, c) = from(n, c);
 }

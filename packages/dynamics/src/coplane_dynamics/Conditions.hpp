@@ -6,6 +6,7 @@
 #include <coplane_dynamics/RelaxationOptions.hpp>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -41,6 +42,20 @@ private:
   std::array<OfTime, 3> functions_;
 };
 
+/// When a condition acts: from <= t < until [s]. Loads are asked at the ends of steps, motions in
+/// their middles.
+struct Window
+{
+  Real from = 0, until = infinity;
+
+  /// A time that falls short by the rounding of summed steps only counts as reached, as for the
+  /// end.
+  static bool isReached(Real mark, Real t) { return t + 1e-10 * std::abs(t) >= mark; }
+  bool holds(Real t) const { return isReached(from, t) && !isReached(until, t); }
+  bool isAlways() const { return from <= 0 && until == infinity; }
+  bool overlaps(const Window& other) const { return from < other.until && other.from < until; }
+};
+
 /// Given velocity of some components, or given displacement; zero fixes them.
 struct PrescribedVelocity
 {
@@ -50,6 +65,7 @@ struct PrescribedVelocity
   std::array<OfTime, 3> velocity;      ///< [m/s]; only those of the chosen components are called
   std::array<OfTimeAndPlace, 3> field; ///< instead of `velocity` where it varies with the place
   std::vector<Vec3> places;            ///< of the nodes at the start, where there is a field [m]
+  Window when{};
 
   bool hasField() const { return field[0] || field[1] || field[2]; }
   /// Mean speed from t - dt/2 to t + dt/2 of a displacement, speed at t of a velocity [m/s].
@@ -67,6 +83,7 @@ struct SymmetryPlane
 {
   std::vector<int> nodes;
   Vec3 normal{}; ///< unit
+  Window when{};
 };
 
 /// Given velocity of the centre and given spin of the bodies of a rigid block.
@@ -96,6 +113,7 @@ struct FacePressure
   std::vector<LoadedSide> sides;
   OfTime pressure;        ///< [Pa]
   OfTimeAndPlace field{}; ///< instead, where it varies with the place
+  Window when{};
 
   Real at(Real t, const Vec3& place) const
   {
@@ -109,6 +127,7 @@ struct FaceTraction
   std::vector<LoadedSide> sides;
   VectorOfTime traction;                 ///< [Pa]
   std::array<OfTimeAndPlace, 3> field{}; ///< instead, where one of them varies with the place: all
+  Window when{};
 };
 
 /// The blast wave of a charge on faces: its pressure and arrival are those of the face at the
@@ -121,6 +140,7 @@ struct BlastSide
 struct AirBlast
 {
   std::vector<BlastSide> sides;
+  Window when{};
 };
 
 /// A face behind which the body is thought to go on without end (Lysmer and Kuhlemeyer 1969):
@@ -141,6 +161,7 @@ struct AbsorbingBoundary
 {
   std::vector<AbsorbingSide> sides;
   VectorOfTime incident; ///< v_in, particle velocity of the wave that enters here [m/s]
+  Window when{};
 };
 
 /// s n: with a stress and a unit normal, the traction on the side that the normal leaves.
@@ -190,14 +211,14 @@ struct Conditions
   Real massDampingAt(Real t) const { return massDamping && dampsAt(t) ? massDamping(t) : 0; }
   Real localDampingAt(Real t) const { return dampsAt(t) ? localDamping : 0; }
 
-  /// Takes out of forces what the conditions on velocities will take up in any case.
-  void clearConstrained(const std::vector<Projection>& fromSymmetry,
+  /// Takes out of forces what the conditions on velocities will take up at t in any case.
+  void clearConstrained(Real t, const std::vector<Projection>& fromSymmetry,
                         const NodeVectors& forces) const;
 
   /// Overwrites prescribed velocities; where symmetry planes and prescribed components meet, the
   /// latter win.
   void prescribeVelocities(Real t, const NodeVectors& v) const;
-  /// The same with projections() at hand, for a call in every cycle.
+  /// The same with projections(t) at hand, for a call in every cycle.
   /// @param t in the middle of the step [s]; dt: its length [s]
   void prescribeVelocities(Real t, Real dt, const NodeVectors& v,
                            const std::vector<Projection>& fromSymmetry) const;
@@ -206,13 +227,15 @@ struct Conditions
   /// @param deadElements ids, sorted
   void endLoadsOn(const std::vector<GlobalId>& deadElements);
 
-  /// Copies the prescribed components of velocities.
-  void keepPrescribed(const ConstNodeVectors& from, const NodeVectors& to) const;
+  /// Copies the components of velocities that are prescribed at t.
+  void keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const;
 
-  /// What the symmetry planes forbid, node by node: the normals of planes that meet at a node are
-  /// made orthogonal (Gram and Schmidt), so that taking them out one after the other satisfies all;
-  /// a normal that depends on earlier ones is left out.
-  std::vector<Projection> projections() const;
+  /// What the symmetry planes that act at t forbid, node by node: the normals of planes that meet
+  /// at a node are made orthogonal (Gram and Schmidt), so that taking them out one after the other
+  /// satisfies all; a normal that depends on earlier ones is left out.
+  std::vector<Projection> projections(Real t) const;
+  /// Which of the symmetry planes act at t.
+  std::vector<char> activeSymmetries(Real t) const;
 
   /// Owned nodes that some condition on velocities touches, sorted.
   std::vector<int> constrainedNodes() const;

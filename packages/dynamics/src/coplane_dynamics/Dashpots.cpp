@@ -30,11 +30,12 @@ Dashpots::Dashpots(const Conditions& conditions, int ownedNodes) : positions_(ow
   matrices_.resize(nodes_.size());
 }
 
-void Dashpots::find(int dimension, const Conditions& conditions, const ConstNodeVectors& x)
+void Dashpots::find(int dimension, const Conditions& conditions, Real t, const ConstNodeVectors& x)
 {
   matrices_.assign(nodes_.size(), SymTensor{});
   for (const AbsorbingBoundary& boundary : conditions.absorbing)
-    for (const AbsorbingSide& face : boundary.sides)
+    for (const AbsorbingSide& face :
+         boundary.when.holds(t) ? boundary.sides : std::vector<AbsorbingSide>())
     {
       const std::array<Vec3, 4> areas = cornerAreas(dimension, cornersAt(x, face.side).x,
                                                     face.side.count, conditions.axisymmetric);
@@ -65,6 +66,8 @@ void Dashpots::kick(Real dt, Real massDamping, const ConstArray<Real>& mass,
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     const int n = nodes_[i];
+    if (!(mass(n) > 0))
+      continue; // all of its elements have left
     const Real half = 0.5 * dt;
     const Vec3 old = at(vOld, n);
     const SymTensor& c = matrices_[i];

@@ -23,8 +23,8 @@ public:
 
   bool empty() const { return nodes_.empty(); }
 
-  /// Sums C of the nodes from the sides as they are at x [Pa s m].
-  void find(int dimension, const Conditions& conditions, const ConstNodeVectors& x);
+  /// Sums C of the nodes from the sides that act at t, as they are at x [Pa s m].
+  void find(int dimension, const Conditions& conditions, Real t, const ConstNodeVectors& x);
 
   /// Replaces the velocities of the nodes by the solution of
   ///

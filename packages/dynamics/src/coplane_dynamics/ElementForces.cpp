@@ -21,11 +21,21 @@ ElementForces::ElementForces(const RankMesh& mesh, const std::vector<BlockSetup>
     block.initialise(state.x);
     gathers_.push_back(gatherOf(part, mesh.ownedNodes));
     rigid_.push_back(setup.rigid);
-    const Gather& gather = gathers_.back();
-    const int corners = topology(part.type).nodes;
-    for (int n = 0; n < mesh.ownedNodes; ++n)
-      for (const int entry : gather[n])
-        state.mass(n) += block.cornerMass(entry / corners, entry % corners);
+  }
+  sumMasses(state);
+}
+
+void ElementForces::sumMasses(NodalState& state) const
+{
+  for (int n = 0; n < state.owned(); ++n)
+    state.mass(n) = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    const int corners = topology(blocks_[b].type()).nodes;
+    for (int n = 0; n < state.owned(); ++n)
+      for (const int entry : gathers_[b][n])
+        if (!blocks_[b].isTakenOut(entry / corners))
+          state.mass(n) += blocks_[b].cornerMass(entry / corners, entry % corners);
   }
 }
 

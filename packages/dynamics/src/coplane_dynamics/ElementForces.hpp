@@ -29,6 +29,11 @@ public:
 
   void setInitialStress(const Model& model);
 
+  /// Masses of the owned nodes from all elements that have not been taken out [kg].
+  void sumMasses(NodalState& state) const;
+  /// A block as new, free of stress, with the nodes at x [m].
+  void initialise(std::size_t block, const ConstNodeVectors& x) { blocks_[block].initialise(x); }
+
   const std::vector<ElementBlock>& blocks() const { return blocks_; }
   ElementBlock& block(std::size_t b) { return blocks_[b]; }
   bool isRigid(std::size_t b) const { return rigid_[b] != 0; }

@@ -15,30 +15,61 @@ Erosion::Erosion(const Model& model, const ElementForces& elements)
       rules_[b].emplace(model.blocks[b].erosion, elements.blocks()[b]);
       acts_ = true;
     }
+  acts_ = acts_ || model.blocksComeOrGo;
   if (!acts_)
     return;
-  const RankMesh& mesh = model.mesh;
-  sides_.emplace(mesh);
-  livingElements_.assign(mesh.ownedNodes, 0);
-  for (const RankMesh::Block& part : mesh.blocks)
+  sides_.emplace(model.mesh);
+  recount(model.mesh, elements);
+}
+
+/// What is alive, and how many living elements there are around each owned node.
+void Erosion::recount(const RankMesh& mesh, const ElementForces& elements)
+{
+  alive_.assign(mesh.blocks.size(), {});
+  livingElements_.assign(std::size_t(mesh.ownedNodes), 0);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
-    alive_.emplace_back(part.elements(), char(1));
-    for (const int node : part.connectivity)
-      if (node < mesh.ownedNodes)
-        ++livingElements_[node];
+    const RankMesh::Block& part = mesh.blocks[b];
+    const std::size_t corners = std::size_t(topology(part.type).nodes);
+    for (int e = 0; e < part.elements(); ++e)
+    {
+      const bool lives = elements.blocks()[b].isAlive(e);
+      alive_[b].push_back(lives);
+      for (std::size_t k = 0; k < corners && lives; ++k)
+        if (const int node = part.connectivity[std::size_t(e) * corners + k];
+            node < mesh.ownedNodes)
+          ++livingElements_[std::size_t(node)];
+    }
   }
+}
+
+void Erosion::beginWithout(const std::vector<int>& blocks, const RankMesh& mesh,
+                           ElementForces& elements)
+{
+  for (const int b : blocks)
+    for (int e = 0; e < mesh.blocks[std::size_t(b)].elements(); ++e)
+      elements.block(std::size_t(b)).takeOut(e);
+  recount(mesh, elements);
 }
 
 /// Block and element of those that meet their criterion. Ranks that hold the same element decide
 /// alike, from the same bits.
-std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements) const
+std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements,
+                                                const std::vector<int>& leaving) const
 {
   std::vector<std::pair<int, int>> found;
   for (std::size_t b = 0; b < rules_.size(); ++b)
   {
+    const ElementBlock& block = elements.blocks()[b];
+    if (std::find(leaving.begin(), leaving.end(), int(b)) != leaving.end())
+    {
+      for (int e = 0; e < block.count(); ++e)
+        if (block.isAlive(e))
+          found.emplace_back(int(b), e);
+      continue;
+    }
     if (!rules_[b])
       continue;
-    const ElementBlock& block = elements.blocks()[b];
     const ErosionRule& rule = *rules_[b];
     const Real first =
         parallelMin("coplane::dynamics::erode", block.count(),
@@ -51,12 +82,13 @@ std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements) c
 }
 
 std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elements,
-                                     const NodeVectors& v, Real dt, const Comm& comm)
+                                     const NodeVectors& v, Real dt, const std::vector<int>& leaving,
+                                     const Comm& comm)
 {
   if (!acts_)
     return {};
   TimedRegion region("coplane::dynamics::erode");
-  const std::vector<std::pair<int, int>> mine = dying(elements);
+  const std::vector<std::pair<int, int>> mine = dying(elements, leaving);
   if (comm.max(std::int64_t(!mine.empty())) == 0)
     return {};
   std::vector<GlobalId> dead;
@@ -70,7 +102,10 @@ std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elemen
     const RankMesh::Block& part = mesh.blocks[b];
     if (part.owned[e])
       book(part, elements.blocks()[b], b, e, v, dt);
-    elements.block(b).erode(e);
+    if (std::find(leaving.begin(), leaving.end(), b) != leaving.end())
+      elements.block(b).takeOut(e);
+    else
+      elements.block(b).erode(e);
     forget(part, b, e);
   }
   return dead;
@@ -145,13 +180,10 @@ std::vector<GlobalId> Erosion::restore(const RankMesh& mesh, const ElementForces
   {
     const RankMesh::Block& part = mesh.blocks[b];
     for (int e = 0; e < part.elements(); ++e)
-      if (!elements.blocks()[b].isAlive(e))
-      {
-        forget(part, int(b), e);
-        if (part.owned[e])
-          dead.push_back(part.elementIds[e]);
-      }
+      if (!elements.blocks()[b].isAlive(e) && part.owned[e])
+        dead.push_back(part.elementIds[e]);
   }
+  recount(mesh, elements);
   dead = comm.allGather(dead);
   std::sort(dead.begin(), dead.end());
   return dead;

@@ -16,7 +16,7 @@ namespace coplane
 struct ErosionTotals
 {
   std::int64_t elements = 0;
-  Real mass = 0; ///< of the elements; their nodes keep it [kg]
+  Real mass = 0; ///< of the elements; nodes keep that of eroded ones [kg]
 };
 
 /// Elements that die: they leave the mesh at the end of the cycle in which they meet their
@@ -26,13 +26,21 @@ class Erosion
 public:
   Erosion(const Model& model, const ElementForces& elements);
 
-  /// Takes out the elements that meet their criterion. Returns their ids, sorted, on all ranks;
-  /// empty when there are none on any. Collective when some block has a criterion.
+  /// Takes out the elements that meet their criterion, and those of blocks that leave. Returns
+  /// their ids, sorted, on all ranks; empty when there are none on any. Collective when it acts.
   /// @param v velocities at n - 1/2, by which the elements came here [m/s]; dt: that step [s]
+  /// @param leaving blocks that a stage removes: their elements take their mass along
   std::vector<GlobalId> erode(const RankMesh& mesh, ElementForces& elements, const NodeVectors& v,
-                              Real dt, const Comm& comm);
+                              Real dt, const std::vector<int>& leaving, const Comm& comm);
+  /// Takes blocks out that are not there yet; nothing is booked.
+  void beginWithout(const std::vector<int>& blocks, const RankMesh& mesh, ElementForces& elements);
+  /// After elements have come in.
+  void recount(const RankMesh& mesh, const ElementForces& elements);
+  /// Energy that goes with elements, or comes with them: negative [J].
+  void bookEnergy(int block, Real energy) { energies_[std::size_t(block)].add(energy); }
 
-  bool acts() const { return acts_; } ///< some block has a criterion
+  /// Some block has a criterion, or leaves or comes in a stage.
+  bool acts() const { return acts_; }
   /// Whether all elements of an owned node have died.
   bool isFree(int node) const { return acts_ && livingElements_[node] == 0; }
   /// Exterior faces of what is alive; only when erosion acts.
@@ -48,7 +56,8 @@ public:
                                 const StateSource& in, const Comm& comm);
 
 private:
-  std::vector<std::pair<int, int>> dying(const ElementForces& elements) const;
+  std::vector<std::pair<int, int>> dying(const ElementForces& elements,
+                                         const std::vector<int>& leaving) const;
   void book(const RankMesh::Block& part, const ElementBlock& block, int b, int e,
             const NodeVectors& v, Real dt);
   void forget(const RankMesh::Block& part, int b, int e);

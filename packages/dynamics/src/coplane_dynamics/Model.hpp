@@ -79,5 +79,9 @@ struct Model
   int searchEvery = -1;     ///< cycles; 0: once, -1: auto
   Conditions conditions;
   TimeOptions time;
+  // Stages.
+  bool inStages = false;         ///< the run has several
+  bool blocksComeOrGo = false;   ///< in some stage
+  std::vector<int> absentBlocks; ///< at the start: those that come in a later stage
 };
 } // namespace coplane

@@ -34,7 +34,6 @@ NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const Noda
   for (int n = 0; n < model.mesh.ownedNodes; ++n)
     followsBody_(n) = bodies_.holds(n);
   constrained_ = model.conditions.constrainedNodes();
-  projections_ = model.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
   reactions_ = NodeVectors("coplane::dynamics::reactions", constrained_.size());
 }
@@ -68,7 +67,17 @@ void NodalMotion::sumForcesOnBodies(const NodalState& state, const ElementForces
                     [&](int n) { return elements.leastStepAround(n); });
 }
 
-void NodalMotion::applyLocalDamping(Real fraction, const Conditions& conditions,
+/// Of the middle of a step: found anew when symmetry planes come or go.
+void NodalMotion::findProjections(const Conditions& conditions, Real middle)
+{
+  std::vector<char> active = conditions.activeSymmetries(middle);
+  if (active == activeSymmetries_)
+    return;
+  activeSymmetries_ = std::move(active);
+  projections_ = conditions.projections(middle);
+}
+
+void NodalMotion::applyLocalDamping(Real fraction, const Conditions& conditions, Real middle,
                                     const NodalState& state)
 {
   const NodeVectors damping = state.localDamping;
@@ -84,7 +93,7 @@ void NodalMotion::applyLocalDamping(Real fraction, const Conditions& conditions,
   parallelFor(
       "coplane::dynamics::unbalancedForces", state.owned(),
       KOKKOS_LAMBDA(const int n) { set(damping, n, at(force, n) + at(external, n)); });
-  conditions.clearConstrained(projections_, damping);
+  conditions.clearConstrained(middle, projections_, damping);
   const auto followsBody = followsBody_;
   parallelFor(
       "coplane::dynamics::localDamping", state.owned(), KOKKOS_LAMBDA(const int n) {
@@ -101,7 +110,9 @@ void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalSt
   TimedRegion region("coplane::dynamics::kick");
   const Real massDamping = conditions.massDampingAt(times.damping);
   const Real localDamping = conditions.localDampingAt(times.damping);
-  applyLocalDamping(localDamping, conditions, state);
+  const Real middle = times.t + 0.5 * times.after;
+  findProjections(conditions, middle);
+  applyLocalDamping(localDamping, conditions, middle, state);
   kickNodes(times, conditions, state);
   prescribe(times, conditions, state);
   dashpots_.book(state.vPrevious, state.v, state.external);
@@ -136,7 +147,7 @@ void NodalMotion::kickNodes(const Times& times, const Conditions& conditions, No
       });
   if (dashpots_.empty())
     return;
-  dashpots_.find(dimension_, conditions, state.x);
+  dashpots_.find(dimension_, conditions, times.t, state.x);
   dashpots_.kick(dt, alpha, mass, given, vPrevious, v);
 }
 
@@ -237,7 +248,7 @@ Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalSt
         set(copy, n, at(v, n));
         set(v, n, {});
       });
-  conditions.keepPrescribed(copy, v);
+  conditions.keepPrescribed(times.t + 0.5 * times.after, copy, v);
   parallelFor(
       "coplane::dynamics::bookStop", state.owned(), KOKKOS_LAMBDA(const int n) {
         if (followsBody(n))
@@ -288,7 +299,9 @@ void NodalMotion::restore(const std::vector<GlobalId>& ids, const StateSource& i
   std::vector<GlobalId> mine;
   for (const int node : constrained_)
     mine.push_back(ids[node]);
-  const KeyedRows rows = in.rowsOf(reactionsTable, reactionsColumns, mine);
+  // Nodes that a stage holds for the first time had no reaction before.
+  const KeyedRows rows =
+      in.rowsOf(reactionsTable, reactionsColumns, mine, StateSource::Missing::Zero);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     for (int c = 0; c < 3; ++c)
       reactions_(i, c) = rows.row(i)[c];

@@ -65,6 +65,10 @@ public:
   /// @param ids of all nodes here
   void save(const std::vector<GlobalId>& ids, StateTables& out) const;
   void restore(const std::vector<GlobalId>& ids, const StateSource& in);
+  // Displacements of bodies that are told from now on; and their part of a checkpoint.
+  void zeroDisplacements() { bodies_.zeroDisplacements(); }
+  void saveZero(StateTables& out) const { bodies_.saveZero(out); }
+  void restoreZero(const StateSource& in) { bodies_.restoreZero(in); }
   /// Calls f(number) for all else that a restart needs, in the order of checkpoints.
   template <class Self, class F>
   static void forEachNumber(Self& self, F&& number)
@@ -74,7 +78,9 @@ public:
   }
 
 private:
-  void applyLocalDamping(Real fraction, const Conditions& conditions, const NodalState& state);
+  void findProjections(const Conditions& conditions, Real middle);
+  void applyLocalDamping(Real fraction, const Conditions& conditions, Real middle,
+                         const NodalState& state);
   void kickNodes(const Times& times, const Conditions& conditions, NodalState& state);
   void prescribe(const Times& times, const Conditions& conditions, NodalState& state);
   void bookForces(const Times& times, Real massDamping, const NodalState& state);
@@ -86,6 +92,7 @@ private:
   Dashpots dashpots_;
   std::vector<int> constrained_; ///< owned nodes with conditions on velocities, sorted
   std::vector<Conditions::Projection> projections_;
+  std::vector<char> activeSymmetries_; ///< those that projections_ are of
   NodeVectors beforeConstraint_;
   NodeVectors reactions_;                                   ///< of the constrained nodes at n [N]
   bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero

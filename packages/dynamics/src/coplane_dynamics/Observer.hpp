@@ -26,6 +26,8 @@ public:
   /// The state at t = 0, before the first cycle.
   virtual void start(const Solver& solver) = 0;
   virtual void endOfCycle(const Solver& solver) = 0;
+  /// After endOfCycle(), before the changes that the next stage begins with.
+  virtual void endOfStage(const Solver&) {}
   /// The ranks have other parts of the mesh now: what is kept by local number has to be found anew.
   virtual void repartitioned(const Solver&) {}
   /// Puts down by name what another run has to know to go on with this output, on any rank.

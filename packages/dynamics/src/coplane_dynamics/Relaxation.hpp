@@ -45,6 +45,13 @@ public:
   /// A stop has been made. @param lost kinetic energy [J]; left: at n + 1/2 after it [J]
   void bookStop(Real lost, Real left);
   void end(const Clock& clock);
+  /// Another stage: looks for rest anew.
+  void beginAnew()
+  {
+    state_.ended = false;
+    state_.kineticBefore = 0;
+    state_.below = 0;
+  }
 
   /// Calls f(number) for all that a restart needs, in the order of checkpoints.
   template <class Self, class F>

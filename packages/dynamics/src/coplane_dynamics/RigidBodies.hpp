@@ -106,6 +106,10 @@ public:
   // The bodies' part of a checkpoint. Collective.
   void save(StateTables& out) const;
   void restore(const StateSource& in);
+  /// Displacements count from the present places of the centres.
+  void zeroDisplacements();
+  void saveZero(StateTables& out) const;
+  void restoreZero(const StateSource& in);
 
   // Sums that every rank has. What loads on nodes do is booked with the nodes.
   Real kinetic() const; ///< at n [J]

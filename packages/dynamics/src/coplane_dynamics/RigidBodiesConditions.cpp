@@ -11,7 +11,7 @@ void RigidBodies::takeConditions(Conditions& conditions)
   if (empty())
     return;
   // Which bodies a condition holds, the same on all ranks.
-  const auto take = [&](std::vector<int>& nodes, const std::string& what)
+  const auto take = [&](std::vector<int>& nodes, const Window& when, const std::string& what)
   {
     std::vector<std::int64_t> held(bodies_.size(), 0);
     for (const int n : nodes)
@@ -26,6 +26,13 @@ void RigidBodies::takeConditions(Conditions& conditions)
                        "whole block.",
                        what, held[b], bodies_[b].allNodes, bodies_[b].center.x, bodies_[b].center.y,
                        bodies_[b].center.z);
+    if (!when.isAlways() &&
+        std::any_of(held.begin(), held.end(), [](std::int64_t count) { return count > 0; }))
+      failOnAllRanks(ExitCode::Deck,
+                     "conditions: {} with `from` or `until` holds a rigid body; accepted on rigid "
+                     "bodies: conditions for the whole run or stage. Use rigid_motion with "
+                     "functions of t, or change the conditions in a stage.",
+                     what);
     nodes.erase(
         std::remove_if(nodes.begin(), nodes.end(), [&](int n) { return bodyOfNode_[n] >= 0; }),
         nodes.end());
@@ -33,7 +40,7 @@ void RigidBodies::takeConditions(Conditions& conditions)
   };
   for (SymmetryPlane& plane : conditions.symmetries)
   {
-    const auto held = take(plane.nodes, "a symmetry plane");
+    const auto held = take(plane.nodes, plane.when, "a symmetry plane");
     for (std::size_t b = 0; b < held.size(); ++b)
       if (held[b] > 0)
         constrain(bodies_[b], {plane.normal, {}});
@@ -41,7 +48,8 @@ void RigidBodies::takeConditions(Conditions& conditions)
   for (PrescribedVelocity& condition : conditions.velocities)
   {
     const std::size_t before = condition.nodes.size();
-    const auto held = take(condition.nodes, "a condition of type fixed or velocity");
+    const auto held =
+        take(condition.nodes, condition.when, "a condition of type fixed or velocity");
     for (std::size_t b = 0; b < held.size(); ++b)
       for (int c = 0; c < 3 && held[b] > 0; ++c)
         if (condition.components[c] && c < dimension_)

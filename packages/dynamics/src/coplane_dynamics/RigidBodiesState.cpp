@@ -57,4 +57,25 @@ void RigidBodies::restore(const StateSource& in)
                    "with the mesh, the deck and the program that it was written with.",
                    in.name(), numbers.size(), at);
 }
+
+void RigidBodies::zeroDisplacements()
+{
+  for (Body& body : bodies_)
+    body.start = body.center;
+}
+
+void RigidBodies::saveZero(StateTables& out) const
+{
+  std::vector<Real> numbers;
+  for (const Body& body : bodies_)
+    numbers.insert(numbers.end(), {body.start.x, body.start.y, body.start.z});
+  out.numbers("rigid_bodies_zero", numbers);
+}
+
+void RigidBodies::restoreZero(const StateSource& in)
+{
+  const std::vector<Real> numbers = in.numbers("rigid_bodies_zero");
+  for (std::size_t b = 0; b < bodies_.size(); ++b)
+    bodies_[b].start = {numbers.at(3 * b), numbers.at(3 * b + 1), numbers.at(3 * b + 2)};
+}
 } // namespace coplane

@@ -28,7 +28,7 @@ constexpr Real stepsThroughSkin = 10;
 void setPressures(const Conditions& conditions, std::vector<Face>& faces)
 {
   for (const FacePressure& load : conditions.pressures)
-    for (const LoadedSide& side : load.sides)
+    for (const LoadedSide& side : load.when.holds(0) ? load.sides : std::vector<LoadedSide>())
     {
       const auto face = std::lower_bound(faces.begin(), faces.end(), side.id,
                                          [](const Face& f, GlobalId id) { return f.id < id; });
@@ -63,21 +63,30 @@ Solver::Solver(Model model, const Comm& comm)
 /// Where blocks share nodes, the last one's velocity counts.
 void Solver::startVelocities()
 {
+  const auto& absent = model_.absentBlocks;
   for (std::size_t b = 0; b < model_.blocks.size(); ++b)
-    for (const int node : mesh().blocks[b].connectivity)
+    for (const int node : std::count(absent.begin(), absent.end(), int(b)) > 0
+                              ? std::vector<int>()
+                              : mesh().blocks[b].connectivity)
       set(state_.v, node, model_.blocks[b].velocityAt(at(state_.x, node)));
 }
 
 void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
-  std::vector<Face> faces = facesOf(exteriorFaces(mesh()));
-  attempt([&] { setPressures(model_.conditions, faces); });
+  std::vector<Face> faces = facesAtStart(exteriorFaces(mesh()));
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
   const Real skin = model_.skin.value_or(
       (model_.searchEvery == 0 ? skinOfFaceWithOneSearch : skinOfFace) * smallest);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
                                        model_.contactRules, skin, smallest);
+}
+
+std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior)
+{
+  std::vector<Face> faces = facesOf(exterior);
+  attempt([&] { setPressures(model_.conditions, faces); });
+  return faces;
 }
 
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
@@ -91,6 +100,7 @@ void Solver::prepare()
   attempt([&] { model_.conditions.prescribeVelocities(0, state_.v); });
   motion_->start(state_);
   refresh();
+  leaveAbsentBlocks();
   if (contact_)
     openContact();
   findForces(0);
@@ -163,12 +173,17 @@ void Solver::findElementForces()
 
 bool Solver::erode(Real dt)
 {
-  const std::vector<GlobalId> dead = erosion_->erode(mesh(), elements_, state_.v, dt, *comm_);
-  if (dead.empty())
+  const std::vector<int> leaving = std::exchange(leaving_, {});
+  const bool facesChange = std::exchange(facesChange_, false);
+  const std::vector<GlobalId> dead =
+      erosion_->erode(mesh(), elements_, state_.v, dt, leaving, *comm_);
+  if (dead.empty() && !facesChange)
     return false;
   if (contact_)
-    contact_->endPlanesOf(dead, state_.x, state_.v, dt);
+    contact_->endPlanesOf(dead, facesChange ? facesThatGo() : std::vector<GlobalId>(), state_.x,
+                          state_.v, dt);
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
+  takeMassAlong(leaving); // planes have ended with the velocities that there were
   return true;
 }
 
@@ -314,11 +329,34 @@ bool Solver::isOver() const
   return clock_.time + 1e-10 * std::abs(clock_.time) >= model_.time.end;
 }
 
-ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
+/// Whether there is another stage, which has begun then.
+bool Solver::goOn(Observer& observer, const NextStage& nextStage)
+{
+  if (!nextStage)
+    return false;
+  try
+  {
+    std::optional<Stage> next = nextStage(*this);
+    if (!next)
+      return false;
+    observer.endOfStage(*this);
+    beginStage(std::move(*next));
+    observer.repartitioned(*this);
+    return true;
+  }
+  catch (const Error& error)
+  {
+    if (error.onAllRanks())
+      failAfter(observer, error);
+    throw;
+  }
+}
+
+ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer, const NextStage& nextStage)
 {
   observer.start(*this);
   Ending ending;
-  while (!isOver())
+  while (!isOver() || goOn(observer, nextStage))
   {
     advance();
     judge(observer);

@@ -15,11 +15,13 @@
 #include <coplane_dynamics/Relaxation.hpp>
 #include <coplane_dynamics/SearchPlan.hpp>
 #include <coplane_dynamics/Signals.hpp>
+#include <coplane_dynamics/Stage.hpp>
 #include <coplane_dynamics/TimeStep.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +29,13 @@
 
 namespace coplane
 {
+/// Where a run is in its stages.
+struct StageState
+{
+  int index = 0;  ///< the first is 0
+  Real begin = 0; ///< of the present one [s]
+};
+
 /// How often and how a run has taken another partition.
 struct Repartitions
 {
@@ -57,10 +66,15 @@ public:
   /// same run. Call between cycles. What is known of the parts of ranks (local numbers) is void
   /// afterwards. For a moment the state is there twice. Collective.
   void repartition(Model model);
+  /// Goes on with another stage; call between cycles. Blocks that come in are there at once, free
+  /// of stress, with their nodes where these are; those that leave do so in the next cycle, as
+  /// elements that erode, but with their mass. Collective.
+  void beginStage(Stage stage);
   /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
   /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may
   /// change the partition at the end of cycles. Collective.
-  ExitCode run(Observer& observer, Rebalancer* rebalancer = nullptr);
+  ExitCode run(Observer& observer, Rebalancer* rebalancer = nullptr,
+               const NextStage& nextStage = {});
   /// One cycle. Public for tests and benchmarks. Collective.
   void advance();
 
@@ -78,6 +92,10 @@ public:
   /// Of conditions on the motion of an owned node, at the end of the cycle [N].
   Vec3 reaction(int node) const { return motion_->reaction(node); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
+  RestRatios restRatios() const { return coplane::restRatios(parts()); } ///< Collective.
+  const StageState& stage() const { return stage_; }
+  /// The same of a state that was saved; the first stage where it is older than stages. Collective.
+  static StageState stageIn(const StateSource& in);
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
   // By signals or by an observer (Signals.hpp), decided together for the cycle that has ended.
   bool resultsRequested() const { return requests_.results; }
@@ -120,6 +138,7 @@ private:
   }
   void startVelocities();
   void makeContact();
+  std::vector<Face> facesAtStart(const std::vector<ExteriorFace>& exterior);
   std::vector<Face> facesOf(const std::vector<ExteriorFace>& exterior,
                             const std::vector<Face>* known = nullptr) const;
   // Of a cycle, in this order; all but the first are collective.
@@ -134,7 +153,7 @@ private:
   void relax(Real step);
   void planSearch();
   // Of findForces. Collective.
-  bool erode(Real dt); ///< whether elements have died on some rank
+  bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
   void search(bool again = false);
   void updatePlanes(Real dt);
   void addContactForces();
@@ -145,6 +164,17 @@ private:
   void openContact();
 
   void findElementForces();
+  // Of stages. Collective.
+  void rebuild(Model model);
+  bool goOn(Observer& observer, const NextStage& nextStage);
+  void demandNoRigidNodes(const std::vector<int>& blocks) const;
+  void demandThere(const std::vector<int>& blocks, bool there) const;
+  void comeIn(const std::vector<int>& blocks);
+  void leaveAbsentBlocks();
+  void takeMassAlong(const std::vector<int>& blocks);
+  std::vector<GlobalId> facesThatGo() const;
+  void saveStage(StateTables& out) const;
+  void restoreStage(const StateSource& in);
   NodalMotion::Times kickTimes(Real step) const
   {
     return {clock_.time, clock_.step, step, relaxation_.dampingTime(clock_)};
@@ -197,5 +227,11 @@ private:
   Requests requests_;
   Repartitions repartitions_;
   WorkTimes work_;
+  StageState stage_;
+  bool displacementsZeroed_ = false;      ///< state_.reference is not the mesh
+  std::map<int, std::vector<Vec3>> came_; ///< by block that has come in: places of the nodes then
+  // Done in the next cycle.
+  std::vector<int> leaving_;
+  bool facesChange_ = false;
 };
 } // namespace coplane

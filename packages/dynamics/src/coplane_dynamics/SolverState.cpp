@@ -91,6 +91,7 @@ void Solver::forEachNumber(Self& self, F&& number)
 
 void Solver::save(StateTables& out) const
 {
+  saveStage(out);
   saveNodes(out);
   elements_.save(mesh(), out);
   if (contact_)
@@ -106,12 +107,18 @@ void Solver::save(StateTables& out) const
 
 void Solver::restore(const StateSource& in)
 {
+  restoreStage(in);
   elements_.restore(mesh(), in);
   restoreNodes(in);
   const std::vector<GlobalId> dead = erosion_->restore(mesh(), elements_, in, *comm_);
   if (erosion_->acts())
     leaveWithoutElements(dead, nullptr);
   layout_.refresh(state_.x, state_.v);
+  if (model_.blocksComeOrGo)
+  {
+    elements_.sumMasses(state_);
+    layout_.refresh(state_.mass);
+  }
   if (contact_)
   {
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));
@@ -150,16 +157,8 @@ void Solver::restoreNumbers(const StateSource& in)
 void Solver::repartition(Model model)
 {
   TimedRegion region("coplane::dynamics::repartition");
-  StateTables state(*comm_);
-  save(state);
-  Repartitions repartitions = repartitions_;
-  ++repartitions.count;
-  // The largest parts of the old state go before the new one comes.
-  contact_.reset();
-  elements_ = {};
-  *this = Solver(std::move(model), *comm_);
-  restore(state);
-  repartitions_ = repartitions;
+  rebuild(std::move(model));
+  ++repartitions_.count;
 }
 
 void Solver::saveNodes(StateTables& out) const

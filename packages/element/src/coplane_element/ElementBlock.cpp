@@ -376,11 +376,22 @@ void ElementBlock::update(const ConstNodeVectors& x, const ConstNodeVectors& v, 
 
 void ElementBlock::erode(int element)
 {
+  end(element, 0);
+}
+
+void ElementBlock::takeOut(int element)
+{
+  end(element, -1);
+}
+
+void ElementBlock::end(int element, Real mark)
+{
   for (const Values& values :
        {arrays_.stress, arrays_.hourglassForce, arrays_.hourglassViscousForce, arrays_.compression,
         arrays_.energies, arrays_.pointStress, arrays_.pointEnergy, alive_})
     for (std::size_t row = 0; row < values.extent(0); ++row)
       values(row, element) = 0;
+  alive_(0, element) = mark;
   Eroded eroded{element, arrays_.volume(element), {}};
   forEachState(
       [&](const char*, int rows, const Values& values)

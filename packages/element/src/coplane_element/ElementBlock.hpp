@@ -113,7 +113,10 @@ public:
   /// history and its volume stay as they are. Its mass stays in mass() and cornerMass(): the nodes
   /// keep it.
   void erode(int element);
+  /// The same for an element that leaves with its mass, or is not there yet.
+  void takeOut(int element);
   bool isAlive(int element) const { return alive_(0, element) > 0; }
+  bool isTakenOut(int element) const { return alive_(0, element) < 0; }
 
   // For checkpoints, element by element: everything that the next cycle or an output reads and that
   // initialise() does not give. restoreState() follows initialise(), once for every element.
@@ -164,6 +167,7 @@ private:
     std::vector<Real> state; ///< in the order of forEachState
   };
   void restore(const Eroded& eroded);
+  void end(int element, Real mark);
 
   ElementType type_;
   Material law_;
@@ -173,7 +177,7 @@ private:
   ElementOptions options_;
   std::vector<std::string> historyNames_;
   ElementArrays arrays_;
-  Values alive_;              // 1 alive, 0 eroded
+  Values alive_;              // 1 alive, 0 eroded, -1 taken out
   std::vector<Vec3> centres_; // of the elements at the start, means of their nodes [m]
   std::vector<Eroded> eroded_;
 };

@@ -119,6 +119,8 @@ struct ConditionCard
   /// Node set (fixed, velocity, displacement, symmetry), element block (rigid_motion) or side set
   /// (the others).
   std::string set;
+  Real from = 0;                                    ///< acts for from <= t < until [s]
+  std::optional<Real> until;                        ///< [s]; not given: to the end
   std::array<bool, 3> components{true, true, true}; ///< fixed, velocity, rigid_motion
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
   std::array<TimeFunction, 3> displacement;         ///< displacement [m]
@@ -154,6 +156,16 @@ struct InitialCard
   Vec3 stressPoint{0, 0, 0}; ///< where `stress` is [m]
 };
 
+/// A part of the run; the deck is that of the first.
+struct StageCard
+{
+  std::string name, where;
+  std::optional<Real> until; ///< latest end [s]; not given, of the last one: the end of the run
+  bool atRest = false;       ///< ends as soon as damping does, by a ratio of the section damping
+  std::vector<std::string> remove, add; ///< blocks, at the beginning
+  bool zeroDisplacements = false;
+};
+
 struct TimeCard
 {
   Real end = 0;                    ///< [s]
@@ -181,8 +193,11 @@ struct OutputCard
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet;   ///< mean motion of a node set ...
-  std::string block;     ///< ... or mass-weighted mean motion of a block
+  std::string nodeSet;       ///< mean motion of a node set ...
+  std::string block;         ///< ... or mass-weighted mean motion of a block
+  std::optional<Vec3> point; ///< ... or of the nearest node [m]
+  /// Of the element nearest to the point, or least and largest of the block.
+  std::vector<std::string> variables;
   bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };
 
@@ -231,6 +246,7 @@ struct Deck
   std::optional<Real> dampingEnergyRatio; ///< kinetic over internal energy at which it ends [-]
   std::optional<Real> dampingForceRatio;  ///< unbalanced over applied force at which it ends [-]
   TimeCard time;
+  std::vector<StageCard> stages;
   OutputCard output;
   HistoryCard history;
   CheckpointCard checkpoint;

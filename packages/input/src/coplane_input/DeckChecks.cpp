@@ -145,6 +145,15 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
     const auto& card = deck.conditions[i];
     const std::string path = fmt::format("conditions.{}", i);
     const DeckNode& node = nodeAt(root, {"conditions", std::to_string(i)});
+    if (card.until && *card.until <= card.from)
+      problems.add(nodeAt(node, {"until"}),
+                   fmt::format("{0}.until = {1} s is not after {0}.from = {2} s; accepted: a later "
+                               "time.",
+                               path, *card.until, card.from));
+    else if (card.from >= deck.time.end && deck.time.end > 0)
+      problems.warn(nodeAt(node, {"from"}),
+                    fmt::format("{}.from = {:g} s, but the run ends at time.end = {:g} s.", path,
+                                card.from, deck.time.end));
     if (card.type == "rigid_motion")
     {
       if (!card.translation && !card.spin)
@@ -277,7 +286,12 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
-    if (deck.history.probes[i].reaction && !deck.history.probes[i].block.empty())
+    if (!deck.history.probes[i].variables.empty() && !deck.history.probes[i].nodeSet.empty())
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "variables"}),
+                   fmt::format("history.probes.{}.variables belongs to point or block; name one of "
+                               "these, or remove it.",
+                               i));
+    if (deck.history.probes[i].reaction && deck.history.probes[i].nodeSet.empty())
       problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
                    fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
                                "that conditions hold, or remove it.",
@@ -290,6 +304,77 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
       rigid.push_back(block.name);
   checkListed("rigid", deck.history.rigid, "a rigid block, or \"*\"", rigid, root, problems);
 }
+
+void checkStages(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  const auto& stages = deck.stages;
+  const Names blocks = namesOf(deck.blocks);
+  Names seen, absent = absentAtStart(deck);
+  Real before = 0;
+  if (!stages.empty() && deck.time.endAtRest)
+    problems.add(nodeAt(root, {"time", "end_at_rest"}),
+                 fmt::format("time.end_at_rest does not go with stages; give stages.{}.at_rest.",
+                             stages.size() - 1));
+  for (const InitialCard& initial : deck.initial)
+    if (contains(absent, initial.block))
+      problems.add(nodeAt(root, {"initial"}),
+                   fmt::format("initial: block '{}' is not there at the start (stages add it), and "
+                               "comes in at rest and free of stress; remove its card.",
+                               initial.block));
+  for (std::size_t i = 0; i < stages.size(); ++i)
+  {
+    const StageCard& stage = stages[i];
+    const DeckNode& node = nodeAt(root, {"stages", std::to_string(i)});
+    const std::string path = fmt::format("stages.{}", i);
+    if (!stage.name.empty() && contains(seen, stage.name))
+      problems.add(
+          nodeAt(node, {"name"}),
+          fmt::format("{}.name = '{}' is taken; accepted: each name once.", path, stage.name));
+    seen.push_back(stage.name);
+    const Real until = stage.until.value_or(deck.time.end);
+    if (!stage.until && i + 1 < stages.size())
+      problems.add(node,
+                   fmt::format("{}.until is missing: only the last stage goes on to time.end; "
+                               "accepted: a time.",
+                               path));
+    else if (until <= before || until > deck.time.end)
+      problems.add(nodeAt(node, {"until"}),
+                   fmt::format("{}.until = {} s; accepted: later than the end of the stage before, "
+                               "{} s, and not later than time.end = {} s.",
+                               path, until, before, deck.time.end));
+    before = until;
+    for (const char* key : {"remove", "add", "set", "zero_displacements"})
+      if (const DeckNode* given = i == 0 ? node.find(key) : nullptr)
+        problems.add(*given, fmt::format("{0}.{1}: the first stage is the deck as it stands, and "
+                                         "begins with nothing; move {1} to a later stage.",
+                                         path, key));
+    const auto check = [&](const char* key, const Names& names, bool comes)
+    {
+      for (const std::string& name : names)
+      {
+        const DeckNode& at = nodeAt(node, {key});
+        const auto card = std::find_if(deck.blocks.begin(), deck.blocks.end(),
+                                       [&](const auto& b) { return b.name == name; });
+        if (card == deck.blocks.end())
+          problems.add(at, unknown(path + "." + key, name, "a card in blocks", blocks));
+        else if (card->rigid)
+          problems.add(at, fmt::format("{}.{}: block '{}' is rigid; accepted: blocks that deform. "
+                                       "Use a stiff material.",
+                                       path, key, name));
+        else if (contains(absent, name) != comes)
+          problems.add(at, fmt::format("{}.{}: block '{}' is {} there in this stage.", path, key,
+                                       name, comes ? "already" : "not"));
+        if (comes)
+          absent.erase(std::remove(absent.begin(), absent.end(), name), absent.end());
+        else
+          absent.push_back(name);
+      }
+    };
+    check("remove", stage.remove, false);
+    check("add", stage.add, true);
+  }
+}
+
 /// Outputs that a run never comes to.
 void warnOfLateOutputs(const Deck& deck, const DeckNode& root, Problems& problems)
 {
@@ -346,8 +431,23 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkErosion(deck, root, problems);
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);
+  checkStages(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
+}
+
+std::vector<std::string> absentAtStart(const Deck& deck)
+{
+  Names seen, absent;
+  for (const StageCard& stage : deck.stages)
+  {
+    for (const std::string& name : stage.add)
+      if (!contains(seen, name))
+        absent.push_back(name);
+    for (const Names* names : {&stage.add, &stage.remove})
+      seen.insert(seen.end(), names->begin(), names->end());
+  }
+  return absent;
 }
 
 std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)

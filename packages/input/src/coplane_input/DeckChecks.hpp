@@ -12,6 +12,9 @@ namespace coplane
 /// other.
 void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems);
 
+/// Blocks that a stage adds before any removes them.
+std::vector<std::string> absentAtStart(const Deck& deck);
+
 /// Compares the deck's names with those of the mesh and returns one message for each problem, with
 /// its place and a suggestion; empty when all fits. Every block of the mesh needs a card.
 std::vector<std::string> checkNamesAgainstMesh(const Deck& deck,

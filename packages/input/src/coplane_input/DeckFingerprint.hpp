@@ -11,7 +11,18 @@ namespace coplane
 /// energy tolerance, partition, and most of output, history and checkpoint.
 std::string deckFingerprint(const std::string& deckText, const std::string& file);
 
-/// What differs between two fingerprints, a sentence for each path, at most `most` of them.
-std::vector<std::string> deckDifferences(const std::string& before, const std::string& now,
-                                         std::size_t most = 10);
+/// What differs between two fingerprints, a sentence for each path: what a stage may change, and so
+/// a restart, and what nothing may.
+struct DeckChanges
+{
+  std::vector<std::string> allowed, refused;
+};
+/// @param stage the present one: those before it are done, of itself only its end may change
+DeckChanges deckChanges(const std::string& before, const std::string& now, int stage = 0);
+
+/// Whether a stage may change keys of this path at all, whatever the law.
+bool isOfStages(const std::string& path);
+
+/// For messages, a sentence.
+std::string whatStagesMayChange();
 } // namespace coplane

@@ -16,6 +16,15 @@ Deck readDeck(const std::string& file, const std::vector<std::string>& overrides
 /// Error(ExitCode::Deck).
 std::string readDeckFile(const std::string& file);
 
+/// The deck as it is in each stage, with the changes of the stages before it; time.end and
+/// time.end_at_rest are those of the stage. One deck without stages. Throws as readDeck does.
+std::vector<Deck> readStages(const std::string& file,
+                             const std::vector<std::string>& overrides = {});
+
+/// The same for text at hand.
+std::vector<Deck> parseStages(const std::string& text, const std::string& file,
+                              const std::vector<std::string>& overrides = {});
+
 /// As readDeck, for text at hand; `file` gives the name in messages, the folder of the mesh and the
 /// default names of outputs.
 Deck parseDeck(const std::string& text, const std::string& file,

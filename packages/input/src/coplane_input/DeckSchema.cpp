@@ -148,6 +148,8 @@ Key conditions()
     key.length = 3;
     return KeyBuilder(key);
   };
+  const std::vector<std::string> withTimes{"fixed",    "velocity", "displacement", "symmetry",
+                                           "pressure", "traction", "air_blast",    "absorbing"};
   return list(
              "conditions", &Deck::conditions,
              {
@@ -186,6 +188,20 @@ Key conditions()
                      .needed()
                      .means("rigid element block; each connected part of it is a body")
                      .like("tool"),
+                 number("from", &ConditionCard::from)
+                     .onlyFor(withTimes)
+                     .in("s")
+                     .atLeast(0)
+                     .like("0.5")
+                     .means("the condition acts for from <= t < until"),
+                 number("until", &ConditionCard::until)
+                     .onlyFor(withTimes)
+                     .in("s")
+                     .above(0)
+                     .defaultIs("the end")
+                     .like("1.5")
+                     .means("time from which on it acts no more; nodes go on with the velocity "
+                            "that they have"),
                  bound<std::vector<std::string>>("components", KeyKind::Texts,
                                                  &ConditionCard::components, takeComponents)
                      .onlyFor({"fixed", "velocity", "displacement", "rigid_motion"})
@@ -199,7 +215,7 @@ Key conditions()
                      .ofPlaceToo()
                      .in("m")
                      .like("[{times: [0, 0.1], values: [0, 0.01]}, 0, 0]")
-                     .means("displacement in x, y, z, of which its value at t = 0 is taken off; 0 "
+                     .means("displacement in x, y, z, of which its value at `from` is taken off; 0 "
                             "for components that are left free; x, y, z: place at t = 0"),
                  vectorOfTime("value", &ConditionCard::velocity)
                      .onlyFor({"velocity"})
@@ -402,6 +418,47 @@ Key timeGroup()
       .means("time and its steps");
 }
 
+Key stages()
+{
+  return list(
+             "stages", &Deck::stages,
+             {
+                 text("name", &StageCard::name)
+                     .needed()
+                     .like("heading")
+                     .means("in messages; each once"),
+                 number("until", &StageCard::until)
+                     .in("s")
+                     .above(0)
+                     .defaultIs("of the last stage: time.end")
+                     .like("0.5")
+                     .means("time at which the stage ends"),
+                 flag("at_rest", &StageCard::atRest)
+                     .like("true")
+                     .means("it ends before as soon as damping ends by one of its ratios, "
+                            "damping.until_energy_ratio or damping.until_force_ratio"),
+                 texts("remove", &StageCard::remove)
+                     .like("[core]")
+                     .means("element blocks that leave at its beginning, with their mass; the "
+                            "faces behind them are free and in contact from then on"),
+                 texts("add", &StageCard::add)
+                     .like("[lining]")
+                     .means("element blocks that are not there before, and come in free of stress "
+                            "with their nodes where these are then"),
+                 changes("set")
+                     .like("{joints.dry.friction: 0.4}")
+                     .means(
+                         "values of the deck that change, by paths of its keys, for this stage and "
+                         "those after it; null takes a key out"),
+                 flag("zero_displacements", &StageCard::zeroDisplacements)
+                     .like("true")
+                     .means("displacements that are written count from its beginning"),
+             })
+      .elsewhere({"steps", "phases"})
+      .means("parts of the run, one after the other; the first is the deck as it stands. Results "
+             "are written at the end of each");
+}
+
 Key gravity()
 {
   Key key = bound<std::vector<TimeFunction>>(
@@ -512,6 +569,7 @@ Key makeSchema()
                       })
                   .means("bulk viscosity, which spreads shocks over a few elements"),
               timeGroup(),
+              stages(),
               outputKeys(),
               historyKeys(),
               checkpointKeys(),

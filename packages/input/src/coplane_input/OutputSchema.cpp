@@ -47,6 +47,22 @@ Key outputKeys()
       .means("fields for ParaView");
 }
 
+namespace
+{
+Key pointOfProbe()
+{
+  Key key = bound<std::vector<Real>>("point", KeyKind::Numbers, &ProbeCard::point,
+                                     [](std::optional<Vec3>& point, const std::vector<Real>& v) {
+                                       point = Vec3{v[0], v[1], v[2]};
+                                     })
+                .in("m")
+                .like("[0, 2.5, 0]")
+                .means("motion of the node that is nearest at t = 0");
+  key.length = 3;
+  return key;
+}
+} // namespace
+
 Key historyKeys()
 {
   return group(
@@ -74,12 +90,18 @@ Key historyKeys()
                           text("block", &ProbeCard::block)
                               .like("bar")
                               .means("mass-weighted mean motion of an element block"),
+                          pointOfProbe(),
+                          texts("variables", &ProbeCard::variables)
+                              .like("[stress_yy, equivalent_plastic_strain]")
+                              .means("element variables, by their names in the results: at a point "
+                                     "those of the element whose middle is nearest at t = 0; of a "
+                                     "block the least and the largest, with element and place"),
                           flag("reaction", &ProbeCard::reaction)
                               .like("true")
                               .means("of a node set: also the sum of the forces with which fixed, "
                                      "velocity, displacement and symmetry hold its nodes"),
                       })
-                     .exactlyOneOf({"node_set", "block"})
+                     .exactlyOneOf({"node_set", "block", "point"})
                      .means("motions to be recorded"),
                  bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
                                                  copyTo)

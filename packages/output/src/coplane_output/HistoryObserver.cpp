@@ -4,6 +4,7 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/detail/ProbedElements.hpp>
 
 #include <algorithm>
 
@@ -153,6 +154,12 @@ void HistoryObserver::savePosition(std::map<std::string, std::string>& positions
     positions["history"] = table_.position(lastCycle_).text();
 }
 
+void HistoryObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void HistoryObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
@@ -167,7 +174,12 @@ void HistoryObserver::findShares(const Solver& solver)
   for (const Probe& probe : options_.probes)
   {
     std::vector<Share> shares;
-    if (probe.nodeSet >= 0)
+    if (probe.point)
+    {
+      if (const int node = nearestNode(solver, *probe.point); node >= 0)
+        shares.push_back({node, 1});
+    }
+    else if (probe.nodeSet >= 0)
       for (const int node : mesh.nodeSets[probe.nodeSet])
         shares.push_back({node, 1});
     else
@@ -192,6 +204,70 @@ void HistoryObserver::findShares(const Solver& solver)
   totalWeight_.clear();
   if (!sums.empty())
     totalWeight_ = ExactSum::overRanks(sums, solver.comm());
+  findElements(solver);
+}
+
+/// Elements at points; and whether the laws have the variables.
+void HistoryObserver::findElements(const Solver& solver)
+{
+  nearest_.clear();
+  for (const Probe& probe : options_.probes)
+  {
+    ProbedElement at;
+    if (probe.point && !probe.variables.empty())
+      at = nearestElement(solver, *probe.point);
+    nearest_.emplace_back(at.block, at.element);
+    const int block = probe.point ? at.block : probe.block;
+    for (const std::string& name : probe.variables)
+      solver.comm().together(
+          [&]
+          {
+            if (block >= 0 && solver.blocks()[std::size_t(block)].count() > 0 &&
+                !elementVariable(solver.blocks()[std::size_t(block)], 0, name))
+              fail(ExitCode::Deck,
+                   "history.probes: '{}' asks for '{}', but block '{}' has: stress_xx, ... "
+                   "stress_zx, von_mises, pressure, density{}{}.",
+                   probe.name, name, solver.model().blocks[std::size_t(block)].name,
+                   solver.blocks()[std::size_t(block)].historyVariables().empty() ? "" : ", ",
+                   fmt::join(solver.blocks()[std::size_t(block)].historyVariables(), ", "));
+          });
+  }
+}
+
+std::vector<std::pair<std::string, Real>> HistoryObserver::variablesOf(const Solver& solver,
+                                                                       std::size_t p) const
+{
+  const Probe& probe = options_.probes[p];
+  std::vector<std::pair<std::string, Real>> columns;
+  if (probe.variables.empty())
+    return columns;
+  const auto column = [&](const std::string& name, const std::string& rest)
+  { return probe.name + "_" + name + rest; };
+  if (!probe.point)
+  {
+    const std::vector<Extreme> extremes = extremesOf(solver, probe.block, probe.variables);
+    for (std::size_t i = 0; i < extremes.size(); ++i)
+    {
+      const std::string& name = probe.variables[i / 2];
+      const std::string which = i % 2 == 0 ? "_least" : "_largest";
+      const Extreme& extreme = extremes[i];
+      columns.emplace_back(column(name, which + unitOfVariable(name)), extreme.value);
+      columns.emplace_back(column(name, which + "_element"), Real(extreme.element));
+      for (int c = 0; c < 3; ++c)
+        columns.emplace_back(column(name, fmt::format("{}_place_{}[m]", which, axes[c])),
+                             extreme.place[c]);
+    }
+    return columns;
+  }
+  std::vector<ExactSum> sums(probe.variables.size());
+  const auto [block, element] = nearest_[p];
+  for (std::size_t i = 0; i < sums.size() && block >= 0; ++i)
+    sums[i].add(
+        elementVariable(solver.blocks()[std::size_t(block)], element, probe.variables[i]).value());
+  const std::vector<Real> values = ExactSum::overRanks(sums, solver.comm());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    columns.emplace_back(column(probe.variables[i], unitOfVariable(probe.variables[i])), values[i]);
+  return columns;
 }
 
 std::vector<Real> HistoryObserver::probeValues(const Solver& solver) const
@@ -259,6 +335,8 @@ void HistoryObserver::write(const Solver& solver)
     line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
     if (options_.probes[p].reaction)
       line.add(name + "_reaction", "[N]", reactionsOf[p]);
+    for (const auto& [column, value] : variablesOf(solver, p))
+      line.add(column, value);
   }
   if (!options_.joints.empty() && solver.hasContact())
   {

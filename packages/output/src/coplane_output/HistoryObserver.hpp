@@ -6,19 +6,24 @@
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace coplane
 {
-/// A place whose motion is recorded: the mean over a node set, or the mass-weighted mean over the
-/// nodes of an element block.
+/// A place whose motion is recorded: the mean over a node set, the mass-weighted mean over the
+/// nodes of an element block, or the node nearest to a point.
 struct Probe
 {
   std::string name;
-  int nodeSet = -1;      ///< position in Mesh::nodeSets, or
-  int block = -1;        ///< position in Mesh::blocks
-  bool reaction = false; ///< also the sum of the reactions on the nodes of the set
+  int nodeSet = -1;               ///< position in Mesh::nodeSets, or
+  int block = -1;                 ///< position in Mesh::blocks
+  bool reaction = false;          ///< also the sum of the reactions on the nodes of the set
+  std::optional<Vec3> point = {}; ///< or that, at the start [m]
+  /// Of the element nearest to the point, or least and largest of the block.
+  std::vector<std::string> variables = {};
 };
 
 struct HistoryOptions
@@ -45,6 +50,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void endOfStage(const Solver& solver) override;
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const Ending& ending) override;
@@ -61,6 +67,10 @@ private:
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;
+  void findElements(const Solver& solver);
+  /// Columns and values of the variables of a probe.
+  std::vector<std::pair<std::string, Real>> variablesOf(const Solver& solver,
+                                                        std::size_t probe) const;
   std::vector<Vec3> reactions(const Solver& solver) const; ///< per probe, zero if not wanted [N]
 
   HistoryOptions options_;
@@ -68,8 +78,9 @@ private:
   TextTable table_;             ///< open on rank 0
   std::int64_t lastCycle_ = -1; ///< that was written
   bool hasHeader_ = false;
-  Real initialKinetic_ = 0;                ///< [J]
-  std::vector<std::vector<Share>> shares_; ///< per probe, owned nodes
-  std::vector<Real> totalWeight_;          ///< per probe, over all ranks
+  Real initialKinetic_ = 0;                  ///< [J]
+  std::vector<std::vector<Share>> shares_;   ///< per probe, owned nodes
+  std::vector<Real> totalWeight_;            ///< per probe, over all ranks
+  std::vector<std::pair<int, int>> nearest_; ///< per probe, block and element here, or -1
 };
 } // namespace coplane

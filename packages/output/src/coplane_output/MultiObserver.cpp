@@ -23,6 +23,12 @@ void MultiObserver::endOfCycle(const Solver& solver)
     observer->endOfCycle(solver);
 }
 
+void MultiObserver::endOfStage(const Solver& solver)
+{
+  for (const auto& observer : observers_)
+    observer->endOfStage(solver);
+}
+
 void MultiObserver::repartitioned(const Solver& solver)
 {
   for (const auto& observer : observers_)

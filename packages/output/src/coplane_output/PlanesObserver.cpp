@@ -71,6 +71,12 @@ void PlanesObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
+void PlanesObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void PlanesObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)

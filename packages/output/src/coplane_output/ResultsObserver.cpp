@@ -282,6 +282,12 @@ void ResultsObserver::repartitioned(const Solver&)
   sides_.reset();
 }
 
+void ResultsObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void ResultsObserver::finish(const Solver& solver, const Ending&)
 {
   if (file_ && !file_->isOpen())

@@ -47,6 +47,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void endOfStage(const Solver& solver) override;
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Writes the last state, unless the last cycle has been written, and closes the file.

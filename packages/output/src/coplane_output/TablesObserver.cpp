@@ -86,6 +86,12 @@ void TablesObserver::savePosition(std::map<std::string, std::string>& positions)
   save(materials_, "materials");
 }
 
+void TablesObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void TablesObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)

@@ -363,6 +363,24 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
     *node = value;
 }
 
+void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems)
+{
+  DeckNode* const node = nodeOfPath(root, path.text, path, problems);
+  if (!node)
+    return;
+  *node = value;
+  const auto dot = path.text.rfind('.');
+  if (value.kind != DeckNode::Kind::Nothing)
+    return;
+  DeckNode* const parent =
+      dot == std::string::npos ? &root : nodeOfPath(root, path.text.substr(0, dot), path, problems);
+  auto& entries = parent->entries;
+  const std::string key = dot == std::string::npos ? path.text : path.text.substr(dot + 1);
+  entries.erase(std::remove_if(entries.begin(), entries.end(),
+                               [&](const auto& entry) { return entry.first.text == key; }),
+                entries.end());
+}
+
 std::string toYaml(const DeckNode& root)
 {
   YAML::Emitter out;

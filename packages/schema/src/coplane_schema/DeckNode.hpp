@@ -89,6 +89,10 @@ DeckNode parseYaml(const std::string& text, const std::string& file, const FileK
 /// problem.
 void applyOverride(DeckNode& root, const std::string& assignment, int number, Problems& problems);
 
+/// The same with a value at hand, by a key "a.b.0.c" that stands somewhere in a file; a value that
+/// is nothing takes the key out.
+void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems);
+
 /// The tree as YAML text; reading it again gives the same tree.
 std::string toYaml(const DeckNode& root);
 } // namespace coplane

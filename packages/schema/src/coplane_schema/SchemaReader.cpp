@@ -221,8 +221,10 @@ private:
     case KeyKind::Definitions:
       return; // read before all others
     case KeyKind::Changes:
-      return node.kind == Kind::Map ? checkAllNames(node, path)
-                                    : reading_.wrong(node, path, "", acceptedText(key));
+      if (node.kind != Kind::Map)
+        return reading_.wrong(node, path, "", acceptedText(key));
+      checkAllNames(node, path);
+      return insertDefinitions(node);
     default:
       if (const auto value = readValue(reading_, key, node, path))
       {
@@ -232,6 +234,25 @@ private:
           problems_.warn(node, fmt::format("{} = {}", path, odd));
       }
     }
+  }
+
+  /// Numbers in place of defined names, in every value of a tree.
+  void insertDefinitions(DeckNode& node)
+  {
+    for (auto& [name, value] : node.entries)
+      insertDefinitions(value);
+    for (DeckNode& item : node.items)
+      insertDefinitions(item);
+    if (node.kind != Kind::Scalar || !reading_.definitions.appearIn(node.text))
+      return;
+    std::string problem;
+    if (const auto value = reading_.definitions.value(node.text, problem))
+    {
+      node.text = fmt::format("{}", *value);
+      node.quoted = false;
+    }
+    else
+      node.text = reading_.definitions.insertedInto(node.text);
   }
 
   /// Of a map and of all maps in it.

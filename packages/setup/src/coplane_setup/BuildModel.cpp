@@ -2,6 +2,7 @@
 #include <coplane_input/DeckChecks.hpp>
 #include <coplane_setup/BuildModel.hpp>
 #include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/Lookups.hpp>
 #include <coplane_setup/detail/BlocksOfDeck.hpp>
 #include <coplane_setup/detail/ContactRulesOfDeck.hpp>
 
@@ -43,6 +44,13 @@ ContactOptions optionsOf(const Deck& deck)
   return options;
 }
 
+std::vector<int> blocksNamed(const Mesh& mesh, const std::vector<std::string>& names)
+{
+  std::vector<int> blocks;
+  for (const std::string& name : names)
+    blocks.push_back(indexOf(mesh.blocks, name));
+  return blocks;
+}
 } // namespace
 
 Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const Comm& comm)
@@ -66,6 +74,11 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
     revolve(part, deck, comm, model.conditions);
     model.contact.axisymmetric = true;
   }
+  model.inStages = deck.stages.size() > 1;
+  model.blocksComeOrGo = std::any_of(deck.stages.begin(), deck.stages.end(),
+                                     [](const StageCard& stage)
+                                     { return !stage.remove.empty() || !stage.add.empty(); });
+  model.absentBlocks = blocksNamed(mesh, absentAtStart(deck));
   model.mesh = std::move(part);
   addContactRules(deck, mesh, comm, model);
   model.skin = deck.contact.skin;
@@ -78,5 +91,17 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.time.energyTolerance = deck.time.energyTolerance;
   model.time.contactGainTolerance = deck.time.contactGainTolerance;
   return model;
+}
+
+Stage stageOf(const Deck& deck, int index, const MeshSlice& mesh, RankMesh part, const Comm& comm)
+{
+  const StageCard& card = deck.stages[std::size_t(index)];
+  Stage stage;
+  stage.index = index;
+  stage.model = buildModel(deck, mesh, std::move(part), comm);
+  stage.remove = blocksNamed(mesh.mine, card.remove);
+  stage.add = blocksNamed(mesh.mine, card.add);
+  stage.zeroDisplacements = card.zeroDisplacements;
+  return stage;
 }
 } // namespace coplane

@@ -72,6 +72,11 @@ std::vector<AbsorbingSide> absorbingSidesOf(const RankMesh& part,
   return sides;
 }
 
+Window windowOf(const ConditionCard& card)
+{
+  return {card.from, card.until.value_or(infinity)};
+}
+
 std::function<Real(Real)> dampingOf(const TimeFunction& card)
 {
   if (card.expression.empty() && card.constant == 0)
@@ -91,7 +96,7 @@ std::function<Real(Real)> dampingOf(const TimeFunction& card)
 FacePressure pressureOf(const ConditionCard& card, const RankMesh& part,
                         const std::vector<RankMesh::Side>& set)
 {
-  FacePressure load{sidesOf(part, set), {}, {}};
+  FacePressure load{sidesOf(part, set), {}, {}, windowOf(card)};
   if (card.pressure.ofPlace)
     load.field = fieldOf(card.pressure);
   else
@@ -102,7 +107,7 @@ FacePressure pressureOf(const ConditionCard& card, const RankMesh& part,
 FaceTraction tractionOf(const ConditionCard& card, const RankMesh& part,
                         const std::vector<RankMesh::Side>& set)
 {
-  FaceTraction load{sidesOf(part, set), {}, {}};
+  FaceTraction load{sidesOf(part, set), {}, {}, windowOf(card)};
   if (std::any_of(card.traction.begin(), card.traction.end(),
                   [](const TimeFunction& f) { return f.ofPlace; }))
     for (int c = 0; c < 3; ++c)
@@ -123,6 +128,7 @@ AirBlast airBlastOf(const ConditionCard& card, const RankMesh& part,
 {
   const BlastCharge charge = chargeOf(card);
   AirBlast blast;
+  blast.when = windowOf(card);
   for (const LoadedSide& side : sidesOf(part, set))
   {
     Vec3 corners[4];
@@ -155,6 +161,7 @@ PrescribedVelocity prescribedOf(const ConditionCard& card, const RankMesh& part,
                                 const std::vector<int>& nodes)
 {
   PrescribedVelocity condition;
+  condition.when = windowOf(card);
   condition.nodes = nodes;
   condition.components = card.components;
   condition.isDisplacement = card.type == "displacement";
@@ -194,7 +201,7 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
         conditions.airBlasts.push_back(airBlastOf(card, part, set));
       else
         conditions.absorbing.push_back(
-            {absorbingSidesOf(part, set, blocks), vectorOf(card.incident)});
+            {absorbingSidesOf(part, set, blocks), vectorOf(card.incident), windowOf(card)});
     }
     else if (card.type == "rigid_motion")
       conditions.rigidMotions.push_back(rigidMotionOf(card, mesh));
@@ -202,7 +209,7 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
     {
       const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
       if (card.type == "symmetry")
-        conditions.symmetries.push_back({nodes, normalised(card.normal)});
+        conditions.symmetries.push_back({nodes, normalised(card.normal), windowOf(card)});
       else
         conditions.velocities.push_back(prescribedOf(card, part, nodes));
     }
@@ -310,23 +317,28 @@ void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& 
   const auto& cards = deck.conditions;
   const auto nodesOf = [&](const ConditionCard& card) -> const std::vector<int>&
   { return part.nodeSets[std::size_t(indexOf(mesh.nodeSets, card.set))]; };
-  std::vector<std::array<int, 3>> last(std::size_t(part.nodes()), {-1, -1, -1}); // condition
+  const auto share = [&](const ConditionCard& a, const ConditionCard& b)
+  {
+    bool component = false;
+    for (std::size_t c = 0; c < std::size_t(part.dimension); ++c)
+      component |= a.components[c] && b.components[c];
+    return component && !(a.type == "fixed" && b.type == "fixed") &&
+           windowOf(a).overlaps(windowOf(b));
+  };
   for (std::size_t i = 0; i < cards.size(); ++i)
-    for (const int node : prescribesMotion(cards[i]) ? nodesOf(cards[i]) : std::vector<int>())
-    {
-      int with = -1; // the condition whose component is taken over
-      for (int c = 0; c < part.dimension; ++c)
-        if (cards[i].components[c])
-        {
-          int& before = last[std::size_t(node)][std::size_t(c)];
-          if (before >= 0 &&
-              !(cards[i].type == "fixed" && cards[std::size_t(before)].type == "fixed"))
-            with = before;
-          before = int(i);
-        }
-      if (with >= 0 && node < part.ownedNodes)
-        found.add(std::size_t(with), i, part.nodeIds[node]);
-    }
+  {
+    if (!prescribesMotion(cards[i]))
+      continue;
+    std::vector<char> held(std::size_t(part.nodes()), 0);
+    for (const int node : nodesOf(cards[i]))
+      held[std::size_t(node)] = 1;
+    for (std::size_t k = i + 1; k < cards.size(); ++k)
+      for (const int node : prescribesMotion(cards[k]) && share(cards[i], cards[k])
+                                ? nodesOf(cards[k])
+                                : std::vector<int>())
+        if (held[std::size_t(node)] && node < part.ownedNodes)
+          found.add(i, k, part.nodeIds[node]);
+  }
   for (std::size_t i = 0; i < cards.size(); ++i)
   {
     if (cards[i].type != "symmetry")
@@ -335,7 +347,9 @@ void warnOfDoubleConditions(const Deck& deck, const Mesh& mesh, const RankMesh& 
     for (const int node : nodesOf(cards[i]))
       held[std::size_t(node)] = 1;
     for (std::size_t k = 0; k < cards.size(); ++k)
-      for (const int node : prescribesMotion(cards[k]) && movesAcross(cards[k], cards[i].normal)
+      for (const int node : prescribesMotion(cards[k]) &&
+                                    windowOf(cards[k]).overlaps(windowOf(cards[i])) &&
+                                    movesAcross(cards[k], cards[i].normal)
                                 ? nodesOf(cards[k])
                                 : std::vector<int>())
         if (held[std::size_t(node)] && node < part.ownedNodes)

@@ -1,0 +1,243 @@
+#include "Rig.hpp"
+
+#include <coplane_checkpoint/StateTables.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace coplane
+{
+namespace
+{
+/// A column of four unit cubes along z, two for each block, which share nodes; a cube of its own
+/// lies on it.
+Mesh columnOfTwo()
+{
+  Mesh mesh;
+  addBox(mesh, "lower", {1, 1, 4}, {0, 0, 0}, {1, 1, 4});
+  Mesh::Block upper = mesh.blocks[0];
+  Mesh::Block& lower = mesh.blocks[0];
+  upper.id = 2;
+  upper.name = "upper";
+  const auto half = lower.elementIds.size() / 2, nodes = lower.connectivity.size() / 2;
+  upper.elementIds.erase(upper.elementIds.begin(), upper.elementIds.begin() + long(half));
+  upper.connectivity.erase(upper.connectivity.begin(), upper.connectivity.begin() + long(nodes));
+  lower.elementIds.resize(half);
+  lower.connectivity.resize(nodes);
+  mesh.blocks.push_back(upper);
+  addBox(mesh, "stone", {1, 1, 1}, {0.25, 0.125, 4}, {0.5, 0.5, 0.5});
+  mesh.blocks.back().id = 3;
+  return mesh;
+}
+
+/// It flies and vibrates under gravity, and the stone beats on it.
+Model flying(const Comm& comm, const std::vector<int>& absent = {},
+             const std::string& method = "multijagged")
+{
+  Model model = rockModel(columnOfTwo(), comm, 0.25, method);
+  for (BlockSetup& block : model.blocks)
+  {
+    block.velocity = {1, 2, -3};
+    block.velocityField = [](const Vec3& x) { return Vec3{0.1 * x.z, 0, 0.5 * x.z}; };
+  }
+  model.blocks[2].velocity = {1, 2, -6};
+  model.conditions.gravity = VectorOfTime(0, 0, -9.81);
+  model.time.fixedStep = 1e-4;
+  model.inStages = model.blocksComeOrGo = true;
+  model.absentBlocks = absent;
+  return model;
+}
+
+Stage stage(const Comm& comm, const std::vector<int>& remove, const std::vector<int>& add,
+            const std::vector<int>& absent = {})
+{
+  Stage next;
+  next.index = 1;
+  next.model = flying(comm, absent);
+  next.remove = remove;
+  next.add = add;
+  return next;
+}
+
+Real massOf(const Solver& solver)
+{
+  std::vector<ExactSum> mass(1);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    mass[0].add(solver.state().mass(n));
+  return ExactSum::overRanks(mass, solver.comm())[0];
+}
+
+void expectClosedBooks(const Solver& solver)
+{
+  const EnergyBalance energy = solver.energy();
+  EXPECT_LT(std::abs(energy.error()), 1e-3 * energy.initial);
+  EXPECT_LT(std::abs(energy.kinetic - solver.initialEnergy().kinetic - energy.nodalWork),
+            1e-12 * energy.initial);
+  const Momenta momenta = solver.momenta();
+  EXPECT_LT(norm(momenta.linearError()), 1e-12 * momenta.magnitude);
+  EXPECT_LT(norm(momenta.angularError()), 1e-11 * momenta.magnitude);
+}
+} // namespace
+
+TEST(Stages, aBlockLeavesWithItsMassMomentumAndEnergy)
+{
+  const Comm comm;
+  Solver solver(flying(comm), comm);
+  solver.prepare();
+  EXPECT_EQ(massOf(solver), 4125);
+  cycles(solver, 60);
+  EXPECT_GT(solver.contact().counts().planes, 0); // of the stone on what leaves
+  const EnergyBalance before = solver.energy();
+  solver.beginStage(stage(comm, {1}, {}));
+  EXPECT_EQ(solver.stage().index, 1);
+  EXPECT_EQ(solver.stage().begin, solver.clock().time);
+  cycles(solver, 1);
+  EXPECT_EQ(massOf(solver), 2125);
+  EXPECT_EQ(solver.erosion().mass, 2000);
+  EXPECT_EQ(solver.erosion().elements, 2);
+  // It takes about half of the energy along.
+  EXPECT_GT(solver.energy().eroded, 0.3 * before.kinetic);
+  expectClosedBooks(solver);
+  cycles(solver, 60);
+  expectClosedBooks(solver);
+  // Nodes without elements stay where they are.
+  for (int n = 0; n < solver.layout().owned(); ++n)
+  {
+    if (solver.state().mass(n) == 0)
+    {
+      EXPECT_EQ(norm(at(solver.state().v, n)), 0);
+    }
+  }
+}
+
+TEST(Stages, facesBehindWhatHasLeftAreInContact)
+{
+  // The stone falls by two metres through where the block was, and beats on the one below.
+  const Comm comm;
+  Model model = flying(comm);
+  model.blocks[2].velocity = {1, 2, -103};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  solver.beginStage(stage(comm, {1}, {}));
+  cycles(solver, 180); // 1.8 m
+  EXPECT_EQ(solver.contact().counts().stick + solver.contact().counts().slip, 0);
+  cycles(solver, 30);
+  EXPECT_GT(solver.contact().counts().stick + solver.contact().counts().slip, 0);
+  EXPECT_EQ(solver.contact().counts().missed, 0);
+  expectClosedBooks(solver);
+}
+
+TEST(Stages, aBlockComesInFreeOfStressWhereItsNodesAre)
+{
+  const Comm comm;
+  Solver solver(flying(comm, {1}), comm);
+  solver.prepare();
+  EXPECT_EQ(massOf(solver), 2125);
+  cycles(solver, 60);
+  expectClosedBooks(solver);
+  solver.beginStage(stage(comm, {}, {1}, {1}));
+  const ElementBlock& upper = solver.blocks()[1];
+  std::vector<ExactSum> volumes(1);
+  for (int e = 0; e < upper.count(); ++e)
+  {
+    EXPECT_TRUE(upper.isAlive(e));
+    EXPECT_EQ(upper.stress()(2, e), 0);
+    EXPECT_EQ(upper.volume()(e), upper.referenceVolume()(e));
+    if (solver.mesh().blocks[1].owned[std::size_t(e)])
+      volumes[0].add(upper.referenceVolume()(e));
+  }
+  const Real volume = ExactSum::overRanks(volumes, comm)[0];
+  EXPECT_GT(std::abs(volume - 2), 1e-6); // nodes below it have moved
+  EXPECT_NEAR(massOf(solver), 2125 + 1000 * volume, 1e-9);
+  cycles(solver, 60);
+  EXPECT_LT(solver.energy().eroded, 0); // it came with the motion of the nodes that it shares
+  expectClosedBooks(solver);
+}
+
+TEST(Stages, haveTheSameBitsFromAnyStateOnAnyPartition)
+{
+  const Comm comm;
+  for (const bool comes : {false, true})
+  {
+    const std::vector<int> absent = comes ? std::vector<int>{1} : std::vector<int>{};
+    const auto next = [&]
+    {
+      Stage begins = comes ? stage(comm, {}, {1}, absent) : stage(comm, {1}, {});
+      begins.zeroDisplacements = true;
+      return begins;
+    };
+    Solver straight(flying(comm, absent), comm);
+    straight.prepare();
+    cycles(straight, 20);
+    StateTables atBorder(comm), within(comm);
+    straight.save(atBorder);
+    straight.beginStage(next());
+    cycles(straight, 15);
+    straight.save(within);
+    cycles(straight, 15);
+    const EnergyBalance expected = straight.energy();
+
+    for (const char* method : {"rcb", "last", "scattered"})
+    {
+      Solver border(flying(comm, absent, method), comm);
+      border.restore(atBorder);
+      EXPECT_EQ(border.stage().index, 0);
+      border.beginStage(next());
+      cycles(border, 30);
+      Solver middle(flying(comm, absent, method), comm);
+      middle.restore(within);
+      EXPECT_EQ(middle.stage().index, 1);
+      EXPECT_EQ(Solver::stageIn(within).begin, straight.stage().begin);
+      cycles(middle, 5);
+      middle.repartition(flying(comm, absent, "rib"));
+      cycles(middle, 10);
+      for (const Solver* solver : {&border, &middle})
+      {
+        EXPECT_EQ(solver->stateHash(), straight.stateHash()) << method;
+        const EnergyBalance energy = solver->energy();
+        EXPECT_EQ(std::memcmp(&energy, &expected, sizeof energy), 0) << method;
+      }
+    }
+  }
+}
+
+TEST(Stages, countDisplacementsAnew)
+{
+  const Comm comm;
+  Solver solver(flying(comm), comm);
+  solver.prepare();
+  cycles(solver, 10);
+  Stage next = stage(comm, {}, {});
+  next.zeroDisplacements = true;
+  solver.beginStage(std::move(next));
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    EXPECT_EQ(norm(at(solver.state().x, n) - at(solver.state().reference, n)), 0);
+}
+
+TEST(Stages, followEachOtherUntilTheLast)
+{
+  const Comm comm;
+  Model model = flying(comm);
+  model.time.end = 1e-3;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Recorder recorder;
+  int asked = 0;
+  const ExitCode code = solver.run(recorder, nullptr,
+                                   [&](const Solver& at) -> std::optional<Stage>
+                                   {
+                                     EXPECT_EQ(at.clock().cycle, 10 * ++asked);
+                                     if (asked == 3)
+                                       return std::nullopt;
+                                     Stage next = stage(comm, {}, {});
+                                     next.index = asked;
+                                     next.model.time.end = (asked + 1) * 1e-3;
+                                     return next;
+                                   });
+  EXPECT_EQ(code, ExitCode::Success);
+  EXPECT_EQ(asked, 3);
+  EXPECT_EQ(solver.stage().index, 2);
+  EXPECT_EQ(recorder.ends, 30);
+}
+} // namespace coplane

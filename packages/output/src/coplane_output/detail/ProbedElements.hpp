@@ -1,0 +1,42 @@
+#pragma once
+
+#include <coplane_core/Vec3.hpp>
+#include <coplane_dynamics/Solver.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// A variable of an element by its name in the results, such as stress_yy; nothing: its law has
+/// none of this name.
+std::optional<Real> elementVariable(const ElementBlock& block, int element,
+                                    const std::string& name);
+/// "[Pa]" and the like; empty for variables of laws.
+std::string unitOfVariable(const std::string& name);
+
+/// The owned node that is nearest to a point at the start, on the rank that has it; of several the
+/// one of the lowest id. -1 on other ranks. Collective.
+int nearestNode(const Solver& solver, const Vec3& point);
+
+/// An element of this rank; block -1: it is on another.
+struct ProbedElement
+{
+  int block = -1, element = -1;
+};
+/// The same of elements, by their middles.
+ProbedElement nearestElement(const Solver& solver, const Vec3& point);
+
+/// Least and largest value in the living elements of a block, with its element (the lowest id) and
+/// that one's present middle. Without living elements no number, and id 0.
+struct Extreme
+{
+  Real value = 0;
+  GlobalId element = 0;
+  Vec3 place{}; ///< [m]
+};
+/// [2 i]: least, [2 i + 1]: largest of variable i. Collective.
+std::vector<Extreme> extremesOf(const Solver& solver, int block,
+                                const std::vector<std::string>& variables);
+} // namespace coplane
