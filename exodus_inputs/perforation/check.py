@@ -15,7 +15,8 @@ impact, law = of["impact"], of["law"]
 
 # The ledger closes; of what planes do, nothing more than a few percent is unaccounted for.
 example.balances(energy=0.02, remainder=(-0.03, 0.03))
-example.check_within("energy of planes of dead elements over the energy at the start", float(h["contact_eroded"][-1] / h["kinetic"][0]), 0, 0.02)
+# A plane that unloads does work in the half step in which its element dies: a little less than nothing may be lost.
+example.check_within("energy of planes of dead elements over the energy at the start", float(h["contact_eroded"][-1] / h["kinetic"][0]), -1e-6, 0.02)
 
 # What the projectile loses the slab gets, with the nodes of its dead elements, and a rim that is held. Speeds are those half a step later.
 masses = {name: float(value) for name, value in re.findall(r"block '(\w+)' .*mass (\S+) kg", example.run.output)}
