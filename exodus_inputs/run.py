@@ -14,7 +14,7 @@ folder elsewhere in `runs` there),
 
     mesh.yaml, mesh.e    the recipe with all changes, and its mesh
     run.yaml             the deck with all changes
-    run.log, run.e, run_planes.pvd, run.csv, run.run.json     what coplane writes
+    run.log, run.e, run_planes.xmf3, run.csv, run.run.json     what coplane writes
     run-report.html      all of it on one page (coplane report)
     pictures/            what the example's pictures.py draws with ParaView
     checks.jsonl         what the example's check.py found
@@ -239,7 +239,7 @@ class ExampleRun:
         self.results = ["run.csv", "run.run.json"] + [f"run_{table}.csv" for table in history.get("tables") or []]
         self.results += [] if (self.deck.get("output") or {}).get("results") == "none" else ["run.e"]
         made = ["mesh.yaml", "run.yaml", "mesh.e", "example.json", "run.log", "done", "pictures.done", "pictures.log", "checks.jsonl",
-                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run_planes.vtkhdf", "run_planes.xmf", "run.chk.0", "run.chk.1", *self.results]
+                "run-report.html", "run_planes.pvd", "run_planes_0000.vtp", "run_planes.vtkhdf", "run_planes.xmf3", "run.chk.0", "run.chk.1", *self.results]
         if self.joints is not None:
             made += ["joints.yaml", "whole.e"]
         self.own.claim(made, self.overwrite)
@@ -361,7 +361,7 @@ def main():
     if summary.exists() and not options.no_check:
         well = python(summary, [run.folder for run in runs], runs[0].folder) == 0 and well
     for run in runs:
-        planes = [f", {name} (contact planes)" for name in ("run_planes.pvd", "run_planes.xmf") if (run.folder / name).exists()]
+        planes = [f", {name} (contact planes)" for name in ("run_planes.xmf3", "run_planes.pvd") if (run.folder / name).exists()]
         run.say(f"results: {run.folder}/run.e (fields){''.join(planes[:1])}, run.csv (history)")
     sys.exit(0 if well else 1)
 

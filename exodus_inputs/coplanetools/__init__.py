@@ -11,10 +11,9 @@ sys.path.insert(0, str(_TOP / "packages/python" if (_TOP / "packages").is_dir() 
 
 from coplane import documents, program, tables  # noqa: E402
 from coplane.exodus import Results, differences, series_differences  # noqa: E402
-from coplane.planes import planes  # noqa: E402
 
 from . import waves  # noqa: E402
 from .ended import EndedRun  # noqa: E402
 from .example import Example  # noqa: E402
 
-__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "planes", "program", "series_differences", "tables", "waves"]
+__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "program", "series_differences", "tables", "waves"]

@@ -6,7 +6,7 @@ import re
 
 from coplane import tables
 from coplane.exodus import Results
-from coplane.planes import planes
+from coplane.results import Run
 
 
 class EndedRun:
@@ -47,11 +47,16 @@ class EndedRun:
         return sum(float(value) for value in re.findall(r"block .*mass (\S+) kg", self.output))
 
     def planes_files(self):
-        return sorted(name for name in os.listdir(self.folder) if re.match(r"run_planes.*\.(vtp|pvd)$", name))
+        return sorted(name for name in os.listdir(self.folder) if re.match(r"run_planes.*\.(vtkhdf|xmf3|vtp|pvd)$", name))
+
+    @property
+    def series(self):
+        """Contact planes over time."""
+        return Run(self.path("run.yaml")).planes
 
     def planes(self, step=-1):
         """Contact planes of one output step, by field."""
-        return planes(self.path([name for name in self.planes_files() if name.endswith(".vtp")][step]))
+        return self.series.fields(step)
 
     def bytes_of(self, name):
         with open(self.path(name), "rb") as file:

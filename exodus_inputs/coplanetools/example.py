@@ -6,8 +6,6 @@ import sys
 
 import numpy
 
-from coplane.planes import planes
-
 from .checks import Checks
 from .ended import EndedRun
 
@@ -56,8 +54,8 @@ class Example(Checks):
 
     def all_planes(self):
         """Contact planes of every output step, one after the other."""
-        for path in sorted(self.folder.glob("run_planes_*.vtp")):
-            yield planes(path)
+        series = self.run.series
+        return map(series.fields, range(len(series)))
 
     def deepest(self, area):
         """Largest closure of all planes with at least this area, over all output steps [m]. Slivers may be deeper: where a

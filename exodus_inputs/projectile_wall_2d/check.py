@@ -2,7 +2,7 @@
 
 import numpy
 
-from coplanetools import Example, documents, planes
+from coplanetools import Example, documents
 
 example = Example()
 h, results, whole = example.history, example.results, example.size != "coarse"
@@ -57,7 +57,7 @@ example.check_within("longest edge of a damaged living element over h", float(st
 back = (centre[:, 0] > 0.05 - size) & (numpy.abs(centre[:, 1]) < 0.05)
 moved = results.nodal("displacement_x", step)[results.connectivity("bricks")[back]].max()
 example.check_within("largest motion of the back near the axis [m]", float(moved), 0.01, 1)
-last = planes(sorted(example.folder.glob("run_planes_*.vtp"))[step])
+last = example.run.planes(step)
 example.check_within("planes of joints that are open, share", float((last["state"] == 1).mean()), 0.1, 1)
 
 # Symmetric about y = 0 as long as rounding has not grown.

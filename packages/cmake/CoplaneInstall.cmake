@@ -4,6 +4,7 @@
 #   lib, include        libraries, headers and the CMake package (find_package(Coplane)); lib/coplane/trilinos: the Trilinos that it uses
 #   share/coplane       the Python package, examples with run.py, what pictures share, documents
 #   share/man, share/bash-completion   made from what the programs say with --help
+#   share/doc/coplane/html   the searchable site of all pages (packages/cmake/make-site.py)
 # Components: programs (of one processor level), common, development. CoplanePackaging.cmake makes Debian packages of them.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
@@ -73,9 +74,22 @@ function(_coplane_install_manuals)
   endforeach()
 endfunction()
 
+# The searchable site of all pages. It is made while installing, from the pages as they are then; without mkdocs there is none.
+function(_coplane_install_site)
+  install(CODE "
+    execute_process(COMMAND /usr/bin/python3 \"${PROJECT_SOURCE_DIR}/packages/cmake/make-site.py\" \"${PROJECT_BINARY_DIR}/site\"
+      RESULT_VARIABLE _failed OUTPUT_VARIABLE _said ERROR_VARIABLE _said)
+    if(_failed)
+      message(WARNING \"No site of the documents: \${_said}\")
+    else()
+      file(INSTALL \"${PROJECT_BINARY_DIR}/site/\" DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DATADIR}/doc/coplane/html\")
+    endif()" COMPONENT common)
+endfunction()
+
 function(coplane_install)
   _coplane_install_cmake_package()
   _coplane_install_manuals()
+  _coplane_install_site()
   if(COPLANE_OWN_TRILINOS)
     file(REAL_PATH "${COPLANE_TRILINOS}" _trilinos)
     string(REGEX REPLACE "([][+.*()^$?|])" "\\\\\\1" _trilinos "${_trilinos}")

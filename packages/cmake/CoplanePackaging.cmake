@@ -32,8 +32,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_RUN_PACKAGE_NAME coplane)
 set(CPACK_DEBIAN_RUN_PACKAGE_DEPENDS "openmpi-bin, python3 (>= 3.11), python3-numpy, python3-netcdf4, python3-yaml")
-set(CPACK_DEBIAN_RUN_PACKAGE_RECOMMENDS "python3-plotly, python3-pandas, python3-xarray, python3-jsonschema, python3-ruamel.yaml")
-set(CPACK_DEBIAN_RUN_PACKAGE_SUGGESTS "coplane-dev, paraview, python3-paraview, xvfb, xauth, bash-completion")
+set(CPACK_DEBIAN_RUN_PACKAGE_RECOMMENDS "python3-plotly, python3-pandas, python3-xarray, python3-jsonschema, python3-ruamel.yaml, python3-matplotlib, python3-pil")
+set(CPACK_DEBIAN_RUN_PACKAGE_SUGGESTS "coplane-dev, paraview, python3-paraview | python3-vtk9, xvfb, xauth, ffmpeg, bash-completion")
 set(CPACK_DEBIAN_RUN_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packages/cmake/packaging/debian/postinst;${PROJECT_SOURCE_DIR}/packages/cmake/packaging/debian/prerm")
 set(CPACK_DEBIAN_RUN_DESCRIPTION "Motion of jointed rock, masonry, and whatever breaks and collides: finite elements whose
 exterior faces may all touch each other. Programs, examples, the Python package, documents.")

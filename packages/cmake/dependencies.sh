@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
 # Brings everything Coplane needs onto a Debian 12 machine and prints, as its last line, the folder of Trilinos.
 #
-#   packages/cmake/dependencies.sh [--with-paraview | --only-paraview]
+#   packages/cmake/dependencies.sh [--with-paraview | --only-paraview] [--with-browser]
 #
 # 1. installs the Debian packages of debian-packages.txt that are missing (as root, or through sudo);
 # 2. unless COPLANE_TRILINOS or Trilinos_DIR names a Trilinos that is already there, or the Debian package coplane-dev has brought the
 #    same one, builds the subset described in trilinos/recipe.sh into a per-user cache ($COPLANE_CACHE, else $XDG_CACHE_HOME/coplane,
 #    else ~/.cache/coplane).
-# --only-paraview installs what draws pictures, and does nothing else.
+# --only-paraview installs what draws pictures, and does nothing else. --with-browser installs the browser in which two tests look at pages;
+# where that fails they are skipped.
 #
 # Every stage leaves a stamp: an interrupted run goes on where it stopped, and nothing is ever built twice. Takes about 12
 # minutes on two cores the first time, under a second when all is there.
@@ -16,12 +17,13 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 say() { printf 'dependencies: %s\n' "$*" >&2; }
 die() { say "ERROR: $*"; exit 1; }
 
-with_paraview=no only_paraview=no
+with_paraview=no only_paraview=no with_browser=no
 for argument in "$@"; do
   case $argument in
     --with-paraview) with_paraview=yes ;;
     --only-paraview) only_paraview=yes ;;
-    *) die "unknown argument '$argument'; accepted: --with-paraview, --only-paraview" ;;
+    --with-browser) with_browser=yes ;;
+    *) die "unknown argument '$argument'; accepted: --with-paraview, --only-paraview, --with-browser" ;;
   esac
 done
 
@@ -51,6 +53,7 @@ install_packages() { # files with package names
 [ $only_paraview = no ] || { install_packages "$here/debian-packages-paraview.txt"; exit 0; }
 install_packages "$here/debian-packages.txt"
 [ $with_paraview = no ] || install_packages "$here/debian-packages-paraview.txt"
+[ $with_browser = no ] || (install_packages "$here/debian-packages-browser.txt") || say "no browser: pages are not looked at"
 
 # A Trilinos of the user's own.
 given=${COPLANE_TRILINOS:-${Trilinos_DIR:-}}

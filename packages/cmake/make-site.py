@@ -9,6 +9,7 @@ file, ends with exit code 1. Added are docs/keys.html, the keys of decks and rec
 search. Needs Debian's mkdocs, python3-pymdownx and libjs-katex; packages/cmake/dependencies.sh installs them.
 """
 
+import html
 import html.parser
 import json
 import logging
@@ -47,6 +48,8 @@ FILES = {
     "example": ("example.yaml", "user/recipe.md"),
     "point-deck": ("deck of coplane_point", "user/point-deck.md"),
 }
+# In the search.
+WEIGHTS = {"docs/user/": 3, "docs/keys": 2, "docs/glossary": 2, "docs/developer/": 0.5, "docs/CHANGELOG": 0.5, "tests/": 0.3, "packages/": 0.3, "apps/": 0.5}
 TOPICS = {
     "The problem": ["deck: title mesh geometry define"],
     "Meshes": ["recipe: title define dimension parts"],
@@ -256,6 +259,32 @@ def dead_links(site):
     return dead
 
 
+def tune_search(folder):
+    """Results of the search are sections: a page as a whole, which would stand there beside its first section, goes, and titles name the page.
+    Words of titles and the user's manual count more than others, pages beside sources less."""
+    index, worker = folder / "search_index.json", folder / "worker.js"
+    found = json.loads(index.read_text(encoding="utf-8"))
+    for entry in found["docs"]:
+        entry["title"] = html.unescape(entry["title"])
+    pages = {entry["location"]: entry["title"] for entry in found["docs"] if "#" not in entry["location"]}
+    sections = [entry for entry in found["docs"] if "#" in entry["location"]]
+    alone = pages.keys() - {entry["location"].partition("#")[0] for entry in sections}
+    for entry in sections:
+        page = pages[entry["location"].partition("#")[0]]
+        if entry["title"] != page:
+            entry["title"] = f"{page}: {entry['title']}"
+    for entry in found["docs"]:
+        entry["boost"] = next((boost for begin, boost in WEIGHTS.items() if entry["location"].startswith(begin)), 1)
+    found["docs"] = [entry for entry in found["docs"] if "#" in entry["location"] or entry["location"] in alone]
+    index.write_text(json.dumps(found), encoding="utf-8")
+    text = worker.read_text()
+    for old, new in (("this.add(doc);", "this.add(doc, {boost: doc.boost});"), ("this.field('title');", "this.field('title', {boost: 3});")):
+        if old not in text:
+            sys.exit(f"make-site: this mkdocs has another search: {worker.name} has no {old}")
+        text = text.replace(old, new)
+    worker.write_text(text)
+
+
 def build(site):
     try:
         import pymdownx  # noqa: F401
@@ -275,6 +304,7 @@ def build(site):
             extra_javascript=["assets/katex/katex.min.js", "assets/katex/contrib/auto-render.js"],
             markdown_extensions=["tables", "sane_lists", {"toc": {"slugify": slug}}, {"pymdownx.arithmatex": {"generic": True}}, "pymdownx.superfences"],
         ))  # fmt: skip
+        tune_search(site / "search")
 
 
 def main():

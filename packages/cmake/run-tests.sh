@@ -57,7 +57,7 @@ finish() {
 }
 
 get_dependencies() {
-  COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
+  COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview --with-browser | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
 }
 build_sanitized() {
   { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_BENCHMARKS=OFF \

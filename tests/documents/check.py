@@ -9,6 +9,8 @@ import shutil
 import subprocess
 import sys
 
+from coplanetest import browser
+
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 BINARIES = pathlib.Path(os.environ["COPLANE_BIN"])
 BUILD = BINARIES.parent
@@ -67,6 +69,22 @@ def check_verification():
     assert kept == [name.replace("_", " ") for name in names], (
         f"docs/verification.md is old ({missing}): python3 tests/support/verification_page.py <build folder>, best after the case has run there"
     )
+    # The table of numbers: each number that is used anywhere has a row, and leads to the case that it names.
+    assert maker.index() in (SOURCE / "docs/verification.md").read_text(), (
+        "docs/verification.md: the table of numbers is old: python3 tests/support/verification_page.py <build folder>"
+    )
+    claims = {folder: {number for number, _ in maker.claims(title)} for folder, title in maker.titles()}
+    for folder, numbers in claims.items():
+        cases = re.findall(r"(?:Case\(|case\.name = )f?\"(.*?)\"", (folder / "check.py").read_text())
+        named = set(re.findall(r"V\d\d", " ".join([folder.name, *cases])))
+        assert named <= numbers, f"{folder.name}/README.md: the title does not say what {sorted(named - numbers)} show"
+    known = set().union(*claims.values())
+    pages = tracked("docs/*.md", "tests/*.md", "tests/*.py", "packages/*.md", "packages/*.?pp", "apps/*.md", "apps/*.?pp", "exodus_inputs/*.md", "exodus_inputs/*.py")
+    used = {(number, name) for name in pages for number in re.findall(r"\bV\d\d\b", (SOURCE / name).read_text())}
+    assert not (lost := sorted(pair for pair in used if pair[0] not in known)), f"numbers that no case has: {lost}"
+    assert maker.claims("Two bars (V21), in other frames (V58) and waves (V12 to V14)") == [
+        ("V21", "Two bars"), ("V58", "Two bars, in other frames"), ("V12", "Waves"), ("V13", "Waves"), ("V14", "Waves"),
+    ]  # fmt: skip
     results = pathlib.Path("results")
     shutil.rmtree(results, ignore_errors=True)
     own = results / f"verification.{names[0]}"
@@ -213,6 +231,28 @@ def check_names():
     assert not wrong, "\n".join(wrong)
 
 
+SEARCH = """
+const found = {};
+for (const words of WORDS) {
+  const page = await show('/search.html?q=' + encodeURIComponent(words), 1200, 1600);
+  const box = await until(() => page.getElementById('mkdocs-search-results').children.length && page.getElementById('mkdocs-search-results'));
+  found[words] = box ? [...box.querySelectorAll('article a')].map(link => [link.getAttribute('href'), link.textContent]) : null;
+}
+return found;
+"""
+
+
+def check_search(site):
+    """Typed into the search of the site in a browser, words lead to the pages of the manual, with the name of the page; other words to nothing."""
+    first = {"search_every": ["./docs/user/deck.html#contact", "Deck reference: contact"], "restart": ["./docs/user/checkpoints.html#restart", "Checkpoints and restart: Restart"],
+             "own problem": ["./docs/user/first-run.html#a-problem-of-your-own", "A first run: A problem of your own"]}  # fmt: skip
+    found = browser.seen(site, SEARCH.replace("WORDS", json.dumps([*first, "friction", "blender"])))
+    for words, entry in first.items():
+        assert found[words][0] == entry, f"the search for {words}: {found[words][:3]}"
+    assert ["./docs/user/deck.html#jointsname", "Deck reference: joints.<name>"] in found["friction"][:4], found["friction"][:4]
+    assert found["blender"] == [], found["blender"]
+
+
 def check_site():
     """The site has every page, every key, formulas and a search, and needs nothing from elsewhere; its maker finds links that lead nowhere."""
     specification = importlib.util.spec_from_file_location("make_site", SOURCE / "packages/cmake/make-site.py")
@@ -227,9 +267,13 @@ def check_site():
     missing = [page for page in [*pages, "docs/keys.html", "search.html"] if not (site / page).exists()]
     assert not missing, f"pages that the site lacks: {missing}"
     found = {entry["location"]: entry["text"] for entry in json.loads((site / "search/search_index.json").read_text())["docs"]}
-    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html", "remainder"),
+    for place, word in (("docs/user/deck.html#contact", "search_every"), ("docs/keys.html#from-a-to-z", "search_every"), ("docs/glossary.html#glossary", "remainder"),
                         ("docs/user/coming-from.html#ls-dyna", "MAT_JOHNSON_COOK"), ("docs/verification.html#v14-incline", "friction")):  # fmt: skip
         assert word in found[place], f"the search does not find {word} in {place}"
+    if browser.chromium():
+        check_search(site)
+    else:
+        print("the search was not tried: chromium is not installed (apt-get install chromium)")
     keys = (site / "docs/keys.html").read_text()
     lost = [key for file in maker.FILES for names in maker.groups_of(file).values() for key in names if f"<code>{key}</code>" not in keys]
     assert not lost, f"keys that docs/keys.html lacks: {lost}"
@@ -271,7 +315,7 @@ def check_readme():
         done = run(["bash", "-euc", command], cwd=folder, env=environment)
         print(f"$ {command}\n{done.stdout[-1500:]}")
         assert done.returncode == 0, f"exit code {done.returncode}: {command}"
-    for name in ("bars.e", "bars.csv", "bars.run.json", "bars_planes.pvd", "main-job/run.e", "main-job/run.csv"):
+    for name in ("bars.e", "bars.csv", "bars.run.json", "bars_planes.vtkhdf", "bars_planes.xmf3", "main-job/run.e", "main-job/run.csv"):
         assert (folder / name).stat().st_size > 0, name
 
 
@@ -323,6 +367,13 @@ def check_output():
             assert done.returncode == 0, f"{page}.md: exit code {done.returncode}: {commands}\n{done.stdout[-3000:]}"
             line = lost_line(quoted.splitlines(), done.stdout.splitlines())
             assert line is None, f"{page}.md says\n{line}\nand the commands before it print\n{done.stdout[-6000:]}"
+    # The problem that begins with an empty folder.
+    inputs = re.findall(r"```yaml\n(.*?)```", (SOURCE / "docs/user/first-run.md").read_text(), flags=re.S)
+    assert len(inputs) == 2, "first-run.md: a recipe and a deck"
+    for name, text in zip(("mesh.yaml", "stones.yaml"), inputs):
+        (folder / name).write_text(text)
+    done = run(["bash", "-euc", "coplane_mesh make mesh.yaml -o mesh.e && coplane stones.yaml --set time.end=0.011 --backend serial"], cwd=folder, env=environment)
+    assert done.returncode == 0 and "WARNING" not in done.stdout, done.stdout[-3000:]
 
 
 def check_install():

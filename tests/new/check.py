@@ -19,7 +19,7 @@ from coplane import new
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 RUN = [sys.executable, str(SOURCE / "exodus_inputs/run.py")]
 # Those with few elements; `coplane --check` on the others takes seconds each.
-CHECKED = ["bars_2d", "perforation", "penetration", "rocking_block_2d"]
+CHECKED = ["bars_2d", "cut_rock_2d", "perforation", "penetration", "rocking_block_2d"]
 case = Case("new", __file__)
 
 
@@ -69,7 +69,7 @@ for example in new.examples():
                      (documents.load(folder / settings["recipe"]), documents.load(folder / settings["deck"])), (recipe, {**deck, "mesh": "mesh.e"}))  # fmt: skip
     case.check_equal(f"{example}: example.yaml changes nothing", ([*settings["sizes"].values()], "variants" in settings), ([{}], False))
     case.check_equal(f"{example}: other input files", [name for name in texts if name.endswith(".yaml")],
-                     [name for name in texts if name in ("example.yaml", settings["recipe"], settings["deck"])])  # fmt: skip
+                     [name for name in texts if name in ("example.yaml", settings["recipe"], settings["deck"], settings.get("joints"))])  # fmt: skip
     case.check_equal(f"{example}: check", (folder / "check.py").exists(), True)
     if example not in CHECKED:
         continue

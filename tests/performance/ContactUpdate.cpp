@@ -1,6 +1,6 @@
 // Planes per second of steps A to H and of the sum of their forces at the nodes, on one rank: two
 // flat interfaces of 200 x 200 and 201 x 201 quadrilaterals that lie on each other, 160 000 planes,
-// with the default options, an uneven closure, Coulomb friction and the closure curve.
+// an uneven closure, Coulomb friction and the closure curve, by both forces: names end with that.
 //   flat      squares
 //   sheared   the same with every node moved in the plane, so that no face is a parallelogram
 //   warped    the same with every node moved in all directions, so that no face is plane
@@ -57,7 +57,8 @@ struct Scene
   }
 };
 
-void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
+void update(benchmark::State& state, Backend backend, ContactOptions::Forces forces, Real inPlane,
+            Real across)
 {
   setBackend(backend);
   const int n = int(state.range(0));
@@ -87,7 +88,7 @@ void update(benchmark::State& state, Backend backend, Real inPlane, Real across)
   joint.law.friction = 0.6;
   rules.joints = {joint};
   rules.tellApart(1);
-  ContactOptions options;
+  ContactOptions options = ContactOptions::with(forces);
   options.inherit = false;
   const Real skin = 0.1 * side;
   Contact contact(comm, 3, scene.faces, options, rules, skin, side);
@@ -123,15 +124,22 @@ int main(int argc, char** argv)
   return runBenchmarks(argc, argv,
                        [](Backend backend)
                        {
-                         const auto add = [backend](const char* scene, Real inPlane, Real across)
+                         for (const bool potential : {true, false})
                          {
-                           addBenchmark(scene, backend,
-                                        [=](benchmark::State& state, Backend b)
-                                        { update(state, b, inPlane, across); })
-                               ->Arg(200);
-                         };
-                         add("flat", 0, 0);
-                         add("sheared", 0.05, 0);
-                         add("warped", 0.05, 0.001);
+                           const auto add = [=](const char* scene, Real inPlane, Real across)
+                           {
+                             const auto forces = potential ? ContactOptions::Forces::Potential
+                                                           : ContactOptions::Forces::CommonNormal;
+                             addBenchmark(std::string(scene) +
+                                              (potential ? "/potential" : "/common_normal"),
+                                          backend,
+                                          [=](benchmark::State& state, Backend b)
+                                          { update(state, b, forces, inPlane, across); })
+                                 ->Arg(200);
+                           };
+                           add("flat", 0, 0);
+                           add("sheared", 0.05, 0);
+                           add("warped", 0.05, 0.001);
+                         }
                        });
 }

@@ -118,14 +118,6 @@ case.check_equal("tables", sorted(whole.tables), ["blocks", "materials", "pairs"
 equal("planes of the pairs", whole.tables["pairs"].groupby("time").planes.sum(), history.planes)
 case.check_equal("planes of the last step", len(whole.planes[-1]), int(history.planes.iloc[-1]))
 case.check_equal("joints of the planes", sorted(set(whole.planes.at(0).joint)), ["tight"])
-try:
-    import vtkmodules  # noqa: F401
-
-    points = whole.planes.vtk(-1)
-    case.check_equal("planes as VTK sees them", (points.GetNumberOfPoints(), points.GetPointData().GetArray("closure").GetValue(3)),
-                     (len(whole.planes[-1]), float(whole.planes[-1].closure[3])))  # fmt: skip
-except ImportError:
-    print("no VTK here: planes are not compared with what it reads")
 case.check("stored energy of the planes", whole.planes[-1].stored.sum(), history.contact_stored.iloc[-1], 1e-12, relative=True)
 figure = whole.history.plot(y=["kinetic", "internal"], backend="plotly")
 case.check_equal("lines of a plot", [trace.name for trace in figure.data], ["kinetic", "internal"])
@@ -161,6 +153,7 @@ case.check_equal("nothing is left beside the deck", [path.name for path in pathl
 # --- runs -------------------------------------------------------------------------------------------
 
 checked["time.end"] = 2e-3
+checked["output.planes_format"] = "vtp"
 told("changes without a file", ValueError, lambda: coplane.run(checked), "Deck.write")
 started = coplane.run(checked, "watched", ranks=2, wait=False)
 seen = [line["time"] for line in coplane.watch(started, 0.05)]
@@ -195,7 +188,8 @@ case.check_equal("files of the earlier run are there", [pathlib.Path(name).exist
 told("results of an earlier run", FileNotFoundError, lambda: stale.results, "output.results: none")
 told("planes of an earlier run", FileNotFoundError, lambda: stale.planes, "output.planes: false")
 told("results of another run", FileNotFoundError, lambda: exodus.files_of("straight/run.e", "other"), "run.e", "another run")
-told("planes of another run", FileNotFoundError, lambda: planes.Planes("straight/run_planes.pvd", "other"), "run_planes.pvd", "another run")
+for series in ("straight/run_planes.vtkhdf", "watched/run_planes.pvd"):
+    told("planes of another run", FileNotFoundError, lambda: planes.Planes(series, "other"), series, "another run")
 case.check_equal("tables of an earlier run", stale.tables, {})
 again["time.end"] = -1
 try:
@@ -228,8 +222,9 @@ tail = tables.Tail("growing.csv")
 for text, times in (("time[s]\n1\n2\n", [1, 2]), ("time[s]\n5\n6\n7\n", [5, 6, 7])):
     pathlib.Path("growing.csv").write_text(text)
     case.check_equal("lines of a file that is replaced", [line["time"] for line in tail.lines()], times)
-for name in ("run.e", "run_pairs.csv", "run_planes_0000.vtp", "run.run.json", "run.yaml"):
-    case.check_equal(f"opened by {name}", coplane.open(f"straight/{name}").name, "run")
+for name in ("straight/run.e", "straight/run_pairs.csv", "straight/run_planes.vtkhdf", "straight/run_planes.xmf3", "watched/run_planes.pvd",
+             "watched/run_planes_0000.vtp", "straight/run.run.json", "straight/run.yaml"):  # fmt: skip
+    case.check_equal(f"opened by {name}", coplane.open(name).name, "run")
 checked["time.end"] = numpy.float64(1e-3)
 checked["contact.skn"] = 1
 checked["contact.skin"] = "wide"
@@ -273,16 +268,41 @@ done = subprocess.run([sys.executable, "-c", alone, *needs.DEBIAN], stdout=subpr
 case.check_equal("numpy alone: the history", done.stdout.split()[:1], [str(len(history))])
 case.check_equal("numpy alone: what is missing", "apt-get install python3-pandas" in done.stderr, True)
 
-# --- the page's notebook, and a wheel ----------------------------------------------------------------
+# --- notebooks, what the page shows of a deck from nothing, and a wheel --------------------------------
 
-notebook = json.loads((SOURCE / "docs/examples/python.ipynb").read_text())
-code = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
-folder = pathlib.Path("notebook")
-folder.mkdir(exist_ok=True)
-done = subprocess.run([sys.executable, "-c", "\n\n".join(code)], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                      env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python")))  # fmt: skip
-print(done.stdout[-3000:])
-case.check_equal("the notebook: exit code", done.returncode, 0)
+
+def executed(what, code):
+    """Runs a program in a folder of its own; returns what it printed."""
+    folder = pathlib.Path("notebooks") / what
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    done = subprocess.run([sys.executable, "-c", code], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          env=dict(os.environ, PYTHONPATH=str(SOURCE / "packages/python"), MPLBACKEND="agg"))  # fmt: skip
+    print(done.stdout[-3000:])
+    case.check_equal(f"{what}: exit code", done.returncode, 0)
+    return done.stdout
+
+
+books = sorted((SOURCE / "docs/examples").glob("*.ipynb"))
+case.check_within("notebooks", len(books), 4, 100)
+for book in books:
+    cells = ["".join(cell["source"]) for cell in json.loads(book.read_text())["cells"] if cell["cell_type"] == "code"]
+    # As notebooks do, figures are shown and closed after each cell.
+    code = ["from matplotlib import pyplot\nfigures = []"] + [
+        f"{cell}\nfigures += [[len(axes.lines), axes.get_xlabel() != ''] for number in pyplot.get_fignums() for axes in pyplot.figure(number).axes]\npyplot.close('all')"
+        for cell in cells] + ["print(figures)"]  # fmt: skip
+    figures = json.loads(executed(book.stem, "\n\n".join(code)).splitlines()[-1].replace("True", "true").replace("False", "false"))
+    case.check_equal(f"{book.stem}: figures without curves or labels", [figure for figure in figures if not (figure[0] and figure[1])], [])
+    case.check_within(f"{book.stem}: figures", len(figures), 1, 10)
+page = (SOURCE / "docs/user/python.md").read_text()
+for number, code in enumerate(re.findall(r"```python\n(import coplane\n.*?)```", page, flags=re.S)):
+    if "coplane.Deck({" in code:
+        case.check_equal("a deck from nothing: ending", executed(f"page_{number}", code + "print(run.ending)\n").split()[-1:], ["completed"])
+        break
+else:
+    case.check_equal("the page makes a deck from nothing", False, True)
+told("a recipe with a mistake", coplane.program.ProgramFailed, lambda: coplane.make_mesh({"dimension": 2, "parts": [{"shape": "bx"}]}, "no.e"),
+     "recipe:", "'bx'")  # fmt: skip
 
 build = "import shutil, os; from setuptools import build_meta; " \
     "shutil.rmtree('wheel', True); shutil.copytree(os.environ['COPLANE_SOURCE'] + '/packages/python', 'wheel'); os.chdir('wheel'); " \

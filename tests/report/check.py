@@ -16,7 +16,7 @@ import time
 import numpy
 import plotly.graph_objects
 
-from coplanetest import Case, documents, program
+from coplanetest import Case, browser, documents, program
 
 import coplane
 from coplane import page, report
@@ -24,15 +24,18 @@ from coplane import page, report
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 case = Case("report", __file__)
 
-
-# Shows the page this wide, and says what became of it.
-FRAME = """<iframe src="a/run-report.html" style="width:WIDTHpx;height:3000px;border:0"></iframe><p></p><script>
-setInterval(() => {
-  const page = document.querySelector('iframe').contentDocument, plots = [...page.querySelectorAll('.plot')];
-  document.querySelector('p').textContent = JSON.stringify({drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth,
-    plots: plots.filter(plot => plot.querySelector('.main-svg')).length,
-    widest: Math.max(...[...page.querySelectorAll('.main-svg')].map(plot => plot.getBoundingClientRect().width))});
-}, 500)</script>"""
+# Shows pages in a width, and says what became of them.
+LOOK = """
+const seen = [];
+for (const [name, width] of PAGES) {
+  const page = await show(name, width, 3000), each = words => [...page.querySelectorAll(words)], box = thing => thing.getBoundingClientRect();
+  await until(() => page.body.dataset.drawn);
+  seen.push({drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth, plots: each('.plot').filter(plot => plot.querySelector('.main-svg')).length,
+    widest: Math.max(...each('.main-svg').map(plot => box(plot).width)), row: Math.max(...each('tr').map(row => box(row).height)),
+    scrolls: each('.legend .scrollbar').filter(bar => box(bar).height > 0).length});
+}
+return seen;
+"""
 
 
 class Taken:
@@ -87,22 +90,18 @@ run = coplane.open("a")
 case.check_equal("a report", made("a/run", "--no-pictures"), (0, "a/run-report.html\n"))
 
 if "browser" in sys.argv:
-    browser = shutil.which("chromium")
-    if not browser:
+    if not browser.chromium():
         print("skipped: chromium is not installed (apt-get install chromium)")
         sys.exit(77)
-    figures = len(Taken("a/run-report.html").figures)
-    for width in (1400, 400):
-        # In a frame: windows of browsers have a least width.
-        pathlib.Path("frame.html").write_text(FRAME.replace("WIDTH", str(width)))
-        done = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=1500,4000", "--virtual-time-budget=30000",
-                               "--allow-file-access-from-files", f"--user-data-dir={pathlib.Path('browser').absolute()}", "--dump-dom",
-                               pathlib.Path("frame.html").absolute().as_uri()],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=200)  # fmt: skip
-        seen = json.loads(re.search(r"<p>(.*)</p>", done.stdout).group(1))
-        case.check_equal(f"{width} pixels: drawn, plots", (seen["drawn"], seen["plots"]), ("yes", figures))
-        case.check_within(f"{width} pixels: widest plot", seen["widest"], 300, width)
-        case.check_within(f"{width} pixels: width of the page", seen["page"], width - 20, width)
+    made("a", "--compare", "b", "-o", "two.html", "--no-pictures")
+    pages = [("a/run-report.html", 1400), ("a/run-report.html", 390), ("two.html", 390)]
+    for (name, width), seen in zip(pages, browser.seen(".", LOOK.replace("PAGES", json.dumps(pages)))):
+        what = f"{name}, {width} pixels"
+        case.check_equal(f"{what}: drawn, plots", (seen["drawn"], seen["plots"]), ("yes", len(Taken(name).figures)))
+        case.check_within(f"{what}: widest plot", seen["widest"], 300, width)
+        case.check_within(f"{what}: width of the page", seen["page"], width - 20, width)
+        case.check_within(f"{what}: highest row of a table", seen["row"], 10, 125)  # six lines of text; letters below each other are more
+        case.check_equal(f"{what}: legends that have to be scrolled", seen["scrolls"], 0)
     case.finish()
     sys.exit()
 
@@ -110,7 +109,7 @@ if "browser" in sys.argv:
 
 one = Taken("a/run-report.html")
 own = re.sub(r'<script type="text/plain".*?</script>', "", one.html, flags=re.S)
-case.check_equal("addresses of things outside", re.findall(r'<link|(?:src|href)="(?!data:)|@import|url\(', own), [])
+case.check_equal("addresses of things outside", re.findall(r'<link|(?:src|href)="(?!data:|#)|@import|url\(', own), [])
 case.check_equal("for phones", '<meta name="viewport" content="width=device-width' in one.html, True)
 library = gzip.decompress(base64.b64decode(re.search(r'id="library">(.*?)</script>', one.html).group(1)))
 case.check_equal("plotly.js is in it", b"plotly.js v" in library[:100], True)
@@ -125,9 +124,9 @@ says("balances", one, "largest error of the energy balance", "contacts missed", 
 for title, name in (("Energies", "kinetic"), ("Energies", "external work"), ("Energies of contact", "contact stored"), ("Contact remainder", "contact remainder"),
                     ("Momentum and impulse", "momentum x"), ("tight: areas", "stick area"), ("tight: closure and slip", "mean closure"),
                     ("tight: normal force", "normal force"),
-                    ("Time step", "dt"), ("Slots and planes", "slots"), ("near: velocity", "x"), ("Remainder by pairs of blocks", "rock – rock, tight"),
+                    ("Time step", "time step"), ("Slots and planes", "slots"), ("near: velocity", "x"), ("Remainder by pairs of blocks", "rock – rock, tight"),
                     ("Searches", "searches")):  # fmt: skip
-    column = {"slots": "pairs", "x": "near_velocity_x", "rock – rock, tight": "contact_remainder"}.get(name, name.replace(" ", "_"))
+    column = {"slots": "pairs", "time step": "dt", "x": "near_velocity_x", "rock – rock, tight": "contact_remainder"}.get(name, name.replace(" ", "_"))
     column = column if column in run.columns else f"tight_{column}"
     drawn = one.curves(title)[name]["y"]
     exact = run.columns[column]
@@ -139,6 +138,7 @@ worst = run.planes[-1].sort_values("closure").iloc[-1]
 says("the deepest plane", one, f"{worst.closure:.6g}")
 case.check_equal("time used", "output::history" in one.curves("Seconds of the slowest rank")["run"]["y"], True)
 says("pictures", one, "Pictures were not asked for.")
+says("warnings", one, "No warnings.")
 says("deck", one, "normal_stiffness: 20000000000.0")
 
 if shutil.which("pvbatch") and shutil.which("xvfb-run"):
@@ -155,8 +155,8 @@ case.check_equal("a long curve: its peak, ends and length", (thin[1].max(), thin
 
 case.check_equal("two runs", made("a", "--compare", "b/run.csv", "-o", "two.html", "--no-pictures"), (0, "two.html\n"))
 two = Taken("two.html")
-case.check_equal("both are drawn", sorted(two.curves("Time step")), ["dt (A)", "dt (B)"])
-case.check_equal("the second one is dotted", two.curves("Time step")["dt (B)"]["line"]["dash"], "dot")
+case.check_equal("both are drawn", sorted(two.curves("Time step")), ["time step (A)", "time step (B)"])
+case.check_equal("the second one is dotted", two.curves("Time step")["time step (B)"]["line"]["dash"], "dot")
 case.check("its last value", two.curves("Energies")["kinetic (B)"]["y"][-1], coplane.open("b").history.kinetic.iloc[-1], 1e-5, relative=True)
 kinetic = [coplane.open(name).history.kinetic.iloc[-1] for name in "ab"]
 says("differences", two, "State hashes: different", f"kinetic [J] {kinetic[0]:.6g} {kinetic[1]:.6g} {kinetic[1] - kinetic[0]:.6g}",
@@ -183,7 +183,7 @@ for name, changes in (("going", {"time.end": 10}), ("failed", {"conditions.0.val
     going = Taken("going/run-report.html")
     case.check_equal("a run that goes on", going.ending(), ["running"])
     says("a run that goes on", going, "The run goes on", "they are written when the run ends")
-    case.check_within("lines that are drawn", len(going.curves("Time step")["dt"]["x"]), 15, page.POINTS)
+    case.check_within("lines that are drawn", len(going.curves("Time step")["time step"]["x"]), 15, page.POINTS)
     started.process.send_signal(signal.SIGKILL)
     started.process.wait()
     report.make("going", pictures=False)
@@ -197,6 +197,9 @@ case.check_equal("report of a failed run", made("failed", "--no-pictures")[0], 0
 failed = Taken("failed/run-report.html")
 case.check_equal("a failed run", failed.ending(), ["failed"])
 says("a failed run", failed, "has turned inside out or has a force that is not finite")
+pathlib.Path("failed/run.log").unlink()
+made("failed", "--no-pictures")
+says("a failed run without a log", Taken("failed/run-report.html"), "ERROR: ", "has turned inside out or has a force that is not finite")
 
 # --- what is missing -----------------------------------------------------------------------------------
 
@@ -207,7 +210,7 @@ lines = pathlib.Path("a/run.csv").read_text().splitlines(keepends=True)
 pathlib.Path("less/run.csv").write_text("".join(lines[:-1]) + lines[-1][:30])
 case.check_equal("with less", made("less/run", "--no-pictures")[0], 0)
 less = Taken("less/run-report.html")
-says("with less", less, "there is no run.run.json", "run_planes.pvd is not there", "there is no log run.log", "Neither the record nor run.yaml has the deck",
+says("with less", less, "there is no run.run.json", "run_planes.vtkhdf is not there", "there is no record that says it", "there is no record that has them", "Neither the record nor run.yaml has the deck",
      "gives the remainder by pairs", f"{len(lines) - 2} lines")  # fmt: skip
 pathlib.Path("less/run.csv").write_text("".join(lines[:9]) + lines[9][:30] + "\n" + lines[10])
 case.check_equal("with a damaged history", made("less/run.csv", "--no-pictures")[0], 0)

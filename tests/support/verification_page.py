@@ -4,6 +4,13 @@ Usage: verification_page.py <build folder> [<page>]
 
 Reads the checks.jsonl of the verification tests below the build folder and the READMEs in tests/verification. A case without results there keeps the
 section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
+
+The page begins with a table of all V numbers, from the titles of the READMEs in tests/verification and tests/parallel. A title has each number in
+brackets behind the words that say what it shows:
+
+    # Two equal bars (V21), in other frames (V58)
+    # Plastic waves (V36) and shock waves (V37)
+    # The same bits on any ranks, threads and back end (V59, V60)
 """
 
 import json
@@ -18,6 +25,10 @@ What the program computes against exact answers, case by case: made by `tests/su
 of `ctest -L verification` write (`checks.jsonl` in the folder of each test). How each reference is derived, and why its tolerance
 is what it is, stands in the README of the case. Errors are absolute where no per cent sign stands, in the unit of the quantity; `[low, high]` are limits.
 The last rows of a table are the balances that every run has to keep, with the worst of its runs.
+
+Cases have numbers, V04 and so on, by which documents and messages of commits call them. They are names: a number that is missing here has no case of
+whole runs. Cases of `tests/parallel` compare runs with each other, bit by bit, and have no results below; cases without a number stand last.
+
 """
 
 
@@ -29,6 +40,35 @@ def cases():
         return (0, int(found.group(1)), path.name) if found else (1, 0, path.name)
 
     return sorted((path.parent for path in (SOURCE / "tests/verification").glob("*/check.py")), key=order)
+
+
+def titles():
+    """The title of each README of a case with its folder: those of tests/verification, then of tests/parallel."""
+    folders = cases() + sorted(path.parent for path in (SOURCE / "tests/parallel").glob("*/README.md"))
+    return [(folder, (folder / "README.md").read_text().split("\n", 1)[0].removeprefix("# ")) for folder in folders]
+
+
+def claims(title):
+    """What each number of a title shows: [(number, words)]. Words behind a comma go on from the first ones."""
+    found, first = [], ""
+    for words, numbers in re.findall(r"(.*?) \((V\d\d(?:(?:, | to )V\d\d)*)\)", title):
+        said = first + words if words.startswith(", ") else words.removeprefix(" and ")
+        said = said[0].upper() + said[1:]
+        first = first or said
+        given = [int(number) for number in re.findall(r"V(\d\d)", numbers)]
+        for number in range(given[0], given[-1] + 1) if " to " in numbers else given:
+            found.append((f"V{number:02}", said))
+    return found
+
+
+def index():
+    """The table of all numbers; one that several cases show has a row for each."""
+    rows = []
+    for folder, title in titles():
+        anchor = heading(folder)[3:].lower().replace(" ", "-")
+        link = f"#{anchor}" if folder.parent.name == "verification" else f"../tests/parallel/{folder.name}/README.md"
+        rows += [(number, f"| {number} | {said} | [{folder.name}]({link}) |") for number, said in claims(title)]
+    return "\n".join(["| number | what it shows | case |", "|---|---|---|", *(row for _, row in sorted(rows, key=lambda row: row[0])), ""])
 
 
 def records(build):
@@ -116,7 +156,7 @@ def page(build, old=""):
             sections.append(section(folder, lines))
         else:
             sections.append(before[heading(folder)].rstrip("\n") + "\n")
-    return HEAD + "\n" + "\n".join(sections)
+    return HEAD + index() + "\n" + "\n".join(sections)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 The reader moves the mesh by the nodal variable `displacement` by itself: no Warp By Vector, it would move it twice. Dead elements
 (`alive` = 0) are left out. Tested with ParaView 5.11.
 """
+import glob
 import math
 import os
 import sys
@@ -34,24 +35,26 @@ LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be d
 
 
 class Run:
-    """Results `run.e`, with the parts that restarts have written, and planes `run_planes.pvd` or `.xmf` in a folder."""
+    """Results `run.e`, with the parts that restarts have written and the files of ranks, and planes `run_planes.xmf3` or `.pvd` in a folder."""
 
-    def __init__(self, results=None, pictures=None, stem="run", deformed=True):
-        # Given with its folder: for a bare name the reader does not look for the other parts.
+    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None):
+        """files: all files of the results, and planes: the series, in place of those in the folder."""
         self.folder = os.path.abspath(results or sys.argv[1])
         self.deformed = deformed
         self.pictures = pictures or sys.argv[2]
         os.makedirs(self.pictures, exist_ok=True)
         self.file = os.path.join(self.folder, stem + ".e")
+        # All parts and ranks by their names: the reader seeks no files of ranks of other parts.
+        self.files = files or sorted(glob.glob(glob.escape(self.file)) + glob.glob(glob.escape(self.file) + "[.-][s0-9]*"))
         self.reader = self._open()
         self.names = list(self.reader.ElementBlocks)
         self.times = list(self.reader.TimestepValues)
-        places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".pvd", ".xmf")]
+        places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".xmf3", ".pvd")]
         # Of a run that has changed its format, what was written last.
-        self.planes_file = max(filter(os.path.exists, places), key=os.path.getmtime, default=places[0])
+        self.planes_file = planes or max(filter(os.path.exists, places), key=os.path.getmtime, default=places[0])
 
     def _open(self):
-        reader = IOSSReader(FileName=[self.file])
+        reader = IOSSReader(FileName=self.files)
         reader.ApplyDisplacements = int(self.deformed)
         reader.UpdatePipelineInformation()
         return reader
@@ -78,10 +81,10 @@ class Run:
     def planes_reader(self):
         return PVDReader(FileName=self.planes_file) if self.planes_file.endswith(".pvd") else Xdmf3ReaderS(FileName=[self.planes_file])
 
-    def bounds(self, times):
-        """x0, x1, y0, y1, z0, z1 of all bodies over these times."""
+    def bounds(self, times, names=()):
+        """x0, x1, y0, y1, z0, z1 of these bodies over these times; without names: of all."""
         found = []
-        bodies = self.blocks()
+        bodies = self.blocks(*names)
         for time in times:
             bodies.UpdatePipeline(time)
             found.append(bodies.GetDataInformation().GetBounds())
@@ -124,9 +127,20 @@ def percentile(source, variable, times, share=98):
     return max((numpy.percentile(some, share) for some in found if len(some)), default=0) or 1.0
 
 
+# Colours by name, as shares of the range: what stands out on white; white where nothing is left.
+PALETTES = {"dark": [(0, 0.55, 0.75, 0.92), (0.25, 0.2, 0.45, 0.75), (0.5, 0.45, 0.25, 0.6), (1, 0.7, 0.05, 0.1)],
+            "white_to_blue": [(0, 1, 1, 1), (0.01, 1, 1, 1), (0.1, 0.75, 0.86, 0.95), (0.5, 0.35, 0.6, 0.82), (1, 0.1, 0.25, 0.55)]}
+PRESETS = {"green_blue": "Linear YGB 1211g", "cool_warm": "Cool to Warm"}
+
+
+def palette(name, low, high):
+    """Colours (value, r, g, b) of a palette from one value to another."""
+    return [(low + share * (high - low), *color) for share, *color in PALETTES[name]]
+
+
 def dark(top):
     """Colours from 0 to this value that stand out on white, light blue to dark red."""
-    return [(0, 0.55, 0.75, 0.92), (0.25 * top, 0.2, 0.45, 0.75), (0.5 * top, 0.45, 0.25, 0.6), (top, 0.7, 0.05, 0.1)]
+    return palette("dark", 0, top)
 
 
 def round_length(most):
@@ -143,13 +157,14 @@ def words_of_length(metres):
 
 
 class Picture:
-    """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up), or one of
-    CAMERAS with `bounds` of what shall be seen and the axis that is `up`, y or z, without perspective."""
+    """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up). Or `camera` is one of
+    CAMERAS, or the direction (x, y, z) from the bodies to it, with `bounds` of what shall be seen and the axis that is `up`, y or z,
+    without perspective; `room` is left around them."""
 
-    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y"):
+    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y", room=1.2):
         self.run, self.time, self.size = run, time, list(size)
-        # Pictures of any run may be small; those of the examples choose their letters.
-        self.letters = min(1.0, size[1] / 800) if isinstance(camera, str) else 1.0
+        # Pictures of any run may be small; those of scripts choose their letters.
+        self.letters = min(1.0, size[1] / 800) if bounds else 1.0
         view = self.view = CreateView("RenderView")
         view.ViewSize = self.size
         view.UseColorPaletteForBackground = 0
@@ -164,8 +179,8 @@ class Picture:
             view.CameraPosition = middle + [10 * (box[3] - box[2])]
             view.CameraViewUp = [0, 1, 0]
             view.CameraParallelScale = max((box[3] - box[2]) / 2, (box[1] - box[0]) / 2 * size[1] / size[0])
-        elif isinstance(camera, str):
-            self._look(camera, bounds, up)
+        elif bounds:
+            self._look(camera, bounds, up, room)
         else:
             view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera
             view.CameraViewAngle = angle
@@ -173,8 +188,12 @@ class Picture:
         if label:
             self.text(f"t = {1e3 * time:.4g} ms")
 
-    def _look(self, name, bounds, axis_up):
-        toward, up = (numpy.array(vector, float) if axis_up == "y" else numpy.array([vector[0], -vector[2], vector[1]], float) for vector in CAMERAS[name])
+    def _look(self, camera, bounds, axis_up, room):
+        if isinstance(camera, str):
+            toward, up = (numpy.array(vector, float) if axis_up == "y" else numpy.array([vector[0], -vector[2], vector[1]], float)
+                          for vector in CAMERAS[camera])  # fmt: skip
+        else:
+            toward, up = numpy.array(camera, float), numpy.array([0, 1, 0] if axis_up == "y" else [0, 0, 1], float)
         toward /= numpy.linalg.norm(toward)
         right = numpy.cross(up, toward)
         right /= numpy.linalg.norm(right)
@@ -188,8 +207,8 @@ class Picture:
         view.CameraFocalPoint = list(middle)
         view.CameraPosition = list(middle + 3 * numpy.linalg.norm(numpy.ptp(sides, axis=1)) * toward)
         view.CameraViewUp = list(up)
-        # Room for the colour bar at the right and for time and scale above and below.
-        view.CameraParallelScale = 0.6 * max(height, width * self.size[1] / self.size[0], 1e-300)
+        # Where bodies fill the bounds there is room for the colour bar at the right and for time and scale above and below.
+        view.CameraParallelScale = 0.5 * room * max(height, width * self.size[1] / self.size[0], 1e-300)
 
     def scale_bar(self):
         """A length in the lower left corner; only where there is no perspective."""
@@ -208,17 +227,19 @@ class Picture:
         display = Show(Text(Text=words_of_length(length)), view)
         display.Color, display.FontSize, display.WindowLocation, display.Position = BLACK, round(18 * self.letters), "Any Location", [0.025, 0.045]
 
-    def bodies(self, names=(), opacity=1.0):
-        """Every block in a colour of its own, named at the right."""
+    def bodies(self, names=(), opacity=1.0, legend=True, change=lambda source: source):
+        """Every block in a colour of its own, named at the right. change(source): what is drawn of each."""
         for place, name in enumerate(self.run.names):
             if names and name not in names:
                 continue
             color = PALETTE[place % len(PALETTE)]
-            source = self.run.blocks(name)
+            source = change(self.run.blocks(name))
             source.UpdatePipeline(self.time)
             if source.GetDataInformation().GetNumberOfCells() == 0:
                 continue
             self.solid(source, list(color), opacity=opacity)
+            if not legend:
+                continue
             display = Show(Text(Text=name), self.view)
             display.Color, display.FontSize, display.WindowLocation = [0.8 * part for part in color], round(20 * self.letters), "Any Location"
             display.Bold, display.Position = 1, [0.84, 0.93 - 0.045 * place]

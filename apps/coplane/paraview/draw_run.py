@@ -1,54 +1,102 @@
 """Pictures of any run, for pvbatch: what coplane.pictures asks for, as JSON in the first argument; prints the files, a line each.
 
-    runs: [[folder, name of the run], ...]   one, or two to be compared
+    runs: [{folder, name, files (of the results), planes (the series, or null)}, ...]   one, or two to be compared
     folder: of the pictures   frames: positions in the times of the first run
-    color: a variable, or "block"   unit: of it   range: [lowest, highest] or null: of all frames
-    blocks: names, none for all   camera: a name   up: y or z   deformed: bool   planes: dots, arrows or none   size: [width, height]
+    color: a variable, an expression of variables, or "block"   title: of its bar   range: [lowest, highest] or null: of all frames
+    palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
+    camera: a name, a direction [x, y, z] or null   window: what is seen, [x0, x1, y0, y1] or with z0, z1, or null   up: y or z
+    planes: dots, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
+    mirror, deformed: bool   size: [width, height]   legend: all, or last: in the last picture only
 """
 import json
 import os
 import sys
 
 import coplane_pictures as cp
+from paraview.simple import MergeBlocks, Reflect, Threshold
 
 want = json.loads(sys.argv[1])
-runs = [cp.Run(folder, want["folder"], stem, want["deformed"]) for folder, stem in want["runs"]]
+runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"]) for run in want["runs"]]
 times = [runs[0].times[frame] for frame in want["frames"]]
-boxes = [run.bounds(run.nearest(times[0], times[-1])) for run in runs]
+boxes = [run.bounds(run.nearest(times[0], times[-1]), want["blocks"]) for run in runs]
 bounds = [(min if side % 2 == 0 else max)(box[side] for box in boxes) for side in range(6)]
-camera = want["camera"] or ("iso" if bounds[5] > bounds[4] else "front")
-by_block = want["color"] == "block"
-spread = want["range"]
+in_space = bounds[5] > bounds[4]
+if want["mirror"]:
+    bounds[0] = min(bounds[0], -bounds[1])
+if want["window"]:
+    bounds[: len(want["window"])] = want["window"]
+view = {"size": want["size"], "camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
+        "room": 1.0 if want["window"] else 1.2}  # fmt: skip
+chosen = want["blocks"] or runs[0].names
+colored = [name for name in chosen if name not in want["plain"]]
+by_block = want["color"] == "block" or not colored
+of_planes = want["planes"] not in ("dots", "arrows", "none")
+has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
+# Planes lie between bodies: their arrows and values shall be seen through them.
+opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
 
 
-def largest(source_of, variable, few=8):
-    """Over some of the frames, of all runs."""
-    chosen = times[:: max(1, len(times) // few)] + times[-1:]
-    found = [cp.values(source_of(run), variable, time) for run in runs for time in run.nearest(*chosen)]
-    found = [values for values in found if len(values)]
-    return (float(min(values.min() for values in found)), float(max(values.max() for values in found))) if found else (0.0, 1.0)
+def whole(source):
+    """With its mirror image at x = 0, where that is wanted."""
+    return MergeBlocks(Input=Reflect(Input=source, Plane="X", Center=0), MergePoints=0) if want["mirror"] else source
 
 
-if not by_block and spread is None:
-    lowest, highest = largest(lambda run: run.blocks(*want["blocks"]), want["color"])
-    spread = [min(lowest, 0.0), highest if highest > lowest else lowest + 1.0]
-top = largest(lambda run: run.planes(), "force")[1] if want["planes"] == "arrows" and all(run.has_planes() for run in runs) else 1.0
+def bodies(run):
+    """The coloured ones, and the name of the variable by which they are."""
+    source, name = run.blocks(*colored), want["color"]
+    source.UpdatePipeline(times[0])
+    if source.PointData.GetArray(name) or source.CellData.GetArray(name):
+        return source, name
+    on_nodes = any(array.GetName() in name for array in source.PointData) and not any(array.GetName() in name for array in source.CellData)
+    return cp.computed(source, want["title"], name, "Point Data" if on_nodes else "Cell Data"), want["title"]
+
+
+def spread(source_and_name, share=99.5, few=8):
+    """Least value, or 0, and what is below only this share, over some of the frames of all runs: single elements do not decide."""
+    least, most = [0.0], [0.0]
+    for run in runs:
+        source, name = source_and_name(run)
+        for time in run.nearest(*times[:: max(1, len(times) // few)], times[-1]):
+            values = cp.values(source, name, time)
+            if len(values):
+                least.append(float(cp.numpy.percentile(values, 100 - share)))
+                most.append(float(cp.numpy.percentile(values, share)))
+    return [min(least), max(most) if max(most) > min(least) else min(least) + 1.0]
+
+
+colors = None if by_block else want["range"] or spread(bodies)
+most = spread(lambda run: (run.planes(), "force"), 100)[1] if want["planes"] == "arrows" and has_planes else 1.0
+plane_colors = want["range"] or spread(lambda run: (run.planes(touching=False), want["planes"])) if of_planes and has_planes else None
+
+
+def styled(name, range):
+    """How colours are told to Picture.surface()."""
+    return {"preset": cp.PRESETS[name]} if name in cp.PRESETS else {"points": cp.palette(name, *range)}
 
 
 def draw(run, time, name):
     nearest = run.nearest(time)[0]
-    picture = cp.Picture(run, nearest, size=want["size"], camera=camera, bounds=bounds, up=want["up"])
-    # Planes lie between bodies: their arrows shall be seen through them.
-    opacity = 0.3 if want["planes"] == "arrows" and bounds[5] > bounds[4] else 1.0
-    if by_block:
-        picture.bodies(want["blocks"], opacity)
+    picture = cp.Picture(run, nearest, **view)
+    with_legend = want["legend"] == "all" or time == times[-1]
+    if of_planes and want["color"] == "block":
+        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], opacity=opacity, edge=[0.85, 0.84, 0.82])
+    elif by_block:
+        picture.bodies(chosen, opacity, with_legend, whole)
     else:
-        title = want["color"] + (f" [{want['unit']}]" if want["unit"] not in ("", "1") else "")
-        picture.surface(run.blocks(*want["blocks"]), want["color"], spread, title).Opacity = opacity
-    if run.has_planes() and want["planes"] == "dots":
-        picture.dots(size=4)
-    elif run.has_planes() and want["planes"] == "arrows":
-        picture.arrows(0.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]), top)
+        source, variable = bodies(run)
+        picture.surface(whole(source), variable, colors, want["title"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
+        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole)
+    if has_planes and want["planes"] == "dots":
+        picture.dots(whole(run.planes()) if want["mirror"] else None, size=want["dot_size"])
+    elif has_planes and want["planes"] == "arrows":
+        picture.arrows(0.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]), most)
+    elif has_planes and of_planes:
+        # Those that have next to nothing of it would hide the others.
+        least = plane_colors[0] + 0.01 * (plane_colors[1] - plane_colors[0])
+        some = Threshold(Input=run.planes(touching=False), Scalars=["POINTS", want["planes"]], LowerThreshold=least, UpperThreshold=least,
+                         ThresholdMethod="Above Upper Threshold")  # fmt: skip
+        picture.points(some, want["planes"], plane_colors, want["planes_title"], size=want["dot_size"], bar=with_legend,
+                       points=cp.palette("dark", *plane_colors))  # fmt: skip
     picture.scale_bar()
     if len(runs) > 1:
         stem = os.path.basename(run.file)[:-2]

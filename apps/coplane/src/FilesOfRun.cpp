@@ -55,66 +55,86 @@ void addInputs(FileRoles& roles, const Deck& deck, const std::string& restartedF
   roles.reads(restartedFrom, "the checkpoint (--restart)");
 }
 
-void addOutputs(FileRoles& roles, const Deck& deck)
+/// Files that a run writes, each with its draft.
+class Outputs
 {
-  const std::string history = "the history (history.file)", record = "the record of the run",
-                    tables = "a table (history.tables)", results = "the results (output.results)",
-                    planes = "the planes (output.planes)",
-                    checkpoint = "the checkpoint (checkpoint.file)";
-  const auto draft = [&](std::vector<std::string> pieces, const std::string& what)
+public:
+  explicit Outputs(FileRoles& roles) : roles_(roles) {}
+
+  /// A file that is written beside its name and takes the place of an older one.
+  void replaces(const std::string& file, const std::string& what)
+  {
+    roles_.writes(file, what);
+    draft({placeOfFile(file)}, what);
+  }
+  /// Many of those, with numbers between the pieces of their names.
+  void replacesSeries(const std::vector<std::string>& pieces, const std::string& what)
+  {
+    roles_.writesSeries(pieces, what);
+    draft(pieces, what);
+  }
+  /// A file that grows in its place.
+  void grows(const std::string& file, const std::string& what)
+  {
+    roles_.writesInPlace(file, what);
+    draft({placeOfFile(file)}, what);
+  }
+
+private:
+  void draft(std::vector<std::string> pieces, const std::string& what)
   {
     pieces.back() = draftOf(pieces.back());
-    roles.writesDraft(pieces, what);
-  };
-  const auto replaces = [&](const std::string& file, const std::string& what)
-  {
-    roles.writes(file, what);
-    draft({placeOfFile(file)}, what);
-  };
-  const auto replacesSeries = [&](const std::vector<std::string>& pieces, const std::string& what)
-  {
-    roles.writesSeries(pieces, what);
-    draft(pieces, what);
-  };
-  const auto appends = [&](const std::string& file, const std::string& what)
-  {
-    roles.writesInPlace(file, what);
-    draft({placeOfFile(file)}, what);
-  };
-  appends(deck.history.file, history);
-  replaces(recordFile(deck, 1), record);
-  const std::string base = withoutExtension(deck.history.file);
-  replacesSeries({base + ".run-s", ".json"}, record);
-  for (const std::string& table : deck.history.tables)
-    appends(fmt::format("{}_{}.csv", base, table), tables + " " + table);
-  if (!deck.output.results.empty())
-  {
-    const std::string& file = deck.output.results;
-    // Parts of a file per rank, which an earlier run may have left, are removed in any case.
-    replacesSeries({file + "-s", ".", ".", ""}, results);
-    if (deck.output.filePerRank)
-      replacesSeries({file + ".", ".", ""}, results);
-    else
-    {
-      roles.writesInPlace(file, results); // at a restart: steps later than the checkpoint go
-      draft({placeOfFile(file)}, results);
-      replacesSeries({file + "-s", ""}, results);
-    }
-    if (deck.output.planes && deck.contact.enabled)
-    {
-      const std::string series = planesBase(deck) + "_planes";
-      if (deck.output.planesFormat == "vtkhdf")
-        for (const char* extension : {".vtkhdf", ".xmf"})
-          replaces(series + extension, planes);
-      else
-      {
-        replaces(series + ".pvd", planes);
-        replacesSeries({series + "_", ".vtp"}, planes);
-      }
-    }
+    roles_.writesDraft(pieces, what);
   }
+
+  FileRoles& roles_;
+};
+
+void addHistory(Outputs& outputs, const Deck& deck)
+{
+  const std::string record = "the record of the run", tables = "a table (history.tables)";
+  outputs.grows(deck.history.file, "the history (history.file)");
+  outputs.replaces(recordFile(deck, 1), record);
+  const std::string base = withoutExtension(deck.history.file);
+  outputs.replacesSeries({base + ".run-s", ".json"}, record);
+  for (const std::string& table : deck.history.tables)
+    outputs.grows(fmt::format("{}_{}.csv", base, table), tables + " " + table);
+}
+
+void addResults(Outputs& outputs, const Deck& deck)
+{
+  const std::string results = "the results (output.results)", planes = "the planes (output.planes)";
+  const std::string& file = deck.output.results;
+  // Parts of a file per rank, which an earlier run may have left, are removed in any case.
+  outputs.replacesSeries({file + "-s", ".", ".", ""}, results);
+  if (deck.output.filePerRank)
+    outputs.replacesSeries({file + ".", ".", ""}, results);
+  else
+  {
+    outputs.grows(file, results); // at a restart: steps later than the checkpoint go
+    outputs.replacesSeries({file + "-s", ""}, results);
+  }
+  if (!deck.output.planes || !deck.contact.enabled)
+    return;
+  const std::string series = planesBase(deck) + "_planes";
+  if (deck.output.planesFormat == "vtkhdf")
+    for (const char* extension : {".vtkhdf", ".xmf3"})
+      outputs.replaces(series + extension, planes);
+  else
+  {
+    outputs.replaces(series + ".pvd", planes);
+    outputs.replacesSeries({series + "_", ".vtp"}, planes);
+  }
+}
+
+void addOutputs(FileRoles& roles, const Deck& deck)
+{
+  Outputs outputs(roles);
+  addHistory(outputs, deck);
+  if (!deck.output.results.empty())
+    addResults(outputs, deck);
   for (const char* slot : {".0", ".1"})
-    replaces(deck.checkpoint.file + slot, checkpoint);
+    outputs.replaces(deck.checkpoint.file + slot, "the checkpoint (checkpoint.file)");
   for (const std::string& file : lockFiles(deck))
     roles.writes(file, "the lock of the run");
   roles.writes(stopFile(deck), "the stop file, which is removed (checkpoint.file)");

@@ -29,22 +29,6 @@ std::vector<std::string> linesOf(const std::string& text)
   return lines;
 }
 
-/// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
-/// are written anyway are left out.
-std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
-{
-  std::vector<std::string> names;
-  for (const Mesh::Block& block : mesh.mine.blocks)
-  {
-    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
-    for (const std::string& name : historyNames(materialOf(material)))
-      if (name != "equivalent_plastic_strain" &&
-          std::find(names.begin(), names.end(), name) == names.end())
-        names.push_back(name);
-  }
-  return names;
-}
-
 /// Where an output stands, for those that go on from a checkpoint.
 std::string positionOfOutput(const RunSettings& settings, const char* output)
 {
@@ -87,6 +71,7 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.name = card.name;
     probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
     probe.block = indexOf(mesh.blocks, card.block);
+    probe.reaction = card.reaction;
     history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)
@@ -144,11 +129,27 @@ CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, con
 }
 } // namespace
 
+std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
+{
+  std::vector<std::string> names;
+  for (const Mesh::Block& block : mesh.mine.blocks)
+  {
+    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
+    for (const std::string& name : historyNames(materialOf(material)))
+      if (name != "equivalent_plastic_strain" &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.push_back(name);
+  }
+  return names;
+}
+
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
                   const Comm& comm, const RunSettings& settings)
 {
   const std::string run = identityOf(deck, mesh, comm);
-  observers.add(std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings)));
+  auto record = std::make_unique<RunRecord>(comm, recordOptions(deck, run, settings));
+  RunRecord* const ofRun = record.get();
+  observers.add(std::move(record));
   observers.add(std::make_unique<HistoryObserver>(comm, historyOptions(deck, mesh.mine, settings)));
   if (!deck.history.tables.empty())
     observers.add(std::make_unique<TablesObserver>(comm, tablesOptions(deck, settings)));
@@ -163,7 +164,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
                         deck.output.planesFormat == "vtkhdf" ? PlanesFormat::VtkHdf
                                                              : PlanesFormat::Vtp}));
   }
-  observers.add(std::make_unique<ProgressObserver>());
+  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{}, ofRun));
   // The last: it asks the others where they stand.
   observers.add(std::make_unique<CheckpointObserver>(
       comm, checkpointOptions(deck, mesh, comm, settings), observers));

@@ -23,6 +23,10 @@ struct RunSettings
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
 };
 
+/// Variables of the laws of the mesh's blocks, each once, in the order of the blocks. Those that
+/// are written anyway are left out.
+std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh);
+
 /// Adds everything that a deck asks to be written: results, planes, history, progress, run record,
 /// checkpoints. `observers` and `mesh` have to stay where they are. Collective.
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,

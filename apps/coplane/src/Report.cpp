@@ -5,6 +5,8 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/Timers.hpp>
 
+#include <cmath>
+
 namespace coplane
 {
 namespace
@@ -27,6 +29,9 @@ void reportStep(const Solver& solver, const Deck& deck)
   else
     logInfo("stable step: {:.6e} s, times the safety factor {} = {:.6e} s; limited by {}",
             control.stableStep, time.stepFactor, step, control.text());
+  if (rest > step)
+    logInfo("  {:.3g} cycles of this step to time.end = {:g} s", std::ceil(rest / step),
+            deck.time.end);
   constexpr Real manyCycles = 1e8;
   const std::string where = fmt::format("{}: time.end = {:g} s", deck.file, deck.time.end);
   if (rest > manyCycles * step)
@@ -100,18 +105,6 @@ void reportEnd(const Solver& solver)
             "contacts missed; {} searches",
             counts.planes, counts.open, counts.stick, counts.slip, counts.slots, counts.tooDeep,
             counts.released, counts.missed, solver.searches());
-    if (counts.missed > 0)
-      logWarning("contacts missed",
-                 fmt::format("{} pairs of faces lay in each other already when a search found "
-                             "them, and were taken as they were: what they should have exchanged "
-                             "is lost. Raise contact.skin, lower contact.search_every or "
-                             "time.step_factor.",
-                             counts.missed));
-    if (counts.tooDeep > 0)
-      logWarning("planes too deep at the end",
-                 fmt::format("{} planes are deeper than contact.depth_max: bodies lie in each "
-                             "other. Raise the stiffness of the joint.",
-                             counts.tooDeep));
   }
   if (const Repartitions& done = solver.repartitions(); done.count > 0)
     logInfo("rebalanced {} times in {:.3g} s; {} times a node changed its rank", done.count,

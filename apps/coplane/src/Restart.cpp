@@ -132,7 +132,7 @@ void demandSameRun(const CheckpointReader& checkpoint, const Deck& deck, const M
     failOnAllRanks(
         ExitCode::Checkpoint,
         "{}: the deck {} is not that of the checkpoint: {}. What may change at a restart "
-        "are title, mesh (its path), time.end, time.energy_tolerance, "
+        "are title, mesh (its path), time.end, time.end_at_rest, time.energy_tolerance, "
         "time.contact_gain_tolerance, output, history.every, history.file, history.tables, "
         "checkpoint and partition. Restart "
         "with the deck that the checkpoint was written with, or start without --restart.",

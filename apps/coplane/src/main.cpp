@@ -1,3 +1,4 @@
+#include "Estimate.hpp"
 #include "FilesOfRun.hpp"
 #include "Observers.hpp"
 #include "Report.hpp"
@@ -96,12 +97,24 @@ std::string sameEverywhere()
                      version().compiler, version().trilinos);
 }
 
-/// Exit code when the program should end now, -1 to go on.
-int parse(int argc, char** argv, bool isRoot, CommandLine& line)
+/// What an option says is wrong with its text; empty: nothing.
+std::string secondsAboveZero(const std::string& text)
 {
-  CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
-               "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
-  app.footer(subcommandsHelp());
+  char* end = nullptr;
+  const double seconds = std::strtod(text.c_str(), &end);
+  return seconds > 0 && std::isfinite(seconds) && *end == 0
+             ? ""
+             : text + "; accepted: a number of seconds above 0";
+}
+
+/// Options whose values may be left out: whether they are there says the option itself.
+struct OpenOptions
+{
+  CLI::Option *restart, *helpDeck;
+};
+
+OpenOptions addOptions(CLI::App& app, CommandLine& line)
+{
   app.add_option("deck", line.deck, "The deck (YAML); --help-deck lists its keys");
   app.add_option("--set", line.overrides,
                  "Overrides a deck value: --set time.end=0.1 (may be repeated)")
@@ -111,26 +124,19 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   app.add_option("--threads", line.threads,
                  "Threads per rank with --backend threads; default: OMP_NUM_THREADS, else 1")
       ->check(CLI::Range(1, mostThreads()));
-  CLI::Option* restart =
+  OpenOptions open{};
+  open.restart =
       app.add_option(
              "--restart", line.checkpoint,
              "Go on from a checkpoint: from this file, or from the newest one that is whole")
           ->expected(0, 1);
   app.add_option("--max-wall", line.maxWall,
                  "Write a checkpoint and stop after so many seconds (exit code 8)")
-      ->check(
-          [](const std::string& text)
-          {
-            char* end = nullptr;
-            const double seconds = std::strtod(text.c_str(), &end);
-            return seconds > 0 && std::isfinite(seconds) && *end == 0
-                       ? ""
-                       : text + "; accepted: a number of seconds above 0";
-          });
+      ->check(secondsAboveZero);
   app.add_flag("--check", line.check,
                "Check deck and mesh, print masses, step and contact pairs, and stop");
   app.add_flag("--quiet", line.quiet, "Print only warnings and errors");
-  CLI::Option* helpDeck =
+  open.helpDeck =
       app.add_option("--help-deck", line.topic,
                      "Print every key of a deck and stop; of one TOPIC: a section, key or model")
           ->type_name("[TOPIC]")
@@ -140,6 +146,28 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
                "Print the table of exit codes as Markdown and stop");
   app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
   app.set_version_flag("--version", build);
+  return open;
+}
+
+/// What single options cannot see. Throws CLI::ParseError.
+void demandSense(const CommandLine& line)
+{
+  if (!asksForHelp(line) && line.deck.empty())
+    throw CLI::RequiredError("deck");
+  if (line.backend == "serial" && line.threads > 1)
+    throw CLI::ValidationError(
+        "--threads", fmt::format("{} threads, but --backend serial has one; leave one of the two "
+                                 "options out",
+                                 line.threads));
+}
+
+/// Exit code when the program should end now, -1 to go on.
+int parse(int argc, char** argv, bool isRoot, CommandLine& line)
+{
+  CLI::App app{"coplane: explicit dynamics of solids in contact, with Simple Common Planes.\n"
+               "Example: mpirun -np 2 coplane wall.yaml --backend threads --threads 1\n"};
+  app.footer(subcommandsHelp());
+  const OpenOptions open = addOptions(app, line);
   app.failure_message(
       [argc, argv](const CLI::App* failed, const CLI::Error& error)
       {
@@ -150,15 +178,9 @@ int parse(int argc, char** argv, bool isRoot, CommandLine& line)
   try
   {
     app.parse(argc, argv);
-    line.restart = restart->count() > 0;
-    line.helpDeck = helpDeck->count() > 0;
-    if (!asksForHelp(line) && line.deck.empty())
-      throw CLI::RequiredError("deck");
-    if (line.backend == "serial" && line.threads > 1)
-      throw CLI::ValidationError(
-          "--threads", fmt::format("{} threads, but --backend serial has one; leave one of the two "
-                                   "options out",
-                                   line.threads));
+    line.restart = open.restart->count() > 0;
+    line.helpDeck = open.helpDeck->count() > 0;
+    demandSense(line);
   }
   catch (const CLI::ParseError& error)
   {
@@ -265,6 +287,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
   const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
   const Mesh& known = mesh.mine;
   const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(deck, known, home, comm);
+  const std::vector<std::string> ofReactions = problemsOfReactions(deck, known, home, comm);
   comm.together(
       [&]
       {
@@ -272,7 +295,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
                                               namesOf(known.sideSets));
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
-              ofRigidBlocks, ofAirBlasts})
+              ofRigidBlocks, ofAirBlasts, ofReactions})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
@@ -335,7 +358,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     reportSoftening(deck, mesh, solver, comm);
     if (line.check)
     {
-      logInfo("check: deck and mesh are fine; nothing was run");
+      reportEstimate(solver, mesh, deck);
+      logInfo("check: deck and mesh are fine; nothing was written");
       return;
     }
     putAsideOtherCheckpoints(deck, mesh, settings.restartedFrom, comm);

@@ -20,6 +20,13 @@ struct CylinderParameters : Sweep
   int across = 0;
 };
 
+struct SphereParameters
+{
+  int dimension = 0;
+  Real radius = 0; ///< [m]
+  int across = 0;
+};
+
 struct SectorParameters
 {
   int dimension = 0;
@@ -68,7 +75,8 @@ std::vector<Body> planeOrSwept(const Body& section, int dimension, const Sweep& 
   return {extruded(section, heights)};
 }
 
-void checkCylinder(const CylinderParameters& p, const CardPlace& place)
+template <class P>
+void demandEvenAcross(const P& p, const CardPlace& place)
 {
   demandEven(place, "across", p.across, "elements");
 }
@@ -105,6 +113,11 @@ std::vector<Body> makeLaw(const CylinderParameters& p)
   return planeOrSwept(disk(p.radius, p.across), p.dimension, p);
 }
 
+std::vector<Body> makeLaw(const SphereParameters& p)
+{
+  return {ball(p.radius, p.across)};
+}
+
 std::vector<Body> makeLaw(const SectorParameters& p)
 {
   return sectors(p.dimension, p.innerRadius, p.outerRadius, p.from, p.to, p.count, p.length,
@@ -128,7 +141,19 @@ ShapeModel cylinderModel()
           sweepLength<P>(),
           sweepAlong<P>(),
       })
-      .demands(checkCylinder);
+      .demands(demandEvenAcross<P>);
+}
+
+ShapeModel sphereModel()
+{
+  using P = SphereParameters;
+  return ShapeModelOf<P>("sphere", "a ball, centred on the origin")
+      .has({
+          length<P>("radius", &P::radius).like("0.15").means("of the sphere"),
+          across<P>(),
+      })
+      .existsIn(3, "cylinder")
+      .demands(demandEvenAcross<P>);
 }
 
 ShapeModel sectorModel()

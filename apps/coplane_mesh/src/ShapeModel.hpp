@@ -30,6 +30,7 @@ ShapeModel wallModel();
 ShapeModel imbricateModel();
 ShapeModel rockModel();
 ShapeModel cylinderModel();
+ShapeModel sphereModel();
 ShapeModel projectileModel();
 ShapeModel ogiveModel();
 ShapeModel sectorModel();

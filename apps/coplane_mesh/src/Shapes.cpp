@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace coplane
 {
@@ -381,6 +382,90 @@ std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, c
 Body disk(Real radius, int across)
 {
   return RoundGrid(radius, across, false).body();
+}
+
+namespace
+{
+/// The cube in the middle of a ball, between half a cube with flat faces and one that is part of a
+/// sphere.
+struct CubeOfBall
+{
+  static constexpr Real size = 0.5;  ///< half an edge over the radius of the ball
+  static constexpr Real round = 0.6; ///< 0: flat faces, 1: a sphere
+
+  int divisions;
+
+  Vec3 onCube(const std::array<int, 3>& p) const ///< in -1..1
+  {
+    const auto along = [&](int i) { return Real(2 * p[i] - divisions) / divisions; };
+    return {along(0), along(1), along(2)};
+  }
+  /// On the unit sphere, by equal angles along the edges of the cube.
+  Vec3 direction(const std::array<int, 3>& p) const
+  {
+    const Vec3 u = onCube(p);
+    const Real w = std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
+    const auto slope = [&](Real c) { return std::tan(pi / 4 * c / w); };
+    const Vec3 direction{slope(u.x), slope(u.y), slope(u.z)};
+    return (1 / norm(direction)) * direction;
+  }
+  /// For a radius of 1.
+  Vec3 at(const std::array<int, 3>& p) const
+  {
+    const Vec3 u = onCube(p);
+    const Real w = std::max({std::abs(u.x), std::abs(u.y), std::abs(u.z)});
+    return w > 0 ? size * ((1 - round) * u + round * w * direction(p)) : u;
+  }
+};
+} // namespace
+
+Body ball(Real radius, int across)
+{
+  const int layers = std::max(1, across / 4), n = across - 2 * layers;
+  const CubeOfBall cube{n};
+  demandCountable(nodesOfGrid(3, {across, across, across}));
+  Body body = mappedGrid(3, {n, n, n},
+                         [&](int i, int j, int k) {
+                           return radius * cube.at({i, j, k});
+                         });
+  // Layers between each face of the cube and the sphere; nodes on its edges belong to two faces.
+  std::map<std::array<int, 3>, std::vector<int>> columns;
+  const auto columnOf = [&](const std::array<int, 3>& p) -> const std::vector<int>&
+  {
+    std::vector<int>& column = columns[p];
+    if (column.empty())
+    {
+      column.push_back((p[2] * (n + 1) + p[1]) * (n + 1) + p[0]);
+      const Vec3 inner = cube.at(p), outer = cube.direction(p);
+      for (int layer = 1; layer <= layers; ++layer)
+      {
+        column.push_back(int(body.points.size()));
+        body.points.push_back(radius / layers *
+                              (Real(layers - layer) * inner + Real(layer) * outer));
+      }
+    }
+    return column;
+  };
+  for (int face = 0; face < 6; ++face)
+    for (int a = 0; a < n; ++a)
+      for (int b = 0; b < n; ++b)
+      {
+        const auto corner = [&](int da, int db)
+        {
+          std::array<int, 3> p{};
+          p[face / 2] = face % 2 * n;
+          // Counter-clockwise as seen from outside.
+          p[(face / 2 + 1) % 3] = face % 2 ? a + da : a + db;
+          p[(face / 2 + 2) % 3] = face % 2 ? b + db : b + da;
+          return columnOf(p);
+        };
+        const std::vector<int> sides[4] = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+        for (int layer = 0; layer < layers; ++layer)
+          for (int end = 0; end < 2; ++end)
+            for (const std::vector<int>& side : sides)
+              body.connectivity.push_back(side[layer + end]);
+      }
+  return body;
 }
 
 std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,

@@ -74,6 +74,10 @@ std::vector<Body> jointedRock(int dimension, const std::array<int, 3>& blocks, c
 /// the diameter (even, >= 4).
 Body disk(Real radius, int across);
 
+/// Ball about the origin: a rounded cube in the middle and layers around it; `across` elements on
+/// the diameter (even, >= 4), half of them in the cube.
+Body ball(Real radius, int across);
+
 /// Annular sectors about the origin, `count` of equal angle between two angles [degrees, from x to
 /// y], with nodes of their own; n is radial, around, and along z (3D: from 0 to length); the
 /// outermost elements are `bias` times as thick as the innermost. Touching sectors have the same

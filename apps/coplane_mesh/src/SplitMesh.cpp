@@ -1,44 +1,26 @@
 #include "SplitMesh.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/Lists.hpp>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace coplane
 {
 namespace
 {
-/// Items of each node: those of node n are items[first[n]] to items[first[n + 1]].
-struct AtNodes
-{
-  std::vector<int> first, items;
-  template <class Action>
-  void forEach(int node, const Action& action) const
-  {
-    for (int i = first[node]; i < first[node + 1]; ++i)
-      action(items[i]);
-  }
-};
-
 /// `nodesOf(item)` is a list; items of a node come in ascending order.
 template <class NodesOf>
-AtNodes itemsAtNodes(int nodes, int items, const NodesOf& nodesOf)
+Lists<int> itemsAtNodes(int nodes, int items, const NodesOf& nodesOf)
 {
-  AtNodes at;
-  at.first.assign(nodes + 1, 0);
-  for (int item = 0; item < items; ++item)
-    for (const int node : nodesOf(item))
-      ++at.first[node + 1];
-  std::partial_sum(at.first.begin(), at.first.end(), at.first.begin());
-  at.items.resize(at.first.back());
-  std::vector<int> next(at.first.begin(), at.first.end() - 1);
-  for (int item = 0; item < items; ++item)
-    for (const int node : nodesOf(item))
-      at.items[next[node]++] = item;
-  return at;
+  return {std::size_t(nodes), [&](const auto& visit)
+          {
+            for (int item = 0; item < items; ++item)
+              for (const int node : nodesOf(item))
+                visit(std::size_t(node), item);
+          }};
 }
 
 std::vector<int> nodesOf(const MeshFace& face)
@@ -65,10 +47,10 @@ public:
 
   SplitMesh split(const std::vector<Cut>& cuts)
   {
-    const AtNodes facesAt = itemsAtNodes(before_.nodes(), int(faces_.size()),
-                                         [&](int face) { return nodesOf(faces_[face]); });
-    const AtNodes elementsAt = itemsAtNodes(before_.nodes(), int(places_.size()),
-                                            [&](int e) { return nodesOfElement(e); });
+    const Lists<int> facesAt = itemsAtNodes(before_.nodes(), int(faces_.size()),
+                                            [&](int face) { return nodesOf(faces_[face]); });
+    const Lists<int> elementsAt = itemsAtNodes(before_.nodes(), int(places_.size()),
+                                               [&](int e) { return nodesOfElement(e); });
     GlobalId nextId = *std::max_element(before_.nodeIds.begin(), before_.nodeIds.end());
     for (int node = 0; node < before_.nodes(); ++node)
     {
@@ -103,30 +85,31 @@ private:
 
   /// The elements around a node, in groups that hang together there; one group when no cut meets
   /// the node.
-  std::vector<std::vector<int>> groupsAround(int node, const AtNodes& facesAt,
-                                             const AtNodes& elementsAt) const
+  std::vector<std::vector<int>> groupsAround(int node, const Lists<int>& facesAt,
+                                             const Lists<int>& elementsAt) const
   {
     bool isCut = false;
-    facesAt.forEach(node, [&](int face) { isCut = isCut || cutOfFace_[face] >= 0; });
+    for (const int face : facesAt[node])
+      isCut = isCut || cutOfFace_[face] >= 0;
     if (!isCut)
       return {};
     std::map<int, int> parent;
-    elementsAt.forEach(node, [&](int element) { parent[element] = element; });
+    for (const int element : elementsAt[node])
+      parent[element] = element;
     const auto rootOf = [&](int element)
     {
       while (parent[element] != element)
         element = parent[element];
       return element;
     };
-    facesAt.forEach(node,
-                    [&](int f)
-                    {
-                      const MeshFace& face = faces_[f];
-                      if (face.count < 2 || cutOfFace_[f] >= 0)
-                        return;
-                      const int a = rootOf(face.elements[0]), b = rootOf(face.elements[1]);
-                      parent[std::max(a, b)] = std::min(a, b); // roots are first elements
-                    });
+    for (const int f : facesAt[node])
+    {
+      const MeshFace& face = faces_[f];
+      if (face.count < 2 || cutOfFace_[f] >= 0)
+        continue;
+      const int a = rootOf(face.elements[0]), b = rootOf(face.elements[1]);
+      parent[std::max(a, b)] = std::min(a, b); // roots are first elements
+    }
     std::map<int, std::vector<int>> groupOfRoot;
     for (const auto& entry : parent)
       groupOfRoot[rootOf(entry.first)].push_back(entry.first);
@@ -145,16 +128,13 @@ private:
   }
 
   void shareNodeSets(int node, const std::vector<std::vector<int>>& groups,
-                     const std::vector<int>& copies, const AtNodes& facesAt)
+                     const std::vector<int>& copies, const Lists<int>& facesAt)
   {
     std::set<int> onJoint;
-    facesAt.forEach(node,
-                    [&](int face)
-                    {
-                      if (cutOfFace_[face] >= 0)
-                        for (const int other : nodesOf(faces_[face]))
-                          onJoint.insert(other);
-                    });
+    for (const int face : facesAt[node])
+      if (cutOfFace_[face] >= 0)
+        for (const int other : nodesOf(faces_[face]))
+          onJoint.insert(other);
     if (members_.empty())
       for (const Mesh::NodeSet& set : before_.nodeSets)
         members_.emplace_back(set.nodes.begin(), set.nodes.end());

@@ -67,10 +67,11 @@ TEST(Recipe, aKeyThatIsNoWordIsRefused)
 
 TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
 {
-  EXPECT_EQ(errorOf(head + "  - {shape: bax, block: b}\n"),
-            "r.yaml:3:13: parts.0.shape = 'bax' is not known. Did you mean 'box'? Accepted: one of "
-            "box, quadrilateral, hexahedron, wall, imbricate, rock, cylinder, projectile, ogive, "
-            "sector, half_disc.");
+  EXPECT_EQ(
+      errorOf(head + "  - {shape: bax, block: b}\n"),
+      "r.yaml:3:13: parts.0.shape = 'bax' is not known. Did you mean 'box'? Accepted: one of "
+      "box, quadrilateral, hexahedron, wall, imbricate, rock, cylinder, sphere, projectile, ogive, "
+      "sector, half_disc.");
 }
 
 TEST(Recipe, anotherDimensionIsRefused)

@@ -165,6 +165,44 @@ TEST(Shapes, aCylinderIsTheDiskTimesItsLength)
   EXPECT_TRUE(report.usable());
 }
 
+TEST(Shapes, aBallApproachesItsVolumeWithGoodElements)
+{
+  // Chords cut off a part of the volume that shrinks with the square of the elements.
+  Real lost[2];
+  for (int fine = 0; fine < 2; ++fine)
+  {
+    const std::string part = fmt::format("{{dimension: 3, parts: [{{shape: sphere, block: b, "
+                                         "radius: 0.5, across: {}",
+                                         fine ? 24 : 12);
+    const MeshReport report = reportOf(part + "}]}");
+    EXPECT_EQ(report.elements, fine ? 12 * 12 * 12 + 6 * 6 * 144 : 6 * 6 * 6 + 6 * 3 * 36);
+    EXPECT_EQ(report.bodies, 1);
+    EXPECT_TRUE(meshProblems(report).empty());
+    EXPECT_GT(report.blocks[0].worstQuality, 0.6);
+    EXPECT_NEAR(report.highest.x, 0.5, 1e-15);
+    EXPECT_NEAR(report.lowest.z, -0.5, 1e-15);
+    lost[fine] = 1 - report.blocks[0].volume / (4 * pi / 3 * 0.125);
+    const MeshReport split = reportOf(part + ", split: tetrahedra}]}");
+    EXPECT_EQ(split.elements, 5 * report.elements);
+    EXPECT_TRUE(split.usable());
+  }
+  EXPECT_LT(lost[0], 0.03);
+  EXPECT_NEAR(lost[0] / lost[1], 4, 0.3);
+}
+
+TEST(Shapes, everyFinenessOfABallIsValid)
+{
+  for (int across = 4; across <= 20; across += 2)
+  {
+    const MeshReport report =
+        reportOf(fmt::format("{{dimension: 3, parts: [{{shape: sphere, block: b, radius: 1, "
+                             "across: {}}}]}}",
+                             across));
+    EXPECT_TRUE(meshProblems(report).empty()) << across;
+    EXPECT_GT(report.blocks[0].worstQuality, 0.5) << across;
+  }
+}
+
 TEST(Shapes, aRoundNosedProjectileIsRectangleAndHalfPolygon)
 {
   // Width 2, length 5: rectangle 2 x 4 and half a polygon of 32 corners; tip at the origin.

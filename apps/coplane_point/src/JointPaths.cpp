@@ -88,8 +88,7 @@ JointPoint pointOf(const PointDeck& deck, const JointPathCard& card)
                                   [&](const JointCard& one) { return one.name == card.joint; });
   const JointLaw law = jointLawOf(*joint);
   const Real h = deck.elements.thickness > 0 ? deck.elements.thickness : 1;
-  const Real M =
-      deck.elements.thickness > 0 && deck.elements.modulus > 0 ? deck.elements.modulus : infinity;
+  const Real M = deck.elements.isRigid() ? infinity : deck.elements.modulus;
   return JointPoint(law, law.fittedTo(h, M, h, M), card.declared);
 }
 

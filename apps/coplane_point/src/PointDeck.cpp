@@ -150,11 +150,10 @@ public:
       problem("joint", fmt::format(" = '{}' is not a card in joints.{} There {}.", card_.joint,
                                    didYouMean(card_.joint, names),
                                    names.empty() ? "are none" : "is: " + listOf(names)));
-    else if (found != names.end() &&
-             deck_.joints[std::size_t(found - names.begin())].model == "penalty" &&
-             (deck_.elements.thickness <= 0 || deck_.elements.modulus <= 0))
-      problem("joint", fmt::format(" = '{}' is a penalty, whose stiffness comes from the elements; "
-                                   "give elements.thickness [m] and elements.modulus [Pa].",
+    else if (found != names.end() && deck_.elements.isRigid() &&
+             needsElements(deck_.joints[std::size_t(found - names.begin())]))
+      problem("joint", fmt::format(" = '{}' has a stiffness that comes from the elements; give "
+                                   "elements.thickness [m] and elements.modulus [Pa].",
                                    card_.joint));
     if (card_.type == "closing" && given("closures") && card_.closures.empty())
       problem("closures", " is empty; accepted: at least one number.");
@@ -182,11 +181,18 @@ private:
   {
     if (!card_.file.empty())
     {
+      bool alone = true;
       for (const char* key : {"times", "gaps", "slips_x", "slips_y"})
         if (given(key))
+        {
           problem(key, " and file exclude each other; keep one of them.");
+          alone = false;
+        }
       const auto folder = std::filesystem::path(deck_.file).parent_path();
       card_.file = (folder / card_.file).lexically_normal().string();
+      if (alone)
+        readPathFile(card_.file, card_, nodeAt(root_, {"joint_paths", card_.name, "file"}),
+                     problems_);
       return;
     }
     if (!given("times"))
@@ -321,9 +327,6 @@ PointDeck parsePointDeck(const std::string& text, const std::string& file,
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
   deck.warnings = problems.warnings();
-  for (JointPathCard& card : deck.jointPaths)
-    if (!card.file.empty())
-      readPathFile(card.file, card);
   return deck;
 }
 

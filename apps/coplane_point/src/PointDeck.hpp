@@ -13,6 +13,8 @@ struct ElementCard
 {
   Real thickness = 0; ///< h [m]; 0: rigid
   Real modulus = 0;   ///< P-wave modulus M [Pa]; 0: rigid
+
+  bool isRigid() const { return thickness <= 0 || modulus <= 0; }
 };
 
 /// A path on which a joint is led.

@@ -86,55 +86,50 @@ std::string reference(bool markdown, const std::string& topic)
                    (topic.empty() ? referenceText(pointSchema()) : topicText(pointSchema(), topic));
 }
 
-int run(int argc, char** argv)
+struct CommandLine
+{
+  std::string file, topic;
+  std::vector<std::string> overrides;
+  bool check = false, help = false, markdown = false, schema = false;
+
+  bool asksForHelp() const { return help || markdown || schema; }
+};
+
+/// Exit code when the program should end now, -1 to go on.
+int parse(int argc, char** argv, CommandLine& line)
 {
   CLI::App app{"Leads laws along prescribed paths at one point and writes CSV files.\n"
                "Example: coplane_point exodus_inputs/joint_paths/mortar.yaml\n"};
   app.set_version_flag("--version",
                        fmt::format("coplane_point {} ({})", version().number, version().revision));
-  std::string file;
-  std::vector<std::string> overrides;
-  std::string topic;
-  bool check = false, markdown = false, schema = false;
-  app.add_option("deck", file, "The deck (YAML); --help-deck lists its keys");
-  app.add_option("--set", overrides,
+  app.add_option("deck", line.file, "The deck (YAML); --help-deck lists its keys");
+  app.add_option("--set", line.overrides,
                  "Overrides a deck value: --set joint_paths.test.steps=1000 (may be repeated)")
       ->allow_extra_args(false);
-  app.add_flag("--check", check, "Check the deck and stop");
+  app.add_flag("--check", line.check, "Check the deck and stop");
   CLI::Option* help =
-      app.add_option("--help-deck", topic,
+      app.add_option("--help-deck", line.topic,
                      "Print every key of a deck and stop; of one TOPIC: a section, key or model")
           ->type_name("[TOPIC]")
           ->expected(0, 1);
-  app.add_flag("--help-deck-markdown", markdown, "The same as Markdown");
-  app.add_flag("--schema", schema, "Print the JSON Schema of decks and stop");
+  app.add_flag("--help-deck-markdown", line.markdown, "The same as Markdown");
+  app.add_flag("--schema", line.schema, "Print the JSON Schema of decks and stop");
   try
   {
     app.parse(argc, argv);
-    if (!*help && !markdown && !schema && file.empty())
+    line.help = help->count() > 0;
+    if (!line.asksForHelp() && line.file.empty())
       throw CLI::RequiredError("deck");
   }
   catch (const CLI::ParseError& error)
   {
     return app.exit(error) == 0 ? int(ExitCode::Success) : int(ExitCode::Usage);
   }
-  if (*help || markdown || schema)
-  {
-    std::fputs(
-        (schema ? jsonSchema(pointSchema(), "Coplane point deck") : reference(markdown, topic))
-            .c_str(),
-        stdout);
-    return int(ExitCode::Success);
-  }
-  const PointDeck deck = readPointDeck(file, overrides);
-  for (const std::string& warning : deck.warnings)
-    std::fputs(("warning: " + warning + "\n").c_str(), stderr);
-  demandDistinctFiles(deck);
-  if (check)
-  {
-    print("check: the deck is fine; nothing was run");
-    return int(ExitCode::Success);
-  }
+  return -1;
+}
+
+void runPaths(const PointDeck& deck)
+{
   const FileRoles outputs = outputsOf(deck);
   const auto locks = lockOutputs(outputs, lockFilesOf(deck), deck.file);
   removeDraftsOfKilled(outputs, locks);
@@ -147,6 +142,29 @@ int run(int argc, char** argv)
                      [&](const MaterialCard& one) { return one.name == card.material; });
     print(runMaterialPath(card, materialOf(*material)));
   }
+}
+
+int run(int argc, char** argv)
+{
+  CommandLine line;
+  if (const int code = parse(argc, argv, line); code >= 0)
+    return code;
+  if (line.asksForHelp())
+  {
+    std::fputs((line.schema ? jsonSchema(pointSchema(), "Coplane point deck")
+                            : reference(line.markdown, line.topic))
+                   .c_str(),
+               stdout);
+    return int(ExitCode::Success);
+  }
+  const PointDeck deck = readPointDeck(line.file, line.overrides);
+  for (const std::string& warning : deck.warnings)
+    std::fputs(("warning: " + warning + "\n").c_str(), stderr);
+  demandDistinctFiles(deck);
+  if (line.check)
+    print("check: the deck is fine; nothing was run");
+  else
+    runPaths(deck);
   return int(ExitCode::Success);
 }
 } // namespace

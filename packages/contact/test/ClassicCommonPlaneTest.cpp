@@ -173,7 +173,7 @@ TEST(ClassicCornerOnFace2D,
         const ClassicPlane section = classicCommonPlane<2>(slab, corner, classicOptions(search));
         const ClassicPlane shadow =
             classicCommonPlane<2>(slab, corner, classicOptions(search, Area::Shadow));
-        const Push penetrating = simplePush<2>(slab, section.face[0], corner, 0, {});
+        const Push penetrating = simplePush<2>(slab, section.face[0], corner, 0, alongCommonNormal);
         const Push full =
             simplePush<2>(slab, section.face[0], corner, 0, asInThePaper(), {0, -d, 0});
         EXPECT_EQ(penetrating.planes, row.angle == 180 ? 1 : 2);
@@ -200,7 +200,7 @@ TEST(ClassicCornerOnFace3D, cubeCornerMeetsThePlaneInATriangle)
     EXPECT_NEAR(force.z / (d * d * d), expected, 1e-10);
     EXPECT_LT(std::hypot(force.x, force.y), 1e-13 * force.z);
     EXPECT_LT(norm(plane.point - Vec3{0, 0, -.5 * d}), 1e-14);
-    const Push simple = simplePush<3>(slab, plane.face[0], cube, 0, {});
+    const Push simple = simplePush<3>(slab, plane.face[0], cube, 0, alongCommonNormal);
     EXPECT_EQ(simple.planes, 3);
     // 1.5 cos(delta) against 3 sqrt 3 / 8, where cos(2 delta) = 1 / sqrt 3.
     EXPECT_NEAR(simple.force.z / force.z, 4 / std::sqrt(3.0) * std::sqrt(.5 + .5 / std::sqrt(3.0)),
@@ -221,7 +221,8 @@ TEST(ClassicCornerOnFace3D, threeFacesGiveFourThirdsOfTheRatioInTwoDimensions)
         classicCommonPlane<3>(slab, corner, classicOptions(Search::Candidates));
     const ClassicPlane shadow =
         classicCommonPlane<3>(slab, corner, classicOptions(Search::Candidates, Area::Shadow));
-    const Real penetrating = simplePush<3>(slab, section.face[0], corner, 0, {}).force.z;
+    const Real penetrating =
+        simplePush<3>(slab, section.face[0], corner, 0, alongCommonNormal).force.z;
     const Real full =
         simplePush<3>(slab, section.face[0], corner, 0, asInThePaper(), {0, 0, -d}).force.z;
     EXPECT_NEAR(penetrating / classicPush(section).force.z,
@@ -248,7 +249,7 @@ TEST(ClassicCornerOnFace3D, edgeOnAPlaneIsTheExtrudedCorner)
   {
     const ClassicPlane plane = classicCommonPlane<3>(slab, prism, classicOptions(search));
     EXPECT_NEAR(classicPush(plane).force.z / (2 * d * d), 1, 1e-11);
-    const Push simple = simplePush<3>(slab, plane.face[0], prism, 0, {});
+    const Push simple = simplePush<3>(slab, plane.face[0], prism, 0, alongCommonNormal);
     EXPECT_NEAR(simple.force.z / classicPush(plane).force.z, std::cos(pi / 8) / std::cos(pi / 4),
                 1e-10);
   }
@@ -427,7 +428,7 @@ TEST(ClassicFaceOnFace, strikesSidewaysWhereTheOverlapIsNarrowerThanDeep)
     EXPECT_NEAR(plane.area, .1, 1e-14);
   }
   PairPlane simple = touchingPlane();
-  updatePlane<2>(simple, faceOf(a, 2), faceOf(b, 0), {}, 1);
+  updatePlane<2>(simple, faceOf(a, 2), faceOf(b, 0), alongCommonNormal, 1);
   EXPECT_NEAR(simple.normal.y, 1, 1e-14);
   EXPECT_NEAR(simple.area, .08, 1e-14);
 }

@@ -20,7 +20,7 @@ void row(const char* kind, Real angle, const ConvexBlock& slab, const ConvexBloc
   classicOptions.area = ClassicOptions::Area::Shadow;
   const ClassicPlane shadow = classicCommonPlane<Dim>(slab, corner, classicOptions);
   const Vec3 up = section.normal;
-  const Push penetrating = simplePush<Dim>(slab, section.face[0], corner, 0, {});
+  const Push penetrating = simplePush<Dim>(slab, section.face[0], corner, 0, alongCommonNormal);
   const Push full =
       simplePush<Dim>(slab, section.face[0], corner, 0, asInThePaper(), (-depth) * up);
   const Real classic[2] = {dot(classicPush(section).force, up), dot(classicPush(shadow).force, up)};

@@ -79,13 +79,14 @@ std::vector<FaceNodes> wedge(const Vec3& middle, const Vec3& axis, const Vec3& i
 
 struct Total
 {
-  Vec3 force{}; ///< on the upper body
+  Vec3 force{};    ///< on the upper body
+  Real stored = 0; ///< energy
   int planes = 0;
 };
 
 template <int Dim>
 Total pushed(const std::vector<FaceNodes>& lower, const std::vector<FaceNodes>& upper,
-             const ContactOptions& o = {}, Real dt = 1)
+             const ContactOptions& o = alongCommonNormal, Real dt = 1)
 {
   Total total;
   for (const FaceNodes& a : lower)
@@ -97,6 +98,7 @@ Total pushed(const std::vector<FaceNodes>& lower, const std::vector<FaceNodes>& 
       PairPlane plane = touchingPlane();
       updatePlane<Dim>(plane, a, b, o, dt);
       total.force += plane.forceOn(1);
+      total.stored += plane.stored;
       total.planes += plane.area > 1e-12;
     }
   return total;
@@ -384,4 +386,130 @@ TEST(EdgeOnFace, forceGrowsWithTheSquareOfTheDepthWithoutJumps)
   }
   EXPECT_LT(largestJump, 2 * before / 1000)
       << "F ~ d^2: the last increment is just below twice the mean";
+}
+
+namespace
+{
+const ContactOptions potential;
+
+std::vector<FaceNodes> shifted(std::vector<FaceNodes> faces, const Vec3& shift)
+{
+  for (FaceNodes& face : faces)
+    face = moved(face, rotation({0, 0, 1}, 0), shift);
+  return faces;
+}
+} // namespace
+
+TEST(CornerOfThePotential, wedgeOnAPlane)
+{
+  // The wet length d / cos(theta) lies at delta from the plane: closure from 0 to 2 sin(delta) of
+  // it over its shadow, cos(delta) of it. Two faces: E = C d^3, C = 4/3 sin^2(delta) cos(delta) /
+  // cos^3(theta).
+  for (const auto& [angle, known] :
+       {std::tuple{120, .69018412}, std::tuple{90, .51024458}, std::tuple{60, .44444444}})
+  {
+    const Real theta = .5 * angle * pi / 180, delta = .5 * (pi / 2 - theta);
+    const Real c =
+        4. / 3 * std::pow(std::sin(delta), 2) * std::cos(delta) / std::pow(std::cos(theta), 3);
+    EXPECT_NEAR(c, known, 5e-9);
+    const Total flat = pushed<2>({slab2D()}, corner2D(theta, depth, 1, {}), potential);
+    EXPECT_NEAR(flat.stored / depth3, c, 1e-10) << angle;
+    EXPECT_NEAR(flat.force.y / (depth * depth), 3 * c, 1e-10) << angle;
+    EXPECT_NEAR(flat.force.x / (depth * depth), 0, 1e-12) << angle;
+  }
+  const Total solid = pushed<3>({slab3D()}, wedge({0, 0, -depth}, {1, 0, 0}, {0, 0, 1}), potential);
+  EXPECT_NEAR(solid.stored / (2 * depth3), .51024458, 5e-9); // 2 m of it
+  EXPECT_NEAR(solid.force.z / (2 * depth * depth), 3 * .51024458, 2e-8);
+}
+
+TEST(CornerOfThePotential, sharpWedgesFadeWithTheirOpposition)
+{
+  // The faces of a wedge oppose the plane by the sine of half its angle. Fully from three times
+  // cos_opposed on, a smooth step of the fifth degree below.
+  ContactOptions blunt;
+  blunt.cosOpposed = .1;
+  for (const auto& [angle, share] :
+       {std::tuple{36., 1.}, std::tuple{30., .937}, std::tuple{20., .264}, std::tuple{11.4, 0.}})
+  {
+    const auto energy = [theta = .5 * angle * pi / 180](const ContactOptions& o)
+    { return pushed<2>({slab2D()}, corner2D(theta, depth, 1, {}), o).stored; };
+    EXPECT_GT(energy(potential), 0) << angle;
+    EXPECT_NEAR(energy(blunt) / energy(potential), share, 1e-3) << angle;
+  }
+}
+
+TEST(CornerOfThePotential, cubeCornerOnAPlane)
+{
+  // The normals of its three faces are at 2 delta = acos(1 / sqrt 3) from the plane's. Wet triangle
+  // of 1.5 d^2, closure from 0 at its longest side to sqrt 6 d sin(delta) at the tip: the mean
+  // square is a sixth of the largest one. E = 9/4 sin^2(delta) cos(delta) d^4.
+  const Total got = pushed<3>({slab3D()}, cubeCorner({0, 0, -depth}, .2, 1), potential);
+  const Real delta = .5 * std::acos(1 / std::sqrt(3.0));
+  const Real c = 9. / 4 * std::pow(std::sin(delta), 2) * std::cos(delta);
+  EXPECT_NEAR(c, .4222621877, 5e-11);
+  EXPECT_EQ(got.planes, 3);
+  EXPECT_NEAR(got.stored / (depth3 * depth), c, 1e-9);
+  EXPECT_NEAR(got.force.z / depth3, 4 * c, 1e-8);
+  EXPECT_LT(std::hypot(got.force.x, got.force.y), 1e-12 * got.force.z);
+}
+
+TEST(CornerOfThePotential, edgesCrossedAtRightAngles)
+{
+  // Four triangles of 2.25 d^2 / sqrt 6 with the closure sqrt 6 d / 2 at one vertex and zero at the
+  // others: E = 9 / (8 sqrt 6) d^4.
+  const Total got = pushed<3>(wedge({0, 0, 0}, {1, 0, 0}, {0, 0, -1}),
+                              wedge({0, 0, -depth}, {0, 1, 0}, {0, 0, 1}), potential);
+  const Real c = 9 / (8 * std::sqrt(6.0));
+  EXPECT_EQ(got.planes, 4);
+  EXPECT_NEAR(got.stored / (depth3 * depth), c, 1e-9);
+  EXPECT_NEAR(got.force.z / depth3, 4 * c, 1e-8);
+  EXPECT_LT(std::hypot(got.force.x, got.force.y), 1e-12 * got.force.z);
+}
+
+TEST(CornerOfThePotential, vertexOnVertexTurnedBy60DegreesIsFaceToFace)
+{
+  // Three pairs of parallel faces at a distance d / sqrt 3 with shared squares of d^2 / 3: E = d^4
+  // /
+  // 6. Their borders add to the force: 4 E / d, twice that of the faces alone.
+  const Total got = pushed<3>(cubeCorner({0, 0, 0}, .2, -1),
+                              cubeCorner({0, 0, -depth}, .2 + pi / 3, 1), potential);
+  EXPECT_EQ(got.planes, 3);
+  EXPECT_NEAR(got.stored / (depth3 * depth), 1. / 6, 1e-9);
+  EXPECT_NEAR(got.force.z / depth3, 4. / 6, 1e-8);
+  EXPECT_LT(std::hypot(got.force.x, got.force.y), 1e-12 * got.force.z);
+}
+
+TEST(CornerOfThePotential, vertexOnVertexIsTheGradientOfItsEnergyHoweverTheyMiss)
+{
+  // Cube corners that stand on each other, with or without an offset: no length but the depth, so
+  // the energy is of the fourth degree in it; the force is minus its change when the upper body is
+  // moved as it is.
+  const auto lower = cubeCorner({0, 0, 0}, 0, -1);
+  for (const Real turn : {0.0, .4, pi / 3})
+    for (const Vec3& miss : {Vec3{}, Vec3{.17, .08, 0}, Vec3{.2, -.3, 0}, Vec3{-.25, .05, 0}})
+    {
+      SCOPED_TRACE(testing::Message() << turn << ", " << miss.x << ", " << miss.y);
+      const auto at = [&](const Vec3& place) {
+        return pushed<3>(lower, shifted(cubeCorner({0, 0, 0}, turn, 1), place), potential);
+      };
+      const Vec3 place = .1 * (miss - Vec3{0, 0, 1});
+      const Total got = at(place);
+      EXPECT_GT(got.force.z, 0);
+      EXPECT_NEAR(at(.5 * place).stored, got.stored / 16, 1e-9 * got.stored);
+      // Edges within 0.001 of a face of each other share what they have, which is no gradient: of
+      // sides so short, k c^2 / 2 on each length. Corners that are mirror images have all of them.
+      if (turn == 0 && norm(miss) == 0)
+        continue;
+      const Real shared = 1e-3 * .5 * dot(place, place);
+      for (int c = 0; c < 3; ++c)
+      {
+        const Real h = 1e-6;
+        Vec3 step{};
+        step[c] = h;
+        const Real slope = (8 * (at(place + step).stored - at(place - step).stored) -
+                            (at(place + 2 * step).stored - at(place - 2 * step).stored)) /
+                           (12 * h);
+        EXPECT_NEAR(got.force[c], -slope, shared) << c;
+      }
+    }
 }

@@ -1,4 +1,5 @@
 #include "FacePairs.hpp"
+#include "WithForces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -70,6 +71,8 @@ Surface chain(int n, Real height, bool up)
 struct PatchTest
 {
   Real unbalanced = 0;           ///< largest nodal force, relative to pressure times a face
+  Real along = 0;                ///< the same along the normal
+  Real asideInside = 0;          ///< the same in the plane, at nodes of four faces
   Real overlap = 0;              ///< sum over all planes
   int checked = 0;               ///< nodes whose faces are covered whole
   std::array<Real, 2> covered{}; ///< sums per side
@@ -79,10 +82,11 @@ struct PatchTest
 /// integral of its shape function, a quarter of a parallelogram or a third of a triangle. The
 /// planes must balance that wherever the other side covers all faces of a node.
 template <int Dim>
-PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const Mat3& r)
+PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const Mat3& r,
+                    Real closed = 1e-4)
 {
-  const Real pressure = 1; // unit stiffness, so that the closure is the pressure / 1e4
-  const Real k = 1e4;
+  const Real pressure = 1;
+  const Real k = pressure / closed;
   for (Surface* s : {&lower, &upper})
     for (Vec3& x : s->nodes)
       x = r * x;
@@ -113,6 +117,7 @@ PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const
   for (int s = 0; s < 2; ++s)
   {
     std::vector<bool> whole(side[s]->nodes.size(), true);
+    std::vector<int> faces(side[s]->nodes.size(), 0);
     Real largest = 0;
     for (std::size_t f = 0; f < side[s]->faces.size(); ++f)
     {
@@ -121,6 +126,7 @@ PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const
       largest = std::max(largest, area);
       for (const int node : corners)
       {
+        ++faces[node];
         force[s][node] += ((s == 0 ? 1 : -1) * pressure * area / corners.size()) * n;
         if (covered[s][f] < area * (1 - 1e-10))
           whole[node] = false;
@@ -131,8 +137,12 @@ PatchTest patchTest(Surface lower, Surface upper, const ContactOptions& o, const
       if (whole[node])
       {
         ++result.checked;
-        result.unbalanced =
-            std::max(result.unbalanced, norm(force[s][node]) / (pressure * largest));
+        const Vec3 left = (1 / (pressure * largest)) * force[s][node];
+        const Real along = dot(left, n);
+        result.unbalanced = std::max(result.unbalanced, norm(left));
+        result.along = std::max(result.along, std::abs(along));
+        if (faces[node] == 4)
+          result.asideInside = std::max(result.asideInside, norm(left - along * n));
       }
   }
   return result;
@@ -236,6 +246,11 @@ ClassicPlane classicCommonPlane(const Block& lower, const Block& upper)
   plane.area = areaAndCentroid(intersection(section[0], section[1])).area;
   return plane;
 }
+
+struct FacePair_FaceToFace : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, FacePair_FaceToFace, WithForces::both(), WithForces::name);
 } // namespace
 
 TEST(FacePair_PatchTest, segmentsThatDoNotMatchPassAUniformPressure)
@@ -265,9 +280,27 @@ TEST(FacePair_PatchTest, turnedQuadrilateralsPassAUniformPressureWithMeanWeights
 
 TEST(FacePair_PatchTest, uniformClosureGivesPressureWeightsTheSameForces)
 {
-  const PatchTest got = patchTest<3>(grid(4, .5, 0, 0, true, false),
-                                     grid(7, .75, turn17, -closure, false, false), {}, oblique());
+  const PatchTest got =
+      patchTest<3>(grid(4, .5, 0, 0, true, false), grid(7, .75, turn17, -closure, false, false),
+                   alongCommonNormal, oblique());
   EXPECT_LT(got.unbalanced, 2e-12);
+}
+
+TEST(FacePair_PatchTest, thePotentialPassesAUniformPressure)
+{
+  // At the border of the smaller side it pulls inwards besides, by half the pressure times the
+  // closure on each length: at most closure / size of a face over the force of one.
+  const Real size = .25;
+  for (const Real part : {1e-3, 1e-2})
+  {
+    const PatchTest got = patchTest<3>(grid(4, .5, 0, 0, true, false),
+                                       grid(7, .75, turn17, -part * size, false, false),
+                                       ContactOptions{}, oblique(), part * size);
+    EXPECT_GE(got.checked, 26);
+    EXPECT_LT(got.along, 2e-12);
+    EXPECT_LT(got.asideInside, 2e-12);
+    EXPECT_LT(got.unbalanced, part);
+  }
 }
 
 TEST(FacePair_PatchTest, trianglesAndQuadrilateralsTogetherPassAUniformPressure)
@@ -325,7 +358,7 @@ TEST(FacePair_PatchTest, areasOfThePlanesAddUpToTheInterface)
   }
 }
 
-TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
+TEST_P(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
 {
   // Two unit cubes, the upper one sunk in and shifted: the classic plane is parallel to the faces.
   std::mt19937 random(1);
@@ -338,7 +371,7 @@ TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
     const Block lower = cube({0, 0, 0}, r), upper = cube(shift, r);
     const ClassicPlane classic = classicCommonPlane(lower, upper);
     PairPlane plane = touchingPlane(1e5);
-    updatePlane<3>(plane, lower.top(), upper.bottom(), ContactOptions{}, 1);
+    updatePlane<3>(plane, lower.top(), upper.bottom(), usual, 1);
     for (int tilt = 0; tilt < 20; ++tilt)
       EXPECT_LT(gapAlong(normalised(classic.normal + 1e-3 * Vec3{u(random), u(random), u(random)}),
                          lower, upper),
@@ -346,11 +379,18 @@ TEST(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
           << "no tilt may open the classic gap further";
     EXPECT_LT(norm(plane.normal - classic.normal), 1e-12);
     EXPECT_NEAR(plane.area, classic.area, 1e-12);
-    EXPECT_NEAR(norm(plane.forceOn(1)), -1e5 * classic.area * classic.gap, 1e-12 * 1e5);
+    // The potential also pushes towards where the faces share less: half the pressure times the
+    // closure on each border.
+    const Real border = potential() ? .5e5 * sunk * sunk : 0;
+    const Vec3 aside{std::copysign(border * (1 - std::abs(shift.y)), shift.x),
+                     std::copysign(border * (1 - std::abs(shift.x)), shift.y), 0};
+    EXPECT_LT(
+        norm(plane.forceOn(1) + 1e5 * classic.area * classic.gap * classic.normal - r * aside),
+        1e-12 * 1e5);
   }
 }
 
-TEST(FacePair_FaceToFace, depthThatGrowsAlongThePlaneWeighsAreaAndCentres)
+TEST(FacePair_Area, depthThatGrowsAlongThePlaneWeighsAreaAndCentres)
 {
   // Both segments are [0, 1]; closure 0.1 + 0.2 s, depth W = 2 + 3 s.
   //   area = int W = 3.5,  centre of gravity = (2/2 + 3/3) / 3.5
@@ -372,41 +412,41 @@ TEST(FacePair_FaceToFace, depthThatGrowsAlongThePlaneWeighsAreaAndCentres)
   EXPECT_NEAR(patch.weights[1][0], center, 1e-14);
 }
 
-TEST(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
+TEST_P(FacePair_FaceToFace, facesThatLieBesideEachOtherDoNotTouch)
 {
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const FaceNodes b = face({{1.5, 0, -.1}, {1.5, 1, -.1}, {2.5, 1, -.1}, {2.5, 0, -.1}});
   PairPlane plane = touchingPlane();
-  updatePlane<3>(plane, a, b, ContactOptions{}, 1);
+  updatePlane<3>(plane, a, b, usual, 1);
   EXPECT_EQ(plane.area, 0.0);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
 }
 
-TEST(FacePair_FaceToFace, segmentsEndToEndDoNotTouch)
+TEST_P(FacePair_FaceToFace, segmentsEndToEndDoNotTouch)
 {
   PairPlane plane = touchingPlane();
-  updatePlane<2>(plane, face({{1, 0, 0}, {0, 0, 0}}), face({{1, -.1, 0}, {2, -.1, 0}}), {}, 1);
+  updatePlane<2>(plane, face({{1, 0, 0}, {0, 0, 0}}), face({{1, -.1, 0}, {2, -.1, 0}}), usual, 1);
   EXPECT_EQ(plane.area, 0.0);
 }
 
-TEST(FacePair_FaceToFace, facesAtARightAngleOrLookingTheSameWayDoNotTouch)
+TEST_P(FacePair_FaceToFace, facesAtARightAngleOrLookingTheSameWayDoNotTouch)
 {
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   PairPlane plane = touchingPlane();
-  updatePlane<3>(plane, a, a, {}, 1);
+  updatePlane<3>(plane, a, a, usual, 1);
   EXPECT_EQ(plane.area, 0.0);
-  updatePlane<3>(plane, a, face({{.5, 0, 0}, {.5, 0, 1}, {.5, 1, 1}, {.5, 1, 0}}), {}, 1);
+  updatePlane<3>(plane, a, face({{.5, 0, 0}, {.5, 0, 1}, {.5, 1, 1}, {.5, 1, 0}}), usual, 1);
   EXPECT_EQ(plane.area, 0.0);
 }
 
-TEST(FacePair_FaceToFace, pressureOnATiltedFaceActsAtTheCentreOfPressure)
+TEST_P(FacePair_FaceToFace, pressureOnATiltedFaceActsAtTheCentreOfPressure)
 {
   // Closure from 0 at x = 0 to .01 at x = 1: the centre of pressure is at 2/3, so the nodes at x =
   // 1 carry two thirds.
   const FaceNodes a = face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   const FaceNodes b = face({{0, 0, 0}, {0, 1, 0}, {1, 1, -.01}, {1, 0, -.01}});
   PairPlane plane = touchingPlane();
-  updatePlane<3>(plane, a, b, {}, 1);
+  updatePlane<3>(plane, a, b, usual, 1);
   const Real near = norm(plane.cornerForce[0][0]) + norm(plane.cornerForce[0][3]);
   const Real far = norm(plane.cornerForce[0][1]) + norm(plane.cornerForce[0][2]);
   EXPECT_NEAR(far / (near + far), 2.0 / 3, 1e-4); // both faces are seen at .005 rad

@@ -99,12 +99,16 @@ std::vector<JointLaw> twoLaws()
   return {law, other};
 }
 
-ContactOptions someOptions(ContactOptions::Area area, ContactOptions::Weights weights)
+ContactOptions damped(ContactOptions o)
 {
-  ContactOptions o = options(area, weights);
   o.dampNormal = .1;
   o.dampShear = .05;
   return o;
+}
+
+ContactOptions someOptions(ContactOptions::Area area, ContactOptions::Weights weights)
+{
+  return damped(options(area, weights));
 }
 
 bool sameBits(const Plane& a, const Plane& b)
@@ -143,10 +147,8 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
   for (const auto area : allAreas)
     for (const auto weights : allWeights)
       all.push_back(someOptions(area, weights));
-  all.push_back(ContactOptions{});
-  all.back().forces = ContactOptions::Forces::Potential;
-  all.push_back(someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure));
-  all.back().forces = ContactOptions::Forces::Potential;
+  all.push_back(ContactOptions{}); // the potential
+  all.push_back(damped(ContactOptions{}));
   for (const ContactOptions& o : all)
   {
     PairTable table(3000, 17);
@@ -177,17 +179,17 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     }
     EXPECT_GT(std::count(together.activity.begin(), together.activity.end(), Activity::Asleep),
               300);
-    EXPECT_GT(woken, 10);
+    EXPECT_GT(woken, 5);
     EXPECT_GT(carrying, 5000);
     EXPECT_GT(irregular, 100);
   }
 }
 
-TEST(PairLanes, doNotDependOnTheirNeighbours)
+namespace
+{
+void expectTheSameInAnotherOrder(const ContactOptions& o)
 {
   const std::vector<JointLaw> laws = twoLaws();
-  const ContactOptions o =
-      someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure);
   PairTable table(2000, 5);
   const std::vector<HalfStepFace> faces = table.faces(o);
   std::vector<int> order(table.planes.size());
@@ -203,6 +205,15 @@ TEST(PairLanes, doNotDependOnTheirNeighbours)
     shuffled.lanes(faces, laws, o).update(first, std::min(first + 7, count));
   for (int i = 0; i < count; ++i)
     ASSERT_TRUE(sameBits(sorted.planes[order[i]], shuffled.planes[i])) << order[i];
+}
+} // namespace
+
+TEST(PairLanes, doNotDependOnTheirNeighbours)
+{
+  for (const ContactOptions& o :
+       {damped(ContactOptions{}),
+        someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure)})
+    expectTheSameInAnotherOrder(o);
 }
 
 TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)

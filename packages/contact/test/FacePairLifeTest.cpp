@@ -1,4 +1,5 @@
 #include "FacePairs.hpp"
+#include "WithForces.hpp"
 
 #include <coplane_core/Comm.hpp>
 
@@ -39,7 +40,33 @@ bool finite(const Vec3& v)
 {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
+
+struct StepF_CreatePlane : WithForces
+{
+};
+struct StepG_PlacePointOfContact : WithForces
+{
+};
+struct StepH_UpdatePlaneVariables : WithForces
+{
+};
+struct Bounces : WithForces
+{
+};
+struct OpenUp : WithForces
+{
+};
+struct FacePair_Degenerate : WithForces
+{
+};
 } // namespace
+
+INSTANTIATE_TEST_SUITE_P(, StepF_CreatePlane, WithForces::both(), WithForces::name);
+INSTANTIATE_TEST_SUITE_P(, StepG_PlacePointOfContact, WithForces::both(), WithForces::name);
+INSTANTIATE_TEST_SUITE_P(, StepH_UpdatePlaneVariables, WithForces::both(), WithForces::name);
+INSTANTIATE_TEST_SUITE_P(, Bounces, WithForces::both(), WithForces::name);
+INSTANTIATE_TEST_SUITE_P(, FacePair_Degenerate, WithForces::both(), WithForces::name);
+INSTANTIATE_TEST_SUITE_P(, OpenUp, WithForces::both(), WithForces::name);
 
 TEST(StepA_HalfStepFace, isHalfAStepBehindTheEndOfTheStep)
 {
@@ -68,37 +95,38 @@ TEST(StepB_TrialPointOfContact, normalIsTheMeanOfTheFacesNormals)
   EXPECT_NEAR(dot(cross(trial.e1, trial.e2), trial.normal), 1, 1e-15);
 }
 
-TEST(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
+TEST_P(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
 {
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
-  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  updatePlane<3>(plane, below(), above(-.01), usual, 1);
   EXPECT_FALSE(plane.isBorn());
   EXPECT_NEAR(plane.gap, .01, 1e-15);
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
   EXPECT_TRUE(plane.isBorn());
   EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(plane.offset, 0.0);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
-TEST(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
+TEST_P(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
 {
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
   EXPECT_EQ(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
   EXPECT_EQ(plane.offset, plane.gap);
+  EXPECT_NEAR(plane.gap, -.01, 1e-15);
   // From there on it reacts as usual.
-  updatePlane<3>(plane, below(), above(.011), {}, 1);
+  updatePlane<3>(plane, below(), above(.011), usual, 1);
   EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_NEAR(plane.forceOn(1).z, 1, 1e-12); // 1e3 * .001
 }
 
-TEST(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
+TEST_P(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
 {
   // A wedge of overlap: no part of it may push, neither now nor in the next cycle.
   const FaceNodes b = moved(above(.05), rotation({0, 1, 0}, 5 * pi / 180));
@@ -107,34 +135,35 @@ TEST(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
   plane.sighting = Sighting::New;
   for (int cycle = 0; cycle < 3; ++cycle)
   {
-    updatePlane<3>(plane, below(), b, {}, 1);
-    EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << cycle;
+    updatePlane<3>(plane, below(), b, usual, 1);
+    EXPECT_LT(norm(plane.forceOn(1)), 1e-25) << cycle; // 1e3 times the square of round-off
   }
   EXPECT_TRUE(plane.isBorn());
   EXPECT_LT(plane.offset, -.05);
+  EXPECT_NEAR(plane.gap, plane.offset, 1e-15);
 }
 
-TEST(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPart)
+TEST_P(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFacesPart)
 {
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
   plane.depthLimit = .1;
-  updatePlane<3>(plane, below(), above(.2), {}, 1);
+  updatePlane<3>(plane, below(), above(.2), usual, 1);
   EXPECT_TRUE(plane.isRefused());
   EXPECT_FALSE(plane.isBorn());
-  updatePlane<3>(plane, below(), above(.05), {}, 1);
+  updatePlane<3>(plane, below(), above(.05), usual, 1);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "not on the way out either";
-  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  updatePlane<3>(plane, below(), above(-.01), usual, 1);
   EXPECT_FALSE(plane.isRefused());
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
-TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
+TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
 {
   // Sliding on, a pair is born as deep as its neighbours are.
-  const auto born = [](Real depth)
+  const auto born = [&](Real depth)
   {
     PairPlane plane = touchingPlane(1e3);
     plane.state = PlaneState::Slot;
@@ -143,45 +172,50 @@ TEST(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
     plane.depthLimit = .1;
     plane.offset = -.05;
     plane.closure = .06; // the neighbours overlap by .11
-    updatePlane<3>(plane, below(), above(depth), {}, 1);
+    updatePlane<3>(plane, below(), above(depth), usual, 1);
     EXPECT_EQ(plane.isRefused(), !plane.isBorn());
     return plane;
   };
   EXPECT_NEAR(born(.11).forceOn(1).z, 60, 1e-10); // 1e3 * (.11 - .05) * 1
-  EXPECT_NEAR(born(.2).forceOn(1).z, 100, 1e-10); // at most that of the depth limit
+  // With the potential the force goes on; along the common normal it ends at the depth limit.
+  EXPECT_NEAR(born(.2).forceOn(1).z, potential() ? 150 : 100, 1e-10);
   // The back of a thin body lies far behind the contact on its front, from which it inherits.
   EXPECT_TRUE(born(.22).isRefused());
   EXPECT_EQ(norm(born(.22).forceOn(1)), 0.0);
 }
 
-TEST(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)
+TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)
 {
-  // A rough surface: the next face of it stands higher than the one that was touched.
-  PairPlane plane = touchingPlane(1e3);
-  plane.state = PlaneState::Slot;
-  plane.lineage = Lineage::SlidesOn;
-  plane.sighting = Sighting::Known;
-  plane.depthLimit = .1;
-  plane.closure = .01;
-  updatePlane<3>(plane, below(), above(.08), {}, 1);
-  EXPECT_FALSE(plane.isRefused());
-  EXPECT_NEAR(plane.forceOn(1).z, 80, 1e-10); // 1e3 * .08 * 1
+  // A rough surface: the next face of it stands higher than the one that was touched. With the
+  // potential, by no more than three times the mean closure there, beside a quarter of the limit.
+  for (const Real depth : {.06, .08})
+  {
+    PairPlane plane = touchingPlane(1e3);
+    plane.state = PlaneState::Slot;
+    plane.lineage = Lineage::SlidesOn;
+    plane.sighting = Sighting::Known;
+    plane.depthLimit = .1;
+    plane.closure = .01;
+    updatePlane<3>(plane, below(), above(depth), usual, 1);
+    EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
+    EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : 1e3 * depth, 1e-10);
+  }
 }
 
-TEST(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
+TEST_P(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
 {
   // Ends of two bricks, one above the other: the upper brick is lifted off, slides on, and comes
   // down on the lower one, so that the ends share a hair of area deep behind each other.
-  const auto after = [](Real depth, Real offset)
+  const auto after = [&](Real depth, Real offset)
   {
     PairPlane plane = touchingPlane(1e3);
     plane.depthLimit = .4;
     plane.offset = offset;
-    updatePlane<3>(plane, below(), above(.01 - offset), {}, 1); // closed by .01
+    updatePlane<3>(plane, below(), above(.01 - offset), usual, 1); // closed by .01
     EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-10);
-    updatePlane<3>(plane, below(), above(-.01 - offset), {}, 1); // open
+    updatePlane<3>(plane, below(), above(-.01 - offset), usual, 1); // open
     EXPECT_EQ(plane.area, 0.0);
-    updatePlane<3>(plane, below(), above(depth - offset), {}, 1);
+    updatePlane<3>(plane, below(), above(depth - offset), usual, 1);
     return plane;
   };
   for (const Real offset : {0., -.05})
@@ -194,9 +228,9 @@ TEST(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
   }
 }
 
-TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
+TEST_P(StepF_CreatePlane, needsMoreThanTheSmallestArea)
 {
-  ContactOptions o;
+  ContactOptions o = usual;
   o.areaMin = .1;
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
@@ -209,21 +243,21 @@ TEST(StepF_CreatePlane, needsMoreThanTheSmallestArea)
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
 }
 
-TEST(StepG_PlacePointOfContact, isHalfWayBetweenTheFacesAtTheCentreOfTheArea)
+TEST_P(StepG_PlacePointOfContact, isHalfWayBetweenTheFacesAtTheCentreOfTheArea)
 {
   PairPlane plane = touchingPlane();
-  updatePlane<3>(plane, below(), above(.02, {}, .5), {}, 1);
+  updatePlane<3>(plane, below(), above(.02, {}, .5), usual, 1);
   EXPECT_NEAR(plane.pointOfContact.x, .25, 1e-15);
   EXPECT_NEAR(plane.pointOfContact.y, .5, 1e-15);
   EXPECT_NEAR(plane.pointOfContact.z, -.01, 1e-15);
 }
 
-TEST(StepH_UpdatePlaneVariables, closureIsThatOfTheEndOfTheStep)
+TEST_P(StepH_UpdatePlaneVariables, closureIsThatOfTheEndOfTheStep)
 {
   // Sinks with 1 m/s, dt = .002: half a step earlier the depth is .009. A force from there would be
   // late by half a step and feed energy in.
   PairPlane plane = touchingPlane(1e3);
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), {}, .002);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), usual, .002);
   EXPECT_NEAR(plane.closure, .01, 1e-16);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12);
 }
@@ -259,7 +293,7 @@ TEST(StepD_AreaOfContact, forcesDoNotDependOnHowTheFacesCame)
     }
 }
 
-TEST(StepD_AreaOfContact, bouncesOfATiltedFaceKeepTheirEnergy)
+TEST_P(Bounces, ofATiltedFaceKeepTheirEnergy)
 {
   // A rigid tilted face of mass 1 kg falls on a flat one again and again, in some ten steps per
   // contact: the force grows with the square of the depth, like the area and the closure together.
@@ -291,66 +325,76 @@ TEST(StepD_AreaOfContact, bouncesOfATiltedFaceKeepTheirEnergy)
       b.x[i] += (dt * speed) * normal;
       b.v[i] = speed * normal;
     }
-    updatePlane<3>(plane, lower, b, {}, dt);
+    updatePlane<3>(plane, lower, b, usual, dt);
   }
   EXPECT_GT(bounces, 100);
   EXPECT_LT(highest, -start * 1.02);
 }
 
-TEST(StepH_UpdatePlaneVariables, shearTractionOpposesTheSlipOfTheHigherFace)
+TEST_P(StepH_UpdatePlaneVariables, shearTractionOpposesTheSlipOfTheHigherFace)
 {
   // ks = 500 Pa/m, 1e-3 m along x: -.5 Pa on face 1.
   PairPlane plane = touchingPlane(1e3, 10);
-  updatePlane<3>(plane, below(), above(.01, {.1, 0, 0}), {}, .01);
+  updatePlane<3>(plane, below(), above(.01, {.1, 0, 0}), usual, .01);
   EXPECT_NEAR(plane.history.shearTraction.x, -.5, 1e-13);
   EXPECT_LT(plane.forceOn(1).x, 0);
 }
 
-TEST(StepH_UpdatePlaneVariables, newAreaCarriesNoShear)
+TEST_P(StepH_UpdatePlaneVariables, newAreaCarriesNoShear)
 {
-  // Half of the area carried 2 Pa; now all of it does 1 Pa, the same force.
+  // Half of the area carried 2 Pa. Along the common normal all of it carries 1 Pa now, the same
+  // force; with the potential sqrt(2) Pa, the same energy.
   PairPlane plane = sheared(2, .5);
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
-  EXPECT_NEAR(plane.history.shearTraction.x, 1, 1e-14);
-  EXPECT_NEAR(plane.forceOn(1).x, 1, 1e-14);
+  const Real energy = plane.shearEnergy();
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  const Real traction = potential() ? std::sqrt(2.0) : 1;
+  EXPECT_NEAR(plane.history.shearTraction.x, traction, 1e-14);
+  EXPECT_NEAR(plane.forceOn(1).x, traction, 1e-14);
+  EXPECT_NEAR(plane.shearEnergy(), potential() ? energy : .5 * energy, 1e-14);
 }
 
-TEST(StepH_UpdatePlaneVariables, lostAreaTakesItsShearAway)
+TEST_P(StepH_UpdatePlaneVariables, lostAreaTakesItsShearAway)
 {
+  // Along the common normal the rest keeps its traction; with the potential the plane its energy.
   PairPlane plane = sheared(2, 1);
-  updatePlane<3>(plane, below(), above(.01, {}, .5), {}, 1);
-  EXPECT_NEAR(plane.history.shearTraction.x, 2, 1e-14);
-  EXPECT_NEAR(plane.forceOn(1).x, 1, 1e-14);
+  FaceNodes b = above(.01, {}, .5);
+  for (int i = 0; i < 4; ++i)
+    b.x[i].x += .25; // away from the borders of the other face
+  updatePlane<3>(plane, below(), b, usual, 1);
+  const Real traction = potential() ? 2 * std::sqrt(2.0) : 2;
+  EXPECT_NEAR(plane.history.shearTraction.x, traction, 1e-14);
+  EXPECT_NEAR(plane.forceOn(1).x, .5 * traction, 1e-14);
 }
 
-TEST(StepH_UpdatePlaneVariables, withoutTheAreaRuleTheTractionStays)
+TEST(StepH_AlongCommonNormal, withoutTheAreaRuleTheTractionStays)
 {
-  ContactOptions o;
+  ContactOptions o = alongCommonNormal;
   o.areaRule = false;
   PairPlane plane = sheared(2, .5);
   updatePlane<3>(plane, below(), above(.01), o, 1);
   EXPECT_NEAR(plane.history.shearTraction.x, 2, 1e-14);
 }
 
-TEST(StepH_UpdatePlaneVariables, depthBeyondTheLimitFreezesTheForce)
+TEST_P(StepH_UpdatePlaneVariables, depthBeyondTheLimitIsTold)
 {
+  // Along the common normal the force is frozen there; that of the potential goes on.
   PairPlane plane = touchingPlane(1e3);
   plane.depthLimit = .02;
-  updatePlane<3>(plane, below(), above(.004), {}, 1); // begins at the surface
-  updatePlane<3>(plane, below(), above(.02), {}, 1);
+  updatePlane<3>(plane, below(), above(.004), usual, 1); // begins at the surface
+  updatePlane<3>(plane, below(), above(.02), usual, 1);
   EXPECT_FALSE(plane.tooDeep);
   const Real atTheLimit = plane.forceOn(1).z;
-  updatePlane<3>(plane, below(), above(.05), {}, 1);
+  updatePlane<3>(plane, below(), above(.05), usual, 1);
   EXPECT_TRUE(plane.tooDeep);
-  EXPECT_NEAR(plane.forceOn(1).z, atTheLimit, 1e-12);
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  EXPECT_NEAR(plane.forceOn(1).z, potential() ? 50 : atTheLimit, 1e-12);
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
   EXPECT_FALSE(plane.tooDeep);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12);
 }
 
-TEST(StepH_UpdatePlaneVariables, dampingNeverPulls)
+TEST_P(StepH_UpdatePlaneVariables, dampingNeverPulls)
 {
-  ContactOptions o;
+  ContactOptions o = usual;
   o.dampNormal = 1;
   for (const Real speed : {.1, 1.0, 10.0, 1000.0})
   {
@@ -361,52 +405,52 @@ TEST(StepH_UpdatePlaneVariables, dampingNeverPulls)
   }
 }
 
-TEST(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheTwoFaces)
+TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheTwoFaces)
 {
   // Weights 1/4 on nodes of 1 kg: 1/m = 2 * 4/16, m = 2 kg. k = 1e3 N/m. Force 2 zeta sqrt(k m) v
   // on top of the 10 N of the closure.
-  ContactOptions o;
+  ContactOptions o = usual;
   o.dampNormal = .1;
   PairPlane plane = touchingPlane(1e3);
   updatePlane<3>(plane, below(), above(.01, {0, 0, -.5}), o, 1e-9);
   EXPECT_NEAR(plane.forceOn(1).z, 10 + .2 * std::sqrt(2000.0) * .5, 1e-10);
 }
 
-TEST(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)
+TEST_P(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)
 {
   // Flat faces, constant area: the trapezoid is exact for a linear joint.
   PairPlane plane = touchingPlane(1e3);
   for (int step = 1; step <= 10; ++step)
-    updatePlane<3>(plane, below(), above(.001 * step, {0, 0, -1}), {}, .001);
+    updatePlane<3>(plane, below(), above(.001 * step, {0, 0, -1}), usual, .001);
   EXPECT_NEAR(plane.stored, .5 * 1e3 * 1e-4, 1e-15);
   EXPECT_NEAR(plane.work, plane.stored, 1e-15);
 }
 
-TEST(StepH_UpdatePlaneVariables, workIsStoredOrDissipatedWhileSlipping)
+TEST_P(StepH_UpdatePlaneVariables, workIsStoredOrDissipatedWhileSlipping)
 {
   // Pressed by 10 Pa, then dragged: work = stored + friction while the gap changes neither the arm
   // nor the area. The couple does no work on a translation.
   PairPlane plane = touchingPlane(1e3, .5);
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), {}, .01);
   const FaceNodes lower = face({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
+  updatePlane<3>(plane, lower, above(.01, {0, 0, -1}), usual, .01);
   for (int step = 1; step <= 100; ++step)
   {
     FaceNodes b = above(.01, {1, 0, 0});
     for (int i = 0; i < 4; ++i)
       b.x[i].x += .001 * step;
-    updatePlane<3>(plane, lower, b, {}, .001);
+    updatePlane<3>(plane, lower, b, usual, .001);
   }
   EXPECT_EQ(plane.state, PlaneState::Slip);
   EXPECT_NEAR(plane.history.slip, .1 - .01, 1e-14); // elastic part 5 Pa / 500 Pa/m
   EXPECT_NEAR(plane.work, plane.stored + plane.frictionWork, 1e-13);
 }
 
-TEST(OpenUp, clearsTheShearTractionAndKeepsTheLargestClosure)
+TEST_P(OpenUp, clearsTheShearTractionAndKeepsTheLargestClosure)
 {
   PairPlane plane = sheared(2, 1);
-  updatePlane<3>(plane, below(), above(.01), {}, 1);
+  updatePlane<3>(plane, below(), above(.01), usual, 1);
   EXPECT_EQ(plane.state, PlaneState::Stick);
-  updatePlane<3>(plane, below(), above(-.01), {}, 1);
+  updatePlane<3>(plane, below(), above(-.01), usual, 1);
   EXPECT_EQ(plane.state, PlaneState::Open);
   EXPECT_TRUE(plane.isBorn());
   EXPECT_EQ(norm(plane.history.shearTraction), 0.0);
@@ -454,7 +498,7 @@ TEST(TurnIntoPlane, followsTheLeastRotation)
   EXPECT_NEAR(x.z, -s, 1e-15);
 }
 
-TEST(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
+TEST_P(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
 {
   // Flattened, nearly collapsed and nearly coincident faces: coordinates are rounded to a coarse
   // grid and then disturbed by 0 to 1e-3. The ranks share the work.
@@ -483,8 +527,9 @@ TEST(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
         std::reverse(f[k].x, f[k].x + f[k].count);
     }
     PairPlane plane = touchingPlane(1e3, .5);
-    ContactOptions o = options(allAreas[touching % 2], allWeights[touching % 3]);
-    updatePlane<3>(plane, f[0], f[1], o, 1e-4);
+    updatePlane<3>(plane, f[0], f[1],
+                   potential() ? usual : options(allAreas[touching % 2], allWeights[touching % 3]),
+                   1e-4);
     ASSERT_TRUE(finite(plane.forceOn(1)) && finite(plane.normal) && std::isfinite(plane.gap) &&
                 std::isfinite(plane.work))
         << n;
@@ -502,8 +547,12 @@ TEST(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
     }
     if (shortest < .01)
       continue;
+    const Real back = potential() ? 0 : 1e-4;
+    const HalfStepFace a = stepA_halfStepFace<3>(f[0], back), b = stepA_halfStepFace<3>(f[1], back);
+    // Of needles a millionth as wide as long, forces have no digits left.
+    if (potential() && std::min(a.area, b.area) < 1e-6)
+      continue;
     ++touching;
-    const HalfStepFace a = stepA_halfStepFace<3>(f[0], 1e-4), b = stepA_halfStepFace<3>(f[1], 1e-4);
     ASSERT_LE(plane.area, std::min(a.area, b.area) * (1 + 1e-10) + 1e-14) << n;
     ASSERT_LE(plane.area, plane.overlap * (1 + 1e-12)) << n;
     Real largest = norm(plane.forceOn(1));
@@ -515,10 +564,18 @@ TEST(FacePair_Degenerate, millionSliversStayFiniteWithinTheirAreaAndInBalance)
       }
     const Resultant sum = resultant(f[0], f[1], plane.cornerForce);
     // Round-off of the couple grows with the square of the aspect ratio; beyond 3000 there is none.
-    ASSERT_LE(largest, 1e3 * norm(plane.forceOn(1))) << n;
-    ASSERT_LE(norm(sum.force), 1e-9 * norm(plane.forceOn(1))) << n;
-    worstMoment = std::max(worstMoment, norm(sum.moment) / norm(plane.forceOn(1)));
+    // The potential moves the force to its place by turning faces: there is no such bound for faces
+    // of little area, folded ones above all.
+    if (!potential())
+    {
+      ASSERT_LE(largest, 1e3 * norm(plane.forceOn(1))) << n;
+    }
+    // Closures of round-off give forces without digits.
+    const Real size = potential() ? largest + 1e-7 : norm(plane.forceOn(1));
+    ASSERT_LE(norm(sum.force), (potential() ? 1e-7 : 1e-9) * size) << n; // round-off of needles
+    worstMoment = std::max(worstMoment, norm(sum.moment) / size);
   }
   EXPECT_GT(touching, pairs / comm.size() / 10);
-  EXPECT_LT(worstMoment, 2e-3) << "without a couple: the gap, at most the disturbance of 1e-3";
+  EXPECT_LT(worstMoment, potential() ? 1e-5 : 2e-3)
+      << "without a couple: the gap, at most the disturbance of 1e-3";
 }

@@ -1,4 +1,5 @@
 #include "FacePairs.hpp"
+#include "WithForces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,11 @@ Worst worstOf(const ContactOptions& o, int pairs)
   }
   return worst;
 }
+
+struct FacePair_UpdatePlane : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, FacePair_UpdatePlane, WithForces::both(), WithForces::name);
 } // namespace
 
 TEST(FacePair_CornerForces, warpedFacesGetForcesWithoutResultantAndWithoutMoment)
@@ -93,12 +99,12 @@ TEST(FacePair_CornerForces, powerIsForceTimesTheRelativeVelocityOfThePointOfCont
 
 TEST(FacePair_CornerForces, withoutTheCoupleTheMomentIsArmTimesForce)
 {
-  const Worst worst = worstOf<3>(ContactOptions{}, 1000);
+  const Worst worst = worstOf<3>(alongCommonNormal, 1000);
   EXPECT_GT(worst.uncoupled, .99) << "the error that the couple removes is there";
   EXPECT_LT(worst.spurious, 1e-13);
 }
 
-TEST(FacePair_UpdatePlane, forcesOfMovingPairsConserveBothMomentaAtTheEndOfTheStep)
+TEST_P(FacePair_UpdatePlane, forcesOfMovingPairsConserveBothMomentaAtTheEndOfTheStep)
 {
   // Half-step geometry, forces on x(n+1): the moment must vanish about the latter.
   std::mt19937 random(8);
@@ -111,7 +117,7 @@ TEST(FacePair_UpdatePlane, forcesOfMovingPairsConserveBothMomentaAtTheEndOfTheSt
     plane.normal =
         stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(a, 0), stepA_halfStepFace<3>(b, 0))
             .normal;
-    updatePlane<3>(plane, a, b, ContactOptions{}, .02);
+    updatePlane<3>(plane, a, b, usual, .02);
     const Real force = norm(plane.forceOn(1));
     if (!(force > 0))
       continue;
@@ -134,7 +140,7 @@ TEST(FacePair_RelativeMotion, vanishesForAnyRigidMotionAlsoAcrossAGap)
     for (FaceNodes* face : {&a, &b})
       for (int i = 0; i < face->count; ++i)
         face->v[i] = velocity + cross(spin, face->x[i]);
-    const Contact c = contactOf<3>(a, b, ContactOptions{});
+    const Contact c = contactOf<3>(a, b, alongCommonNormal);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -164,7 +170,7 @@ TEST(FacePair_RelativeMotion, vanishesForAFiniteRotationOfOneRadianInOneStep)
         face->x[i] = r * before + shift;
         face->v[i] = (1 / dt) * (face->x[i] - before);
       }
-    const Contact c = contactOf<3>(a, b, ContactOptions{}, dt);
+    const Contact c = contactOf<3>(a, b, alongCommonNormal, dt);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -190,7 +196,7 @@ TEST(FacePair_RelativeMotion, segmentsThatTurnOneRadianTogetherDoNotSlip)
         face->x[i] = r * before + Vec3{.3, -.2, 0};
         face->v[i] = (1 / dt) * (face->x[i] - before);
       }
-    const Contact c = contactOf<2>(a, b, ContactOptions{}, dt);
+    const Contact c = contactOf<2>(a, b, alongCommonNormal, dt);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -208,7 +214,7 @@ TEST(FacePair_RelativeMotion, relativeTranslationIsReturnedUnchanged)
     auto [a, b] = randomPair(random, .2, 0);
     for (int i = 0; i < b.count; ++i)
       b.v[i] = velocity;
-    const Contact c = contactOf<3>(a, b, ContactOptions{});
+    const Contact c = contactOf<3>(a, b, alongCommonNormal);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;

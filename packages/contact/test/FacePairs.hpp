@@ -1,6 +1,6 @@
 #pragma once
 
-#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -91,19 +91,26 @@ inline PairPlane touchingPlane(Real stiffness = 1, Real friction = 0)
   return plane;
 }
 
-/// Steps A to H.
+const ContactOptions alongCommonNormal = ContactOptions::with(ContactOptions::Forces::CommonNormal);
+
+/// Steps A to H by the forces of the options.
 template <int Dim>
 void updatePlane(PairPlane& plane, const FaceNodes& a, const FaceNodes& b, const ContactOptions& o,
                  Real dt)
 {
-  updatePlane<Dim>(plane, stepA_halfStepFace<Dim>(a, dt), stepA_halfStepFace<Dim>(b, dt), plane.law,
-                   o, dt);
+  const auto stepA = [&](const FaceNodes& face)
+  {
+    return o.forces == ContactOptions::Forces::Potential ? stepA_faceAtEnd<Dim>(face)
+                                                         : stepA_halfStepFace<Dim>(face, dt);
+  };
+  updateByForces<Dim>(plane, stepA(a), stepA(b), plane.law, o, dt);
   std::copy(&plane.nodal[0][0], &plane.nodal[0][0] + 8, &plane.cornerForce[0][0]);
 }
 
+/// Choices that forces along the common normal have.
 inline ContactOptions options(ContactOptions::Area area, ContactOptions::Weights weights)
 {
-  ContactOptions o;
+  ContactOptions o = alongCommonNormal;
   o.area = area;
   o.weights = weights;
   return o;

@@ -70,12 +70,14 @@ TEST(Step5CandidatePairs, onlyAPairThatWasACandidateBeforeWasMissed)
     return hadToBeFound(scene.faces[0], scene.faces[1], planeA, planeB, rules, 0.1, 0.05);
   };
   EXPECT_TRUE(wasMissed(0.5, false, 0.05));
-  EXPECT_FALSE(wasMissed(0.12, false, 0.05));  // opposed by turning
-  EXPECT_FALSE(wasMissed(0.99, false, -0.55)); // risen from below the largest depth
-  EXPECT_TRUE(wasMissed(0.99, true, 0.05));    // the tip of a joint
-  EXPECT_FALSE(wasMissed(0.91, true, 0.05));   // just folded onto each other
-  EXPECT_FALSE(wasMissed(0.99, true, 0.55));   // just come near each other
-  EXPECT_FALSE(wasMissed(0.5, true, 0.05));    // neighbours
+  const Real least = CandidateRules().cosOpposed;
+  EXPECT_TRUE(wasMissed(least + 0.06, false, 0.05));
+  EXPECT_FALSE(wasMissed(least + 0.04, false, 0.05)); // opposed by turning
+  EXPECT_FALSE(wasMissed(0.99, false, -0.55));        // risen from below the largest depth
+  EXPECT_TRUE(wasMissed(0.99, true, 0.05));           // the tip of a joint
+  EXPECT_FALSE(wasMissed(0.91, true, 0.05));          // just folded onto each other
+  EXPECT_FALSE(wasMissed(0.99, true, 0.55));          // just come near each other
+  EXPECT_FALSE(wasMissed(0.5, true, 0.05));           // neighbours
 }
 
 TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)

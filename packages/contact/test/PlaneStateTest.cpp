@@ -1,5 +1,6 @@
 #include <coplane_contact/PlaneState.hpp>
 #include <coplane_contact/detail/Inheritance.hpp>
+#include <coplane_contact/detail/PassedOn.hpp>
 
 #include <gtest/gtest.h>
 
@@ -189,5 +190,79 @@ TEST(PlaneState, whatIsPassedOnArrivesAndIsForgotten)
     expectEqual(Plane{}, plane);
     EXPECT_FALSE(plane.isInherited());
   }
+}
+
+namespace
+{
+/// Which of what is passed on makes a search stale when it changes, where a pair has this law.
+std::set<std::string> staleFor(const JointLaw& law, bool incremental, Real closure)
+{
+  Plane plane;
+  plane.area = 1;
+  plane.depthLimit = 1;
+  plane.closure = closure;
+  std::set<std::string> names;
+  forEachPassed(
+      [&](const auto& member)
+      {
+        Plane other = plane;
+        forEachPart(member.get(other),
+                    [](auto& part)
+                    {
+                      using T = std::decay_t<decltype(part)>;
+                      part = std::is_same_v<T, bool> ? T(part == T(0)) : T(Real(part) + 0.01);
+                    });
+        if (PassedOn(other, law, incremental) != PassedOn(plane, law, incremental))
+          names.insert(member.name);
+      });
+  return names;
+}
+
+JointLaw lawWithMemory()
+{
+  JointLaw law;
+  law.curve.inverseMaximumClosure = 1;
+  law.bond.kind = Bond::Kind::Linear;
+  law.dilation = 0.1;
+  EXPECT_TRUE(!law.curve.straight() && law.bond.softens() && law.remembersSlip());
+  return law;
+}
+} // namespace
+
+TEST(PlaneState, whatIsPassedOnMakesASearchStaleOrHasAReason)
+{
+  std::set<std::string> excused, others;
+  forEachPassed(
+      [&](const auto& member)
+      {
+        if (std::decay_t<decltype(member)>::stale != Stale::Never)
+          others.insert(member.name);
+        else if (member.neverStale && *member.neverStale)
+          excused.insert(member.name);
+      });
+  EXPECT_EQ(excused, std::set<std::string>{"shear"});
+  EXPECT_EQ(staleFor(lawWithMemory(), true, 0), others);
+}
+
+TEST(PlaneState, aSearchIsStaleOnlyByWhatTheLawRemembers)
+{
+  using Names = std::set<std::string>;
+  const JointLaw plain;
+  EXPECT_EQ(staleFor(plain, false, 0), (Names{"bonded", "offset"}));
+  EXPECT_EQ(staleFor(plain, true, 0), (Names{"bonded", "closure", "offset"}));
+  EXPECT_EQ(staleFor(plain, false, 0.5), (Names{"bonded", "closure", "offset"})) << "a deep pair";
+  JointLaw law;
+  law.curve.inverseMaximumClosure = 1;
+  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "maximum_closure", "offset"}));
+  law = plain;
+  law.bond.kind = Bond::Kind::Linear;
+  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "offset", "opening", "shearing"}));
+  law = plain;
+  law.dilation = 0.1;
+  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "offset", "slip"}));
+  Plane idle;
+  Plane closed;
+  closed.offset = 1;
+  EXPECT_FALSE(PassedOn(idle, plain, true) != PassedOn(closed, plain, true)) << "carry nothing";
 }
 } // namespace coplane

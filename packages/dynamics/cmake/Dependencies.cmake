@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES element contact partition mesh material checkpoint core)
+coplane_dependencies(PACKAGES element contact partition mesh geometry material checkpoint core)

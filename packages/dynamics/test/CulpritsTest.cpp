@@ -77,4 +77,39 @@ TEST(WorstEntities, nameTheDeepestPlanesTheSameOnAnyNumberOfRanks)
       << text;
   EXPECT_NE(text.find("J unexplained"), std::string::npos) << text;
 }
+
+TEST(WorstEntities, nameThePlanesThatHavePassedTheStiffnessCap)
+{
+  // A hyperbola that ends at 0.5 mm and is as steep as its cap from half of that on, at 0.5 MPa:
+  // 20 kPa do not close it so far, 1 MPa does.
+  const Comm comm;
+  for (const Real pressure : {2e4, 1e6})
+  {
+    Model model = slidingCubes(comm);
+    model.blocks[1].velocity = {};
+    JointLaw& law = model.contactRules.joints[0].law;
+    law.penalty = false;
+    law.initialStiffness = 1e9;
+    law.curve.inverseMaximumClosure = 2e3;
+    law.stiffnessCap = 4e9;
+    model.conditions.pressures = {
+        pressureWhere(model.mesh, pressure, [](const Vec3& x) { return x.z == 0 || x.z > 1.9; })};
+    model.time.end = 3e-3;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    Recorder recorder;
+    solver.run(recorder);
+    std::string told = testing::internal::GetCapturedStderr();
+    told += testing::internal::GetCapturedStdout();
+    if (!comm.isRoot())
+      continue;
+    EXPECT_EQ(told.find("planes have reached joints.stiffness_cap") != std::string::npos,
+              pressure > 1e5)
+        << told;
+    EXPECT_EQ(told.find("cap 4.000e+09 Pa/m") != std::string::npos, pressure > 1e5) << told;
+    EXPECT_EQ(told.find("plane between side") != std::string::npos, pressure > 1e5) << told;
+  }
+}
 } // namespace coplane

@@ -61,9 +61,18 @@ std::vector<Vec3> displacements(const Solver& solver, int nodes)
     result[n] = {values[3 * n], values[3 * n + 1], values[3 * n + 2]};
   return result;
 }
+
+struct DeclaredJoint : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, DeclaredJoint, WithForces::both(), WithForces::name);
+struct UndeclaredContact : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, UndeclaredContact, WithForces::both(), WithForces::name);
 } // namespace
 
-TEST(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
+TEST_P(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
 {
   // 1 MPa of uniaxial compression in the blocks, in the joint, and as pressure on foot and top.
   // Round-off of nodal forces of about 1e5 N on masses of about 10 kg: 1e-12 m/s a cycle.
@@ -79,7 +88,36 @@ TEST(DeclaredJoint, underTheInitialStressAndItsPressureStaysAtRest)
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
 }
 
-TEST(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
+TEST_P(DeclaredJoint, carriesTheInitialStressLessThePressureOnItsFaces)
+{
+  // 1 MPa of compression in the blocks and on their ends, water of 0.4 MPa in the joint: both are
+  // at rest when the joint starts with 0.6 MPa. Meshes do not match, so planes of one face have two
+  // faces on the other side.
+  const Comm comm;
+  Model model = declaredStack(0, comm);
+  for (BlockSetup& block : model.blocks)
+    block.stress.zz = -1e6;
+  press(model, 1e6);
+  model.conditions.pressures.push_back(
+      pressureWhere(model.mesh, 0.4e6, [](const Vec3& x) { return x.z == 1; }));
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 200);
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+  Real least = infinity, most = -infinity;
+  const auto planes = solver.contact().planes();
+  for (std::size_t p = 0; p < planes.extent(0); ++p)
+    if (planes(p).state != PlaneState::Open)
+    {
+      const Real traction = norm(planes(p).forceOn(1)) / planes(p).area;
+      least = std::min(least, traction);
+      most = std::max(most, traction);
+    }
+  EXPECT_NEAR(comm.min(least), 0.6e6, 1);
+  EXPECT_NEAR(comm.max(most), 0.6e6, 1);
+}
+
+TEST_P(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
 {
   // Two cubes of 1 t part at 1 m/s; the bond softens by exp(-opening / 0.1 m), the skin is 5 cm.
   const Comm comm;
@@ -108,7 +146,7 @@ TEST(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
   EXPECT_LT(std::abs(balance.error()), 1e-9 * balance.scale());
 }
 
-TEST(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
+TEST_P(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
 {
   const Comm comm;
   Model model = declaredStack(1e-4, comm);
@@ -125,10 +163,13 @@ TEST(DeclaredJoint, withAClosureCurveAndAMeshGapStaysAtRestToo)
   Solver solver(std::move(model), comm);
   solver.prepare();
   cycles(solver, 200);
-  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+  // Where borders of both blocks lie on each other, the potential gives half of the rim to each:
+  // p c / 2 on each length, c = 0.25 mm beyond the permanent closure, 0.1 mm apart. What balances
+  // that couple is p c 0.1 mm / 4 = 6 mN on a node of 4 kg that swings with 3000 / s.
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), potential() ? 5e-7 : 1e-9);
 }
 
-TEST(DeclaredJoint, withoutStressAndLoadStaysAtRestWhateverTheMeshGap)
+TEST_P(DeclaredJoint, withoutStressAndLoadStaysAtRestWhateverTheMeshGap)
 {
   const Comm comm;
   for (const Real gap : {-1e-3, 0.0, 1e-3})
@@ -140,7 +181,7 @@ TEST(DeclaredJoint, withoutStressAndLoadStaysAtRestWhateverTheMeshGap)
   }
 }
 
-TEST(DeclaredJoint, absorbsGapsAndOverlapsOfTheMesh)
+TEST_P(DeclaredJoint, absorbsGapsAndOverlapsOfTheMesh)
 {
   // The gap moves one block by 1e-5 of its size and changes nothing else: same displacements under
   // a sudden pressure, to 1e-6 of the largest. The step is fixed, so that all runs end at the same
@@ -170,7 +211,7 @@ TEST(DeclaredJoint, absorbsGapsAndOverlapsOfTheMesh)
   EXPECT_LT(offOverlap, 1e-6 * size);
 }
 
-TEST(DeclaredJoint, closesFacesThatLieOnEachOtherAndNoOthers)
+TEST_P(DeclaredJoint, closesFacesThatLieOnEachOtherAndNoOthers)
 {
   // A stone whose sides overhang the floor at 45 and at 70 degrees: they share an edge with the
   // face that it lies on. Its bed is closed, with the gap of the mesh; the sides are not.
@@ -216,7 +257,7 @@ TEST(DeclaredJoint, closesFacesThatLieOnEachOtherAndNoOthers)
     }
 }
 
-TEST(UndeclaredContact, doesNotPushOverlapsOfTheMeshApart)
+TEST_P(UndeclaredContact, doesNotPushOverlapsOfTheMeshApart)
 {
   const Comm comm;
   Solver solver(rockModel(stack(-1e-3), comm, 0.5), comm);
@@ -233,7 +274,7 @@ TEST(UndeclaredContact, doesNotPushOverlapsOfTheMeshApart)
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
 }
 
-TEST(UndeclaredContact, acrossAnInitialGapActsOnlyWhenItIsClosed)
+TEST_P(UndeclaredContact, acrossAnInitialGapActsOnlyWhenItIsClosed)
 {
   // A gap of 1 mm at 1 m/s closes after 1 ms.
   const Comm comm;

@@ -37,9 +37,14 @@ std::int64_t deadAfter(Solver& solver, int n)
   cycles(solver, n);
   return solver.erosion().elements;
 }
+
+struct ErodingBodies : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, ErodingBodies, WithForces::both(), WithForces::name);
 } // namespace
 
-TEST(Erosion, keepsMassAndMomentumAndTheEnergyAccount)
+TEST_P(ErodingBodies, keepsMassAndMomentumAndTheEnergyAccount)
 {
   const Comm comm;
   Solver solver(stretchedColumn(comm), comm);
@@ -58,7 +63,7 @@ TEST(Erosion, keepsMassAndMomentumAndTheEnergyAccount)
   EXPECT_EQ(solver.erosion().mass, 1000.0 * Real(solver.erosion().elements));
 }
 
-TEST(Erosion, endsPlanesWithTheirEnergy)
+TEST_P(ErodingBodies, endsPlanesWithTheirEnergy)
 {
   const Comm comm;
   Solver solver(pressed(comm), comm);
@@ -84,7 +89,7 @@ TEST(Erosion, endsPlanesWithTheirEnergy)
     EXPECT_EQ(std::count(dead.begin(), dead.end(), elementOfFace(face.id)), 0);
 }
 
-TEST(Erosion, loadsEndWithTheElementThatCarriedThem)
+TEST_P(ErodingBodies, loadsEndWithTheElementThatCarriedThem)
 {
   // A pressure of 50 MPa on the end of a cube squeezes it by 5 %: it dies at 1 %, and what is left
   // are nodes that fly on without force.
@@ -107,7 +112,7 @@ TEST(Erosion, loadsEndWithTheElementThatCarriedThem)
   EXPECT_EQ(solver.contact().faces().size(), 0u);
 }
 
-TEST(Erosion, damageIsAGateForTheOtherLimits)
+TEST_P(ErodingBodies, damageIsAGateForTheOtherLimits)
 {
   // Concrete that is torn: every stretch is beyond the limit of the volume, but only what is broken
   // dies.
@@ -155,7 +160,7 @@ TEST(Erosion, damageIsAGateForTheOtherLimits)
             0);
 }
 
-TEST(Erosion, hasTheSameBitsOnAnyRanks)
+TEST_P(ErodingBodies, hasTheSameBitsOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);
   for (const auto& scene : {stretchedColumn, pressed})

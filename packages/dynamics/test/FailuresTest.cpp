@@ -20,7 +20,8 @@ std::string failureOf(Solver& solver, Recorder& observer)
   {
     EXPECT_EQ(error.code(), ExitCode::Computation);
     EXPECT_TRUE(error.onAllRanks());
-    EXPECT_EQ(observer.ending, "failed"); // observers close their files before the error is thrown
+    EXPECT_EQ(observer.ending.how,
+              "failed"); // observers close their files before the error is thrown
     return error.what();
   }
   return "";

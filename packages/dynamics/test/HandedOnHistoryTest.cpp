@@ -64,9 +64,14 @@ PlaneOfBlocks planeOnFloor(const Solver& solver, int brick)
     return {};
   return {found[0], found[1], found[2], found[3]};
 }
+
+struct HandedOnHistory : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, HandedOnHistory, WithForces::both(), WithForces::name);
 } // namespace
 
-TEST(HandedOnHistory, aBrickThatFallsBesideAShearedOneGetsNothing)
+TEST_P(HandedOnHistory, aBrickThatFallsBesideAShearedOneGetsNothing)
 {
   const Comm comm;
   for (const int dimension : {2, 3})
@@ -97,7 +102,7 @@ TEST(HandedOnHistory, aBrickThatFallsBesideAShearedOneGetsNothing)
   }
 }
 
-TEST(HandedOnHistory, aDeclaredGapDoesNotLiftAnotherBrickOfTheSameFace)
+TEST_P(HandedOnHistory, aDeclaredGapDoesNotLiftAnotherBrickOfTheSameFace)
 {
   const Comm comm;
   for (const int dimension : {2, 3})
@@ -147,7 +152,7 @@ Model slider(int dimension, bool seam, const Comm& comm)
 }
 } // namespace
 
-TEST(HandedOnHistory, aBlockCarriesItsShearTractionOverMeshLinesAndSeams)
+TEST_P(HandedOnHistory, aBlockCarriesItsShearTractionOverMeshLinesAndSeams)
 {
   const Comm comm;
   for (const int dimension : {2, 3})
@@ -190,7 +195,7 @@ TEST(HandedOnHistory, aBlockCarriesItsShearTractionOverMeshLinesAndSeams)
     }
 }
 
-TEST(HandedOnHistory, aBondGoesOnOverMeshLines)
+TEST_P(HandedOnHistory, aBondGoesOnOverMeshLines)
 {
   // Two cubes whose meshes do not match, joined by a bond that holds at any stress and gives way by
   // centimetres: however far they are displaced along the joint, all of the area that they share is

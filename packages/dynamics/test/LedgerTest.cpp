@@ -72,6 +72,48 @@ TEST(Energy, ofTheStartIsThatOfTheGivenVelocities)
   EXPECT_EQ(solver.energy().error(), 0);
 }
 
+TEST(Reactions, areTheImpulsesThatConditionsOnTheMotionGive)
+{
+  // Weight and reactions are all that acts from outside: in each cycle both together give the
+  // change of the impulse, over the time of the kick. The foot goes down along z, and its nodes on
+  // a symmetry plane are held along y there; nothing holds them along x.
+  const Comm comm;
+  Model model = slidingCubes(comm);
+  model.conditions.gravity = {1, 2, -10};
+  PrescribedVelocity foot;
+  foot.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z == 0; });
+  foot.components = {false, false, true};
+  foot.velocity[2] = [](Real t) { return -20 * t; };
+  model.conditions.velocities = {foot};
+  model.conditions.symmetries = {
+      {ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.y == 0; }), {0, 1, 0}}};
+  const Real mass = 2000;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Vec3 largestReaction{};
+  for (int cycle = 0; cycle < 50; ++cycle)
+  {
+    const Vec3 before = solver.momenta().impulse;
+    solver.advance();
+    const Real kick = 0.5 * (solver.clock().step + solver.clock().nextStep);
+    std::vector<ExactSum> sums(3);
+    for (int n = 0; n < solver.layout().owned(); ++n)
+      for (int c = 0; c < 3; ++c)
+        sums[c].add(solver.reaction(n)[c]);
+    const std::vector<Real> reaction = ExactSum::overRanks(sums, comm);
+    const Vec3 gained = solver.momenta().impulse - before;
+    const Vec3 weight{mass, 2 * mass, -10 * mass};
+    for (int c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(gained[c], kick * (reaction[c] + weight[c]), 1e-12 * kick * 1e6);
+      largestReaction[c] = std::max(largestReaction[c], std::abs(reaction[c]));
+    }
+  }
+  EXPECT_EQ(largestReaction.x, 0);
+  EXPECT_GT(largestReaction.y, 1e3);
+  EXPECT_GT(largestReaction.z, 1e5);
+}
+
 TEST(Momenta, changeByTheImpulsesToRoundOff)
 {
   const Comm comm;

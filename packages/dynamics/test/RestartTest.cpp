@@ -68,6 +68,35 @@ TEST(Restart, ofSlidingCubesHasTheBitsOfTheStraightRun)
                  40, {1, 5, 18, 39});
 }
 
+TEST(Restart, keepsReactions)
+{
+  const Comm comm;
+  const TestFolder folder(comm);
+  const auto make = [&](const char* method)
+  {
+    Model model = slidingCubes(comm, method);
+    PrescribedVelocity foot;
+    foot.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z == 0; });
+    model.conditions.velocities = {foot};
+    return model;
+  };
+  const auto total = [&](const Solver& solver)
+  {
+    std::vector<ExactSum> sums(1);
+    for (int n = 0; n < solver.layout().owned(); ++n)
+      sums[0].add(solver.reaction(n).z);
+    return ExactSum::overRanks(sums, comm)[0];
+  };
+  Solver straight(make("multijagged"), comm);
+  straight.prepare();
+  cycles(straight, 20);
+  save(straight, folder / "held", comm);
+  Solver again(make("rcb"), comm);
+  again.restore(CheckpointReader(folder / "held", comm));
+  EXPECT_GT(std::abs(total(straight)), 1e4);
+  EXPECT_EQ(total(again), total(straight));
+}
+
 TEST(Restart, withErosionRigidBodiesLoadsAndDampingHasTheBitsOfTheStraightRun)
 {
   const Comm comm;

@@ -5,6 +5,8 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_partition/Partition.hpp>
 
+#include <gtest/gtest.h>
+
 #include <BoxMesh.hpp>
 #include <functional>
 #include <string>
@@ -23,12 +25,33 @@ inline std::vector<int> ownersBy(const std::string& method, const Mesh& mesh, co
   return owners;
 }
 
+/// Tests of what contact by either way of computing forces has in common: while one of them runs,
+/// models are made with the usual options of its parameter.
+struct WithForces : testing::TestWithParam<ContactOptions::Forces>
+{
+  WithForces() { usual = ContactOptions::with(GetParam()); }
+  ~WithForces() override { usual = {}; }
+  static bool potential() { return usual.forces == ContactOptions::Forces::Potential; }
+
+  static auto both()
+  {
+    return testing::Values(ContactOptions::Forces::Potential, ContactOptions::Forces::CommonNormal);
+  }
+  static std::string name(const testing::TestParamInfo<ParamType>& info)
+  {
+    return info.param == ContactOptions::Forces::Potential ? "potential" : "commonNormal";
+  }
+
+  inline static ContactOptions usual;
+};
+
 /// Every block of the same elastic rock (1 GPa, 0.25, 1000 kg/m^3: waves run at 1095 m/s), every
 /// pair of blocks with the same penalty law.
 inline Model rockModel(const Mesh& mesh, const Comm& comm, Real friction = 0,
                        const std::string& method = "multijagged")
 {
   Model model;
+  model.contact = WithForces::usual;
   model.mesh = distribute(mesh, ownersBy(method, mesh, comm), comm.rank());
   model.blocks.resize(mesh.blocks.size());
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -169,9 +192,9 @@ inline void cycles(Solver& solver, int n)
 struct Recorder : Observer
 {
   int starts = 0, ends = 0;
-  std::string ending;
+  Ending ending;
   void start(const Solver&) override { ++starts; }
   void endOfCycle(const Solver&) override { ++ends; }
-  void finish(const Solver&, const std::string& how) override { ending = how; }
+  void finish(const Solver&, const Ending& how) override { ending = how; }
 };
 } // namespace coplane

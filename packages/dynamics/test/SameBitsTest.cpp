@@ -40,9 +40,18 @@ Model pressedCubes(const Comm& comm, int searchEvery, int n)
   model.searchEvery = searchEvery;
   return model;
 }
+
+struct SameBits : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, SameBits, WithForces::both(), WithForces::name);
+struct SearchInterval : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, SearchInterval, WithForces::both(), WithForces::name);
 } // namespace
 
-TEST(SameBits, cubesInFrictionalContactOnAnyRanks)
+TEST_P(SameBits, cubesInFrictionalContactOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);
   const std::uint64_t expected = hashAfter(slidingCubes(alone), alone, 50);
@@ -50,7 +59,7 @@ TEST(SameBits, cubesInFrictionalContactOnAnyRanks)
   EXPECT_EQ(hashAfter(slidingCubes(world, "rcb"), world, 50), expected);
 }
 
-TEST(SameBits, cubesWhoseNodesAreScatteredOverTheRanks)
+TEST_P(SameBits, cubesWhoseNodesAreScatteredOverTheRanks)
 {
   // Every element is shared, every face is a ghost somewhere.
   const Comm world, alone(MPI_COMM_SELF);
@@ -60,7 +69,7 @@ TEST(SameBits, cubesWhoseNodesAreScatteredOverTheRanks)
   EXPECT_EQ(hashAfter(std::move(model), world, 50), hashAfter(slidingCubes(alone), alone, 50));
 }
 
-TEST(SameBits, whenARankOwnsNothing)
+TEST_P(SameBits, whenARankOwnsNothing)
 {
   const Comm world, alone(MPI_COMM_SELF);
   Model model = slidingCubes(world);
@@ -69,13 +78,13 @@ TEST(SameBits, whenARankOwnsNothing)
   EXPECT_EQ(hashAfter(std::move(model), world, 50), hashAfter(slidingCubes(alone), alone, 50));
 }
 
-TEST(SameBits, platesInTwoDimensionsOnAnyRanks)
+TEST_P(SameBits, platesInTwoDimensionsOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);
   EXPECT_EQ(hashAfter(slidingPlates(world), world, 50), hashAfter(slidingPlates(alone), alone, 50));
 }
 
-TEST(SameBits, onBothBackEnds)
+TEST_P(SameBits, onBothBackEnds)
 {
   const Comm comm;
   const Backend before = currentBackend();
@@ -87,7 +96,7 @@ TEST(SameBits, onBothBackEnds)
   EXPECT_EQ(serial, threads);
 }
 
-TEST(SameBits, energiesAndMomentaOnAnyRanks)
+TEST_P(SameBits, energiesAndMomentaOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);
   Solver one(slidingCubes(alone), alone), many(slidingCubes(world), world);
@@ -125,7 +134,7 @@ TEST(StateHash, changesWithTheState)
   EXPECT_NE(solver.stateHash(), before);
 }
 
-TEST(SearchInterval, doesNotChangeNodesWhenNothingSlides)
+TEST_P(SearchInterval, doesNotChangeNodesWhenNothingSlides)
 {
   const Comm comm;
   std::vector<std::uint64_t> hashes;
@@ -145,7 +154,7 @@ TEST(SearchInterval, doesNotChangeNodesWhenNothingSlides)
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-TEST(SearchInterval, doesNotChangeNodesWithoutInheritance)
+TEST_P(SearchInterval, doesNotChangeNodesWithoutInheritance)
 {
   // Faces of 2 x 2 elements. With inheritance a face that comes to overlap its partner's neighbour
   // by a sliver takes over history at searches, so a single search at the start may differ there.
@@ -165,7 +174,7 @@ TEST(SearchInterval, doesNotChangeNodesWithoutInheritance)
   EXPECT_EQ(hashes[2], hashes[0]);
 }
 
-TEST(SearchInterval, isShortenedByMotionBeyondHalfTheSkin)
+TEST_P(SearchInterval, isShortenedByMotionBeyondHalfTheSkin)
 {
   // The skin is 5 cm; at 1 m/s in steps of 0.1 ms half of it is passed in cycle 251.
   const Comm comm;

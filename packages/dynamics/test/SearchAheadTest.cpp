@@ -6,7 +6,15 @@
 
 namespace coplane
 {
-TEST(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
+namespace
+{
+struct SearchAhead : WithForces
+{
+};
+INSTANTIATE_TEST_SUITE_P(, SearchAhead, WithForces::both(), WithForces::name);
+} // namespace
+
+TEST_P(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
 {
   // Waves run at 1095 m/s through elements of 0.5 m: by motion a step is 0.125 ms, in which 800 m/s
   // are 0.1 m, twice the skin of slow bodies. From gaps of all parts of a step, as the first step
@@ -60,7 +68,7 @@ TEST(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
       }
 }
 
-TEST(SearchAhead, aBondThatIsWideOpenDoesNotWidenTheSearchOfOthers)
+TEST_P(SearchAhead, aBondThatIsWideOpenDoesNotWidenTheSearchOfOthers)
 {
   const Comm comm;
   const auto slotsAfter = [&](bool bonded)

@@ -108,7 +108,7 @@ TEST(Run, withoutSignalsCompletes)
   EXPECT_EQ(solver.run(observer), ExitCode::Success);
   EXPECT_EQ(observer.starts, 1);
   EXPECT_EQ(observer.ends, 10);
-  EXPECT_EQ(observer.ending, "completed");
+  EXPECT_EQ(observer.ending.how, "completed");
 }
 
 TEST(Run, stopsOnAllRanksWhenOneOfThemIsToldTo)
@@ -121,7 +121,7 @@ TEST(Run, stopsOnAllRanksWhenOneOfThemIsToldTo)
   Signaller observer(SIGTERM, comm.rank() == comm.size() - 1);
   EXPECT_EQ(solver.run(observer), ExitCode::Interrupted);
   EXPECT_EQ(observer.ends, 4);
-  EXPECT_EQ(observer.ending, "interrupted");
+  EXPECT_EQ(observer.ending.how, "interrupted");
 }
 
 TEST(Run, endsOnAllRanksToGoOnLaterWhenOneOfThemIsToldTo)

@@ -187,7 +187,7 @@ TEST(MeshFile, aProbeTellsHowAProgramEnds)
   EXPECT_EQ(shell("true"), ProgramEnd::Success);
   EXPECT_EQ(shell("exit 3"), ProgramEnd::Failure);
   EXPECT_EQ(shell("kill -SEGV $$"), ProgramEnd::Failure);
-  EXPECT_EQ(runProgram({"/nowhere/coplane_mesh", "probe"}, 60), ProgramEnd::NotStarted);
+  EXPECT_EQ(runProgram({"/nowhere/coplane_mesh", "probe"}, 60), ProgramEnd::Unknown);
   EXPECT_EQ(runProgram({"/bin/sleep", "60"}, 0.05), ProgramEnd::TooLong);
 }
 

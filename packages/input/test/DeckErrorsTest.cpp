@@ -1,5 +1,11 @@
 #include "TestDecks.hpp"
 
+#include <coplane_joint/JointModel.hpp>
+#include <coplane_material/MaterialModel.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace coplane
 {
 namespace
@@ -26,6 +32,28 @@ std::string errorOfMaterial(const std::string& content)
 std::string errorOfJoint(const std::string& content)
 {
   return errorWith("joints:\n  j: {" + content + "}\n");
+}
+
+/// One text of all models, as messages list them: a new model needs no new message here.
+template <class Model, class Base>
+std::string joined(const std::vector<Model>& models, std::string Base::*text, const char* between)
+{
+  std::vector<std::string> texts;
+  for (const Model& model : models)
+    texts.push_back(model.*text);
+  return fmt::format("{}", fmt::join(texts, between));
+}
+
+/// The models that have a key of this name.
+template <class Model>
+std::string ownersOf(const std::string& name, const std::vector<Model>& models)
+{
+  std::vector<std::string> owners;
+  for (const Model& model : models)
+    for (const Key& key : model.keys)
+      if (key.name == name)
+        owners.push_back(model.name);
+  return fmt::format("{}", fmt::join(owners, ", "));
 }
 
 TEST(DeckErrors, theLeastDeckHasNone)
@@ -86,26 +114,27 @@ TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
 
 TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
 {
-  EXPECT_EQ(errorOf("mesh: wall.e\n"
-                    "materials:\n"
-                    "  steel: {model: j3, density: -1, youngs_modulus: 200e9}\n"
-                    "blocks: {bar: {material: stel}}\n"
-                    "time: {end: 0}\n"
-                    "tilte: x\n"),
-            "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
-            "Accepted: one of linear_elastic, j2, neo_hookean, drucker_prager, mohr_coulomb, "
-            "ubiquitous_joints, hoek_brown, johnson_cook, pseudo_cap, hjc, fluid, ideal_gas, "
-            "jwl.\n"
-            "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
-            "0 [kg/m^3].\n"
-            "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
-            "'steel'? There is: steel.\n"
-            "wall.yaml:5:13: time.end = '0' is out of range; accepted: a number > 0 [s].\n"
-            "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: define, "
-            "title, mesh, "
-            "geometry, "
-            "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
-            "time, output, history, checkpoint, partition.");
+  EXPECT_EQ(
+      errorOf("mesh: wall.e\n"
+              "materials:\n"
+              "  steel: {model: j3, density: -1, youngs_modulus: 200e9}\n"
+              "blocks: {bar: {material: stel}}\n"
+              "time: {end: 0}\n"
+              "tilte: x\n"),
+      "wall.yaml:3:18: materials.steel.model = 'j3' is not known. Did you mean 'j2'? "
+      "Accepted: one of " +
+          joined(materialModels(), &MaterialModel::name, ", ") +
+          ".\n"
+          "wall.yaml:3:31: materials.steel.density = '-1' is out of range; accepted: a number > "
+          "0 [kg/m^3].\n"
+          "wall.yaml:4:26: blocks.bar.material = 'stel' is not a card in materials. Did you mean "
+          "'steel'? There is: steel.\n"
+          "wall.yaml:5:13: time.end = '0' is out of range; accepted: a number > 0 [s].\n"
+          "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: define, "
+          "title, mesh, "
+          "geometry, "
+          "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
+          "time, output, history, checkpoint, partition.");
 }
 
 TEST(DeckErrors, controlCharactersAreRefusedWithTheirLine)
@@ -324,11 +353,11 @@ TEST(DeckErrors, modulesDensitiesAndRatiosOutOfRange)
 
 TEST(DeckErrors, aKeyOfAnotherModel)
 {
-  EXPECT_EQ(
-      errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
-                      "poisson_ratio: 0, yield_stress: 1"),
-      "wall.yaml:6:79: materials.m.yield_stress belongs to model: j2, johnson_cook, but model is "
-      "linear_elastic here; remove it or change model.");
+  EXPECT_EQ(errorOfMaterial("model: linear_elastic, density: 1, youngs_modulus: 1, "
+                            "poisson_ratio: 0, yield_stress: 1"),
+            "wall.yaml:6:79: materials.m.yield_stress belongs to model: " +
+                ownersOf("yield_stress", materialModels()) +
+                ", but model is linear_elastic here; remove it or change model.");
 }
 
 TEST(DeckErrors, aKeyThatTheModelNeeds)
@@ -345,24 +374,29 @@ TEST(DeckErrors, aKeyThatTheModelNeeds)
 TEST(DeckErrors, aMissingModelIsTheOnlyComplaintAboutIt)
 {
   EXPECT_EQ(errorOfMaterial("density: 1, youngs_modulus: 1, poisson_ratio: 0, yield_stress: 1"),
-            "wall.yaml:6:6: materials.m.model is missing; accepted: one of linear_elastic, j2, "
-            "neo_hookean, drucker_prager, mohr_coulomb, ubiquitous_joints, hoek_brown, "
-            "johnson_cook, pseudo_cap, hjc, "
-            "fluid, "
-            "ideal_gas, jwl: "
-            "law of the continuum: Hooke; von Mises with hardening; rubber; Drucker and Prager; "
-            "Mohr and Coulomb; weak planes of one direction in such a matrix; Hoek and Brown's "
-            "rock mass; Johnson and Cook; concrete with a "
-            "pseudo-cap; concrete of "
-            "Holmquist, Johnson and Cook; an equation of state without strength; gas; high "
-            "explosive with programmed burn.");
+            "wall.yaml:6:6: materials.m.model is missing; accepted: one of " +
+                joined(materialModels(), &MaterialModel::name, ", ") + ": law of the continuum: " +
+                joined(materialModels(), &MaterialModel::meaning, "; ") + ".");
 }
 
 TEST(DeckErrors, aJointWithoutModelIsAPenalty)
 {
-  EXPECT_EQ(errorOfJoint("normal_stiffness: 1"), "wall.yaml:6:7: joints.j.normal_stiffness belongs "
-                                                 "to model: linear, mortar, bilinear, but model "
-                                                 "is penalty here; remove it or change model.");
+  EXPECT_EQ(errorOfJoint("normal_stiffness: 1"),
+            "wall.yaml:6:7: joints.j.normal_stiffness belongs to model: " +
+                ownersOf("normal_stiffness", jointModels()) +
+                ", but model is penalty here; remove it or change model.");
+}
+
+TEST(DeckErrors, theNameOfAModelInAnotherProgram)
+{
+  EXPECT_EQ(errorOfMaterial("model: von_mises, density: 1"),
+            "wall.yaml:6:14: materials.m.model = 'von_mises' is not known. It is called 'j2' here. "
+            "Accepted: one of " +
+                joined(materialModels(), &MaterialModel::name, ", ") + ".");
+  EXPECT_EQ(errorOfJoint("model: coulomb"),
+            "wall.yaml:6:14: joints.j.model = 'coulomb' is not known. It is called 'linear' here. "
+            "Accepted: one of " +
+                joined(jointModels(), &JointModel::name, ", ") + ".");
 }
 
 TEST(DeckErrors, aStiffnessCapBelowTheInitialStiffness)
@@ -412,6 +446,13 @@ TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
             "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block.\n"
             "wall.yaml:5:48: history.probes.1.node_set and history.probes.1.block exclude each "
             "other; keep one of them.");
+}
+
+TEST(DeckErrors, aReactionOfABlock)
+{
+  EXPECT_EQ(errorWith("history: {probes: [{name: a, block: b, reaction: true}]}\n"),
+            "wall.yaml:5:50: history.probes.0.reaction belongs to node_set; name a node set that "
+            "conditions hold, or remove it.");
 }
 
 TEST(DeckErrors, twoProbesOfOneName)

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include <functional>
+#include <set>
 #include <sstream>
 
 namespace coplane
@@ -198,7 +199,7 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction);
   return out;
 }
 
@@ -341,6 +342,25 @@ TEST(DeckKeys, eachKeyIsDocumented)
                                 key.kind == KeyKind::PlaceFunctions;
             EXPECT_EQ(number, !key.unit.empty()) << key.name << " [" << key.unit << "]";
           });
+}
+
+/// Names that other programs have for models lead to one model, and hide none of ours.
+template <class Model>
+void expectClearHabits(const std::vector<Model>& models)
+{
+  std::set<std::string> seen;
+  for (const Model& model : models)
+    for (const std::string& habit : model.habits)
+    {
+      EXPECT_EQ(findModel(models, habit), nullptr) << habit;
+      EXPECT_TRUE(seen.insert(habit).second) << habit;
+    }
+}
+
+TEST(DeckKeys, namesOfModelsInOtherProgramsAreClear)
+{
+  expectClearHabits(materialModels());
+  expectClearHabits(jointModels());
 }
 
 TEST(DeckKeys, modelsOfAKeyAreChoicesOfItsGroup)

@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES schema core PRIVATE_LIBRARIES fmt::fmt)
+coplane_dependencies(PACKAGES schema geometry core PRIVATE_LIBRARIES fmt::fmt)

@@ -1,14 +1,17 @@
 #include "TwoCubes.hpp"
 
 #include <coplane_core/DraftName.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/MultiObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
+#include <coplane_output/RunRecord.hpp>
 #include <coplane_output/TablesObserver.hpp>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <csignal>
 #include <filesystem>
@@ -51,11 +54,13 @@ struct Recorder : Observer
   };
   std::string& calls;
   End end;
+  Ending ended = {};
   Recorder(std::string& c, End e) : calls(c), end(e) {}
   void start(const Solver&) override { calls += "s"; }
   void endOfCycle(const Solver&) override { calls += "c"; }
-  void finish(const Solver&, const std::string&) override
+  void finish(const Solver&, const Ending& ending) override
   {
+    ended = ending;
     calls += "f";
     if (end == End::ErrorOfAllRanks)
       failOnAllRanks(ExitCode::Output, "disk full");
@@ -78,11 +83,11 @@ TEST(MissingFolder, ofResultsIsAnErrorOnAllRanks)
 TEST(MissingFolder, ofPlanesIsAnErrorOnAllRanks)
 {
   const Comm comm;
-  expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.pvd");
-  PlanesOptions inOneFile;
-  inOneFile.base = nowhere + "a";
-  inOneFile.format = PlanesFormat::VtkHdf;
-  expectOutputError([&] { PlanesObserver(comm, inOneFile); }, nowhere + "a_planes.xmf");
+  expectOutputError([&] { PlanesObserver(comm, {nowhere + "a", {}}); }, nowhere + "a_planes.xmf3");
+  PlanesOptions inManyFiles;
+  inManyFiles.base = nowhere + "a";
+  inManyFiles.format = PlanesFormat::Vtp;
+  expectOutputError([&] { PlanesObserver(comm, inManyFiles); }, nowhere + "a_planes.pvd");
 }
 
 TEST(MissingFolder, ofTheHistoryIsAnErrorOnAllRanks)
@@ -182,7 +187,7 @@ TEST(PlanesInOneFile, loseNoStepOnADiskThatIsFullForAWhile)
       said = error.what();
     }
     EXPECT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    planes.finish(solver, "completed");
+    planes.finish(solver, {});
     cycles = done;
     return said;
   };
@@ -200,6 +205,71 @@ TEST(PlanesInOneFile, loseNoStepOnADiskThatIsFullForAWhile)
   std::signal(SIGXFSZ, signalBefore);
 }
 
+TEST(RunRecord, thatCannotBeRenewedIsAWarningAndIsRenewedWhenThereIsRoom)
+{
+  const Comm world;
+  const TestFolder folder(world);
+  if (!world.isRoot())
+    GTEST_SKIP() << "one rank is enough";
+  const Comm comm(MPI_COMM_SELF);
+  Solver solver(cubesInContact(twoCubes(), comm), comm);
+  solver.prepare();
+  RunRecord record(comm, {folder / "a.run.json", "two cubes", "test", "a.yaml", "abc", "a.g"});
+  record.start(solver);
+  const auto read = [&] { return nlohmann::json::parse(contentOf(folder / "a.run.json")); };
+  const std::string before = contentOf(folder / "a.run.json");
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  rlimit small = limit;
+  small.rlim_cur = 100;
+  const auto signalBefore = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  record.noteLimit("something else");
+  EXPECT_NO_THROW(record.renew(3));
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  std::signal(SIGXFSZ, signalBefore);
+  EXPECT_EQ(contentOf(folder / "a.run.json"), before);
+  EXPECT_FALSE(std::filesystem::exists(draftOf(folder / "a.run.json")));
+  record.renew(2);
+  const auto renewed = read();
+  EXPECT_EQ(renewed["ending"], "running");
+  EXPECT_EQ(renewed["seconds_left"], 2);
+  EXPECT_EQ(renewed["warnings"]["the record was not renewed"], 1);
+  EXPECT_NE(renewed["messages"].back().get<std::string>().find("File too large"),
+            std::string::npos);
+  ASSERT_EQ(renewed["step_limits"].size(), 2U);
+  EXPECT_EQ(renewed["step_limits"][1]["limited_by"], "something else");
+  record.finish(solver, {"failed", ExitCode::Computation, "it broke"});
+  const auto ended = read();
+  EXPECT_EQ(ended["ending"], "failed");
+  EXPECT_EQ(ended["exit_code"], 6);
+  EXPECT_EQ(ended["reason"], "it broke");
+  EXPECT_FALSE(ended.contains("seconds_left"));
+  EXPECT_EQ(ended["step_limits"][0]["limited_by"], "something else"); // the other one was seen last
+  EXPECT_EQ(ended["step_limits"][1]["looks"], 2);
+}
+
+TEST(RunRecord, keepsTheLastOfManyLimits)
+{
+  const Comm world;
+  const TestFolder folder(world);
+  if (!world.isRoot())
+    GTEST_SKIP() << "one rank is enough";
+  const Comm comm(MPI_COMM_SELF);
+  Solver solver(cubesInContact(twoCubes(), comm), comm);
+  solver.prepare();
+  RunRecord record(comm, {folder / "a.run.json", "two cubes", "test", "a.yaml", "abc", "a.g"});
+  record.start(solver);
+  for (int n = 0; n < 100; ++n)
+    record.noteLimit(std::to_string(n));
+  record.renew(infinity);
+  const auto json = nlohmann::json::parse(contentOf(folder / "a.run.json"));
+  ASSERT_EQ(json["step_limits"].size(), 50U);
+  EXPECT_EQ(json["step_limits"][0]["limited_by"], "50");
+  EXPECT_EQ(json["step_limits"][49]["limited_by"], "99");
+  EXPECT_FALSE(json.contains("seconds_left"));
+}
+
 TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)
 {
   const Comm comm;
@@ -207,13 +277,18 @@ TEST(MultiObserver, finishesAllObserversWhenOneFailsAndThrowsItsError)
   const Solver solver(cubesInContact(mesh, comm), comm);
   std::string calls;
   MultiObserver observers;
-  observers.add(std::make_unique<Recorder>(calls, Recorder::End::Well));
+  auto record = std::make_unique<Recorder>(calls, Recorder::End::Well);
+  const Recorder& last = *record;
+  observers.add(std::move(record));
   observers.add(
       std::make_unique<Recorder>(calls, Recorder::End::ErrorOfAllRanks)); // is the first to finish
   observers.start(solver);
   observers.endOfCycle(solver);
-  EXPECT_THROW(observers.finish(solver, "completed"), Error);
+  EXPECT_THROW(observers.finish(solver, {}), Error);
   EXPECT_EQ(calls, "ssccff");
+  EXPECT_EQ(last.ended.how, "failed"); // so that a record does not say that all went well
+  EXPECT_EQ(last.ended.code, ExitCode::Output);
+  EXPECT_EQ(last.ended.reason, "disk full");
 }
 
 TEST(MultiObserver, anErrorOfOneRankLeavesAtOnce)
@@ -228,7 +303,7 @@ TEST(MultiObserver, anErrorOfOneRankLeavesAtOnce)
     MultiObserver observers;
     observers.add(std::make_unique<Recorder>(calls, Recorder::End::Well));
     observers.add(std::make_unique<Recorder>(calls, end)); // is the first to finish
-    EXPECT_THROW(observers.finish(solver, "completed"), std::exception);
+    EXPECT_THROW(observers.finish(solver, {}), std::exception);
     EXPECT_EQ(calls, "f");
   }
 }

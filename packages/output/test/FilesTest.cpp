@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <map>
 
 namespace coplane
@@ -30,23 +31,27 @@ void run(const Comm& comm, const std::string& base)
   MultiObserver observers;
   observers.add(std::make_unique<ResultsObserver>(
       comm, slice, ResultsOptions{base + ".e", when, false, {"command: test"}}));
+  observers.add(
+      std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when, "", "", PlanesFormat::Vtp}));
   observers.add(std::make_unique<PlanesObserver>(comm, PlanesOptions{base, when}));
-  observers.add(std::make_unique<PlanesObserver>(
-      comm, PlanesOptions{base, when, "", "", PlanesFormat::VtkHdf}));
   HistoryOptions history{base + ".csv", 0, {{"top", 0, -1}, {"lower", -1, 0}}, {"rough"}, true};
   observers.add(std::make_unique<HistoryObserver>(comm, history));
   observers.add(std::make_unique<TablesObserver>(comm, TablesOptions{base, 0, true, true, true}));
-  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{0}));
-  observers.add(std::make_unique<RunRecord>(
-      comm, RunRecordOptions{base + ".run.json", "two cubes", "test", "a.yaml", "abc", "a.g"}));
+  auto record = std::make_unique<RunRecord>(
+      comm, RunRecordOptions{base + ".run.json", "two cubes", "test", "a.yaml", "abc", "a.g"});
+  RunRecord* const ofRun = record.get();
+  observers.add(std::move(record));
+  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{0}, ofRun));
   solver.prepare();
   observers.start(solver);
   for (int cycle = 0; cycle < cycles; ++cycle)
   {
     solver.advance();
     observers.endOfCycle(solver);
+    if (cycle + 1 == cycles && comm.isRoot())
+      std::filesystem::copy_file(base + ".run.json", base + ".running.json");
   }
-  observers.finish(solver, "completed");
+  observers.finish(solver, {});
 }
 
 /// Files of a run on all ranks ("all") and of one on rank 0 alone ("one"), made once.
@@ -215,10 +220,10 @@ TEST_F(Files, planesInOneFileAreTheSameBytesOnAnyNumberOfRanks)
   EXPECT_FALSE(all.empty());
   EXPECT_TRUE(all == contentOf(file("one_planes.vtkhdf")));
   // Every table of the index names the file.
-  std::string index = contentOf(file("all_planes.xmf"));
+  std::string index = contentOf(file("all_planes.xmf3"));
   for (std::size_t at; (at = index.find(">all_")) != std::string::npos;)
     index.replace(at, 5, ">one_");
-  EXPECT_TRUE(index == contentOf(file("one_planes.xmf")));
+  EXPECT_TRUE(index == contentOf(file("one_planes.xmf3")));
 }
 
 TEST_F(Files, historyIsTheSameTextOnAnyNumberOfRanks)
@@ -461,5 +466,23 @@ TEST_F(Files, runRecordTellsHowTheRunEnded)
   // 3 pairs share area, and they touch without a gap.
   EXPECT_EQ(json["census"]["gaps"]["count"], 9);
   EXPECT_EQ(json["census"]["gaps"]["quantiles_m"][6], 0.0);
+}
+
+TEST_F(Files, runRecordIsRenewedWhileTheRunGoesOn)
+{
+  const auto json = nlohmann::json::parse(contentOf(file("all.running.json")));
+  EXPECT_EQ(json["ending"], "running");
+  EXPECT_FALSE(json.contains("exit_code"));
+  EXPECT_GT(json["seconds_left"].get<Real>(), 0);
+  EXPECT_TRUE(json["messages"].is_array());
+  EXPECT_TRUE(json["warnings"].is_object());
+  std::int64_t looks = 0;
+  for (const auto& limit : json["step_limits"])
+  {
+    EXPECT_NE(limit["limited_by"].get<std::string>().find("node"), std::string::npos) << limit;
+    looks += limit["looks"].get<std::int64_t>();
+  }
+  EXPECT_EQ(looks, 1 + cycles); // at the start and with each line
+  EXPECT_EQ(json["census"], nlohmann::json::parse(contentOf(file("all.run.json")))["census"]);
 }
 } // namespace coplane

@@ -24,6 +24,23 @@ TEST(OutputSchedule, firstCycleAtOrAfterEachMultipleIsDue)
   EXPECT_EQ(dueCycles(OutputSchedule({2.5, {}}), 10), (std::vector<int>{3, 5, 8, 10}));
 }
 
+TEST(OutputSchedule, stepsAreCountedBeforehand)
+{
+  for (const OutputTimes& when :
+       {OutputTimes{0, {}}, OutputTimes{0, {0.3, 0.7}}, OutputTimes{0.1, {}}, OutputTimes{0.3, {}},
+        OutputTimes{0.1, {0.55, 0.3, 0.999}}, OutputTimes{2, {5}}})
+    for (const double begin : {0.0, 0.25})
+    {
+      OutputSchedule schedule(when);
+      schedule.startAt(begin);
+      constexpr int cycles = 10000;
+      int steps = 1; // the first state
+      for (int cycle = 1; cycle <= cycles; ++cycle)
+        steps += schedule.isDue(begin + (1 - begin) * cycle / cycles) || cycle == cycles;
+      EXPECT_EQ(outputSteps(when, begin, 1), steps) << when.every << " from " << begin;
+    }
+}
+
 TEST(OutputSchedule, explicitTimesAreDueInAnyOrder)
 {
   EXPECT_EQ(dueCycles(OutputSchedule({0, {7.2, 3}}), 10), (std::vector<int>{3, 8}));

@@ -25,7 +25,7 @@ TEST(Series, aRestartLeavesOnlyThePartsThatItsCheckpointKnows)
     ResultsObserver first(comm, slice, options);
     first.start(solver);
     first.savePosition(positions);
-    first.finish(solver, "completed");
+    first.finish(solver, {});
   }
   const std::string foreign = resultsPart(file, 4), text = "of the user, who calls files so";
   if (comm.isRoot())

@@ -57,6 +57,11 @@ class Results:
     def element_ids(self):
         return self._ids("elem_num_map", len(self.file.dimensions["num_elem"]))
 
+    @property
+    def block_ids(self):
+        """Of the blocks in their order."""
+        return self._ids("eb_prop1", len(self.blocks))
+
     def ids_of(self, block):
         """Ids of the elements of a block: blocks stand one after the other in the file."""
         counts = [len(self.connectivity(name)) for name in self.blocks]
@@ -78,6 +83,12 @@ class Results:
         """One value per side of a side set."""
         number = self.side_names.index(name) + 1
         return self._values(f"vals_sset_var{number}ss{self.side_sets.index(side_set) + 1}", float, step)
+
+    def attribute(self, block, name):
+        """An attribute of the elements of a block, such as `body_id`: one value per element; None when the block has none of this name."""
+        number = self.blocks.index(block) + 1
+        names = self._names(f"attrib_name{number}")
+        return self.file[f"attrib{number}"][:, names.index(name)] if name in names else None
 
     def whole(self, name):
         """A global variable, such as `time_step`: one value per step."""
@@ -158,6 +169,10 @@ class Series:
     def element_ids(self):
         return numpy.concatenate([self.ids_of(block) for block in self.blocks])
 
+    @property
+    def block_ids(self):
+        return self.parts[0][0].block_ids
+
     def ids_of(self, block):
         return self._union(file.ids_of(block) for file in self.parts[0])
 
@@ -168,6 +183,12 @@ class Series:
     def element(self, block, name, step=-1):
         part, local = self._at(step)
         return self._joined(part, self.ids_of(block), lambda file: file.ids_of(block), lambda file: file.element(block, name, local))
+
+    def attribute(self, block, name):
+        files = [file for file in self.parts[0] if len(file.ids_of(block))]
+        if any(file.attribute(block, name) is None for file in files):
+            return None
+        return self._joined(files, self.ids_of(block), lambda file: file.ids_of(block), lambda file: file.attribute(block, name))
 
     def connectivity(self, block):
         return self._joined(self.parts[0], self.ids_of(block), lambda file: file.ids_of(block),

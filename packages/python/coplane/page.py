@@ -16,11 +16,12 @@ STYLE = """
 body{margin:0 auto;max-width:1500px;padding:0 12px 40px;font:15px/1.45 system-ui,sans-serif;color:#222;background:#fff}
 h1{font-size:1.5em;margin:.7em 0 .1em}h2{font-size:1.2em;margin:1.6em 0 .4em;border-bottom:1px solid #ddd}h3{font-size:1em;margin:.2em 0}
 .grid{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr));gap:14px}.grid>*{min-width:0}
-.wide{overflow-x:auto}
+.wide{overflow-x:auto;margin-bottom:10px}nav{line-height:1.9}nav a{margin-right:14px}
 table{border-collapse:collapse;font-size:.92em}td,th{padding:2px 10px 2px 0;text-align:left;vertical-align:top;overflow-wrap:anywhere}
 th{font-weight:600}td.n,td.ok,td.look{font-variant-numeric:tabular-nums;white-space:nowrap}td:first-child{overflow-wrap:normal}tr+tr td{border-top:1px solid #eee}
 .ok{color:#18794e}.look{color:#b42318;font-weight:600}.note{color:#666}
 h1,p{overflow-wrap:anywhere}
+.columns td,.columns th{white-space:nowrap}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
 """
@@ -32,7 +33,9 @@ SCRIPT = """
     const text=await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).text();
     const script=document.createElement('script');script.textContent=text;document.head.appendChild(script);
     const figures=JSON.parse(document.getElementById('figures').textContent);
-    const draw=d=>{const f=figures[d.id];Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:false})};
+    const draw=d=>{const f=figures[d.id];
+      if(d.clientWidth<500&&f.layout.showlegend)d.style.height=Math.max(d.clientHeight,300+19*f.data.length)+'px';
+      Plotly.newPlot(d,f.data,f.layout,{responsive:true,displaylogo:false,displayModeBar:false})};
     for(const d of document.querySelectorAll('.plot'))draw(d);
     document.body.dataset.drawn=document.querySelectorAll('.plot .main-svg').length?'yes':'no';
   }catch(e){say('The plots need a browser of 2023 or later: '+e)}
@@ -81,13 +84,19 @@ class Page:
     """Sections one after the other; `text` is the file."""
 
     def __init__(self, title):
-        self.title, self.parts, self.figures = title, [], {}
+        self.title, self.parts, self.figures, self.links = title, [], {}, []
 
     def add(self, *parts):
         self.parts += parts
 
-    def head(self, title, *notes):
-        self.add(f"<h2>{escape(title)}</h2>", *(f'<p class="note">{escape(note)}</p>' for note in notes))
+    def head(self, title):
+        """A section, to which a link at the top leads."""
+        self.links.append(f'<a href="#section{len(self.links)}">{escape(title)}</a>')
+        self.add(f'<h2 id="section{len(self.links) - 1}">{escape(title)}</h2>')
+
+    def contents(self):
+        """Here stand the links to all sections."""
+        self.add(CONTENTS)
 
     def note(self, text):
         self.add(f'<p class="note">{escape(text)}</p>')
@@ -95,12 +104,15 @@ class Page:
     def plot(self, title, traces, y, x="time [s]", tall=False):
         """The figure, for `grid`."""
         name = f"plot{len(self.figures)}"
-        axis = {"gridcolor": "#eee", "zerolinecolor": "#ccc", "exponentformat": "power", "automargin": True}
+        axis = {"gridcolor": "#eee", "zerolinecolor": "#ccc", "exponentformat": "SI", "automargin": True}
+        largest = max((abs(value) for trace in traces for value in trace["y"] if isinstance(value, float)), default=0)
+        powers = y.startswith("over") or 0 < largest < 1e-9  # ratios and round-off have no prefixes
+        legend = len(traces) > 1 or not tall and traces[0]["name"].lower() != title.lower()
         self.figures[name] = {"data": traces, "layout": {
-            "margin": {"l": 55, "r": 10, "t": 30, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": True,
+            "margin": {"l": 55, "r": 10, "t": 30 if legend else 12, "b": 40}, "font": {"size": 12}, "hovermode": "closest", "showlegend": legend,
             "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "font": {"size": 11}}, "plot_bgcolor": "#fff", "paper_bgcolor": "#fff", "autosize": True,
             "xaxis": {**axis, "title": {"text": x, "standoff": 6}},
-            "yaxis": {**axis, "title": {"text": y, "standoff": 6}, **({"dtick": 1} if tall else {})}}}  # fmt: skip
+            "yaxis": {**axis, "title": {"text": y, "standoff": 6}, **({"exponentformat": "e"} if powers else {}), **({"dtick": 1} if tall else {})}}}  # fmt: skip
         height = 440 if tall else 300 + 10 * max(0, len(traces) - 4)  # room for a long legend
         return f'<div><h3>{escape(title)}</h3><div class="plot" style="height:{height}px" id="{name}"></div></div>'
 
@@ -117,7 +129,8 @@ class Page:
             return f"<td{kind}>{escape(number(value))}</td>"
 
         head = "<tr>" + "".join(f"<th>{escape(name)}</th>" for name in header) + "</tr>" if header else ""
-        return f'<div class="wide"><table>{head}{"".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)}</table></div>'
+        wraps = "" if max(map(len, [header, *rows])) < 4 else ' class="columns"'  # many columns stay whole, and scroll on a phone
+        return f'<div class="wide"><table{wraps}>{head}{"".join("<tr>" + "".join(map(cell, row)) + "</tr>" for row in rows)}</table></div>'
 
     def picture(self, name, png):
         return f'<div><h3>{escape(name)}</h3><img alt="{escape(name)}" src="data:image/png;base64,{base64.b64encode(png).decode()}"></div>'
@@ -130,10 +143,11 @@ class Page:
         return "\n".join([
             "<!DOCTYPE html>", MARK, '<html lang="en"><head><meta charset="utf-8">',
             '<meta name="viewport" content="width=device-width, initial-scale=1">', f"<title>{escape(self.title)}</title>",
-            f"<style>{STYLE}</style></head><body>", *self.parts, "<noscript>The plots need JavaScript; nothing is fetched.</noscript>",
+            f"<style>{STYLE}</style></head><body>", "\n".join(self.parts).replace(CONTENTS, f"<nav>{chr(10).join(self.links)}</nav>"), "<noscript>The plots need JavaScript; nothing is fetched.</noscript>",
             f'<script type="application/json" id="figures">{figures}</script>',
             f'<script type="text/plain" id="library">{base64.b64encode(gzip.compress(library.encode(), 9, mtime=0)).decode()}</script>',
             f"<script>{SCRIPT}</script></body></html>", ""])  # fmt: skip
 
 
 MARK = "<!-- coplane report -->"
+CONTENTS = "<!-- contents -->"

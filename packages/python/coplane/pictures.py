@@ -3,6 +3,7 @@
 import argparse
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -22,10 +23,19 @@ class PicturesFailed(RuntimeError):
     """What draws is missing, or has failed."""
 
 
+# Colours of variables, and of planes.
+PALETTES = ("green_blue", "cool_warm", "white_to_blue", "dark")
+# What of an expression is no variable: functions and vectors of ParaView's calculator.
+_FUNCTIONS = {"abs", "acos", "asin", "atan", "ceil", "cos", "cosh", "exp", "floor", "ln", "log10", "mag", "max", "min", "norm", "sin", "sinh", "sqrt",
+              "tan", "tanh", "iHat", "jHat", "kHat", "if"}  # fmt: skip
+
+
 def _steps(times, wanted, every):
-    """Positions of the steps that are nearest to the wanted times [s], or so many from the first to the last."""
+    """Positions of the steps that are nearest to the wanted times ([s], or texts such as 60%, of the last one), or so many from the first to the
+    last."""
     if wanted:
-        return sorted({int(numpy.argmin(numpy.abs(times - time))) for time in wanted})
+        places = [float(time[:-1]) / 100 * times[-1] if isinstance(time, str) and time.endswith("%") else float(time) for time in wanted]
+        return sorted({int(numpy.argmin(numpy.abs(times - place))) for place in places})
     return sorted({int(step) for step in numpy.linspace(0, len(times) - 1, min(every, len(times))).round()})
 
 
@@ -37,41 +47,69 @@ def _up(run):
 
 
 def _demand(series, color, blocks):
-    """ValueError unless there are this variable and these blocks."""
+    """ValueError unless there are the variables of a colour, which may be an expression, and these blocks."""
     names = series.element_names + series.nodal_names
-    if color != "block" and color not in names and not any(name.rsplit("_", 1)[0] == color for name in names):
-        raise ValueError(f"no variable '{color}'; there are block, {', '.join(names)}")
+    for word in [] if color == "block" else re.findall(r"[A-Za-z_]\w*", re.sub(r"\d[\d.]*(?:[eE][+-]?\d+)?", "", color)) or [color]:
+        if word not in names and not any(name.rpartition("_")[0] == word for name in names) and (word == color or word not in _FUNCTIONS):
+            raise ValueError(f"no variable '{word}'; there are block, {', '.join(names)}")
     for name in blocks:
         if name not in series.blocks:
             raise ValueError(f"no block '{name}'; there are {', '.join(series.blocks)}")
 
 
+def _planes(run, planes):
+    """Path of what ParaView opens for the planes; None where there are none. ValueError when there is no such variable of planes."""
+    if planes == "none":
+        return None
+    try:
+        series = run.planes
+    except (OSError, KeyError):
+        series = None
+    if planes not in ("dots", "arrows"):
+        fields = series.fields(-1) if series and len(series) else {}
+        if planes not in fields or planes == "Points":
+            raise ValueError(f"no variable '{planes}' of the planes; there are {', '.join(name for name in fields if name != 'Points') or 'no planes'}")
+    return series and str(series.path.resolve().with_suffix(".xmf3" if series.path.suffix == ".vtkhdf" else ".pvd"))
+
+
+def _titled(name):
+    """A variable with its unit."""
+    unit = attributes(name).get("units", "")
+    return name + (f" [{unit}]" if unit not in ("", "1") else "")
+
+
 def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None, blocks=(), camera=None, deformed=True, planes="dots",
-         size=(1200, 800), timeout=None):  # fmt: skip
-    """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time."""
+         size=(1200, 800), timeout=None, title=None, palette="green_blue", plain=(), window=None, dot_size=4, opacity=None, mirror=False,
+         legend="all"):  # fmt: skip
+    """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time.
+
+    Meanings are those of the options of `coplane pictures` (docs/user/paraview.md). camera: a name or a direction; window: 4 or 6 numbers [m];
+    legend: all, or last, in the last picture alone. PicturesFailed when ParaView is missing or fails, ValueError for what the run has not.
+    """
     missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
         raise PicturesFailed(f"{' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)")
-    runs = [run] if compare is None else [run, compare]
+    runs, told = [run] if compare is None else [run, compare], []
     for one in runs:
-        one.results  # raises for what cannot be read, before ParaView does worse
-        if not one.results_path.exists():
-            raise PicturesFailed(f"there is no shared file {one.results_path.name}")
-        _demand(one.results, color, blocks)
+        _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
+        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes),
+                     "files": [str(file.path if pathlib.Path(file.path).is_absolute() else pathlib.Path(file.path).resolve()) for part in one.results.parts for file in part]})
+    if isinstance(camera, str) and camera not in CAMERAS:
+        raise ValueError(f"no camera '{camera}'; there are {', '.join(CAMERAS)}, or a direction of three numbers")
+    want = dict(runs=told, color=color, title=title or _titled(color), range=range, palette=palette, blocks=list(blocks), plain=list(plain), camera=camera, window=window,
+                up=_up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes), dot_size=dot_size, opacity=opacity, mirror=mirror,
+                deformed=deformed, size=list(size), legend=legend, frames=_steps(numpy.array(run.results.times), times, steps))  # fmt: skip
     with tempfile.TemporaryDirectory() as draft:
-        files = _drawn(runs, draft, dict(color=color, range=range, blocks=list(blocks), camera=camera, deformed=deformed, planes=planes, size=list(size)),
-                       _steps(numpy.array(run.results.times), times, steps), timeout)  # fmt: skip
+        files = _drawn({**want, "folder": draft}, timeout)
         pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
         return [pathlib.Path(shutil.copy(file, folder)) for file in files]
 
 
-def _drawn(runs, folder, want, frames, timeout):
+def _drawn(want, timeout):
     """What ParaView draws into an empty folder."""
-    want = {"runs": [[str(one.folder.resolve()), one.results_path.stem] for one in runs], "folder": folder,
-            "frames": frames, "unit": attributes(want["color"]).get("units", ""), "up": _up(runs[0]), **want}  # fmt: skip
-    code, said = program.run_paraview(program.PARAVIEW / "draw_run.py", [json.dumps(want)], folder, timeout=timeout)
-    found = sorted(pathlib.Path(folder).glob("*.png"))
-    if code or len(found) != len(frames):
+    code, said = program.run_paraview(program.PARAVIEW / "draw_run.py", [json.dumps(want)], want["folder"], timeout=timeout)
+    found = sorted(pathlib.Path(want["folder"]).glob("*.png"))
+    if code or len(found) != len(want["frames"]):
         raise PicturesFailed(f"ParaView ended with exit code {code}: {' '.join(said.strip().splitlines()[-1:])}")
     return found
 
@@ -116,8 +154,8 @@ def _values(series, block, name, step):
         series.nodal(names[0], step)[corners].mean(axis=1)  # fmt: skip
 
 
-def vector(run, output, time=None, color="block", range=None, blocks=(), deformed=True, planes=True):
-    """A run in two dimensions as vector graphics (.svg, .pdf), at the step nearest to a time [s]; default: the last."""
+def vector(run, output, time=None, color="block", range=None, blocks=(), deformed=True, planes=True, window=None):
+    """A run in two dimensions as vector graphics (.svg, .pdf), at the step nearest to a time ([s], or as 60%); default: the last."""
     matplotlib = needs("matplotlib", "A picture as vector graphics")
     matplotlib.use("agg")
     collections = needs("matplotlib.collections", "A picture as vector graphics")
@@ -127,8 +165,10 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
     if series.dimension != 2:
         raise ValueError(f"{run.results_path.name}: vector graphics are for two dimensions; this run has three")
     _demand(series, color, blocks)
+    if color != "block" and not re.fullmatch(r"\w+", color):
+        raise ValueError(f"'{color}': vector graphics are coloured by a variable, not by an expression")
     times = numpy.array(series.times)
-    step = len(times) - 1 if time is None else int(numpy.argmin(numpy.abs(times - time)))
+    step = len(times) - 1 if time is None else _steps(times, [time], 1)[0]
     points = numpy.array(series.coordinates)[:, :2]
     if deformed:
         points = points + numpy.stack([series.nodal(f"displacement_{axis}", step) for axis in "xy"], axis=1)
@@ -145,10 +185,11 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
             polygons.set(facecolor=f"C{place}", label=name)
         axes.add_collection(polygons)
     axes.autoscale()
+    if window:
+        axes.set(xlim=window[:2], ylim=window[2:4])
     axes.set(aspect="equal", title=f"t = {1e3 * times[step]:.4g} ms", xlabel="x [m]", ylabel="y [m]")
     if values:
-        unit = attributes(color).get("units", "")
-        figure.colorbar(polygons, label=color + (f" [{unit}]" if unit not in ("", "1") else ""))
+        figure.colorbar(polygons, label=_titled(color))
     else:
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1))
     if planes and run.planes_path.exists() and len(run.planes):
@@ -166,24 +207,78 @@ def _count(word):
     return int(word)
 
 
-def _arguments():
+def _time(word):
+    try:
+        float(word[:-1] if word.endswith("%") else word)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{word}'; accepted: seconds, or with % a share of the last time") from None
+    return word
+
+
+def _share(word):
+    try:
+        if 0 < float(word) <= 1:
+            return float(word)
+    except ValueError:
+        pass
+    raise argparse.ArgumentTypeError(f"'{word}'; accepted: numbers from 0 to 1, not 0")
+
+
+def _camera(words):
+    """A name, or the direction of three numbers."""
+    if words is None or len(words) == 1 and words[0] in CAMERAS:
+        return words and words[0]
+    try:
+        direction = [float(word) for word in words]
+        if len(direction) == 3 and any(direction):
+            return direction
+    except ValueError:
+        pass
+    raise ValueError(f"--camera {' '.join(words)}: accepted are {', '.join(CAMERAS)}, or three numbers, the direction from the bodies to the camera")
+
+
+def _parser():
     parser = argparse.ArgumentParser(prog="coplane pictures", description="Draws any run: bodies, deformed, with the planes that carry traction.")
     parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files")
     parser.add_argument("--compare", metavar="OTHER", help="another run, drawn beside it at the same times")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="default: the folder pictures beside the run")
-    parser.add_argument("--times", nargs="+", type=float, default=[], metavar="T", help="times [s]; default: the first and the last")
+    parser.add_argument("--name", help="what the names of files begin with; default: that of the run")
+    parser.add_argument("--times", nargs="+", type=_time, default=[], metavar="T", help="times [s], or as 60%% of the last; default: the first and the last")
     parser.add_argument("--steps", type=_count, metavar="N", help="so many states from the first to the last; default: 2, of a film all")
-    parser.add_argument("--color", default="block", metavar="VARIABLE", help="block (default) or a variable: von_mises, velocity, damage, ...")
-    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours; default: of all that is drawn")
+    parser.add_argument("--color", default="block", metavar="VARIABLE",
+                        help="block (default), a variable (von_mises, velocity, damage, ...), or an expression of variables, such as '4*(1-damage)'")
+    parser.add_argument("--title", help="of the colours; default: the variable and its unit")
+    parser.add_argument("--range", nargs=2, type=float, metavar=("LOW", "HIGH"), help="of the colours; default: of all that is drawn, but for the highest 0.5 %%")
+    parser.add_argument("--palette", choices=PALETTES, default=PALETTES[0], help="the colours")
     parser.add_argument("--blocks", nargs="+", default=[], metavar="NAME", help="only these")
-    parser.add_argument("--camera", choices=CAMERAS, help="default: front in two dimensions, iso in three")
-    parser.add_argument("--planes", choices=("dots", "arrows", "none"), default="dots", help="as dots, as arrows of their force, or not")
+    parser.add_argument("--plain", nargs="+", default=[], metavar="NAME", help="these in a colour of their own, where others have that of a variable")
+    parser.add_argument("--camera", nargs="+", metavar="NAME",
+                        help=f"{', '.join(CAMERAS)}, or X Y Z, the direction from the bodies to the camera; default: front in two dimensions, iso in three")
+    parser.add_argument("--window", nargs="+", type=float, metavar="X",
+                        help="what is seen [m]: X0 X1 Y0 Y1, in space also with Z0 Z1; default: all bodies, with room around them")
+    parser.add_argument("--planes", default="dots", metavar="KIND",
+                        help="dots (default), arrows of their force, none, or a variable of theirs (slip, closure, ...): dots in its colours")
+    parser.add_argument("--dot-size", type=_count, default=4, metavar="N", help="points of the screen; default: 4")
+    parser.add_argument("--opacity", type=_share, metavar="X", help="of the bodies, to 1; default: 1, and 0.3 where arrows or colours of planes lie between bodies in space")
+    parser.add_argument("--mirror", action="store_true", help="also the mirror image at x = 0: the other half of a problem in axes r and z")
     parser.add_argument("--undeformed", action="store_true", help="at the coordinates of the start")
-    parser.add_argument("--size", nargs=2, type=int, default=[1200, 800], metavar=("WIDTH", "HEIGHT"))
-    parser.add_argument("--strip", type=_count, metavar="COLUMNS", help="one picture of all states, so many in a row")
+    parser.add_argument("--size", nargs=2, type=_count, default=[1200, 800], metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--strip", type=_count, metavar="COLUMNS", help="one picture of all states, so many in a row; names and colours are told in the last")
     parser.add_argument("--animation", metavar="FILE", help=".mp4 or .gif of all steps, or of those that --times or --steps choose")
     parser.add_argument("--vector", metavar="FILE", help=".svg or .pdf of a run in two dimensions, at the last of the times")
-    return parser.parse_args()
+    return parser
+
+
+def words_of(card):
+    """Words of the command line that a card of `pictures` in an example.yaml means: keys are options without dashes before them."""
+    words = []
+    for key, value in card.items():
+        option = "--" + key.replace("_", "-")
+        if str(value).lower() == "true":
+            words.append(option)
+        elif str(value).lower() != "false":
+            words += [option, *map(str, value if isinstance(value, list) else [value])]
+    return words
 
 
 def _file_of(name, endings):
@@ -196,34 +291,39 @@ def _file_of(name, endings):
     return path
 
 
-def _make(options):
+def make(words):
+    """What `coplane pictures` makes of these words of its command line: paths of files. Raises what draw() raises, and NoRun."""
+    options = _parser().parse_args(words)
     run = Run(options.run)
+    if options.window and len(options.window) not in (4, 6):
+        raise ValueError(f"--window has {len(options.window)} numbers; accepted are 4, X0 X1 Y0 Y1, or 6, also with Z0 Z1")
     if options.vector:
         path = _file_of(options.vector, (".svg", ".pdf"))
         vector(run, path, options.times[-1] if options.times else None, options.color, options.range, options.blocks, not options.undeformed,
-               options.planes != "none")  # fmt: skip
+               options.planes != "none", options.window)  # fmt: skip
         return [path]
     film = _file_of(options.animation, (".mp4", ".gif")) if options.animation else None
     other = Run(options.compare) if options.compare else None
     steps = options.steps or (len(run.results.times) if film else 2)
-    folder = pathlib.Path(options.output or run.folder / "pictures")
+    folder, name = pathlib.Path(options.output or run.folder / "pictures"), options.name or run.name
     with tempfile.TemporaryDirectory() as draft:
-        files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, options.camera, not options.undeformed,
-                     options.planes, options.size)  # fmt: skip
+        files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, _camera(options.camera), not options.undeformed,
+                     options.planes, options.size, None, options.title, options.palette, options.plain, options.window, options.dot_size, options.opacity,
+                     options.mirror, "last" if options.strip else "all")  # fmt: skip
         if film:
             animate(files, film)
             return [film]
         folder.mkdir(parents=True, exist_ok=True)
         if options.strip:
-            path = folder / f"{run.name}_strip.png"
+            path = folder / f"{name}_strip.png"
             strip(files, path, options.strip)
             return [path]
-        return [pathlib.Path(shutil.copy(file, folder / f"{run.name}_{file.name}")) for file in files]
+        return [pathlib.Path(shutil.copy(file, folder / f"{name}_{file.name}")) for file in files]
 
 
 def main():
     try:
-        for path in _make(_arguments()):
+        for path in make(sys.argv[1:]):
             print(path)
     except (NoRun, ImportError, ValueError, PicturesFailed) as error:
         print(f"ERROR: {error}", file=sys.stderr)

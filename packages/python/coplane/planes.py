@@ -8,6 +8,7 @@ import xml.etree.ElementTree
 import netCDF4
 import numpy
 
+from .grids import cloud
 from .needs import needs
 
 
@@ -118,19 +119,7 @@ class Planes:
         return self[int(numpy.argmin(numpy.abs(self.times - time)))]
 
     def vtk(self, step=-1):
-        """The planes of a step as a vtkPolyData, which pyvista.wrap takes."""
-        model = needs("vtkmodules.vtkCommonDataModel", "An object of VTK")
-        core = needs("vtkmodules.vtkCommonCore", "An object of VTK")
-        convert = needs("vtkmodules.util.numpy_support", "An object of VTK")
-        found, points, vertices = model.vtkPolyData(), core.vtkPoints(), model.vtkCellArray()
-        fields = self.fields(step)
-        points.SetData(convert.numpy_to_vtk(numpy.ascontiguousarray(fields.pop("Points")), deep=True))
-        for place in range(points.GetNumberOfPoints()):
-            vertices.InsertNextCell(1, [place])
-        found.SetPoints(points)
-        found.SetVerts(vertices)
-        for name, values in fields.items():
-            array = convert.numpy_to_vtk(numpy.ascontiguousarray(values), deep=True)
-            array.SetName(name)
-            found.GetPointData().AddArray(array)
-        return found
+        """The planes of a step as a vtkPolyData of vertices, with all their fields, the names of joints as `joint_names` and the time
+        as `TimeValue`. pyvista.wrap takes it.
+        """
+        return cloud(self, step)

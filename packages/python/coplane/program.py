@@ -5,9 +5,12 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 
 import netCDF4
 import numpy
+
+from . import documents
 
 # The source tree (packages/python/coplane), or PREFIX/share/coplane (python/coplane).
 _ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -78,14 +81,27 @@ def mesh_program(*arguments):
     return done.stdout
 
 
+def _with_recipe(recipe, call):
+    """call(path of the recipe); a dict goes to a file for it, which messages call `recipe`."""
+    if not isinstance(recipe, dict):
+        return call(recipe)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "recipe.yaml")
+        documents.save(documents.plain(recipe), path)
+        try:
+            return call(path).replace(path, "recipe")
+        except ProgramFailed as failed:
+            raise ProgramFailed(str(failed).replace(path, "recipe")) from None
+
+
 def make_mesh(recipe, output):
-    """Makes the mesh of a recipe; both are paths. Returns what the program printed."""
-    return mesh_program("make", recipe, "-o", output)
+    """Makes the mesh of a recipe (a path, or the recipe as a dict) at a path. Returns what the program printed; ProgramFailed has every mistake."""
+    return _with_recipe(recipe, lambda path: mesh_program("make", path, "-o", output))
 
 
 def split_mesh(mesh, joints, output):
-    """Opens the joints of a recipe; returns what the program printed."""
-    return mesh_program("split", mesh, joints, "-o", output)
+    """Opens the joints of a recipe (a path, or a dict) in a mesh; returns what the program printed."""
+    return _with_recipe(joints, lambda path: mesh_program("split", mesh, path, "-o", output))
 
 
 def change_coordinates(mesh, change):

@@ -108,9 +108,11 @@ class Report:
             if run.errors:
                 page.add(f"<pre>{escape(chr(10).join(run.errors[-8:]))}</pre>")
             elif run.ending in ("failed", "killed"):
-                page.note("The log has no error message." if run.log else f"The reason is not known: there is no log {run.path('.log').name}.")
+                page.note(f"The record has no reason, nor has the log {run.path('.log').name}." if run.log else
+                          f"The record has no reason, and there is no log {run.path('.log').name}.")
         page.note(f"Made {datetime.datetime.now().astimezone():%Y-%m-%d %H:%M %Z}. Curves have at most {POINTS} points: of longer ones the smallest and "
                   f"largest value of each stretch are drawn. Histories: {', '.join(map(self.length, self.runs))}.")  # fmt: skip
+        page.contents()
 
     @staticmethod
     def length(run):
@@ -151,7 +153,7 @@ class Report:
             "machine": "; ".join(dict.fromkeys(places)), "parts": len(run.records), "restarted from": record.get("restarted_from"),
             "started": record.get("started"), "ended": record.get("ended"), "wall-clock time [s]": record.get("wall_seconds"),
             "memory of all ranks [MB]": round(memory / 1e6) if memory else None,
-            **{name.replace("_", " "): value for name, value in cls.sizes(run).items()},
+            **{re.sub("(.*)_kg", r"\1 [kg]", name).replace("_", " "): value for name, value in cls.sizes(run).items()},
         }  # fmt: skip
         return {name: value for name, value in rows.items() if value not in (None, "")}
 
@@ -215,8 +217,8 @@ class Report:
         for run in self.runs:
             has(run, "time", *axes)
         self.page.grid(self.curves("Momentum and impulse", axes, "N s"),
-                       self.curves("Momentum without impulses", [f"momentum_error_{axis}" for axis in "xyz"], "N s"),
-                       self.curves("Angular momentum without impulses", [f"angular_momentum_error_{axis}" for axis in "xyz"], "N m s"))  # fmt: skip
+                       self.curves("Momentum without impulses", [f"momentum_error_{axis}" for axis in "xyz"], "N s", optional=True),
+                       self.curves("Angular momentum without impulses", [f"angular_momentum_error_{axis}" for axis in "xyz"], "N m s", optional=True))  # fmt: skip
 
     def joints(self):
         for run in self.runs:
@@ -237,17 +239,28 @@ class Report:
     def step(self):
         for run in self.runs:
             has(run, "time", "dt")
-        self.page.grid(self.curves("Time step", ["dt"], "s"))
+        self.page.grid(self.page.plot("Time step", [
+            curve(run.columns["time"][taken], run.columns["dt"][taken], f"time step{self.of(which)}", COLORS[0], dash=which > 0)
+            for which, run in enumerate(self.runs) for taken in [run.columns["dt"] > 0]], "s"))  # the line of t = 0 has no step
         for which, run in enumerate(self.runs):
-            limits = run.limits
-            if not limits:
-                self.page.note(f"What limited the step{self.of(which)}: there is no log {run.path('.log').name} that says it.")
-                continue
-            counts = {}
-            for text in limits:
-                counts[text] = counts.get(text, 0) + 1
-            most = sorted(counts.items(), key=lambda item: -item[1])[:10]
-            self.page.add(self.page.table([f"what limited the step{self.of(which)}", "lines of the log"], most))
+            most = sorted(run.limits.items(), key=lambda item: -item[1])[:10]
+            if most:
+                self.page.add(self.page.table([f"what limited the step{self.of(which)}", "looks"], most))
+            else:
+                self.page.note(f"What limited the step{self.of(which)}: there is no record that says it.")
+        self.page.note("The program looks at the start, about every five seconds, and at the end.")
+
+    def warnings(self):
+        for which, run in enumerate(self.runs):
+            if not run.record:
+                self.page.note(f"Warnings{self.of(which)}: there is no record that has them.")
+            elif not run.messages:
+                self.page.note(f"No warnings{self.of(which)}.")
+            for text in run.messages:
+                self.page.add(f"<pre>{escape(text + self.of(which))}</pre>")
+            for kind, count in run.warnings.items():
+                if count > 3:
+                    self.page.note(f"{kind}{self.of(which)}: {count} warnings in all.")
 
     def searches(self):
         for run in self.runs:
@@ -268,6 +281,9 @@ class Report:
                 self.page.note(f"{run.planes_path.name} has no step yet.")
                 continue
             fields, names = series.fields(-1), series.joint_names(-1)
+            if len(fields["area"]) == 0:
+                self.page.note(f"No planes at t = {series.times[-1]:.6g} s{self.of(which)}: nothing touches.")
+                continue
             lost = fields["remainder"]
             self.page.note(f"{len(fields['area'])} planes at t = {series.times[-1]:.6g} s{self.of(which)}; the remainders of all sum up to "
                            f"{lost.sum():.6g} J: {lost.clip(min=0).sum():.6g} J lost, {abs(lost.clip(max=0).sum()):.6g} J gained.")  # fmt: skip
@@ -347,6 +363,7 @@ class Report:
     def text(self):
         self.head()
         self.section("What was run", lambda: self.page.add(self.each(self.what)))
+        self.section("Warnings", self.warnings)
         if len(self.runs) == 2:
             self.section("Differences", self.differences)
         for title, fill in (("Energies and balances", self.energies), ("Contact", self.contact), ("Momenta", self.momenta), ("Joints", self.joints),

@@ -1,23 +1,25 @@
 """A run, with everything that it has written."""
 
+import collections
 import fcntl
 import functools
 import json
 import pathlib
 import re
 
-from . import exodus, fields, tables
+from . import exodus, fields, grids, tables
 from .documents import parse
 from .planes import Planes
 
 # Ends of the columns that each of these has in the history (docs/user/outputs.md).
 _MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in "xyz"]
+_REACTION = [f"reaction_{axis}" for axis in "xyz"]
 _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
 # What follows the name of a run in the names of its files.
 _END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
-                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf)|-report\.html")  # fmt: skip
+                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf3)|-report\.html")  # fmt: skip
 
 
 class NoRun(FileNotFoundError):
@@ -194,14 +196,33 @@ class Run:
         return self.log_path.read_text(encoding="utf-8", errors="replace") if self.log_path.exists() else ""
 
     @property
+    def messages(self):
+        """Warnings and errors as the program showed them: of every part the last 40, each text once."""
+        return list(dict.fromkeys(text for record in self.records for text in record.get("messages", [])))
+
+    @property
+    def warnings(self):
+        """Number of warnings by kind, of all parts, with those that were not shown."""
+        counts = collections.Counter()
+        for record in self.records:
+            counts.update(record.get("warnings", {}))
+        return dict(counts)
+
+    @property
     def errors(self):
-        """The lines of the log that say what was wrong."""
+        """Why the run failed, as its record says it; else the lines of the log that say what was wrong: a start that fails, or is killed, leaves no
+        reason in the record."""
+        if "reason" in self.record:
+            return [f"ERROR: {self.record['reason']}"]
         return [line for line in self.log.splitlines() if re.match(r"(ERROR|error)[: ]", line)]
 
     @property
     def limits(self):
-        """What limited the step, in the lines of the log that say it."""
-        return ["".join(found) for found in re.findall(r"limited by (.*)|dt = \S+ s \((.*?)\), kinetic", self.log)]
+        """What limited the step, and how often it was seen to (the program looks about every five seconds): a dict, what was seen last at its end."""
+        counts = {}
+        for limit in (limit for record in self.records for limit in record.get("step_limits", [])):
+            counts[limit["limited_by"]] = counts.pop(limit["limited_by"], 0) + limit["looks"]
+        return counts
 
     # --- over time ---------------------------------------------------------------------------------
 
@@ -248,11 +269,13 @@ class Run:
         names = [name[: -len(ends[0]) - 1] for name in self.columns if name.endswith("_" + ends[0])]
         return [name for name in names if all(f"{name}_{end}" in self.columns for end in ends)]
 
-    def _of(self, names, ends, what, key):
+    def _of(self, names, ends, what, key, also=()):
+        """also: ends of columns that not every one has."""
         found = _Named(what, f"{key} in the deck names them.", {})
         for name in names:
-            table = self.history[[f"{name}_{end}" for end in ends]].set_axis(ends, axis=1)
-            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in ends}
+            there = [*ends, *(end for end in also if f"{name}_{end}" in self.columns)]
+            table = self.history[[f"{name}_{end}" for end in there]].set_axis(there, axis=1)
+            table.attrs["units"] = {end: self.units[f"{name}_{end}"] for end in there}
             found[name] = table
         return found
 
@@ -262,8 +285,8 @@ class Run:
 
     @property
     def probes(self):
-        """Motion of every probe: displacement_x..z, velocity_x..z, as DataFrames."""
-        return self._of(self.probe_names, _MOTION, "probe", "history.probes")
+        """Motion of every probe: displacement_x..z, velocity_x..z, and reaction_x..z where the deck asks for it, as DataFrames."""
+        return self._of(self.probe_names, _MOTION, "probe", "history.probes", also=_REACTION)
 
     @property
     def joint_names(self):
@@ -322,6 +345,15 @@ class Run:
         """Fields on the elements of each block, with their connectivity."""
         return _Named("block", "The mesh names them.", {name: fields.block(self.results, name) for name in self.results.blocks})
 
+    def vtk(self, step=-1, blocks=None, deformed=True, dead=False):
+        """A step of the results as a vtkUnstructuredGrid with all fields on nodes and elements, which pyvista.wrap takes.
+
+        blocks: names, default all. deformed: points moved by the displacement, else as at the start [m]. dead: also elements that are no
+        longer there. Vectors have three components, in two dimensions the last is 0; `stress` has xx, yy, zz, xy, yz, zx. `node_id` and
+        `element_id` are the ids of the mesh, `block_id` those of the blocks, whose names are `block_names`, and `body_id` is there when the mesh has it; `TimeValue` is the time [s].
+        """
+        return grids.grid(self.results, step, blocks, deformed, dead)
+
     @functools.cached_property
     def node_sets(self):
         """Positions of the nodes of each set: `run.nodes.isel(node=run.node_sets["tip"])`."""
@@ -352,9 +384,9 @@ class Run:
 
     @property
     def planes_path(self):
-        """Path of the series of planes: that of the format which the deck asks for, or what is there when there is no deck."""
+        """Path of the series of planes: that of the format which the deck asks for, or what is there when it asks for none."""
         stem = self.folder / f"{pathlib.Path(self._results_name).with_suffix('')}_planes"
         output = (parse(self.deck_text) or {}).get("output") or {}
-        one = stem.with_name(stem.name + ".vtkhdf")
-        is_one = output.get("planes_format", "vtp") == "vtkhdf" if self.deck_text else one.exists()
-        return one if is_one else stem.with_name(stem.name + ".pvd")
+        one, many = stem.with_name(stem.name + ".vtkhdf"), stem.with_name(stem.name + ".pvd")
+        wanted = output.get("planes_format", "vtkhdf" if one.exists() or not many.exists() else "vtp")
+        return one if wanted == "vtkhdf" else many

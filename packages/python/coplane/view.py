@@ -5,7 +5,6 @@ import collections
 import datetime
 import os
 import pathlib
-import re
 import shutil
 import socket
 import sys
@@ -34,15 +33,6 @@ def duration(seconds):
     """42 s, 3 min 20 s, 5 h 12 min"""
     s = round(seconds)
     return f"{s} s" if s < 60 else f"{s // 60} min {s % 60} s" if s < 3600 else f"{s // 3600} h {s % 3600 // 60} min"
-
-
-def seconds_left(log):
-    """What the last line of a log that tells it says is left [s]; None without one."""
-    said = re.findall(r"cycles/s, (?:(\d+) h )?(?:(\d+) min )?(?:(\d+) s )?left", log)
-    if not said:
-        return None
-    hours, minutes, seconds = (int(part or 0) for part in said[-1])
-    return 3600 * hours + 60 * minutes + seconds
 
 
 def clean(text):
@@ -110,7 +100,7 @@ class View:
             self.counts()
         elif self.ending != "starting":
             self.say(f"there is no history {run.path('.csv').name}, it has no line yet, or is none of coplane")
-        self.log()
+        self.messages()
         self.last()
 
     def add(self, text, style=None):
@@ -125,7 +115,7 @@ class View:
             self.add(line, style)
 
     def wrap(self, text, style=None):
-        """Of a log, whose lines may be of any length."""
+        """Of the program, whose sentences may be of any length."""
         self.say(text, style, "  ", 4)
 
     def head(self):
@@ -156,13 +146,12 @@ class View:
         return (datetime.datetime.now().astimezone() - started).total_seconds()
 
     def left(self, now, end):
-        """Seconds of the wall until the end: by what was seen, else by the log, else by all that was done; None where nothing tells it."""
+        """Seconds of the wall until the end: by what was seen, else by the record, else by all that was done; None where nothing tells it."""
         speed = self.pace.per_second()[0]
         if speed > 0:
             return (end - now) / speed
-        said = seconds_left(self.run.log)
-        if said is not None:
-            return said
+        if "seconds_left" in self.record:
+            return self.record["seconds_left"]
         elapsed = self.elapsed()
         return (end - now) / now * elapsed if elapsed and now > 0 and len(self.run.records) == 1 else None
 
@@ -191,8 +180,8 @@ class View:
 
     def step(self):
         self.curve("step [s]", f"{self.h['dt'][-1]:.3g}", self.h["dt"])
-        if limits := self.run.limits:
-            self.wrap(f"limited by {limits[-1]}")
+        if limits := self.record.get("step_limits"):
+            self.wrap(f"limited by {limits[-1]['limited_by']}")
 
     def energies(self):
         least = 1e-9 * in_play(self.h)  # what is less is rounding
@@ -217,16 +206,16 @@ class View:
         self.add("missed {missed}, too deep {too_deep}, released {released}".format(**last)
                  + (f", eroded {last['eroded_elements']} elements" if last["eroded_elements"] else ""), "look" if last["missed"] or last["too_deep"] else None)
 
-    def log(self):
-        lines = self.run.log.splitlines()
-        told = [line for line in lines if re.match(r"(WARNING|ERROR|error)[: ]", line)]
+    def messages(self):
+        told = self.record.get("messages", []) + ([] if self.ending in ("running", "starting", "completed") else self.run.errors)
+        told = list(dict.fromkeys(told))
         if told:
-            self.add(f"warnings and errors of {self.run.log_path.name}, the last of {len(told)}" if len(told) > 4 else
-                     f"warnings and errors of {self.run.log_path.name}", "bold")
-        for line in told[-4:]:
-            self.wrap(line, "note" if line.startswith("WARNING") else "look")
-        if not lines:
-            self.say(f"no log {self.run.log_path.name}: warnings, and what limits the step, are not known")
+            self.add(f"warnings and errors, the last of {len(told)}" if len(told) > 4 else "warnings and errors", "bold")
+        for text in told[-4:]:
+            self.wrap(" ".join(text.split()), "note" if text.startswith("WARNING") else "look")
+        for kind, count in self.record.get("warnings", {}).items():
+            if count > 3:
+                self.wrap(f"{kind}: {count} warnings in all", "note")
 
     def last(self):
         if self.ending in ("running", "starting"):
@@ -327,7 +316,7 @@ def main():
     parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files")
     parser.add_argument("--once", action="store_true", help="one view, then stop; so it is where the output is no terminal")
     parser.add_argument("--wait", action="store_true", help="wait for a start from now on, whatever an earlier run has left")
-    parser.add_argument("--log", metavar="FILE", help="what the program printed; default: <name>.log beside the files of the run")
+    parser.add_argument("--log", metavar="FILE", help="what the program printed, for errors that the record does not have; default: <name>.log beside the files of the run")
     parser.add_argument("--every", type=float, default=1.0, metavar="SECONDS", help="between two views; default: 1")
     options = parser.parse_args()
     if not options.every > 0:

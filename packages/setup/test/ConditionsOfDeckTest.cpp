@@ -114,6 +114,36 @@ TEST(ConditionsOfDeck, chargesBeyondTheMeasurementsAreProblems)
   EXPECT_TRUE(blastAt("[0, 12, 0]", "geometry: axisymmetric\n").empty());
 }
 
+TEST(ConditionsOfDeck, reactionsThatNothingCanTellAreProblems)
+{
+  const Comm comm;
+  const Mesh mesh = wallOfTwo();
+  const auto problemsOf = [&](const std::string& blocks, const std::string& condition)
+  {
+    const Deck deck =
+        parseDeck(deckOfTwo + "blocks: {lower: {material: rock" + blocks +
+                      "}, upper: {material: rock}}\n"
+                      "history: {probes: [{name: foot, node_set: base, reaction: true}]}\n" +
+                      condition,
+                  "wall.yaml");
+    return problemsOfReactions(
+        deck, mesh, distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank()), comm);
+  };
+  EXPECT_TRUE(problemsOf("", "conditions: [{type: fixed, node_set: base}]\n").empty());
+  EXPECT_TRUE(problemsOf("", "conditions: [{type: symmetry, node_set: base, normal: [0, 1, 0]}]\n")
+                  .empty());
+  EXPECT_TRUE(problemsOf("", "geometry: axisymmetric\n").empty()); // one node is on the axis
+  const auto free = problemsOf("", "conditions: [{type: fixed, node_set: lid}]\n");
+  ASSERT_EQ(free.size(), 1u);
+  EXPECT_NE(free[0].find("history.probes.0.reaction: no condition holds a node of 'base'"),
+            std::string::npos)
+      << free[0];
+  const auto rigid = problemsOf(", rigid: true", "conditions: [{type: fixed, node_set: base}]\n");
+  ASSERT_EQ(rigid.size(), 1u);
+  EXPECT_NE(rigid[0].find("node set 'base' has nodes of rigid blocks"), std::string::npos)
+      << rigid[0];
+}
+
 TEST(ConditionsOfDeck, bodiesOfRevolutionStayOnTheirAxis)
 {
   const Model model = modelOf("geometry: axisymmetric\n" + blocksOfTwo);

@@ -25,6 +25,32 @@ joints:
   dry: {model: linear, normal_stiffness: 2e10, shear_stiffness: 5e9, friction: 0.5}
 )";
 
+TEST(ContactOptionsOfDeck, autoIsThePotentialWhereItCanBe)
+{
+  using Forces = ContactOptions::Forces;
+  const auto options = [](const std::string& contact)
+  { return modelOf(blocksOfTwo + "contact: {" + contact + "}\n").contact; };
+  const auto expect = [](const ContactOptions& o, Forces forces, Real cosOpposed)
+  {
+    EXPECT_EQ(o.forces, forces);
+    EXPECT_EQ(o.cosOpposed, cosOpposed);
+  };
+  expect(ContactOptions(), Forces::Potential, 0.004);
+  expect(modelOf(blocksOfTwo).contact, Forces::Potential, 0.004);
+  expect(options("forces: auto"), Forces::Potential, 0.004);
+  expect(options("forces: potential, cos_opposed: 0.2"), Forces::Potential, 0.2);
+  for (const char* key :
+       {"forces: common_normal", "preset: seed", "area: full", "weights: centroid",
+        "closure: incremental", "couple: false", "area_rule: false"})
+  {
+    SCOPED_TRACE(key);
+    expect(options(key), Forces::CommonNormal, 0.1);
+  }
+  const ContactOptions ring = modelOf("geometry: axisymmetric\n" + blocksOfTwo).contact;
+  expect(ring, Forces::CommonNormal, 0.1);
+  EXPECT_TRUE(ring.axisymmetric);
+}
+
 TEST(ContactRulesOfDeck, sideSetsTellFacesOfABlockApart)
 {
   const Model model = modelOf(blocksOfTwo + joints + R"(

@@ -70,9 +70,7 @@ case.check("planes: stored [J]", numpy.sum(planes["stored"]), 0.5 * pressure * c
 for which, block in (("lower", 1), ("higher", 2)):
     case.check_equal(f"planes: {which} block", numpy.unique(planes[f"{which}_block"]).tolist(), [block])
 case.check_equal("planes: declared", numpy.unique(planes["declared"]).tolist(), [1])
-text = rest.bytes_of(rest.planes_files()[-1]).split(b'"joint_names"')[1].split(b">")[1].split(b"<")[0]
-names = bytes(int(code) for code in text.split()).split(b"\0")
-case.check_equal("planes: name of their joint", names[planes["joint"][0]].decode(), "bed")
+case.check_equal("planes: name of their joint", rest.series.joint_names(-1)[planes["joint"][0]], "bed")
 
 census = rest.record["census"]
 case.check_equal("record: planes closed", census["declared_closed"], len(planes["joint"]))

@@ -1,29 +1,17 @@
 """V59 to V61 on an example: ranks, threads, back ends, rebalances and a restart change no bit.
 
-Usage: check.py NAME [PART]: a folder of exodus_inputs, and the part of its time that is run.
+Usage: check.py NAME: a folder of exodus_inputs.
 """
 
-import argparse
-import importlib.util
 import json
-import os
 import pathlib
 import sys
 
-from coplanetest import Case, differences, program, series_differences
+from coplanetest import Case, differences, examples, program, series_differences
 
-name, part = sys.argv[1], float(sys.argv[2]) if len(sys.argv) > 2 else 1
+name = sys.argv[1]
 case = Case(f"example {name}", __file__)
-INPUTS = pathlib.Path(os.environ["COPLANE_SOURCE"]) / "exodus_inputs"
-specification = importlib.util.spec_from_file_location("run_example", INPUTS / "run.py")
-examples = importlib.util.module_from_spec(specification)
-specification.loader.exec_module(examples)
-example = examples.read_example(INPUTS / name)
-size = "coarse" if "coarse" in example["sizes"] else next(iter(example["sizes"]))
-options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[""], overwrite=False)
-chosen = examples.ExampleRun(INPUTS / name, example, size, "", options)
-recipe, deck, joints = chosen.recipe, chosen.deck, chosen.joints
-deck["time"]["end"] *= part
+recipe, deck, joints = examples.coarse(name)
 tables = [f"run_{table}.csv" for table in deck.get("history", {}).get("tables", [])]
 
 straight = case.attempt("straight", recipe, deck, joints=joints)

@@ -32,7 +32,7 @@ h = reference.history
 # The comparison is worth something only if everything has happened.
 happened = ["stick", "slip", "contact_friction", "contact_damping"]
 if dimension != "tiny":
-    happened += ["contact_hysteresis", "plastic", "open"]
+    happened += ["contact_hysteresis", "plastic", "open", "ends_reaction_y"]
 for what in happened:
     case.check_within(f"reference: {what}", max(h[what]), 1e-9, float("inf"))
 

@@ -11,6 +11,8 @@ import time
 import numpy
 from coplanetest import Case, Results, documents, program, tables
 
+from coplane.planes import Planes
+
 case = Case("interruption", __file__)
 INTERRUPTED = 7
 
@@ -132,6 +134,7 @@ for attempt in range(3):
     case.check_equal(f"{name}: times grow", bool(numpy.all(numpy.diff(results.times) > 0)), True)
     finite = all(numpy.all(numpy.isfinite(results.nodal(f, -2))) for f in ("displacement", "velocity"))
     case.check_equal(f"{name}: values of the last whole step are numbers", finite, True)
-    series = (folder / "run_planes.pvd").read_text()
-    case.check_equal(f"{name}: the series of planes is whole", series.rstrip().endswith("</VTKFile>"), True)
+    series = Planes(folder / "run_planes.vtkhdf")
+    case.check_within(f"{name}: steps of the planes that can be read", len(series), 10, 1e9)
+    case.check_equal(f"{name}: times of the planes grow", bool(numpy.all(numpy.diff(series.times) > 0)), True)
 case.finish()

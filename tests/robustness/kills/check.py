@@ -18,6 +18,8 @@ import netCDF4
 import numpy
 from coplanetest import Case, documents, program, series_differences
 
+from coplane.planes import Planes
+
 numbers = [argument for argument in sys.argv[1:] if argument.isdigit()]
 wanted = int(numbers[0]) if numbers else 16
 case = Case("kills", __file__)
@@ -100,9 +102,12 @@ def readable(folder, steps_before):
             # A file that was being created holds no step yet.
             if steps_before.get(part.name, 0) > 0:
                 wrong.append(f"{part.name}: {error}")
-    series = folder / "run_planes.pvd"
-    if series.exists() and not series.read_text().rstrip().endswith("</VTKFile>"):
-        wrong.append("run_planes.pvd is not whole")
+    series = folder / "run_planes.vtkhdf"
+    try:
+        if series.exists() and not numpy.all(numpy.diff(Planes(series).times) > 0):
+            wrong.append(f"{series.name}: times")
+    except (OSError, ValueError, IndexError) as error:
+        wrong.append(f"{series.name}: {error}")
     return wrong
 
 

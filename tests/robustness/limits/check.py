@@ -145,9 +145,9 @@ case.check_equal("odd names: every line has the columns of the header", sorted({
 case.check_equal("odd names: a column has the name", odd + "_displacement_x[m]" in header, True)
 _, lines = history(folder, "run_blocks.csv")
 case.check_equal("odd names: the block of a table", sorted({line[2] for line in lines}), sorted([odd, "high"]))
-series = xml.etree.ElementTree.parse(folder / "x & y <z>_planes.pvd")
-files = [item.get("file") for item in series.iter("DataSet")]
-case.check_equal("odd names: the files of the series are there", [name for name in files if not (folder / name).exists()], [])
+index = xml.etree.ElementTree.parse(folder / "x & y <z>_planes.xmf3")
+files = {item.text.split(":")[0] for item in index.iter("DataItem")}
+case.check_equal("odd names: the file that the index of the planes names", [(name, (folder / name).exists()) for name in files], [("x & y <z>_planes.vtkhdf", True)])
 case.check_equal("odd names: the record holds the deck", odd.split("\n")[0][:3] in json.loads((folder / "run.run.json").read_text())["deck"]["text"], True)
 # A mesh whose names are Latin-1 is read as such; a deck is UTF-8.
 folder, _ = attempt("Latin-1 in the mesh", 0, changes={"time.end": 1e-6})
@@ -184,7 +184,7 @@ process.wait()
 case.check_equal("a table is cut off: bytes of zero", (folder / "run.csv").read_bytes().count(b"\0"), 0)
 
 # --- what is left of an earlier run -------------------------------------------------------------------------
-folder, _ = attempt("an earlier run", 0, changes={"output": {"every": 1e-5}, "time.end": 1e-4})
+folder, _ = attempt("an earlier run", 0, changes={"output": {"every": 1e-5, "planes_format": "vtp"}, "time.end": 1e-4})
 shutil.copy(folder / "run.run.json", folder / "run.run-s0002.json")
 (folder / "run.run-s0003.json").write_text("{}")
 shutil.copy(folder / "run.e", folder / "run.e-s0002")
@@ -235,8 +235,12 @@ documents.save({"mesh": str(mesh), **deck}, folder / "run.yaml")
 shutil.copy(folder / "run.yaml", "gone.yaml")
 for ranks in (1, 2):
     folder.mkdir(exist_ok=True)
+    for path in pathlib.Path().glob("inside.*"):
+        path.unlink()
     launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
-    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
+    # The folder goes when all are inside.
+    command = " ".join([*launch, "sh", "-c", f"'cd {folder} && : > {folder.parent}/inside.$$ && until [ $(ls {folder.parent}/inside.* | wc -l) = {ranks} ]; do sleep 0.01; done; "
+                        f"until [ ! -d {folder} ]; do rmdir {folder} 2>/dev/null || rm -rf {folder}; done; "
                         f"exec {program.binary('coplane')} {pathlib.Path('gone.yaml').resolve()}'"])
     try:
         done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
@@ -267,6 +271,7 @@ shutil.copy(program.binary("coplane"), folder)
 prober = folder / "coplane_mesh"
 damaged = "mesh.e: the file is damaged: the HDF5 library fails in it."
 empty = "mesh.e: the file is not an Exodus II file"  # said by who reads it
+unprobed = "WARNING: mesh.e: this HDF5 file is read without having been probed"
 for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that ends well", '[ "$*" = "probe mesh.e" ]', empty), ("that is not there", "", empty)]:
     if script:
         prober.write_text(f"#!/bin/sh\n{script}\n")
@@ -277,6 +282,7 @@ for name, script, words in [("that crashes", "kill -SEGV $$", damaged), ("that e
         launch = [] if ranks == 1 else [os.environ.get("MPIEXEC", "mpirun"), "-np", "2", "--bind-to", "none"]
         done = subprocess.run([*launch, folder / "coplane", "run.yaml", "--check"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=60)
         case.check_equal(f"a prober {name}, {ranks} ranks: code and cause", (done.returncode, words in done.stdout), (MESH, True))
+        case.check_equal(f"a prober {name}, {ranks} ranks: warnings", done.stdout.count(unprobed), 0 if script else 1)
         if words not in done.stdout:
             print(done.stdout[-2000:])
 case.finish()

@@ -61,7 +61,7 @@ run("a check beside it", folder, 0, options=["--check"])
 run("a run with one output in common", folder, OUTPUT, words, ["--set", "output.results=other.e", "--set", "checkpoint.file=other.chk"])
 run("a run of other names in the same folder", folder, 0, (), ["--set", "output.results=other.e", "--set", "checkpoint.file=other.chk",
     "--set", "history.file=other.csv", "--set", "time.end=1e-7"])
-for clash in ("history.file=run_planes_0002.vtp", "history.file=run_planes.pvd", "output.results=run.csv"):
+for clash in ("history.file=run_planes.vtkhdf", "history.file=run_planes.xmf3", "output.results=run.csv"):
     only = ["output.results=other.e", "checkpoint.file=other.chk", "history.file=other.csv", clash]
     options = [word for key in only for word in ("--set", key)]
     run(f"a run of other names but for {clash}", folder, OUTPUT, words, [*options, "--set", "time.end=1e-7"])

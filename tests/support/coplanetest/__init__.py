@@ -9,7 +9,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "exodus_inputs
 
 from coplanetools import Results, differences, documents, program, series_differences, tables, waves  # noqa: E402
 
+from . import examples  # noqa: E402
 from .case import Case  # noqa: E402
 from .frames import rotation, turned, turned_deck  # noqa: E402
 
-__all__ = ["Case", "Results", "differences", "documents", "program", "rotation", "series_differences", "tables", "turned", "turned_deck", "waves"]
+__all__ = ["Case", "Results", "differences", "documents", "examples", "program", "rotation", "series_differences", "tables", "turned", "turned_deck", "waves"]

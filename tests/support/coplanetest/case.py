@@ -94,14 +94,16 @@ class Case(Checks):
         (folder / "output.txt").write_text(output)
         return EndedRun(folder, code, output)
 
-    def conservation(self, name, run, deck, energy=1e-3, momentum=1e-12, angular=1e-11, remainder=None):
+    def conservation(self, name, run, deck, energy=1e-3, momentum=1e-12, angular=1e-11, remainder=None, load=0):
         """Every run keeps its balances, in every recorded cycle.
 
         energy: error of the balance over the energy in play (element energies, so of order dt^2).
         momentum, angular: momentum less what loads and reactions gave, over sum m |v| (times the
         distance from the origin). Only rounding is allowed; sum m |v| <= sqrt(2 M KE) (Cauchy). What
-        gravity gives counts too, also where a support takes it at once.
+        gravity and a lasting load give counts too, also where a support takes it at once: the sums of
+        what both gave are rounded, and a body at rest has no m |v| to compare that with.
         remainder: what contact lost because areas change under load, over the energy in play.
+        load: force that acts during the run and is borne by supports [N].
         """
         h = run.history
         in_play = max(
@@ -113,7 +115,7 @@ class Case(Checks):
         # Components that vary in time do not count.
         gravity = [g for g in deck.get("gravity", []) if isinstance(g, (int, float))]
         weight = run.mass * numpy.linalg.norm(gravity)
-        scale = numpy.sqrt(2 * run.mass * numpy.max(h["kinetic"])) + weight * h["time"][-1]
+        scale = numpy.sqrt(2 * run.mass * numpy.max(h["kinetic"])) + (weight + load) * h["time"][-1]
         results = run.results
         reach = numpy.max(numpy.abs(results.coordinates)) + numpy.max(numpy.abs(results.nodal("displacement")))
         vectors = {

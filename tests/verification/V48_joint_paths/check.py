@@ -230,15 +230,24 @@ code, output = point(linear, "--set", "joint_paths.shear.joint=ruogh")
 case.check_equal("unknown joint: exit code and text", [code, "is not a card in joints. Did you mean 'rough'?" in output], [3, True])
 code, output = point(linear, "--set", "joint_paths.shear.output=no/such/folder.csv")
 case.check_equal("no folder: exit code", code, 5)
-pathlib.Path("bad.csv").write_text("time,gap,x,y\n1,0,0,0\n2,0,zero,0\n")
+# All that is wrong is told at once: of the deck, then of the file, with line and column.
+pathlib.Path("bad.csv").write_text("time,gap,x,y\n1,0,0,0\n2,0, zero,0\n\n3,0,0\n0.5,0,0,0\n4,nan,0,0\n")
 pathlib.Path("bad.yaml").write_text(
     "joints: {rough: {friction: 0.5}}\njoint_paths:\n  p: {type: points, joint: rough, file: bad.csv}\n"
 )
 code, output = point("bad.yaml", "--set", "elements={thickness: 1, modulus: 1e9}")
-case.check_equal("bad line: exit code and place", [code, "bad.csv:3: '2,0,zero,0' is no point of a path" in output], [3, True])
+expected = ["bad.csv:3:6: slip in x = 'zero' is not a finite number [m]", "bad.csv:5:1: a row of 3 values", "bad.csv:6:1: the time 0.5 s comes after 1 s",
+            "bad.csv:7:3: gap = 'nan' is not a finite number [m]"]
+case.check_equal("bad rows: exit code and places", [code, [text in output for text in expected], output.count("bad.csv:")], [3, [True] * 4, 4])
 code, output = point("bad.yaml")
-case.check_equal("penalty without elements", [code, "bad.yaml:3:28: joint_paths.p.joint" in output], [3, True])
+elements = "bad.yaml:3:28: joint_paths.p.joint = 'rough' has a stiffness that comes from the elements"
+case.check_equal("penalty without elements, and bad rows", [code, elements in output, [text in output for text in expected]], [3, True, [True] * 4])
 if code != 3:
     print(output)
+pathlib.Path("bad.csv").write_text("time,gap,x,y\n" + 30 * "a,b,c,d\n")
+code, output = point("bad.yaml", "--set", "elements={thickness: 1, modulus: 1e9}")
+case.check_equal("a file of another kind: exit code and lines", [code, output.count("bad.csv:"), "bad.csv: 10 more rows" in output], [3, 21, True])
+code, output = point("bad.yaml", "--set", "elements={thickness: 1, modulus: 1e9}", "--set", "joint_paths.p.file=bad.cvs")
+case.check_equal("a file that is not there", [code, "file = 'bad.cvs' cannot be read or is empty. There is a file 'bad.csv': is that meant?" in output], [3, True])
 
 case.finish()

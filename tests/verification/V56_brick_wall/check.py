@@ -1,8 +1,6 @@
 """V56: a brick wall comes to rest under its weight and stays; gaps and overlaps of the mesh do not matter."""
 
-import base64
 import copy
-import re
 import sys
 
 import numpy
@@ -32,13 +30,8 @@ def brick_by_brick(across, up):
 
 
 def planes(run, number):
-    """Closure and slip path [m] of all planes in one of the files, by the four numbers that name their faces."""
-    with open(run.path(f"run_planes_{number:04d}.vtp")) as file:
-        text = file.read()
-    columns = {}
-    for kind, name, content in re.findall(r'<DataArray type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<', text):
-        raw = base64.b64decode(content)[8:]
-        columns[name] = numpy.frombuffer(raw, dtype={"Float64": "<f8", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}[kind])
+    """Closure and slip path [m] of all planes at one of the times, by the four numbers that name their faces."""
+    columns = run.planes(number)
     keys = zip(*(columns[name] for name in ("lower_element", "lower_side", "higher_element", "higher_side")))
     return dict(zip(keys, zip(columns["closure"], columns["slip"])))
 
@@ -52,9 +45,9 @@ def stand(name, mesh, deck, **tolerances):
     case.check(f"{name}: reaction of the floor [N/m]", reaction, weight, 1e-4, relative=True)
     energy = run.history["kinetic"][-1] / (weight * courses * course)
     case.check(f"{name}: kinetic energy at the end over m g H", energy, 0, 1e-8)
-    # From the end of the damping on, nothing creeps: file 0 is the start, 1 the end of the damping, 2 the end.
+    # From the end of the damping on, nothing creeps: step 0 is the start, 1 the end of the damping, 2 the end.
     before, after = planes(run, 1), planes(run, 2)
-    # A plane that is in one file only has no closure in the other: corners of bricks lie on each other by slivers of 1e-10 m.
+    # A plane that is in one step only has no closure in the other: corners of bricks lie on each other by slivers of 1e-10 m.
     none = (0.0, 0.0)
     moved = numpy.abs([numpy.subtract(after.get(key, none), before.get(key, none)) for key in before.keys() | after.keys()])
     case.check(f"{name}: largest change of closure without damping [m]", moved[:, 0].max(), 0, 1e-6)

@@ -1,25 +1,12 @@
 """V64: planes come and go as a block slides over a slab and off its end; what they know passes on."""
 
-import base64
 import copy
-import re
 
 import numpy
 from coplanetest import Case
 
 case = Case("V64", __file__)
 weight = 2000 * 0.18 * 0.1 * 9.81
-
-
-def planes(run, number):
-    """Columns of one of the planes' files."""
-    with open(run.path(f"run_planes_{number:04d}.vtp")) as file:
-        text = file.read()
-    columns = {}
-    for kind, name, content in re.findall(r'<DataArray type="(\w+)" Name="(\w+)"[^>]*>([^<]*)<', text):
-        raw = base64.b64decode(content)[8:]
-        columns[name] = numpy.frombuffer(raw, dtype={"Float64": "<f8", "Int64": "<i8", "Int32": "<i4", "UInt8": "u1"}[kind])
-    return columns
 
 
 def slide(name, start, inherit=True, left=0.013, whole=True):
@@ -33,29 +20,29 @@ def slide(name, start, inherit=True, left=0.013, whole=True):
         deck["time"]["end"] = 0.3
     run = case.run(name, recipe, deck)
     h = run.history
-    files = [planes(run, n) for n in range(len(run.results.times))]
-    keys = [list(zip(*(p[k] for k in ("lower_element", "lower_side", "higher_element", "higher_side")))) for p in files]
+    steps = [run.planes(n) for n in range(len(run.results.times))]
+    keys = [list(zip(*(p[k] for k in ("lower_element", "lower_side", "higher_element", "higher_side")))) for p in steps]
     way = numpy.interp(run.results.times, h["time"], h["block_displacement_x"])
     # Settled, and with all of the base on the slab, which has some 0.6 m left at the start.
-    rows = [n for n in range(len(files)) if run.results.times[n] > 0.07 and way[n] < 0.59]
+    rows = [n for n in range(len(steps)) if run.results.times[n] > 0.07 and way[n] < 0.59]
     if whole:
-        case.check(f"{name}: files with a pair of faces twice", sum(len(set(k)) < len(k) for k in keys), 0, 0)
+        case.check(f"{name}: steps with a pair of faces twice", sum(len(set(k)) < len(k) for k in keys), 0, 0)
         case.check_within(f"{name}: faces of the slab that were passed", way[rows[-1]] / 0.05, 10, 16)
         # Four faces, cut by three or four joints of the slab.
         case.check_within(f"{name}: fewest planes at a time", min(len(keys[n]) for n in rows), 7, 8)
         case.check_within(f"{name}: most planes at a time", max(len(keys[n]) for n in rows), 7, 8)
-        area = max(abs(files[n]["area"].sum() / 0.18 - 1) for n in rows)
+        area = max(abs(steps[n]["area"].sum() / 0.18 - 1) for n in rows)
         case.check(f"{name}: area of contact over the base's, off from 1 by", area, 0, 1e-3)
         # The block is gone: only the planes that were declared stay, without area.
         case.check(f"{name}: planes that overlap at the end", len(keys[-1]), 0, 0)
         case.check_equal(f"{name}: pairs at the end, the declared ones", int(h["pairs"][-1]), len(keys[0]))
         case.check_equal(f"{name}: planes at the end, the declared ones", int(h["planes"][-1]), len(keys[0]))
         case.check(f"{name}: planes deeper than the limit", int(numpy.max(h["too_deep"])), 0, 0)
-    # Mean closure of each face of the block, from file to file; and the force.
+    # Mean closure of each face of the block, from step to step; and the force.
     jump = force = 0.0
     before = None
     for n in rows:
-        p = files[n]
+        p = steps[n]
         force = max(force, abs(numpy.sum(p["area"] * p["normal_traction"]) / weight - 1))
         faces = numpy.unique(p["higher_element"])
         now = {f: numpy.average(p["closure"][p["higher_element"] == f], weights=p["area"][p["higher_element"] == f]) for f in faces}

@@ -45,4 +45,23 @@ for name, damping in dampings.items():
     case.check(f"{name}: the other column [J]", numpy.max(numpy.abs(h[other])), 0, 0)
     case.check(f"{name}: work of the damping after its end [J]", numpy.ptp(h[column][after]), 0, 0)
     case.same_bits(name, case.load("mesh.yaml"), deck, run)
+    # The same, and nothing after it.
+    deck["time"]["end_at_rest"] = True
+    rest = case.run(f"{name}_to_rest", case.load("mesh.yaml"), deck)
+    case.check(f"{name}, end_at_rest: end [s]", rest.history["time"][-1], time, 1e-6 * time)
+    case.check(f"{name}, end_at_rest: last state of the results [s]", rest.results.times[-1], time, 1e-6 * time)
+# Damping that ends by the time says how far the model is from rest.
+deck = case.load()
+deck["damping"] = {"local": 0.7, "until": 0.02}
+deck["time"]["end"] = 0.03
+deck["history"]["every"] = 0
+told = case.attempt("early", case.load("mesh.yaml"), deck)
+lines = [line for line in told.output.splitlines() if "damping ends by damping.until" in line]
+case.check_equal("until: lines that tell of the end", len(lines), 1)
+time, energy = (float(lines[0].split(word)[1].split(" ")[0]) for word in ("t = ", "Kinetic energy is "))
+h = told.history
+# The motion after the kick, between this cycle and the next.
+at = numpy.argmin(abs(h["time"] - time))
+ratios = [h["kinetic"][i] / (h["internal"][at] + h["contact_stored"][at]) for i in (at, at + 1)]
+case.check_within("until: kinetic over internal energy when it ends", energy, 0.9 * min(ratios), 1.1 * max(ratios))
 case.finish()

@@ -11,31 +11,6 @@ namespace coplane::hdf5
 {
 namespace
 {
-/// Closes an id at the end of its scope.
-class Id
-{
-public:
-  Id(hid_t id, herr_t (*close)(hid_t), const char* what) : id_(id), close_(close)
-  {
-    if (id_ < 0)
-      throw Failure(what);
-  }
-  ~Id() { close_(id_); }
-  Id(const Id&) = delete;
-  Id& operator=(const Id&) = delete;
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void check(herr_t status, const std::string& what)
-{
-  if (status < 0)
-    throw Failure(what);
-}
-
 void select(hid_t space, const Part& part)
 {
   if (part.count == 0)

@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/PressureWeights.hpp>
+#include <coplane_geometry/AffineWeights.hpp>
 
 #include <cmath>
 
@@ -109,26 +110,20 @@ struct Pieces
   }
 };
 
-/// Node weights that reproduce a point from any points that are not collinear, affine and of least
-/// norm: for faces whose bilinear map cannot be inverted.
-KOKKOS_INLINE_FUNCTION void affineWeights(const Shadow& shadow, const Vec2& at, Real* w)
+/// Where the pressure between two segments acts, as a place along the plane [m]: the closure is
+/// linear between the ends of the part that is closed, and counts with the depth there.
+/// @param lo, hi ends of that part [m]; closureLo, closureHi closures there [m], not both 0
+KOKKOS_INLINE_FUNCTION Real centreOfPressure(Real lo, Real hi, Real closureLo, Real closureHi,
+                                             const Depth& depth)
 {
-  Vec2 mean;
-  for (int i = 0; i < shadow.count; ++i)
-    mean = mean + (1.0 / shadow.count) * shadow.p[i];
-  Real xx = 0, xy = 0, yy = 0;
-  for (int i = 0; i < shadow.count; ++i)
+  Real first = closureLo + 2 * closureHi, total = 3 * (closureLo + closureHi);
+  if (depth.slope != 0)
   {
-    const Vec2 r = shadow.p[i] - mean;
-    xx += r.x * r.x;
-    xy += r.x * r.y;
-    yy += r.y * r.y;
+    const Real d0 = depth.at(lo), d1 = depth.at(hi);
+    first = closureLo * (d0 + d1) + closureHi * (d0 + 3 * d1);
+    total = closureLo * (4 * d0 + 2 * d1) + closureHi * (2 * d0 + 4 * d1);
   }
-  const Real determinant = xx * yy - xy * xy;
-  const Vec2 d = at - mean;
-  const Vec2 s{(yy * d.x - xy * d.y) / determinant, (xx * d.y - xy * d.x) / determinant};
-  for (int i = 0; i < shadow.count; ++i)
-    w[i] = 1.0 / shadow.count + dot(shadow.p[i] - mean, s);
+  return lo + (hi - lo) * first / total;
 }
 
 KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, Real offset,
@@ -172,16 +167,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfSegments(const Shadow& a, const Shadow& b, R
   {
     const Real closureLo = gapLo > 0 ? 0 : -gapLo, closureHi = gapHi > 0 ? 0 : -gapHi;
     if (closureLo + closureHi > 0)
-    {
-      Real first = closureLo + 2 * closureHi, total = 3 * (closureLo + closureHi);
-      if (depth.slope != 0)
-      {
-        const Real d0 = depth.at(closedLo), d1 = depth.at(closedHi);
-        first = closureLo * (d0 + d1) + closureHi * (d0 + 3 * d1);
-        total = closureLo * (4 * d0 + 2 * d1) + closureHi * (2 * d0 + 4 * d1);
-      }
-      at = closedLo + (closedHi - closedLo) * first / total;
-    }
+      at = centreOfPressure(closedLo, closedHi, closureLo, closureHi, depth);
   }
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
@@ -398,8 +384,8 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b, Rea
       for (int v = 0; v < q.size; ++v)
       {
         Real wa[4], wb[4];
-        affineWeights(a, q.vertex[v], wa);
-        affineWeights(b, q.vertex[v], wb);
+        affineWeights(a.p, a.count, q.vertex[v], wa);
+        affineWeights(b.p, b.count, q.vertex[v], wb);
         Real gap = -offset;
         for (int k = 0; k < b.count; ++k)
           gap += wb[k] * b.height[k];
@@ -427,7 +413,7 @@ KOKKOS_INLINE_FUNCTION Patch patchOfPieces(const Shadow& a, const Shadow& b, Rea
   const Shadow* shadows[2] = {&a, &b};
   for (int f = 0; f < 2; ++f)
   {
-    affineWeights(*shadows[f], patch.centroid, patch.centroidWeights[f]);
+    affineWeights(shadows[f]->p, shadows[f]->count, patch.centroid, patch.centroidWeights[f]);
     for (int k = 0; k < 4; ++k)
       patch.weights[f][k] = patch.centroidWeights[f][k];
   }

@@ -5,6 +5,19 @@
 
 namespace coplane
 {
+namespace
+{
+/// Edge of bins over the largest face of their level [-]. A box as long as the edge less the reach
+/// is in at most two bins along an axis, and faces that lie askew have longer boxes when they have
+/// turned: larger bins hold more pairs that are far apart, smaller ones more entries of a face.
+/// Which pairs are found does not hang on it.
+constexpr Real edgeOverFace = 1.4;
+/// Nothing is as small [m]; the logarithm of zero is not asked for.
+constexpr Real leastSize = 1e-37;
+/// At most so many bins along an axis.
+constexpr int mostBins = 1 << 28;
+} // namespace
+
 void SizeHistogram::add(const SizeHistogram& other)
 {
   for (int c = 0; c < classes; ++c)
@@ -14,9 +27,11 @@ void SizeHistogram::add(const SizeHistogram& other)
 int SizeHistogram::classOf(Real size)
 {
   int exponent = 0;
-  const Real fraction = std::frexp(std::max(size, 1e-37), &exponent); // in [1/2, 1)
-  const int quarter = (fraction >= 0.5946035575013605) + (fraction >= 0.7071067811865476) +
-                      (fraction >= 0.8408964152537145);
+  const Real fraction = std::frexp(std::max(size, leastSize), &exponent); // in [1/2, 1)
+  // 2^(-3/4), 2^(-1/2), 2^(-1/4).
+  constexpr Real borders[3] = {0.5946035575013605, 0.7071067811865476, 0.8408964152537145};
+  const int quarter =
+      (fraction >= borders[0]) + (fraction >= borders[1]) + (fraction >= borders[2]);
   return std::clamp(4 * (exponent - 1) + quarter + classes / 2, 0, classes - 1);
 }
 
@@ -52,9 +67,8 @@ std::vector<Bins::Level> SizeHistogram::levels(Real reach, Real extent) const
     }
   }
 
-  // Not more than 2^28 bins along an axis, and not more than 32 levels: faces that are smaller
-  // still join the first level.
-  const Real smallest = extent / (1 << 28);
+  // Not more than 32 levels either: faces that are smaller still join the first one.
+  const Real smallest = extent / mostBins;
   std::vector<Bins::Level> levels;
   int last = -1;
   for (int c = 0; c < classes; ++c)
@@ -63,7 +77,7 @@ std::vector<Bins::Level> SizeHistogram::levels(Real reach, Real extent) const
       last = levelOfClass(c, best);
       Bins::Level level;
       level.largestFace = upperBound(4 * last + 3 - best);
-      level.edge = 1.4 * level.largestFace + reach;
+      level.edge = edgeOverFace * level.largestFace + reach;
       if (level.largestFace >= smallest && level.edge < infinity)
         levels.push_back(level);
     }

@@ -1,5 +1,5 @@
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/RadixSort.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
@@ -12,12 +12,7 @@ namespace coplane
 {
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
-  FaceNodes nodes;
-  nodes.count = face.count;
-  for (int k = 0; k < face.count; ++k)
-    nodes.x[k] = at(x, face.nodes[k]);
-  const HalfStepFace now =
-      dimension == 2 ? stepA_halfStepFace<2>(nodes, 0) : stepA_halfStepFace<3>(nodes, 0);
+  const HalfStepFace now = stepA_halfStepFace(nodesOf(face, x), 0, dimension);
   return {now.center, now.normal};
 }
 
@@ -231,6 +226,47 @@ std::vector<std::int32_t> orderById(const std::vector<Face>& faces)
   std::inplace_merge(order.begin(), middle, order.end(), less);
   return order;
 }
+
+/// Bins are dealt out in so many shares, for any number of threads.
+constexpr int shares = 64;
+
+/// The first entry of a share; entries of one bin stay together.
+std::size_t beginOfShare(const std::vector<BinEntry>& entries, int share)
+{
+  std::size_t border = entries.size() * share / shares;
+  while (border > 0 && border < entries.size() && entries[border].key == entries[border - 1].key)
+    ++border;
+  return border;
+}
+
+/// Calls found(face, face) for every pair in the bins of a share.
+template <class Found>
+void forEachPairOf(const BinEntry* begin, const BinEntry* last, const BinSearch& search,
+                   const Found& found)
+{
+  std::vector<BinSearch::BinFace> inBin;
+  while (begin < last)
+  {
+    const BinEntry* end = begin;
+    while (end < last && end->key == begin->key)
+      ++end;
+    search(begin, end, inBin, found);
+    begin = end;
+  }
+}
+
+/// The pairs of all shares, one share after another.
+std::vector<CandidatePair> together(const std::vector<std::vector<CandidatePair>>& ofShares)
+{
+  std::size_t count = 0;
+  for (const auto& some : ofShares)
+    count += some.size();
+  std::vector<CandidatePair> pairs;
+  pairs.reserve(count);
+  for (const auto& some : ofShares)
+    pairs.insert(pairs.end(), some.begin(), some.end());
+  return pairs;
+}
 } // namespace
 
 std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
@@ -243,55 +279,33 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
   for (std::size_t i = 0; i < order.size(); ++i)
     rankOf[order[i]] = std::int32_t(i);
 
-  // Bins in shares; every share collects its own pairs, as places in the order of ids. Sorting by
-  // these brings the pairs of all shares into one order.
-  constexpr int shares = 64;
+  // Every share collects its own pairs, as places in the order of ids. Sorting by these brings the
+  // pairs of all shares into one order.
   const std::vector<BinEntry>& entries = sorted.entries;
-  const auto borderOfShare = [&](int share)
-  {
-    std::size_t border = entries.size() * share / shares;
-    while (border > 0 && border < entries.size() && entries[border].key == entries[border - 1].key)
-      ++border;
-    return border;
-  };
   const BinSearch search{faces, sorted.boxes, sorted.planes, x, rules};
   std::vector<std::vector<CandidatePair>> found(shares);
   const auto pairsOfShare = [&](const int share)
   {
-    std::vector<BinSearch::BinFace> inBin;
-    const std::size_t first = borderOfShare(share), beyond = borderOfShare(share + 1);
+    const std::size_t first = beginOfShare(entries, share),
+                      beyond = beginOfShare(entries, share + 1);
     std::vector<CandidatePair> mine;
     mine.reserve(2 * (beyond - first));
-    const BinEntry* const last = entries.data() + beyond;
-    for (const BinEntry* begin = entries.data() + first; begin < last;)
-    {
-      const BinEntry* end = begin;
-      while (end < last && end->key == begin->key)
-        ++end;
-      search(begin, end, inBin,
-             [&](int p, int q)
-             {
-               const int a = rankOf[p], b = rankOf[q];
-               mine.push_back({std::min(a, b), std::max(a, b)});
-             });
-      begin = end;
-    }
+    forEachPairOf(entries.data() + first, entries.data() + beyond, search,
+                  [&](int p, int q)
+                  {
+                    const int a = rankOf[p], b = rankOf[q];
+                    mine.push_back({std::min(a, b), std::max(a, b)});
+                  });
     found[share] = std::move(mine);
   };
   parallelFor("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
 
-  std::size_t count = 0;
-  for (const auto& some : found)
-    count += some.size();
-  std::vector<CandidatePair> pairs;
-  pairs.reserve(count);
-  for (const auto& some : found)
-    pairs.insert(pairs.end(), some.begin(), some.end());
+  std::vector<CandidatePair> pairs = together(found);
   const int bits = bitsFor(faces.size());
   radixSort(pairs, 2 * bits,
             [bits](const CandidatePair& pair)
             { return std::uint64_t(pair.lower) << bits | std::uint64_t(pair.higher); });
-  parallelFor("coplane::contact::step5_pairs", int(count),
+  parallelFor("coplane::contact::step5_pairs", int(pairs.size()),
               [&](const int p) {
                 pairs[p] = {order[pairs[p].lower], order[pairs[p].higher]};
               });

@@ -126,7 +126,7 @@ private:
     const int a = plane.face[0], b = plane.face[1];
     const bool joint =
         contact.rules().between(contact.faces()[a].group, contact.faces()[b].group).declared;
-    if (joint)
+    if (joint && contact.isOpposed(plane))
       declared[a] = declared[b] = 1;
     if (plane.declared)
       closed[a] = closed[b] = 1;

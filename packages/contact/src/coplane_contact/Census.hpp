@@ -40,8 +40,8 @@ struct ContactCensus
   CensusLengths overlaps; ///< depths of other pairs that overlap; the deepest first
   CensusLengths gaps;     ///< of other pairs that face each other apart; the smallest first
 
-  /// Faces of side sets between which a joint is declared, and faces with candidates across a
-  /// declared joint, that no plane closes.
+  /// Faces of side sets between which a joint is declared, and faces that oppose candidates across
+  /// a declared joint, that no plane closes.
   std::int64_t lonelyFaces = 0;
   std::vector<GlobalId> firstLonelyFaces; ///< the lowest ids, at most ten
 

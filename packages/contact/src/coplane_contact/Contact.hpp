@@ -4,26 +4,25 @@
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/EndedPlanes.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/FaceTable.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/ForceSums.hpp>
+#include <coplane_contact/PairedFaces.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_contact/SearchReach.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
-#include <algorithm>
-#include <atomic>
 #include <functional>
-#include <memory>
 #include <utility>
 #include <vector>
 
 namespace coplane
 {
-class Preparation;
-
 /// Numbers of planes over all ranks.
 struct ContactCounts
 {
@@ -40,7 +39,7 @@ class Contact
 {
 public:
   /// skin: how far apart faces may be to become candidates [m]; smallestFace: smallestFaceSize()
-  /// [m]
+  /// [m]. Collective.
   Contact(const Comm& comm, int dimension, std::vector<Face> localFaces, ContactOptions options,
           ContactRules rules, Real skin, Real smallestFace);
 
@@ -53,7 +52,7 @@ public:
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
-  /// at the point of contact [Pa, tension positive].
+  /// at the point of contact [Pa, tension positive], less the pressure on their faces.
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
   void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
@@ -65,11 +64,6 @@ public:
   /// to follow.
   void replaceLocalFaces(std::vector<Face> localFaces);
 
-  /// Tells all pairs what the last search knows of them; else each gets it when it comes near.
-  /// To be called before planes are kept or compared: it changes what they remember, but nothing
-  /// that they do.
-  void prepareAll() const;
-
   /// Contact's part of a checkpoint. Collective.
   void save(StateTables& out) const;
   // And back, in two halves like a search; the local faces have to be those of that time.
@@ -78,6 +72,9 @@ public:
   std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
   void restorePlanes(const StateSource& in, const NodeLayout& layout);
+  /// Step A where faces stand still: for those who look at them before the next update.
+  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                 const ConstArray<Real>& mass) const;
 
   /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
   /// stable step; at least the two largest steps that may follow [s]
@@ -88,30 +85,33 @@ public:
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
   void addForces(const NodeVectors& f, const Array<Real>& stiffness) const
   {
-    forceSums_.add(planes_, activity_, f, stiffness);
+    forceSums_.add(planes_.planes(), planes_.activity(), f, stiffness);
   }
 
-  const std::vector<Face>& faces() const { return faces_; }
-  const std::vector<Face>& localFaces() const { return localFaces_; }
-  const Kokkos::View<Plane*, Kokkos::HostSpace>& planes() const { return planes_; }
+  const std::vector<Face>& faces() const { return faces_.all(); }
+  const std::vector<Face>& localFaces() const { return faces_.local(); }
+  /// Those that nothing has come near since the last search do not know yet what it found beside
+  /// their faces; prepared() tells what they are when they do, which checkpoints and hashes have.
+  const PlaneTable::Planes& planes() const { return planes_.planes(); }
+  Plane prepared(std::size_t p) const { return planes_.prepared(p); }
   const ContactOptions& options() const { return options_; }
   const ContactRules& rules() const { return rules_; }
   /// Largest gap of the pairs that the last search took [m].
-  Real skin() const { return candidates_.skin; }
+  Real skin() const { return reach_.skin(); }
   /// For the searches from now on: at least the given skin, more where faces move by more than a
   /// fraction of it in one step. `motion` as a step may carry faces relative to each other [m].
-  void coverMotion(Real motion) { setSkin(std::max(skin_, skinOverMotion * motion)); }
-  void setSkin(Real skin); ///< [m]
+  void coverMotion(Real motion) { reach_.coverMotion(motion); }
+  void setSkin(Real skin) { reach_.setSkin(skin); } ///< [m]
   /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
   Real thinnestElement() const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   /// Whether since the last search planes of this rank have changed what they pass on, as far as
-  /// pairs that take over from them may not have it from that search (PairTables::Passed).
-  bool passedOnHasChanged() const { return passedOnHasChanged_; }
-  std::int64_t searches() const { return searches_; }
+  /// pairs that take over from them may not have it from that search (detail/PassedOn.hpp).
+  bool passedOnHasChanged() const { return planes_.passedOnHasChanged(); }
+  std::int64_t searches() const { return searches_.count; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
-  double takeSearchSeconds() { return std::exchange(searchSeconds_, 0.0); }
+  double takeSearchSeconds() { return std::exchange(searches_.seconds, 0.0); }
 
   // Over all ranks, the same bits on all; collective.
   ContactEnergy energy() const;
@@ -122,6 +122,14 @@ public:
 
   /// Law of a plane.
   const JointLaw& lawOf(const Plane& plane) const { return rules_.joints[plane.joint].law; }
+
+  /// Whether the faces of a candidate pair opposed each other in the last update. With the
+  /// potential those that may begin to before the next search are candidates, too.
+  bool isOpposed(const Plane& plane) const
+  {
+    const HalfStepFace* const faces = pairedFaces_.data();
+    return -dot(faces[plane.face[0]].normal, faces[plane.face[1]].normal) > options_.cosOpposed;
+  }
 
   /// This rank's planes to count and to write: those whose lower face it owns, that exist and
   /// overlap.
@@ -135,64 +143,57 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  /// What the first half of a search leaves to the second.
+  struct FirstHalf
+  {
+    Bins bins;
+    Ghosts ghosts;
+    // Of the nodes of the table of faces that was made by the search before.
+    std::vector<GlobalId> nodeIds;
+    ConstNodeVectors x;
+    /// Of a checkpoint, whose planes need no search.
+    std::vector<Plane> restored;
+
+    std::vector<GlobalId> nodesOfGhosts() const;
+  };
+  struct Searches
+  {
+    std::int64_t count = 0;
+    std::int64_t missed = 0; ///< pairs that a search had to find before, and did not
+    double seconds = 0;      ///< see takeSearchSeconds()
+    bool sinceUpdate = false;
+  };
+
+  // Of a search.
+  void findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                  Real ahead); ///< Collective.
+  std::vector<Donor> livingPlanes() const;
+  /// Copies of faces far away to whom living planes hold on. Collective.
+  void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
+  /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
+  std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
+                                     const std::vector<GlobalId>& nodeIds) const;
+  void listSlotsOfFaces(int ownedNodes);
+  bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
   /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
   /// a candidate. Collective.
   std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
-  /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
-  std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
-                                     const std::vector<GlobalId>& nodeIds) const;
-  /// Copies of faces far away to whom living planes hold on. Collective.
-  void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
-  std::vector<GlobalId> nodesOfGhosts() const;
-  /// Position in the table of faces; -1 when the face is not here.
-  int faceHere(GlobalId id) const;
-  void listFaces(const NodeLayout& layout); ///< local ones, then ghosts
-  void takeFaceTables();
-  bool potential() const { return options_.forces == ContactOptions::Forces::Potential; }
-  class SlotFiller; ///< makes the slots of a search
-  std::vector<Donor> livingPlanes() const;
-  Donor donor(const Plane& plane) const;
-  void buildLists(int ownedNodes);
-  CandidateRules candidateRules() const; ///< with those of groups; while this lives
-  bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
-  FaceNodes nodesOf(const Face& face, const ConstNodeVectors& x) const;
 
-  /// A search is forced when the next step takes nodes farther than half a skin along an axis,
-  /// which is less than 0.87 skins in space. The step to that search may add an eighth.
-  static constexpr Real skinOverMotion = 8;
-
+  // What contact is between ...
   const Comm* comm_;
   int dimension_;
-  std::vector<Face> localFaces_; ///< sorted by id
-  std::vector<Face> faces_;      ///< local, then ghost
   ContactOptions options_;
   ContactRules rules_;
-  Real skin_, smallestFace_;
-  CandidateRules candidates_; ///< of the last search
-  Bins bins_;
-  Ghosts ghosts_;
-  // While a search makes a new faceTable_: of the nodes of the old one.
-  std::vector<GlobalId> nodeIds_;
-  ConstNodeVectors oldX_;
-  std::int64_t searches_ = 0;
-  std::int64_t missed_ = 0;
-  double searchSeconds_ = 0;
-  bool searchedSinceUpdate_ = false;
-  std::atomic<bool> passedOnHasChanged_{false};
-
-  Kokkos::View<Plane*, Kokkos::HostSpace> planes_; ///< sorted by key
-  Kokkos::View<SlotFaces*, Kokkos::HostSpace> slotFaces_;
-  Array<Activity> activity_;                       ///< by slot
-  std::shared_ptr<const Preparation> preparation_; ///< of the last search
-  Array<std::uint8_t> todo_; ///< by slot: what it has not been told yet (Preparation::Todo)
-  Array<JointLaw> laws_;     ///< by joint card
-  Array<Face> faceTable_;
-  Array<bool> paired_;                                           ///< faces that have a slot
-  Kokkos::View<HalfStepFace*, Kokkos::HostSpace> halfStepFaces_; ///< step A, of this cycle
+  FaceTable faces_;
+  // ... what searches find ...
+  SearchReach reach_;
+  Searches searches_;
+  FirstHalf firstHalf_; ///< empty between searches
+  // ... and what cycles work on.
+  PlaneTable planes_;
+  PairedFaces pairedFaces_;
   ForceSums forceSums_;
-
   EndedPlanes ended_;
-  std::vector<Plane> restored_; ///< between restoreFaces() and restorePlanes()
 };
 } // namespace coplane

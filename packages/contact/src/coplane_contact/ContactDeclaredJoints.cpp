@@ -1,5 +1,6 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 
 #include <algorithm>
@@ -65,10 +66,13 @@ SymTensor mean(const SymTensor& a, const SymTensor& b)
 
 /// Closes a plane at its gap, in equilibrium with a stress: closure and shear traction that carry
 /// it. The traction on face 1 is minus that of the solid of face 0 across the plane.
+/// @param pressure that conditions put on both faces, which the plane does not carry [Pa]
 /// @param area of its overlap [m^2]
-void closeUnder(const SymTensor& stress, const JointLaw& law, Real area, Plane& plane)
+void closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Real area,
+                Plane& plane)
 {
-  const Vec3 t = traction(stress, plane.normal);
+  const Vec3 total = traction(stress, plane.normal);
+  const Vec3 t = total + pressure * plane.normal; // effective
   const Real compression = -dot(t, plane.normal);
   plane.history.bonded = law.cohesive();
   const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
@@ -117,14 +121,14 @@ Real declare(Plane& plane, const FaceNodes& nodesA, const FaceNodes& nodesB,
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
-  prepareAll(); // neighbours pass on nothing to planes that are closed here
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  planes_.prepareAll(); // neighbours pass on nothing to planes that are closed here
+  for (std::size_t p = 0; p < planes_.count(); ++p)
   {
-    Plane& plane = planes_(p);
+    Plane& plane = planes()(p);
     if (plane.face[0] < 0)
       continue;
-    const Face& faceA = faces_[plane.face[0]];
-    const Face& faceB = faces_[plane.face[1]];
+    const Face& faceA = faces()[plane.face[0]];
+    const Face& faceB = faces()[plane.face[1]];
     if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
@@ -134,7 +138,7 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
                     stressOfBlock(faceB.block, plane.pointOfContact)),
-               lawOf(plane), area, plane);
+               0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), area, plane);
   }
 }
 } // namespace coplane

@@ -4,6 +4,7 @@
 #include <coplane_contact/ContactEnergy.hpp>
 #include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_contact/OwnedSides.hpp>
+#include <coplane_geometry/AffineWeights.hpp>
 
 #include <type_traits>
 
@@ -231,25 +232,7 @@ public:
         weights[f][0] = 1.0 - weights[f][1];
       }
       else
-      {
-        Vec2Of<T> mean;
-        for (int i = 0; i < s.count; ++i)
-          mean = mean + s.p[i];
-        mean = (1.0 / s.count) * mean;
-        T xx{}, xy{}, yy{};
-        for (int i = 0; i < s.count; ++i)
-        {
-          const Vec2Of<T> r = s.p[i] - mean;
-          xx += r.x * r.x;
-          xy += r.x * r.y;
-          yy += r.y * r.y;
-        }
-        const T inverse = 1.0 / (xx * yy - xy * xy);
-        const Vec2Of<T> d = at - mean;
-        const Vec2Of<T> slope{inverse * (yy * d.x - xy * d.y), inverse * (xx * d.y - xy * d.x)};
-        for (int i = 0; i < s.count; ++i)
-          weights[f][i] = 1.0 / s.count + dot(s.p[i] - mean, slope);
-      }
+        affineWeights(s.p, s.count, at, weights[f]);
     }
   }
 

@@ -152,6 +152,15 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addStrip(const Real& scale, R
   byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
 }
 
+namespace detail
+{
+/// A place is that of a node when the square of its distance is below this part of that of the
+/// border beside it [-], 1e-10 of its length: places come from nodes by cuts, with round-off.
+constexpr Real squareOfSameNode = 1e-20;
+/// Borders that meet at a flatter angle than this go on in each other, and have no corner [-].
+constexpr Real leastSine = 1e-6;
+} // namespace detail
+
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int k, Real slope,
                                                              Real& push, Vec2& first,
@@ -196,13 +205,13 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
       // A diagonal: it ends at a node of its own face, and cuts the other face for both pieces.
       const int node = nodeOfEdge(owner / 4, owner % 4, end);
       const Vec2 off = p - shadow[owner / 4].p[node];
-      if (dot(off, off) < 1e-20 * length * length)
+      if (dot(off, off) < detail::squareOfSameNode * length * length)
         rim[owner / 4][node] = rim[owner / 4][node] + further * t;
       continue;
     }
     const Vec2 other = outwardOf(q.owner[next]);
     const Real sine = dot(other, t);
-    if (!(std::abs(sine) > 1e-6))
+    if (!(std::abs(sine) > detail::leastSine))
       continue;
     const Real ofOther = further / sine;
     pushEdge(owner, p, (-ofOther * dot(other, n)) * n, rim);

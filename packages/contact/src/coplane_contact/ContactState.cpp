@@ -66,10 +66,9 @@ void forEachHolder(const std::vector<Holder>& all, GlobalId face, const F& f)
 
 void Contact::save(StateTables& out) const
 {
-  prepareAll();
   KeyedRows faces;
   faces.columns = faceColumns;
-  for (const Face& face : localFaces_)
+  for (const Face& face : localFaces())
     if (face.ownedHere)
     {
       Real* row = faces.add({face.id});
@@ -81,17 +80,17 @@ void Contact::save(StateTables& out) const
   KeyedRows planes;
   planes.keySize = 2;
   planes.columns = namesOfNumbers();
-  for (std::size_t p = 0; p < planes_.extent(0); ++p)
+  for (std::size_t p = 0; p < planes_.count(); ++p)
   {
-    const Plane& plane = planes_(p);
-    if (!plane.countedHere)
+    if (!planes_.planes()(p).countedHere)
       continue;
+    const Plane plane = prepared(p);
     Real* row = planes.add({plane.faceId[0], plane.faceId[1]});
     forEachNumber(plane, [&](const auto& number) { *row++ = Real(number); });
   }
   out.rows("contact/planes", planes);
   out.numbers("contact/ended", ended_.numbers(*comm_));
-  out.numbers("contact/counts", {Real(searches_), Real(comm_->sum(missed_))});
+  out.numbers("contact/counts", {Real(searches_.count), Real(comm_->sum(searches_.missed))});
 }
 
 std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
@@ -110,7 +109,7 @@ std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
     for (const GlobalId face : plane.faceId)
       send[rankFor(face, *comm_)].push_back({face, plane});
   }
-  const std::vector<Holder> all = holders(localFaces_, *comm_);
+  const std::vector<Holder> all = holders(localFaces(), *comm_);
   const std::vector<SentPlane> arrived = comm_->exchange(send);
   std::vector<std::vector<Plane>> toHolder(comm_->size());
   for (const SentPlane& sent : arrived)
@@ -132,7 +131,7 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   std::vector<std::vector<WantedFace>> ask(comm_->size()), toOwner(comm_->size());
   for (const GlobalId face : wanted)
     ask[rankFor(face, *comm_)].push_back({face, comm_->rank()});
-  const std::vector<Holder> all = holders(localFaces_, *comm_);
+  const std::vector<Holder> all = holders(localFaces(), *comm_);
   const std::vector<WantedFace> asked = comm_->exchange(ask);
   for (const WantedFace& one : asked)
     forEachHolder(all, one.face,
@@ -144,11 +143,8 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   const std::vector<WantedFace> mine = comm_->exchange(toOwner);
   std::vector<std::vector<GhostFace>> answer(comm_->size());
   for (const WantedFace& one : mine)
-  {
-    const auto found = std::lower_bound(localFaces_.begin(), localFaces_.end(), one.face,
-                                        [](const Face& face, GlobalId id) { return face.id < id; });
-    answer[one.byRank].push_back(toGhostFace(*found, nodeIds));
-  }
+    answer[one.byRank].push_back(
+        toGhostFace(*findFace(localFaces().begin(), localFaces().end(), one.face), nodeIds));
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
@@ -159,64 +155,64 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
                                             const std::vector<GlobalId>& nodeIds)
 {
   std::vector<GlobalId> ids;
-  for (const Face& face : localFaces_)
+  for (const Face& face : localFaces())
     ids.push_back(face.id);
   const KeyedRows rows = in.rowsOf("contact/faces", faceColumns, ids);
-  for (std::size_t f = 0; f < localFaces_.size(); ++f)
+  std::size_t f = 0;
+  for (Face& face : faces_.local())
   {
-    localFaces_[f].thickness = rows.row(f)[0];
-    localFaces_[f].modulus = rows.row(f)[1];
-    localFaces_[f].young = false;
+    face.thickness = rows.row(f)[0];
+    face.modulus = rows.row(f)[1];
+    face.young = false;
+    ++f;
   }
 
-  restored_ = planesOfCheckpoint(in);
+  firstHalf_ = {};
+  firstHalf_.restored = planesOfCheckpoint(in);
   std::vector<GlobalId> wanted;
   const auto isLocal = [&](GlobalId id) { return std::binary_search(ids.begin(), ids.end(), id); };
-  for (const Plane& plane : restored_)
+  for (const Plane& plane : firstHalf_.restored)
     for (const GlobalId face : plane.faceId)
       if (plane.face[0] >= 0 && !isLocal(face))
         wanted.push_back(face);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
-  ghosts_ = {};
-  ghosts_.faces = fetchGhosts(wanted, nodeIds);
-  if (comm_->max(std::int64_t(ghosts_.faces.size() != wanted.size())) > 0)
+  firstHalf_.ghosts.faces = fetchGhosts(wanted, nodeIds);
+  if (comm_->max(std::int64_t(firstHalf_.ghosts.faces.size() != wanted.size())) > 0)
     failOnAllRanks(ExitCode::Checkpoint,
                    "the checkpoint has contact planes on faces that this mesh does not have.");
-  return nodesOfGhosts();
+  return firstHalf_.nodesOfGhosts();
 }
 
 void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
 {
-  listFaces(layout);
-  const Kokkos::View<Plane*, Kokkos::HostSpace> planes(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), restored_.size());
-  for (std::size_t p = 0; p < restored_.size(); ++p)
+  faces_.list(firstHalf_.ghosts.faces, layout);
+  const std::vector<Plane>& restored = firstHalf_.restored;
+  const PlaneTable::Planes planes(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), restored.size());
+  for (std::size_t p = 0; p < restored.size(); ++p)
   {
-    Plane& plane = *new (&planes(p)) Plane(restored_[p]);
-    const int lower = faceHere(plane.faceId[0]);
-    plane.countedHere = lower >= 0 && faces_[lower].ownedHere;
+    Plane& plane = *new (&planes(p)) Plane(restored[p]);
+    const int lower = faces_.place(plane.faceId[0]);
+    plane.countedHere = lower >= 0 && faces()[lower].ownedHere;
     if (plane.face[0] >= 0)
     {
       plane.face[0] = lower;
-      plane.face[1] = faceHere(plane.faceId[1]);
+      plane.face[1] = faces_.place(plane.faceId[1]);
     }
   }
-  planes_ = planes;
-  todo_ = {};
-  preparation_ = nullptr;
-  restored_.clear();
-  takeFaceTables();
+  firstHalf_ = {};
+  planes_.take(planes);
   forceSums_.forgetFaces();
-  buildLists(layout.owned());
+  listSlotsOfFaces(layout.owned());
   ended_ = {};
   const std::vector<Real> counts = in.numbers("contact/counts");
-  searches_ = std::int64_t(counts.at(0));
-  missed_ = comm_->isRoot() ? std::int64_t(counts.at(1)) : 0;
+  searches_.count = std::int64_t(counts.at(0));
+  searches_.missed = comm_->isRoot() ? std::int64_t(counts.at(1)) : 0;
+  searches_.sinceUpdate = false;
   if (comm_->isRoot())
     ended_.addNumbers(in.numbers("contact/ended"));
   else
     in.numbers("contact/ended"); // collective
-  searchedSinceUpdate_ = false;
 }
 } // namespace coplane

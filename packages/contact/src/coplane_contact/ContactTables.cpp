@@ -1,5 +1,6 @@
 #include <coplane_contact/ContactTables.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 
@@ -17,16 +18,10 @@ bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVe
   for (int side = 0; side < 2; ++side)
   {
     const Face& face = contact.faces()[plane.face[side]];
-    Vec3 corners[4], center{};
-    for (int k = 0; k < face.count; ++k)
-    {
-      corners[k] = at(x, face.nodes[k]);
-      center += (1.0 / face.count) * corners[k];
-    }
-    area[side] = contact.dimension() == 2 ? vectorArea<2>(corners, face.count)
-                                          : vectorArea<3>(corners, face.count);
-    least = std::min(least,
-                     norm(area[side]) * (contact.options().axisymmetric ? 2 * pi * center.x : 1));
+    const FaceCorners corners = cornersAt(x, face);
+    area[side] = corners.area(contact.dimension());
+    const Real around = contact.options().axisymmetric ? 2 * pi * corners.center().x : 1;
+    least = std::min(least, norm(area[side]) * around);
   }
   return plane.overlap > sliverOfJoint * least &&
          dot(normalised(area[0]), normalised(area[1])) < -opposedAcrossJoint;

@@ -70,6 +70,7 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
         normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
   findEdges();
+  normals_ = NormalsOfNodes(0); // nobody asks any more, and there may be many
   parallelFor("coplane::contact::lieOn", int(pairs.size()),
               [&](const int p) { lieOn_[p] = lieOn(pairs[p].lower, pairs[p].higher); });
   findHidden(layout);
@@ -132,17 +133,12 @@ Real EdgesOfSurfaces::lieOn(int lower, int higher) const
   Vec3 centers[2];
   for (int f = 0; f < 2; ++f)
   {
-    const Face& face = f == 0 ? a : b;
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-    {
-      corners[k] = at(x_, face.nodes[k]);
-      centers[f] += (1.0 / face.count) * corners[k];
-    }
-    shadows[f] = view.shadow(corners, face.count);
+    const FaceCorners corners = cornersAt(x_, f == 0 ? a : b);
+    centers[f] = corners.center();
+    shadows[f] = view.shadow(corners.x, corners.count);
   }
   const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
-  const Real size = dimension_ == 2 ? smaller : std::sqrt(smaller);
+  const Real size = faceSize(smaller, dimension_);
   const Real gap = dot(normal, centers[1] - centers[0]);
   const bool near =
       gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&

@@ -1,4 +1,5 @@
 #include <coplane_contact/FaceContact.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 
@@ -39,13 +40,10 @@ std::vector<FaceContact> faceContact(const Contact& contact, const ConstNodeVect
   {
     if (!(area[f] > 0))
       continue;
-    Vec3 corners[4];
-    for (int k = 0; k < faces[f].count; ++k)
-      corners[k] = at(x, faces[f].nodes[k]);
-    Real whole = norm(contact.dimension() == 2 ? vectorArea<2>(corners, faces[f].count)
-                                               : vectorArea<3>(corners, faces[f].count));
+    const FaceCorners corners = cornersAt(x, faces[f]);
+    Real whole = norm(corners.area(contact.dimension()));
     if (contact.options().axisymmetric)
-      whole *= pi * (corners[0].x + corners[1].x);
+      whole *= pi * (corners.x[0].x + corners.x[1].x);
     list[f].areaFraction = area[f] / whole;
     list[f].normalTraction /= area[f];
     list[f].shearTraction = (1 / area[f]) * list[f].shearTraction;

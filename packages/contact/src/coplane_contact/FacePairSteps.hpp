@@ -3,6 +3,7 @@
 #include <coplane_contact/AreaOfContact.hpp>
 #include <coplane_contact/HalfStepFace.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_geometry/PlaneAxes.hpp>
 
 // Steps A to G of the Simple Common Plane algorithm for one pair of faces (Vorobiev 2006), as pure
 // functions. T is Real, or Lanes for several pairs side by side, which then have the same numbers
@@ -40,22 +41,9 @@ KOKKOS_INLINE_FUNCTION TrialPlaneOf<T> stepB_trialPointOfContact(const HalfStepF
     return plane;
   plane.normal = normalised(a.normal - b.normal);
   plane.point = 0.5 * (a.center + b.center);
-  const Vec3Of<T>& n = plane.normal;
-  if constexpr (Dim == 2)
-    plane.e1 = {-n.y, n.x, T(0.0)};
-  else
-  {
-    // The axis with the smallest component of the normal, less that component.
-    const Vec3Of<T> size{absolute(n.x), absolute(n.y), absolute(n.z)};
-    const auto isX = size.x <= size.y && size.x <= size.z;
-    const auto isZ = !isX && size.z < size.y;
-    const T none(0.0), one(1.0);
-    const Vec3Of<T> axis{choose(isX, one, none), choose(isX || isZ, none, one),
-                         choose(isZ, one, none)};
-    const T along = choose(isX, n.x, choose(isZ, n.z, n.y));
-    plane.e1 = normalised(axis - along * n);
-    plane.e2 = cross(n, plane.e1);
-  }
+  const PlaneAxesOf<T> axes = planeAxes<Dim>(plane.normal);
+  plane.e1 = axes.e1;
+  plane.e2 = axes.e2;
   return plane;
 }
 

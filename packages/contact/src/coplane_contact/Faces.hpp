@@ -4,6 +4,7 @@
 #include <coplane_core/Vec3.hpp>
 #include <coplane_joint/JointState.hpp>
 
+#include <algorithm>
 #include <vector>
 
 namespace coplane
@@ -20,6 +21,7 @@ struct Face
   int body = 0;                    ///< number of the body at the start, the same on all ranks
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
+  Real pressure = 0;  ///< of conditions on it at t = 0: a declared joint does not carry it [Pa]
   bool local = false; ///< this rank owns at least one node
   bool ownedHere =
       false;          ///< this rank owns the node with the lowest id: it sends the face to others
@@ -38,8 +40,23 @@ struct GhostFace
   int body = 0;
   Real thickness = 0;
   Real modulus = 0;
+  Real pressure = 0;
   bool young = false;
 };
+
+/// The face with this id among faces, or ghost faces, that are sorted by id; `last`: not there.
+template <class Iterator>
+Iterator findFace(Iterator first, Iterator last, GlobalId id)
+{
+  const Iterator found = std::lower_bound(
+      first, last, id, [](const auto& face, GlobalId wanted) { return face.id < wanted; });
+  return found != last && found->id == id ? found : last;
+}
+template <class AnyFace>
+bool hasFace(const std::vector<AnyFace>& faces, GlobalId id)
+{
+  return findFace(faces.begin(), faces.end(), id) != faces.end();
+}
 
 /// A face as it is sent; `nodeIds` turns local nodes into ids.
 inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& nodeIds)
@@ -52,6 +69,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.body = face.body;
   ghost.thickness = face.thickness;
   ghost.modulus = face.modulus;
+  ghost.pressure = face.pressure;
   ghost.young = face.young;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
@@ -72,6 +90,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.body = ghost.body;
   face.thickness = ghost.thickness;
   face.modulus = ghost.modulus;
+  face.pressure = ghost.pressure;
   face.young = ghost.young;
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);

@@ -3,6 +3,7 @@
 #include <coplane_contact/FaceLoad.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Lists.hpp>
 #include <coplane_core/NodeViews.hpp>
 
 #include <vector>
@@ -25,7 +26,11 @@ public:
   /// forgetFaces().
   /// @param localFaces sorted by id
   void listFaces(const std::vector<Face>& localFaces, int ownedNodes);
-  void forgetFaces() { facesStart_ = {}; }
+  void forgetFaces()
+  {
+    facesOfNode_ = {};
+    faceLoads_ = {};
+  }
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
@@ -33,11 +38,8 @@ public:
            const Array<Real>& stiffness) const;
 
 private:
-  // Planes of local face f: entries [planesStart(f), planesStart(f + 1)) in the order of keys; an
-  // entry is 2 * plane + side. What they add to its nodes.
-  Array<std::int32_t> planesStart_, planesEntry_;
-  Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_;
-  // Local faces of owned node n, in the order of ids; an entry is 4 * face + corner.
-  Array<std::int32_t> facesStart_, facesEntry_;
+  Lists<std::int32_t> planesOfFace_;                     ///< 2 * plane + side, in the order of keys
+  Lists<std::int32_t> facesOfNode_;                      ///< 4 * face + corner, in the order of ids
+  Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_; ///< what planes add to the nodes of a face
 };
 } // namespace coplane

@@ -2,6 +2,7 @@
 
 #include <coplane_core/BranchFree.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_geometry/VectorArea.hpp>
 
 // Step A, and what it gives. T is Real, or Lanes for several faces with the same number of nodes
 // side by side; every lane has the bits of the scalar.
@@ -94,17 +95,6 @@ struct HalfStepFaceOf
 };
 using HalfStepFace = HalfStepFaceOf<Real>;
 
-/// Vector area of a face: exact for the bilinear patch of a warped quadrilateral.
-template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Vec3Of<T> vectorArea(const Vec3Of<T>* x, int count)
-{
-  if constexpr (Dim == 2)
-    return {x[1].y - x[0].y, x[0].x - x[1].x, T(0.0)};
-  else
-    return count == 3 ? 0.5 * cross(x[1] - x[0], x[2] - x[0])
-                      : 0.5 * cross(x[2] - x[0], x[3] - x[1]);
-}
-
 namespace detail
 {
 /// Centre, area and normal of a face from its corners. A degenerate one gets no normal; returns
@@ -152,6 +142,12 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_halfStepFace(const FaceNodesOf<T>
   face.spin = {choose(proper, spin.x, none), choose(proper, spin.y, none),
                choose(proper, spin.z, none)};
   return face;
+}
+
+/// The same where the dimension is known only when the program runs.
+inline HalfStepFace stepA_halfStepFace(const FaceNodes& nodes, Real dt, int dimension)
+{
+  return dimension == 2 ? stepA_halfStepFace<2>(nodes, dt) : stepA_halfStepFace<3>(nodes, dt);
 }
 
 /// Step A for forces that come from a potential: the face at the end of the step, without spin.

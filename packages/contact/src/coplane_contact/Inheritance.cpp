@@ -121,8 +121,6 @@ bool isWithin(Real reach, const ConvexPolygon& a, const ConvexPolygon& b)
 
 bool isFlush(const NewPair& pair, const Donor& donor, int dimension)
 {
-  const auto areaOf = [&](const Vec3* corners, int count)
-  { return dimension == 2 ? vectorArea<2>(corners, count) : vectorArea<3>(corners, count); };
   const auto goesOn = [&](int mine, int its)
   {
     const Vec3* const a = pair.corners[1 - mine];
@@ -130,12 +128,12 @@ bool isFlush(const NewPair& pair, const Donor& donor, int dimension)
     const int countA = pair.count[1 - mine], countB = donor.count[1 - its];
     if (countB == 0)
       return false;
-    const Vec3 areaA = areaOf(a, countA), areaB = areaOf(b, countB);
+    const Vec3 areaA = vectorArea(a, countA, dimension), areaB = vectorArea(b, countB, dimension);
     const Vec3 normal = normalised(areaA);
     if (!(dot(normal, normalised(areaB)) > DirectionsOfNodes::one))
       return false;
     const Real smaller = std::min(norm(areaA), norm(areaB));
-    const Real near = EdgesOfSurfaces::flush * (dimension == 2 ? smaller : std::sqrt(smaller));
+    const Real near = EdgesOfSurfaces::flush * faceSize(smaller, dimension);
     Real step = infinity;
     for (int k = 0; k < countB; ++k)
       step = std::min(step, std::abs(dot(normal, b[k] - a[0])));

@@ -1,5 +1,7 @@
 #include <coplane_contact/InitialOverlaps.hpp>
 #include <coplane_contact/detail/DeclaredJoints.hpp>
+#include <coplane_core/Lists.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <array>
@@ -64,16 +66,15 @@ public:
     const Grid& grid = grids_[ray.axis];
     if (faces_.empty())
       return;
-    const auto [begin, end] = grid.column(ray.from);
-    for (const int* f = begin; f != end; ++f)
+    for (const int f : grid.column(ray.from))
     {
-      const Box& box = boxes_[*f];
+      const Box& box = boxes_[f];
       if (ray.sign > 0 ? box.high[ray.axis] < ray.from[ray.axis]
                        : box.low[ray.axis] > ray.from[ray.axis])
         continue;
-      const int turns = windingAround(*faces_[*f], ray);
-      if (turns != 0 && wayTo(*faces_[*f], ray) > 0)
-        visit(*faces_[*f], ray.sign * turns);
+      const int turns = windingAround(*faces_[f], ray);
+      if (turns != 0 && wayTo(*faces_[f], ray) > 0)
+        visit(*faces_[f], ray.sign * turns);
     }
   }
 
@@ -94,16 +95,11 @@ public:
             face.group,       face.id};
   }
 
+  /// Centre [m] and vector area [m^2].
   std::pair<Vec3, Vec3> plane(const Face& face) const
   {
-    Vec3 corners[4], center{};
-    for (int k = 0; k < face.count; ++k)
-    {
-      corners[k] = at(x_, face.nodes[k]);
-      center += (1.0 / face.count) * corners[k];
-    }
-    return {center, dimension_ == 2 ? vectorArea<2>(corners, face.count)
-                                    : vectorArea<3>(corners, face.count)};
+    const FaceCorners corners = cornersAt(x_, face);
+    return {corners.center(), corners.area(dimension_)};
   }
 
 private:
@@ -113,17 +109,17 @@ private:
     int u = 1, v = 2; ///< axes across; v < 0: in two dimensions there is only one
     Real low[2] = {0, 0}, perBin[2] = {0, 0};
     int bins[2] = {1, 1};
-    std::vector<int> start, face;
+    Lists<int> faces; ///< by bin
 
     int bin(int direction, Real value) const
     {
       const Real place = (value - low[direction]) * perBin[direction];
       return place > 0 ? int(std::min(place, Real(bins[direction] - 1))) : 0;
     }
-    std::pair<const int*, const int*> column(const Vec3& p) const
+    /// Faces in the column of a point.
+    Stretch<int> column(const Vec3& p) const
     {
-      const std::size_t c = std::size_t(bin(0, p[u])) * bins[1] + (v < 0 ? 0 : bin(1, p[v]));
-      return {face.data() + start[c], face.data() + start[c + 1]};
+      return faces[std::size_t(bin(0, p[u])) * bins[1] + (v < 0 ? 0 : bin(1, p[v]))];
     }
   };
 
@@ -141,24 +137,19 @@ private:
       grid.bins[d] = int(std::min(1e4, dimension_ == 2 ? wanted : std::ceil(std::sqrt(wanted))));
       grid.perBin[d] = extent > 0 ? grid.bins[d] / extent : 0;
     }
-    const auto forEachBin = [&](std::size_t f, const auto& visit)
+    const auto forEachBin = [&](const Box& box, const auto& visit)
     {
-      const Box& box = boxes_[f];
       const int v0 = grid.v < 0 ? 0 : grid.bin(1, box.low[grid.v]);
       const int v1 = grid.v < 0 ? 0 : grid.bin(1, box.high[grid.v]);
       for (int i = grid.bin(0, box.low[grid.u]); i <= grid.bin(0, box.high[grid.u]); ++i)
         for (int j = v0; j <= v1; ++j)
           visit(std::size_t(i) * std::size_t(grid.bins[1]) + std::size_t(j));
     };
-    grid.start.assign(std::size_t(grid.bins[0]) * std::size_t(grid.bins[1]) + 1, 0);
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      forEachBin(f, [&](std::size_t bin) { ++grid.start[bin + 1]; });
-    for (std::size_t b = 1; b < grid.start.size(); ++b)
-      grid.start[b] += grid.start[b - 1];
-    grid.face.resize(std::size_t(grid.start.back()));
-    std::vector<int> next = grid.start;
-    for (std::size_t f = 0; f < faces_.size(); ++f)
-      forEachBin(f, [&](std::size_t bin) { grid.face[std::size_t(next[bin]++)] = int(f); });
+    grid.faces = {std::size_t(grid.bins[0]) * std::size_t(grid.bins[1]), [&](const auto& visit)
+                  {
+                    for (std::size_t f = 0; f < faces_.size(); ++f)
+                      forEachBin(boxes_[f], [&](std::size_t bin) { visit(bin, int(f)); });
+                  }};
   }
 
   /// How often the face's outline, seen along the axis, goes round the ray counter-clockwise. An

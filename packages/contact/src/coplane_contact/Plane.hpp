@@ -32,8 +32,24 @@ struct ContactOptions
     Potential,   ///< minus the gradient of one energy per pair
     CommonNormal ///< along the normal of the common plane, as in the paper
   };
-  bool axisymmetric = false; ///< two dimensions: areas are those of the whole turn about x = 0
-  Forces forces = Forces::CommonNormal;
+  /// What `cosOpposed` usually is. With the potential, pairs come and go smoothly by turning, so
+  /// needles and edges that cross at 10 degrees may meet; along the common normal each does so with
+  /// a jump [-].
+  KOKKOS_INLINE_FUNCTION static constexpr Real usualCosOpposed(Forces forces)
+  {
+    return forces == Forces::Potential ? 0.004 : 0.1;
+  }
+  /// The usual options, by either way of computing forces.
+  static ContactOptions with(Forces forces)
+  {
+    ContactOptions options;
+    options.forces = forces;
+    options.cosOpposed = usualCosOpposed(forces);
+    return options;
+  }
+  /// Two dimensions: areas are those of the whole turn about x = 0. Only with CommonNormal.
+  bool axisymmetric = false;
+  Forces forces = Forces::Potential;
   Area area = Area::Penetrating;
   Weights weights = Weights::Pressure;
   Closure closure = Closure::Total;
@@ -41,7 +57,7 @@ struct ContactOptions
   bool areaRule = true;     ///< new area carries no shear traction
   bool sharedNodes = false; ///< faces that share a node may touch as well
   bool inherit = true;      ///< history passes to the next face pair while sliding
-  Real cosOpposed = 0.1;    ///< candidates have n1.n2 below minus this
+  Real cosOpposed = usualCosOpposed(Forces::Potential); ///< faces push if n1.n2 < minus this
   Real depthMax =
       0.6; ///< deepest penetration, as a fraction of the thinner element behind the faces
   Real areaMin = 1e-8; ///< smallest area of a new plane, as a fraction of the smaller face

@@ -23,27 +23,52 @@ enum class Passing : std::uint8_t
   Majority     ///< a flag: that of most of the area
 };
 
+/// When a change of a number that is passed on makes the last search stale: pairs that take over
+/// from the plane get what it was at that search. Said of every such number, else it does not
+/// compile; detail/PassedOn.hpp looks at them after every update of a plane that carries.
+enum class Stale : std::uint8_t
+{
+  Unsaid, ///< of what is not passed on
+  Always,
+  WithCurve,         ///< where the closure curve is none that is straight: it remembers its maximum
+  WithSoftening,     ///< where the bond softens
+  WithSlipMemory,    ///< where friction or dilation hang on the slip
+  WithClosureMemory, ///< where closures are sums of increments, or so deep that without it a pair
+                     ///< is taken for none
+  Never              ///< and `neverStale` says why
+};
+
 /// Something that a plane remembers from cycle to cycle. What it means stands at the member of
 /// `Plane` or `JointState`.
-template <Passing how, class Get>
+template <Passing how, Stale when, class Get>
 struct PlaneMember
 {
   static constexpr Passing passing = how;
+  static constexpr Stale stale = when;
   const char* name; ///< in checkpoints; for vectors and arrays the beginning of the names
   const char* unit;
-  Get get;                       ///< reference to it in a plane; in a donor, too, if passed on
-  const char* column = nullptr;  ///< in files of planes; none: not written
-  const char* leftOut = nullptr; ///< why neither checkpoints nor the hash have it; none: they do
+  Get get;                          ///< reference to it in a plane; in a donor, too, if passed on
+  const char* column = nullptr;     ///< in files of planes; none: not written
+  const char* leftOut = nullptr;    ///< why neither checkpoints nor the hash have it; none: they do
+  const char* neverStale = nullptr; ///< why, where `stale` is Never
 
   constexpr PlaneMember writtenAs(const char* column_) const
   {
-    return {name, unit, get, column_, leftOut};
+    return {name, unit, get, column_, leftOut, neverStale};
   }
-  constexpr PlaneMember notKept(const char* why) const { return {name, unit, get, column, why}; }
+  constexpr PlaneMember notKept(const char* why) const
+  {
+    return {name, unit, get, column, why, neverStale};
+  }
+  constexpr PlaneMember notStaleBecause(const char* why) const
+  {
+    static_assert(stale == Stale::Never, "only what never makes a search stale has a reason");
+    return {name, unit, get, column, leftOut, why};
+  }
 };
 
-template <Passing how = Passing::None, class Get>
-constexpr PlaneMember<how, Get> planeMember(const char* name, const char* unit, Get get)
+template <Passing how = Passing::None, Stale when = Stale::Unsaid, class Get>
+constexpr PlaneMember<how, when, Get> planeMember(const char* name, const char* unit, Get get)
 {
   return {name, unit, get};
 }
@@ -110,28 +135,29 @@ inline constexpr auto planeMembers = std::make_tuple(
         "point", "m", [](auto& p) -> auto& { return p.pointOfContact; }),
     planeMember(
         "gap", "m", [](auto& p) -> auto& { return p.gap; }),
-    planeMember<Passing::Mean>(
+    planeMember<Passing::Mean, Stale::Always>(
         "offset", "m", [](auto& p) -> auto& { return p.offset; })
         .writtenAs("offset"),
-    planeMember<Passing::Mean>(
+    planeMember<Passing::Mean, Stale::WithCurve>(
         "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })
         .writtenAs("maximum_closure"),
-    planeMember<Passing::Turned>(
+    planeMember<Passing::Turned, Stale::Never>(
         "shear", "Pa", [](auto& p) -> auto& { return p.history.shearTraction; })
+        .notStaleBecause("areas begin small, so that the force of what was missed is small, too")
         .writtenAs("shear_traction"),
-    planeMember<Passing::Mean>(
+    planeMember<Passing::Mean, Stale::WithSlipMemory>(
         "slip", "m", [](auto& p) -> auto& { return p.history.slip; })
         .writtenAs("slip"),
-    planeMember<Passing::MeanOfBonds>(
+    planeMember<Passing::MeanOfBonds, Stale::WithSoftening>(
         "opening", "m", [](auto& p) -> auto& { return p.history.opening; })
         .writtenAs("opening"),
-    planeMember<Passing::MeanOfBonds>(
+    planeMember<Passing::MeanOfBonds, Stale::WithSoftening>(
         "shearing", "m", [](auto& p) -> auto& { return p.history.shearing; })
         .writtenAs("shearing"),
-    planeMember<Passing::Majority>(
+    planeMember<Passing::Majority, Stale::Always>(
         "bonded", "-", [](auto& p) -> auto& { return p.history.bonded; })
         .writtenAs("bonded"),
-    planeMember<Passing::Mean>(
+    planeMember<Passing::Mean, Stale::WithClosureMemory>(
         "closure", "m", [](auto& p) -> auto& { return p.closure; })
         .writtenAs("closure"),
     planeMember(
@@ -178,7 +204,10 @@ void forEachPassed(F&& f)
   forEachMember(
       [&](const auto& member)
       {
-        if constexpr (std::decay_t<decltype(member)>::passing != Passing::None)
+        using Member = std::decay_t<decltype(member)>;
+        static_assert((Member::passing != Passing::None) == (Member::stale != Stale::Unsaid),
+                      "say of what is passed on, and only of that, when it makes a search stale");
+        if constexpr (Member::passing != Passing::None)
           f(member);
       });
 }

@@ -285,12 +285,8 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
 
   Ghosts ghosts;
   for (const GhostFace& face : comm.exchange(facesTo))
-  {
-    const auto known = std::lower_bound(localFaces.begin(), localFaces.end(), face.id,
-                                        [](const Face& f, GlobalId id) { return f.id < id; });
-    if (known == localFaces.end() || known->id != face.id)
+    if (!hasFace(localFaces, face.id))
       ghosts.faces.push_back(face);
-  }
   std::sort(ghosts.faces.begin(), ghosts.faces.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
   ghosts.donors = comm.exchange(donorsTo);

@@ -37,7 +37,7 @@ struct CandidateRules
   Real skin = 0;   ///< largest gap of a candidate [m]
   Real offset = 0; ///< largest gap at which a joint is closed: such planes touch that far apart [m]
   Real reach = 0;  ///< by which boxes may be apart, not below skin and offset together [m]
-  Real cosOpposed = 0.1;
+  Real cosOpposed = ContactOptions().cosOpposed;
   Real turning = 0;         ///< by which n0.n1 may fall until the next search [-]
   Real depthMax = 0.6;      ///< largest depth of a candidate over the thinner element's thickness
   bool sharedNodes = false; ///< pairs of faces that share a node as well

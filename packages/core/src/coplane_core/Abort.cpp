@@ -95,6 +95,7 @@ void abortAllRanks(ExitCode code, const char* text) noexcept
   const int length = std::snprintf(head, sizeof head, "ERROR: rank %d: ", rank);
   std::fflush(stdout);
   char end[] = "\n";
+  // The pieces of writev are not const, though it only reads them.
   const iovec pieces[] = {
       {head, std::size_t(length)}, {const_cast<char*>(text), std::strlen(text)}, {end, 1}};
   const bool heard = ::writev(STDERR_FILENO, pieces, 3) >= 0; // without memory of our own

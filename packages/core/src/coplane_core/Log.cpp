@@ -3,7 +3,7 @@
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <map>
+#include <deque>
 #include <memory>
 
 namespace coplane
@@ -14,6 +14,7 @@ struct Channels
 {
   std::shared_ptr<spdlog::logger> out, err;
   std::map<std::string, long> warnings;
+  std::deque<std::string> messages;
 
   Channels()
   {
@@ -33,6 +34,21 @@ Channels& channels()
   return instance;
 }
 constexpr long shownWarnings = 3;
+constexpr std::size_t keptMessages = 40;
+
+void say(spdlog::level::level_enum level, const std::string& message)
+{
+  std::deque<std::string>& messages = channels().messages;
+  messages.push_back(message);
+  if (messages.size() > keptMessages)
+    messages.pop_front();
+  channels().err->log(level, "{}", message);
+}
+
+void warn(const std::string& text)
+{
+  say(spdlog::level::warn, "WARNING: " + text);
+}
 } // namespace
 
 void logSetup(bool isRoot, bool quiet)
@@ -50,20 +66,19 @@ void logWarning(const std::string& kind, const std::string& text)
 {
   const long count = ++channels().warnings[kind];
   if (count <= shownWarnings)
-    channels().err->warn("WARNING: {}", text);
+    warn(text);
   if (count == shownWarnings)
-    channels().err->warn("WARNING: further warnings of this kind ({}) are counted, not shown",
-                         kind);
+    warn(fmt::format("further warnings of this kind ({}) are counted, not shown", kind));
 }
 
 void logWarningEachTime(const std::string& text)
 {
-  channels().err->warn("WARNING: {}", text);
+  warn(text);
 }
 
 void logError(const std::string& text)
 {
-  channels().err->error("ERROR: {}", text);
+  say(spdlog::level::err, "ERROR: " + text);
 }
 
 void logSummary()
@@ -71,5 +86,15 @@ void logSummary()
   for (const auto& [kind, count] : channels().warnings)
     if (count > shownWarnings)
       channels().err->warn("WARNING: {} occurred {} times", kind, count);
+}
+
+std::vector<std::string> logMessages()
+{
+  return {channels().messages.begin(), channels().messages.end()};
+}
+
+std::map<std::string, long> logWarningCounts()
+{
+  return channels().warnings;
 }
 } // namespace coplane

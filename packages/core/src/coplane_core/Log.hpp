@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string>
+#include <vector>
 
 namespace coplane
 {
@@ -16,6 +18,11 @@ void logWarning(const std::string& kind, const std::string& text);
 void logWarningEachTime(const std::string& text);
 void logError(const std::string& text);
 void logSummary();
+/// Warnings and errors of this rank as they were shown, also with `quiet`: the last 40, oldest
+/// first.
+std::vector<std::string> logMessages();
+/// Number of warnings by kind, shown or not.
+std::map<std::string, long> logWarningCounts();
 
 template <class First, class... Args>
 void logInfo(fmt::format_string<First, Args...> text, First&& first, Args&&... args)

@@ -27,6 +27,13 @@ void keepFreedMemory()
 #endif
 }
 
+std::int64_t peakMemory()
+{
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t(usage.ru_maxrss) * 1024;
+}
+
 void limitMemoryToMachine()
 {
 #if defined(__SANITIZE_ADDRESS__)

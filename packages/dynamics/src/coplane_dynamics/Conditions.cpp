@@ -1,5 +1,5 @@
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 
 #include <algorithm>
@@ -37,10 +37,7 @@ namespace
 std::array<Vec3, 4> presentAreas(int dimension, const LoadedSide& side, const ConstNodeVectors& x,
                                  bool axisymmetric)
 {
-  Vec3 corners[4];
-  for (int k = 0; k < side.count; ++k)
-    corners[k] = at(x, side.nodes[k]);
-  return cornerAreas(dimension, corners, side.count, axisymmetric);
+  return cornerAreas(dimension, cornersAt(x, side).x, side.count, axisymmetric);
 }
 
 template <class Force>

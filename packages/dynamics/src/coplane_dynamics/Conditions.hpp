@@ -96,6 +96,11 @@ struct FacePressure
   std::vector<LoadedSide> sides;
   OfTime pressure;        ///< [Pa]
   OfTimeAndPlace field{}; ///< instead, where it varies with the place
+
+  Real at(Real t, const Vec3& place) const
+  {
+    return field ? field(t, place) : pressure(t);
+  } ///< [Pa]
 };
 
 /// Force per present area on faces, in fixed axes: its direction does not follow the faces.
@@ -180,6 +185,7 @@ struct Conditions
   /// @param dt of the step that ends at t: air blasts push with their mean over that time around t
   void applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const;
 
+  bool hasDamping() const { return massDamping || localDamping > 0 || relaxation.kinetic; }
   bool dampsAt(Real t) const { return t >= dampingFrom && t < dampingUntil; }
   Real massDampingAt(Real t) const { return massDamping && dampsAt(t) ? massDamping(t) : 0; }
   Real localDampingAt(Real t) const { return dampsAt(t) ? localDamping : 0; }

@@ -1,11 +1,54 @@
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_dynamics/detail/ContactFaces.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace coplane
 {
+namespace
+{
+/// A thickness of more than this times the size of the element is that of one with a side crushed
+/// to nothing [-].
+constexpr Real thickestOfSize = 1e3;
+
+int groupOf(const ExteriorFace& side, const std::vector<std::pair<GlobalId, int>>& faceGroups)
+{
+  const auto special =
+      std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(side.id, 0));
+  return special != faceGroups.end() && special->first == side.id ? special->second : side.block;
+}
+
+/// The nodes of the element behind a face that are not on it.
+void putFarNodes(const RankMesh::Block& part, int element, Face& face)
+{
+  const int nodesOfElement = topology(part.type).nodes;
+  int others = 0;
+  for (int k = 0; k < nodesOfElement; ++k)
+  {
+    const int node = part.connectivity[element * nodesOfElement + k];
+    if (std::find(face.nodes, face.nodes + face.count, node) == face.nodes + face.count)
+      face.far[others++] = node;
+  }
+}
+
+/// Volume of the element behind a face over the area of the face [m]; of an element that has been
+/// crushed, and may have a side without area, its size.
+Real thicknessBehind(const ElementBlock& block, int element, Real area, int dimension)
+{
+  Real volume = block.volume()(element);
+  if (block.options().geometry == Geometry::Axisymmetric)
+  {
+    // Of one metre along the hoop.
+    const Real length = block.referenceLength()(element);
+    volume *= length * length / block.referenceVolume()(element);
+  }
+  const Real thickness = volume / area;
+  const Real size = dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));
+  return thickness > 0 && thickness < thickestOfSize * size ? thickness : size;
+}
+} // namespace
+
 std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
                                const std::vector<std::pair<GlobalId, int>>& faceGroups,
                                const std::vector<int>& bodyOfNode,
@@ -23,48 +66,20 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
       faces.push_back((*known)[old]);
       continue;
     }
+    const ElementBlock& block = blocks[side.block];
     Face face;
     face.id = side.id;
     face.count = side.nodeCount;
+    std::copy_n(side.nodes.begin(), face.count, face.nodes);
     face.block = side.block;
-    const auto special =
-        std::lower_bound(faceGroups.begin(), faceGroups.end(), std::make_pair(side.id, 0));
-    face.group =
-        special != faceGroups.end() && special->first == side.id ? special->second : side.block;
+    face.group = groupOf(side, faceGroups);
     face.body = bodyOfNode[side.nodes[0]];
     face.local = true;
     face.ownedHere = side.ownedHere;
     face.young = known != nullptr;
-    Vec3 corners[4];
-    for (int k = 0; k < face.count; ++k)
-    {
-      face.nodes[k] = side.nodes[k];
-      corners[k] = at(x, face.nodes[k]);
-    }
-    const Real area = norm(mesh.dimension == 2 ? vectorArea<2>(corners, face.count)
-                                               : vectorArea<3>(corners, face.count));
-    const RankMesh::Block& part = mesh.blocks[side.block];
-    const int nodesOfElement = topology(part.type).nodes;
-    int others = 0;
-    for (int k = 0; k < nodesOfElement; ++k)
-    {
-      const int node = part.connectivity[side.element * nodesOfElement + k];
-      if (std::find(face.nodes, face.nodes + face.count, node) == face.nodes + face.count)
-        face.far[others++] = node;
-    }
-    const ElementBlock& block = blocks[side.block];
-    Real volume = block.volume()(side.element);
-    if (block.options().geometry == Geometry::Axisymmetric)
-    {
-      // Of one metre along the hoop.
-      const Real length = block.referenceLength()(side.element);
-      volume *= length * length / block.referenceVolume()(side.element);
-    }
-    const Real thickness = volume / area;
-    // An element that has been crushed may have a side without area: then its size counts.
-    const Real size =
-        mesh.dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));
-    face.thickness = thickness > 0 && thickness < 1e3 * size ? thickness : size;
+    putFarNodes(mesh.blocks[side.block], side.element, face);
+    const Real area = norm(cornersAt(x, face).area(mesh.dimension));
+    face.thickness = thicknessBehind(block, side.element, area, mesh.dimension);
     face.modulus = pWaveModulus(block.material());
     faces.push_back(face);
   }

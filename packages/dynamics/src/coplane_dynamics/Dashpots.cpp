@@ -1,4 +1,5 @@
 #include <coplane_dynamics/Dashpots.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 namespace coplane
 {
@@ -35,11 +36,8 @@ void Dashpots::find(int dimension, const Conditions& conditions, const ConstNode
   for (const AbsorbingBoundary& boundary : conditions.absorbing)
     for (const AbsorbingSide& face : boundary.sides)
     {
-      Vec3 corners[4];
-      for (int k = 0; k < face.side.count; ++k)
-        corners[k] = at(x, face.side.nodes[k]);
-      const std::array<Vec3, 4> areas =
-          cornerAreas(dimension, corners, face.side.count, conditions.axisymmetric);
+      const std::array<Vec3, 4> areas = cornerAreas(dimension, cornersAt(x, face.side).x,
+                                                    face.side.count, conditions.axisymmetric);
       const Vec3 n = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
       for (int k = 0; k < face.side.count; ++k)
       {

@@ -24,12 +24,11 @@ ElementForces::ElementForces(const RankMesh& mesh, const std::vector<BlockSetup>
     const Gather& gather = gathers_.back();
     const int corners = topology(part.type).nodes;
     for (int n = 0; n < mesh.ownedNodes; ++n)
-      for (int i = gather.start(n); i < gather.start(n + 1); ++i)
-        state.mass(n) += block.cornerMass(gather.entry(i) / corners, gather.entry(i) % corners);
+      for (const int entry : gather[n])
+        state.mass(n) += block.cornerMass(entry / corners, entry % corners);
   }
 }
 
-/// Node to corners, in the order of element ids, so that sums have the same order on every rank.
 ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int owned)
 {
   const int corners = topology(part.type).nodes;
@@ -37,20 +36,13 @@ ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int o
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](int p, int q) { return part.elementIds[p] < part.elementIds[q]; });
-  Gather gather;
-  gather.start = Array<int>("coplane::dynamics::gatherStart", owned + 1);
-  for (const int node : part.connectivity)
-    if (node < owned)
-      ++gather.start(node + 1);
-  for (int n = 0; n < owned; ++n)
-    gather.start(n + 1) += gather.start(n);
-  gather.entry = Array<int>("coplane::dynamics::gatherEntry", gather.start(owned));
-  std::vector<int> next(gather.start.data(), gather.start.data() + owned);
-  for (const int e : order)
-    for (int k = 0; k < corners; ++k)
-      if (const int node = part.connectivity[e * corners + k]; node < owned)
-        gather.entry(next[node]++) = e * corners + k;
-  return gather;
+  return {std::size_t(owned), [&](const auto& visit)
+          {
+            for (const int e : order)
+              for (int k = 0; k < corners; ++k)
+                if (const int node = part.connectivity[e * corners + k]; node < owned)
+                  visit(std::size_t(node), e * corners + k);
+          }};
 }
 
 void ElementForces::setInitialStress(const Model& model)
@@ -88,8 +80,7 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
   }
   if (int(dilatation_.extent(0)) != layout.size())
     dilatation_ = Array<Real>("coplane::dynamics::nodalDilatation", layout.size());
-  const auto start = gathers_[b].start;
-  const auto entry = gathers_[b].entry;
+  const auto gather = gathers_[b].view();
   const auto changes = block.volumeChanges();
   const auto dilatation = dilatation_;
   const ElementBlock* const elements = &block;
@@ -97,11 +88,11 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
   parallelFor(
       "coplane::dynamics::nodalDilatation", layout.owned(), KOKKOS_LAMBDA(const int n) {
         Real change = 0, volume = 0;
-        for (int i = start(n); i < start(n + 1); ++i)
-          if (elements->isAlive(entry(i) / corners))
+        for (const int entry : gather[n])
+          if (elements->isAlive(entry / corners))
           {
-            change += changes(0, entry(i) / corners);
-            volume += changes(1, entry(i) / corners);
+            change += changes(0, entry / corners);
+            volume += changes(1, entry / corners);
           }
         dilatation(n) = volume > 0 ? change / volume : 0;
       });
@@ -112,17 +103,17 @@ ConstArray<Real> ElementForces::nodalDilatation(std::size_t b, const NodalState&
 namespace
 {
 /// Adds the forces of the elements of a block to owned nodes.
-void gatherBlock(const Array<int>& start, const Array<int>& entry, const ElementBlock& block,
-                 bool first, const NodeVectors& force)
+void gatherBlock(const ListsView<int>& gather, const ElementBlock& block, bool first,
+                 const NodeVectors& force)
 {
   // Corners of all elements one after another, as the entries count them.
   const Real* const cornerForce = block.cornerForce().data();
   parallelFor(
       "coplane::dynamics::gatherForces", int(force.extent(0)), KOKKOS_LAMBDA(const int n) {
         Vec3 sum = first ? Vec3{} : at(force, n);
-        for (int i = start(n); i < start(n + 1); ++i)
+        for (const int entry : gather[n])
         {
-          const Real* const f = cornerForce + 3 * std::size_t(entry(i));
+          const Real* const f = cornerForce + 3 * std::size_t(entry);
           sum += {f[0], f[1], f[2]};
         }
         set(force, n, sum);
@@ -138,7 +129,7 @@ void ElementForces::gather(const NodeVectors& force) const
   {
     if (isRigid(b))
       continue;
-    gatherBlock(gathers_[b].start, gathers_[b].entry, blocks_[b], first, force);
+    gatherBlock(gathers_[b].view(), blocks_[b], first, force);
     first = false;
   }
   if (first)
@@ -163,8 +154,8 @@ void ElementForces::forEachAround(int node, F&& f) const
     if (isRigid(b))
       continue;
     const int corners = topology(blocks_[b].type()).nodes;
-    for (int i = gathers_[b].start(node); i < gathers_[b].start(node + 1); ++i)
-      f(b, gathers_[b].entry(i) / corners);
+    for (const int entry : gathers_[b][node])
+      f(b, entry / corners);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/Lists.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/Clock.hpp>
 #include <coplane_dynamics/Model.hpp>
@@ -52,11 +53,9 @@ public:
   void restore(const RankMesh& mesh, const StateSource& in);
 
 private:
-  struct Gather
-  {
-    Array<int> start,
-        entry; ///< entries of node n: element * corners + corner, in the order of element ids
-  };
+  /// By node: element * corners + corner, in the order of element ids, so that sums have the same
+  /// order on every rank.
+  using Gather = Lists<int>;
   static Gather gatherOf(const RankMesh::Block& part, int ownedNodes);
   ConstArray<Real> nodalDilatation(std::size_t block, const NodalState& state,
                                    const NodeLayout& layout, Real dt, WorkTimes& work);

@@ -58,6 +58,7 @@ struct TimeOptions
   std::optional<Real> maximumStep, fixedStep; ///< [s]
   Real energyTolerance = 0.1;                 ///< fraction of the energy in play
   Real contactGainTolerance = 0.5;            ///< the same, of what contact may gain
+  bool endAtRest = false; ///< the end has come when relaxation has found the state of rest
 };
 
 /// Everything the solver needs to know, on this rank.

@@ -1,6 +1,7 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/NodalMotion.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace coplane
@@ -35,6 +36,15 @@ NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const Noda
   constrained_ = model.conditions.constrainedNodes();
   projections_ = model.conditions.projections();
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
+  reactions_ = NodeVectors("coplane::dynamics::reactions", constrained_.size());
+}
+
+Vec3 NodalMotion::reaction(int node) const
+{
+  const auto found = std::lower_bound(constrained_.begin(), constrained_.end(), node);
+  if (found == constrained_.end() || *found != node)
+    return {};
+  return at(reactions_, int(found - constrained_.begin()));
 }
 
 void NodalMotion::drift(Real dt, const NodalState& state)
@@ -143,9 +153,10 @@ void NodalMotion::prescribe(const Times& times, const Conditions& conditions, No
   {
     const int n = constrained_[i];
     const Vec3 change = at(v, n) - at(beforeConstraint_, int(i));
-    set(external, n,
-        at(external, n) + (state.mass(n) / dt * (1 + half)) * change +
-            0.5 * dashpots_.drag(n, change));
+    const Vec3 reaction =
+        (state.mass(n) / dt * (1 + half)) * change + 0.5 * dashpots_.drag(n, change);
+    set(reactions_, int(i), reaction);
+    set(external, n, at(external, n) + reaction);
   }
 }
 
@@ -250,6 +261,38 @@ void NodalMotion::mirrorVelocities(NodalState& state)
       "coplane::dynamics::mirrorVelocities", state.owned(),
       KOKKOS_LAMBDA(const int n) { set(vPrevious, n, 2.0 * at(vPrevious, n) - at(v, n)); });
   bodies_.mirrorVelocities();
+}
+
+namespace
+{
+constexpr const char* reactionsTable = "nodes/reactions";
+const std::vector<std::string> reactionsColumns{"reaction_x", "reaction_y", "reaction_z"};
+} // namespace
+
+void NodalMotion::save(const std::vector<GlobalId>& ids, StateTables& out) const
+{
+  KeyedRows rows;
+  rows.columns = reactionsColumns;
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+  {
+    Real* row = rows.add({ids[constrained_[i]]});
+    for (int c = 0; c < 3; ++c)
+      row[c] = reactions_(i, c);
+  }
+  out.rows(reactionsTable, rows);
+  bodies_.save(out);
+}
+
+void NodalMotion::restore(const std::vector<GlobalId>& ids, const StateSource& in)
+{
+  std::vector<GlobalId> mine;
+  for (const int node : constrained_)
+    mine.push_back(ids[node]);
+  const KeyedRows rows = in.rowsOf(reactionsTable, reactionsColumns, mine);
+  for (std::size_t i = 0; i < constrained_.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      reactions_(i, c) = rows.row(i)[c];
+  bodies_.restore(in);
 }
 
 Real NodalMotion::kineticAtHalfStep(const NodalState& state, const Comm& comm) const

@@ -57,9 +57,14 @@ public:
   Real kineticAtFullStep(const NodalState& state,
                          const Comm& comm) const; ///< sum m v(n-1/2).v(n+1/2)/2 [J]
 
-  /// The bodies' part of a checkpoint. Collective.
-  void save(StateTables& out) const { bodies_.save(out); }
-  void restore(const StateSource& in) { bodies_.restore(in); }
+  /// Force of fixed, velocity, displacement and symmetry on an owned node at n; zero on nodes of
+  /// rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
+  Vec3 reaction(int node) const;
+
+  /// Reactions, and the bodies' part of a checkpoint. Collective.
+  /// @param ids of all nodes here
+  void save(const std::vector<GlobalId>& ids, StateTables& out) const;
+  void restore(const std::vector<GlobalId>& ids, const StateSource& in);
   /// Calls f(number) for all else that a restart needs, in the order of checkpoints.
   template <class Self, class F>
   static void forEachNumber(Self& self, F&& number)
@@ -79,9 +84,10 @@ private:
   RigidBodies bodies_;
   Array<bool> followsBody_; ///< owned nodes of rigid bodies
   Dashpots dashpots_;
-  std::vector<int> constrained_;
+  std::vector<int> constrained_; ///< owned nodes with conditions on velocities, sorted
   std::vector<Conditions::Projection> projections_;
   NodeVectors beforeConstraint_;
+  NodeVectors reactions_;                                   ///< of the constrained nodes at n [N]
   bool massDampingActs_ = false, localDampingActs_ = false; ///< their forces are not all zero
 };
 } // namespace coplane

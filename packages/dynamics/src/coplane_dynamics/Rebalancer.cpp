@@ -61,6 +61,9 @@ void dealPlanes(const Contact& contact, double work, std::vector<Real>& costs)
   }
 }
 
+/// What a node costs at least, over the mean [-].
+constexpr Real leastOfMean = 0.01;
+
 /// A node on its way to its home.
 struct PlacedNode
 {
@@ -113,7 +116,7 @@ RebalancePlan planRebalance(const Solver& solver, const MeshSlice& mesh, const s
       comm.size() *
       largestAndMean(std::accumulate(costs.begin(), costs.end(), Real(0)), comm).second;
   for (Real& cost : costs)
-    cost = std::max(cost, total > 0 ? 0.01 * total / mesh.nodes : 1);
+    cost = std::max(cost, total > 0 ? leastOfMean * total / mesh.nodes : 1);
 
   RebalancePlan plan;
   plan.owners = nodeOwners(partAtHome(mesh, comm), comm, method, costs, &places);

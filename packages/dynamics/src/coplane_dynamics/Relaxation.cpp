@@ -43,6 +43,14 @@ std::pair<Real, Real> forcesOf(const Parts& parts)
 }
 } // namespace
 
+RestRatios restRatios(const Parts& parts)
+{
+  const auto ratio = [](Real part, Real whole) { return part > 0 ? part / whole : Real(0); };
+  const auto [unbalanced, given] = forcesOf(parts);
+  return {ratio(parts.motion.kineticAtHalfStep(parts.state, parts.comm), internalEnergy(parts)),
+          ratio(unbalanced, given)};
+}
+
 bool Relaxation::isAtRest(const Parts& parts) const
 {
   if (wanted_.energyRatio > 0)
@@ -64,8 +72,13 @@ bool Relaxation::isAtRest(const Parts& parts) const
 Relaxation::Verdict Relaxation::look(const Parts& parts)
 {
   const Clock& clock = parts.clock;
-  if (state_.ended || !parts.model.conditions.dampsAt(clock.time))
+  if (state_.ended)
     return {};
+  if (!parts.model.conditions.dampsAt(clock.time))
+  {
+    tellWhenTimeEndsDamping(parts);
+    return {};
+  }
   if (wanted_.kinetic)
   {
     TimedRegion region("coplane::dynamics::relax");
@@ -81,6 +94,19 @@ Relaxation::Verdict Relaxation::look(const Parts& parts)
     return {false, state_.below >= checksInARow};
   }
   return {};
+}
+
+void Relaxation::tellWhenTimeEndsDamping(const Parts& parts) const
+{
+  const Clock& clock = parts.clock;
+  if (!parts.model.conditions.hasDamping() ||
+      !parts.model.conditions.dampsAt(clock.time - clock.step))
+    return;
+  const RestRatios ratios = restRatios(parts);
+  logInfo("cycle {}, t = {:.6e} s: damping ends by damping.until. Kinetic energy is {:.2g} of the "
+          "internal one, forces out of balance are {:.2g} of loads and reactions; at rest both "
+          "vanish",
+          clock.cycle, clock.time, ratios.energy, ratios.force);
 }
 
 void Relaxation::bookStop(Real lost, Real left)

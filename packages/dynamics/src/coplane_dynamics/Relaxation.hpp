@@ -17,6 +17,14 @@ struct RelaxationState
   std::int64_t below = 0; ///< checks in a row at which the ratios were small enough
 };
 
+/// How far from rest a model is: both vanish there.
+struct RestRatios
+{
+  Real energy = 0; ///< kinetic energy at n + 1/2 over internal, elements and contact [-]
+  Real force = 0;  ///< sum of |force out of balance| over that of |loads and reactions| [-]
+};
+RestRatios restRatios(const Parts& parts); ///< Collective.
+
 /// Decides when all motion stops, and when damping ends.
 class Relaxation
 {
@@ -51,6 +59,7 @@ public:
 
 private:
   bool isAtRest(const Parts& parts) const;
+  void tellWhenTimeEndsDamping(const Parts& parts) const;
 
   RelaxationOptions wanted_;
   RelaxationState state_;

@@ -17,6 +17,31 @@ constexpr std::int64_t energyCheckEvery = 100; // cycles
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
 constexpr Real fasterThanWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
+/// Default skin over the smallest face [-]; the larger one where searches come by motion only.
+constexpr Real skinOfFace = 0.1, skinOfFaceWithOneSearch = 0.5;
+/// Faces that need more steps than this for a skin are not fast: a search covers the motion of
+/// eight of them (SearchReach.hpp).
+constexpr Real stepsThroughSkin = 10;
+
+/// What conditions push faces with at t = 0.
+/// @param faces sorted by id
+void setPressures(const Conditions& conditions, std::vector<Face>& faces)
+{
+  for (const FacePressure& load : conditions.pressures)
+    for (const LoadedSide& side : load.sides)
+    {
+      const auto face = std::lower_bound(faces.begin(), faces.end(), side.id,
+                                         [](const Face& f, GlobalId id) { return f.id < id; });
+      if (face != faces.end() && face->id == side.id)
+        face->pressure += load.at(0, side.place);
+    }
+}
+
+/// Of all ranks, which found it together.
+Error computationFailed(const std::string& why)
+{
+  return {ExitCode::Computation, why, true};
+}
 } // namespace
 
 Solver::Solver(Model model, const Comm& comm)
@@ -47,8 +72,10 @@ void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
   std::vector<Face> faces = facesOf(exteriorFaces(mesh()));
+  attempt([&] { setPressures(model_.conditions, faces); });
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
-  const Real skin = model_.skin ? *model_.skin : (model_.searchEvery == 0 ? 0.5 : 0.1) * smallest;
+  const Real skin = model_.skin.value_or(
+      (model_.searchEvery == 0 ? skinOfFaceWithOneSearch : skinOfFace) * smallest);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
                                        model_.contactRules, skin, smallest);
 }
@@ -230,13 +257,17 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
     return std::nullopt;
   const Real step = step_.choose(-extremes[0], -extremes[4], searches_.relativeSpeed(), parts());
   if (step * mostCycles < model_.time.end)
-    failOnAllRanks(
+  {
+    failed_ = true;
+    trouble_ = Error(
         ExitCode::Computation,
-        "cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
-        "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
-        "time.maximum_step, elements that are far too small or stiff, and velocities that "
-        "are far too large.",
-        clock_.cycle, clock_.time, step, mostCycles, model_.time.end);
+        fmt::format("cycle {}, t = {:.6e} s: the time step is {:.3e} s, which would take more than "
+                    "{:.0e} cycles to time.end = {:.6g} s. Look at time.fixed_step, "
+                    "time.maximum_step, elements that are far too small or stiff, and velocities "
+                    "that are far too large.",
+                    clock_.cycle, clock_.time, step, mostCycles, model_.time.end));
+    return std::nullopt;
+  }
   return step;
 }
 
@@ -278,13 +309,15 @@ WorkTimes Solver::takeWorkTimes()
 /// outputs.
 bool Solver::isOver() const
 {
+  if (model_.time.endAtRest && relaxation_.state().ended)
+    return true;
   return clock_.time + 1e-10 * std::abs(clock_.time) >= model_.time.end;
 }
 
 ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
 {
   observer.start(*this);
-  std::string ending = "completed";
+  Ending ending;
   while (!isOver())
   {
     advance();
@@ -296,43 +329,50 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer)
     catch (const Error& error)
     {
       if (error.onAllRanks())
-        finishBeforeFailing(observer, error.code(), error.what());
+        failAfter(observer, error);
       throw;
     }
     if (requests_.stop)
     {
-      ending = requests_.checkpoint ? "interrupted after a checkpoint" : "interrupted";
-      exitCode_ = requests_.checkpoint ? ExitCode::Resumable : ExitCode::Interrupted;
+      ending = requests_.checkpoint ? Ending{"interrupted after a checkpoint", ExitCode::Resumable}
+                                    : Ending{"interrupted", ExitCode::Interrupted};
       break;
     }
     if (rebalancer && !isOver() && rebalancer->look(*this))
       observer.repartitioned(*this);
   }
   observer.finish(*this, ending);
-  return exitCode_;
+  return ending.code;
 }
 
 void Solver::judge(Observer& observer)
 {
   if (failed_)
-  {
-    finishBeforeFailing(observer, ExitCode::Computation);
-    failTogether("element");
-  }
+    try
+    {
+      failTogether("element");
+    }
+    catch (const Error& error)
+    {
+      if (error.onAllRanks())
+        failAfter(observer, error);
+      throw;
+    }
   if (contactCannotStop())
     failAfter(observer,
-              fmt::format("cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each "
-                          "other, faster than waves run in them, and faces lie deeper in them than "
-                          "contact.depth_max, or in each other before they were found: contact "
-                          "cannot stop them. Raise joints.<name>.stiffness_fraction, or use a "
-                          "material that stiffens under pressure. {}",
-                          clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities()));
+              computationFailed(fmt::format(
+                  "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, "
+                  "faster than waves run in them, and faces lie deeper in them than "
+                  "contact.depth_max, or in each other before they were found: contact cannot stop "
+                  "them. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
+                  "under pressure. {}",
+                  clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities())));
   if (clock_.cycle % energyCheckEvery != 0 && !isOver())
     return;
   const EnergyBalance balance = energy();
   const std::string broken = watch_.broken(balance, parts());
   if (!broken.empty())
-    failAfter(observer, broken);
+    failAfter(observer, computationFailed(broken));
   watch_.warn(balance, parts());
 }
 
@@ -340,7 +380,8 @@ void Solver::judge(Observer& observer)
 /// each other. The skin tells at no cost whether anything is fast at all.
 bool Solver::contactCannotStop() const
 {
-  if (!contact_ || 10 * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
+  if (!contact_ ||
+      stepsThroughSkin * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
   if (!step_.motionIsFasterThan(fasterThanWaves, searches_.relativeSpeed()))
     return false;
@@ -348,31 +389,24 @@ bool Solver::contactCannotStop() const
   return counts.tooDeep > 0 || counts.missed > 0;
 }
 
-void Solver::failAfter(Observer& observer, const std::string& why)
+void Solver::failAfter(Observer& observer, const Error& why)
 {
-  finishBeforeFailing(observer, ExitCode::Computation);
-  failOnAllRanks(ExitCode::Computation, "{}", why);
-}
-
-void Solver::finishBeforeFailing(Observer& observer, ExitCode code, const std::string& why)
-{
-  exitCode_ = code;
   // Outputs that fail, too, are told of and do not hide why the run ends.
   try
   {
-    observer.finish(*this, "failed");
+    observer.finish(*this, {"failed", why.code(), why.what()});
   }
   catch (const Error& error)
   {
     if (!error.onAllRanks())
     {
-      if (!why.empty())
-        logError(why);
+      logError(why.what());
       throw;
     }
-    if (error.what() != why)
+    if (error.what() != std::string(why.what()))
       logError(error.what());
   }
+  throw why;
 }
 
 void Solver::failTogether(const std::string& what)

@@ -61,7 +61,7 @@ public:
   /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may
   /// change the partition at the end of cycles. Collective.
   ExitCode run(Observer& observer, Rebalancer* rebalancer = nullptr);
-  /// One cycle. Public for tests and benchmarks.
+  /// One cycle. Public for tests and benchmarks. Collective.
   void advance();
 
   const Comm& comm() const { return *comm_; }
@@ -75,12 +75,15 @@ public:
   const Contact& contact() const { return *contact_; }
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return motion_->bodies(); }
+  /// Of conditions on the motion of an owned node, at the end of the cycle [N].
+  Vec3 reaction(int node) const { return motion_->reaction(node); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
   std::int64_t searches() const { return contact_ ? contact_->searches() : 0; }
   // By signals or by an observer (Signals.hpp), decided together for the cycle that has ended.
   bool resultsRequested() const { return requests_.results; }
   bool checkpointRequested() const { return requests_.checkpoint; }
   bool stopRequested() const { return requests_.stop; }
+  bool isOver() const; ///< the end time is reached
 
   // Over all ranks, the same bits on all. Collective.
   EnergyBalance energy() const { return ledger_.energy(parts(), relaxation_.state()); }
@@ -89,7 +92,6 @@ public:
   ErosionTotals erosion() const { return erosion_->totals(*comm_); }
   Momenta momenta() const { return ledger_.momenta(parts()); }
   StepControl stepControl() const { return step_.control(parts(), searches_.relativeSpeed()); }
-  bool isOver() const;
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;
@@ -97,8 +99,6 @@ public:
   /// elements whose volume has changed most.
   std::string worstEntities() const { return coplane::worstEntities(parts()); }
 
-  /// With which the run ends, for observers that finish; Success before that.
-  ExitCode exitCode() const { return exitCode_; }
   const Repartitions& repartitions() const { return repartitions_; }
   /// What the last change of the partition took [s], and how many nodes went to another rank.
   void bookRepartition(double seconds, std::int64_t nodesMoved)
@@ -128,7 +128,7 @@ private:
   void findForces(Real dt);
   void sumLoads();
   /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
-  /// or a force has failed. Collective.
+  /// or a force has failed, or the step is far too small. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
   void kick(Real step);
   void relax(Real step);
@@ -153,9 +153,8 @@ private:
   bool contactCannotStop() const;
   /// Fails, after the observers have finished, when the run cannot go on. Collective.
   void judge(Observer& observer);
-  [[noreturn]] void failAfter(Observer& observer, const std::string& why);
-  /// @param why what has been caught already; empty: the caller fails next, and says why
-  void finishBeforeFailing(Observer& observer, ExitCode code, const std::string& why = "");
+  /// @param why an error of all ranks
+  [[noreturn]] void failAfter(Observer& observer, const Error& why);
   [[noreturn]] void failTogether(const std::string& what); ///< collective
   void saveNodes(StateTables& out) const;
   void restoreNodes(const StateSource& in);
@@ -196,7 +195,6 @@ private:
   bool failed_ = false;          ///< the same on all ranks
   std::optional<Error> trouble_; ///< of this rank
   Requests requests_;
-  ExitCode exitCode_ = ExitCode::Success;
   Repartitions repartitions_;
   WorkTimes work_;
 };

@@ -95,7 +95,7 @@ void Solver::save(StateTables& out) const
   elements_.save(mesh(), out);
   if (contact_)
     contact_->save(out);
-  motion_->save(out);
+  motion_->save(layout_.ids(), out);
   erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
@@ -117,11 +117,14 @@ void Solver::restore(const StateSource& in)
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));
     contact_->restorePlanes(in, layout_);
   }
-  motion_->restore(in);
+  motion_->restore(layout_.ids(), in);
   findElementForces();
   restoreNumbers(in);
   if (contact_)
+  {
     contact_->setSkin(searches_.skin());
+    contact_->findFaces(state_.x, state_.v, state_.mass);
+  }
   Ledger::forEachStruct(ledger_,
                         [&](const char* name, auto& values) { setNumbers(values, in, name); });
 }
@@ -224,15 +227,11 @@ std::uint64_t Solver::stateHash() const
           ++field;
         });
   }
-  if (contact_)
+  for (std::size_t p = 0; contact_ && p < contact_->planes().extent(0); ++p)
   {
-    contact_->prepareAll();
-    for (std::size_t p = 0; p < contact_->planes().extent(0); ++p)
-    {
-      const Plane& plane = contact_->planes()(p);
-      if (plane.countedHere && plane.isBorn())
-        addTo(hash, PlaneField, plane);
-    }
+    const Plane& plane = contact_->planes()(p);
+    if (plane.countedHere && plane.isBorn())
+      addTo(hash, PlaneField, contact_->prepared(p));
   }
   if (comm_->isRoot())
   {

@@ -1,5 +1,6 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_exodus/NetcdfHeader.hpp>
 #include <coplane_exodus/detail/FileProbe.hpp>
 
@@ -43,14 +44,19 @@ pid_t start(std::vector<std::string>& command)
 /// in others: a program that nobody misses looks into them first.
 void demandThatItIsSurvived(const std::string& file)
 {
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (error)
-    return;
-  switch (runProgram({program.parent_path() / "coplane_mesh", "probe", file}, longestLook))
+  std::error_code noProc;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", noProc);
+  const std::string prober = program.parent_path() / "coplane_mesh";
+  switch (noProc ? ProgramEnd::Unknown : runProgram({prober, "probe", file}, longestLook))
   {
   case ProgramEnd::Success:
-  case ProgramEnd::NotStarted:
+    return;
+  case ProgramEnd::Unknown:
+    logWarning("mesh not probed",
+               fmt::format("{}: this HDF5 file is read without having been probed: {} could not be "
+                           "run, or its exit status was not reported. If this program crashes or "
+                           "hangs now, the file is damaged.",
+                           file, prober));
     return;
   case ProgramEnd::Failure:
     fail(ExitCode::Mesh,
@@ -68,7 +74,7 @@ ProgramEnd runProgram(std::vector<std::string> command, double seconds)
 {
   const pid_t process = start(command);
   if (process < 0)
-    return ProgramEnd::NotStarted;
+    return ProgramEnd::Unknown;
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   for (bool killed = false;;)
@@ -76,11 +82,11 @@ ProgramEnd runProgram(std::vector<std::string> command, double seconds)
     int status = 0;
     const pid_t ended = ::waitpid(process, &status, killed ? 0 : WNOHANG);
     if (ended < 0 && errno != EINTR)
-      return ProgramEnd::Success; // whoever started us takes no notice of children
+      return ProgramEnd::Unknown; // whoever started us takes no notice of children
     if (ended == process && killed)
       return ProgramEnd::TooLong;
     if (ended == process && WIFEXITED(status) && WEXITSTATUS(status) == 127)
-      return ProgramEnd::NotStarted;
+      return ProgramEnd::Unknown;
     if (ended == process)
       return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ProgramEnd::Success
                                                            : ProgramEnd::Failure;

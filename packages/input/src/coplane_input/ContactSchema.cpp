@@ -4,6 +4,8 @@
 #include <coplane_joint/JointModel.hpp>
 #include <coplane_schema/SchemaBuilder.hpp>
 
+#include <fmt/format.h>
+
 namespace coplane
 {
 using namespace schema;
@@ -56,13 +58,7 @@ Key contactPairs()
 
 std::vector<Key> jointCardKeys()
 {
-  std::vector<Key> keys = keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
-  keys[0] = KeyBuilder(keys[0]).wordsElsewhere({{"coulomb", "linear"},
-                                                {"mohr_coulomb", "linear"},
-                                                {"area", "linear"},
-                                                {"cohesive", "bilinear"},
-                                                {"barton", "barton_bandis"}});
-  return keys;
+  return keysOfModels<JointCard>(jointModels(), "law of the plane", "linear");
 }
 
 Key jointKeys()
@@ -164,7 +160,9 @@ Key contactKeys()
                      .in("-")
                      .atLeast(0)
                      .below(1)
-                     .defaultIs("0.004; 0.1 with forces along the common normal")
+                     .defaultIs(fmt::format("{}; {} with forces along the common normal",
+                                            ContactCard::cosOpposedOfPotential,
+                                            ContactCard::cosOpposedOfCommonNormal))
                      .like("0.2")
                      .means("faces are paired when n1.n2 < -cos_opposed"),
                  number("depth_max", &ContactCard::depthMax)

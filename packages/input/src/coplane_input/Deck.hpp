@@ -97,7 +97,10 @@ struct ContactCard
   bool inherit = true;
   std::string shareNode = "skip";       ///< skip | allow
   std::string initialOverlap = "error"; ///< error | allow
-  std::optional<Real> cosOpposed; ///< [-]; default 0.004, with forces along the common normal 0.1
+  /// Defaults of cosOpposed [-]. With the potential needles and crossing edges of 10 degrees come
+  /// into contact; along a common normal forces would jump as pairs of such faces come and go.
+  static constexpr Real cosOpposedOfPotential = 0.004, cosOpposedOfCommonNormal = 0.1;
+  std::optional<Real> cosOpposed; ///< [-]
   Real depthMax = 0.6;
   Real areaMin = 1e-8;
   std::optional<Real> skin; ///< [m]; default 0.1 (once: 0.5) of the smallest face size
@@ -157,6 +160,7 @@ struct TimeCard
   Real stepFactor = 0.8;           ///< fraction of the stable step [-]
   std::optional<Real> maximumStep; ///< [s]
   std::optional<Real> fixedStep;   ///< [s]; refused above the stable step only by a warning
+  bool endAtRest = false; ///< the run ends when damping does, by a ratio of the section damping
   Real energyTolerance =
       0.1; ///< stop when the balance is off by this fraction of the energy in play [-]
   Real contactGainTolerance =
@@ -168,17 +172,18 @@ struct OutputCard
   std::string results; ///< Exodus file; default <deck>.e in the working folder; empty: switched off
                        ///< (deck: none)
   Real every = 0;      ///< [s]; 0: only `times` (and first and last state)
-  std::vector<Real> times;          ///< [s]
-  bool planes = true;               ///< contact planes beside the results
-  std::string planesFormat = "vtp"; ///< vtp: .pvd and .vtp for each step | vtkhdf: one file
+  std::vector<Real> times;             ///< [s]
+  bool planes = true;                  ///< contact planes beside the results
+  std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
 };
 
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet; ///< mean motion of a node set ...
-  std::string block;   ///< ... or mass-weighted mean motion of a block
+  std::string nodeSet;   ///< mean motion of a node set ...
+  std::string block;     ///< ... or mass-weighted mean motion of a block
+  bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };
 
 struct HistoryCard

@@ -127,6 +127,10 @@ void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
                                        "damping.local or damping.kinetic; remove it or give one "
                                        "of them.",
                                        key));
+  if (deck.time.endAtRest && !deck.dampingEnergyRatio && !deck.dampingForceRatio)
+    problems.add(nodeAt(root, {"time", "end_at_rest"}),
+                 "time.end_at_rest has no effect without damping.until_energy_ratio or "
+                 "damping.until_force_ratio, which say what rest is; give one of them.");
   if (deck.dampingUntil && *deck.dampingUntil <= deck.dampingFrom)
     problems.add(nodeAt(node, {"until"}),
                  fmt::format("damping.until = {} s is not after damping.from = {} s; accepted: a "
@@ -273,6 +277,11 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
+    if (deck.history.probes[i].reaction && !deck.history.probes[i].block.empty())
+      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
+                   fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
+                               "that conditions hold, or remove it.",
+                               i));
   }
   checkListed("joints", deck.history.joints, "a card in joints, or \"*\"", joints, root, problems);
   Names rigid;
@@ -380,42 +389,81 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
   return messages;
 }
 
-std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,
-                                               const Names& nodeSetNames, const Names& sideSetNames)
+namespace
 {
-  std::vector<std::string> messages;
-  const std::string block = "an element block", nodeSet = "a node set", sideSet = "a side set";
-  const auto hint = [&](const std::string& name) -> std::string
+/// Names of a mesh, and what is wrong with those that a deck says.
+class NamesOfMesh
+{
+public:
+  NamesOfMesh(const Names& blocks, const Names& nodeSets, const Names& sideSets)
+      : blocks_{"an element block", blocks}, nodeSets_{"a node set", nodeSets}, sideSets_{
+                                                                                    "a side set",
+                                                                                    sideSets}
   {
-    for (const auto& [what, names] :
-         {std::pair(block, blockNames), std::pair(nodeSet, nodeSetNames),
-          std::pair(sideSet, sideSetNames)})
-      if (contains(names, name))
-        return fmt::format(" '{}' is {}.", name, what);
+  }
+
+  // @param where the card is; path of the key; name that it says, empty: none
+  void block(const std::string& where, const std::string& path, const std::string& name)
+  {
+    demand(blocks_, where, path, name);
+  }
+  void nodeSet(const std::string& where, const std::string& path, const std::string& name)
+  {
+    demand(nodeSets_, where, path, name);
+  }
+  void sideSet(const std::string& where, const std::string& path, const std::string& name)
+  {
+    demand(sideSets_, where, path, name);
+  }
+  /// Every block of the mesh has a card.
+  void allHaveCards(const Deck& deck);
+  const std::vector<std::string>& messages() const { return messages_; }
+
+private:
+  struct Kind
+  {
+    std::string what;
+    const Names& names;
+  };
+
+  void demand(const Kind& kind, const std::string& where, const std::string& path,
+              const std::string& name)
+  {
+    if (!name.empty() && !contains(kind.names, name))
+      messages_.push_back(where + ": " +
+                          unknown(path, name, kind.what + " of the mesh", kind.names) + hint(name));
+  }
+  /// What a name is instead.
+  std::string hint(const std::string& name) const
+  {
+    for (const Kind* kind : {&blocks_, &nodeSets_, &sideSets_})
+      if (contains(kind->names, name))
+        return fmt::format(" '{}' is {}.", name, kind->what);
     return name.find_first_not_of("0123456789") == std::string::npos
                ? " Names are wanted, not numbers: coplane_mesh check MESH lists both."
                : "";
-  };
-  const auto check = [&](const std::string& where, const std::string& path, const std::string& name,
-                         const std::string& what, const Names& names)
-  {
-    if (!name.empty() && !contains(names, name))
-      messages.push_back(where + ": " + unknown(path, name, what + " of the mesh", names) +
-                         hint(name));
-  };
+  }
 
+  Kind blocks_, nodeSets_, sideSets_;
+  std::vector<std::string> messages_;
+};
+
+void NamesOfMesh::allHaveCards(const Deck& deck)
+{
   const Names cards = namesOf(deck.blocks);
-  for (const auto& name : blockNames)
+  for (const auto& name : blocks_.names)
     if (!contains(cards, name))
-      messages.push_back(
+      messages_.push_back(
           fmt::format("{}: blocks has no card for the element block '{}' of the "
                       "mesh; add '{}: {{material: ...}}'.{}",
                       deck.blocksWhere, name, name,
                       didYouMean(name, cards).empty()
                           ? ""
                           : " The most similar card is '" + nearest(name, cards) + "'."));
-  for (const auto& card : deck.blocks)
-    check(card.where, "blocks", card.name, block, blockNames);
+}
+
+void checkPairs(const Deck& deck, NamesOfMesh& mesh)
+{
   for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
   {
     const auto& pair = deck.contact.pairs[i];
@@ -423,36 +471,47 @@ std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& bl
     for (std::size_t k = 0; k < 2; ++k)
     {
       if (pair.blocks[k] != "*")
-        check(pair.where, fmt::format("{}.blocks.{}", path, k), pair.blocks[k], block, blockNames);
+        mesh.block(pair.where, fmt::format("{}.blocks.{}", path, k), pair.blocks[k]);
       if (pair.sideSets[k] != "*")
-        check(pair.where, fmt::format("{}.side_sets.{}", path, k), pair.sideSets[k], sideSet,
-              sideSetNames);
+        mesh.sideSet(pair.where, fmt::format("{}.side_sets.{}", path, k), pair.sideSets[k]);
     }
-    check(pair.where, path + ".joint_set", pair.jointSet, sideSet, sideSetNames);
+    mesh.sideSet(pair.where, path + ".joint_set", pair.jointSet);
   }
+}
+
+void checkConditions(const Deck& deck, NamesOfMesh& mesh)
+{
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
   {
     const auto& card = deck.conditions[i];
-    const bool faces = card.onSides();
     if (card.type == "rigid_motion")
-    {
-      check(card.where, fmt::format("conditions.{}.block", i), card.set, block, blockNames);
-      continue;
-    }
-    check(card.where, fmt::format("conditions.{}.{}", i, faces ? "side_set" : "node_set"), card.set,
-          faces ? sideSet : nodeSet, faces ? sideSetNames : nodeSetNames);
+      mesh.block(card.where, fmt::format("conditions.{}.block", i), card.set);
+    else if (card.onSides())
+      mesh.sideSet(card.where, fmt::format("conditions.{}.side_set", i), card.set);
+    else
+      mesh.nodeSet(card.where, fmt::format("conditions.{}.node_set", i), card.set);
   }
+}
+} // namespace
+
+std::vector<std::string> checkNamesAgainstMesh(const Deck& deck, const Names& blockNames,
+                                               const Names& nodeSetNames, const Names& sideSetNames)
+{
+  NamesOfMesh mesh(blockNames, nodeSetNames, sideSetNames);
+  mesh.allHaveCards(deck);
+  for (const auto& card : deck.blocks)
+    mesh.block(card.where, "blocks", card.name);
+  checkPairs(deck, mesh);
+  checkConditions(deck, mesh);
   for (std::size_t i = 0; i < deck.initial.size(); ++i)
-    check(deck.initial[i].where, fmt::format("initial.{}.block", i), deck.initial[i].block, block,
-          blockNames);
+    mesh.block(deck.initial[i].where, fmt::format("initial.{}.block", i), deck.initial[i].block);
   for (std::size_t i = 0; i < deck.history.probes.size(); ++i)
   {
     const auto& probe = deck.history.probes[i];
-    check(probe.where, fmt::format("history.probes.{}.node_set", i), probe.nodeSet, nodeSet,
-          nodeSetNames);
-    check(probe.where, fmt::format("history.probes.{}.block", i), probe.block, block, blockNames);
+    mesh.nodeSet(probe.where, fmt::format("history.probes.{}.node_set", i), probe.nodeSet);
+    mesh.block(probe.where, fmt::format("history.probes.{}.block", i), probe.block);
   }
-  return messages;
+  return mesh.messages();
 }
 
 std::string commonNormalBecauseOf(const Deck& deck)

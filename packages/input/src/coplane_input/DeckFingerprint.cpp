@@ -16,6 +16,7 @@ namespace
 const std::vector<std::string> mayChange{"title",
                                          "mesh",
                                          "time.end",
+                                         "time.end_at_rest",
                                          "time.energy_tolerance",
                                          "time.contact_gain_tolerance",
                                          "output",

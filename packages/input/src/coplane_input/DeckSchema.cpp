@@ -356,6 +356,12 @@ Key timeGroup()
                        .above(0)
                        .like("0.041")
                        .means("time at which the run ends"),
+                   flag("end_at_rest", &TimeCard::endAtRest)
+                       .elsewhere({"until_rest", "steady_state"})
+                       .like("true")
+                       .means("the run ends as soon as damping ends by one of its ratios, "
+                              "damping.until_energy_ratio or damping.until_force_ratio; at `end` "
+                              "if that does not happen"),
                    number("step_factor", &TimeCard::stepFactor)
                        .in("-")
                        .elsewhere({"tssfac", "cfl", "courant", "safety", "scale"})

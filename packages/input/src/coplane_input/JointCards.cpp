@@ -22,6 +22,11 @@ JointLaw jointLawOf(const JointCard& card)
   return modelOf(card).law(card.parameters.get());
 }
 
+bool needsElements(const JointCard& card)
+{
+  return modelOf(card).needsElements;
+}
+
 void checkJoints(const std::vector<JointCard>& joints, const DeckNode& root, Problems& problems)
 {
   for (const JointCard& card : joints)

@@ -20,16 +20,7 @@ std::vector<Key> materialCardKeys()
 {
   std::vector<Key> keys =
       keysOfModels<MaterialCard>(materialModels(), "law of the continuum", "j2");
-  keys[0] = KeyBuilder(keys[0]).needed().wordsElsewhere({{"elastic", "linear_elastic"},
-                                                         {"mat_elastic", "linear_elastic"},
-                                                         {"hooke", "linear_elastic"},
-                                                         {"von_mises", "j2"},
-                                                         {"mises", "j2"},
-                                                         {"plastic", "j2"},
-                                                         {"plastic_kinematic", "j2"},
-                                                         {"elastoplastic", "j2"},
-                                                         {"mohr", "mohr_coulomb"},
-                                                         {"hyperelastic", "neo_hookean"}});
+  keys[0] = KeyBuilder(keys[0]).needed();
   keys.insert(keys.begin() + 1,
               text("set", &MaterialCard::set)
                   .oneOf(materialSetNames())

@@ -36,10 +36,10 @@ Key outputKeys()
                        .like("false")
                        .means("contact planes as points beside the results"),
                    text("planes_format", &OutputCard::planesFormat)
-                       .oneOf({"vtp", "vtkhdf"})
-                       .like("vtkhdf")
-                       .means("vtp: a .vtp file for each step, and a .pvd that names them; vtkhdf: "
-                              "one file for all steps, and its index .xmf"),
+                       .oneOf({"vtkhdf", "vtp"})
+                       .like("vtp")
+                       .means("vtkhdf: one file for all steps, and its index .xmf3, which ParaView "
+                              "opens; vtp: a .vtp file for each step, and a .pvd that names them"),
                    flag("file_per_rank", &OutputCard::filePerRank)
                        .like("true")
                        .means("one results file for each rank instead of a shared one"),
@@ -74,6 +74,10 @@ Key historyKeys()
                           text("block", &ProbeCard::block)
                               .like("bar")
                               .means("mass-weighted mean motion of an element block"),
+                          flag("reaction", &ProbeCard::reaction)
+                              .like("true")
+                              .means("of a node set: also the sum of the forces with which fixed, "
+                                     "velocity, displacement and symmetry hold its nodes"),
                       })
                      .exactlyOneOf({"node_set", "block"})
                      .means("motions to be recorded"),

@@ -61,6 +61,7 @@ JointModel BartonBandisParameters::model()
   using P = BartonBandisParameters;
   using namespace schema;
   return JointModelOf<P>("barton_bandis", "a rough rock joint")
+      .elsewhere({"barton"})
       .has({
           number("initial_stiffness", &P::initialStiffness)
               .in("Pa/m")

@@ -116,6 +116,7 @@ JointModel MortarParameters::model()
 JointModel BilinearParameters::model()
 {
   return JointModelOf<BilinearParameters>("bilinear", "a bond with linear softening")
+      .elsewhere({"cohesive"})
       .has(bondKeys<BilinearParameters>())
       .demands(checkBilinear);
 }

@@ -8,8 +8,11 @@
 
 namespace coplane
 {
-/// A model that cards in `joints` may name.
-using JointModel = CardModel<JointLaw>;
+/// A model that cards in `joints` may name, and what other parts ask of it.
+struct JointModel : CardModel<JointLaw>
+{
+  bool needsElements = false; ///< its stiffness comes from the elements behind the faces
+};
 
 /// Every model, in the order of the manual. The first is that of cards that name none.
 const std::vector<JointModel>& jointModels();

@@ -19,6 +19,7 @@ JointModel LinearParameters::model()
   using P = LinearParameters;
   using namespace schema;
   return JointModelOf<P>("linear", "a given stiffness")
+      .elsewhere({"coulomb", "mohr_coulomb", "area"})
       .has({
           number("normal_stiffness", &P::normalStiffness)
               .needed()

@@ -15,6 +15,7 @@ JointModel PenaltyParameters::model()
   using P = PenaltyParameters;
   using namespace schema;
   return JointModelOf<P>("penalty", "stiffness from the elements behind the faces")
+      .takesStiffnessFromElements()
       .has({
           number("stiffness_fraction", &P::stiffnessFraction)
               .in("-")

@@ -96,6 +96,7 @@ MaterialModel J2Parameters::model()
   using P = J2Parameters;
   using namespace schema;
   return MaterialModelOf<P>("j2", "von Mises with hardening")
+      .elsewhere({"von_mises", "mises", "plastic", "plastic_kinematic", "elastoplastic"})
       .has(elasticKeys<P>())
       .has({
           number("yield_stress", &P::yieldStress)

@@ -33,6 +33,7 @@ LinearElastic makeLinearElastic(Real youngsModulus, Real poissonRatio, Real dens
 MaterialModel LinearElasticParameters::model()
 {
   return MaterialModelOf<LinearElasticParameters>("linear_elastic", "Hooke")
+      .elsewhere({"elastic", "mat_elastic", "hooke"})
       .has(schema::elasticKeys<LinearElasticParameters>())
       .comesAs(R"(
 granite: {model: linear_elastic, density: 2650, youngs_modulus: 60e9, poisson_ratio: 0.25}

@@ -95,6 +95,7 @@ MaterialModel MohrCoulombParameters::model()
   using P = MohrCoulombParameters;
   using namespace schema;
   return MaterialModelOf<P>("mohr_coulomb", "Mohr and Coulomb")
+      .elsewhere({"mohr"})
       .costs(3)
       .has(elasticKeys<P>())
       .has(frictionKeys<P>())

@@ -20,6 +20,7 @@ NeoHookean makeLaw(const NeoHookeanParameters& parameters)
 MaterialModel NeoHookeanParameters::model()
 {
   return MaterialModelOf<NeoHookeanParameters>("neo_hookean", "rubber")
+      .elsewhere({"hyperelastic"})
       .costs(1.4)
       .has(schema::elasticKeys<NeoHookeanParameters>());
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_geometry/PlaneAxes.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
 
 namespace coplane
@@ -113,7 +114,7 @@ private:
   /// Steps end within this much of the size of the trial stress.
   static constexpr Real farthest = 10;
 
-  /// Two axes in the planes (Duff et al. 2017), and the normal.
+  /// The normal of the planes and two axes in them.
   template <class T>
   struct Axes
   {
@@ -289,11 +290,8 @@ private:
   template <class T>
   KOKKOS_INLINE_FUNCTION static Axes<T> axesOf(const Vec3Of<T>& n)
   {
-    const T one(1.0), zero(0.0);
-    const T sign = branchFree::choose(n.z < zero, -one, one);
-    const T f = -one / (sign + n.z), xy = f * n.x * n.y;
-    return {
-        n, {one + sign * f * n.x * n.x, sign * xy, -sign * n.x}, {xy, sign + f * n.y * n.y, -n.y}};
+    const PlaneAxesOf<T> axes = planeAxes<3>(n);
+    return {n, axes.e1, axes.e2};
   }
 
   template <class T>

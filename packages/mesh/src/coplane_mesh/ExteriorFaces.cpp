@@ -1,8 +1,8 @@
+#include <coplane_core/Lists.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -115,7 +115,6 @@ std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
   {
     int block, element, side;
   };
-  std::vector<int> start(mesh.nodeIds.size() + 1, 0);
   const auto lowestNode = [&](int b, int e, int s)
   {
     const ElementTopology& shape = topology(mesh.blocks[b].type);
@@ -125,22 +124,25 @@ std::vector<ExteriorFace> exteriorFaces(const RankMesh& mesh)
           std::min(lowest, mesh.blocks[b].connectivity[e * shape.nodes + shape.sideNodes[s][k]]);
     return lowest;
   };
-  forEachSide(mesh, [&](int b, int e, int s) { ++start[lowestNode(b, e, s) + 1]; });
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<Side> sides(start.back());
-  std::vector<int> next(start.begin(), start.end() - 1);
-  forEachSide(mesh, [&](int b, int e, int s) { sides[next[lowestNode(b, e, s)]++] = {b, e, s}; });
+  const Lists<Side> sides(mesh.nodeIds.size(),
+                          [&](const auto& visit)
+                          {
+                            forEachSide(mesh,
+                                        [&](int b, int e, int s) {
+                                          visit(std::size_t(lowestNode(b, e, s)), Side{b, e, s});
+                                        });
+                          });
 
   std::vector<ExteriorFace> faces;
   std::vector<ExteriorFace> here;
   std::vector<std::array<int, 4>> nodes;
-  for (std::size_t n = 0; n + 1 < start.size(); ++n)
+  for (std::size_t n = 0; n < sides.count(); ++n)
   {
     here.clear();
     nodes.clear();
-    for (int i = start[n]; i < start[n + 1]; ++i)
+    for (const Side& side : sides[n])
     {
-      here.push_back(faceOf(mesh, sides[i].block, sides[i].element, sides[i].side));
+      here.push_back(faceOf(mesh, side.block, side.element, side.side));
       nodes.push_back(sortedNodes(here.back()));
     }
     for (std::size_t i = 0; i < here.size(); ++i)

@@ -138,9 +138,9 @@ void CheckpointObserver::endOfCycle(const Solver& solver)
   }
 }
 
-void CheckpointObserver::finish(const Solver& solver, const std::string& ending)
+void CheckpointObserver::finish(const Solver& solver, const Ending& ending)
 {
-  if (options_.atEnd && ending == "completed" && solver.clock().cycle != lastCycle_)
+  if (options_.atEnd && ending.how == "completed" && solver.clock().cycle != lastCycle_)
     write(solver);
 }
 

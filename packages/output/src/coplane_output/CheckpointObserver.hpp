@@ -46,7 +46,7 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   void write(const Solver& solver); ///< collective

@@ -5,6 +5,8 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 
+#include <algorithm>
+
 namespace coplane
 {
 namespace
@@ -151,7 +153,7 @@ void HistoryObserver::savePosition(std::map<std::string, std::string>& positions
     positions["history"] = table_.position(lastCycle_).text();
 }
 
-void HistoryObserver::finish(const Solver& solver, const std::string&)
+void HistoryObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
     write(solver);
@@ -212,6 +214,27 @@ std::vector<Real> HistoryObserver::probeValues(const Solver& solver) const
   return values;
 }
 
+std::vector<Vec3> HistoryObserver::reactions(const Solver& solver) const
+{
+  std::vector<Vec3> result(options_.probes.size());
+  if (std::none_of(options_.probes.begin(), options_.probes.end(),
+                   [](const Probe& probe) { return probe.reaction; }))
+    return result;
+  std::vector<ExactSum> sums(3 * result.size());
+  for (std::size_t p = 0; p < result.size(); ++p)
+    if (options_.probes[p].reaction)
+      for (const Share& share : shares_[p])
+      {
+        const Vec3 reaction = solver.reaction(share.node);
+        for (int c = 0; c < 3; ++c)
+          sums[3 * p + c].add(reaction[c]);
+      }
+  const std::vector<Real> values = ExactSum::overRanks(sums, solver.comm());
+  for (std::size_t p = 0; p < result.size(); ++p)
+    result[p] = {values[3 * p], values[3 * p + 1], values[3 * p + 2]};
+  return result;
+}
+
 void HistoryObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::history");
@@ -227,12 +250,15 @@ void HistoryObserver::write(const Solver& solver)
   line.add("eroded_elements", erosion.elements);
   line.add("eroded_mass[kg]", erosion.mass);
   const std::vector<Real> probes = probeValues(solver);
+  const std::vector<Vec3> reactionsOf = reactions(solver);
   for (std::size_t p = 0; p < options_.probes.size(); ++p)
   {
     const Real* value = &probes[6 * p];
     const std::string& name = options_.probes[p].name;
     line.add(name + "_displacement", "[m]", {value[0], value[1], value[2]});
     line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
+    if (options_.probes[p].reaction)
+      line.add(name + "_reaction", "[N]", reactionsOf[p]);
   }
   if (!options_.joints.empty() && solver.hasContact())
   {

@@ -2,6 +2,7 @@
 
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/TextFile.hpp>
+#include <coplane_core/Vec3.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 
@@ -15,8 +16,9 @@ namespace coplane
 struct Probe
 {
   std::string name;
-  int nodeSet = -1; ///< position in Mesh::nodeSets, or
-  int block = -1;   ///< position in Mesh::blocks
+  int nodeSet = -1;      ///< position in Mesh::nodeSets, or
+  int block = -1;        ///< position in Mesh::blocks
+  bool reaction = false; ///< also the sum of the reactions on the nodes of the set
 };
 
 struct HistoryOptions
@@ -45,7 +47,7 @@ public:
   void endOfCycle(const Solver& solver) override;
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   /// A node of a probe and its share of the mean (not divided by the sum of all shares).
@@ -59,6 +61,7 @@ private:
   void findShares(const Solver& solver);
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;
+  std::vector<Vec3> reactions(const Solver& solver) const; ///< per probe, zero if not wanted [N]
 
   HistoryOptions options_;
   OutputSchedule schedule_;

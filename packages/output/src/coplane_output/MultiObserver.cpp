@@ -35,16 +35,17 @@ void MultiObserver::savePosition(std::map<std::string, std::string>& positions) 
     observer->savePosition(positions);
 }
 
-void MultiObserver::finish(const Solver& solver, const std::string& ending)
+void MultiObserver::finish(const Solver& solver, const Ending& ending)
 {
   // After an error of all ranks all go on with the next observer. One of this rank alone leaves at
   // once: the others are still in this observer, and what the next one would send is not for them.
   std::exception_ptr first;
+  Ending now = ending;
   // Backwards: a checkpoint at the end has to know where outputs ended before their last lines.
   for (auto observer = observers_.rbegin(); observer != observers_.rend(); ++observer)
     try
     {
-      (*observer)->finish(solver, ending);
+      (*observer)->finish(solver, now);
     }
     catch (const Error& error)
     {
@@ -54,6 +55,8 @@ void MultiObserver::finish(const Solver& solver, const std::string& ending)
         first = std::current_exception();
       else
         logError(error.what());
+      if (now.how != "failed")
+        now = {"failed", error.code(), error.what()};
     }
   if (first)
     std::rethrow_exception(first);

@@ -20,7 +20,7 @@ public:
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Finishes all observers even when one fails, then throws the first error.
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   std::vector<std::unique_ptr<Observer>> observers_;

@@ -14,6 +14,21 @@ Real reached(Real time)
 }
 } // namespace
 
+Real outputSteps(const OutputTimes& when, Real begin, Real end)
+{
+  const auto isBetween = [&](Real time) { return time > reached(begin) && reached(time) < end; };
+  Real steps = 2 + Real(std::count_if(when.times.begin(), when.times.end(),
+                                      [&](Real time)
+                                      {
+                                        const Real off = std::remainder(time, when.every);
+                                        return isBetween(time) && !(std::abs(off) <= 1e-10 * time);
+                                      }));
+  if (when.every > 0)
+    steps += std::max(0.0, std::ceil(end * (1 - 1e-10) / when.every) - 1 -
+                               std::floor(reached(begin) / when.every));
+  return steps;
+}
+
 OutputSchedule::OutputSchedule(OutputTimes times) : times_(std::move(times))
 {
   std::sort(times_.times.begin(), times_.times.end());

@@ -14,6 +14,10 @@ struct OutputTimes
   std::vector<Real> times; ///< [s]
 };
 
+/// Steps that a run from `begin` to `end` [s] writes, the first and the last state among them, when
+/// cycles are shorter than the times between outputs. A count, as Real: it may be huge.
+Real outputSteps(const OutputTimes& when, Real begin, Real end);
+
 /// Finds the first cycle at or after each due time. Multiples are counted, not summed, so they do
 /// not drift; several due times within one cycle give one output. The same on every rank, because
 /// it sees only the time.

@@ -71,7 +71,7 @@ void PlanesObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
-void PlanesObserver::finish(const Solver& solver, const std::string&)
+void PlanesObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
     write(solver);

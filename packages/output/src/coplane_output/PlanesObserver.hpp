@@ -13,8 +13,8 @@ class PlanesSeries;
 
 enum class PlanesFormat
 {
-  Vtp,   ///< base_planes.pvd and base_planes_0000.vtp, ...
-  VtkHdf ///< base_planes.vtkhdf for all steps, and base_planes.xmf
+  VtkHdf, ///< base_planes.vtkhdf for all steps, and base_planes.xmf3
+  Vtp     ///< base_planes.pvd and base_planes_0000.vtp, ...
 };
 
 struct PlanesOptions
@@ -23,7 +23,7 @@ struct PlanesOptions
   OutputTimes when;          ///< as for the results
   std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
   std::string run = {};      ///< identity, by which a restart knows whether a series is its own
-  PlanesFormat format = PlanesFormat::Vtp;
+  PlanesFormat format = PlanesFormat::VtkHdf;
 };
 
 /// Writes the common planes as points for ParaView: the point of contact of every plane that exists
@@ -38,7 +38,7 @@ public:
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   void write(const Solver& solver); ///< collective

@@ -15,8 +15,9 @@ double secondsBetween(std::chrono::steady_clock::time_point a,
   return std::chrono::duration<double>(b - a).count();
 }
 
-/// "42 s", "3 min 20 s", "5 h 12 min"
-std::string duration(double seconds)
+} // namespace
+
+std::string durationText(double seconds)
 {
   if (!(seconds < 1e9))
     return "unknown";
@@ -27,9 +28,9 @@ std::string duration(double seconds)
     return fmt::format("{} min {} s", s / 60, s % 60);
   return fmt::format("{} h {} min", s / 3600, s % 3600 / 60);
 }
-} // namespace
 
-ProgressObserver::ProgressObserver(ProgressOptions options) : options_(options)
+ProgressObserver::ProgressObserver(ProgressOptions options, RunRecord* record)
+    : options_(options), record_(record)
 {
 }
 
@@ -62,37 +63,62 @@ void ProgressObserver::endOfCycle(const Solver& solver)
     decision = {0, 0};
   solver.comm().sum(decision);
   nextLook_ = cycle + decision[0];
+  const std::string limit = solver.stepControl().text();
+  if (record_)
+    record_->noteLimit(limit);
   if (decision[1] == 0)
     return;
-  print(solver, elapsed);
+  print(solver, limit, elapsed);
+  if (record_)
+    record_->renew(secondsLeft(solver, elapsed));
   line_ = WallClock::now();
   lineCycle_ = cycle;
   lineTime_ = solver.clock().time;
 }
 
-void ProgressObserver::print(const Solver& solver, double secondsSinceLine) const
+double ProgressObserver::secondsLeft(const Solver& solver, double secondsSinceLine) const
+{
+  const Clock& clock = solver.clock();
+  return secondsSinceLine * (solver.model().time.end - clock.time) / (clock.time - lineTime_);
+}
+
+void ProgressObserver::print(const Solver& solver, const std::string& limit,
+                             double secondsSinceLine) const
 {
   const Clock& clock = solver.clock();
   const EnergyBalance energy = solver.energy();
-  const StepControl control = solver.stepControl();
   const std::int64_t planes = solver.hasContact() ? solver.contact().counts().planes : 0;
   const double rate = double(clock.cycle - lineCycle_) / secondsSinceLine;
   const double end = solver.model().time.end;
-  const double left = secondsSinceLine * (end - clock.time) / (clock.time - lineTime_);
   logInfo("cycle {}, t = {:.5e} s ({:.1f} %), dt = {:.3e} s ({}), kinetic energy {:.4e} "
           "J, balance error {:.1e}, {} planes, {:.3g} cycles/s, {:.3g} element-cycles/s, {} left",
-          clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep, control.text(),
-          energy.kinetic, energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
-          rate * double(elements_), duration(left));
+          clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep, limit, energy.kinetic,
+          energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
+          rate * double(elements_), durationText(secondsLeft(solver, secondsSinceLine)));
 }
 
-void ProgressObserver::finish(const Solver& solver, const std::string& ending)
+void ProgressObserver::finish(const Solver& solver, const Ending& ending)
 {
   const Clock& clock = solver.clock();
   const EnergyBalance energy = solver.energy();
   const double seconds = secondsBetween(begin_, WallClock::now());
   logInfo("{} at cycle {}, t = {:.5e} s, after {}: kinetic energy {:.4e} J, balance error {:.1e}",
-          ending, clock.cycle, clock.time, duration(seconds), energy.kinetic,
+          ending.how, clock.cycle, clock.time, durationText(seconds), energy.kinetic,
           energy.scale() > 0 ? energy.error() / energy.scale() : 0.0);
+  if (!solver.hasContact())
+    return;
+  const ContactCounts counts = solver.contact().counts();
+  if (counts.missed > 0)
+    logWarning("contacts missed",
+               fmt::format("{} pairs of faces lay in each other already when a search found "
+                           "them, and were taken as they were: what they should have exchanged "
+                           "is lost. Raise contact.skin, lower contact.search_every or "
+                           "time.step_factor.",
+                           counts.missed));
+  if (counts.tooDeep > 0)
+    logWarning("planes too deep at the end",
+               fmt::format("{} planes are deeper than contact.depth_max: bodies lie in each "
+                           "other. Raise the stiffness of the joint.",
+                           counts.tooDeep));
 }
 } // namespace coplane

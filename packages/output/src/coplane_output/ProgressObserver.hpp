@@ -1,6 +1,7 @@
 #pragma once
 
 #include <coplane_dynamics/Observer.hpp>
+#include <coplane_output/RunRecord.hpp>
 
 #include <chrono>
 #include <cstdint>
@@ -8,6 +9,9 @@
 
 namespace coplane
 {
+/// "42 s", "3 min 20 s", "5 h 12 min"
+std::string durationText(double seconds);
+
 struct ProgressOptions
 {
   double seconds = 5; ///< wall-clock time between lines
@@ -16,21 +20,26 @@ struct ProgressOptions
 /// Prints a line about every few seconds: cycle, time, step and what limits it, energy and its
 /// balance, planes, rate, estimated time left. Rank 0's clock decides: when a line was printed it
 /// tells all ranks after how many cycles to look at the clock again, so that nobody asks in every
-/// cycle.
+/// cycle. With each line the record of the run is renewed; each look tells it what limits the step.
+/// At the end it warns of contacts that were missed and of planes that are too deep.
 class ProgressObserver : public Observer
 {
 public:
-  explicit ProgressObserver(ProgressOptions options = {});
+  /// @param record of this run, which must outlive the observer; nullptr: none is renewed
+  explicit ProgressObserver(ProgressOptions options = {}, RunRecord* record = nullptr);
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   using WallClock = std::chrono::steady_clock;
-  void print(const Solver& solver, double secondsSinceLine) const;
+  /// Of the wall's clock, by what was done since the last line; not finite when time stood still.
+  double secondsLeft(const Solver& solver, double secondsSinceLine) const;
+  void print(const Solver& solver, const std::string& limit, double secondsSinceLine) const;
 
   ProgressOptions options_;
+  RunRecord* record_;
   std::int64_t elements_ = 0;
   std::int64_t nextLook_ = 1;  ///< cycle
   std::int64_t lineCycle_ = 0; ///< of the last line

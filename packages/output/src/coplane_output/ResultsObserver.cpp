@@ -53,8 +53,19 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
   names.side = sideVariableNames();
   return names;
 }
-
 } // namespace
+
+std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history)
+{
+  const ResultsVariables names = variablesOf(mesh.mine.dimension, history);
+  std::int64_t sides = 0;
+  for (const int size : mesh.sideSetSizes)
+    sides += size;
+  return std::int64_t(sizeof(Real)) *
+         (std::int64_t(names.nodal.size()) * mesh.nodes +
+          std::int64_t(names.element.size()) * mesh.elements() +
+          std::int64_t(names.side.size()) * sides + std::int64_t(names.global.size()));
+}
 
 std::string resultsPart(const std::string& file, int part)
 {
@@ -271,7 +282,7 @@ void ResultsObserver::repartitioned(const Solver&)
   sides_.reset();
 }
 
-void ResultsObserver::finish(const Solver& solver, const std::string&)
+void ResultsObserver::finish(const Solver& solver, const Ending&)
 {
   if (file_ && !file_->isOpen())
     return; // it is what failed

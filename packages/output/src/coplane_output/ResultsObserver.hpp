@@ -28,6 +28,10 @@ struct ResultsOptions
 /// Name of a part of a series of results: wall.e, wall.e-s0002, ...
 std::string resultsPart(const std::string& file, int part);
 
+/// What one step of the results takes in files [bytes].
+/// @param history variables of the blocks' laws that are written besides
+std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history);
+
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
 /// (SIGUSR1) and at the end. Names and their order are those that ParaView's IOSS reader groups
 /// into vectors and tensors; `displacement` comes first, so that the reader applies it to the mesh.
@@ -46,7 +50,7 @@ public:
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
   /// Writes the last state, unless the last cycle has been written, and closes the file.
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
   int steps() const { return file_ ? file_->steps() : 0; }
 

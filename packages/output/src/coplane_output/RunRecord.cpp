@@ -1,6 +1,7 @@
 #include <coplane_contact/Census.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_core/Memory.hpp>
 #include <coplane_core/TextFile.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/Version.hpp>
@@ -11,11 +12,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sys/resource.h>
 
 namespace coplane
 {
@@ -201,18 +203,18 @@ void removeRecordsOfRestarts(const std::string& file)
   }
 }
 
-/// Largest resident memory of a rank so far [bytes].
-std::int64_t peakMemory()
+/// Text that is not UTF-8 (a deck in another encoding) must not stop a run at its end.
+std::string text(const Json& json)
 {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return std::int64_t(usage.ru_maxrss) * 1024;
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
+
+constexpr std::size_t keptLimits = 50;
 } // namespace
 
 RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
-    : options_(std::move(options)), file_(options_.file), startDate_(dateNow()),
-      begin_(std::chrono::steady_clock::now())
+    : options_(std::move(options)), isRoot_(comm.isRoot()), file_(options_.file),
+      startDate_(dateNow()), begin_(std::chrono::steady_clock::now())
 {
   const std::vector<Placement> ranks = comm.allGather(std::vector<Placement>{myPlacement()});
   Json placement = Json::array();
@@ -244,61 +246,105 @@ RunRecord::RunRecord(const Comm& comm, RunRecordOptions options)
 
 void RunRecord::start(const Solver& solver)
 {
-  // The census tells of the state before the first step.
-  if (solver.hasContact() && options_.restartedFrom.empty())
-    census_ = censusOf(solver.contact()).dump();
-  write(solver, "running");
-}
-
-void RunRecord::finish(const Solver& solver, const std::string& ending)
-{
-  write(solver, ending);
-}
-
-void RunRecord::write(const Solver& solver, const std::string& ending) const
-{
-  const Comm& comm = solver.comm();
-  const double seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  Json json{{"title", options_.title}, {"ending", ending}};
+  noteLimit(solver.stepControl().text());
+  Json json{{"title", options_.title}, {"ending", "running"}};
   json["run"] = options_.run;
   json["software"] = softwareOf();
   if (!options_.restartedFrom.empty())
     json["restarted_from"] = options_.restartedFrom;
   json["command_line"] = options_.commandLine;
   json["backend"] = name(currentBackend());
-  json["ranks"] = comm.size();
+  json["ranks"] = solver.comm().size();
   json["threads_per_rank"] = threadCount();
   json["placement"] = Json::parse(placement_);
   json["deck"] = {{"file", options_.deckFile}, {"sha256", deckHash_}, {"text", options_.deckText}};
   json["mesh"] = {{"file", options_.meshFile}, {"sha256", meshHash_}};
   json["sizes"] = sizesOf(solver);
-  if (!census_.empty())
-    json["census"] = Json::parse(census_);
+  // The census tells of the state before the first step.
+  if (solver.hasContact() && options_.restartedFrom.empty())
+    json["census"] = censusOf(solver.contact());
   json["started"] = startDate_;
   json["end_s"] = solver.model().time.end;
-  if (ending != "running")
-  {
-    const std::int64_t memory = peakMemory();
-    json["ended"] = dateNow();
-    json["exit_code"] = int(solver.exitCode());
-    json["wall_seconds"] = seconds;
-    json["time_s"] = solver.clock().time;
-    json["energies_J"] = energiesOf(solver.energy());
-    json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
-    const Repartitions& rebalances = solver.repartitions();
-    json["rebalances"] = {{"count", rebalances.count},
-                          {"nodes_moved", rebalances.nodesMoved},
-                          {"wall_seconds", rebalances.seconds}};
-    json["peak_memory_bytes"] = {{"largest_rank", comm.max(memory)}, {"sum", comm.sum(memory)}};
-    json["timers_s"] = slowestTimers(comm);
-  }
+  atStart_ = text(json);
+  solver.comm().together(
+      [&]
+      {
+        if (isRoot_)
+          replace(json);
+      });
+}
+
+void RunRecord::finish(const Solver& solver, const Ending& ending)
+{
+  const Comm& comm = solver.comm();
+  noteLimit(solver.stepControl().text());
+  const std::int64_t memory = peakMemory();
+  Json json = Json::parse(atStart_);
+  json["ending"] = ending.how;
+  if (!ending.reason.empty())
+    json["reason"] = ending.reason;
+  json["sizes"] = sizesOf(solver);
+  json["ended"] = dateNow();
+  json["exit_code"] = int(ending.code);
+  json["wall_seconds"] =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  json["time_s"] = solver.clock().time;
+  json["energies_J"] = energiesOf(solver.energy());
+  json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
+  const Repartitions& rebalances = solver.repartitions();
+  json["rebalances"] = {{"count", rebalances.count},
+                        {"nodes_moved", rebalances.nodesMoved},
+                        {"wall_seconds", rebalances.seconds}};
+  json["peak_memory_bytes"] = {{"largest_rank", comm.max(memory)}, {"sum", comm.sum(memory)}};
+  json["timers_s"] = slowestTimers(comm);
   comm.together(
       [&]
       {
-        // Text that is not UTF-8 (a deck in another encoding) must not stop a run at its end.
-        if (comm.isRoot())
-          file_.replace(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+        if (isRoot_)
+          replace(json);
       });
+}
+
+void RunRecord::noteLimit(const std::string& limit)
+{
+  const auto found = std::find_if(limits_.begin(), limits_.end(),
+                                  [&](const Limit& known) { return known.by == limit; });
+  if (found == limits_.end())
+    limits_.push_back({limit, 0});
+  else
+    std::rotate(found, found + 1, limits_.end());
+  ++limits_.back().looks;
+  if (limits_.size() > keptLimits)
+    limits_.erase(limits_.begin());
+}
+
+void RunRecord::renew(double secondsLeft)
+{
+  if (!isRoot_)
+    return;
+  try
+  {
+    Json json = Json::parse(atStart_);
+    if (std::isfinite(secondsLeft))
+      json["seconds_left"] = secondsLeft;
+    replace(json);
+  }
+  catch (const Error& error)
+  {
+    if (error.code() != ExitCode::Output)
+      throw;
+    logWarning("the record was not renewed", error.what());
+  }
+}
+
+template <class Json>
+void RunRecord::replace(Json json)
+{
+  json["messages"] = logMessages();
+  json["warnings"] = logWarningCounts();
+  json["step_limits"] = Json::array();
+  for (const Limit& limit : limits_)
+    json["step_limits"].push_back({{"limited_by", limit.by}, {"looks", limit.looks}});
+  file_.replace(text(json) + "\n");
 }
 } // namespace coplane

@@ -86,7 +86,7 @@ void TablesObserver::savePosition(std::map<std::string, std::string>& positions)
   save(materials_, "materials");
 }
 
-void TablesObserver::finish(const Solver& solver, const std::string&)
+void TablesObserver::finish(const Solver& solver, const Ending&)
 {
   if (solver.clock().cycle != lastCycle_)
     write(solver);

@@ -34,7 +34,7 @@ public:
   void endOfCycle(const Solver& solver) override;
   void repartitioned(const Solver& solver) override;
   void savePosition(std::map<std::string, std::string>& positions) const override;
-  void finish(const Solver& solver, const std::string& ending) override;
+  void finish(const Solver& solver, const Ending& ending) override;
 
 private:
   std::string fileOf(const char* table) const;

@@ -1,3 +1,4 @@
+#include <coplane_checkpoint/Hdf5Guard.hpp>
 #include <coplane_core/PlacesOfFile.hpp>
 #include <coplane_output/detail/VtkHdfFile.hpp>
 
@@ -9,30 +10,8 @@ namespace coplane
 {
 namespace
 {
-/// Closes an id at the end of its scope.
-class Id
-{
-public:
-  Id(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close)
-  {
-    if (id_ < 0)
-      throw MemoryFile::Failure("HDF5: " + what);
-  }
-  ~Id() { close_(id_); }
-  Id(const Id&) = delete;
-  Id& operator=(const Id&) = delete;
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-void check(herr_t status, const std::string& what)
-{
-  if (status < 0)
-    throw MemoryFile::Failure("HDF5: " + what);
-}
+using hdf5::check;
+using hdf5::Id;
 
 /// Groups, tables and attributes below one group; nothing depends on the time of day.
 class Maker
@@ -75,7 +54,7 @@ public:
     else if (rows > 0)
       place = H5Dget_offset(set);
     if (place == HADDR_UNDEF)
-      throw MemoryFile::Failure("HDF5: finding the place of " + name);
+      throw hdf5::Failure("finding the place of " + name);
     return place;
   }
 

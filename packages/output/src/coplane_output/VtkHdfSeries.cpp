@@ -1,3 +1,4 @@
+#include <coplane_checkpoint/Hdf5Guard.hpp>
 #include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Log.hpp>
@@ -33,14 +34,25 @@ std::string writerOf(const std::string& file)
   return at == std::string::npos ? "" : start.substr(at, start.find('\n', at) - at);
 }
 
-bool isIndex(const std::string& file)
+/// @param run of this run; empty: of any
+bool isIndex(const std::string& file, const std::string& run)
 {
   std::string first, second;
   if (!isPlainFile(file))
     return false;
   std::ifstream stream(file);
   return std::getline(stream, first) && std::getline(stream, second) &&
-         second.rfind(beginningOfIndex, 0) == 0;
+         second.rfind(beginningOfIndex + run, 0) == 0;
+}
+
+/// Where a file is, behind links. A new run puts aside what is not ours, a link with its own name;
+/// what is ours is replaced in its place.
+template <class IsOurs>
+std::string clearedPlace(const std::string& file, bool continues, const IsOurs& isOurs)
+{
+  if (!continues)
+    makeWayFor(file, isOurs);
+  return placeOfFile(file);
 }
 
 /// A range of a table as the Xdmf library names it: first:stride:count:size.
@@ -63,8 +75,10 @@ const void* bytesOf(const PlaneColumn& column)
 VtkHdfSeries::VtkHdfSeries(const std::string& base, const std::string& run, bool continues,
                            const std::string& steps)
     : base_(base), run_(run), columns_(planePointsOfNone().columns),
-      data_(placeOfFile(base + "_planes.vtkhdf")), // links stay links
-      index_(placeOfFile(base + "_planes.xmf"))
+      data_(clearedPlace(base + "_planes.vtkhdf", continues,
+                         [](const std::string& file) { return !writerOf(file).empty(); })),
+      index_(clearedPlace(base + "_planes.xmf3", continues,
+                          [](const std::string& file) { return isIndex(file, ""); }))
 {
   std::istringstream lines(steps);
   Step step{};
@@ -74,13 +88,13 @@ VtkHdfSeries::VtkHdfSeries(const std::string& base, const std::string& run, bool
   if (!isOwn)
   {
     steps_.clear();
-    const auto isReplaced = [&](const std::string& file)
-    { return !continues && !writerOf(file).empty(); };
-    makeWayFor(data_.file(), isReplaced);
+    if (continues) // what another run has written
+      makeWayFor(data_.file(), [](const std::string&) { return false; });
     std::error_code ignored;
     std::filesystem::remove(data_.file(), ignored); // an earlier run's
   }
-  makeWayFor(index_.file(), isIndex);
+  if (continues) // the index of another run is kept with its data
+    makeWayFor(index_.file(), [&](const std::string& file) { return isIndex(file, run_); });
   data_.remember();
   index_.remember();
   writeIndex();
@@ -123,15 +137,21 @@ std::string VtkHdfSeries::writer(const VtkHdfRoom& room) const
 
 VtkHdfSkeleton VtkHdfSeries::skeleton(const VtkHdfRoom& room) const
 {
+  std::string why;
   try
   {
     return vtkHdfSkeleton(writer(room), columns_, joints_, room, std::int64_t(steps_.size()));
   }
   catch (const MemoryFile::Failure& failure)
   {
-    fail(ExitCode::Output, "{}_planes.vtkhdf: the file cannot be prepared: {}. Is /dev/shm full?",
-         base_, failure.what());
+    why = failure.what();
   }
+  catch (const hdf5::Failure& failure)
+  {
+    why = std::string("HDF5: ") + failure.what();
+  }
+  fail(ExitCode::Output, "{}_planes.vtkhdf: the file cannot be prepared: {}. Is /dev/shm full?",
+       base_, why);
 }
 
 std::string VtkHdfSeries::position() const

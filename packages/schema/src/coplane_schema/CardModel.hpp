@@ -21,6 +21,7 @@ struct CardModel
 
   std::string name;                                  ///< the word of the deck
   std::string meaning;                               ///< a few words for the reference
+  std::vector<std::string> habits;                   ///< what other programs call it
   std::vector<Key> keys;                             ///< their target is what `parameters` makes
   std::function<std::shared_ptr<void>()> parameters; ///< with their defaults
   /// What one key demands of another; empty: nothing.
@@ -44,6 +45,13 @@ public:
     { return makeLaw(*static_cast<const P*>(parameters)); };
   }
   operator Model() const { return model_; }
+
+  /// What other programs call the model: a message about such a word names it.
+  Derived& elsewhere(const std::vector<std::string>& names)
+  {
+    model_.habits = names;
+    return self();
+  }
 
   Derived& has(const std::vector<Key>& keys)
   {
@@ -85,6 +93,41 @@ const Model* findModel(const std::vector<Model>& models, const std::string& name
 /// Whether references say the same of two keys.
 bool sameTexts(const Key& a, const Key& b);
 
+/// The keys of one name that several models say alike, by model.
+using KeyOfModel = std::map<std::string, Key>;
+
+/// One key in place of those of several models: it goes to the parameters of the card's own model.
+/// @param key of one of them; owner: all, filled as they come
+template <class Card>
+Key keyOfOwnModel(const Key& key, const std::shared_ptr<KeyOfModel>& owner)
+{
+  Key shared = key;
+  shared.store = [owner](void* target, const KeyValue& value)
+  {
+    const auto& card = *static_cast<const Card*>(target);
+    if (const auto own = owner->find(card.model); own != owner->end())
+      own->second.store(card.parameters.get(), value);
+  };
+  shared.show = [owner](const void* target)
+  {
+    const auto& card = *static_cast<const Card*>(target);
+    const auto own = owner->find(card.model);
+    return own == owner->end() ? "" : own->second.show(card.parameters.get());
+  };
+  shared.ofModel = [owner, key](const void* target) -> const Key&
+  {
+    const auto found = owner->find(static_cast<const Card*>(target)->model);
+    return found == owner->end() ? key : found->second;
+  };
+  if (key.isGroup())
+    shared.enter = [owner](void* target, const std::string& name, const std::string& where)
+    {
+      const auto& card = *static_cast<const Card*>(target);
+      return owner->at(card.model).enter(card.parameters.get(), name, where);
+    };
+  return shared;
+}
+
 /// The keys of a group of cards whose `model` decides what they have: the key `model` itself, and
 /// those of all models, each once: what several models say alike is one key, which goes to the
 /// parameters of the card's own model.
@@ -95,21 +138,24 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
                               const std::string& example, const std::string& word = "model")
 {
   std::vector<std::string> names, meanings;
+  std::vector<std::pair<std::string, std::string>> namesElsewhere;
   for (const Model& model : models)
   {
     names.push_back(model.name);
     meanings.push_back(model.meaning);
+    for (const std::string& habit : model.habits)
+      namesElsewhere.emplace_back(habit, model.name);
   }
   std::vector<Key> keys{schema::text(word, &Card::model)
                             .oneOf(names)
                             .means(fmt::format("{}: {}", meaning, fmt::join(meanings, "; ")))
                             .like(example)
+                            .wordsElsewhere(namesElsewhere)
                             .template andThen<Card>(
                                 [&models](Card& card) {
                                   card.parameters = findModel(models, card.model)->parameters();
                                 })};
-  using OfModel = std::map<std::string, Key>;
-  std::vector<std::shared_ptr<OfModel>> owners(1);
+  std::vector<std::shared_ptr<KeyOfModel>> owners(1);
   for (const Model& model : models)
     for (const Key& key : model.keys)
     {
@@ -118,34 +164,8 @@ std::vector<Key> keysOfModels(const std::vector<Model>& models, const std::strin
       const auto at = std::size_t(same - keys.begin());
       if (same == keys.end())
       {
-        const auto owner = std::make_shared<OfModel>();
-        Key shared = key;
-        shared.store = [owner](void* target, const KeyValue& value)
-        {
-          const auto& card = *static_cast<const Card*>(target);
-          if (const auto own = owner->find(card.model); own != owner->end())
-            own->second.store(card.parameters.get(), value);
-        };
-        shared.show = [owner](const void* target)
-        {
-          const auto& card = *static_cast<const Card*>(target);
-          const auto own = owner->find(card.model);
-          return own == owner->end() ? "" : own->second.show(card.parameters.get());
-        };
-        const Key own = key;
-        shared.ofModel = [owner, own](const void* target) -> const Key&
-        {
-          const auto found = owner->find(static_cast<const Card*>(target)->model);
-          return found == owner->end() ? own : found->second;
-        };
-        if (key.isGroup())
-          shared.enter = [owner](void* target, const std::string& name, const std::string& where)
-          {
-            const auto& card = *static_cast<const Card*>(target);
-            return owner->at(card.model).enter(card.parameters.get(), name, where);
-          };
-        keys.push_back(shared);
-        owners.push_back(owner);
+        owners.push_back(std::make_shared<KeyOfModel>());
+        keys.push_back(keyOfOwnModel<Card>(key, owners.back()));
       }
       keys[at].models.push_back(model.name);
       owners[at]->emplace(model.name, key);

@@ -188,17 +188,27 @@ DeckNode* nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& pl
 }
 } // namespace
 
+namespace
+{
+/// For trees that are const and for those that are not.
+template <class Entries>
+auto valueOf(Entries& entries, const std::string& key) -> decltype(&entries.front().second)
+{
+  for (auto& entry : entries)
+    if (entry.first.text == key)
+      return &entry.second;
+  return nullptr;
+}
+} // namespace
+
 const DeckNode* DeckNode::find(const std::string& key) const
 {
-  for (const auto& [name, value] : entries)
-    if (name.text == key)
-      return &value;
-  return nullptr;
+  return valueOf(entries, key);
 }
 
 DeckNode* DeckNode::find(const std::string& key)
 {
-  return const_cast<DeckNode*>(std::as_const(*this).find(key)); // of this tree, which is not const
+  return valueOf(entries, key);
 }
 
 const DeckNode& nodeAt(const DeckNode& root, const std::vector<std::string>& path)

@@ -11,13 +11,19 @@ namespace coplane
 {
 namespace
 {
+using Forces = ContactOptions::Forces;
+static_assert(ContactCard::cosOpposedOfPotential ==
+                      ContactOptions::usualCosOpposed(Forces::Potential) &&
+                  ContactCard::cosOpposedOfCommonNormal ==
+                      ContactOptions::usualCosOpposed(Forces::CommonNormal),
+              "what the reference of decks says of cos_opposed is what contact takes");
+
 ContactOptions optionsOf(const Deck& deck)
 {
   const ContactCard& card = deck.contact;
-  ContactOptions options;
-  options.forces = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty()
-                       ? ContactOptions::Forces::Potential
-                       : ContactOptions::Forces::CommonNormal;
+  const bool potential = card.forces != "common_normal" && commonNormalBecauseOf(deck).empty();
+  ContactOptions options =
+      ContactOptions::with(potential ? Forces::Potential : Forces::CommonNormal);
   options.area =
       card.area == "full" ? ContactOptions::Area::Full : ContactOptions::Area::Penetrating;
   options.weights = card.weights == "centroid"  ? ContactOptions::Weights::Centroid
@@ -29,8 +35,7 @@ ContactOptions optionsOf(const Deck& deck)
   options.areaRule = card.areaRule;
   options.inherit = card.inherit;
   options.sharedNodes = card.shareNode == "allow";
-  options.cosOpposed =
-      card.cosOpposed.value_or(options.forces == ContactOptions::Forces::Potential ? 0.004 : 0.1);
+  options.cosOpposed = card.cosOpposed.value_or(options.cosOpposed);
   options.depthMax = card.depthMax;
   options.areaMin = card.areaMin;
   options.dampNormal = card.dampNormal;
@@ -69,6 +74,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.time.stepFactor = deck.time.stepFactor;
   model.time.maximumStep = deck.time.maximumStep;
   model.time.fixedStep = deck.time.fixedStep;
+  model.time.endAtRest = deck.time.endAtRest;
   model.time.energyTolerance = deck.time.energyTolerance;
   model.time.contactGainTolerance = deck.time.contactGainTolerance;
   return model;

@@ -389,4 +389,69 @@ std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
   }
   return problems;
 }
+
+namespace
+{
+/// Nodes of rigid blocks of the deck.
+std::vector<char> rigidNodes(const Deck& deck, const Mesh& mesh, const RankMesh& part)
+{
+  std::vector<char> rigid(std::size_t(part.nodes()), 0);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    if (const int card = indexOf(deck.blocks, mesh.blocks[b].name);
+        card >= 0 && deck.blocks[std::size_t(card)].rigid)
+      for (const int node : part.blocks[b].connectivity)
+        rigid[std::size_t(node)] = 1;
+  return rigid;
+}
+
+/// Nodes whose motion conditions of the deck, or the axis of a body of revolution, hold.
+std::vector<char> heldNodes(const Deck& deck, const Mesh& mesh, const RankMesh& part)
+{
+  std::vector<char> held(std::size_t(part.nodes()), 0);
+  for (const ConditionCard& card : deck.conditions)
+    if (const int set = prescribesMotion(card) || card.type == "symmetry"
+                            ? indexOf(mesh.nodeSets, card.set)
+                            : -1;
+        set >= 0)
+      for (const int node : part.nodeSets[std::size_t(set)])
+        held[std::size_t(node)] = 1;
+  for (int n = 0; n < part.nodes() && deck.geometry == "axisymmetric"; ++n)
+    if (part.coordinates[std::size_t(n)].x == 0)
+      held[std::size_t(n)] = 1;
+  return held;
+}
+} // namespace
+
+std::vector<std::string> problemsOfReactions(const Deck& deck, const Mesh& mesh,
+                                             const RankMesh& part, const Comm& comm)
+{
+  std::vector<std::string> problems;
+  const std::vector<char> rigid = rigidNodes(deck, mesh, part), held = heldNodes(deck, mesh, part);
+  for (std::size_t p = 0; p < deck.history.probes.size(); ++p)
+  {
+    const ProbeCard& probe = deck.history.probes[p];
+    const int set = probe.reaction ? indexOf(mesh.nodeSets, probe.nodeSet) : -1;
+    if (set < 0)
+      continue;
+    std::vector<std::int64_t> count{0, 0}; // rigid, held
+    for (const int node : part.nodeSets[std::size_t(set)])
+    {
+      count[0] += rigid[std::size_t(node)];
+      count[1] += held[std::size_t(node)];
+    }
+    comm.sum(count);
+    if (count[0] > 0)
+      problems.push_back(fmt::format(
+          "{}: history.probes.{}.reaction: node set '{}' has nodes of rigid blocks, which are held "
+          "as a whole; take them out of the set. history.rigid writes the reactions of bodies.",
+          probe.where, p, probe.nodeSet));
+    else if (count[1] == 0)
+      problems.push_back(fmt::format(
+          "{}: history.probes.{}.reaction: no condition holds a node of '{}'; accepted: a node set "
+          "of which fixed, velocity, displacement or symmetry holds nodes. Remove reaction, or "
+          "name such a set.",
+          probe.where, p, probe.nodeSet));
+  }
+  return problems;
+}
 } // namespace coplane

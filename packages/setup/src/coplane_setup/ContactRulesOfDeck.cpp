@@ -90,23 +90,29 @@ std::vector<FaceTraits> kindsOfFaces(const FacesOfSets& faces, const Comm& comm)
     kinds.push_back(face);
   return kinds;
 }
-} // namespace
 
-void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model& model)
+/// The law of cards that name none, and those of all cards.
+std::vector<JointRecipe> recipesOf(const Deck& deck)
 {
-  ContactRules& rules = model.contactRules;
-  JointRecipe builtIn;
-  builtIn.name = "penalty (built in)";
-  rules.joints.push_back(builtIn);
-  const auto jointIndex = [&](const std::string& name)
-  {
-    const auto found = std::find_if(rules.joints.begin(), rules.joints.end(),
-                                    [&](const JointRecipe& recipe) { return recipe.name == name; });
-    return int(found - rules.joints.begin());
-  };
+  std::vector<JointRecipe> recipes(1);
+  recipes[0].name = "penalty (built in)";
   for (const JointCard& card : deck.joints)
-    rules.joints.push_back({card.name, jointLawOf(card)});
+    recipes.push_back({card.name, jointLawOf(card)});
+  return recipes;
+}
 
+int indexOfJoint(const std::vector<JointRecipe>& recipes, const std::string& name)
+{
+  const auto found = std::find_if(recipes.begin(), recipes.end(),
+                                  [&](const JointRecipe& recipe) { return recipe.name == name; });
+  return int(found - recipes.begin());
+}
+
+/// What the rules of contact may ask of the faces of each group: the blocks, then faces of named
+/// side sets, whose groups go to the model. Collective.
+std::vector<ContactTraits> groupsOf(const Deck& deck, const Mesh& mesh, const Comm& comm,
+                                    Model& model)
+{
   std::vector<ContactTraits> groups;
   for (const Mesh::Block& block : mesh.blocks)
     groups.push_back({block.name, cardOf(deck, block).material, {}});
@@ -122,35 +128,57 @@ void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model
   }
   for (const auto& [id, face] : faces)
     model.faceGroups.emplace_back(id, groupOf.at(face));
+  return groups;
+}
 
-  for (std::size_t i = 0; i < deck.contact.pairs.size(); ++i)
-    if (deck.contact.pairs[i].declared)
-      rules.declaredItems.emplace_back(int(i), nameOf(deck.contact.pairs[i], i));
-
+/// Groups that rules do not tell apart are of one kind.
+/// @returns a face of each kind
+std::vector<const ContactTraits*>
+findKinds(const ContactCard& contact, const std::vector<ContactTraits>& groups, ContactRules& rules)
+{
   std::map<std::vector<bool>, int> kindWith;
-  std::vector<const ContactTraits*> kinds; // a face of each
+  std::vector<const ContactTraits*> kinds;
   for (const ContactTraits& group : groups)
   {
-    const auto [kind, isNew] =
-        kindWith.emplace(contactRoles(deck.contact, group), int(kinds.size()));
+    const auto [kind, isNew] = kindWith.emplace(contactRoles(contact, group), int(kinds.size()));
     if (isNew)
       kinds.push_back(&group);
     rules.kindOf.push_back(kind->second);
   }
   rules.kinds = int(kinds.size());
+  return kinds;
+}
+
+ContactRule ruleOf(const ContactCard& contact, const ContactPairCard& card, ContactRule rule,
+                   const std::vector<JointRecipe>& joints)
+{
+  if (!card.joint.empty())
+    rule.joint = indexOfJoint(joints, card.joint);
+  rule.declared = card.declared;
+  rule.excluded = card.excluded;
+  rule.item = int(&card - contact.pairs.data());
+  return rule;
+}
+} // namespace
+
+void addContactRules(const Deck& deck, const Mesh& mesh, const Comm& comm, Model& model)
+{
+  const ContactCard& contact = deck.contact;
+  ContactRules& rules = model.contactRules;
+  rules.joints = recipesOf(deck);
+  const std::vector<ContactTraits> groups = groupsOf(deck, mesh, comm, model);
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i)
+    if (contact.pairs[i].declared)
+      rules.declaredItems.emplace_back(int(i), nameOf(contact.pairs[i], i));
+
+  const std::vector<const ContactTraits*> kinds = findKinds(contact, groups, rules);
   ContactRule general;
-  general.joint = deck.contact.defaultJoint.empty() ? 0 : jointIndex(deck.contact.defaultJoint);
+  general.joint =
+      contact.defaultJoint.empty() ? 0 : indexOfJoint(rules.joints, contact.defaultJoint);
   rules.table.assign(kinds.size() * kinds.size(), general);
   for (std::size_t a = 0; a < kinds.size(); ++a)
     for (std::size_t b = 0; b < kinds.size(); ++b)
-      if (const ContactPairCard* card = contactPairFor(deck.contact, *kinds[a], *kinds[b]))
-      {
-        ContactRule& rule = rules.table[a * kinds.size() + b];
-        if (!card->joint.empty())
-          rule.joint = jointIndex(card->joint);
-        rule.declared = card->declared;
-        rule.excluded = card->excluded;
-        rule.item = int(card - deck.contact.pairs.data());
-      }
+      if (const ContactPairCard* card = contactPairFor(contact, *kinds[a], *kinds[b]))
+        rules.table[a * kinds.size() + b] = ruleOf(contact, *card, general, rules.joints);
 }
 } // namespace coplane

@@ -12,9 +12,18 @@ namespace coplane
 {
 namespace
 {
-/// What a cycle costs, in units of a hexahedron with one point and an elastic law. Measured with
-/// coplane_bench_elements and on the bar that strikes a wall (docs/developer/backends.md); only how
-/// even the ranks are depends on it.
+// What a cycle costs, in units of a hexahedron with one point and an elastic law; only how even the
+// ranks are depends on it. Elements: processor time of
+//   coplane_bench_elements --benchmark_filter='/elastic/serial'
+// over the number of elements, rounded. A later run, on a shared AMD EPYC, gave 0.35, 0.22 and 0.17
+// for the types in the order below, and 1.1 to 1.3, 1.3 and 2.5 to 3.7 for the forms.
+
+/// Of an element of a rigid block: it is in lists, but nothing is computed for it.
+constexpr Real costOfRigid = 0.02;
+/// Of an exterior face with its pairs: of the bar that strikes a wall in three dimensions
+/// (docs/developer/backends.md); an estimate in two. A run measures its own (Rebalancer.hpp).
+constexpr Real costOfFace3d = 4, costOfFace2d = 0.6;
+
 PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
 {
   static const std::map<ElementType, Real> ofType{{ElementType::Hex8, 1},
@@ -35,11 +44,11 @@ PartitionCosts costsOf(const Mesh& mesh, const Deck& deck)
       const BlockCard& ofBlock = deck.blocks[card];
       if (const int material = indexOf(deck.materials, ofBlock.material); material >= 0)
         cost *= findModel(materialModels(), deck.materials[material].model)->cost;
-      cost *= ofBlock.rigid ? 0.02 : ofForm.at(ofBlock.element);
+      cost *= ofBlock.rigid ? costOfRigid : ofForm.at(ofBlock.element);
     }
     costs.ofElement.push_back(cost);
   }
-  costs.ofFace = deck.contact.enabled ? (mesh.dimension == 3 ? 4 : 0.6) : 0;
+  costs.ofFace = deck.contact.enabled ? (mesh.dimension == 3 ? costOfFace3d : costOfFace2d) : 0;
   return costs;
 }
 } // namespace

@@ -1,21 +1,15 @@
 #pragma once
 
+#include <coplane_checkpoint/Hdf5Guard.hpp>
 #include <coplane_core/Real.hpp>
 
 #include <cstdint>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace coplane::hdf5
 {
-/// A call of HDF5 did not succeed; the text is the library's reason.
-struct Failure : std::runtime_error
-{
-  using std::runtime_error::runtime_error;
-};
-
 /// Part of a two-dimensional data set: all columns of some rows.
 struct Part
 {
@@ -24,8 +18,7 @@ struct Part
 };
 
 /// A file that this rank has open by itself: no call is collective, so a rank on which one fails
-/// leaves nobody waiting in the library. Ids of HDF5 are 64-bit integers; the header stays in
-/// Hdf5Calls.cpp.
+/// leaves nobody waiting in the library.
 class File
 {
 public:

@@ -13,12 +13,6 @@ constexpr Real opposedAcrossJoint = 0.9;
 /// ... and nearer to each other than this part of the size of the smaller one.
 constexpr Real widestJoint = 0.25;
 
-/// Size of a face of this area: its length in two dimensions [m].
-inline Real faceSize(Real area, int dimension)
-{
-  return dimension == 2 ? area : std::sqrt(area);
-}
-
 /// @param cosine of the faces' outward normals; gap: where they overlap, size: of the smaller one
 /// [m]
 inline bool lieOnEachOther(Real cosine, Real gap, Real size)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/detail/PassedOn.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 #include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
@@ -78,46 +79,9 @@ struct PairTables
   bool incremental;          ///< closures are sums of increments
   std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
 
-  /// What a plane that carries passes on, as far as a pair would be wrong with what it was at the
-  /// last search. Areas begin small, so shear tractions are not among it, and closures only where
-  /// they are the plane's memory, or so deep that without them a pair is taken for none.
-  struct Passed
-  {
-    Real offset = 0, bonded = 0, maximumClosure = 0, opening = 0, shearing = 0, slip = 0,
-         closure = 0;
-
-    bool operator!=(const Passed& o) const
-    {
-      return offset != o.offset || bonded != o.bonded || maximumClosure != o.maximumClosure ||
-             opening != o.opening || shearing != o.shearing || slip != o.slip ||
-             closure != o.closure;
-    }
-  };
-  Passed passedBy(int p) const
-  {
-    const Plane& plane = planes[p];
-    const JointState& history = plane.history;
-    const JointLaw& law = laws[plane.joint];
-    Passed of;
-    if (!(plane.area > 0))
-      return of;
-    of.offset = plane.offset;
-    of.bonded = history.bonded;
-    if (!law.curve.straight())
-      of.maximumClosure = history.maximumClosure;
-    if (law.bond.softens())
-    {
-      of.opening = history.opening;
-      of.shearing = history.shearing;
-    }
-    if (law.remembersSlip())
-      of.slip = history.slip;
-    if (incremental || plane.closure > 0.5 * deepestBirth * plane.depthLimit)
-      of.closure = plane.closure;
-    return of;
-  }
+  PassedOn passedBy(int p) const { return {planes[p], laws[planes[p].joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
-  void book(int p, const Passed& before) const
+  void book(int p, const PassedOn& before) const
   {
     activity[p] = activityOf(planes[p]);
     if (!passed->load(std::memory_order_relaxed) && passedBy(p) != before)
@@ -269,7 +233,7 @@ private:
       batch.law[i] = &laws_[batch.plane[i]->joint];
     }
     gatherFaces<true>(queue);
-    PairTables::Passed before[laneCount];
+    PassedOn before[laneCount];
     for (int i = 0; i < queue.count; ++i)
       before[i] = pairs_.passedBy(queue.plane[i]);
     const LaneMask done = updateByForces<3, Lanes>(batch, a_, b_, options_, dt_);

@@ -208,6 +208,7 @@ private:
                  Plane& plane = *planes_.plane[i];
                  const bool inside = branchFree::lane(inContact, i);
                  plane.overlap = branchFree::lane(overlap_, i);
+                 leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
                  late_[i] = wasFoundLate(plane, inside);
                  if (!inside)
                    plane.refusal = Refusal::None;
@@ -231,8 +232,7 @@ private:
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
     // Overlap that exists when a pair is found has no energy.
-    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i),
-                      plane.offset - branchFree::lane(deepest_, i));
+    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
     plane.maximumBefore = plane.history.maximumClosure;
     return !((late_[i] || plane.sighting == Sighting::Woken) && !plane.isInherited());
   }
@@ -501,7 +501,7 @@ private:
           plane.frictionWork += plane.shearEnergy();
         carryNothing(plane);
         if (plane.overlap > 0)
-          plane.gap = plane.offset - branchFree::lane(deepest_, i);
+          plane.gap = leastGaps_[i];
       }
       plane.sighting = late_[i] ? Sighting::FoundLate : Sighting::Known;
       plane.nodeStiffness = branchFree::lane(near, i)
@@ -512,20 +512,22 @@ private:
     }
   }
 
+  // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
+  // on, by so many times the fraction beyond (docs/theory/contact-potential.md, "Stable step").
+  static constexpr Real rimsCountFrom = 0.02, rimStiffening = 3;
+
   /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
   {
     using branchFree::positivePart;
-    const int fewer = a_.count < b_.count ? a_.count : b_.count;
-    // Rims make a contact stiffer that is deep for its width.
-    const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - 0.02);
+    const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - rimsCountFrom);
     const T z = hardening_ * positivePart(deepest_ + ahead), z2 = z * z;
-    // The slope of the hardened law is largest at 0.3455, where it is 12.3: from there on it stays.
-    const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(0.3455));
+    // Beyond the steepest place the largest slope stays.
+    const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(PenaltyHardening::steepest));
     const T hardened =
         1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
-    return overlap_ * (1.0 + 3.0 * deep) * hardened *
-           (2.000002 * (1.5 / fewer < 1 ? 1.5 / fewer : 1.0));
+    return overlap_ * (1.0 + rimStiffening * deep) * hardened *
+           (rowSum * shareOfOverlap(a_.count, b_.count));
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
@@ -544,6 +546,7 @@ private:
   T overlap_;                              ///< area of the shadows in common [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
   T deepest_;                              ///< closure; negative: least distance [m]
+  PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
   T speed_;                                ///< of approach [m/s]
   bool late_[branchFree::widthOf<T>] = {}; ///< found later than they should have been
 };

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <coplane_contact/FacePairSteps.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
+#include <coplane_geometry/PlaneAxes.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace coplane
 {
@@ -13,13 +13,8 @@ class View
 {
 public:
   View(const Vec3& normal, const Vec3& origin, int dimension)
-      : normal_(normal), origin_(origin), dimension_(dimension)
+      : normal_(normal), origin_(origin), axes_(planeAxes(normal, dimension)), dimension_(dimension)
   {
-    const Vec3 any = dimension == 2             ? Vec3{0, 0, 1}
-                     : std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0}
-                                                : Vec3{0, 1, 0};
-    e1_ = normalised(cross(any, normal));
-    e2_ = cross(normal, e1_);
   }
 
   /// Shadow of a face, counter-clockwise; a segment of two dimensions has a width of 1 m.
@@ -47,23 +42,20 @@ public:
   /// Height of a face over the plane at a point of it: that of the flat face through its middle.
   Real height(const Vec3* corners, int count, const Vec2& p) const
   {
-    Vec3 center{};
-    for (int k = 0; k < count; ++k)
-      center += (1.0 / count) * corners[k];
-    const Vec3 area =
-        dimension_ == 2 ? vectorArea<2>(corners, count) : vectorArea<3>(corners, count);
-    const Vec3 foot = origin_ + p.x * e1_ + (dimension_ == 2 ? 0 : p.y) * e2_;
-    return dot(center - foot, area) / dot(normal_, area);
+    const Vec3 area = vectorArea(corners, count, dimension_);
+    const Vec3 foot = origin_ + p.x * axes_.e1 + p.y * axes_.e2;
+    return dot(centerOf(corners, count) - foot, area) / dot(normal_, area);
   }
 
 private:
   Vec2 at(const Vec3& x) const
   {
     const Vec3 r = x - origin_;
-    return {dot(e1_, r), dimension_ == 2 ? 0 : dot(e2_, r)};
+    return {dot(axes_.e1, r), dot(axes_.e2, r)};
   }
 
-  Vec3 normal_, origin_, e1_, e2_;
+  Vec3 normal_, origin_;
+  PlaneAxes axes_; ///< in two dimensions the second one is zero
   int dimension_;
 };
 } // namespace coplane

@@ -6,12 +6,18 @@
 
 namespace coplane
 {
-/// A model of a joint under construction.
+/// A model of a joint under construction (CardModelBuilder), with the words of joints.
 template <class P>
 class JointModelOf : public CardModelBuilder<JointModelOf<P>, JointModel, P>
 {
 public:
   using CardModelBuilder<JointModelOf<P>, JointModel, P>::CardModelBuilder;
+
+  JointModelOf& takesStiffnessFromElements()
+  {
+    this->model_.needsElements = true;
+    return *this;
+  }
 };
 
 namespace schema

@@ -31,7 +31,7 @@ struct VtkHdfSkeleton
 /// @param writer text that stands near the beginning of the file, in an attribute
 /// @param steps at least 1
 /// @param columns names, components and kinds of values
-/// @throws MemoryFile::Failure
+/// @throws MemoryFile::Failure, hdf5::Failure
 VtkHdfSkeleton vtkHdfSkeleton(const std::string& writer, const std::vector<PlaneColumn>& columns,
                               const std::vector<std::string>& joints, const VtkHdfRoom& room,
                               std::int64_t steps);

@@ -9,8 +9,8 @@
 
 namespace coplane
 {
-/// All steps in one file <base>_planes.vtkhdf, and an index <base>_planes.xmf by which readers that
-/// do not know steps in VTKHDF (ParaView before 5.12) find them.
+/// All steps in one file <base>_planes.vtkhdf, and an index <base>_planes.xmf3 by which readers
+/// that do not know steps in VTKHDF (ParaView before 5.12) find them.
 ///
 /// Rows of a step go to room that the file has behind those of the steps before; then a few bytes
 /// say that there is one more step. Nothing that was finished is written again, so that a kill at

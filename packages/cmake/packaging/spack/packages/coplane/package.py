@@ -1,6 +1,7 @@
-# Spack: from the source tree,
+# Spack 0.23 or newer: from the source tree,
 #   spack repo add packages/cmake/packaging/spack
 #   spack dev-build coplane@0.1.0
+# docs/user/installing.md says what of this was tried.
 from spack.package import *
 
 
@@ -11,19 +12,26 @@ class Coplane(CMakePackage):
     version("0.1.0")
 
     variant("processor", default="native", description="what to compile for, as for -march=")
+    variant("tools", default=True, description="Python modules of reports, tables, plots, vector graphics and `coplane new`")
 
     depends_on("c", type="build")
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
     depends_on("mpi")
-    depends_on("trilinos@13.2.0 +mpi+openmp+tpetra+zoltan+zoltan2+exodus~fortran gotype=long_long cxxstd=17")
+    # The parts that are needed, and none of those that Spack's recipe switches on by itself: aztec conflicts with ~fortran, the others on
+    # Epetra with ~epetra, and each of them takes minutes to compile.
+    depends_on(
+        "trilinos@13.2.0 +mpi+openmp+shared+kokkos+tpetra+zoltan+zoltan2+exodus+explicit_template_instantiation"
+        "~fortran~complex~float~amesos~amesos2~anasazi~aztec~belos~epetra~epetraext~ifpack~ifpack2~ml~muelu~sacado"
+        " gotype=long_long cxxstd=17"
+    )
     depends_on("hdf5+mpi")
-    depends_on("netcdf-c+mpi+parallel-netcdf")
+    depends_on("netcdf-c@:4.8+mpi+parallel-netcdf")  # 4.9 has a macro of the name of a constant in Trilinos 13.2 (dependencies.sh)
     depends_on("parallel-netcdf")
     depends_on("cli11")
     depends_on("fmt")
-    depends_on("spdlog+fmt_external")
+    depends_on("spdlog")
     depends_on("yaml-cpp")
     depends_on("nlohmann-json")
     depends_on("openssl")
@@ -32,7 +40,9 @@ class Coplane(CMakePackage):
     depends_on("py-numpy", type="run")
     depends_on("py-netcdf4", type="run")
     depends_on("py-pyyaml", type="run")
-    depends_on("py-plotly", type="run")
+    with when("+tools"):
+        for _name in ("plotly", "pandas", "xarray", "jsonschema", "ruamel-yaml", "matplotlib", "pillow"):
+            depends_on(f"py-{_name}", type="run")
 
     requires("%gcc@11:", msg="std::experimental::simd of GCC's standard library")
 

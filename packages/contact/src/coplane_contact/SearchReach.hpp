@@ -1,0 +1,53 @@
+#pragma once
+
+#include <coplane_contact/ContactRules.hpp>
+#include <coplane_contact/Plane.hpp>
+#include <coplane_contact/Search.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+/// How far searches look: the rules by which pairs of faces become candidates.
+class SearchReach
+{
+public:
+  /// @param skin least distance up to which faces become candidates [m]; smallestFace: its size [m]
+  SearchReach(const ContactOptions& options, Real skin, Real smallestFace);
+
+  /// Largest gap of the pairs of the next search, and of the last one [m].
+  Real skin() const { return rules_.skin; }
+  Real leastSkin() const { return leastSkin_; }
+  void setSkin(Real skin); ///< [m]
+  /// At least the least skin, more where faces move by more than a fraction of it in one step.
+  /// @param motion as a step may carry faces relative to each other [m]
+  void coverMotion(Real motion) { setSkin(std::max(leastSkin_, skinOverMotion * motion)); }
+  /// By how much faces turn at most while nodes move by the least skin against each other [rad].
+  Real turningWithinSkin() const { return 2 * leastSkin_ / smallestFace_; }
+
+  /// A search begins. @param offset largest one of all planes [m]; motion: what it looks ahead for
+  void begin(Real offset, const Motion& motion);
+  /// Its second half, in which x and v hold the nodes of ghosts, too.
+  void takeVelocities(const ConstNodeVectors& v) { rules_.motion.v = v; }
+  void end() { rules_.motion = {}; }
+
+  /// What does not hang on groups of faces; and with what does, while `rules` live.
+  const CandidateRules& rules() const { return rules_; }
+  CandidateRules rulesWith(const ContactRules& rules) const;
+
+private:
+  /// A search is forced when the next step takes nodes farther than half a skin along an axis,
+  /// which is less than 0.87 skins in space. The step to that search may add an eighth.
+  static constexpr Real skinOverMotion = 8;
+  /// With the potential, pairs are candidates up to this depth, as a fraction of the thinner
+  /// element: its force has no end.
+  static constexpr Real deepestOfPotential = 0.9;
+  /// By which faces are taken to turn until the next search, at most [rad]: with large skins
+  /// 2 skin / size bounds nothing.
+  static constexpr Real mostTurning = 0.2;
+
+  Real leastSkin_, smallestFace_;
+  bool turns_; ///< candidates are told by normals that may have turned until the next search
+  CandidateRules rules_;
+};
+} // namespace coplane

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/PlaneState.hpp>
+
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+namespace coplane
+{
+namespace detail
+{
+/// Numbers of a type of forEachPart().
+template <class T>
+constexpr int partsOf()
+{
+  if constexpr (std::is_array_v<T>)
+    return int(std::extent_v<T>) * partsOf<std::remove_extent_t<T>>();
+  else
+    return std::is_same_v<T, Vec3> ? 3 : 1;
+}
+/// Numbers of a member whose changes may make a search stale.
+template <class Member>
+constexpr int watchedParts(const Member& member)
+{
+  if constexpr (Member::stale == Stale::Unsaid || Member::stale == Stale::Never)
+    return 0;
+  else
+    return partsOf<std::remove_reference_t<decltype(member.get(std::declval<Plane&>()))>>();
+}
+} // namespace detail
+
+/// What a plane passes on, as far as a pair that takes over would be wrong with what it was at the
+/// last search: of the list of PlaneState.hpp what may be stale (`Stale`), and nothing of a plane
+/// that carries nothing.
+class PassedOn
+{
+public:
+  PassedOn() = default;
+  /// @param incremental closures are sums of increments
+  PassedOn(const Plane& plane, const JointLaw& law, bool incremental)
+  {
+    if (!(plane.area > 0))
+      return;
+    int next = 0;
+    forEachWatched(
+        [&](const auto& member)
+        {
+          const auto& value = member.get(plane);
+          const bool counts =
+              matters<std::decay_t<decltype(member)>::stale>(plane, law, incremental);
+          forEachPart(value, [&](const auto& part) { numbers_[next++] = counts ? Real(part) : 0; });
+        });
+  }
+
+  bool operator!=(const PassedOn& o) const
+  {
+    bool differs = false;
+    for (int i = 0; i < count; ++i)
+      differs = differs || numbers_[i] != o.numbers_[i];
+    return differs;
+  }
+
+private:
+  /// Calls f(member) for those whose changes may make a search stale.
+  template <class F>
+  static void forEachWatched(const F& f)
+  {
+    forEachPassed(
+        [&](const auto& member)
+        {
+          if constexpr (std::decay_t<decltype(member)>::stale != Stale::Never)
+            f(member);
+        });
+  }
+
+  template <Stale when>
+  static bool matters(const Plane& plane, const JointLaw& law, bool incremental)
+  {
+    switch (when)
+    {
+    case Stale::Always:
+      return true;
+    case Stale::WithCurve:
+      return !law.curve.straight();
+    case Stale::WithSoftening:
+      return law.bond.softens();
+    case Stale::WithSlipMemory:
+      return law.remembersSlip();
+    case Stale::WithClosureMemory:
+      return incremental || plane.closure > 0.5 * deepestBirth * plane.depthLimit;
+    case Stale::Unsaid:
+    case Stale::Never:
+      break;
+    }
+    return false;
+  }
+
+  static constexpr int count = std::apply(
+      [](const auto&... member) { return (0 + ... + detail::watchedParts(member)); }, planeMembers);
+  Real numbers_[count] = {};
+};
+} // namespace coplane
