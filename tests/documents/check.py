@@ -186,7 +186,7 @@ def check_links():
 # What pages name as an example of the reader's own, or of another program.
 NAMES_OF_OTHERS = {
     "NewLaw", "NewLawParameters", "NewParameters", "NewLaw.hpp", "NewLaw.cpp", "run_my_experiments.sh",
-    "rock_tri3", "rock_quad4", "odls_base_sigkill_timeout",
+    "SideSets", "SideSetFields", "rock_tri3", "rock_quad4", "odls_base_sigkill_timeout",
 }  # fmt: skip
 
 

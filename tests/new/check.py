@@ -97,6 +97,13 @@ for arguments, words in (
 case.check_equal("refused: nothing was made", [name for name in ("x", "2 x", "mesh") if (place / name).exists()], [])
 case.check_equal("a folder that cannot be made", made("bars/bars.yaml/x", "--like", "bars_2d")[0], 5)
 
+# As it says, beside the folder; then the folder means this run, and after a run in it that one.
+code, said = called([program.binary("coplane"), "bars/bars.yaml", "--set", "time.end=1e-6"], place)
+case.check_equal("a run beside its folder: exit code", code, 0)
+one = coplane.open(place / "bars")
+case.check_equal("a run beside its folder, by the name of both", (str(one.folder), one.name), (str(place), "bars"))
+case.check_equal("watch", called([program.binary("coplane"), "watch", "bars"], place)[0], 0)
+
 # --- run.py on folders outside the tree --------------------------------------------------------------------
 
 code, said = called([*RUN, "bars", "--no-pictures", "--set", "time.end=5e-4"], place)

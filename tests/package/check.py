@@ -37,8 +37,11 @@ def skip(reason):
     sys.exit(SKIPPED)
 
 
+BEGAN = time.monotonic()
+
+
 def passed(what):
-    print(f"passed: {what}", flush=True)
+    print(f"passed [{time.monotonic() - BEGAN:4.0f} s]: {what}", flush=True)
 
 
 def state_hash(log):
@@ -316,13 +319,18 @@ def install_old():
     in_root("dpkg", "-i", "/tmp/old.deb")
 
 
-def check_this_build():
+def package_of_this_build():
     folder = pathlib.Path("packages").absolute()
     shutil.rmtree(folder, ignore_errors=True)
     # One of the two packages, not compressed, for speed; by somebody who shows nothing to others.
     run(["cpack", "-G", "DEB", "-B", folder, "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none", "-D", "CPACK_COMPONENTS_ALL=programs;common"], cwd=BUILD, umask=0o077)
     package, = folder.glob("*.deb")
     passed(f"packed: {package.name}, {package.stat().st_size / 1e6:.0f} MB not compressed")
+    return package
+
+
+def check_this_build():
+    package = package_of_this_build()
     same_as = state_of_build()
     overlay()
     install_old()
@@ -342,6 +350,9 @@ def check_every_processor():
     for package in folder.glob("*.deb"):
         shutil.copy(package, ROOT / "tmp")
     in_root("sh", "-c", "apt-get update -qq && apt-get install -y -qq /tmp/coplane_*.deb")
+    passed("installed with apt, and what it recommends")
+    in_root("sh", "-c", "apt-get install -y -qq paraview python3-paraview xvfb xauth")
+    passed("ParaView installed")
     check_files()
     check_use(same_as)
     check_levels(same_as)

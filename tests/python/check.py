@@ -293,7 +293,7 @@ for book in books:
         for cell in cells] + ["print(figures)"]  # fmt: skip
     figures = json.loads(executed(book.stem, "\n\n".join(code)).splitlines()[-1].replace("True", "true").replace("False", "false"))
     case.check_equal(f"{book.stem}: figures without curves or labels", [figure for figure in figures if not (figure[0] and figure[1])], [])
-    case.check_within(f"{book.stem}: figures", len(figures), 1, 10)
+    case.check_within(f"{book.stem}: figures", len(figures), 4 if book.stem == "python" else 0, 10)  # others may have tables only
 page = (SOURCE / "docs/user/python.md").read_text()
 for number, code in enumerate(re.findall(r"```python\n(import coplane\n.*?)```", page, flags=re.S)):
     if "coplane.Deck({" in code:

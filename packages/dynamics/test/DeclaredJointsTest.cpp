@@ -109,7 +109,7 @@ TEST_P(DeclaredJoint, carriesTheInitialStressLessThePressureOnItsFaces)
   for (std::size_t p = 0; p < planes.extent(0); ++p)
     if (planes(p).state != PlaneState::Open)
     {
-      const Real traction = norm(planes(p).forceOn(1)) / planes(p).area;
+      const Real traction = std::abs(planes(p).forceOn(1).z) / planes(p).area; // rims act along it
       least = std::min(least, traction);
       most = std::max(most, traction);
     }

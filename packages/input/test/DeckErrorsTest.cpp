@@ -690,7 +690,8 @@ TEST(DeckSetErrors, anUnknownKey)
 {
   EXPECT_EQ(errorOf(leastDeck, {"time.and=3"}),
             "--set time.and=3: time.and is not known. Did you mean 'end'? Accepted here: end, "
-            "step_factor, maximum_step, fixed_step, energy_tolerance, contact_gain_tolerance.");
+            "end_at_rest, step_factor, maximum_step, fixed_step, energy_tolerance, "
+            "contact_gain_tolerance.");
 }
 
 TEST(DeckSetErrors, aWrongValueNamesTheSetAndNotTheFile)

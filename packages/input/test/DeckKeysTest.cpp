@@ -85,7 +85,7 @@ conditions:
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
   - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
-damping: {local: 0.5}
+damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
 history: {probes: [{name: a, node_set: a}, {name: b, block: b}]}
 )";
@@ -151,8 +151,8 @@ std::string show(const Deck& d)
   showAll(out, d.title, d.mesh, d.gravity, d.viscosityLinear, d.viscosityQuadratic, d.massDamping,
           d.localDamping, d.kineticDamping, d.dampingFrom, d.dampingUntil, d.dampingEnergyRatio,
           d.dampingForceRatio, d.partitionMethod, d.partitionBalance, d.rebalance, d.rebalanceEvery,
-          d.rebalanceAbove, d.geometry, d.checkpoint.file, d.checkpoint.everyCycles,
-          d.checkpoint.everySeconds, d.checkpoint.atEnd);
+          d.rebalanceAbove, d.geometry, d.time.endAtRest, d.checkpoint.file,
+          d.checkpoint.everyCycles, d.checkpoint.everySeconds, d.checkpoint.atEnd);
   for (const auto& m : d.materials)
   {
     showAll(out, m.name, m.set, m.model);

@@ -112,7 +112,8 @@ TEST(MaterialCards, impossibleConcretesAreRefused)
   expectPart(problemOf("set: concrete_c40, compressive_strength: -40e6"),
              "materials.m.compressive_strength = '-40e6' is out of range");
   expectPart(problemOf("set: concrete_c40, tensile_strength: 41e6"),
-             "materials.m: tensile strength is 41000000 Pa, but must be between 0 and a third");
+             "materials.m: tensile strength is 41000000 Pa, but must be between 0 and a "
+             "quarter");
   expectPart(problemOf("set: concrete_c40, poisson_ratio: 0.5"),
              "materials.m.poisson_ratio = '0.5' is out of range");
   expectPart(problemOf("set: concrete_hjc_48, crush_pressure: 900e6"),

@@ -69,6 +69,8 @@ def _place(path):
             return path, stems[0]
         if stems:
             raise SeveralRuns(f"{path}: the folder has several runs; open one of {', '.join(str(path / stem) for stem in stems)}.")
+        if path.name in _stems(path.parent):  # `coplane wall/wall.yaml` runs beside the folder `wall`
+            return path.parent, path.name
         raise NoRun(f"{path}: the folder has no record of a run (<name>.run.json) and no history beside its deck.")
 
     def is_run(stem):
