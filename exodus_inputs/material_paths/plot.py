@@ -56,7 +56,6 @@ plot.PANELS = {
             "Crushed by 5 % and back", ("pressure[Pa]", "von_mises[Pa]"), (1e-9, 1e-9), ("pressure [GPa]", "von Mises stress [GPa]"),
             [("case_a", "case A"), ("case_b", "case B"), ("case_c", "case C")],
         ),
-        ("Silicon carbide", AXIAL, (MILLI, 1e-9), ("axial strain [1e-3]", "axial stress [GPa]"), [("silicon_carbide", "")]),
         ("Sandstone", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("compression", "free"), ("confined", "25 MPa")]),
     ],
     "metals": [

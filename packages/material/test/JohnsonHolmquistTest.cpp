@@ -64,10 +64,18 @@ Real peakOf(const Material& law, Real strain, Real lateral)
   ProbeStep step;
   step.stressGiven = {false, true, true, false, false, false};
   step.value = {strain / 4000, lateral, lateral, 0, 0, 0};
-  while (std::abs(probe.strain().xx) < std::abs(strain) && probe.history("damage") < 0.1)
+  try
   {
-    probe.advance(step);
-    peak = std::max(peak, std::abs(probe.stress().xx));
+    while (probe.history("damage") < 1 && std::abs(probe.strain().xx) < std::abs(strain))
+    {
+      probe.advance(step);
+      peak = std::max(peak, std::abs(probe.stress().xx));
+    }
+    EXPECT_EQ(probe.history("damage"), 1);
+  }
+  catch (const Error&)
+  {
+    // It breaks in one step, and then no strain gives the stress on the sides.
   }
   return peak;
 }
@@ -126,7 +134,8 @@ TEST(JohnsonHolmquist, withoutBulkingTheShearEnergyIsLost)
     probe.advance(step);
   }
   EXPECT_EQ(probe.history("bulking_pressure"), 0);
-  EXPECT_NEAR(probe.dissipation(), q * q / (6 * 90.16e9), 1e-3 * probe.dissipation());
+  const Real perReference = probe.volumeRatio() * q * q / (6 * 90.16e9);
+  EXPECT_NEAR(probe.dissipation(), perReference, 1e-3 * perReference);
 }
 
 TEST(JohnsonHolmquist, strengthsOfSandstoneAreTheIntersectionsWithTheIntactSurface)

@@ -153,11 +153,10 @@ MaterialModel JohnsonHolmquistParameters::model()
                      "pressure"),
       })
       .comesAs(R"(
-silicon_carbide: {model: jh2, density: 3163, shear_modulus: 183e9, bulk_moduli: [204.785e9, 0, 0],
-                  elastic_limit: 14.457e9, elastic_limit_pressure: 5.9e9, tensile_strength: 0.37e9,
-                  intact_factor: 0.96, intact_exponent: 0.65, fractured_factor: 0.35,
-                  fractured_exponent: 1, largest_fractured_strength: 0.8, damage_factor: 0.48,
-                  damage_exponent: 0.48}
+ceramic_jh2: {model: jh2, density: 3700, shear_modulus: 90.16e9, bulk_moduli: [130.95e9, 0, 0],
+              elastic_limit: 2.7933333333e9, elastic_limit_pressure: 1.46e9, tensile_strength: 0.2e9,
+              intact_factor: 0.93, intact_exponent: 0.6, fractured_factor: 0.31,
+              fractured_exponent: 0.6, damage_factor: 0.005}
 sandstone: {model: jh2, density: 2350, shear_modulus: 2.686e9, bulk_moduli: [3.7356e9, 9e9, 22e9],
             elastic_limit: 1.982e9, elastic_limit_pressure: 1.374e9, tensile_strength: 8e6,
             intact_factor: 0.71, intact_exponent: 0.55, fractured_factor: 0.3,

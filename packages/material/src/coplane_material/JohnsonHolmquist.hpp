@@ -108,7 +108,8 @@ struct JohnsonHolmquist
     const T strength = intact + before * (fractured - intact);
     const auto yields = q > strength;
     const T flow = choose(yields, (q - strength) / threeG, zero);
-    const T damage = smaller(before + flow / ductility(p), one);
+    const T damage = damageFactor > 0 ? smaller(before + flow / ductility(p), one)
+                                      : choose(yields, one, before); // at once
 
     // Damage takes strength, and with it elastic energy of shear.
     const T borne = smaller(strength, intact + damage * (fractured - intact));
