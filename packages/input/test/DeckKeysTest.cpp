@@ -48,6 +48,7 @@ materials:
     lock_moduli: [80e9, -170e9, 200e9]}
   jh2: {model: jh2, density: 1, shear_modulus: 90e9, bulk_moduli: [130e9, 10e9, 0], elastic_limit: 2.8e9,
     elastic_limit_pressure: 1.5e9, tensile_strength: 0.1e9, intact_factor: 0.9, intact_exponent: 0.5, damage_factor: 0.01}
+  kcc: {model: kcc, density: 1, compressive_strength: 50e6, rate_effects: true, largest_rate: 200}
   fluid: {model: fluid, density: 1, eos: linear, sound_speed: 9}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
   jwl: {model: jwl, density: 1640, jwl_a: 375e9, jwl_b: 3.3e9, jwl_r1: 4.16, jwl_r2: 0.96, omega: 0.31,

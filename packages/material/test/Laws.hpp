@@ -204,6 +204,11 @@ inline std::vector<NamedLaw> allLaws()
   ductile.rateFactor = 0.01;
   ductile.leastFractureStrain = 1e-4;
   ductile.bulkingFraction = 0.7;
+  KaragozianCaseParameters plain;
+  plain.density = 2300;
+  plain.compressiveStrength = 40e6;
+  KaragozianCaseParameters plainFast = plain;
+  plainFast.rateEffects = true;
   UbiquitousJointParameters loose = jointedRock(); // and a matrix that softens
   loose.residualCohesion = 1e6;
   loose.shearEnergy = 500;
@@ -229,6 +234,8 @@ inline std::vector<NamedLaw> allLaws()
           {"pseudoCap", makeLaw(concreteC40()), 0.01},
           {"pseudoCapRates", makeLaw(fast), 0.01},
           {"hjc", concreteHjc48(), 0.01},
-          {"jh2", makeLaw(ductile), 0.02}};
+          {"jh2", makeLaw(ductile), 0.02},
+          {"kcc", makeLaw(plain), 0.01},
+          {"kccRates", makeLaw(plainFast), 0.01}};
 }
 } // namespace coplane::testing

@@ -9,6 +9,7 @@
 #include <coplane_material/JohnsonCook.hpp>
 #include <coplane_material/JohnsonHolmquist.hpp>
 #include <coplane_material/Jwl.hpp>
+#include <coplane_material/KaragozianCase.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
 #include <coplane_material/NeoHookean.hpp>
@@ -28,7 +29,7 @@ namespace coplane
 using Material =
     std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
                  MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid, HoekBrown,
-                 UbiquitousJoints, Jwl, JohnsonHolmquist>;
+                 UbiquitousJoints, Jwl, JohnsonHolmquist, KaragozianCase>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded
