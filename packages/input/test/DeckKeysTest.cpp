@@ -191,7 +191,7 @@ std::string show(const Deck& d)
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
-          d.output.filePerRank);
+          d.output.filePerRank, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
     showAll(out, t);
   showAll(out, d.history.file, d.history.every);
