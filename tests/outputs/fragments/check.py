@@ -47,21 +47,19 @@ def fragments(folder):
     return times
 
 
-def check_sums(name, run, times, tolerance=1e-13):
+def check_sums(name, times):
     """Masses, momenta and angular momenta of the bodies are those of the run; boxes hold their centres."""
-    results = run.results
     for time, bodies in times.items():
         rows = list(bodies.values())
         mass = sum(row["mass"] for row in rows)
         momentum = sum(row["mass"] * row["velocity"] for row in rows)
         angular = sum(row["angular_momentum"] + row["mass"] * numpy.cross(row["center"], row["velocity"]) for row in rows)
-        case.check(f"{name}: mass at {time:.2g} s [kg]", mass, total, tolerance, relative=True)
+        case.check(f"{name}: mass at {time:.2g} s [kg]", mass, total, 1e-13, relative=True)
         # No force acts from outside: those of the start.
         case.check(f"{name}: momentum at {time:.2g} s", numpy.max(numpy.abs(momentum - total * velocity)) / (total * 4), 0, 1e-12)
         case.check(f"{name}: angular momentum at {time:.2g} s", numpy.max(numpy.abs(angular - angular_at_start)) / total, 0, 1e-11)
         inside = all(numpy.all(row["low"] <= row["center"]) and numpy.all(row["center"] <= row["high"]) for row in rows)
         case.check_equal(f"{name}: centres in their boxes at {time:.2g} s", inside, True)
-    return results
 
 
 lengths = {"left": 0.1, "layer": 0.0004, "right": 0.0996, "tail": 0.08}
@@ -105,7 +103,7 @@ case.check("its velocity [m/s]", numpy.max(numpy.abs(whole[1]["velocity"] - velo
 case.check("its spin [rad/s]", numpy.max(numpy.abs(whole[1]["spin"] - spin)), 0, 1e-10)
 case.check("its angular momentum [kg m^2/s]", numpy.max(numpy.abs(whole[1]["angular_momentum"] - tensor @ spin)), 0, 1e-13)
 case.check("its box [m]", numpy.max(numpy.abs(numpy.append(whole[1]["low"], whole[1]["high"]) - [0, 0, 0, 0.28, width, depth])), 0, 1e-15)
-check_sums("cut", run, times)
+check_sums("cut", times)
 variables = {"cut": {block: run.results.element(block, "fragment") for block in ("bar", "tail")}}
 results = run.results
 ids = {block: results.element(block, "fragment") for block in ("bar", "tail")}
@@ -132,8 +130,8 @@ case.check_equal("broken: bodies at the end: none, left, right, tail", sorted(la
 for body, name in ((0, "layer"), (1, "left"), (12, "right"), (169, "tail")):
     case.check(f"broken: mass of {name} [kg]", last[body]["mass"], masses[name], 1e-13, relative=True)
 # The bond takes next to nothing: 1 J/m^2 over 8 cm^2, of 1.3 J.
-case.check("broken: speed of the tail along x over its own [m/s]", last[169]["velocity"][0] - last[12]["velocity"][0], 4, 0.3)
-case.check("broken: spin of the tail about z [rad/s]", last[169]["spin"][2], spin[2], 0.05, relative=True)
+case.check("broken: speed of the tail along x over its own [m/s]", last[169]["velocity"][0] - last[12]["velocity"][0], 4, 0.01)
+case.check("broken: spin of the tail about z [rad/s]", last[169]["spin"][2], spin[2], 0.005, relative=True)
 
 # --- crushed elements connect nothing -----------------------------------------------------------------------
 soft = {
@@ -155,7 +153,7 @@ else:
     alive = numpy.append(results.element("bar", "alive"), results.element("tail", "alive"))
     body = numpy.append(results.element("bar", "fragment"), results.element("tail", "fragment"))
     case.check_equal("crushed: those of no body are the dead and the damaged", bool(numpy.all((body == 0) == ((alive == 0) | (damage >= 0.5)))), True)
-    case.check_within("crushed: elements that are damaged", int(numpy.sum((alive == 1) & (damage >= 0.5))), 8, 232)
+    case.check_within("crushed: elements that are damaged", int(numpy.sum((alive == 1) & (damage >= 0.5))), 8, 231)
 
 # --- the same on other ranks, and after a restart ------------------------------------------------------------
 for name, first in (("cut", deck), ("pulled", pulled)):
@@ -178,8 +176,6 @@ code, output = program.run_program(["run.yaml", "--set", "time.end=1e-4"], folde
 case.check_equal("first part: exit code", code, 0)
 code, output = program.run_program(["run.yaml", "--restart", "--set", "time.end=2e-4"], folder, 1)
 case.check_equal("second part: exit code", code, 0)
-at_end = fragments(folder)
-straight = fragments("pulled")
-case.check_equal("restarted: bodies at the end", sorted(at_end[max(at_end)]), sorted(straight[max(straight)]))
-case.check_equal("restarted: times", len(at_end) in (3, 4), True)
+same = (folder / "run_fragments.csv").read_bytes() == pathlib.Path("pulled", "run_fragments.csv").read_bytes()
+case.check_equal("restarted: the table of the run in one go", same, True)
 case.finish()

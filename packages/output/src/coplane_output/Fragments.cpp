@@ -242,11 +242,11 @@ void widen(Vec3& lowest, Vec3& highest, const Vec3& x)
 
 /// Positions, and velocities at the same time, of all nodes of held elements: copies of nodes of
 /// other ranks do not have the velocities of the last kick.
-struct Motion
+struct NodesNow
 {
   NodeVectors x, v;
 
-  explicit Motion(const Solver& solver)
+  explicit NodesNow(const Solver& solver)
       : x("coplane::output::x", solver.layout().size()),
         v("coplane::output::v", solver.layout().size())
   {
@@ -261,7 +261,7 @@ struct Motion
   }
 };
 
-Share shareOf(const Solver& solver, const Motion& motion, std::size_t b, int e, GlobalId fragment)
+Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e, GlobalId fragment)
 {
   const RankMesh::Block& part = solver.mesh().blocks[b];
   const ElementBlock& block = solver.blocks()[b];
@@ -346,7 +346,7 @@ Fragments findFragments(const Solver& solver, Real damage)
 {
   Fragments fragments;
   fragments.ofElement = Connections(solver, damage).ofElements();
-  const Motion motion(solver);
+  const NodesNow motion(solver);
   // A rank sums up all of a body, element by element in the order of ids.
   const Comm& comm = solver.comm();
   std::vector<std::vector<Share>> toRank(std::size_t(comm.size()));
