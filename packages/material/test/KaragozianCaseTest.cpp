@@ -140,6 +140,18 @@ TEST(KaragozianCase, aCrackTakesTheFractureEnergyWhateverTheElement)
   }
 }
 
+TEST(KaragozianCase, aLargerElementThanTheLimitCannotFollow)
+{
+  // E G_F / (ft^2 g_0 m) = 0.285 m, m the steepest fall.
+  const auto tear = [](Real width)
+  {
+    MaterialProbe probe(law, width);
+    uniaxialStress(probe, 2e-4, 20000, [](const MaterialProbe&) {});
+  };
+  EXPECT_NO_THROW(tear(0.24)); // from 0.25 m on corners of eta hold up the iteration of the probe
+  EXPECT_THROW(tear(0.3), Error);
+}
+
 TEST(KaragozianCase, hydrostaticTensionOpensCracksThatClose)
 {
   // Mean stress eta ft; lambda grows by s b3 (1 - left / ...) per volume strain of cracks.
