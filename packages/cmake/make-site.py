@@ -45,6 +45,7 @@ FILES = {
     "deck": ("deck", "user/deck.md"),
     "recipe": ("recipe of a mesh", "user/recipe.md"),
     "joint-recipe": ("recipe of joints", "user/recipe.md"),
+    "blocks-recipe": ("recipe of blocks", "user/recipe.md"),
     "example": ("example.yaml", "user/recipe.md"),
     "point-deck": ("deck of coplane_point", "user/point-deck.md"),
 }
@@ -52,8 +53,8 @@ FILES = {
 WEIGHTS = {"docs/user/": 3, "docs/keys": 2, "docs/glossary": 2, "docs/developer/": 0.5, "docs/CHANGELOG": 0.5, "tests/": 0.3, "packages/": 0.3, "apps/": 0.5}
 TOPICS = {
     "The problem": ["deck: title mesh geometry define"],
-    "Meshes": ["recipe: title define dimension parts"],
-    "Sets of nodes and faces": ["recipe: node_sets side_sets"],
+    "Meshes": ["recipe: title define dimension parts", "blocks-recipe: title define dimension seed up north domain openings joints elements slivers"],
+    "Sets of nodes and faces": ["recipe: node_sets side_sets", "blocks-recipe: node_sets side_sets"],
     "Materials": ["deck: materials blocks", "point-deck: title define materials material_paths"],
     "Joints and contact": ["deck: joints contact", "joint-recipe: define joints", "point-deck: joints joint_paths elements"],
     "Loads, supports, state at the start": ["deck: conditions initial gravity"],
@@ -102,7 +103,7 @@ def heading_of(file, group, pages):
     page = FILES[file][1]
     if not group:
         return page
-    first = {"joint-recipe": "# Recipes of joints", "example": "# Examples"}.get(file, "")
+    first = {"joint-recipe": "# Recipes of joints", "blocks-recipe": "# Recipes of blocks", "example": "# Examples"}.get(file, "")
     text = pages[f"docs/{page}"]
     own = f"## `{group}`"
     place = text.index(own + "\n", text.index(first))

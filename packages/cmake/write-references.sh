@@ -10,4 +10,5 @@ cd "$(dirname "$0")/../../docs"
 "$programs/coplane_point" --schema > schemas/point-deck.json
 "$programs/coplane_mesh" --recipe-schema > schemas/recipe.json
 "$programs/coplane_mesh" --split-schema > schemas/joint-recipe.json
+"$programs/coplane_mesh" --blocks-schema > schemas/blocks-recipe.json
 "$programs/coplane_mesh" --example-schema > schemas/example.json

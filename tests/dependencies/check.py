@@ -32,6 +32,7 @@ LIBRARIES = [
     (r"muParser\.h", ["muparser::muparser"]),
     (r"openssl/.*", ["OpenSSL::Crypto"]),
     (r"CLI/.*", ["CLI11::CLI11"]),
+    (r"(gmsh\.h|assimp/.*|voro\+\+/.*)", ["coplane::gmsh"]),
     (r"gtest/.*", ["GTest::gtest"]),
     (r"benchmark/.*", ["benchmark::benchmark"]),
 ]

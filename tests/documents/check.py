@@ -128,6 +128,7 @@ SCHEMAS = {
     "point-deck": ["coplane_point", "--schema"],
     "recipe": ["coplane_mesh", "--recipe-schema"],
     "joint-recipe": ["coplane_mesh", "--split-schema"],
+    "blocks-recipe": ["coplane_mesh", "--blocks-schema"],
     "example": ["coplane_mesh", "--example-schema"],
 }
 

@@ -160,14 +160,6 @@ void demandNothingOfDimensions(Key& key)
 
 Key makeSchema()
 {
-  std::vector<Key> sideSetKeys = setKeys();
-  sideSetKeys.push_back(numbers("normal", &SetCard::normal)
-                            .byDimension()
-                            .notAllZero()
-                            .in("-")
-                            .defaultIs("any")
-                            .like("[0, 1]")
-                            .means("outward normal, within 26 degrees"));
   return section(
       "", {
               definitions(),
@@ -180,14 +172,45 @@ Key makeSchema()
                   .like("2")
                   .means("of space; lists by dimension have as many numbers"),
               parts(),
-              named("node_sets", &Recipe::nodeSets, setKeys())
+              named("node_sets", &Recipe::nodeSets, nodeSetKeys())
                   .means("node sets of the mesh, by a name of your choice"),
-              named("side_sets", &Recipe::sideSets, sideSetKeys)
+              named("side_sets", &Recipe::sideSets, sideSetKeys())
                   .means("side sets of the mesh, by a name of your choice: exterior faces whose "
                          "nodes all meet the selection"),
           });
 }
 } // namespace
+
+std::vector<Key> nodeSetKeys()
+{
+  return setKeys();
+}
+
+std::vector<Key> sideSetKeys()
+{
+  std::vector<Key> keys = setKeys();
+  keys.push_back(numbers("normal", &SetCard::normal)
+                     .byDimension()
+                     .notAllZero()
+                     .in("-")
+                     .defaultIs("any")
+                     .like("[0, 1]")
+                     .means("outward normal, within 26 degrees"));
+  return keys;
+}
+
+int fitToDimensionOf(const DeckNode& root, Key& schema)
+{
+  const DeckNode* const dimension = root.find("dimension");
+  if (!dimension || (dimension->text != "2" && dimension->text != "3"))
+  {
+    demandNothingOfDimensions(schema);
+    return 0;
+  }
+  const int axes = dimension->text == "2" ? 2 : 3;
+  fitToDimension(schema, axes);
+  return axes;
+}
 
 const Key& recipeSchema()
 {
@@ -209,13 +232,9 @@ Recipe parseRecipe(const std::string& text, const std::string& file,
   Key schema = recipeSchema();
   const auto fit = [&schema](const DeckNode& root)
   {
-    const DeckNode* const dimension = root.find("dimension");
-    if (!dimension || (dimension->text != "2" && dimension->text != "3"))
-      return demandNothingOfDimensions(schema);
-    const int axes = dimension->text == "2" ? 2 : 3;
-    fitToDimension(schema, axes);
+    const int axes = fitToDimensionOf(root, schema);
     for (Key& key : schema.keys)
-      if (key.name == "parts")
+      if (axes > 0 && key.name == "parts")
         key.problemOfModel = [axes](const std::string& shape)
         { return problemOfShape(shape, axes); };
   };

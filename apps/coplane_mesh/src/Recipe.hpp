@@ -48,6 +48,13 @@ struct Recipe
   DeckNode root; ///< for messages
 };
 
+/// Keys of node_sets and side_sets, for every recipe that has them.
+std::vector<Key> nodeSetKeys();
+std::vector<Key> sideSetKeys();
+/// Makes a schema that of the dimension that a file states; without one, all keys stay.
+/// @return the dimension, 0 where none is stated
+int fitToDimensionOf(const DeckNode& root, Key& schema);
+
 const Key& recipeSchema();
 const FileKind& recipeFile();
 

@@ -1,5 +1,6 @@
 #include "RecipeReference.hpp"
 
+#include "BlocksRecipe.hpp"
 #include "ExampleFile.hpp"
 #include "JointRecipe.hpp"
 #include "Recipe.hpp"
@@ -21,6 +22,8 @@ std::string markdown()
          referenceMarkdown(recipeSchema()) +
          "\n# Recipes of joints\n\nFor `coplane_mesh split`.\n\n" +
          referenceMarkdown(jointRecipeSchema()) +
+         "\n# Recipes of blocks\n\nFor `coplane_mesh blocks`.\n\n" +
+         referenceMarkdown(blocksRecipeSchema()) +
          "\n# Examples\n\nFor `example.yaml` files, which "
          "[exodus_inputs/run.py](../../exodus_inputs/README.md) runs.\n\n" +
          referenceMarkdown(exampleSchema());
@@ -44,6 +47,10 @@ const std::vector<Reference>& recipeReferences()
        [](const std::string& topic)
        { return plain("a recipe of joints", jointRecipeSchema(), topic); },
        true},
+      {"--help-blocks", "Print every key of a recipe of blocks and stop",
+       [](const std::string& topic)
+       { return plain("a recipe of blocks", blocksRecipeSchema(), topic); },
+       true},
       {"--help-example", "Print every key of an example.yaml and stop",
        [](const std::string& topic) { return plain("an example.yaml", exampleSchema(), topic); },
        true},
@@ -53,6 +60,8 @@ const std::vector<Reference>& recipeReferences()
        [](const std::string&) { return jsonSchema(recipeSchema(), "Coplane mesh recipe"); }},
       {"--split-schema", "Print the JSON Schema of recipes of joints and stop",
        [](const std::string&) { return jsonSchema(jointRecipeSchema(), "Coplane joint recipe"); }},
+      {"--blocks-schema", "Print the JSON Schema of recipes of blocks and stop",
+       [](const std::string&) { return jsonSchema(blocksRecipeSchema(), "Coplane block recipe"); }},
       {"--example-schema", "Print the JSON Schema of example.yaml files and stop",
        [](const std::string&) { return jsonSchema(exampleSchema(), "Coplane example"); }}};
   return references;

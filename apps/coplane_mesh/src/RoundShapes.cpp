@@ -36,6 +36,16 @@ struct SectorParameters
   std::vector<int> divisions;
   Real bias = 1;
   Real length = 0; ///< [m]
+  int rows = 1;
+};
+
+struct DomeParameters
+{
+  int dimension = 0;
+  Real innerRadius = 0, outerRadius = 0; ///< [m]
+  Real from = 0, to = 0;                 ///< [degrees]
+  int courses = 0, count = 0;
+  std::vector<int> divisions;
 };
 
 struct HalfDiscParameters : Sweep
@@ -81,11 +91,33 @@ void demandEvenAcross(const P& p, const CardPlace& place)
   demandEven(place, "across", p.across, "elements");
 }
 
-void checkSector(const SectorParameters& p, const CardPlace& place)
+template <class P>
+void demandThick(const P& p, const CardPlace& place)
 {
   if (!(p.outerRadius > p.innerRadius))
     place.problem("outer_radius", fmt::format("= {} m must be greater than inner_radius = {} m.",
                                               p.outerRadius, p.innerRadius));
+}
+
+void checkDome(const DomeParameters& p, const CardPlace& place)
+{
+  demandThick(p, place);
+  if (!(p.to > p.from))
+    place.problem(
+        "to", fmt::format("= {} degrees must be greater than from = {} degrees.", p.to, p.from));
+  demandEven(place, "divisions", p.divisions[2],
+             "elements around a stone, so that nodes of courses meet");
+  if (const Real element = 360.0 / (p.count * p.divisions[2]); !(element <= 90))
+    place.problem("divisions",
+                  fmt::format("make elements of {} degrees around; 90 is the most.", element));
+}
+
+void checkSector(const SectorParameters& p, const CardPlace& place)
+{
+  demandThick(p, place);
+  if (p.rows > 1)
+    demandEven(place, "divisions", p.divisions[2],
+               "elements along a stone, and half a stone takes half of them");
   const Real angle = p.to - p.from;
   if (!(angle > 0) || angle > 360)
     return place.problem("to", fmt::format("= {} degrees must be greater than from = {} degrees, "
@@ -120,8 +152,17 @@ std::vector<Body> makeLaw(const SphereParameters& p)
 
 std::vector<Body> makeLaw(const SectorParameters& p)
 {
+  if (p.rows > 1)
+    return barrelVault(p.innerRadius, p.outerRadius, p.from, p.to, p.count, p.length, p.rows,
+                       toCounts(p.divisions), p.bias);
   return sectors(p.dimension, p.innerRadius, p.outerRadius, p.from, p.to, p.count, p.length,
                  toCounts(p.divisions), p.bias);
+}
+
+std::vector<Body> makeLaw(const DomeParameters& p)
+{
+  return dome(p.innerRadius, p.outerRadius, p.from, p.to, p.courses, p.count,
+              toCounts(p.divisions));
 }
 
 std::vector<Body> makeLaw(const HalfDiscParameters& p)
@@ -187,8 +228,46 @@ ShapeModel sectorModel()
               .means("outermost over innermost radial length, those between in geometric "
                      "progression"),
           sweepLength<P>(),
+          integer("rows", &P::rows)
+              .onlyInDimension(3)
+              .in("stones")
+              .atLeast(1)
+              .like("6")
+              .means("a barrel vault: so many stones along z in each sector, in running bond; "
+                     "divisions are then those of a stone, even along z"),
       })
       .demands(checkSector);
+}
+
+ShapeModel domeModel()
+{
+  using P = DomeParameters;
+  return ShapeModelOf<P>("dome",
+                         "part of a spherical shell about the origin, axis y, in courses of equal "
+                         "stones; every other course is turned by half a stone")
+      .existsIn(3, "sector")
+      .has({
+          length("inner_radius", &P::innerRadius).like("4").means("of the shell"),
+          length("outer_radius", &P::outerRadius).like("4.4").means("of the shell"),
+          number("from", &P::from)
+              .needed()
+              .in("degrees")
+              .atLeast(-80)
+              .atMost(80)
+              .like("0")
+              .means("elevation of the lowest course above y = 0"),
+          number("to", &P::to)
+              .needed()
+              .in("degrees")
+              .atLeast(-80)
+              .atMost(85)
+              .like("75")
+              .means("elevation of the ring that closes it, an open eye"),
+          count("courses", &P::courses).in("courses").like("12").means("from one to the other"),
+          count("count", &P::count).in("stones").like("24").means("stones in each course"),
+          divisions<P>("of one stone: radial, along the meridian, around"),
+      })
+      .demands(checkDome);
 }
 
 ShapeModel halfDiscModel()

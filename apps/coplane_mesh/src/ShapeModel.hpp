@@ -34,6 +34,7 @@ ShapeModel sphereModel();
 ShapeModel projectileModel();
 ShapeModel ogiveModel();
 ShapeModel sectorModel();
+ShapeModel domeModel();
 ShapeModel halfDiscModel();
 
 /// A shape under construction (CardModelBuilder). makeLaw(const P&) makes the bodies; P has the

@@ -5,9 +5,9 @@ namespace coplane
 const std::vector<ShapeModel>& shapeModels()
 {
   static const std::vector<ShapeModel> models{
-      boxModel(),        quadrilateralModel(), hexahedronModel(), wallModel(),
-      imbricateModel(),  rockModel(),          cylinderModel(),   sphereModel(),
-      projectileModel(), ogiveModel(),         sectorModel(),     halfDiscModel()};
+      boxModel(),    quadrilateralModel(), hexahedronModel(), wallModel(),       imbricateModel(),
+      rockModel(),   cylinderModel(),      sphereModel(),     projectileModel(), ogiveModel(),
+      sectorModel(), domeModel(),          halfDiscModel()};
   return models;
 }
 

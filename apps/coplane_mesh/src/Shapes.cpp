@@ -308,30 +308,164 @@ Body cornered(int dimension, const std::vector<Vec3>& corners, const std::array<
                     });
 }
 
-std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int bricks,
-                              const std::array<int, 3>& n)
+namespace
 {
-  demandCountable(Real(courses) * bricks * nodesOfGrid(dimension, n));
-  std::vector<Body> bodies;
-  for (int course = 0; course < courses; ++course)
+/// A brick in a wall, in elements of the whole wall.
+struct Brick
+{
+  int x, width, course, z, depth;
+};
+
+class WallBuilder
+{
+public:
+  WallBuilder(int dimension, const Vec3& brick, const std::array<int, 3>& n,
+              const std::vector<WallOpening>& openings)
+      : dimension_(dimension), brick_(brick), n_(n), openings_(openings)
   {
-    const bool shifted = course % 2 == 1;
-    for (int b = 0; b < (shifted ? bricks + 1 : bricks); ++b)
+  }
+
+  void addCourse(Bond bond, int course, int bricks)
+  {
+    const bool odd = course % 2 == 1;
+    const int whole = n_[0], half = whole / 2, end = bricks * whole;
+    switch (bond)
+    {
+    case Bond::Running:
+      if (odd)
+        add({0, half, course, 0, n_[2]});
+      for (int x = odd ? half : 0; x + whole <= end; x += whole)
+        add({x, whole, course, 0, n_[2]});
+      if (odd)
+        add({end - half, half, course, 0, n_[2]});
+      return;
+    case Bond::Stack:
+      for (int x = 0; x < end; x += whole)
+        add({x, whole, course, 0, n_[2]});
+      return;
+    case Bond::English:
+      if (!odd)
+        for (int x = 0; x < end; x += whole)
+          addStretchers(x, course);
+      else
+        addWithClosers(course, end, half,
+                       [&](int x)
+                       {
+                         addHeader(x, course);
+                         return x + half;
+                       });
+      return;
+    case Bond::Flemish:
+      if (!odd)
+        for (int x = 0; x < end; x += whole + half)
+        {
+          addStretchers(x, course);
+          if (x + whole < end)
+            addHeader(x + whole, course);
+        }
+      else
+        addWithClosers(course, end, whole,
+                       [&](int x)
+                       {
+                         addStretchers(x, course);
+                         if (x + whole + half <= end - half - half / 2)
+                           addHeader(x + whole, course);
+                         return x + whole + half;
+                       });
+      return;
+    }
+  }
+
+  std::vector<Body> take() { return std::move(bodies_); }
+
+private:
+  /// A header and a queen closer at both ends; between them what `next` adds at a place: it returns
+  /// the following one. @param least what has to fit for another
+  template <class Next>
+  void addWithClosers(int course, int end, int least, const Next& next)
+  {
+    const int half = n_[0] / 2, quarter = half / 2;
+    addHeader(0, course);
+    add({half, quarter, course, 0, 2 * n_[2]});
+    for (int x = half + quarter; x + least <= end - half - quarter;)
+      x = next(x);
+    add({end - half - quarter, quarter, course, 0, 2 * n_[2]});
+    addHeader(end - half, course);
+  }
+
+  void addStretchers(int x, int course)
+  {
+    for (int leaf = 0; leaf < 2; ++leaf)
+      add({x, n_[0], course, leaf * n_[2], n_[2]});
+  }
+
+  void addHeader(int x, int course) { add({x, n_[0] / 2, course, 0, 2 * n_[2]}); }
+
+  Real placeOf(int x) const { return brick_.x * x / n_[0]; }
+
+  /// The parts of a brick that no opening takes.
+  void add(const Brick& brick)
+  {
+    std::vector<std::pair<Real, Real>> parts{{placeOf(brick.x), placeOf(brick.x + brick.width)}};
+    const Real least = 1e-9 * brick_.x;
+    for (const WallOpening& opening : openings_)
+    {
+      if (brick.course < opening.first || brick.course > opening.last)
+        continue;
+      std::vector<std::pair<Real, Real>> left;
+      for (const auto& [from, to] : parts)
+      {
+        if (std::min(to, opening.from) - from > least)
+          left.push_back({from, std::min(to, opening.from)});
+        if (to - std::max(from, opening.to) > least)
+          left.push_back({std::max(from, opening.to), to});
+      }
+      parts = left;
+    }
+    for (const auto& [from, to] : parts)
+      addPart(brick, from, to);
+  }
+
+  void addPart(const Brick& brick, Real from, Real to)
+  {
+    const Real whole = placeOf(brick.x + brick.width) - placeOf(brick.x);
+    const bool trimmed = to - from < whole;
+    const int across =
+        trimmed ? std::max(1, int(std::lround(brick.width * (to - from) / whole))) : brick.width;
+    const auto along = [&, from = from, to = to](int i)
     {
       // Positions count in elements of the whole wall, so that touching bricks compute the same
       // coordinates.
-      const bool isHalf = shifted && (b == 0 || b == bricks);
-      const int first = shifted ? std::max(0, b * n[0] - n[0] / 2) : b * n[0];
-      bodies.push_back(mappedGrid(dimension, {isHalf ? n[0] / 2 : n[0], n[1], n[2]},
-                                  [&](int i, int j, int k)
-                                  {
-                                    return Vec3{brick.x * (first + i) / n[0],
-                                                brick.y * (course * n[1] + j) / n[1],
-                                                dimension == 3 ? brick.z * k / n[2] : 0.0};
-                                  }));
-    }
+      if (!trimmed)
+        return placeOf(brick.x + i);
+      return i == 0 ? from : i == across ? to : from + (to - from) * i / across;
+    };
+    bodies_.push_back(mappedGrid(dimension_, {across, n_[1], brick.depth},
+                                 [&](int i, int j, int k)
+                                 {
+                                   return Vec3{
+                                       along(i), brick_.y * (brick.course * n_[1] + j) / n_[1],
+                                       dimension_ == 3 ? brick_.z * (brick.z + k) / n_[2] : 0.0};
+                                 }));
   }
-  return bodies;
+
+  int dimension_;
+  Vec3 brick_;
+  std::array<int, 3> n_;
+  const std::vector<WallOpening>& openings_;
+  std::vector<Body> bodies_;
+};
+} // namespace
+
+std::vector<Body> wallOfBricks(int dimension, Bond bond, const Vec3& brick, int courses, int bricks,
+                               const std::array<int, 3>& n,
+                               const std::vector<WallOpening>& openings)
+{
+  demandCountable(2.0 * courses * bricks * nodesOfGrid(dimension, n));
+  WallBuilder builder(dimension, brick, n, openings);
+  for (int course = 0; course < courses; ++course)
+    builder.addCourse(bond, course, bricks);
+  return builder.take();
 }
 
 std::vector<Body> imbricate(Real thickness, Real length, int layers, int bricks,
@@ -487,6 +621,56 @@ std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real
                                   return Vec3{r * std::cos(angle), r * std::sin(angle),
                                               dimension == 3 ? length * k / n[2] : 0.0};
                                 }));
+  return bodies;
+}
+
+std::vector<Body> barrelVault(Real inner, Real outer, Real from, Real to, int count, Real length,
+                              int rows, const std::array<int, 3>& n, Real bias)
+{
+  demandCountable(Real(count) * (rows + 1.0) * nodesOfGrid(3, n));
+  std::vector<Body> bodies;
+  const int whole = n[2], end = rows * whole;
+  for (int sector = 0; sector < count; ++sector)
+  {
+    // Grid lines of one sector as long as the vault, cut where stones end.
+    const Body sweep = sectors(3, inner, outer, from, to, count, length, {n[0], n[1], end},
+                               bias)[std::size_t(sector)];
+    const int layer = (n[0] + 1) * (n[1] + 1);
+    std::vector<int> ends{0};
+    for (int z = sector % 2 == 1 ? whole / 2 : whole; z < end; z += whole)
+      ends.push_back(z);
+    ends.push_back(end);
+    for (std::size_t stone = 0; stone + 1 < ends.size(); ++stone)
+    {
+      const auto first = sweep.points.begin() + layer * ends[stone];
+      bodies.push_back(mappedGrid(3, {n[0], n[1], ends[stone + 1] - ends[stone]},
+                                  [&](int i, int j, int k)
+                                  { return first[i + (n[0] + 1) * (j + (n[1] + 1) * k)]; }));
+    }
+  }
+  return bodies;
+}
+
+std::vector<Body> dome(Real inner, Real outer, Real from, Real to, int courses, int count,
+                       const std::array<int, 3>& n)
+{
+  demandCountable(Real(courses) * count * nodesOfGrid(3, n));
+  std::vector<Body> bodies;
+  const std::vector<Real> radii = gradedLine(inner, outer, n[0], 1);
+  const int upward = courses * n[1], around = 2 * count * n[2]; // half elements round the axis
+  for (int course = 0; course < courses; ++course)
+    for (int stone = 0; stone < count; ++stone)
+      bodies.push_back(mappedGrid(
+          3, n,
+          [&](int i, int j, int k)
+          {
+            const int step = course * n[1] + j;
+            const Real elevation = (from * (upward - step) + to * step) / upward * pi / 180;
+            const int turn = (2 * (stone * n[2] + k) + (course % 2) * n[2]) % around;
+            const Real azimuth = 2 * pi * turn / around, level = radii[i] * std::cos(elevation);
+            return Vec3{level * std::cos(azimuth), radii[i] * std::sin(elevation),
+                        level * std::sin(azimuth)};
+          }));
   return bodies;
 }
 

@@ -53,11 +53,30 @@ Body boxOfLines(int dimension, const std::array<std::vector<Real>, 3>& lines);
 /// (bi- or trilinear).
 Body cornered(int dimension, const std::vector<Vec3>& corners, const std::array<int, 3>& n);
 
-/// Running bond along x, courses upward in y (from 0), thickness in z. Even courses (0, 2, ...)
-/// hold whole bricks, odd ones begin and end with half bricks. n is for a whole brick; n[0] is
-/// even. Touching bricks have the same coordinates to the bit.
-std::vector<Body> runningBond(int dimension, const Vec3& brick, int courses, int bricks,
-                              const std::array<int, 3>& n);
+/// How the bricks of a wall lie: courses upward in y (from 0), along x, thickness in z.
+enum class Bond
+{
+  Running, ///< odd courses are shifted by half a brick, with half bricks at their ends
+  Stack,   ///< all courses alike
+  English, ///< 3D: courses of stretchers, in two leaves, and of headers in turn
+  Flemish  ///< 3D: stretchers, in two leaves, and headers in turn in every course
+};
+
+/// A hole in a wall.
+struct WallOpening
+{
+  Real from = 0, to = 0;   ///< along x [m]
+  int first = 0, last = 0; ///< courses, from 0
+};
+
+/// Bricks of a wall, those at openings trimmed. n is for a whole brick: n[0] is even for running
+/// bond, a multiple of 4 for English and Flemish bond, where half a header is a queen closer beside
+/// the header at each end, bricks are twice as long as wide, and the wall as thick as a brick is
+/// long. Flemish bond is 1, 4, 7, ... bricks long. Touching bricks have the same coordinates to the
+/// bit.
+std::vector<Body> wallOfBricks(int dimension, Bond bond, const Vec3& brick, int courses, int bricks,
+                               const std::array<int, 3>& n,
+                               const std::vector<WallOpening>& openings = {});
 
 /// Imbricate wall in the plane: layers through the thickness along x (from 0), bricks along y,
 /// centred on y = 0. Layers 1, 3, ... begin and end with half bricks, layers 2, 4, ... hold whole
@@ -84,6 +103,17 @@ Body ball(Real radius, int across);
 /// coordinates to the bit.
 std::vector<Body> sectors(int dimension, Real inner, Real outer, Real from, Real to, int count,
                           Real length, const std::array<int, 3>& n, Real bias = 1);
+
+/// The same as a barrel vault: each sector is `rows` stones along z, every other sector with half a
+/// stone at its ends. n[2] is for a whole stone, and even.
+std::vector<Body> barrelVault(Real inner, Real outer, Real from, Real to, int count, Real length,
+                              int rows, const std::array<int, 3>& n, Real bias = 1);
+
+/// Part of a spherical shell about the origin between two elevations [degrees] above the plane
+/// y = 0: courses upward of `count` stones each, every other one turned by half a stone. n is
+/// radial, along the meridian, around (even). Touching stones have the same coordinates to the bit.
+std::vector<Body> dome(Real inner, Real outer, Real from, Real to, int courses, int count,
+                       const std::array<int, 3>& n);
 
 /// Lower half of a disc of centre (0, radius): its lowest point is the origin. Elements have the
 /// length `fine` within `fineRadius` <= radius / 4 of the origin and grow with the distance beyond.

@@ -1,120 +1,61 @@
+#include "AbaqusFile.hpp"
 #include "ConvertGmsh.hpp"
 #include "Cuts.hpp"
 #include "ExampleFile.hpp"
 #include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
+#include "MeshCommand.hpp"
+#include "Recipe.hpp"
 #include "RecipeReference.hpp"
 
-#include <coplane_core/DraftName.hpp>
 #include <coplane_core/Error.hpp>
-#include <coplane_core/FileRoles.hpp>
 #include <coplane_core/Memory.hpp>
-#include <coplane_core/OutputLocks.hpp>
 #include <coplane_core/Program.hpp>
 #include <coplane_core/Version.hpp>
-#include <coplane_exodus/MeshReport.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
-#include <coplane_exodus/WriteMesh.hpp>
 
 #include <CLI/CLI.hpp>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <unistd.h>
 
 namespace coplane
 {
 namespace
 {
-void print(const std::string& text)
+/// `coplane_mesh blocks` is a program of its own, so that the others need not load Gmsh.
+[[noreturn]] void startBlocks(char** argv)
 {
-  std::fputs((text + "\n").c_str(), stdout);
+  std::error_code unknown;
+  const auto own = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  std::string program = own.parent_path() / "coplane_mesh_blocks";
+  argv[1] = program.data();
+  ::execv(program.c_str(), argv + 1);
+  fail(ExitCode::Usage,
+       "{} cannot be started: {}. It is built and installed beside coplane_mesh where Gmsh, "
+       "Voro++ and Assimp are (Debian: libgmsh-dev, voro++-dev, libassimp-dev).",
+       program, std::strerror(errno));
 }
 
-std::string pairsOf(const MeshReport& report, GlobalId sideSet)
+/// A recipe of blocks, which `make` takes as well.
+bool isOfBlocks(const std::string& recipe)
 {
-  for (const MeshReport::Joint& joint : report.joints)
-    if (joint.id == sideSet)
-      return fmt::format(", a joint of {} pairs", joint.pairs);
-  return {};
-}
-
-void printReport(const Mesh& mesh, const MeshReport& report)
-{
-  const char* measure = report.dimension == 2 ? "area" : "volume";
-  const char* unit = report.dimension == 2 ? "m^2" : "m^3";
-  print(fmt::format("{} dimensions, {} nodes, {} elements, {} bodies", report.dimension,
-                    report.nodes, report.elements, report.bodies));
-  for (const auto& block : report.blocks)
-    print(fmt::format(
-        "  block {} '{}': {} {}, {} bodies, {} {:.6g} {}, worst shape {:.3g} (element {})",
-        block.id, block.name, block.elements, block.type, block.bodies, measure, block.volume, unit,
-        block.worstQuality, block.worstElement));
-  for (const auto& set : mesh.nodeSets)
-    print(fmt::format("  node set {} '{}': {} nodes", set.id, set.name, set.nodes.size()));
-  for (const auto& set : mesh.sideSets)
-    print(fmt::format("  side set {} '{}': {} faces{}", set.id, set.name, set.elements.size(),
-                      pairsOf(report, set.id)));
-  const char axes[] = "xyz";
-  for (int axis = 0; axis < report.dimension; ++axis)
-    print(fmt::format("  {} from {:.6g} to {:.6g} m", axes[axis], report.lowest[axis],
-                      report.highest[axis]));
-  print(fmt::format("  edges from {:.6g} to {:.6g} m", report.shortestEdge, report.longestEdge));
-}
-
-/// Prints what was found; throws when no computation can use the mesh.
-void judge(const MeshReport& report, const std::string& file)
-{
-  const std::vector<std::string> problems = meshProblems(report);
-  for (const std::string& problem : problems)
-    print((report.usable() ? "note: " : "problem: ") + problem);
-  if (problems.empty())
-    print("no problems found");
-  if (!report.usable())
-    fail(ExitCode::Mesh, "{}: the mesh cannot be used: {}", file, problems.front());
-}
-
-/// Throws unless the output is a file of its own. @param inputs with what messages call them
-void demandDistinct(const std::vector<std::pair<std::string, std::string>>& inputs,
-                    const std::string& output)
-{
-  FileRoles roles;
-  for (const auto& [file, what] : inputs)
-  {
-    roles.reads(file, what);
-    if (std::error_code error; !std::filesystem::exists(file, error))
-      roles.readsSeries({file + ".", ".", ""}, "a part of " + what);
-  }
-  roles.writes(output, "the new mesh (-o)");
-  roles.writes(placeOfFile(output) + ".lock", "the lock of the new mesh (-o)");
-  if (const std::vector<std::string> problems = roles.problems(); !problems.empty())
-    fail(ExitCode::Usage, "{}", fmt::join(problems, "\n"));
-}
-
-/// Nobody else writes the file meanwhile.
-void writeAlone(const Mesh& mesh, const std::string& output)
-{
-  const std::string lock = placeOfFile(output) + ".lock";
-  FileRoles roles;
-  roles.writes(output, "the new mesh (-o)");
-  roles.writes(lock, "the lock of the new mesh (-o)");
-  roles.writesDraft({draftOf(placeOfFile(output))}, "the new mesh (-o)");
-  const auto locks = lockOutputs(roles, {lock}, output);
-  removeDraftsOfKilled(roles, locks);
-  writeMesh(mesh, output);
+  const DeckNode root = parseYaml(readTextFile(recipe, recipeFile()), recipe, recipeFile());
+  return root.find("domain") && !root.find("parts");
 }
 
 void make(const std::string& recipe, const std::vector<std::string>& overrides,
-          const std::string& output)
+          const std::string& output, char** argv)
 {
+  if (isOfBlocks(recipe))
+    startBlocks(argv);
   demandDistinct({{recipe, "the recipe"}}, output);
-  const Mesh mesh = makeMesh(recipe, overrides);
-  const MeshReport report = reportMesh(mesh);
-  printReport(mesh, report);
-  judge(report, recipe);
-  writeAlone(mesh, output);
-  print("wrote " + output);
+  reportAndWrite(makeMesh(recipe, overrides), recipe, output);
 }
 
 void split(const std::string& file, const std::string& recipe,
@@ -143,35 +84,37 @@ void split(const std::string& file, const std::string& recipe,
   print(fmt::format("{} nodes copied; {} bodies became {}", result.copies, result.bodiesBefore,
                     result.bodies));
   result.mesh.qaRecords.push_back(qaRecord());
-  const MeshReport report = reportMesh(result.mesh);
-  printReport(result.mesh, report);
-  judge(report, file);
-  writeAlone(result.mesh, output);
-  print("wrote " + output);
+  reportAndWrite(result.mesh, file, output);
+}
+
+bool isOfAbaqus(const std::string& file)
+{
+  const std::string ending = std::filesystem::path(file).extension();
+  return ending == ".inp" || ending == ".INP";
 }
 
 void convert(const std::string& file, const std::string& output)
 {
-  demandDistinct({{file, "the file of Gmsh"}}, output);
-  ConvertedMesh converted = convertGmsh(readGmshFile(file), file);
+  demandDistinct({{file, "the file to convert"}}, output);
+  AbaqusFile read;
+  if (isOfAbaqus(file))
+    read = readAbaqusFile(file);
+  else
+    read.mesh = readGmshFile(file);
+  ConvertedMesh converted = convertGmsh(read.mesh, file);
+  converted.notes.insert(converted.notes.begin(), read.notes.begin(), read.notes.end());
   for (const std::string& note : converted.notes)
     print("note: " + note);
   converted.mesh.title = std::filesystem::path(file).filename().string();
   converted.mesh.qaRecords.push_back(qaRecord());
-  const MeshReport report = reportMesh(converted.mesh);
-  printReport(converted.mesh, report);
-  judge(report, file);
-  writeAlone(converted.mesh, output);
-  print("wrote " + output);
+  reportAndWrite(converted.mesh, file, output);
 }
 
 void check(const std::string& file)
 {
   const Mesh mesh = readMesh(file);
-  const MeshReport report = reportMesh(mesh);
   print(fmt::format("{}: {}", file, mesh.title));
-  printReport(mesh, report);
-  judge(report, file);
+  reportOn(mesh, file);
 }
 
 void showExample(const std::string& file)
@@ -209,7 +152,7 @@ void takeOutput(CLI::App* line, Arguments& given)
       ->check(isName);
 }
 
-std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
+std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
 {
   CLI::App* making = app.add_subcommand("make", "Write the mesh that a recipe describes");
   making->add_option("recipe", given.recipe, "recipe, a YAML file")->required();
@@ -227,13 +170,17 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given)
   splitting->add_option("recipe", given.recipe, "recipe of joints, a YAML file")->required();
   takeOverrides(splitting, given, "joints.fault.planes.tolerance=0.01");
   takeOutput(splitting, given);
-  CLI::App* converting = app.add_subcommand("convert", "Write a mesh of Gmsh as Exodus II");
-  converting->add_option("mesh", given.file, "file of Gmsh, format 4.1")->required();
+  app.add_subcommand("blocks", "Cut a domain into blocks by joints, with openings, and mesh it");
+  CLI::App* converting =
+      app.add_subcommand("convert", "Write a mesh of Gmsh, Abaqus or CalculiX as Exodus II");
+  converting
+      ->add_option("mesh", given.file, "file of Gmsh, format 4.1, or of Abaqus or CalculiX, .inp")
+      ->required();
   takeOutput(converting, given);
   CLI::App* showing = app.add_subcommand(
       "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
   showing->add_option("file", given.file, "example.yaml")->required();
-  return {{making, [&] { make(given.recipe, given.overrides, given.output); }},
+  return {{making, [&, argv] { make(given.recipe, given.overrides, given.output, argv); }},
           {checking, [&] { check(given.file); }},
           {probing, [&] { probeMeshFile(given.file); }},
           {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
@@ -258,7 +205,7 @@ int run(int argc, char** argv)
                   ->expected(0, 1)
             : app.add_flag(references[r].option, references[r].meaning));
   Arguments given;
-  const std::vector<Command> commands = commandsOf(app, given);
+  const std::vector<Command> commands = commandsOf(app, given, argv);
   app.require_subcommand(0, 1);
   app.failure_message(
       [](const CLI::App*, const CLI::Error& error)
@@ -301,6 +248,8 @@ int main(int argc, char** argv)
   return coplane::exitCodeOf(
       [&]
       {
+        if (argc > 1 && std::string(argv[1]) == "blocks")
+          coplane::startBlocks(argv);
         coplane::demandOpenFiles();
         return coplane::run(argc, argv);
       });

@@ -2,6 +2,7 @@
 
 #include "MakeMesh.hpp"
 
+#include <coplane_core/Error.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 
 #include <gtest/gtest.h>
@@ -95,7 +96,7 @@ TEST(Shapes, aRunningBondHasHalfBricksInOddCourses)
 TEST(Shapes, touchingBricksHaveTheSameCoordinatesToTheBit)
 {
   std::set<Real> x, y;
-  for (const Body& brick : runningBond(2, {0.3, 0.1, 0}, 7, 5, {4, 3, 1}))
+  for (const Body& brick : wallOfBricks(2, Bond::Running, {0.3, 0.1, 0}, 7, 5, {4, 3, 1}))
     for (const Vec3& p : brick.points)
     {
       x.insert(p.x);
@@ -484,5 +485,144 @@ TEST(Shapes, aCylinderInTetrahedraFillsTheSameVolume)
   // Five tetrahedra of a brick near the rim are flat: that, and nothing else, is noted.
   for (const std::string& problem : meshProblems(split))
     EXPECT_NE(problem.find("has the shape"), std::string::npos) << problem;
+}
+
+/// Ends of bricks along x, by course, without those of the wall.
+static std::map<Real, std::set<Real>> jointsOfCourses(const std::vector<Body>& wall, Real length)
+{
+  std::map<Real, std::set<Real>> joints;
+  for (const Body& brick : wall)
+    for (const Vec3& end : {brick.points.front(), brick.points.back()})
+      if (end.x > 0 && end.x < length)
+        joints[brick.points.front().y].insert(end.x);
+  return joints;
+}
+
+TEST(Walls, haveNoJointAboveAnotherInBonds)
+{
+  const Vec3 brick{0.2, 0.05, 0.1};
+  for (const auto& [bond, bricks] :
+       {std::pair{Bond::Running, 5}, {Bond::English, 2}, {Bond::English, 5}, {Bond::Flemish, 7}})
+  {
+    const auto wall = wallOfBricks(3, bond, brick, 6, bricks, {8, 2, 3});
+    const auto joints = jointsOfCourses(wall, 0.2 * bricks);
+    ASSERT_EQ(joints.size(), 6u);
+    for (auto course = joints.begin(); std::next(course) != joints.end(); ++course)
+      for (const Real x : course->second)
+        EXPECT_EQ(std::next(course)->second.count(x), 0u) << int(bond) << " at " << x;
+    Real volume = 0;
+    for (const Body& body : wall)
+    {
+      const Vec3 size = body.points.back() - body.points.front();
+      volume += size.x * size.y * size.z;
+    }
+    EXPECT_NEAR(volume, 6 * 0.05 * 0.2 * bricks * (bond == Bond::Running ? 0.1 : 0.2), 1e-12);
+    // Coordinates that differed by a rounding would count twice.
+    std::set<Real> x, z;
+    for (const Body& body : wall)
+      for (const Vec3& p : body.points)
+      {
+        x.insert(p.x);
+        z.insert(p.z);
+      }
+    EXPECT_EQ(x.size(), std::size_t(8 * bricks + 1));
+    EXPECT_EQ(z.size(), bond == Bond::Running ? 4u : 7u);
+  }
+}
+
+TEST(Walls, ofBondsHaveTheBricksOfTheBond)
+{
+  // 5 bricks long: 10 stretchers; 2 headers, 2 closers, 7 headers between.
+  EXPECT_EQ(wallOfBricks(3, Bond::English, {0.2, 0.05, 0.1}, 2, 5, {4, 1, 1}).size(), 10u + 11u);
+  // 4 bricks: 3 pairs of stretchers and 2 headers; 2 headers, 2 closers, 2 pairs, a header.
+  EXPECT_EQ(wallOfBricks(3, Bond::Flemish, {0.2, 0.05, 0.1}, 2, 4, {4, 1, 1}).size(), 8u + 9u);
+  EXPECT_EQ(wallOfBricks(2, Bond::Stack, {0.2, 0.05, 0}, 3, 4, {4, 1, 1}).size(), 12u);
+}
+
+TEST(Walls, haveOpenings)
+{
+  const MeshReport report = reportOf(
+      "{dimension: 2, parts: [{shape: wall, block: w, brick: [0.2, 0.1], courses: 10, "
+      "length_in_bricks: 10, divisions: [4, 2], openings: [{x: [0.55, 1.23], courses: [3, 6]}, {x: "
+      "[1.5, 2.5], courses: [9, 10]}]}]}");
+  EXPECT_NEAR(report.blocks[0].volume, 2 - 0.68 * 0.4 - 0.5 * 0.2, 1e-13);
+  EXPECT_TRUE(meshProblems(report).empty());
+}
+
+TEST(Walls, areRefusedInClearWords)
+{
+  const auto refusal = [](const std::string& keys, int dimension = 3)
+  {
+    try
+    {
+      makeMeshFromText(fmt::format("{{dimension: {}, parts: [{{shape: wall, block: w, courses: 4, "
+                                   "{}}}]}}",
+                                   dimension, keys),
+                       "test.yaml");
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  const std::string brick = "brick: [0.2, 0.05, 0.1], divisions: [4, 1, 1], ";
+  contains(refusal(brick + "length_in_bricks: 5, bond: flemish"), "4, 7, 10");
+  contains(refusal(brick + "length_in_bricks: 1, bond: english"), "2 or more");
+  contains(refusal("brick: [0.2, 0.05, 0.09], divisions: [4, 1, 1], length_in_bricks: 5, bond: "
+                   "english"),
+           "half the length");
+  contains(refusal("brick: [0.2, 0.05, 0.1], divisions: [6, 1, 1], length_in_bricks: 5, bond: "
+                   "english"),
+           "multiple of 4");
+  contains(refusal("brick: [0.2, 0.05], divisions: [4, 1], length_in_bricks: 5, bond: english", 2),
+           "three dimensions");
+  contains(refusal(brick + "length_in_bricks: 5, openings: {x: [0.2, 0.4], courses: [2, 7]}"),
+           "the wall has 4");
+}
+
+TEST(Vaults, fillTheRingOfTheirSectors)
+{
+  const auto stones = barrelVault(2, 2.4, 0, 180, 7, 3, 4, {2, 3, 4});
+  // 4 and 5 stones in turn.
+  EXPECT_EQ(stones.size(), std::size_t(4 * 4 + 3 * 5));
+  std::set<Real> z;
+  std::set<std::array<Real, 3>> places;
+  for (const Body& stone : stones)
+    for (const Vec3& p : stone.points)
+    {
+      z.insert(p.z);
+      places.insert({p.x, p.y, p.z});
+    }
+  EXPECT_EQ(z.size(), 17u);
+  // Nodes of the whole grid: what touches has the same coordinates.
+  EXPECT_EQ(places.size(), std::size_t(3 * 22 * 17));
+}
+
+TEST(Domes, fillTheirShell)
+{
+  Real before = 1;
+  for (const int n : {2, 4, 8})
+  {
+    const MeshReport report = reportOf(fmt::format(
+        "{{dimension: 3, parts: [{{shape: dome, block: d, inner_radius: 4, outer_radius: 4.4, "
+        "from: 0, to: 75, courses: 5, count: 12, divisions: [1, {}, {}]}}]}}",
+        n, n));
+    EXPECT_EQ(report.bodies, 60);
+    EXPECT_TRUE(meshProblems(report).empty());
+    const Real shell = 2 * pi * std::sin(75 * pi / 180) * (std::pow(4.4, 3) - 64) / 3;
+    const Real error = 1 - report.blocks[0].volume / shell;
+    EXPECT_GT(error, 0);
+    EXPECT_LT(error, 0.3 * before); // of second order
+    before = error;
+  }
+  EXPECT_LT(before, 2e-3);
+  std::set<std::array<Real, 3>> places;
+  for (const Body& stone : dome(4, 4.4, 0, 75, 5, 12, {1, 2, 4}))
+    for (const Vec3& p : stone.points)
+      places.insert({p.x, p.y, p.z});
+  EXPECT_EQ(places.size(), std::size_t(2 * 11 * 48));
 }
 } // namespace coplane

@@ -176,7 +176,7 @@ refused("a normal along z", {"{type: fixed, node_set: base}": "{type: symmetry, 
 # --- files ---------------------------------------------------------------------------------------------------------
 for ending, words in {
     "msh": "coplane_mesh convert bar.msh --output bar.e",
-    "inp": "save the mesh as Exodus II in the program that made it, or as .msh 4.1 of Gmsh",
+    "inp": "coplane_mesh convert bar.inp --output bar.e",
     "k": "save the mesh as Exodus II in the program that made it, or as .msh 4.1 of Gmsh",
     "vtk": "save the mesh as Exodus II in the program that made it, or as .msh 4.1 of Gmsh",
     "stl": "surfaces, not elements",
@@ -201,7 +201,9 @@ typed("the mesh for a deck", "mesh.e", "mesh.e: this is a mesh or results (Exodu
 typed("the recipe for a deck", "bar.yaml", "bar.yaml: this is a recipe of a mesh, for coplane_mesh make", code=DECK, files={"bar.yaml": "dimension: 2\nparts: []\n"})
 typed("a deck for coplane_mesh", "make run.yaml --output bar.e", "run.yaml: this is a deck of coplane", code=DECK, program="coplane_mesh")
 typed("a deck for coplane_point", "run.yaml", "run.yaml: this is a deck of coplane", code=DECK, program="coplane_point")
-typed("a file of Abaqus for convert", "convert bar.inp --output bar.e", "bar.inp", "no mesh of Gmsh", code=MESH, program="coplane_mesh", files={"bar.inp": "*NODE\n"})
+typed("a file of Nastran for convert", "convert bar.bdf --output bar.e", "bar.bdf", "no mesh of Gmsh", code=MESH, program="coplane_mesh", files={"bar.bdf": "GRID\n"})
+typed("quadratic elements of Abaqus", "convert bar.inp --output bar.e", "bar.inp:3", "C3D20R", "first-order", code=MESH, program="coplane_mesh",
+      files={"bar.inp": "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D20R\n"})
 
 # --- recipes of meshes ---------------------------------------------------------------------------------------------
 recipe = (pathlib.Path(__file__).parent / "mesh.yaml").read_text()

@@ -114,6 +114,10 @@ std::string wayToExodus(const std::string& file)
   if (is({".msh"}))
     return fmt::format("It seems to come from Gmsh: coplane_mesh convert {} --output {}", file,
                        mesh);
+  if (is({".inp"}))
+    return fmt::format("It seems to come from Abaqus or CalculiX: coplane_mesh convert {} --output "
+                       "{}",
+                       file, mesh);
   if (is({".yaml", ".yml"}))
     return fmt::format("A recipe becomes a mesh with coplane_mesh make {} --output {}", file, mesh);
   if (is({".geo"}))
@@ -122,10 +126,10 @@ std::string wayToExodus(const std::string& file)
         "convert {} --output {}",
         std::filesystem::path(file).replace_extension(".msh").string(), mesh);
   if (is({".stl", ".step", ".stp", ".iges", ".igs", ".obj", ".brep"}))
-    return "It describes surfaces, not elements: mesh it, in Gmsh for example, and save that as "
-           ".msh "
-           "4.1 for coplane_mesh convert, or as Exodus II";
-  if (is({".inp", ".k", ".key", ".bdf", ".nas", ".cdb", ".unv", ".med", ".vtk", ".vtu", ".f3grid"}))
+    return "It describes surfaces, not elements: coplane_mesh blocks cuts and meshes what STL, OBJ "
+           "and PLY enclose; or mesh it in Gmsh, for example, and save that as .msh 4.1 for "
+           "coplane_mesh convert, or as Exodus II";
+  if (is({".k", ".key", ".bdf", ".nas", ".cdb", ".unv", ".med", ".vtk", ".vtu", ".f3grid"}))
     return "Coplane does not read this kind: save the mesh as Exodus II in the program that made "
            "it, "
            "or as .msh 4.1 of Gmsh for coplane_mesh convert";

@@ -1,0 +1,681 @@
+#include "CutBlocks.hpp"
+
+#include "JointSurfaces.hpp"
+#include "ShapeModel.hpp"
+#include "SolidFile.hpp"
+#include "VoronoiCells.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <gmsh.h>
+#include <map>
+#include <set>
+
+namespace coplane
+{
+namespace
+{
+namespace occ = gmsh::model::occ;
+using Entity = std::pair<int, int>; ///< dimension and tag, as Gmsh has them
+using Entities = std::vector<Entity>;
+
+/// Gmsh as long as one mesh is made: silent, and with the same result every time.
+class Session
+{
+public:
+  Session()
+  {
+    gmsh::initialize();
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);
+    gmsh::option::setNumber("Geometry.OCCParallel", 0);
+    gmsh::option::setNumber("Mesh.RandomSeed", 1);
+    gmsh::option::setNumber("Mesh.Smoothing", 0); // it has moved nodes across joints that end
+    gmsh::model::add("blocks");
+  }
+  ~Session() { gmsh::finalize(); }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+};
+
+int addPolygon(const std::vector<Vec3>& corners)
+{
+  std::vector<int> points, lines;
+  for (const Vec3& corner : corners)
+    points.push_back(occ::addPoint(corner.x, corner.y, corner.z));
+  for (std::size_t k = 0; k < points.size(); ++k)
+    lines.push_back(occ::addLine(points[k], points[(k + 1) % points.size()]));
+  return occ::addPlaneSurface({occ::addCurveLoop(lines)});
+}
+
+int addSolid(const Polyhedron& solid)
+{
+  std::vector<int> points, faces;
+  for (const Vec3& x : solid.points)
+    points.push_back(occ::addPoint(x.x, x.y, x.z));
+  std::map<std::pair<int, int>, int> lines; // both ways round
+  for (const std::vector<int>& face : solid.faces)
+  {
+    std::vector<int> loop;
+    for (std::size_t k = 0; k < face.size(); ++k)
+    {
+      const int a = points[std::size_t(face[k])],
+                b = points[std::size_t(face[(k + 1) % face.size()])];
+      if (!lines.count({a, b}))
+      {
+        lines[{a, b}] = occ::addLine(a, b);
+        lines[{b, a}] = -lines[{a, b}];
+      }
+      loop.push_back(lines[{a, b}]);
+    }
+    faces.push_back(occ::addPlaneSurface({occ::addCurveLoop(loop)}));
+  }
+  return occ::addVolume({occ::addSurfaceLoop(faces)});
+}
+
+/// Cuts one domain.
+class Cutter
+{
+public:
+  Cutter(const BlocksRecipe& recipe, const std::string& recipeFile)
+      : recipe_(recipe), recipeFile_(recipeFile), dimension_(recipe.dimension)
+  {
+    size_ = recipe.elements.size;
+    leastVolume_ =
+        recipe.slivers.volume >= 0 ? recipe.slivers.volume : std::pow(size_ / 2, dimension_);
+    leastStub_ = recipe.slivers.stub >= 0 ? recipe.slivers.stub : size_ / 2;
+    leastThickness_ = recipe.slivers.thickness >= 0 ? recipe.slivers.thickness : size_ / 10;
+  }
+
+  CutDomain cut()
+  {
+    addDomain();
+    for (const OpeningCard& opening : recipe_.openings)
+      addOpening(opening);
+    addJoints();
+    fragment();
+    for (int round = 0; round < 20 && joinSlivers(); ++round)
+      fragment();
+    removeOpenings();
+    nameEntities();
+    mesh();
+    return std::move(result_);
+  }
+
+private:
+  /// An opening or the domain, as bodies of the geometry.
+  struct Body
+  {
+    int opening = -1; ///< position in the recipe; -1: the domain
+    Entity entity;
+  };
+
+  void addDomain()
+  {
+    const DomainCard& card = recipe_.domain;
+    if (!card.box.min.empty())
+    {
+      low_ = toVec3(card.box.min);
+      high_ = toVec3(card.box.max);
+      const Vec3 d = high_ - low_;
+      addBody(-1, dimension_ == 2 ? occ::addRectangle(low_.x, low_.y, 0, d.x, d.y)
+                                  : occ::addBox(low_.x, low_.y, low_.z, d.x, d.y, d.z));
+      return;
+    }
+    low_ = {infinity, infinity, infinity};
+    high_ = -low_;
+    const auto widen = [&](const std::vector<Vec3>& points)
+    {
+      for (const Vec3& x : points)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          low_[axis] = std::min(low_[axis], x[axis]);
+          high_[axis] = std::max(high_[axis], x[axis]);
+        }
+    };
+    if (!card.polygon.empty())
+    {
+      widen(toPoints(card.polygon));
+      return addBody(-1, addPolygon(toPoints(card.polygon)));
+    }
+    const auto file = std::filesystem::path(recipeFile_).parent_path() / card.file;
+    for (const Polyhedron& solid : readSolids(file.string()))
+    {
+      widen(solid.points);
+      addBody(-1, addSolid(solid));
+    }
+  }
+
+  void addBody(int opening, int tag) { bodies_.push_back({opening, {dimension_, tag}}); }
+
+  /// The corners of a section: to the right and upward.
+  static std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
+  {
+    std::vector<std::array<Real, 2>> corners;
+    const auto addArc = [&](Real radius, Real height, Real from, Real to, bool withEnd)
+    {
+      const int parts = std::max(6, int(std::ceil((to - from) * radius / size)));
+      for (int k = 0; k < parts + (withEnd ? 1 : 0); ++k)
+      {
+        const Real angle = from + (to - from) * k / parts;
+        corners.push_back({radius * std::cos(angle), height + radius * std::sin(angle)});
+      }
+    };
+    if (card.circle > 0)
+      addArc(card.circle, 0, 0, 2 * pi, false);
+    else if (!card.horseshoe.empty())
+    {
+      const Real half = card.horseshoe[0] / 2;
+      corners.push_back({-half, 0});
+      corners.push_back({half, 0});
+      addArc(half, card.horseshoe[1] - half, 0, pi, true);
+    }
+    else
+      for (const std::vector<Real>& corner : card.polygon)
+        corners.push_back({corner[0], corner[1]});
+    return corners;
+  }
+
+  void addOpening(const OpeningCard& card)
+  {
+    const int number = int(&card - recipe_.openings.data());
+    Vec3 origin, right{1, 0, 0}, upward{0, 1, 0}, along{};
+    if (dimension_ == 2)
+      origin = toVec3(card.at);
+    else
+    {
+      origin = toVec3(card.path[0]);
+      along = toVec3(card.path[1]) - origin;
+      right = cross(along, recipe_.up);
+      if (!(norm(right) > 1e-6 * norm(along) * norm(recipe_.up)))
+        fail(ExitCode::Deck,
+             "{}: openings.{}.path is upright, or has no length; a section needs a direction "
+             "that is not `up`.",
+             recipeFile_, card.name);
+      right = normalised(right);
+      upward = normalised(cross(right, along));
+    }
+    std::vector<Vec3> corners;
+    for (const auto& [s, t] : sectionOf(card, card.elementSize > 0 ? card.elementSize : size_))
+      corners.push_back(origin + s * right + t * upward);
+    int tag = addPolygon(corners);
+    if (dimension_ == 3)
+    {
+      Entities swept;
+      occ::extrude({{2, tag}}, along.x, along.y, along.z, swept);
+      for (const Entity& entity : swept)
+        if (entity.first == 3)
+          tag = entity.second;
+      // Lower ends of an extrusion are the section itself, which stays part of the volume.
+    }
+    addBody(number, tag);
+  }
+
+  void addJoints()
+  {
+    Problems problems;
+    std::vector<JointSurface> surfaces = jointSurfaces(recipe_, recipeFile_, low_, high_, problems);
+    if (!problems.empty())
+      throw Error(ExitCode::Deck, problems.text());
+    for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
+    {
+      result_.joints.push_back({recipe_.joints[j].name, 0});
+      if (const VoronoiCard& card = recipe_.joints[j].voronoi; card.cells > 0)
+        for (const JointSurface& surface :
+             voronoiSurfaces(card, int(j), recipe_.seed, dimension_, low_, high_))
+          surfaces.push_back(surface);
+    }
+    if (!recipe_.domain.joint.empty())
+      result_.joints.push_back({recipe_.domain.joint, 0});
+    std::stable_sort(surfaces.begin(), surfaces.end(),
+                     [](const auto& a, const auto& b) { return a.joint < b.joint; });
+    Entities tools;
+    std::vector<int> joints;
+    for (const JointSurface& surface : surfaces)
+    {
+      if (dimension_ == 3)
+        tools.push_back({2, addPolygon(surface.corners)});
+      else
+        tools.push_back(
+            {1, occ::addLine(addPoint(surface.corners[0]), addPoint(surface.corners[1]))});
+      joints.push_back(surface.joint);
+    }
+    if (tools.empty())
+      return;
+    // Only what lies inside, so that nothing hangs about outside.
+    Entities domain, inside;
+    for (const Body& body : bodies_)
+      if (body.opening < 0)
+        domain.push_back(body.entity);
+    std::vector<Entities> pieces;
+    occ::intersect(tools, domain, inside, pieces, -1, true, false);
+    std::set<Entity> taken;
+    for (std::size_t t = 0; t < tools.size(); ++t)
+      for (const Entity& piece : pieces[t])
+        if (piece.first == dimension_ - 1 && taken.insert(piece).second)
+          pieces_[piece] = joints[t];
+    for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
+      if (std::none_of(pieces_.begin(), pieces_.end(),
+                       [&](const auto& piece) { return piece.second == int(j); }))
+        refuseJoint(j);
+  }
+
+  static int addPoint(const Vec3& x) { return occ::addPoint(x.x, x.y, x.z); }
+
+  /// Makes bodies and joints conform; `bodies_` stay as they are, for another time.
+  void fragment()
+  {
+    Entities objects, tools, all;
+    for (const Body& body : bodies_)
+    {
+      Entities copy;
+      occ::copy({body.entity}, copy);
+      objects.push_back(copy.at(0));
+    }
+    for (const auto& [piece, joint] : pieces_)
+      tools.push_back(piece);
+    if (tools.empty()) // Gmsh wants some
+    {
+      tools.assign(objects.begin() + 1, objects.end());
+      objects.resize(1);
+    }
+    if (tools.empty())
+      refuseJoint(result_.joints.size() - 1);
+    std::vector<Entities> parts;
+    occ::fragment(objects, tools, all, parts);
+    blocks_.clear();
+    // A part of the domain that is also one of an opening belongs to the first opening; what an
+    // opening has outside of the domain is no part of the model.
+    std::map<Entity, int> openingOf;
+    std::set<Entity> inDomain;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      for (const Entity& part : parts[b])
+        if (bodies_[b].opening < 0)
+          inDomain.insert(part);
+        else
+          openingOf.insert({part, bodies_[b].opening});
+    Entities outside;
+    for (const auto& [part, opening] : openingOf)
+      if (!inDomain.count(part))
+        outside.push_back(part);
+    for (const Entity& part : inDomain)
+    {
+      const auto opening = openingOf.find(part);
+      blocks_[part] = opening == openingOf.end() ? -1 : opening->second;
+    }
+    std::map<Entity, int> pieces;
+    std::size_t t = bodies_.size();
+    for (const auto& [piece, joint] : pieces_)
+      for (const Entity& part : parts[t++])
+      {
+        const auto [place, isNew] = pieces.insert({part, joint});
+        if (!isNew)
+          place->second = std::min(place->second, joint);
+      }
+    pieces_ = std::move(pieces);
+    occ::remove(outside, true);
+    occ::synchronize();
+    if (!recipe_.domain.joint.empty())
+      addBordersOfSolids(parts);
+  }
+
+  /// Where solids of a file touch is a joint as well, unless one of the recipe has the place.
+  void addBordersOfSolids(const std::vector<Entities>& parts)
+  {
+    std::map<int, std::size_t> solidOf;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (bodies_[b].opening < 0)
+        for (const Entity& part : parts[b])
+          solidOf.insert({part.second, b});
+    for (const auto& [block, opening] : blocks_)
+      for (const int face : facesOf(block))
+      {
+        const std::vector<int> sides = blocksAt(face);
+        if (sides.size() == 2 && solidOf[sides[0]] != solidOf[sides[1]])
+          pieces_.insert({{dimension_ - 1, face}, int(recipe_.joints.size())});
+      }
+  }
+
+  std::vector<int> facesOf(const Entity& block) const
+  {
+    std::vector<int> above, below;
+    gmsh::model::getAdjacencies(block.first, block.second, above, below);
+    return below;
+  }
+
+  std::vector<int> blocksAt(int face) const
+  {
+    std::vector<int> above, below;
+    gmsh::model::getAdjacencies(dimension_ - 1, face, above, below);
+    return above;
+  }
+
+  static Real measureOf(const Entity& entity)
+  {
+    double measure = 0;
+    occ::getMass(entity.first, entity.second, measure);
+    return measure;
+  }
+
+  bool isRemoved(const Entity& block) const
+  {
+    const int opening = blocks_.at(block);
+    return opening >= 0 && !recipe_.openings[std::size_t(opening)].keep;
+  }
+
+  bool isSliver(const Entity& block) const
+  {
+    const Real volume = measureOf(block);
+    Real largest = 0;
+    for (const int face : facesOf(block))
+      largest = std::max(largest, measureOf({dimension_ - 1, face}));
+    return volume < leastVolume_ || volume < leastThickness_ * largest;
+  }
+
+  /// Faces of joints that end inside of blocks.
+  std::set<int> loosePieces() const
+  {
+    std::set<int> loose;
+    for (const auto& [block, opening] : blocks_)
+    {
+      Entities embedded;
+      gmsh::model::mesh::getEmbedded(block.first, block.second, embedded);
+      for (const Entity& entity : embedded)
+        if (entity.first == dimension_ - 1)
+          loose.insert(entity.second);
+    }
+    return loose;
+  }
+
+  /// Whether a piece reaches less than the least length into its block: a short end beyond another
+  /// joint.
+  bool isStub(int face) const
+  {
+    const Real measure = measureOf({dimension_ - 1, face});
+    if (dimension_ == 2)
+      return measure < leastStub_;
+    Real longest = 0;
+    for (const int curve : facesOf({2, face}))
+      longest = std::max(longest, measureOf({1, curve}));
+    return measure < leastStub_ * longest;
+  }
+
+  /// Takes the joints away between slivers and their neighbours, and all bodies, which are then
+  /// made anew. Returns whether there was something to do.
+  bool joinSlivers()
+  {
+    std::vector<std::pair<Real, Entity>> slivers;
+    for (const auto& [block, opening] : blocks_)
+      if (!isRemoved(block) && isSliver(block))
+        slivers.push_back({measureOf(block), block});
+    std::sort(slivers.begin(), slivers.end());
+    std::set<int> touched;
+    std::set<Entity> dropped;
+    for (const int face : loosePieces())
+      if (isStub(face))
+        dropped.insert({dimension_ - 1, face});
+    result_.stubs += int(dropped.size());
+    result_.slivers = 0;
+    for (const auto& [volume, block] : slivers)
+    {
+      std::map<int, Real> borderOf; // by the neighbour
+      std::map<int, std::vector<Entity>> facesTo;
+      for (const int face : facesOf(block))
+        for (const int other : blocksAt(face))
+          if (other != block.second && pieces_.count({dimension_ - 1, face}) &&
+              blocks_.at({dimension_, other}) == blocks_.at(block))
+          {
+            borderOf[other] += measureOf({dimension_ - 1, face});
+            facesTo[other].push_back({dimension_ - 1, face});
+          }
+      const auto largest =
+          std::max_element(borderOf.begin(), borderOf.end(),
+                           [](const auto& a, const auto& b) { return a.second < b.second; });
+      if (largest == borderOf.end())
+      {
+        ++result_.slivers;
+        continue;
+      }
+      if (touched.count(block.second) || touched.count(largest->first))
+        continue; // next round
+      touched.insert({block.second, largest->first});
+      ++result_.joined;
+      dropped.insert(facesTo[largest->first].begin(), facesTo[largest->first].end());
+    }
+    if (dropped.empty())
+      return false;
+    for (const Entity& piece : dropped)
+      pieces_.erase(piece);
+    Entities blocks, faces;
+    for (const auto& [block, opening] : blocks_)
+    {
+      blocks.push_back(block);
+      for (const int face : facesOf(block))
+        if (!pieces_.count({dimension_ - 1, face}))
+          faces.push_back({dimension_ - 1, face});
+    }
+    occ::remove(blocks, false);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    occ::remove(faces, true);
+    return true;
+  }
+
+  void removeOpenings()
+  {
+    Entities removed;
+    for (const auto& [block, opening] : blocks_)
+    {
+      if (opening >= 0 && recipe_.openings[std::size_t(opening)].elementSize > 0)
+        for (const int face : facesOf(block))
+        {
+          const std::vector<int> sides = blocksAt(face);
+          if (sides.size() == 2 &&
+              blocks_.at({dimension_, sides[0]}) != blocks_.at({dimension_, sides[1]}))
+            walls_[opening].push_back(face);
+        }
+      if (isRemoved(block))
+        removed.push_back(block);
+    }
+    for (const Body& body : bodies_)
+      removed.push_back(body.entity);
+    for (const Entity& block : removed)
+      blocks_.erase(block);
+    occ::remove(removed, true);
+    occ::synchronize();
+    if (blocks_.empty())
+      fail(ExitCode::Deck, "{}: the openings leave nothing of the domain.", recipeFile_);
+    forgetPiecesInOpenings();
+  }
+
+  /// Parts of joints that are in what was removed, which took most of them along.
+  void forgetPiecesInOpenings()
+  {
+    Entities left, loose;
+    gmsh::model::getEntities(left, dimension_ - 1);
+    const std::set<Entity> there(left.begin(), left.end());
+    const std::set<int> inside = loosePieces();
+    for (auto piece = pieces_.begin(); piece != pieces_.end();)
+    {
+      const bool exists = there.count(piece->first) > 0;
+      if (exists && (inside.count(piece->first.second) || !blocksAt(piece->first.second).empty()))
+      {
+        ++piece;
+        continue;
+      }
+      if (exists)
+        loose.push_back(piece->first);
+      piece = pieces_.erase(piece);
+    }
+    occ::remove(loose, true);
+    occ::synchronize();
+  }
+
+  void nameEntities()
+  {
+    std::map<std::string, std::vector<int>> blocks;
+    const std::set<int> inside = loosePieces();
+    for (const auto& [block, opening] : blocks_)
+    {
+      blocks[opening < 0 ? recipe_.domain.block : recipe_.openings[std::size_t(opening)].name]
+          .push_back(block.second);
+      result_.blockVolumes.push_back(measureOf(block));
+    }
+    for (const auto& [name, tags] : blocks)
+      addGroup(dimension_, tags, name);
+    std::vector<std::vector<int>> faces(result_.joints.size());
+    for (const auto& [piece, joint] : pieces_)
+      if (inside.count(piece.second) || blocksAt(piece.second).size() == 2)
+      {
+        faces[std::size_t(joint)].push_back(piece.second);
+        result_.joints[std::size_t(joint)].area += measureOf(piece);
+      }
+    for (std::size_t j = 0; j < faces.size(); ++j)
+    {
+      if (faces[j].empty())
+        refuseJoint(j);
+      addGroup(dimension_ - 1, faces[j], result_.joints[j].name);
+    }
+  }
+
+  [[noreturn]] void refuseJoint(std::size_t joint) const
+  {
+    fail(ExitCode::Deck,
+         "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
+         "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m{}.",
+         recipeFile_, result_.joints[joint].name, low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
+         result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
+  }
+
+  void addGroup(int dimension, const std::vector<int>& tags, const std::string& name)
+  {
+    const int number = gmsh::model::addPhysicalGroup(dimension, tags);
+    gmsh::model::setPhysicalName(dimension, number, name);
+    result_.mesh.physicalNames[{dimension, number}] = name;
+    for (const int tag : tags)
+      result_.mesh.physicalsOfEntity[{dimension, tag}] = {number};
+  }
+
+  /// Sizes: that of elements, and near openings their own, growing with the distance.
+  void setSizes(Real factor)
+  {
+    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
+    gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
+    gmsh::option::setNumber("Mesh.MeshSizeMax", size_ * factor);
+    std::vector<double> fields;
+    for (const auto& [opening, faces] : walls_)
+    {
+      const int distance = gmsh::model::mesh::field::add("Distance");
+      std::vector<double> tags(faces.begin(), faces.end());
+      gmsh::model::mesh::field::setNumbers(distance,
+                                           dimension_ == 2 ? "CurvesList" : "SurfacesList", tags);
+      gmsh::model::mesh::field::setNumber(distance, "NumPointsPerCurve", 40);
+      const int size = gmsh::model::mesh::field::add("MathEval");
+      gmsh::model::mesh::field::setString(
+          size, "F",
+          fmt::format("{:.17g} + {:.17g} * F{}",
+                      factor * recipe_.openings[std::size_t(opening)].elementSize,
+                      recipe_.elements.growth, distance));
+      fields.push_back(size);
+    }
+    if (fields.empty())
+      return;
+    const int least = gmsh::model::mesh::field::add("Min");
+    gmsh::model::mesh::field::setNumbers(least, "FieldsList", fields);
+    gmsh::model::mesh::field::setAsBackgroundMesh(least);
+  }
+
+  void mesh()
+  {
+    const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
+    setSizes(cubes ? 2 : 1); // each element is cut in half along its edges
+    if (cubes)
+      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", dimension_ == 2 ? 1 : 2);
+    gmsh::model::mesh::generate(dimension_);
+    readNodes();
+    GlobalId next = 0;
+    for (int d = dimension_; d >= dimension_ - 1; --d)
+      for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
+        if (entity.first == d)
+          readElements(entity, next);
+  }
+
+  void readNodes()
+  {
+    std::vector<std::size_t> tags;
+    std::vector<double> places, parameters;
+    gmsh::model::mesh::getNodes(tags, places, parameters);
+    std::map<std::size_t, Vec3> sorted;
+    for (std::size_t n = 0; n < tags.size(); ++n)
+      sorted[tags[n]] = {places[3 * n], places[3 * n + 1], places[3 * n + 2]};
+    for (const auto& [tag, place] : sorted)
+    {
+      nodeOfTag_[tag] = int(result_.mesh.nodeIds.size());
+      result_.mesh.nodeIds.push_back(GlobalId(result_.mesh.nodeIds.size()) + 1);
+      result_.mesh.coordinates.push_back(place);
+    }
+  }
+
+  void readElements(const Entity& entity, GlobalId& next)
+  {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> tags, nodes;
+    gmsh::model::mesh::getElements(types, tags, nodes, entity.first, entity.second);
+    for (std::size_t k = 0; k < types.size(); ++k)
+    {
+      const std::size_t perElement = nodesOfGmshType(types[k]);
+      if (perElement == 0)
+        fail(ExitCode::Mesh, "Gmsh has made elements of its type {}, which cannot be used.",
+             types[k]);
+      for (std::size_t e = 0; e < tags[k].size(); ++e)
+      {
+        GmshFile::Element element;
+        element.entity = entity;
+        element.type = types[k];
+        element.id = ++next;
+        for (std::size_t n = 0; n < perElement; ++n)
+          element.nodes[n] = nodeOfTag_.at(nodes[k][e * perElement + n]);
+        result_.mesh.elements.push_back(element);
+      }
+    }
+  }
+
+  const BlocksRecipe& recipe_;
+  const std::string& recipeFile_;
+  int dimension_;
+  Real size_, leastVolume_, leastThickness_, leastStub_;
+  Vec3 low_{}, high_{};
+  std::vector<Body> bodies_;
+  std::map<Entity, int> pieces_;          ///< parts of joints, and whose
+  std::map<Entity, int> blocks_;          ///< and the opening they are in; -1: none
+  std::map<int, std::vector<int>> walls_; ///< faces of openings with element sizes of their own
+  std::map<std::size_t, int> nodeOfTag_;
+  CutDomain result_;
+};
+} // namespace
+
+CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
+{
+  const Session session;
+  try
+  {
+    return Cutter(recipe, recipeFile).cut();
+  }
+  catch (const Error&)
+  {
+    throw;
+  }
+  catch (...) // Gmsh throws whatever it likes; its words are in its log
+  {
+    std::string last;
+    gmsh::logger::getLastError(last);
+    fail(ExitCode::Mesh,
+         "{}: Gmsh cannot cut or mesh this: {}. Larger slivers.volume or slivers.thickness, or "
+         "another elements.size, often help.",
+         recipeFile, last);
+  }
+}
+} // namespace coplane

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "BlocksRecipe.hpp"
+#include "GmshFile.hpp"
+
+#include <string>
+#include <vector>
+
+namespace coplane
+{
+/// A conforming mesh of a domain that joints cut: physical groups of the highest dimension are its
+/// element blocks, those below the faces of the joints inside.
+struct CutDomain
+{
+  struct Joint
+  {
+    std::string name;
+    Real area = 0; ///< of its faces inside the domain [m^2; 2D: m]
+  };
+  GmshFile mesh;
+  std::vector<Joint> joints;      ///< by the order of the recipe; then that between solids
+  std::vector<Real> blockVolumes; ///< [m^3; 2D: m^2]
+  int joined = 0;                 ///< slivers that became part of a neighbour
+  int stubs = 0;                  ///< ends of joints that were left out
+  int slivers = 0;                ///< those that have stayed, without a joint to be left out
+};
+
+/// Cuts and meshes with Gmsh. Throws Error(ExitCode::Deck) for what the recipe says wrong,
+/// Error(ExitCode::Mesh) for what Gmsh cannot do.
+CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile);
+} // namespace coplane

@@ -1,0 +1,145 @@
+#include "AbaqusFile.hpp"
+#include "ConvertGmsh.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_exodus/MeshReport.hpp>
+
+#include <gtest/gtest.h>
+
+#include <TestFolder.hpp>
+#include <algorithm>
+
+namespace coplane
+{
+namespace
+{
+Mesh meshOf(const std::string& text, std::vector<std::string>* notes = nullptr)
+{
+  const TestFolder folder(Comm::alone());
+  const std::string file = folder / "model.inp";
+  std::ofstream(file) << text;
+  const AbaqusFile read = readAbaqusFile(file);
+  if (notes)
+    *notes = read.notes;
+  return convertGmsh(read.mesh, "model.inp").mesh;
+}
+
+std::string errorOf(const std::string& text)
+{
+  try
+  {
+    meshOf(text);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Mesh);
+    return error.what();
+  }
+  return "accepted";
+}
+
+/// Two cubes along x, with the nodes 1 to 12.
+const std::string twoCubes =
+    "*HEADING\ntwo cubes\n** a comment\n*Node, nset=ALL\n"
+    "1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1., "
+    "1.0E0\n9, 2, 0, 0\n10, 2, 1, 0\n11, 2, 0, 1\n12, 2, 1, 1\n"
+    "*Element, type=C3D8R,\n elset=left\n1, 1, 2, 3, 4,\n 5, 6, 7, 8\n"
+    "*ELEMENT, TYPE=C3D8, ELSET=right\n2, 2, 9, 10, 3, 6, 11, 12, 7\n";
+
+TEST(Abaqus, setsOfElementsAreBlocks)
+{
+  const Mesh mesh = meshOf(twoCubes);
+  ASSERT_EQ(mesh.blocks.size(), 2u);
+  EXPECT_EQ(mesh.blocks[0].name, "left");
+  EXPECT_EQ(mesh.blocks[1].name, "right");
+  EXPECT_EQ(mesh.nodes(), 12);
+  const MeshReport report = reportMesh(mesh);
+  EXPECT_EQ(report.bodies, 1);
+  EXPECT_NEAR(report.blocks[0].volume, 1, 1e-15);
+  ASSERT_EQ(mesh.nodeSets.size(), 1u);
+  EXPECT_EQ(mesh.nodeSets[0].name, "ALL");
+  EXPECT_EQ(mesh.nodeSets[0].nodes.size(), 12u);
+}
+
+TEST(Abaqus, sectionsAreBlocksWhereThereAreSome)
+{
+  std::vector<std::string> notes;
+  const Mesh mesh = meshOf(twoCubes + "*ELSET, ELSET=whole, GENERATE\n1, 2\n*SOLID SECTION, "
+                                      "ELSET=whole, MATERIAL=steel\n1.0\n",
+                           &notes);
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_EQ(mesh.blocks[0].name, "whole");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("left, right"), std::string::npos) << notes[0];
+}
+
+/// Every face of every shape: its outward normal shows that it is the one that Abaqus means.
+TEST(Abaqus, facesOfSurfacesAreThoseOfTheManual)
+{
+  std::string surfaces;
+  for (int face = 1; face <= 6; ++face)
+    surfaces += fmt::format("*SURFACE, NAME=s{0}\n1, S{0}\n", face);
+  const Mesh mesh = meshOf(twoCubes + surfaces + "*NSET, NSET=base\n1, 2, 3, 4\n");
+  ASSERT_EQ(mesh.sideSets.size(), 6u);
+  // S1: nodes 1-2-3-4 below, S2: 5-8-7-6 above, S3: 1-5-6-2, S4: 2-6-7-3, S5: 3-7-8-4, S6: 4-8-5-1.
+  const std::vector<std::vector<int>> nodes{{1, 2, 3, 4}, {5, 6, 7, 8}, {1, 2, 5, 6},
+                                            {2, 3, 6, 7}, {3, 4, 7, 8}, {1, 4, 5, 8}};
+  for (int face = 0; face < 6; ++face)
+  {
+    const Mesh::SideSet& set = mesh.sideSets[std::size_t(face)];
+    EXPECT_EQ(set.name, fmt::format("s{}", face + 1));
+    // S4 is between the cubes and counts from both sides.
+    ASSERT_EQ(set.elements.size(), face == 3 ? 2u : 1u);
+    const ElementTopology& hex = topology(ElementType::Hex8);
+    std::vector<int> found;
+    for (int k = 0; k < 4; ++k)
+      found.push_back(mesh.blocks[0].connectivity[std::size_t(hex.sideNodes[set.sides[0]][k])] + 1);
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, nodes[std::size_t(face)]) << face;
+  }
+}
+
+TEST(Abaqus, planeShapesAndSurfacesOfSetsAreRead)
+{
+  const Mesh mesh =
+      meshOf("*NODE\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n5,2,0\n*ELEMENT,TYPE=CPE4R,ELSET=a\n"
+             "1,1,2,3,4\n*ELEMENT,TYPE=CPS3,ELSET=b\n7,2,5,3\n*ELSET,ELSET=both\nA,b\n"
+             "*SURFACE,NAME=floor,TYPE=ELEMENT\nBOTH,S1\n*SURFACE,NAME=tip,TYPE=NODE\n"
+             "5\n");
+  EXPECT_EQ(mesh.dimension, 2);
+  ASSERT_EQ(mesh.blocks.size(), 2u);
+  EXPECT_EQ(mesh.blocks[1].type, ElementType::Tri3);
+  ASSERT_EQ(mesh.sideSets.size(), 1u);
+  EXPECT_EQ(mesh.sideSets[0].elements.size(), 2u);
+  const auto tip = std::find_if(mesh.nodeSets.begin(), mesh.nodeSets.end(),
+                                [](const Mesh::NodeSet& set) { return set.name == "tip"; });
+  ASSERT_NE(tip, mesh.nodeSets.end());
+  EXPECT_EQ(tip->nodes.size(), 1u);
+}
+
+TEST(Abaqus, isRefusedInClearWords)
+{
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  const std::string node = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
+  contains(errorOf(node + "*ELEMENT, TYPE=C3D10\n1,1,2,3,4\n"), ":6: elements of type 'C3D10'");
+  contains(errorOf(node + "*ELEMENT, TYPE=CPE8\n"), "Accepted: first-order");
+  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*NSET, NSET=a\n1\n"),
+           ":8: element 1 has 3 nodes; its type has 4");
+  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4,2\n"), ":7: element 1 has 5 nodes");
+  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n"), "element 1 names node 9");
+  contains(errorOf(node + "1,0,0,0\n"), ":6: node 1 is given twice");
+  contains(errorOf("*NODE\n1,x,0\n"), ":2: 'x' is found for a coordinate");
+  contains(errorOf("*NODE\n1.5,0,0\n"), ":2: '1.5' is found for the number");
+  contains(errorOf("*INCLUDE, INPUT=mesh.inp\n"), ":1: *INCLUDE is not followed");
+  contains(errorOf("1, 2, 3\n"), ":1: the file does not begin with a keyword");
+  contains(errorOf("*NODE\n1,0,0\n"), "has no elements");
+  const std::string whole = node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n";
+  contains(errorOf(whole + "*SURFACE, NAME=s\n1, S5\n"), "S5 of element 1, which has 4");
+  contains(errorOf(whole + "*SURFACE, NAME=s\n1, SPOS\n"), ":9: a surface is a set or an element");
+  contains(errorOf(whole + "*SURFACE, NAME=s\nnone, S1\n"), "names 'none', which is neither");
+  contains(errorOf(whole + "*NSET, NSET=s\n8\n"), "the set 's' names node 8");
+  contains(errorOf(whole + "*SOLID SECTION, ELSET=e\n"), "names the element set 'e'");
+}
+} // namespace
+} // namespace coplane

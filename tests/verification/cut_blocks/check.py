@@ -1,0 +1,169 @@
+"""Blocks that joints cut out of a domain: counts, volumes, areas, equilibrium."""
+
+import math
+import pathlib
+import re
+import sys
+
+import numpy
+from coplanetest import Case
+from coplanetools import program
+
+case = Case("cut blocks", __file__)
+if not pathlib.Path(program.binary("coplane_mesh_blocks")).exists():
+    print("skipped: built without Gmsh, Voro++ or Assimp, so there is no `coplane_mesh blocks`")
+    sys.exit(77)
+
+
+def cut(name, recipe):
+    """Makes the mesh; returns what the program said, and what it says of the mesh."""
+    mesh = pathlib.Path(f"{name}.e").resolve()
+    said = program.make_mesh({"seed": 3, **recipe}, str(mesh))
+    found = re.search(r"(\d+) parts between joints, of (\S+) to (\S+) m", said)
+    joints = {joint: float(area) for joint, area in re.findall(r"^joint '(.*)': (\S+) m", said, re.M)}
+    blocks = {block: float(size) for block, size in re.findall(r"block \d+ '(.*?)': .*(?:area|volume) (\S+) m", said)}
+    return {"said": said, "mesh": mesh, "parts": int(found[1]), "least": float(found[2]), "most": float(found[3]), "joints": joints, "blocks": blocks,
+            "bodies": int(re.search(r"(\d+) bodies that share no node", said)[1])}
+
+
+def close(what, values, references, tolerance):
+    """Each of several numbers; the largest difference counts."""
+    case.check(what, max(abs(value - reference) for value, reference in zip(values, references)), 0, tolerance)
+
+
+def lone_faces(made):
+    """Faces of joints without a partner: none may be."""
+    return len(re.findall("have no partner", made["said"]))
+
+
+# --- sets at right angles: everything is counted ------------------------------------------------------------
+flat = {"dimension": 2, "domain": {"box": {"min": [0, 0], "max": [8, 6]}}, "elements": {"size": 0.5},
+        "joints": {"steep": {"set": {"angle": 90, "spacing": 2, "through": [2, 0]}}, "level": {"set": {"angle": 0, "spacing": 1.5, "through": [0, 1.5]}}}}
+solid = {"dimension": 3, "domain": {"box": {"min": [0, 0, 0], "max": [8, 6, 4]}}, "elements": {"size": 1},
+         "joints": {"x": {"set": {"dip": 90, "dip_direction": 90, "spacing": 2, "through": [2, 0, 0]}},
+                    "y": {"set": {"dip": 90, "dip_direction": 0, "spacing": 2, "through": [0, 2, 0]}},
+                    "z": {"set": {"dip": 0, "dip_direction": 0, "spacing": 2, "through": [0, 0, 2]}}}}
+for name, recipe, count, size, areas in (("flat", flat, 16, 3, {"steep": 18, "level": 24}), ("solid", solid, 24, 8, {"x": 72, "y": 64, "z": 48})):
+    for shape in ("simplices", "cubes"):
+        made = cut(f"{name}_{shape}", {**recipe, "elements": {**recipe["elements"], "shape": shape}})
+        what = f"{name}, {shape}"
+        case.check_equal(f"{what}: blocks, bodies", [made["parts"], made["bodies"]], [count, count])
+        close(f"{what}: volume of each", [made["least"], made["most"]], [size, size], 1e-9 * size)
+        close(f"{what}: areas of joints", [made["joints"][joint] for joint in areas], list(areas.values()), 1e-9 * 72)
+        case.check(f"{what}: volume of the mesh", made["blocks"]["rock"], count * size, 1e-9 * count * size)
+        case.check_equal(f"{what}: faces without partner", lone_faces(made), 0)
+
+# --- the same seed, the same file; another, other blocks -----------------------------------------------------
+scattered = {"dimension": 3, "domain": {"box": {"min": [0, 0, 0], "max": [6, 5, 4]}}, "elements": {"size": 1},
+             "joints": {"bedding": {"set": {"dip": 15, "dip_direction": 200, "spacing": 1.5, "spacing_scatter": 0.3, "fisher": 200}},
+                        "cross": {"set": {"dip": 80, "dip_direction": 100, "spacing": 2, "fisher": 100}}}}
+once, again, other = cut("once", scattered), cut("again", scattered), cut("other", {**scattered, "seed": 4})
+summary = [made["said"].replace(made["mesh"].name, "") for made in (once, again, other)]
+case.check_equal("the same seed: everything said", summary[0], summary[1])
+case.check_equal("another seed: other blocks", summary[0] != summary[2], True)
+for made, name in ((once, "scattered"), (other, "another seed")):
+    case.check(f"{name}: volume", made["blocks"]["rock"], 120, 1e-7)
+    case.check_equal(f"{name}: faces without partner", lone_faces(made), 0)
+
+# --- joints that end: the open share, the tips -----------------------------------------------------------------
+made = cut("persistent", {"dimension": 2, "domain": {"box": {"min": [0, 0], "max": [30, 30]}}, "elements": {"size": 0.5},
+                          "joints": {"a": {"set": {"angle": 0, "spacing": 0.5, "persistence": 0.6, "length": 4}}}, "slivers": {"stub": 0}})
+case.check("persistent: share that is open", made["joints"]["a"] / (60 * 30), 0.6, 0.02)
+case.check_equal("persistent: bodies", made["bodies"], 1)
+made = cut("disc", {"dimension": 3, "domain": {"box": {"min": [0, 0, 0], "max": [6, 6, 6]}}, "elements": {"size": 1},
+                    "joints": {"crack": {"planes": {"point": [3, 3, 3], "normal": [1, 1, 1], "disc": {"centre": [3, 3, 3], "radius": 2}}}}})
+case.check("disc: area", made["joints"]["crack"], 4 * math.pi, 1e-4)  # six digits are printed
+case.check_equal("disc: bodies, faces without partner", [made["bodies"], lone_faces(made)], [1, 0])
+
+# --- openings ------------------------------------------------------------------------------------------------
+hole = {"dimension": 2, "domain": {"polygon": [[0, 0], [20, 0], [20, 10], [10, 16], [0, 10]]}, "elements": {"size": 1},
+        "openings": {"shaft": {"polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]], "at": [5, 5]}, "adit": {"horseshoe": [4, 4], "at": [14, 3], "keep": True, "size": 0.4}},
+        "joints": {"level": {"planes": {"point": [0, 4], "normal": [0, 1]}}}}
+made = cut("openings", hole)
+case.check("openings: rock with what was cut out", made["blocks"]["rock"] + made["blocks"]["adit"] + 4, 260, 1e-4)
+roof = round(math.pi * 2 / 0.4)  # sides of the roof
+case.check("openings: section that was kept", made["blocks"]["adit"], 8 + 0.5 * roof * 4 * math.sin(math.pi / roof), 1e-4)
+case.check("openings: the joint ends at the shaft and goes on in the adit", made["joints"]["level"], 18, 1e-4)
+tunnel = {**solid, "openings": {"tunnel": {"circle": 1, "path": [[-1, 3, 2], [9, 3, 2]]}}}
+made = cut("tunnel", tunnel)
+sides = 6 if 2 * math.pi <= 6 else math.ceil(2 * math.pi)
+case.check("tunnel: volume", made["blocks"]["rock"], 192 - 8 * 0.5 * sides * math.sin(2 * math.pi / sides), 1e-3)
+
+# --- slivers ---------------------------------------------------------------------------------------------------
+near = {**flat, "joints": {"a": {"planes": [{"point": [4, 0], "normal": [1, 0]}, {"point": [4.03, 0], "normal": [1, 0]}]}}}
+made = cut("slivers", near)
+case.check_equal("slivers: parts, joined", [made["parts"], "1 slivers joined" in made["said"]], [2, True])
+made = cut("slivers_kept", {**near, "slivers": {"volume": 0, "thickness": 0}})
+case.check_equal("slivers kept: parts", made["parts"], 3)
+case.check("slivers kept: the thin one", made["least"], 0.18, 1e-4)
+
+# --- cells -------------------------------------------------------------------------------------------------------
+for name, recipe, total in (("cells_2d", flat, 48), ("cells_3d", {**solid, "elements": {"size": 1.5}}, 192)):
+    made = cut(name, {**recipe, "joints": {"grains": {"voronoi": {"cells": 20, "relaxations": 5}}}, "slivers": {"volume": 0, "thickness": 0}})
+    case.check_equal(f"{name}: cells, bodies", [made["parts"], made["bodies"]], [20, 20])
+    case.check(f"{name}: volume", made["blocks"]["rock"], total, 1e-4)
+    case.check_equal(f"{name}: faces without partner", lone_faces(made), 0)
+
+# --- solids from files -----------------------------------------------------------------------------------------
+corners = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+faces = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+lines = []
+for number, group in enumerate(("lower", "upper")):
+    lines += [f"o {group}", *(f"v {2 * x} {y} {z + number}" for x, y, z in corners), *("f " + " ".join(str(k + 1 + 8 * number) for k in face) for face in faces)]
+pathlib.Path("two.obj").write_text("\n".join(lines) + "\n")
+stones = {"dimension": 3, "domain": {"file": str(pathlib.Path("two.obj").resolve()), "joint": "mortar", "block": "stone"}, "elements": {"size": 0.5}}
+made = cut("stones", stones)
+case.check_equal("stones of a file: parts, bodies", [made["parts"], made["bodies"]], [2, 2])
+close("stones of a file: volume, mortar", [made["blocks"]["stone"], made["joints"]["mortar"]], [4, 2], 1e-6)
+made = cut("stones_cut", {**stones, "joints": {"crack": {"planes": {"point": [1, 0, 0], "normal": [1, 0, 0]}}}})
+case.check_equal("stones with a crack: bodies", made["bodies"], 4)
+close("stones with a crack: areas", [made["joints"]["crack"], made["joints"]["mortar"]], [2, 2], 1e-6)
+
+
+def refused(name, recipe, *words):
+    try:
+        said = cut(name, recipe)["said"]
+    except program.ProgramFailed as failed:
+        said = str(failed)
+    case.check_equal(f"{name}: says what is wrong", [word for word in words if word not in said], [])
+
+
+pathlib.Path("open.obj").write_text("\n".join(lines[: 1 + 8 + 5]) + "\n")
+refused("an open surface", {**stones, "domain": {**stones["domain"], "file": str(pathlib.Path("open.obj").resolve())}}, "is not closed", "belongs to 1 face", "exit code 4")
+refused("no such file", {**stones, "domain": {**stones["domain"], "file": "missing.obj"}}, "missing.obj", "exit code 4")
+refused("a joint outside", {**flat, "joints": {"a": {"planes": {"point": [0, 9], "normal": [0, 1]}}}}, "joints.a has no face inside", "exit code 3")
+refused("nothing left", {**flat, "openings": {"all": {"polygon": [[-1, -1], [9, -1], [9, 7], [-1, 7]], "at": [0, 0]}}}, "leave nothing", "exit code 3")
+refused("two dimensions with a file", {**flat, "domain": {"file": "x.obj"}}, "domain.file", "exit code 3")
+
+# --- equilibrium under an initial stress ---------------------------------------------------------------------------
+joint = {"model": "linear", "normal_stiffness": 2e10, "shear_stiffness": 2e10, "friction": 2}
+closure = 2e6 / 2e10
+material = {"model": "linear_elastic", "density": 2600, "youngs_modulus": 5e10, "poisson_ratio": 0.25}
+outside = {side: {"where": {axis: place}} for side, axis, place in (("left", "x", 0), ("right", "x", 6), ("front", "y", 0), ("rear", "y", 5))}
+
+
+def deck(recipe, declared=True):
+    flat = recipe["dimension"] == 2
+    return {"materials": {"granite": material}, "blocks": {"rock": {"material": "granite"}}, "joints": {"rough": joint},
+            "contact": {"pairs": [{"joint_set": name, "joint": "rough", "declared": declared} for name in recipe["joints"]]},
+            "initial": [{"block": "rock", "stress": [-3e6, -2e6, -2.5e6, 0.2e6, 0, 0] if flat else [-3e6, -2e6, -2.5e6, 0.2e6, 0.1e6, -0.3e6]}],
+            "conditions": [{"type": "fixed", "node_set": side} for side in recipe["node_sets"]], "time": {"end": 5e-4}, "output": {"every": 1}}
+
+
+at_rest = {
+    "cells at rest": {"dimension": 2, "domain": {"box": {"min": [0, 0], "max": [6, 5]}}, "elements": {"size": 0.7, "shape": "cubes"}, "node_sets": outside,
+                      "joints": {"grains": {"voronoi": {"cells": 12, "relaxations": 3}}}},
+    "scattered sets at rest": {**scattered, "node_sets": {**outside, "bottom": {"where": {"z": 0}}, "top": {"where": {"z": 4}}}},
+}
+for name, recipe in at_rest.items():
+    run = case.attempt(name.replace(" ", "_"), recipe, deck(recipe))
+    case.check_equal(f"{name}: exit code", run.code, 0)
+    moved = numpy.max(numpy.abs(run.results.nodal("displacement")))
+    case.check(f"{name}: largest displacement [m] (joints are closed by {closure:g} m)", moved, 0, 1e-12)
+    case.check(f"{name}: missed contacts", int(numpy.max(run.history["missed"])), 0, 0, kept="missed contacts")
+    case.check(f"{name}: energy balance", numpy.max(numpy.abs(run.history["error"])) / run.history["contact_stored"][0], 0, 1e-12, kept="energy balance")
+    case.same_bits(name.replace(" ", "_"), recipe, deck(recipe), run)
+loose = case.attempt("loose", at_rest["cells at rest"], deck(at_rest["cells at rest"], declared=False))
+case.check_within("not declared: largest displacement over the closure", numpy.max(numpy.abs(loose.results.nodal("displacement"))) / closure, 0.1, 100)
+
+case.finish()
