@@ -133,6 +133,26 @@ for body, name in ((0, "layer"), (1, "left"), (12, "right"), (169, "tail")):
 case.check("broken: speed of the tail along x over its own [m/s]", last[169]["velocity"][0] - last[12]["velocity"][0], 4, 0.01)
 case.check("broken: spin of the tail about z [rad/s]", last[169]["spin"][2], spin[2], 0.005, relative=True)
 
+# --- in the plane: a square that turns, and triangles beside it ----------------------------------------------
+flat_recipe = {"dimension": 2, "parts": [
+    {"shape": "box", "block": "square", "min": [1, 0], "size": [0.1, 0.1], "divisions": [4, 4]},
+    {"shape": "box", "block": "plate", "min": [1.2, 0], "size": [0.1, 0.2], "divisions": [3, 4], "split": "triangles"},
+]}
+flat = {
+    "materials": {"stone": {"model": "linear_elastic", "density": 1000, "youngs_modulus": 1e9, "poisson_ratio": 0.2}},
+    "blocks": {"square": {"material": "stone"}, "plate": {"material": "stone"}},
+    "initial": [{"block": "square", "velocity": [1, 0, 0], "angular_velocity": [0, 0, 3], "center": [1.05, 0.05, 0]},
+                {"block": "plate", "velocity": [0, 2, 0]}],
+    "contact": {"enabled": False}, "time": {"end": 1e-5}, "output": {"fragments": True},
+}
+case.run("flat", flat_recipe, flat)
+bodies = next(iter(fragments("flat").values()))
+case.check_equal("flat: bodies", sorted(bodies), [1, 17])
+case.check("flat: mass of the square [kg/m]", bodies[1]["mass"], 10, 1e-13, relative=True)
+case.check("flat: mass of the plate [kg/m]", bodies[17]["mass"], 20, 1e-13, relative=True)
+case.check("flat: spin of the square [rad/s]", bodies[1]["spin"][2], 3, 1e-12, relative=True)
+case.check("flat: spin of the plate [rad/s]", bodies[17]["spin"][2], 0, 1e-12)
+
 # --- crushed elements connect nothing -----------------------------------------------------------------------
 soft = {
     **deck,
