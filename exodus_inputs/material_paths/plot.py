@@ -51,6 +51,21 @@ plot.PANELS = {
         ),
         ("Hydrostat", PRESSURE, (1, MPA), PRESSURE_TEXT, [("hydrostat", "")]),
     ],
+    "concrete_kcc": [
+        (
+            "Compression", AXIAL, (MILLI, MPA), AXIAL_TEXT,
+            [("compression", "free"), ("triaxial_10", "10 MPa"), ("triaxial_50", "50 MPa")],
+        ),
+        ("Tension", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("tension", "0.01 m"), ("tension_large", "0.1 m")]),
+        ("Hydrostat", PRESSURE, (1, MPA), PRESSURE_TEXT, [("hydrostat", "")]),
+    ],
+    "ceramics": [
+        (
+            "Crushed by 5 % and back", ("pressure[Pa]", "von_mises[Pa]"), (1e-9, 1e-9), ("pressure [GPa]", "von Mises stress [GPa]"),
+            [("case_a", "case A"), ("case_b", "case B"), ("case_c", "case C")],
+        ),
+        ("Sandstone", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("compression", "free"), ("confined", "25 MPa")]),
+    ],
     "metals": [
         (
             "Cycles", AXIAL, (MILLI, MPA), AXIAL_TEXT, [("isotropic", "isotropic"), ("kinematic", "kinematic")],

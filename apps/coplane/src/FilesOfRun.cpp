@@ -114,6 +114,8 @@ void addResults(Outputs& outputs, const Deck& deck)
     outputs.grows(file, results); // at a restart: steps later than the checkpoint go
     outputs.replacesSeries({file + "-s", ""}, results);
   }
+  if (deck.output.fragments)
+    outputs.grows(fragmentsFile(deck), "the fragments (output.fragments)");
   if (!deck.output.planes || !deck.contact.enabled)
     return;
   const std::string series = planesBase(deck) + "_planes";
@@ -162,6 +164,11 @@ std::string recordFile(const Deck& deck, int part)
 std::string planesBase(const Deck& deck)
 {
   return withoutExtension(deck.output.results);
+}
+
+std::string fragmentsFile(const Deck& deck)
+{
+  return planesBase(deck) + "_fragments.csv";
 }
 
 std::string tablesBase(const Deck& deck)

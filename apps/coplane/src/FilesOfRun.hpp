@@ -12,6 +12,7 @@ namespace coplane
 /// Names that follow from those of the deck.
 std::string recordFile(const Deck& deck, int part);
 std::string planesBase(const Deck& deck);
+std::string fragmentsFile(const Deck& deck);
 std::string tablesBase(const Deck& deck);
 std::string stopFile(const Deck& deck);
 /// One that was there before the start; what is put there from then on ends the run. Collective.

@@ -5,6 +5,7 @@
 
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
+#include <coplane_output/Fragments.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ProgressObserver.hpp>
@@ -105,6 +106,8 @@ ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std
   results.when = {deck.output.every, deck.output.times};
   results.filePerRank = deck.output.filePerRank;
   results.history = historyVariables(deck, mesh);
+  if (deck.output.fragments)
+    results.fragmentDamage = deck.output.fragmentDamage;
   results.infoLines = linesOf(deck.text);
   results.infoLines.insert(results.infoLines.begin(), settings.command);
   results.run = run;
@@ -161,6 +164,10 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
   {
     const ResultsOptions results = resultsOptions(deck, mesh, run, settings);
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
+    if (deck.output.fragments)
+      observers.add(std::make_unique<FragmentsObserver>(
+          comm, FragmentsOptions{fragmentsFile(deck), results.when, deck.output.fragmentDamage,
+                                 settings.positions}));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
           comm,

@@ -46,6 +46,9 @@ materials:
     pressure_factor: 1.5, pressure_exponent: 0.6, largest_strength: 6, least_fracture_strain: 0.02, damage_factor: 0.05,
     crush_pressure: 20e6, crush_compression: 0.002, lock_pressure: 900e6, lock_compression: 0.12,
     lock_moduli: [80e9, -170e9, 200e9]}
+  jh2: {model: jh2, density: 1, shear_modulus: 90e9, bulk_moduli: [130e9, 10e9, 0], elastic_limit: 2.8e9,
+    elastic_limit_pressure: 1.5e9, tensile_strength: 0.1e9, intact_factor: 0.9, intact_exponent: 0.5, damage_factor: 0.01}
+  kcc: {model: kcc, density: 1, compressive_strength: 50e6, rate_effects: true, largest_rate: 200}
   fluid: {model: fluid, density: 1, eos: linear, sound_speed: 9}
   ideal_gas: {model: ideal_gas, density: 1, heat_ratio: 1.6, pressure: 2e5}
   jwl: {model: jwl, density: 1640, jwl_a: 375e9, jwl_b: 3.3e9, jwl_r1: 4.16, jwl_r2: 0.96, omega: 0.31,
@@ -198,7 +201,7 @@ std::string show(const Deck& d)
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
-          d.output.filePerRank);
+          d.output.filePerRank, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
     showAll(out, t);
   showAll(out, d.history.file, d.history.every);

@@ -175,6 +175,9 @@ TEST(MaterialCards, largestElementFollowsFromTheFractureEnergy)
   // G_F E / ft^2 = 120 * 33e9 / 16e12.
   const auto deck = parseDeck(deckWith("set: concrete_c40"), "wall.yaml");
   EXPECT_NEAR(softeningLimit(deck.materials[0]).size, 0.2475, 1e-12);
+  // The steepest fall of kcc in uniaxial tension is that of E.
+  const auto generated = parseDeck(deckWith("set: concrete_kcc_45"), "wall.yaml");
+  EXPECT_NEAR(softeningLimit(generated.materials[0]).size, 0.28496, 1e-5);
   const auto elastic = parseDeck(deckWith("set: granite"), "wall.yaml");
   EXPECT_EQ(softeningLimit(elastic.materials[0]).size, infinity);
 }

@@ -94,6 +94,24 @@ inline HolmquistJohnsonCook concreteHjc48()
   return completed(law);
 }
 
+/// The ceramic of the one-element tests of Johnson and Holmquist (1994), case C.
+inline JohnsonHolmquistParameters ceramicJh2()
+{
+  JohnsonHolmquistParameters p;
+  p.density = 3700;
+  p.shearModulus = 90.16e9;
+  p.bulkModuli = {130.95e9, 0, 0};
+  p.elasticLimit = 1.46e9 + 2e9 / 1.5;
+  p.elasticLimitPressure = 1.46e9;
+  p.tensileStrength = 0.2e9;
+  p.intactFactor = 0.93;
+  p.intactExponent = 0.6;
+  p.fracturedFactor = 0.31;
+  p.fracturedExponent = 0.6;
+  p.damageFactor = 0.005;
+  return p;
+}
+
 /// Rock of 20 GPa with Mohr and Coulomb's strength; angles in radians.
 inline MohrCoulombParameters rockOf(Real frictionAngle, Real dilationAngle, Real cohesion,
                                     Real residualCohesion, Real tensileStrength,
@@ -180,6 +198,17 @@ inline std::vector<NamedLaw> allLaws()
   JohnsonCook hot = steel4340();
   hot.eos = mieGrueneisen(7830, 4570, 1.49, 1.93);
   hot.elastic.bulkModulus = hot.eos.stiffness;
+  JohnsonHolmquistParameters ductile = ceramicJh2(); // with all there is
+  ductile.bulkModuli = {130.95e9, 100e9, -50e9};
+  ductile.largestFractured = 0.4;
+  ductile.rateFactor = 0.01;
+  ductile.leastFractureStrain = 1e-4;
+  ductile.bulkingFraction = 0.7;
+  KaragozianCaseParameters plain;
+  plain.density = 2300;
+  plain.compressiveStrength = 40e6;
+  KaragozianCaseParameters plainFast = plain;
+  plainFast.rateEffects = true;
   UbiquitousJointParameters loose = jointedRock(); // and a matrix that softens
   loose.residualCohesion = 1e6;
   loose.shearEnergy = 500;
@@ -204,6 +233,9 @@ inline std::vector<NamedLaw> allLaws()
           {"johnsonCookMieGrueneisen", checked(hot), 0.05},
           {"pseudoCap", makeLaw(concreteC40()), 0.01},
           {"pseudoCapRates", makeLaw(fast), 0.01},
-          {"hjc", concreteHjc48(), 0.01}};
+          {"hjc", concreteHjc48(), 0.01},
+          {"jh2", makeLaw(ductile), 0.02},
+          {"kcc", makeLaw(plain), 0.01},
+          {"kccRates", makeLaw(plainFast), 0.01}};
 }
 } // namespace coplane::testing

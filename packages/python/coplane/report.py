@@ -295,6 +295,36 @@ class Report:
                     self.page.add(f"<h3>{title}</h3>", self.page.table(
                         ["element / side", "against", "joint", "area [m^2]", "closure [m]", "normal traction [Pa]", "slip [m]", "remainder [J]"], rows))
 
+    def fragments(self):
+        counts, masses = [], []
+        for which, run in enumerate(self.runs):
+            if not run.fragments_path.exists():
+                self.page.note(f"There is no {run.fragments_path.name}{self.of(which)} (output.fragments).")
+                continue
+            table = tables.columns(run.fragments_path)
+            bodies = table["fragment"] > 0
+            times, place = numpy.unique(table["time"], return_inverse=True)
+            if len(times) == 0:
+                self.page.note(f"{run.fragments_path.name} has no line yet.")
+                continue
+            counts.append(curve(times, numpy.bincount(place[bodies], minlength=len(times)), "bodies" + self.of(which), COLORS[0], dash=which > 0))
+            last = bodies & (table["time"] == times[-1])
+            mass = numpy.sort(table["mass"][last])
+            if len(mass):
+                masses.append(curve(mass, numpy.cumsum(mass) / mass.sum(), f"at {times[-1]:.6g} s" + self.of(which), COLORS[1], dash=which > 0))
+            speed = numpy.sqrt(sum(table[f"velocity_{axis}"] ** 2 for axis in "xyz"))
+            spin = numpy.sqrt(sum(table[f"spin_{axis}"] ** 2 for axis in "xyz"))
+            size = [table[f"high_{axis}"] - table[f"low_{axis}"] for axis in "xyz"]
+            heaviest = numpy.flatnonzero(last)[numpy.argsort(-table["mass"][last], kind="stable")[:10]]
+            rows = [[int(table["fragment"][i]), int(table["elements"][i]), float(table["mass"][i]), *(float(s[i]) for s in size), float(speed[i]), float(spin[i])]
+                    for i in heaviest]
+            if rows:
+                self.page.add(f"<h3>heaviest{escape(self.of(which))}</h3>", self.page.table(
+                    ["fragment", "elements", "mass [kg]", "x [m]", "y [m]", "z [m]", "speed [m/s]", "spin [rad/s]"], rows))
+        if counts:
+            self.page.grid(self.page.plot("Connected bodies", counts, "count"),
+                           *([self.page.plot("Share of the mass in bodies up to a mass", masses, "share", x="mass [kg]")] if masses else []))
+
     def times(self):
         traces = []
         for which, run in enumerate(self.runs):
@@ -360,6 +390,10 @@ class Report:
         if alone:
             self.page.note(f"Only one of them has {', '.join(alone)}.")
 
+    @property
+    def has_fragments(self):
+        return any(run.fragments_path.exists() for run in self.runs)
+
     def text(self):
         self.head()
         self.section("What was run", lambda: self.page.add(self.each(self.what)))
@@ -368,7 +402,7 @@ class Report:
             self.section("Differences", self.differences)
         for title, fill in (("Energies and balances", self.energies), ("Contact", self.contact), ("Momenta", self.momenta), ("Joints", self.joints),
                             ("Probes and bodies", self.probes), ("Step", self.step), ("Searches and slots", self.searches),
-                            ("Worst planes", self.worst_planes), ("Time used", self.times), ("Pictures", self.images), ("Deck", self.deck)):  # fmt: skip
+                            ("Worst planes", self.worst_planes), *([("Fragments", self.fragments)] if self.has_fragments else []), ("Time used", self.times), ("Pictures", self.images), ("Deck", self.deck)):  # fmt: skip
             self.section(title, fill)
         return self.page.text
 

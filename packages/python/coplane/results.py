@@ -385,6 +385,17 @@ class Run:
         return self.written("").parent / self._results_name
 
     @property
+    def fragments_path(self):
+        """Path of the table of connected bodies (output.fragments)."""
+        stem = self.folder / pathlib.Path(self._results_name).with_suffix("")
+        return stem.with_name(stem.name + "_fragments.csv")
+
+    @property
+    def fragments(self):
+        """Connected bodies over time, a pandas DataFrame: output.fragments in the deck gives it."""
+        return tables.frame(self.fragments_path)
+
+    @property
     def planes_path(self):
         """Path of the series of planes: that of the format which the deck asks for, or what is there when it asks for none."""
         stem = self.folder / f"{pathlib.Path(self._results_name).with_suffix('')}_planes"

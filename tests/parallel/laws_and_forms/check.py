@@ -36,6 +36,8 @@ LAWS = {
     "pseudo_cap": {"model": "pseudo_cap", "set": "concrete_c40"},
     "pseudo_cap_rates": {"model": "pseudo_cap", "set": "concrete_c40", "rate_effects": True},
     "hjc": {"model": "hjc", "set": "concrete_hjc_48"},
+    "jh2": {"model": "jh2", "set": "sandstone"},
+    "kcc": {"model": "kcc", "set": "concrete_kcc_45", "rate_effects": True},
     # TNT with a hundredth of its pressures and a tenth of its speed: the front crosses most of the body.
     "jwl": {
         "model": "jwl", "density": 1630, "jwl_a": 3.712e9, "jwl_b": 3.231e7, "jwl_r1": 4.15, "jwl_r2": 0.95, "omega": 0.3,
@@ -52,7 +54,7 @@ SIMPLICES = [{}, {"element": "nodal_pressure"}]
 bodies = [("neo_hookean", {}, False)] + [(law, {}, False) for law in LAWS if law not in ("neo_hookean", "jwl", "ideal_gas")]
 bodies += [(law, options, False) for law in ("j2", "pseudo_cap") for options in RATES + FORMS if law == "j2" or "element" in options]
 bodies += [(law, options, True) for law in ("j2", "pseudo_cap") for options in SIMPLICES]
-bodies += [("pseudo_cap_rates", {"element": "full_integration"}, False)]
+bodies += [(law, {"element": "full_integration"}, False) for law in ("pseudo_cap_rates", "jh2", "kcc")]
 bodies += [(law, options, False) for law in ("jwl", "ideal_gas") for options in ({}, {"element": "full_integration"})]
 assert len(bodies) % 2 == 0  # pairs
 

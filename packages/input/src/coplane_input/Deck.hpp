@@ -188,6 +188,8 @@ struct OutputCard
   bool planes = true;                  ///< contact planes beside the results
   std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
+  bool fragments = false;     ///< connected bodies beside the results and in them
+  Real fragmentDamage = 0.99; ///< from which an element connects nothing [-]
 };
 
 struct ProbeCard

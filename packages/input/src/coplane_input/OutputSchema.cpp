@@ -43,6 +43,16 @@ Key outputKeys()
                    flag("file_per_rank", &OutputCard::filePerRank)
                        .like("true")
                        .means("one results file for each rank instead of a shared one"),
+                   flag("fragments", &OutputCard::fragments)
+                       .like("true")
+                       .means("connected bodies: mass, place, velocity, spin and box of each as "
+                              "CSV file <results>_fragments.csv, and the element variable "
+                              "fragment"),
+                   number("fragment_damage", &OutputCard::fragmentDamage)
+                       .in("-")
+                       .above(0)
+                       .like("0.9")
+                       .means("of fragments: elements with this damage connect nothing"),
                })
       .means("fields for ParaView");
 }

@@ -7,7 +7,9 @@
 #include <coplane_material/HolmquistJohnsonCook.hpp>
 #include <coplane_material/J2.hpp>
 #include <coplane_material/JohnsonCook.hpp>
+#include <coplane_material/JohnsonHolmquist.hpp>
 #include <coplane_material/Jwl.hpp>
+#include <coplane_material/KaragozianCase.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
 #include <coplane_material/NeoHookean.hpp>
@@ -24,9 +26,10 @@ namespace coplane
 /// Every law of the continuum. A law has its parameters, an elastic part, historyCount variables
 /// with historyNames, and advances a MaterialPoint<T> by operator(), for T = Real and T = Lanes
 /// with the same bits in every lane.
-using Material = std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean,
-                              DruckerPrager, MohrCoulomb, JohnsonCook, PseudoCap,
-                              HolmquistJohnsonCook, Fluid, HoekBrown, UbiquitousJoints, Jwl>;
+using Material =
+    std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
+                 MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid, HoekBrown,
+                 UbiquitousJoints, Jwl, JohnsonHolmquist, KaragozianCase>;
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded

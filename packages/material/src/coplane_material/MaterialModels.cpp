@@ -17,7 +17,8 @@ const std::vector<MaterialModel>& materialModels()
       modelsOf<LinearElasticParameters, J2Parameters, NeoHookeanParameters, DruckerPragerParameters,
                MohrCoulombParameters, UbiquitousJointParameters, HoekBrownParameters,
                JohnsonCookParameters, PseudoCapParameters, HolmquistJohnsonCookParameters,
-               FluidParameters, IdealGasParameters, JwlParameters>();
+               JohnsonHolmquistParameters, KaragozianCaseParameters, FluidParameters,
+               IdealGasParameters, JwlParameters>();
   return models;
 }
 } // namespace coplane

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_material/ConcreteSurfaces.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/RateEffect.hpp>
@@ -51,11 +52,6 @@ struct PseudoCap
                                                  "precompression"};
   static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
-  // Malvar et al. (1997): strengths on the compression meridian, intact a0 fc + p / (a1 + a2 p /
-  // fc) and crushed p / (a1f + a2f p / fc), and the ratio of the meridians over p / fc.
-  static constexpr Real a0 = 0.2956, a1 = 0.4463, a2 = 0.0808, a1f = 0.4417, a2f = 0.1183;
-  static constexpr Real farPressure = 3, farRatio = 0.753;
-  static constexpr Real roundPressure = 8.45; ///< from here on the section is round
   /// Volume per plastic shear strain of intact material at p = fc / 3 [-].
   static constexpr Real kneeDilation = 0.6;
   /// Porosity that opens takes the modulus away, which is gone but for a rest at that much more.
@@ -124,11 +120,9 @@ struct PseudoCap
            T(crushHardening) * branchFree::logarithm(T(1.0) - ec * T(1.0 / fullCompaction()));
   }
 
-  /// Yh: fracture surface of the intact material over p >= 0 (compression meridian).
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T intactStrength(const T& p) const
+  KOKKOS_INLINE_FUNCTION ConcreteSurfaces surfaces() const
   {
-    return T(a0 * strength) + p / (T(a1) + T(a2 / strength) * p);
+    return {strength, tensileStrength, biaxialRatio};
   }
 
   /// Ys: strength on the compression meridian, without the cap.
@@ -137,38 +131,10 @@ struct PseudoCap
   {
     const T one(1.0), compression = branchFree::positivePart(p);
     const T intact = one - damage;
-    const T tension =
-        T(strength / (strength / 3 + tensileStrength)) * (p + intact * T(tensileStrength));
-    const T residual = compression / (T(a1f) + T(a2f / strength) * compression);
-    const T sheared = intact * intactStrength(compression) + damage * residual;
-    return branchFree::positivePart(branchFree::smaller(tension, sheared));
-  }
-
-  /// psi: strength on the meridian of triaxial tension over that of compression.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T meridianRatio(const T& p) const
-  {
-    const Real knee = strength / 3, biaxial = 2 * biaxialRatio * strength / 3;
-    const Real first = 0.5 + 1.5 * tensileStrength / strength;
-    const Real second = biaxialRatio * strength / intactStrength(biaxial);
-    const Real far = farPressure * strength, round = roundPressure * strength;
-    const auto line = [&](Real p0, Real v0, Real p1, Real v1)
-    { return T(v0) + (p - T(p0)) * T((v1 - v0) / (p1 - p0)); };
-    T psi = branchFree::choose(p < T(round), line(far, farRatio, round, 1.0), T(1.0));
-    psi = branchFree::choose(p < T(far), line(biaxial, second, far, farRatio), psi);
-    psi = branchFree::choose(p < T(biaxial), line(knee, first, biaxial, second), psi);
-    return branchFree::choose(p < T(knee), T(first), psi);
-  }
-
-  /// r(theta) of Willam and Warnke; c = cos(theta).
-  template <class T>
-  KOKKOS_INLINE_FUNCTION static T lodeFactor(const T& c, const T& psi)
-  {
-    const T one(1.0), two(2.0), four(4.0);
-    const T a = four * (one - psi * psi) * c * c;
-    const T root = branchFree::squareRoot(a + T(5.0) * psi * psi - four * psi);
-    return (two * (one - psi * psi) * c + (two * psi - one) * root) /
-           (a + (one - two * psi) * (one - two * psi));
+    const ConcreteSurfaces surface = surfaces();
+    const T sheared = intact * surface.intactStrength(compression) +
+                      damage * surface.residualStrength(compression);
+    return branchFree::positivePart(branchFree::smaller(surface.tensionLine(p, intact), sheared));
   }
 
   /// Y: von Mises stress that the material bears.
@@ -179,7 +145,8 @@ struct PseudoCap
     const T one(1.0), start = T(capRatio) * pc;
     const T reach = (p - start) / (pc - start);
     const T cap = branchFree::squareRoot(branchFree::positivePart(one - reach * reach));
-    return lodeFactor(cosTheta, meridianRatio(p)) * meridian(p, damage) *
+    return ConcreteSurfaces::lodeFactor(cosTheta, surfaces().meridianRatio(p)) *
+           meridian(p, damage) *
            branchFree::choose(p > start, branchFree::choose(p < pc, cap, T(0.0)), one);
   }
 

@@ -3,6 +3,7 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_exodus/Provenance.hpp>
+#include <coplane_output/Fragments.hpp>
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/detail/NodalContact.hpp>
 
@@ -26,7 +27,7 @@ std::vector<std::string> vectorNames(const std::string& stem, int dimension)
 
 /// Displacement comes first: the IOSS reader moves the mesh by the first nodal vector that starts
 /// with "dis".
-ResultsVariables variablesOf(int dimension, const std::vector<std::string>& history)
+ResultsVariables variablesOf(int dimension, const std::vector<std::string>& history, bool fragments)
 {
   ResultsVariables names;
   for (const char* stem : {"displacement", "velocity", "contact_force", "contact_traction"})
@@ -43,6 +44,8 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
                    "von_mises", "pressure",  "equivalent_plastic_strain",
                    "density",   "alive"};
   names.element.insert(names.element.end(), history.begin(), history.end());
+  if (fragments)
+    names.element.push_back("fragment");
   names.global = {
       "time_step",          "kinetic_energy",     "internal_energy", "plastic_work",
       "hourglass_energy",   "viscous_work",       "contact_stored",  "contact_friction",
@@ -55,9 +58,10 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
 }
 } // namespace
 
-std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history)
+std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history,
+                                bool fragments)
 {
-  const ResultsVariables names = variablesOf(mesh.mine.dimension, history);
+  const ResultsVariables names = variablesOf(mesh.mine.dimension, history, fragments);
   std::int64_t sides = 0;
   for (const int size : mesh.sideSetSizes)
     sides += size;
@@ -204,7 +208,8 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
 void ResultsObserver::open()
 {
   file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
-                variablesOf(dimension_, history_), options_.infoLines, options_.filePerRank);
+                variablesOf(dimension_, history_, options_.fragmentDamage.has_value()),
+                options_.infoLines, options_.filePerRank);
 }
 
 void ResultsObserver::continueSeries()
@@ -362,7 +367,10 @@ void ResultsObserver::writeNodes(const Solver& solver)
 void ResultsObserver::writeElements(const Solver& solver)
 {
   constexpr int fixed = 11;
-  const int columns = fixed + int(history_.size());
+  std::vector<std::vector<GlobalId>> fragments;
+  if (options_.fragmentDamage)
+    fragments = findFragments(solver, *options_.fragmentDamage).ofElement;
+  const int columns = fixed + int(history_.size()) + int(options_.fragmentDamage.has_value());
   const RankMesh& mesh = solver.mesh();
   int owned = 0, rows = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -395,6 +403,8 @@ void ResultsObserver::writeElements(const Solver& solver)
       mine(row, 10) = block.isAlive(e);
       for (std::size_t k = 0; k < history_.size(); ++k)
         mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history()(rowOf[k], e);
+      if (options_.fragmentDamage)
+        mine(row, columns - 1) = Real(fragments[b][e]);
       ++row;
     }
   }

@@ -20,6 +20,7 @@ struct ResultsOptions
   bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
+  std::optional<Real> fragmentDamage = {}; ///< bodies are written, with this threshold
   int part = 1;              ///< of a series: 1 for a new run, one more with every restart
   std::string position = {}; ///< savePosition() of the run that is continued
   std::string run = {};      ///< identity, by which restarts know what they may cut or remove
@@ -30,7 +31,8 @@ std::string resultsPart(const std::string& file, int part);
 
 /// What one step of the results takes in files [bytes].
 /// @param history variables of the blocks' laws that are written besides
-std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history);
+std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history,
+                                bool fragments = false);
 
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
 /// (SIGUSR1) and at the end. Names and their order are those that ParaView's IOSS reader groups
