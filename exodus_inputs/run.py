@@ -16,7 +16,7 @@ folder elsewhere in `runs` there),
     run.yaml             the deck with all changes
     run.log, run.e, run_planes.xmf3, run.csv, run.run.json     what coplane writes
     run-report.html      all of it on one page (coplane report)
-    pictures/            what the example's pictures.py draws with ParaView
+    pictures/            what `pictures` of the example.yaml, or its pictures.py, says
     checks.jsonl         what the example's check.py found
     written.json         the list of all these: nothing else in the folder is ever removed or overwritten
 
@@ -44,7 +44,7 @@ RUNS = pathlib.Path("coplane-examples").resolve() if IS_INSTALLED else TOP / "bu
 sys.dont_write_bytecode = True
 try:
     from coplanetools import documents, program
-    from coplane import Run, pictures, report
+    from coplane import pictures, report
 except ImportError as error:
     sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
 
@@ -280,21 +280,24 @@ class ExampleRun:
         (self.folder / "done").write_text(self.run_key)
 
     def picture_script(self):
-        return self.source / self.example.get("pictures", "pictures.py")
+        """Of an example whose pictures `coplane pictures` cannot make."""
+        return self.source / "pictures.py"
 
     def demand_what_draws(self):
         """Before anything is computed."""
         missing = program.missing_for_pictures()
-        if missing and self.picture_script().exists():
+        if missing and (self.picture_script().exists() or self.example.get("pictures")):
             fail(f"{' and '.join(missing)} not found, which the pictures need. Debian: apt-get install paraview python3-paraview xvfb xauth. "
                  "Or leave the pictures out with --no-pictures.")
 
     def draw(self):
-        script = self.picture_script()
-        own = [script] if script.exists() else []  # without one it is drawn as any run
-        if not own and program.missing_for_pictures():
-            return
-        key = self.key(self.run_key.encode(), *own, *sorted(program.PARAVIEW.glob("*.py")))
+        script, cards = self.picture_script(), self.example.get("pictures") or {}
+        own = [script] if script.exists() else []
+        if not own and not cards:
+            if program.missing_for_pictures():
+                return
+            cards = {"state": {"color": "von_mises"}}  # drawn as any run
+        key = self.key(self.run_key.encode(), json.dumps(cards).encode(), *own, *sorted(program.PARAVIEW.glob("*.py")))
         if self.is_done("pictures.done", key):
             return
         self.say("drawing")
@@ -305,11 +308,13 @@ class ExampleRun:
             (self.folder / "pictures.log").write_text(said)
             if code:
                 fail("drawing failed:\n" + "".join(said.splitlines(True)[-20:]))
-        else:
+        for name, card in cards.items():
+            words = [str(self.folder / "run"), "--output", str(self.folder / "pictures"), "--name", name, *pictures.words_of(card or {})]
             try:
-                pictures.draw(Run(self.folder / "run"), self.folder / "pictures", color="von_mises")
+                for path in pictures.make(words):
+                    print(path, flush=True)
             except (OSError, ValueError, pictures.PicturesFailed) as error:
-                fail(f"drawing failed: {error}")
+                fail(f"drawing failed: coplane pictures {' '.join(words)}: {error}")
         self.own.claim(self.new_files(before), overwrite=True)
         (self.folder / "pictures.done").write_text(key)
         self.say(f"pictures: {self.folder}/pictures")

@@ -37,30 +37,29 @@ class Checks:
     def line(
         self, quantity, value, reference, error, tolerance, passed, report=False, kept=None, relative=False
     ):
-        def plain(x):
-            return x.item() if isinstance(x, numpy.generic) else x
-
         record = {
             "case": self.name,
             "quantity": quantity,
-            "value": plain(value),
-            "reference": plain(reference),
-            "error": plain(error),
-            "tolerance": plain(tolerance),
+            "value": value,
+            "reference": reference,
+            "error": error,
+            "tolerance": tolerance,
             "passed": passed,
         }
         if report:
             record["reported"] = True
         elif not passed:
             self.failures += 1
-        print(json.dumps(record), flush=True)
-        record["folder"] = self.source.name
+        print(json.dumps(record, default=numpy.generic.item), flush=True)
         if kept:
             record["kept"] = kept
         if relative:
             record["relative"] = True
+        self.append(record)
+
+    def append(self, record):
         with open(self.record, "a") as file:
-            file.write(json.dumps(record) + "\n")
+            file.write(json.dumps({**record, "folder": self.source.name}, default=numpy.generic.item) + "\n")
 
     def finish(self):
         """Call last: the exit code tells whether all checks passed."""

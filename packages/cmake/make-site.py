@@ -215,8 +215,8 @@ def navigation(texts):
     forgotten = [name for name in texts if name.startswith("docs/") and name not in sum(groups.values(), [])]
     if forgotten:
         sys.exit(f"make-site: docs/README.md does not list {', '.join(forgotten)}")
-    for title, begin in (("Verification cases", "tests/verification/"), ("Other tests", "tests/"), ("Examples beside their decks", "exodus_inputs/"),
-                         ("Packages", "packages/"), ("Programs", "apps/")):  # fmt: skip
+    for title, begin in (("Verification cases", "tests/verification/"), ("Validation cases", "tests/validation/"), ("Other tests", "tests/"),
+                         ("Examples beside their decks", "exodus_inputs/"), ("Packages", "packages/"), ("Programs", "apps/")):  # fmt: skip
         groups[title] = [name for name in texts if name.startswith(begin) and name not in sum(groups.values(), [])]
     # A page stands where it was named first.
     seen = set()

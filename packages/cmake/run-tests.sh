@@ -74,7 +74,7 @@ sanitized_tests() {
 stage dependencies get_dependencies || { failed=1; finish; exit 1; }
 COPLANE_CMAKE_OPTIONS=-DCOPLANE_WARNINGS_AS_ERRORS=ON
 stage build coplane_configure_and_build all || { failed=1; finish; exit 1; }
-for label in unit verification metamorphic parallel paper; do
+for label in unit verification metamorphic validation parallel paper; do
   stage $label tests "$top/build" $label
 done
 [ $slow = no ] || stage slow tests "$top/build" slow

@@ -61,6 +61,14 @@ def check_verification():
     sys.path.insert(0, str(SOURCE / "tests/support"))
     import verification_page as maker
 
+    listed = re.search(r"^foreach\(_case (.*)\)\n  coplane_check\(validation/", (SOURCE / "tests/CMakeLists.txt").read_text(), flags=re.M)
+    names = [folder.name for folder in maker.cases("validation")]
+    assert listed[1].split() == names, "tests/CMakeLists.txt does not register all of tests/validation, or more, or in another order"
+    page = (SOURCE / "docs/validation.md").read_text()
+    assert re.findall(r"^## (.*)", page, flags=re.M) == [name.replace("_", " ") for name in names] and maker.validation_index() in page, (
+        "docs/validation.md is old: python3 tests/support/verification_page.py <build folder> validation, best after the case has run there"
+    )
+    assert "No results yet" not in page, "docs/validation.md has cases without results"
     names = [folder.name for folder in maker.cases()]
     registered = re.findall(r"^coplane_check\(verification/(\S+)", (SOURCE / "tests/CMakeLists.txt").read_text(), flags=re.M)
     assert sorted(set(registered)) == sorted(names), "tests/CMakeLists.txt does not register all of tests/verification, or more"
@@ -102,6 +110,164 @@ def check_verification():
     assert "of another test" not in text
     shutil.rmtree(results)  # the maker would read them as results of this build
     assert f"## {names[1].replace('_', ' ')}\n\nkept\n" in text and text.count("No results yet.") == len(names) - 2
+
+
+def check_citation():
+    """CITATION.cff is what the format 1.2.0 wants, and of this version; every source that is cited has a row in docs/theory/references.md, with a DOI
+    that looks like one, and every set of the library and data file a row of data."""
+    from coplanetest import documents
+
+    cited = documents.load(SOURCE / "CITATION.cff")
+    required = {"authors", "cff-version", "message", "title"}
+    allowed = required | {"abstract", "commit", "contact", "date-released", "doi", "identifiers", "keywords", "license", "license-url", "preferred-citation", "references", "repository",
+                          "repository-artifact", "repository-code", "type", "url", "version"}  # fmt: skip
+    assert required <= set(cited) <= allowed, f"CITATION.cff: {sorted(set(cited) ^ required)}"
+    assert cited["cff-version"] == "1.2.0" and cited["type"] == "software" and cited["license"] == "BSD-3-Clause", cited
+    people = {"family-names", "given-names", "name-particle", "name-suffix", "affiliation", "email", "orcid", "alias", "website"}
+    for reference in [cited, *cited["references"]]:
+        assert {"authors", "title", "type"} <= set(reference), reference
+        for author in reference["authors"]:
+            assert "name" in author or author and set(author) <= people, author
+    version = re.search(r"project\(Coplane VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
+    assert str(cited["version"]) == version, f"CITATION.cff: version {cited['version']}, the project has {version}"
+
+    page = (SOURCE / "docs/theory/references.md").read_text()
+    rows = [line.split("|")[1:-1] for line in page.splitlines() if line.startswith("| ") and not line.startswith("| cited as")]
+    entries = [" ".join(row) for row in rows]
+    for row in rows:
+        link = re.search(r"\[(.*)\]\(https://doi\.org/(.*)\)", row[2])
+        assert not link or re.fullmatch(r"10\.\d{4,5}/\S+", link.group(1)), row
+    lost = []
+    for name in tracked("docs/theory/*.md", "docs/user/*.md", "docs/examples/*.md", "packages/*.md", "packages/*.hpp", "packages/*.cpp", "packages/*.py", "apps/*.md", "tests/verification/*.md",
+                        "exodus_inputs/*.md", "exodus_inputs/*.csv"):  # fmt: skip
+        if name == "docs/theory/references.md":
+            continue
+        text = re.sub(r"\s*\n\s*(///?|\*|#)?\s*", " ", (SOURCE / name).read_text(errors="replace"))
+        for who, *years in re.findall(r"([A-Z][A-Za-zéüöçšč-]+)(?: et al\.?)?,? \(?(1[789]\d\d|200\d|201\d)(?:, (1[789]\d\d))?\)?(?![\d.%])", text):
+            if who not in ("Intel", "AMD"):
+                lost += [f"{name}: {who} {year}" for year in years if year and not any(who in entry and year in entry for entry in entries)]
+    assert not lost, "cited, but not in docs/theory/references.md:\n" + "\n".join(sorted(set(lost)))
+    sets = re.findall(r"^\| `(\w+)` \| `\w+` \| \d", (SOURCE / "docs/user/materials.md").read_text(), flags=re.M)
+    data = [*(f"`{name}`" for name in sets), *tracked("exodus_inputs/*.csv")]
+    assert len(sets) > 10 and not (missing := [name for name in data if name not in page]), f"docs/theory/references.md has no origin of {missing}"
+
+
+def check_trust():
+    """The page of trust has a row for every law, form of element, law of joints and condition that decks know, and was made when the tests were those of today."""
+    sys.path.insert(0, str(SOURCE / "tests/support"))
+    import trust_page as maker
+
+    page = maker.PAGE.read_text()
+    assert maker.MARK in page, f"docs/trust.md lacks {maker.MARK}"
+    head, made = page.split(maker.MARK)
+    how = "python3 tests/support/trust_page.py <build folder>, after the tests have run there"
+    schema = json.loads((SOURCE / "docs/schemas/deck.json").read_text())
+    for group, words in maker.words_of(schema).items():
+        for word in words:
+            shown = re.search(rf"^\| (?:\w+, )?{word} \|", made, flags=re.M)
+            assert shown, f"docs/trust.md is old: no row of the {group} {word}: {how}"
+    data = json.loads(maker.DATA.read_text())
+    assert made == maker.made(data, schema), f"docs/trust.md is not what tests/support/trust.json and the schema of decks give: {how}"
+    gone = [test for test in data["tests"] if not maker.exists(test)]
+    assert not gone, f"docs/trust.md is old: there are no tests {gone}: {how}"
+    cases = {path.parent.name for path in (SOURCE / "tests/verification").glob("*/check.py")}
+    ran = {test.split(".")[1] for test in data["tests"] if test.startswith("verification.")}
+    skipped = {name for name in cases if "sys.exit(77)" in (SOURCE / f"tests/verification/{name}/check.py").read_text()}  # not in every build
+    lost = sorted(cases - ran - maker.WITHOUT_RUNS - skipped)
+    assert not lost, f"docs/trust.md is old: it does not know the cases {lost}: {how}"
+    # What runs have is read from decks as they are.
+    run = dict(dimension="plane", blocks=[["quadrilaterals, one_point", "j2"]], joints=["linear"], conditions=["fixed"], switches=["friction"], layout="1 rank, serial")
+    data = maker.updated({"tests": {"parallel.memory": [[3, run]], "verification.gone": [[1, run]]}, "keys": {"mesh": "parallel.memory", "gravity": "verification.gone"}},
+                         [("verification.V14_incline", run, {"title"}), ("verification.V14_incline", run, {"title"})])  # fmt: skip
+    assert data["tests"] == {"parallel.memory": [[3, run]], "verification.V14_incline": [[2, run]]} and set(data["keys"]) == {"mesh", "title"}, data
+    text = maker.made(data, schema)
+    assert re.search(r"^\| j2 \| XB \| – \| – \|", text, flags=re.M) and "| linear | XB | – | – |" in text and "5 runs of 2 tests" in text, text[:3000]
+    assert "- `gravity`" in text and "- `title`" not in text, text[-3000:]
+    keys = set(maker.keys_of({"joints": {"mine": {"model": "table"}}, "conditions": [{"type": "fixed"}]}, schema))
+    assert keys == {"joints", "joints.model", "joints.model: table", "conditions", "conditions.type", "conditions.type: fixed"}, keys
+
+
+def check_tellings():
+    """Meshes that are told otherwise have the same volume and the same sides; decks have the same numbers in other units and frames."""
+    import numpy
+    from coplanetest import meshes, rotation, turned_deck, units
+
+    places = numpy.array([(x, y, z) for z in (0, 1.0) for y in (0, 1.0) for x in (0, 0.7, 2.0)])
+    nodes = numpy.array([[0, 1, 4, 3, 6, 7, 10, 9], [1, 2, 5, 4, 7, 8, 11, 10]])
+    solid = meshes.Mesh(places, [meshes.Block("a", 1, nodes)], {"left": numpy.array([0, 3, 6, 9])}, {"end": numpy.array([[1, 2]]), "top": numpy.array([[0, 6], [1, 6]])})
+    flat = meshes.Mesh(places[:6, :2], [meshes.Block("a", 1, nodes[:, :4])], {"left": numpy.array([0, 3])}, {"end": numpy.array([[1, 2]])})
+
+    def sizes(mesh):
+        """Volume, and area of each side set as a vector, by triangles and tetrahedra about a point."""
+        volume, areas = 0.0, {}
+        for block in mesh.blocks:
+            for element, row in enumerate(block.nodes):
+                kind = mesh.dimension, len(row)
+                middle = mesh.points[row].mean(axis=0)
+                for number, side in enumerate(meshes.SIDES[kind], start=1):
+                    p = mesh.points[row[list(side)]]
+                    if mesh.dimension == 2:
+                        area = numpy.array([p[1, 1] - p[0, 1], p[0, 0] - p[1, 0]])
+                    else:
+                        area = sum(numpy.cross(p[k] - p[0], p[k + 1] - p[0]) for k in range(1, len(p) - 1)) / 2
+                    volume += float((p.mean(axis=0) - middle) @ area) / mesh.dimension
+                    for name, members in mesh.side_sets.items():
+                        if [element + mesh.first(block.name), number] in members.tolist():
+                            areas[name] = areas.get(name, 0.0) + area
+        return volume, areas
+
+    for mesh in (solid, flat):
+        volume, areas = sizes(mesh)
+        assert abs(volume - 2) < 1e-14 and numpy.allclose(areas["end"], [1, 0, 0][: mesh.dimension]), (volume, areas)
+        turn = rotation(17.3 if mesh.dimension == 2 else [17.3, -31.7, 23.9])
+        told = {"turned": (meshes.moved(mesh, turn), turn), "mirrored": (meshes.moved(mesh, numpy.diag([-1.0, 1, 1])), numpy.diag([-1.0, 1, 1])),
+                **{f.__name__: (f(*arguments), numpy.eye(3)) for f, *arguments in ((meshes.renumbered, mesh), (meshes.split, mesh), (meshes.refined, mesh, "a"), (meshes.cut, mesh, "a", 0, 2))}}  # fmt: skip
+        for name, (other, matrix) in told.items():
+            d = mesh.dimension
+            size, sides = sizes(other)
+            assert abs(size - volume) < 1e-13, f"{name}: volume {size}"
+            assert all(numpy.allclose(sides[key], matrix[:d, :d] @ areas[key]) for key in areas), f"{name}: sides {sides}"
+            here, there, weights = other.shares
+            back = numpy.zeros_like(mesh.points)
+            numpy.add.at(back, there[weights == 1], other.points[here[weights == 1]] @ matrix[:d, :d])
+            count = numpy.bincount(there[weights == 1], minlength=len(back))
+            assert numpy.allclose(back / count[:, None], mesh.points), f"{name}: nodes do not lead back"
+            assert len(other.node_sets["left"]) >= len(mesh.node_sets["left"]), name
+    slice = meshes.extruded(flat)
+    assert abs(sizes(slice)[0] - 2) < 1e-14 and numpy.allclose(sizes(slice)[1]["end"], [1, 0, 0]), "extruded"
+
+    assert units.powers("kg/m^3") == (-3, 0, 1) and units.powers("J/(kg K)") == (2, -2, 0) and units.powers("1/s") == (0, -1, 0)
+    deck = {"materials": {"a": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e9, "poisson_ratio": 0.2}}, "blocks": {"a": {"material": "a"}}, "gravity": [0, "-9.81*min(t/0.5, 1)", 0],
+            "conditions": [{"type": "velocity", "node_set": "n", "value": ["2*t + x", 0, 0]}, {"type": "pressure", "side_set": "s", "value": 5.0}], "time": {"end": 2.0}}  # fmt: skip
+    told = units.deck_in(deck, (1e3, 1e3, 1e3))
+    card = told["materials"]["a"]
+    assert numpy.allclose([card["density"], card["youngs_modulus"], card["poisson_ratio"], told["time"]["end"]], [2e-3, 1e3, 0.2, 2e3], rtol=1e-14, atol=0), told
+    value = eval(told["conditions"][0]["value"][0], {"t": 3000.0, "x": 4000.0})  # at 3 s and 4 m: 10 m/s, which are 10 mm/ms
+    assert abs(value - 10) < 1e-12 and abs(told["conditions"][1]["value"] - 5.0 * 1e3 / 1e3 / 1e6) < 1e-18, told["conditions"]
+    quarter = numpy.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    told = turned_deck(deck, quarter, (7.0, 0, 0), (0.0, 0, 0))["conditions"][0]["value"]
+    assert told[0] == 0.0 and abs(eval(told[1], {"t": 3.0, "x": 7.0, "y": 4.0}) - 10) < 1e-12, told  # x there is y here
+
+
+def check_retold():
+    """The cases that are told in other words are registered; every case once and every way of telling it twice are told without `slow`, but for cases that only `slow` tells."""
+    sys.path.insert(0, str(SOURCE / "tests/metamorphic/retold"))
+    from cases import CASES
+    from coplanetest import tellings
+
+    text = (SOURCE / "tests/CMakeLists.txt").read_text()
+    often, slow = (re.search(rf"set\({name} (.*?)\)", text, flags=re.S).group(1).split() for name in ("_retold", "_retold_slow"))
+    assert sorted(often + slow) == sorted(CASES), f"tests/CMakeLists.txt: {sorted(set(often + slow) ^ set(CASES))}"
+    assert [name for name in CASES if CASES[name].often] == [name for name in CASES if name in often], "cases without words that are told often are in _retold_slow"
+    folders = [name for name in CASES if not (SOURCE / "tests/verification" / name).is_dir() and not (SOURCE / "exodus_inputs" / name).is_dir()]
+    assert not folders, f"no verification cases or examples: {folders}"
+    for word in [*tellings.WORDS, *tellings.WITH]:
+        cases = [name for name, known in CASES.items() if any(told.split(":")[0] == word for told in known.often)]
+        assert len(cases) >= 2, f"{word} is told of {cases} only"
+    check_tellings()
+    page = (SOURCE / "tests/metamorphic/README.md").read_text()
+    missing = [word for word in [*tellings.WORDS, *tellings.WITH] if not re.search(rf"`{word}[`:]", page)]
+    assert not missing, f"tests/metamorphic/README.md does not say what {missing} are"
 
 
 def check_deck():
@@ -215,7 +381,7 @@ def check_names():
 
     wrong = []
     for page in tracked("*.md"):
-        if page in ("docs/CHANGELOG.md", "docs/verification.md"):  # of the past, of results
+        if page in ("docs/CHANGELOG.md", "docs/verification.md", "docs/validation.md"):  # of the past, of results
             continue
         text = re.sub(r"```.*?```", "", (SOURCE / page).read_text(), flags=re.S)
         for span in re.findall(r"(?<!`)`([^`\n]+)`(?!`)", text):

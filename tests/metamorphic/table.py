@@ -1,4 +1,6 @@
-"""Puts the measured differences into README.md. Usage: table.py <folder with the checks.jsonl of the tests>; longer runs of a scene win."""
+"""Puts the measured differences into README.md. Usage: table.py <folder with the checks.jsonl of the tests> ...; longer runs of a scene win. Scenes and
+cases without results there keep the rows they have.
+"""
 
 import json
 import pathlib
@@ -8,36 +10,67 @@ import sys
 README = pathlib.Path(__file__).resolve().parent / "README.md"
 
 
-def rows(folder):
+def rows(folders, name):
     found = {}
-    for path in sorted(pathlib.Path(folder).rglob("*.jsonl"), key=lambda path: path.stat().st_size):
+    for path in sorted((path for folder in folders for path in pathlib.Path(folder).rglob("checks.jsonl")), key=lambda path: path.stat().st_size):
         for text in path.read_text().splitlines():
             record = json.loads(text)
-            if record["folder"] == "metamorphic":
+            if record["folder"] == name:
                 found.setdefault(record["case"], {})[record["quantity"]] = record
     return found
 
 
-def table(found):
-    lines = ["| scene | told as | what | difference | bound |", "|---|---|---|---|---|"]
-    for scene, records in found.items():
-        kept = {}
-        for quantity, record in records.items():
-            if "kept" in record:
-                kept[record["kept"]] = max(kept.get(record["kept"], 0.0), record["error"])
-                continue
+def of_scene(scene, records):
+    lines, kept = [], {}
+    for quantity, record in records.items():
+        if "kept" in record:
+            kept[record["kept"]] = max(kept.get(record["kept"], 0.0), record["error"])
+            continue
+        words, what = quantity.rsplit(": ", 1)
+        note = " (reported)" if record.get("reported") else ""
+        lines.append(f"| {scene} | {words} | {what} | {record['error']:.1e} | {record['tolerance']:.2g}{note} |")
+    for what in ("energy balance", "contact remainder"):
+        lines.append(f"| {scene} | all that are not reported | {what} | {kept[what]:.1e} | 0.001 |")
+    return lines
+
+
+def of_case(case, records):
+    """A line for each way of telling it: runs, checks that fail, motion and its bound, answers."""
+    told, lines = {}, []
+    for quantity, record in records.items():
+        untold = re.fullmatch(r"(\S+): (\d+) runs cannot be told so: (.*)", quantity)
+        if untold:
+            lines.append(f"| {case} | {untold.group(1)} | none of {untold.group(2)} | | | {untold.group(3).strip(chr(39))} |")
+        elif "kept" not in record:
             words, what = quantity.rsplit(": ", 1)
-            note = " (reported)" if record.get("reported") else ""
-            lines.append(f"| {scene} | {words} | {what} | {record['error']:.1e} | {record['tolerance']:.2g}{note} |")
-        for what in ("energy balance", "contact remainder"):
-            lines.append(f"| {scene} | all that are not reported | {what} | {kept[what]:.1e} | 0.001 |")
-    return "\n".join(lines)
+            told.setdefault(words, {})[what] = record
+    for words, found in told.items():
+        first = next(what for what in found if what.startswith("checks of the case"))
+        cells = [re.search(r"\((.*)\)", first).group(1), str(found[first]["value"]) + (" (reported)" if found[first].get("reported") else "")]
+        moved = [(what, found[what]) for what in ("any motion", "any motion, other steps") if what in found]
+        cells.append("; ".join(f"{record['error']:.1e} of {record['tolerance']:.1g}{', other steps' if 'other' in what else ''}" for what, record in moved))
+        answers = found.get("answers over tolerances")
+        cells.append(f"{answers['error']:.1e}" if answers else "")
+        lines.append(f"| {case} | {words} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def put(text, mark, head, of, found, order):
+    """The text with the lines behind the mark made anew; those of names without results stay."""
+    before, old = text.split(mark)
+    old, *after = old.split("<!-- end -->")
+    kept = {}
+    for line in old.splitlines()[2:]:
+        if line.startswith("| "):
+            kept.setdefault(line.split(" | ")[0][2:], []).append(line)
+    lines = [line for name in order for line in (of(name, found[name]) if name in found else kept.get(name, []))]
+    return before + mark + "\n".join([head, "|---" * (head.count("|") - 1) + "|", *lines]) + "\n" + "<!-- end -->".join(["", *after])
 
 
 if __name__ == "__main__":
-    found = rows(sys.argv[1])
-    sys.path.insert(0, str(README.parents[1] / "support"))
+    sys.path[:0] = [str(README.parents[1] / "support"), str(README.parent / "retold")]
+    from cases import CASES
     from scenes import SCENES  # in their order
 
-    text = table({name: found[name] for name in SCENES if name in found})
-    README.write_text(re.sub(r"(<!-- table -->\n).*", lambda match: match.group(1) + text + "\n", README.read_text(), flags=re.DOTALL))
+    text = put(README.read_text(), "<!-- cases -->\n", "| case | told as | runs | checks that fail | any motion, over the largest | answers |", of_case, rows(sys.argv[1:], "retold"), CASES)
+    README.write_text(put(text, "<!-- table -->\n", "| scene | told as | what | difference | bound |", of_scene, rows(sys.argv[1:], "metamorphic"), SCENES))

@@ -1,11 +1,14 @@
-"""Makes docs/verification.md from the results of the verification cases.
+"""Makes docs/verification.md and docs/validation.md from the results of the verification and the validation cases.
 
-Usage: verification_page.py <build folder> [<page>]
+Usage: verification_page.py <build folder> [verification | validation]
 
-Reads the checks.jsonl of the verification tests below the build folder and the READMEs in tests/verification. A case without results there keeps the
-section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
+Reads the checks.jsonl of the tests of a suite below the build folder and the READMEs in tests/verification or tests/validation. A case without results
+there keeps the section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
 
-The page begins with a table of all V numbers, from the titles of the READMEs in tests/verification and tests/parallel. A title has each number in
+A section of docs/validation.md is the README of the case, its picture (docs/validation/<case>.png), and tables of the checks, of other codes, and of the mesh
+study; the table before them has the line **Verdict.** of each README.
+
+The page of verification begins with a table of all V numbers, from the titles of the READMEs in tests/verification and tests/parallel. A title has each number in
 brackets behind the words that say what it shows:
 
     # Two equal bars (V21), in other frames (V58)
@@ -31,15 +34,30 @@ whole runs. Cases of `tests/parallel` compare runs with each other, bit by bit, 
 
 """
 
+VALIDATION_HEAD = """# Validation
 
-def cases():
+What the program computes against published tests, measured or computed by others: made by `tests/support/verification_page.py` from the lines that the tests of
+`ctest -L validation` write. Numbers of the mesh studies and of other codes come from the long forms (`ctest -L validation` with the label `slow`; `-LE slow`
+leaves them out). Differences are absolute where no per cent sign stands, in the unit of the quantity; `[low, high]` are limits. Seconds are those of the machine that made the page, two
+cores that other work shared; a form's seconds are of all runs of the case together.
+
+Cases whose verdict is not "agrees" are meant to be read: there the program is wrong, does not converge, or the reference asks for something that it does not have. Each section says what of its source was read; curves that could not be read as
+numbers were computed again by a method of one's own, and the section says so.
+
+Not here: shear walls J4D to J7D (they need a cap in compression on joints), the 42 tilted walls of Restrepo Velez et al. and blast-loaded brick walls (their tables could not be read), a boulder on a brick wall (Mavrouli et al. 2024: damage in words and pictures, no numbers to
+compare).
+
+"""
+
+
+def cases(suite="verification"):
     """Folders of the cases, in the order of their numbers; those without a number last."""
 
     def order(path):
         found = re.match(r"V(\d+)", path.name)
         return (0, int(found.group(1)), path.name) if found else (1, 0, path.name)
 
-    return sorted((path.parent for path in (SOURCE / "tests/verification").glob("*/check.py")), key=order)
+    return sorted((path.parent for path in (SOURCE / "tests" / suite).glob("*/check.py")), key=order)
 
 
 def titles():
@@ -71,20 +89,21 @@ def index():
     return "\n".join(["| number | what it shows | case |", "|---|---|---|", *(row for _, row in sorted(rows, key=lambda row: row[0])), ""])
 
 
-def records(build):
-    """Last line for each quantity of each case folder: {folder: {(case, quantity): record}}.
+def records(build, suite="verification"):
+    """Last line for each quantity of each case folder: {folder: {(case, quantity, size or code): record}}.
 
-    Only lines of the verification tests themselves (verification.<case>/checks.jsonl, or <case>.jsonl in
+    Only lines of the tests of the suite themselves (verification.<case>/checks.jsonl, or <case>.jsonl in
     COPLANE_CHECKS_DIR): other tests leave lines about made-up quantities in the build, too.
     """
     found = {}
-    names = tuple(folder.name for folder in cases())
+    names = tuple(folder.name for folder in cases(suite))
     for path in sorted(pathlib.Path(build).rglob("*.jsonl")):
-        if not (path.name == "checks.jsonl" and path.parent.name.startswith("verification.")) and not path.name.startswith(names):
+        if not (path.name == "checks.jsonl" and path.parent.name.startswith(f"{suite}.")) and not path.name.startswith(names):
             continue
         for text in path.read_text().splitlines():
             record = json.loads(text)
-            found.setdefault(record["folder"], {})[record["case"], record["quantity"]] = record
+            key = record["case"], record["quantity"], record.get("size", record.get("code"))
+            found.setdefault(record["folder"], {})[key] = record
     return found
 
 
@@ -145,24 +164,90 @@ def section(folder, lines):
     return "\n".join(text + ["| " + " | ".join(cells) + " |" for cells in rows] + [""])
 
 
-def page(build, old=""):
+def table(header, rows):
+    if not rows:
+        return []
+    return ["| " + " | ".join(header) + " |", "|" + "---|" * len(header), *("| " + " | ".join(cells) + " |" for cells in rows), ""]
+
+
+def off(record):
+    """Difference of a line of a study or another code from the reference, in per cent."""
+    value, reference = record["value"], record["reference"]
+    if isinstance(value, str) or isinstance(reference, str) or not reference or value is None:
+        return ""
+    return f"{100 * (value / reference - 1):+.2g} %"
+
+
+def validation_parts(folder):
+    """Title, verdict, and the text of the README without them."""
+    title, text = (folder / "README.md").read_text().split("\n", 1)
+    verdict = re.search(r"^\*\*Verdict\.\*\* (.*)$", text, flags=re.M)
+    return title.removeprefix("# "), verdict.group(1).strip(), re.sub(r"^\*\*Verdict\.\*\* ", "**Verdict.** ", text.strip(), flags=re.M)
+
+
+def seconds(lines):
+    return {record["quantity"]: record["value"] for record in lines if record.get("kind") == "seconds"}
+
+
+def validation_section(folder, lines):
+    title, _, readme = validation_parts(folder)
+    text = [heading(folder), "", f"*{title}.* [Deck, recipe, check](../tests/validation/{folder.name}/README.md)", "", readme, ""]
+    if (SOURCE / f"docs/validation/{folder.name}.png").exists():
+        text += [f"![{title}](validation/{folder.name}.png)", ""]
+    if not lines:
+        return "\n".join(text + ["No results yet.", ""])
+    checks = [record for record in lines if "kind" not in record]
+    rows = [row(record) for record in checks if "kept" not in record] + kept([record for record in checks if "kept" in record])
+    text += table(("quantity", "reference", "ours", "difference", "tolerance"), rows)
+    others = [record for record in lines if record.get("kind") == "other"]
+    spent = [f"{record['seconds']:.2g}" if record["seconds"] else "" for record in others]
+    input_lines = [str(record["lines"] or "") for record in others]
+    text += table(
+        ("quantity", "code or source", "value", "reference", "difference", "seconds", "lines of input"),
+        [[r["quantity"].replace("|", "\\|"), r["code"], number(r["value"]), number(r["reference"]) if r["reference"] is not None else "", off(r), s, n]
+         for r, s, n in zip(others, spent, input_lines)],
+    )  # fmt: skip
+    studies = [record for record in lines if record.get("kind") == "study"]
+    text += table(
+        ("mesh study: quantity", "elements", "ours", "reference", "difference", "seconds"),
+        [[r["quantity"].replace("|", "\\|"), r["size"], number(r["value"]), number(r["reference"]) if r["reference"] is not None else "", off(r),
+          f"{r['seconds']:.2g}" if r["seconds"] else ""] for r in studies],
+    )  # fmt: skip
+    spent = seconds(lines)
+    text += ["Seconds: " + ", ".join(f"{form} {value:.0f}" for form, value in spent.items()) + ".", ""]
+    return "\n".join(text)
+
+
+def validation_index():
+    """All cases, with their verdicts."""
+    rows = []
+    for folder in cases("validation"):
+        title, verdict, _ = validation_parts(folder)
+        rows.append([f"[{folder.name}](#{heading(folder)[3:].lower().replace(' ', '-')})", title, verdict])
+    return "\n".join(table(("case", "what", "verdict"), rows))
+
+
+def page(build, old="", suite="verification"):
     """The page's text; sections of `old` stay where the build has no results."""
     before = {match.split("\n", 1)[0]: match for match in re.findall(r"^## .*?(?=^## |\Z)", old, flags=re.S | re.M)}
-    found = records(build)
+    found = records(build, suite)
+    made = section if suite == "verification" else validation_section
     sections = []
-    for folder in cases():
+    for folder in cases(suite):
         lines = list(found.get(folder.name, {}).values())
         if lines or heading(folder) not in before:
-            sections.append(section(folder, lines))
+            sections.append(made(folder, lines))
         else:
             sections.append(before[heading(folder)].rstrip("\n") + "\n")
-    return HEAD + index() + "\n" + "\n".join(sections)
+    head = HEAD + index() if suite == "verification" else VALIDATION_HEAD + validation_index()
+    return head + "\n" + "\n".join(sections)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) not in (2, 3):
+    if len(sys.argv) not in (2, 3) or sys.argv[2:] not in ([], ["verification"], ["validation"]):
         sys.exit(__doc__)
     if not (pathlib.Path(sys.argv[1]) / "CTestTestfile.cmake").exists():
         sys.exit(f"{sys.argv[1]}: no build folder (there is no CTestTestfile.cmake)\n\n{__doc__}")
-    output = pathlib.Path(sys.argv[2]) if len(sys.argv) == 3 else SOURCE / "docs/verification.md"
-    output.write_text(page(sys.argv[1], output.read_text() if output.exists() else ""))
+    for suite in sys.argv[2:] or ("verification", "validation"):
+        output = SOURCE / f"docs/{suite}.md"
+        output.write_text(page(sys.argv[1], output.read_text() if output.exists() else "", suite))

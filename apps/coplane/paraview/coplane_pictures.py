@@ -31,14 +31,16 @@ CAMERAS = {"front": ((0, 0, 1), (0, 1, 0)), "back": ((0, 0, -1), (0, 1, 0)), "le
 PALETTE = [(0.45, 0.52, 0.60), (0.85, 0.72, 0.55), (0.56, 0.68, 0.50), (0.75, 0.50, 0.46), (0.62, 0.55, 0.72), (0.50, 0.70, 0.74), (0.80, 0.78, 0.45),
            (0.70, 0.70, 0.70)]
 STEEL, BRICK, EDGE, BLACK = [0.45, 0.52, 0.60], [0.85, 0.82, 0.76], [0.35, 0.35, 0.35], [0, 0, 0]
+MOST_LETTERS = 24  # of the name of a block beside a picture
 LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be dark
 
 
 class Run:
     """Results `run.e`, with the parts that restarts have written and the files of ranks, and planes `run_planes.xmf3` or `.pvd` in a folder."""
 
-    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None):
-        """files: all files of the results, and planes: the series, in place of those in the folder."""
+    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None, names=None):
+        """files: all files of the results, and planes: the series, in place of those in the folder. names: of the blocks as the mesh has them; the
+        reader of ParaView writes them small, with _ for spaces."""
         self.folder = os.path.abspath(results or sys.argv[1])
         self.deformed = deformed
         self.pictures = pictures or sys.argv[2]
@@ -47,7 +49,9 @@ class Run:
         # All parts and ranks by their names: the reader seeks no files of ranks of other parts.
         self.files = files or sorted(glob.glob(glob.escape(self.file)) + glob.glob(glob.escape(self.file) + "[.-][s0-9]*"))
         self.reader = self._open()
-        self.names = list(self.reader.ElementBlocks)
+        of_reader = list(self.reader.ElementBlocks)
+        self.names = list(names) if names and len(names) == len(of_reader) else of_reader
+        self._of_reader = dict(zip(self.names, of_reader))
         self.times = list(self.reader.TimestepValues)
         places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".xmf3", ".pvd")]
         # Of a run that has changed its format, what was written last.
@@ -70,7 +74,7 @@ class Run:
             if name not in self.names:
                 raise SystemExit(f"{self.file} has no element block '{name}'; it has {', '.join(self.names)}.")
         reader = self._open()
-        reader.ElementBlocks = list(names)
+        reader.ElementBlocks = [self._of_reader[name] for name in names]
         grid = MergeBlocks(Input=reader, MergePoints=0)
         return Threshold(Input=grid, Scalars=["CELLS", "alive"], LowerThreshold=0.5, ThresholdMethod="Above Upper Threshold",
                          UpperThreshold=0.5)
@@ -149,6 +153,17 @@ def round_length(most):
     return max(factor * power for factor in (1, 2, 5) if factor * power <= most * (1 + 1e-9))
 
 
+def letters_of(size):
+    """The size of letters, as a share of that for 800 points of height."""
+    return max(0.6, min(1.0, size[1] / 800))
+
+
+def margin_for(size, names=(), bars=0):
+    """Points of the screen that names of blocks, or colour bars, take at the right of a picture."""
+    longest = max((min(len(name), MOST_LETTERS) for name in names), default=0)
+    return round(min(0.45 * size[0], letters_of(size) * max(12.5 * longest + 12 if names else 0, 175 if bars else 0)))
+
+
 def words_of_length(metres):
     for unit, size in (("km", 1e3), ("m", 1), ("mm", 1e-3)):
         if metres >= size:
@@ -159,12 +174,13 @@ def words_of_length(metres):
 class Picture:
     """One view at one time [s]. Flat: `box` (x0, x1, y0, y1) is what is seen. In space: `camera` (position, focal point, up). Or `camera` is one of
     CAMERAS, or the direction (x, y, z) from the bodies to it, with `bounds` of what shall be seen and the axis that is `up`, y or z,
-    without perspective; `room` is left around them."""
+    without perspective; `room` is left around them, and `margin` [points of the screen] at the right for names and colour bars."""
 
-    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y", room=1.2):
-        self.run, self.time, self.size = run, time, list(size)
+    def __init__(self, run, time, size=(1200, 800), box=None, camera=None, label=True, angle=30, bounds=None, up="y", room=1.2, margin=0):
+        self.run, self.time, self.size, self.margin = run, time, list(size), margin
+        self.bars = 0
         # Pictures of any run may be small; those of scripts choose their letters.
-        self.letters = min(1.0, size[1] / 800) if bounds else 1.0
+        self.letters = letters_of(size) if bounds else 1.0
         view = self.view = CreateView("RenderView")
         view.ViewSize = self.size
         view.UseColorPaletteForBackground = 0
@@ -184,7 +200,7 @@ class Picture:
         else:
             view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera
             view.CameraViewAngle = angle
-        self.flat = bool(box)
+        self.flat = bool(box) or bool(bounds) and bounds[5] <= bounds[4]
         if label:
             self.text(f"t = {1e3 * time:.4g} ms")
 
@@ -204,11 +220,25 @@ class Picture:
         middle = sides.mean(axis=1)
         view = self.view
         view.CameraParallelProjection = 1
+        scale = 0.5 * room * max(height, width * self.size[1] / (self.size[0] - self.margin), 1e-300)
+        middle = middle + self.margin * scale / self.size[1] * right
         view.CameraFocalPoint = list(middle)
         view.CameraPosition = list(middle + 3 * numpy.linalg.norm(numpy.ptp(sides, axis=1)) * toward)
         view.CameraViewUp = list(up)
-        # Where bodies fill the bounds there is room for the colour bar at the right and for time and scale above and below.
-        view.CameraParallelScale = 0.5 * room * max(height, width * self.size[1] / self.size[0], 1e-300)
+        view.CameraParallelScale = scale
+        if self.margin:
+            self._blank_margin(scale, toward, right, up)
+
+    def _blank_margin(self, scale, toward, right, up):
+        """White before bodies that are wider than the bounds."""
+        half = scale * self.size[0] / self.size[1]
+        place = (numpy.array(self.view.CameraFocalPoint) + numpy.array(self.view.CameraPosition)) / 2
+        corner = place + right * half * (1 - 2 * self.margin / self.size[0]) - up * 1.01 * scale
+        sheet = Plane(Origin=list(corner), Point1=list(corner + right * 2.02 * half * self.margin / self.size[0]), Point2=list(corner + up * 2.02 * scale))
+        shown = Show(sheet, self.view)
+        shown.ColorArrayName = ["POINTS", ""]
+        shown.AmbientColor = shown.DiffuseColor = [1, 1, 1]
+        shown.Ambient, shown.Diffuse = 1.0, 0.0
 
     def scale_bar(self):
         """A length in the lower left corner; only where there is no perspective."""
@@ -217,7 +247,7 @@ class Picture:
         toward = (position - focus) / numpy.linalg.norm(position - focus)
         right = numpy.cross(up / numpy.linalg.norm(up), toward)
         half = numpy.array([view.CameraParallelScale * self.size[0] / self.size[1], view.CameraParallelScale])
-        length = round_length(0.4 * half[0])
+        length = round_length(0.4 * half[0] * (1 - self.margin / self.size[0]))  # in a strip the same in all pictures
         first = focus + right * (-0.95 * half[0]) + numpy.cross(toward, right) * (-0.93 * half[1])
         first = first + toward * 0.5 * numpy.linalg.norm(position - focus)  # before everything
         shown = Show(Line(Point1=list(first), Point2=list(first + length * right)), view)
@@ -227,8 +257,10 @@ class Picture:
         display = Show(Text(Text=words_of_length(length)), view)
         display.Color, display.FontSize, display.WindowLocation, display.Position = BLACK, round(18 * self.letters), "Any Location", [0.025, 0.045]
 
-    def bodies(self, names=(), opacity=1.0, legend=True, change=lambda source: source):
-        """Every block in a colour of its own, named at the right. change(source): what is drawn of each."""
+    def bodies(self, names=(), opacity=1.0, legend=True, change=lambda source: source, edges=True):
+        """Every block in a colour of its own, named at the right as far as there is room. change(source): what is drawn of each."""
+        shown, line = [], 34 * self.letters / self.size[1]
+        rows = max(1, int(0.95 / line) - 1)
         for place, name in enumerate(self.run.names):
             if names and name not in names:
                 continue
@@ -237,12 +269,16 @@ class Picture:
             source.UpdatePipeline(self.time)
             if source.GetDataInformation().GetNumberOfCells() == 0:
                 continue
-            self.solid(source, list(color), opacity=opacity)
-            if not legend:
-                continue
-            display = Show(Text(Text=name), self.view)
-            display.Color, display.FontSize, display.WindowLocation = [0.8 * part for part in color], round(20 * self.letters), "Any Location"
-            display.Bold, display.Position = 1, [0.84, 0.93 - 0.045 * place]
+            self.solid(source, list(color), edges, opacity)
+            shown.append((name, [0.8 * part for part in color]))
+        if not legend:
+            return
+        if len(shown) > rows:
+            shown[rows - 1:] = [(f"and {len(shown) - rows + 1} more", BLACK)]
+        for place, (name, color) in enumerate(shown):
+            display = Show(Text(Text=name if len(name) <= MOST_LETTERS else name[:MOST_LETTERS - 3] + "..."), self.view)
+            display.Color, display.FontSize, display.WindowLocation = color, round(20 * self.letters), "Any Location"
+            display.Bold, display.Position = 1, [1 - self.margin / self.size[0] if self.margin else 0.84, 0.97 - line * (place + 1)]
 
     def arrows(self, length, top, vector="force"):
         """Planes that carry traction as arrows of this length [m] where the vector is as large as `top`."""
@@ -300,7 +336,18 @@ class Picture:
             scale.Title, scale.ComponentTitle = title or color, ""
             scale.TitleColor = scale.LabelColor = BLACK
             scale.WindowLocation = where
+            if self.margin:
+                self._beside(scale)
         return shown
+
+    def _beside(self, scale):
+        """A colour bar in the margin, the first above the second."""
+        scale.AutomaticLabelFormat, scale.LabelFormat, scale.RangeLabelFormat = 0, "%.3g", "%.3g"
+        scale.TitleFontSize = scale.LabelFontSize = round(18 * self.letters)
+        scale.ScalarBarThickness = round(18 * self.letters)
+        scale.WindowLocation, scale.ScalarBarLength = "Any Location", 0.38
+        scale.Position = [1 - (self.margin - 10 * self.letters) / self.size[0], 0.54 if self.bars == 0 else 0.06]
+        self.bars += 1
 
     def dots(self, source=None, size=4, color=BLACK):
         """Points of contact as black dots, as in the pictures of Vorobiev 2006."""

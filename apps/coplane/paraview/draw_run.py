@@ -1,12 +1,13 @@
 """Pictures of any run, for pvbatch: what coplane.pictures asks for, as JSON in the first argument; prints the files, a line each.
 
-    runs: [{folder, name, files (of the results), planes (the series, or null)}, ...]   one, or two to be compared
+    runs: [{folder, name, files (of the results), planes (the series, or null), blocks (their names, as in the mesh)}, ...]   one, or two to be compared
     folder: of the pictures   frames: positions in the times of the first run
     color: a variable, an expression of variables, or "block"   title: of its bar   range: [lowest, highest] or null: of all frames
     palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
     camera: a name, a direction [x, y, z] or null   window: what is seen, [x0, x1, y0, y1] or with z0, z1, or null   up: y or z
-    planes: dots, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
-    mirror, deformed: bool   size: [width, height]   legend: all, or last: in the last picture only
+    planes: dots (of those that carry traction), all, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
+    mirror, deformed, edges: bool   size: [width, height]
+    legend: names and colour bars at the right of the bodies, within the width, in all pictures; or last: only in the last, which is so much wider
 """
 import json
 import os
@@ -16,7 +17,7 @@ import coplane_pictures as cp
 from paraview.simple import MergeBlocks, Reflect, Threshold
 
 want = json.loads(sys.argv[1])
-runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"]) for run in want["runs"]]
+runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"], run["blocks"]) for run in want["runs"]]
 times = [runs[0].times[frame] for frame in want["frames"]]
 boxes = [run.bounds(run.nearest(times[0], times[-1]), want["blocks"]) for run in runs]
 bounds = [(min if side % 2 == 0 else max)(box[side] for box in boxes) for side in range(6)]
@@ -25,14 +26,17 @@ if want["mirror"]:
     bounds[0] = min(bounds[0], -bounds[1])
 if want["window"]:
     bounds[: len(want["window"])] = want["window"]
-view = {"size": want["size"], "camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
+view = {"camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
         "room": 1.0 if want["window"] else 1.2}  # fmt: skip
 chosen = want["blocks"] or runs[0].names
 colored = [name for name in chosen if name not in want["plain"]]
 by_block = want["color"] == "block" or not colored
-of_planes = want["planes"] not in ("dots", "arrows", "none")
+of_planes = want["planes"] not in ("dots", "all", "arrows", "none")
 has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
 # Planes lie between bodies: their arrows and values shall be seen through them.
+bars = (not by_block) + (of_planes and has_planes)
+margin = cp.margin_for(want["size"], chosen if by_block and not of_planes else (), bars)
+width = want["size"][0] - (margin if want["legend"] == "all" else 0)
 opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
 
 
@@ -76,18 +80,18 @@ def styled(name, range):
 
 def draw(run, time, name):
     nearest = run.nearest(time)[0]
-    picture = cp.Picture(run, nearest, **view)
     with_legend = want["legend"] == "all" or time == times[-1]
+    picture = cp.Picture(run, nearest, size=[width + (margin if with_legend else 0), want["size"][1]], margin=margin if with_legend else 0, **view)
     if of_planes and want["color"] == "block":
-        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], opacity=opacity, edge=[0.85, 0.84, 0.82])
+        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], want["edges"], opacity, [0.85, 0.84, 0.82])
     elif by_block:
-        picture.bodies(chosen, opacity, with_legend, whole)
+        picture.bodies(chosen, opacity, with_legend, whole, want["edges"])
     else:
         source, variable = bodies(run)
-        picture.surface(whole(source), variable, colors, want["title"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
-        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole)
-    if has_planes and want["planes"] == "dots":
-        picture.dots(whole(run.planes()) if want["mirror"] else None, size=want["dot_size"])
+        picture.surface(whole(source), variable, colors, want["title"], edges=want["edges"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
+        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole, want["edges"])
+    if has_planes and want["planes"] in ("dots", "all"):
+        picture.dots(whole(run.planes(touching=want["planes"] == "dots")), size=want["dot_size"])
     elif has_planes and want["planes"] == "arrows":
         picture.arrows(0.15 * max(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]), most)
     elif has_planes and of_planes:
@@ -97,6 +101,8 @@ def draw(run, time, name):
                          ThresholdMethod="Above Upper Threshold")  # fmt: skip
         picture.points(some, want["planes"], plane_colors, want["planes_title"], size=want["dot_size"], bar=with_legend,
                        points=cp.palette("dark", *plane_colors))  # fmt: skip
+        if len(cp.values(some, want["planes"], nearest)) == 0:
+            picture.text(f"{want['planes']}: 0", "Lower Right Corner")
     picture.scale_bar()
     if len(runs) > 1:
         stem = os.path.basename(run.file)[:-2]

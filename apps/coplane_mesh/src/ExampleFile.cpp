@@ -28,11 +28,24 @@ struct ChangeCard
   int ranks = 2;
 };
 
+/// What one call of `coplane pictures` draws; keys are its options.
+struct PictureCard
+{
+  std::string name, where;
+  std::vector<Real> times, shares, range, window, direction, size{1200, 800};
+  std::string color = "block", title, palette = "green_blue", camera, up, planes = "dots";
+  std::vector<std::string> blocks, plain;
+  int steps = 2, dotSize = 4, columns = 0;
+  Real opacity = 1;
+  bool mirror = false, noEdges = false, undeformed = false;
+};
+
 struct ExampleCard : ChangeCard
 {
   std::string size;
-  std::string pictures = "pictures.py", check = "check.py", summary = "summary.py";
+  std::string check = "check.py", summary = "summary.py";
   std::vector<ChangeCard> sizes, variants;
+  std::vector<PictureCard> pictures;
 };
 
 template <class Card>
@@ -65,6 +78,102 @@ std::vector<Key> changeKeys()
   return keys;
 }
 
+std::vector<Key> pictureKeys()
+{
+  using Card = PictureCard;
+  return {
+      numbers("times", &Card::times)
+          .in("s")
+          .atLeast(0)
+          .defaultIs("the first and the last")
+          .like("[0, 0.25]")
+          .means("the states nearest to these times"),
+      numbers("shares", &Card::shares)
+          .in("-")
+          .atLeast(0)
+          .atMost(1)
+          .defaultIs("none")
+          .like("[0, 0.6, 1]")
+          .means("the states nearest to these shares of the last time"),
+      integer("steps", &Card::steps)
+          .in("states")
+          .atLeast(1)
+          .like("6")
+          .means("so many states from the first to the last"),
+      text("color", &Card::color)
+          .like("4*(1-damage)")
+          .means("block, a variable of the results, or an expression of variables"),
+      text("title", &Card::title)
+          .defaultIs("the variable and its unit")
+          .like("tensile strength [MPa]")
+          .means("of the colours"),
+      numbers("range", &Card::range, 2)
+          .in("-")
+          .defaultIs("of all that is drawn")
+          .like("[0, 1]")
+          .means("of the colours, in the unit of the variable"),
+      text("palette", &Card::palette)
+          .oneOf({"green_blue", "cool_warm", "white_to_blue", "dark"})
+          .like("cool_warm")
+          .means("the colours"),
+      texts("blocks", &Card::blocks).defaultIs("all").like("[slab]").means("only these blocks"),
+      texts("plain", &Card::plain)
+          .defaultIs("none")
+          .like("[projectile]")
+          .means("blocks in a colour of their own, where others have that of a variable"),
+      text("camera", &Card::camera)
+          .oneOf({"front", "back", "left", "right", "top", "bottom", "iso"})
+          .defaultIs("front; in space iso")
+          .like("left")
+          .means("where it stands"),
+      numbers("direction", &Card::direction, 3)
+          .in("-")
+          .notAllZero()
+          .defaultIs("that of camera")
+          .like("[1, -4, 2]")
+          .means("from the bodies to the camera"),
+      text("up", &Card::up)
+          .oneOf({"y", "z"})
+          .defaultIs("the axis against gravity, else z in space")
+          .like("y")
+          .means("the axis that points up"),
+      numbers("window", &Card::window)
+          .in("m")
+          .atLeastItems(4)
+          .defaultIs("all bodies")
+          .like("[-12, 12, -2, 11.5]")
+          .means("what is seen: x0, x1, y0, y1, in space also with z0, z1"),
+      text("planes", &Card::planes)
+          .like("slip")
+          .means("dots, all, arrows, none, or a variable of the planes: dots in its colours"),
+      integer("dot_size", &Card::dotSize)
+          .in("points of the screen")
+          .atLeast(1)
+          .like("6")
+          .means("of the planes"),
+      number("opacity", &Card::opacity)
+          .in("-")
+          .above(0)
+          .atMost(1)
+          .like("0.3")
+          .means("of the bodies"),
+      flag("mirror", &Card::mirror).like("true").means("also the mirror image at x = 0"),
+      flag("no_edges", &Card::noEdges).like("true").means("without the edges of elements"),
+      flag("undeformed", &Card::undeformed).like("true").means("at the coordinates of the start"),
+      numbers("size", &Card::size, 2)
+          .in("points of the screen")
+          .atLeast(1)
+          .like("[460, 300]")
+          .means("width and height"),
+      integer("strip", &Card::columns)
+          .in("columns")
+          .atLeast(1)
+          .defaultIs("a picture for each state")
+          .like("4")
+          .means("one picture of all states, so many in a row"),
+  };
+}
+
 void checkExample(ExampleCard& example, const CardPlace& place)
 {
   std::vector<std::string> names;
@@ -94,9 +203,9 @@ Key makeSchema()
           .means("sizes of the problem, by names of your choice: what they change"),
       named("variants", &Card::variants, changeKeys())
           .means("variants of the problem, by names of your choice: what they change"),
-      text("pictures", &Card::pictures)
-          .like("../perforation/pictures.py")
-          .means("draws the pictures"),
+      named("pictures", &Card::pictures, pictureKeys())
+          .means("what coplane pictures draws of a run, by names of your choice, with which the "
+                 "names of files begin: its options"),
       text("check", &Card::check)
           .like("../perforation/check.py")
           .means("looks at the results of a run"),

@@ -52,6 +52,14 @@ class Deck:
         _yaml().dump(self.document, text)
         return text.getvalue()
 
+    def text_for(self, mesh):
+        """The text with another mesh. The deck stays as it is; a copy of one with long tables takes long."""
+        own, self["mesh"] = self["mesh"], str(mesh)
+        try:
+            return self.text
+        finally:
+            self["mesh"] = own
+
     @property
     def folder(self):
         """The mesh is sought from here."""

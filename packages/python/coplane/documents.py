@@ -6,7 +6,7 @@ import re
 import yaml
 
 
-class _Loader(yaml.SafeLoader):
+class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # by libyaml where PyYAML was built with it
     """PyYAML reads 5e10 as text (YAML 1.1 wants 5.0e+10); decks mean a number."""
 
 
@@ -16,6 +16,7 @@ _Loader.add_implicit_resolver(
     list("-+0123456789."),
 )
 _Loader.add_implicit_resolver("tag:yaml.org,2002:int", re.compile(r"^[-+]?\d+$"), list("-+0123456789"))
+_Dumper = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 
 
 def parse(text):
@@ -31,7 +32,7 @@ def load(path):
 
 def text(document):
     """As YAML; numbers with all digits."""
-    return yaml.safe_dump(document, sort_keys=False, default_flow_style=None, width=120)
+    return yaml.dump(document, Dumper=_Dumper, sort_keys=False, default_flow_style=None, width=120)
 
 
 def save(document, path):

@@ -31,11 +31,9 @@ _FUNCTIONS = {"abs", "acos", "asin", "atan", "ceil", "cos", "cosh", "exp", "floo
 
 
 def _steps(times, wanted, every):
-    """Positions of the steps that are nearest to the wanted times ([s], or texts such as 60%, of the last one), or so many from the first to the
-    last."""
+    """Positions of the steps that are nearest to the wanted times [s], or so many from the first to the last."""
     if wanted:
-        places = [float(time[:-1]) / 100 * times[-1] if isinstance(time, str) and time.endswith("%") else float(time) for time in wanted]
-        return sorted({int(numpy.argmin(numpy.abs(times - place))) for place in places})
+        return sorted({int(numpy.argmin(numpy.abs(times - time))) for time in wanted})
     return sorted({int(step) for step in numpy.linspace(0, len(times) - 1, min(every, len(times))).round()})
 
 
@@ -65,7 +63,7 @@ def _planes(run, planes):
         series = run.planes
     except (OSError, KeyError):
         series = None
-    if planes not in ("dots", "arrows"):
+    if planes not in ("dots", "all", "arrows"):
         fields = series.fields(-1) if series and len(series) else {}
         if planes not in fields or planes == "Points":
             raise ValueError(f"no variable '{planes}' of the planes; there are {', '.join(name for name in fields if name != 'Points') or 'no planes'}")
@@ -80,11 +78,11 @@ def _titled(name):
 
 def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None, blocks=(), camera=None, deformed=True, planes="dots",
          size=(1200, 800), timeout=None, title=None, palette="green_blue", plain=(), window=None, dot_size=4, opacity=None, mirror=False,
-         legend="all"):  # fmt: skip
+         legend="all", edges=True, up=None):  # fmt: skip
     """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time.
 
     Meanings are those of the options of `coplane pictures` (docs/user/paraview.md). camera: a name or a direction; window: 4 or 6 numbers [m];
-    legend: all, or last, in the last picture alone. PicturesFailed when ParaView is missing or fails, ValueError for what the run has not.
+    legend: names and colour bars at the right of all pictures, within their size; or last, of the last picture alone, which is so much wider. PicturesFailed when ParaView is missing or fails, ValueError for what the run has not.
     """
     missing = program.missing_for_pictures() + ([] if program.PARAVIEW else ["coplane_pictures.py"])
     if missing:
@@ -92,13 +90,13 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     runs, told = [run] if compare is None else [run, compare], []
     for one in runs:
         _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
-        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes),
+        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "blocks": one.results.blocks,
                      "files": [str(file.path if pathlib.Path(file.path).is_absolute() else pathlib.Path(file.path).resolve()) for part in one.results.parts for file in part]})
     if isinstance(camera, str) and camera not in CAMERAS:
         raise ValueError(f"no camera '{camera}'; there are {', '.join(CAMERAS)}, or a direction of three numbers")
     want = dict(runs=told, color=color, title=title or _titled(color), range=range, palette=palette, blocks=list(blocks), plain=list(plain), camera=camera, window=window,
-                up=_up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes), dot_size=dot_size, opacity=opacity, mirror=mirror,
-                deformed=deformed, size=list(size), legend=legend, frames=_steps(numpy.array(run.results.times), times, steps))  # fmt: skip
+                up=up or _up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes), dot_size=dot_size, opacity=opacity, mirror=mirror,
+                deformed=deformed, size=list(size), legend=legend, edges=edges, frames=_steps(numpy.array(run.results.times), times, steps))  # fmt: skip
     with tempfile.TemporaryDirectory() as draft:
         files = _drawn({**want, "folder": draft}, timeout)
         pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
@@ -115,14 +113,21 @@ def _drawn(want, timeout):
 
 
 def strip(files, output, columns):
-    """Pictures of one size beside each other, in rows of so many."""
+    """Pictures of one size beside each other, in rows of so many; the last may be wider, by its legend."""
     Image = needs("PIL.Image", "A strip")
     images = [Image.open(file).convert("RGB") for file in files]
     width, height = images[0].size
-    whole = Image.new("RGB", (width * min(columns, len(images)), height * -(-len(images) // columns)), "white")
-    for place, image in enumerate(images):
-        whole.paste(image, (width * (place % columns), height * (place // columns)))
+    places = [(width * (place % columns), height * (place // columns)) for place, _ in enumerate(images)]
+    whole = Image.new("RGB", (max(x + image.width for (x, _), image in zip(places, images)), places[-1][1] + height), "white")
+    for place, image in zip(places, images):
+        whole.paste(image, place)
     whole.save(output)
+
+
+def _demand_film(output):
+    """PicturesFailed when there is nothing that makes such a film."""
+    if pathlib.Path(output).suffix == ".mp4" and not shutil.which("ffmpeg"):
+        raise PicturesFailed(f"{output}: ffmpeg not found, which makes .mp4: apt-get install ffmpeg, or choose a file .gif")
 
 
 def animate(files, output, rate=12):
@@ -132,8 +137,7 @@ def animate(files, output, rate=12):
         images = [Image.open(file).convert("RGB").quantize(128) for file in files]
         images[0].save(output, save_all=True, append_images=images[1:], duration=round(1000 / rate), loop=0)
         return
-    if not shutil.which("ffmpeg"):
-        raise PicturesFailed("ffmpeg not found: apt-get install ffmpeg, or choose a file .gif")
+    _demand_film(output)
     with tempfile.TemporaryDirectory() as folder:
         for place, file in enumerate(files):
             shutil.copy(file, f"{folder}/{place:06d}.png")
@@ -155,7 +159,7 @@ def _values(series, block, name, step):
 
 
 def vector(run, output, time=None, color="block", range=None, blocks=(), deformed=True, planes=True, window=None):
-    """A run in two dimensions as vector graphics (.svg, .pdf), at the step nearest to a time ([s], or as 60%); default: the last."""
+    """A run in two dimensions as vector graphics (.svg, .pdf), at the step nearest to a time [s]; default: the last."""
     matplotlib = needs("matplotlib", "A picture as vector graphics")
     matplotlib.use("agg")
     collections = needs("matplotlib.collections", "A picture as vector graphics")
@@ -189,7 +193,7 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
         axes.set(xlim=window[:2], ylim=window[2:4])
     axes.set(aspect="equal", title=f"t = {1e3 * times[step]:.4g} ms", xlabel="x [m]", ylabel="y [m]")
     if values:
-        figure.colorbar(polygons, label=_titled(color))
+        figure.colorbar(polygons, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=_titled(color))  # as tall as what is seen
     else:
         axes.legend(loc="upper left", bbox_to_anchor=(1.02, 1))
     if planes and run.planes_path.exists() and len(run.planes):
@@ -207,43 +211,24 @@ def _count(word):
     return int(word)
 
 
-def _time(word):
-    try:
-        float(word[:-1] if word.endswith("%") else word)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"'{word}'; accepted: seconds, or with % a share of the last time") from None
-    return word
-
-
 def _share(word):
     try:
-        if 0 < float(word) <= 1:
+        if 0 <= float(word) <= 1:
             return float(word)
     except ValueError:
         pass
-    raise argparse.ArgumentTypeError(f"'{word}'; accepted: numbers from 0 to 1, not 0")
-
-
-def _camera(words):
-    """A name, or the direction of three numbers."""
-    if words is None or len(words) == 1 and words[0] in CAMERAS:
-        return words and words[0]
-    try:
-        direction = [float(word) for word in words]
-        if len(direction) == 3 and any(direction):
-            return direction
-    except ValueError:
-        pass
-    raise ValueError(f"--camera {' '.join(words)}: accepted are {', '.join(CAMERAS)}, or three numbers, the direction from the bodies to the camera")
+    raise argparse.ArgumentTypeError(f"'{word}'; accepted: numbers from 0 to 1")
 
 
 def _parser():
     parser = argparse.ArgumentParser(prog="coplane pictures", description="Draws any run: bodies, deformed, with the planes that carry traction.")
+    parser._negative_number_matcher = re.compile(r"-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$")  # -1e-3 is a number, no option
     parser.add_argument("run", help="the run: its name with its folder (out/wall), its folder, or one of its files")
     parser.add_argument("--compare", metavar="OTHER", help="another run, drawn beside it at the same times")
     parser.add_argument("-o", "--output", metavar="FOLDER", help="default: the folder pictures beside the run")
-    parser.add_argument("--name", help="what the names of files begin with; default: that of the run")
-    parser.add_argument("--times", nargs="+", type=_time, default=[], metavar="T", help="times [s], or as 60%% of the last; default: the first and the last")
+    parser.add_argument("--name", help="what the names of files begin with, and that of a strip; default: that of the run")
+    parser.add_argument("--times", nargs="+", type=float, default=[], metavar="T", help="times [s]; default: the first and the last")
+    parser.add_argument("--shares", nargs="+", type=_share, default=[], metavar="X", help="times, from 0 to 1 as shares of the last one")
     parser.add_argument("--steps", type=_count, metavar="N", help="so many states from the first to the last; default: 2, of a film all")
     parser.add_argument("--color", default="block", metavar="VARIABLE",
                         help="block (default), a variable (von_mises, velocity, damage, ...), or an expression of variables, such as '4*(1-damage)'")
@@ -252,15 +237,17 @@ def _parser():
     parser.add_argument("--palette", choices=PALETTES, default=PALETTES[0], help="the colours")
     parser.add_argument("--blocks", nargs="+", default=[], metavar="NAME", help="only these")
     parser.add_argument("--plain", nargs="+", default=[], metavar="NAME", help="these in a colour of their own, where others have that of a variable")
-    parser.add_argument("--camera", nargs="+", metavar="NAME",
-                        help=f"{', '.join(CAMERAS)}, or X Y Z, the direction from the bodies to the camera; default: front in two dimensions, iso in three")
+    parser.add_argument("--camera", choices=CAMERAS, help="default: front in two dimensions, iso in three")
+    parser.add_argument("--direction", nargs=3, type=float, metavar=("X", "Y", "Z"), help="from the bodies to the camera, in place of a name")
+    parser.add_argument("--up", choices=("y", "z"), help="default: the axis against gravity; without, y in two dimensions and z in three")
     parser.add_argument("--window", nargs="+", type=float, metavar="X",
                         help="what is seen [m]: X0 X1 Y0 Y1, in space also with Z0 Z1; default: all bodies, with room around them")
     parser.add_argument("--planes", default="dots", metavar="KIND",
-                        help="dots (default), arrows of their force, none, or a variable of theirs (slip, closure, ...): dots in its colours")
+                        help="dots (default), all (dots, also of those that carry nothing), arrows of their force, none, or a variable of theirs (slip, closure, ...): dots in its colours")
     parser.add_argument("--dot-size", type=_count, default=4, metavar="N", help="points of the screen; default: 4")
     parser.add_argument("--opacity", type=_share, metavar="X", help="of the bodies, to 1; default: 1, and 0.3 where arrows or colours of planes lie between bodies in space")
     parser.add_argument("--mirror", action="store_true", help="also the mirror image at x = 0: the other half of a problem in axes r and z")
+    parser.add_argument("--no-edges", action="store_true", help="without the edges of elements")
     parser.add_argument("--undeformed", action="store_true", help="at the coordinates of the start")
     parser.add_argument("--size", nargs=2, type=_count, default=[1200, 800], metavar=("WIDTH", "HEIGHT"))
     parser.add_argument("--strip", type=_count, metavar="COLUMNS", help="one picture of all states, so many in a row; names and colours are told in the last")
@@ -297,28 +284,34 @@ def make(words):
     run = Run(options.run)
     if options.window and len(options.window) not in (4, 6):
         raise ValueError(f"--window has {len(options.window)} numbers; accepted are 4, X0 X1 Y0 Y1, or 6, also with Z0 Z1")
+    if options.direction and not any(options.direction):
+        raise ValueError("--direction 0 0 0 is none")
+    if options.shares:
+        options.times += [share * float(run.results.times[-1]) for share in options.shares]
     if options.vector:
         path = _file_of(options.vector, (".svg", ".pdf"))
         vector(run, path, options.times[-1] if options.times else None, options.color, options.range, options.blocks, not options.undeformed,
                options.planes != "none", options.window)  # fmt: skip
         return [path]
     film = _file_of(options.animation, (".mp4", ".gif")) if options.animation else None
+    if film:
+        _demand_film(film)  # before minutes of drawing
     other = Run(options.compare) if options.compare else None
     steps = options.steps or (len(run.results.times) if film else 2)
     folder, name = pathlib.Path(options.output or run.folder / "pictures"), options.name or run.name
     with tempfile.TemporaryDirectory() as draft:
-        files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, _camera(options.camera), not options.undeformed,
+        files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, options.direction or options.camera, not options.undeformed,
                      options.planes, options.size, None, options.title, options.palette, options.plain, options.window, options.dot_size, options.opacity,
-                     options.mirror, "last" if options.strip else "all")  # fmt: skip
+                     options.mirror, "last" if options.strip else "all", not options.no_edges, options.up)  # fmt: skip
         if film:
             animate(files, film)
             return [film]
         folder.mkdir(parents=True, exist_ok=True)
         if options.strip:
-            path = folder / f"{name}_strip.png"
+            path = folder / (f"{name}.png" if options.name else f"{name}_strip.png")
             strip(files, path, options.strip)
             return [path]
-        return [pathlib.Path(shutil.copy(file, folder / f"{name}_{file.name}")) for file in files]
+        return [pathlib.Path(shutil.copy(file, folder / f"{name}_{file.name.removeprefix('state_') if options.name else file.name}")) for file in files]
 
 
 def main():

@@ -127,10 +127,10 @@ def run_paraview(script, arguments, folder, timeout=None):
     """Runs a script of pvbatch without a screen; returns exit code and what it printed."""
     environment = dict(os.environ, PYTHONPATH=str(PARAVIEW), PYTHONDONTWRITEBYTECODE="1")
     for attempt in range(3):
-        # A display number of its own: two that seek a free one at the same time may find the same. On a busy machine the
-        # display may not be there in time, or ParaView aborts on it (134); then once more.
+        # A display number of its own: two that seek a free one at the same time may find the same. ParaView looks for the display before it draws, and
+        # a display without -noreset starts anew when nobody looks at it: on a busy machine it was then not there, and ParaView aborted (134).
         display = str(100 + (os.getpid() + 1000 * attempt) % 30000)
-        done = subprocess.run(["xvfb-run", "-a", "-n", display, "pvbatch", str(script), *map(str, arguments)], cwd=folder, env=environment,
+        done = subprocess.run(["xvfb-run", "-a", "-n", display, "-s", "-screen 0 1280x1024x24 -noreset", "pvbatch", str(script), *map(str, arguments)], cwd=folder, env=environment,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace", timeout=timeout)  # fmt: skip
         if done.returncode != 134 and (not done.returncode or "CreateAWindow" not in done.stdout):
             break

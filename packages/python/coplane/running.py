@@ -95,13 +95,11 @@ def run(deck, folder=None, ranks=1, threads=1, restart=False, options=(), wait=T
     path = folder / deck.path.with_suffix(".yaml").name
     _refuse_two(deck, path)
     if path == deck.path.resolve():
-        if deck.text != Deck.read(path).text:
+        if documents.parse(deck.text) != documents.load(path):
             raise ValueError(f"{path}: the deck has changes that its file has not: write it with Deck.write, or give another folder.")
     else:
         folder.mkdir(parents=True, exist_ok=True)
-        moved = deck.copy()
-        moved["mesh"] = str(deck.mesh.resolve())
-        moved.write(path)
+        path.write_text(deck.text_for(deck.mesh.resolve()), encoding="utf-8")
     arguments = [path.name, "--backend", "threads", "--threads", str(threads), *options]
     if restart:
         arguments += ["--restart"] if restart is True else ["--restart", os.path.abspath(restart)]

@@ -13,14 +13,20 @@ def names():
     return sorted(path.parent.name for path in INPUTS.glob("*/example.yaml"))
 
 
-def coarse(name):
-    """Recipe, deck, recipe of joints or None of an example in its coarse size, or the first that it has for a part of its time."""
+def sized(name, size=None, variant=""):
+    """Recipe, deck, recipe of joints or None of an example in one of its sizes; None: coarse, or the first that it has."""
     specification = importlib.util.spec_from_file_location("run_example", INPUTS / "run.py")
     run = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(run)
     example = run.read_example(INPUTS / name)
-    size = "coarse" if "coarse" in example["sizes"] else next(iter(example["sizes"]))
-    options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[""], overwrite=False)
-    chosen = run.ExampleRun(INPUTS / name, example, size, "", options)
-    chosen.deck["time"]["end"] *= PARTS.get(name, 1)
+    size = size or ("coarse" if "coarse" in example["sizes"] else next(iter(example["sizes"])))
+    options = argparse.Namespace(ranks=None, set=[], output=pathlib.Path("unused"), variant=[variant], overwrite=False)
+    chosen = run.ExampleRun(INPUTS / name, example, size, variant, options)
     return chosen.recipe, chosen.deck, chosen.joints
+
+
+def coarse(name):
+    """The same in its coarse size, or the first that it has for a part of its time."""
+    recipe, deck, joints = sized(name)
+    deck["time"]["end"] *= PARTS.get(name, 1)
+    return recipe, deck, joints

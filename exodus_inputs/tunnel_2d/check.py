@@ -1,0 +1,31 @@
+"""What was dug is gone, the rock around it comes to rest but for a wedge at the shoulder, which the wave shakes loose."""
+
+import math
+
+import numpy
+
+from coplanetools import Example
+
+example = Example()
+h, results = example.history, example.results
+example.balances(remainder=(-1e-3, 1e-3), hourglass=1e-9)  # triangles have no hourglass modes
+size = 1.0 if example.size == "coarse" else 0.5
+sides = max(6, math.ceil(math.pi * 4 / size))
+dug = 8 * 1 + 0.5 * sides * 16 * math.sin(math.pi / sides) + 20
+example.check("mass that was dug [kg]", float(h["eroded_mass"][-1]), 2650 * dug, 1e-9, relative=True)
+wave = {"coarse": 0.06}.get(example.size, 0.12)  # when it enters [s]
+
+
+def moves(time):
+    step = int(numpy.argmin(numpy.abs(numpy.array(results.times) - time)))
+    return numpy.linalg.norm(results.nodal("displacement", step), axis=1)
+
+
+still = numpy.quantile(moves(wave), 0.99)
+example.check_within("99 of 100 nodes have moved less than, when both parts are dug [m]", float(still), 5e-4, 1e-2)
+example.check_within("the roof has come down by then [m]", float(-numpy.interp(wave, h["time"], h["roof_displacement_y"])), 1e-3, 1e-2)
+if example.size != "coarse":
+    after, before = moves(h["time"][-1]), moves(wave)
+    example.check_within("the loosest node moves in the wave [m]", float((after - before).max()), 0.01, 0.1)
+    example.check_within("99 of 100 nodes move less than, in the wave [m]", float(numpy.quantile(after - before, 0.99)), 1e-3, 0.01)
+example.finish()
