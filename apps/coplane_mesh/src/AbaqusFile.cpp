@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -27,12 +28,20 @@ std::string trimmed(const std::string& text)
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
+/// What stands between commas, those in quotes not counted; the quotes are taken away.
 std::vector<std::string> fieldsOf(const std::string& line)
 {
-  std::vector<std::string> fields;
-  std::stringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');)
-    fields.push_back(trimmed(field));
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line)
+    if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  for (std::string& field : fields)
+    field = trimmed(field);
   while (!fields.empty() && fields.back().empty())
     fields.pop_back();
   return fields;
@@ -76,7 +85,8 @@ public:
     std::stringstream text(readTextFile(file_, {"the file of Abaqus", "", "", infinity}));
     for (std::string line; std::getline(text, line);)
     {
-      ++line_;
+      if (++line_ == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
+        line.erase(0, 3);
       line = trimmed(line);
       if (line.empty() || line.rfind("**", 0) == 0)
         continue;
@@ -148,13 +158,35 @@ private:
         given->second = named(given->second);
     if (keyword_ == "*INCLUDE")
       refuse("*INCLUDE is not followed. Put all of the mesh into one file.");
+    // What makes or moves nodes and elements: without it the mesh would be another one.
+    for (const char* const maker :
+         {"*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY", "*SYSTEM"})
+      if (keyword_ == maker)
+        refuse("{} is not read. Export the mesh with all of its nodes and elements, in global "
+               "coordinates.",
+               maker);
+    if ((keyword_ == "*NODE" || keyword_ == "*ELEMENT" || keyword_ == "*NSET" ||
+         keyword_ == "*ELSET") &&
+        parameters_.count("INPUT"))
+      refuse("INPUT is not followed. Put all of the mesh into one file.");
+    if (keyword_ == "*NODE" && parameters_.count("SYSTEM") && upper(parameters_["SYSTEM"]) != "R")
+      refuse("nodes in the system {} are not read. Export them in global coordinates.",
+             parameters_["SYSTEM"]);
+    if (keyword_ == "*INSTANCE" && ++instances_ > 1)
+      refuse("a second instance is not read. Export the mesh of the assembly as one part.");
+    for (const auto& [set, key] :
+         {std::pair{"*NSET", "NSET"}, {"*ELSET", "ELSET"}, {"*SURFACE", "NAME"}})
+      if (keyword_ == set && parameters_[key].empty())
+        refuse("{} has no name: {}= is missing.", set, key);
+    if (keyword_ == "*NSET" && parameters_.count("ELSET"))
+      takeNodesOf(parameters_["ELSET"]);
     if (keyword_ == "*NODE")
       nodeSet_ = parameters_["NSET"];
     if (keyword_ == "*ELEMENT")
     {
       const std::string type = upper(parameters_["TYPE"]);
       shape_ = shapeOf(type);
-      if (!shape_)
+      if (!shape_ && type != "T3D2")
         refuse("elements of type '{}' are not read. Accepted: first-order solids: C3D8, C3D8R, "
                "C3D4; in two dimensions CPE4, CPE3, CPS4, CPS3, CAX4, CAX3.",
                type);
@@ -182,6 +214,8 @@ private:
   {
     if (keyword_ == "*NODE")
       takeNode(fields);
+    else if (keyword_ == "*ELEMENT" && !shape_)
+      ++curveElements_;
     else if (keyword_ == "*ELEMENT")
       takeElement(fields);
     else if (keyword_ == "*NSET")
@@ -199,14 +233,19 @@ private:
 
   void takeNode(const std::vector<std::string>& fields)
   {
-    if (fields.size() < 3 || fields.size() > 4)
-      refuse("a node needs its number and 2 or 3 coordinates; here are {} values.", fields.size());
-    Vec3 place{};
-    for (std::size_t axis = 0; axis + 1 < fields.size(); ++axis)
+    if (fields.empty() || fields.size() > 7)
+      refuse("a node has its number, 3 coordinates and, for shells, a normal; here are {} values.",
+             fields.size());
+    Vec3 place{}; // what is not given is zero
+    for (std::size_t axis = 0; axis < 3 && axis + 1 < fields.size(); ++axis)
     {
+      std::string field = upper(fields[axis + 1]);
+      std::replace(field.begin(), field.end(), 'D', 'E'); // 1.5D3 of Fortran
+      if (field.empty())
+        continue;
       char* end = nullptr;
-      place[int(axis)] = std::strtod(fields[axis + 1].c_str(), &end);
-      if (end == fields[axis + 1].c_str() || *end != '\0')
+      place[int(axis)] = std::strtod(field.c_str(), &end);
+      if (*end != '\0' || !std::isfinite(place[int(axis)]))
         refuse("'{}' is found for a coordinate, which is a number.", fields[axis + 1]);
     }
     const GlobalId id = integer(fields[0]);
@@ -251,25 +290,59 @@ private:
   }
 
   using Sets = std::map<std::string, std::set<GlobalId>>;
+  /// The nodes of a set of elements.
+  void takeNodesOf(const std::string& elementSet)
+  {
+    const auto set = elementSets_.find(elementSet);
+    if (set == elementSets_.end())
+      refuse("ELSET names '{}', and no set of elements of this name stands before.", elementSet);
+    std::set<GlobalId>& nodes = nodeSets_[parameters_["NSET"]];
+    for (const Element& element : elements_)
+      if (set->second.count(element.id))
+        nodes.insert(element.nodes.begin(), element.nodes.end());
+  }
+
+  /// Without the name of the instance: `P-1.top` is the set `top`, `P-1.7` the number 7.
+  static std::string withoutInstance(const std::string& name)
+  {
+    return name.substr(name.rfind('.') + 1);
+  }
+
+  /// @param others sets of the same kind, which may be named instead of numbers
   void takeMembers(const std::vector<std::string>& fields, std::set<GlobalId>& set,
                    const Sets& others)
   {
     if (parameters_.count("GENERATE"))
     {
-      const GlobalId from = integer(fields.at(0)), to = integer(fields.at(1)),
+      if (fields.size() < 2 || fields.size() > 3)
+        refuse("GENERATE has lines of the first number, the last and the step; here are {} values.",
+               fields.size());
+      const GlobalId from = integer(fields[0]), to = integer(fields[1]),
                      step = fields.size() > 2 ? integer(fields[2]) : 1;
+      constexpr GlobalId most = 50'000'000;
+      if (to < from || (to - from) / step >= most)
+        refuse("GENERATE goes from {} to {} by {}; up to {} numbers are read.", from, to, step,
+               most);
       for (GlobalId id = from; id <= to; id += step)
         set.insert(id);
       return;
     }
     for (const std::string& field : fields)
-      if (const auto other = others.find(named(field)); other != others.end())
+    {
+      auto other = others.find(named(field));
+      const std::string bare = withoutInstance(field);
+      if (other == others.end() && bare != field)
+        other = others.find(named(bare));
+      if (other != others.end())
       {
         const std::set<GlobalId> members = other->second;
         set.insert(members.begin(), members.end());
       }
+      else if (bare.find_first_not_of("0123456789-+") != std::string::npos)
+        refuse("'{}' is no number, and no set of this name stands before.", field);
       else
-        set.insert(integer(field));
+        set.insert(integer(bare));
+    }
   }
 
   void takeSide(const std::vector<std::string>& fields)
@@ -285,7 +358,10 @@ private:
       refuse("a surface is a set or an element and one of its faces, S1 to S6; '{}' is found for "
              "the face.",
              face);
-    surfaces_[parameters_["NAME"]].push_back({named(fields[0]), face[1] - '1'});
+    std::string name = named(fields[0]);
+    if (!elementSets_.count(name))
+      name = named(withoutInstance(fields[0]));
+    surfaces_[parameters_["NAME"]].push_back({name, face[1] - '1'});
   }
 
   // --- in the terms of Gmsh
@@ -295,8 +371,12 @@ private:
   {
     if (nodes_.empty() || elements_.empty())
       fail(ExitCode::Mesh, "{}: the file has no {}.", file_, nodes_.empty() ? "nodes" : "elements");
-    for (const auto& [id, place] : nodes_)
+    for (const Element& element : elements_)
+      dimension_ = std::max(dimension_, element.shape->dimension);
+    for (auto& [id, place] : nodes_)
     {
+      if (dimension_ == 2)
+        place.z = 0; // which plane elements do not have
       indexOfNode_[id] = int(result_.mesh.nodeIds.size());
       result_.mesh.nodeIds.push_back(id);
       result_.mesh.coordinates.push_back(place);
@@ -305,7 +385,12 @@ private:
     addSurfaces();
     for (const auto& [name, members] : nodeSets_)
     {
-      const GmshFile::Tag entity = newGroup(0, name);
+      // A side set has a node set of its name, which is another one.
+      const bool isSurface = surfaces_.count(name) && !surfaces_.at(name).empty();
+      if (isSurface)
+        result_.notes.push_back(fmt::format(
+            "the node set '{0}' has the name of a surface and becomes '{0}_nodes'", name));
+      const GmshFile::Tag entity = newGroup(0, isSurface ? name + "_nodes" : name);
       for (const GlobalId node : members)
         addElement(entity, 15, 0, {node});
     }
@@ -355,16 +440,14 @@ private:
         blockOf.insert({id, section});
     }
     std::map<std::string, GmshFile::Tag> blocks;
-    int dimension = 0, left = 0;
-    for (const Element& element : elements_)
-      dimension = std::max(dimension, element.shape->dimension);
+    int left = curveElements_;
     for (const Element& element : elements_)
     {
       if (!elementOf_.insert({element.id, &element}).second)
         fail(ExitCode::Mesh, "{}: element {} is given twice.", file_, element.id);
       const auto section = blockOf.find(element.id);
       std::string name = section != blockOf.end() ? section->second : element.set;
-      if (element.shape->dimension < dimension || (!sections_.empty() && section == blockOf.end()))
+      if (element.shape->dimension < dimension_ || (!sections_.empty() && section == blockOf.end()))
       {
         ++left;
         continue;
@@ -372,7 +455,7 @@ private:
       if (name.empty())
         name = "block_1";
       if (!blocks.count(name))
-        blocks[name] = newGroup(dimension, name);
+        blocks[name] = newGroup(dimension_, name);
       addElement(blocks[name], element.shape->gmshType, element.id, element.nodes);
     }
     if (left > 0)
@@ -393,8 +476,7 @@ private:
     {
       if (sides.empty())
         continue;
-      const int dimension = elementOf_.begin()->second->shape->dimension;
-      const GmshFile::Tag entity = newGroup(dimension - 1, name);
+      const GmshFile::Tag entity = newGroup(dimension_ - 1, name);
       for (const Side& side : sides)
       {
         const auto set = elementSets_.find(side.name);
@@ -415,6 +497,8 @@ private:
            "{}: the surface '{}' names '{}', which is neither a set nor an element.", file_,
            surface, side.name);
     const Element& element = *found->second;
+    if (element.shape->dimension < dimension_)
+      return; // was left out
     if (side.face >= int(element.shape->faces.size()))
       fail(ExitCode::Mesh, "{}: the surface '{}' names face S{} of element {}, which has {}.",
            file_, surface, side.face + 1, id, element.shape->faces.size());
@@ -431,6 +515,9 @@ private:
   std::map<std::string, std::string> parameters_;
   bool continued_ = false;  ///< the keyword goes on in the next line
   bool unfinished_ = false; ///< so does the last element
+  int instances_ = 0;
+  int curveElements_ = 0; ///< T3D2, as which Gmsh writes the curves of a model; not read
+  int dimension_ = 0;     ///< the highest of an element
   std::string nodeSet_;
   const Shape* shape_ = nullptr;
   std::map<GlobalId, Vec3> nodes_;

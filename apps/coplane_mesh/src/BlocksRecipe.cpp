@@ -6,6 +6,9 @@
 #include <coplane_schema/SchemaBuilder.hpp>
 #include <coplane_schema/SchemaReader.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace coplane
 {
 using namespace schema;
@@ -27,8 +30,54 @@ void checkBox(DomainCard::Box& box, const CardPlace& place)
                                        box.max[axis], "xyz"[axis], box.min[axis]));
 }
 
+/// Whether two sides of a plane polygon cross. @param normal of any length
+bool crossesItself(const std::vector<Vec3>& corners, const Vec3& normal)
+{
+  const std::size_t count = corners.size();
+  const auto side = [&](const Vec3& a, const Vec3& b, const Vec3& c)
+  { return dot(cross(b - a, c - a), normal); };
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i + 2; j < count; ++j)
+    {
+      if ((j + 1) % count == i)
+        continue;
+      const Vec3 &a = corners[i], &b = corners[i + 1], &c = corners[j],
+                 &d = corners[(j + 1) % count];
+      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0)
+        return true;
+    }
+  return false;
+}
+
+/// Gmsh makes nonsense of polygons that are none, without a word.
+void checkPolygon(const std::vector<std::vector<Real>>& polygon, const CardPlace& place)
+{
+  const std::vector<Vec3> corners = toPoints(polygon);
+  const std::size_t count = corners.size();
+  Vec3 twiceArea{};
+  Real longest = 0;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    const Vec3 &a = corners[k], &b = corners[(k + 1) % count];
+    if (norm(b - a) == 0)
+      return place.problem("polygon", fmt::format("has the corner {} twice running; each stands "
+                                                  "once, also the first, which is not repeated "
+                                                  "at the end.",
+                                                  k + 1));
+    longest = std::max(longest, norm(b - a));
+    twiceArea = twiceArea + cross(a - corners[0], b - corners[0]);
+  }
+  // The halves of a figure of eight cancel.
+  if (!(norm(twiceArea) > 1e-9 * longest * longest))
+    place.problem("polygon", "has no area: its corners lie on a line, or it crosses itself.");
+  else if (crossesItself(corners, twiceArea))
+    place.problem("polygon", "crosses itself.");
+}
+
 void checkDomain(DomainCard& domain, const CardPlace& place)
 {
+  if (!domain.polygon.empty())
+    checkPolygon(domain.polygon, place);
   if (!domain.joint.empty() && domain.file.empty())
     place.problem("joint", "names the joint between the solids of a file, and there is no file.");
 }
@@ -71,6 +120,8 @@ Key domainKey()
 
 void checkOpening(OpeningCard& opening, const CardPlace& place)
 {
+  if (!opening.polygon.empty())
+    checkPolygon(opening.polygon, place);
   if (!opening.horseshoe.empty() && !(opening.horseshoe[1] > opening.horseshoe[0] / 2))
     place.problem("horseshoe", fmt::format("= [{}, {}]: the height must be more than half the "
                                            "width, which is the radius of the roof.",
@@ -222,6 +273,15 @@ void checkPlane(JointPlaneCard& plane, const CardPlace& place)
 {
   if (place.gives("count") && !place.gives("spacing"))
     place.problem("count", "needs spacing.");
+  if (!plane.segment.empty())
+  {
+    const Vec3 along = toVec3(plane.segment[1]) - toVec3(plane.segment[0]);
+    const Vec3 normal = normalised(toVec3(plane.normal));
+    if (!(norm(along - dot(along, normal) * normal) > 1e-9 * norm(along)))
+      place.problem("segment", "has no length on the plane.");
+  }
+  if (!plane.polygon.empty())
+    checkPolygon(plane.polygon, place);
   for (const std::vector<Real>& point : plane.polygon)
     if (std::abs(dot(toVec3(point) - toVec3(plane.point), normalised(toVec3(plane.normal)))) >
         1e-6 * (1 + norm(toVec3(point) - toVec3(plane.point))))
@@ -421,6 +481,37 @@ Key makeSchema()
 }
 } // namespace
 
+namespace
+{
+/// Names that two things would share in the mesh.
+void checkNames(const BlocksRecipe& recipe, Problems& problems)
+{
+  std::vector<std::string> joints;
+  for (const JointsCard& joint : recipe.joints)
+    joints.push_back(joint.name);
+  const auto isJoint = [&](const std::string& name)
+  { return std::find(joints.begin(), joints.end(), name) != joints.end(); };
+  if (isJoint(recipe.domain.joint))
+    problems.add(nodeAt(recipe.root, {"domain", "joint"}),
+                 fmt::format("domain.joint = '{}' is also one of joints; name it otherwise.",
+                             recipe.domain.joint));
+  for (const OpeningCard& opening : recipe.openings)
+    if (opening.keep && opening.name == recipe.domain.block)
+      problems.add(nodeAt(recipe.root, {"openings", opening.name}),
+                   fmt::format("openings.{} has the name of the domain's block, so that it could "
+                               "not be dug out; name it otherwise.",
+                               opening.name));
+  if (!recipe.domain.joint.empty())
+    joints.push_back(recipe.domain.joint);
+  for (const SetCard& set : recipe.sideSets)
+    if (isJoint(set.name))
+      problems.add(nodeAt(recipe.root, {"side_sets", set.name}),
+                   fmt::format("side_sets.{0} has the name of a joint, which becomes the side set "
+                               "'{0}'; name it otherwise.",
+                               set.name));
+}
+} // namespace
+
 const Key& blocksRecipeSchema()
 {
   static const Key schema = makeSchema();
@@ -447,6 +538,8 @@ BlocksRecipe parseBlocksRecipe(const std::string& text, const std::string& file,
   if (problems.empty() && recipe.dimension == 3 &&
       norm(cross(recipe.up, recipe.north)) < 1e-6 * norm(recipe.up) * norm(recipe.north))
     problems.add(nodeAt(recipe.root, {"north"}), "north is parallel to up, so no azimuth is told.");
+  if (problems.empty())
+    checkNames(recipe, problems);
   if (problems.empty() && recipe.joints.empty() && recipe.domain.joint.empty())
     problems.add(recipe.root, "the recipe has no joints: nothing would be cut. Accepted: joints: "
                               "{bedding: {set: {...}}}; coplane_mesh --help-blocks joints lists "

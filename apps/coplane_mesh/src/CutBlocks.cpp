@@ -51,7 +51,7 @@ int addPolygon(const std::vector<Vec3>& corners)
   return occ::addPlaneSurface({occ::addCurveLoop(lines)});
 }
 
-int addSolid(const Polyhedron& solid)
+int addShell(const Polyhedron& solid)
 {
   std::vector<int> points, faces;
   for (const Vec3& x : solid.points)
@@ -76,6 +76,19 @@ int addSolid(const Polyhedron& solid)
   return occ::addVolume({occ::addSurfaceLoop(faces)});
 }
 
+int addSolid(const Polyhedron& solid)
+{
+  const int outside = addShell(solid);
+  if (solid.cavities.empty())
+    return outside;
+  Entities cavities, rest;
+  for (const Polyhedron& cavity : solid.cavities)
+    cavities.push_back({3, addShell(cavity)});
+  std::vector<Entities> parts;
+  occ::cut({{3, outside}}, cavities, rest, parts);
+  return rest.at(0).second;
+}
+
 /// Cuts one domain.
 class Cutter
 {
@@ -97,6 +110,7 @@ public:
       addOpening(opening);
     addJoints();
     fragment();
+    checkOpenings();
     for (int round = 0; round < 20 && joinSlivers(); ++round)
       fragment();
     removeOpenings();
@@ -189,12 +203,11 @@ private:
     {
       origin = toVec3(card.path[0]);
       along = toVec3(card.path[1]) - origin;
+      if (!(norm(along) > 0))
+        fail(ExitCode::Deck, "{}: openings.{}.path has no length.", recipeFile_, card.name);
       right = cross(along, recipe_.up);
-      if (!(norm(right) > 1e-6 * norm(along) * norm(recipe_.up)))
-        fail(ExitCode::Deck,
-             "{}: openings.{}.path is upright, or has no length; a section needs a direction "
-             "that is not `up`.",
-             recipeFile_, card.name);
+      if (!(norm(right) > 1e-6 * norm(along) * norm(recipe_.up))) // a shaft
+        right = cross(along, recipe_.north);
       right = normalised(right);
       upward = normalised(cross(right, along));
     }
@@ -253,14 +266,40 @@ private:
     std::vector<Entities> pieces;
     occ::intersect(tools, domain, inside, pieces, -1, true, false);
     std::set<Entity> taken;
+    std::set<int> covered; // joints with pieces where one before them has the place
     for (std::size_t t = 0; t < tools.size(); ++t)
       for (const Entity& piece : pieces[t])
-        if (piece.first == dimension_ - 1 && taken.insert(piece).second)
-          pieces_[piece] = joints[t];
+        if (piece.first == dimension_ - 1)
+        {
+          if (taken.insert(piece).second)
+            pieces_[piece] = joints[t];
+          else
+            covered.insert(joints[t]);
+        }
     for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
       if (std::none_of(pieces_.begin(), pieces_.end(),
                        [&](const auto& piece) { return piece.second == int(j); }))
+      {
+        if (covered.count(int(j)))
+          fail(ExitCode::Deck,
+               "{}: joints.{} lies wholly on joints that stand before it, which have the place.",
+               recipeFile_, recipe_.joints[j].name);
         refuseJoint(j);
+      }
+  }
+
+  /// Each opening has a part of the domain of its own.
+  void checkOpenings() const
+  {
+    std::set<int> there;
+    for (const auto& [block, opening] : blocks_)
+      there.insert(opening);
+    for (std::size_t o = 0; o < recipe_.openings.size(); ++o)
+      if (!there.count(int(o)))
+        fail(ExitCode::Deck,
+             "{}: openings.{} has no part of the domain, or only such that openings before it "
+             "have.",
+             recipeFile_, recipe_.openings[o].name);
   }
 
   static int addPoint(const Vec3& x) { return occ::addPoint(x.x, x.y, x.z); }
@@ -672,6 +711,8 @@ CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
   {
     std::string last;
     gmsh::logger::getLastError(last);
+    if (last.empty())
+      last = "it gives no reason";
     fail(ExitCode::Mesh,
          "{}: Gmsh cannot cut or mesh this: {}. Larger slivers.volume or slivers.thickness, or "
          "another elements.size, often help.",

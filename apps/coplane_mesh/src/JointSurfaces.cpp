@@ -111,6 +111,15 @@ public:
     }
   }
 
+  /// How many surfaces or steps makeSet would need.
+  Real workOfSet(const JointSetCard& set) const
+  {
+    const Vec3 through = set.through.empty() ? middle_ : toVec3(set.through);
+    const Real parts = set.persistence < 1 ? std::ceil(2 * reach_ / set.length) : 1;
+    return (reach_ + norm(through - middle_)) / set.spacing *
+           std::pow(parts, recipe_.dimension - 1);
+  }
+
   void makePlanes(const JointPlaneCard& card)
   {
     const Vec3 normal = normalised(toVec3(card.normal));
@@ -226,7 +235,10 @@ std::vector<std::string> fieldsOf(const std::string& line)
   for (std::string field; std::getline(stream, field, ',');)
   {
     const auto first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
-    fields.push_back(first == std::string::npos ? "" : field.substr(first, last - first + 1));
+    field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
+    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
+      field = field.substr(1, field.size() - 2);
+    fields.push_back(field);
   }
   return fields;
 }
@@ -257,7 +269,8 @@ std::vector<std::map<std::string, Real>> readFractures(const std::string& file, 
   int number = 0;
   for (std::string line; std::getline(text, line);)
   {
-    ++number;
+    if (++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
+      line.erase(0, 3);
     if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#')
       continue;
     const std::vector<std::string> fields = fieldsOf(line);
@@ -283,6 +296,8 @@ std::vector<std::map<std::string, Real>> readFractures(const std::string& file, 
         fail(ExitCode::Deck, "{}:{}: '{}' in column {} is no number.", file, number, fields[k],
              columns[k]);
     }
+    if (dimension == 2 && row.at("x1") == row.at("x2") && row.at("y1") == row.at("y2"))
+      fail(ExitCode::Deck, "{}:{}: the trace has no length.", file, number);
     if (row.count("radius") && !(row.at("radius") > 0))
       fail(ExitCode::Deck, "{}:{}: the radius {} is not positive.", file, number, row.at("radius"));
     if (row.count("nx") && !(std::hypot(row.at("nx"), row.at("ny"), row.at("nz")) > 0))
@@ -303,7 +318,17 @@ std::vector<JointSurface> jointSurfaces(const BlocksRecipe& recipe, const std::s
     const JointsCard& card = recipe.joints[j];
     JointMaker maker(recipe, int(j), low, high, surfaces);
     if (card.set.spacing > 0)
-      maker.makeSet(card.set);
+    {
+      constexpr Real most = 1e6;
+      if (const Real work = maker.workOfSet(card.set); work > most)
+        problems.add(nodeAt(recipe.root, {"joints", card.name, "set"}),
+                     fmt::format("joints.{}.set makes about {:.2g} joints, and up to {:.2g} are "
+                                 "made: spacing or length is too small for the domain, or "
+                                 "through too far away.",
+                                 card.name, work, most));
+      else
+        maker.makeSet(card.set);
+    }
     for (const JointPlaneCard& plane : card.planes)
       maker.makePlanes(plane);
     if (card.file.empty())

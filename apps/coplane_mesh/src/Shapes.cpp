@@ -630,11 +630,12 @@ std::vector<Body> barrelVault(Real inner, Real outer, Real from, Real to, int co
   demandCountable(Real(count) * (rows + 1.0) * nodesOfGrid(3, n));
   std::vector<Body> bodies;
   const int whole = n[2], end = rows * whole;
+  // Grid lines of sectors as long as the vault, cut where stones end.
+  const std::vector<Body> sweeps =
+      sectors(3, inner, outer, from, to, count, length, {n[0], n[1], end}, bias);
   for (int sector = 0; sector < count; ++sector)
   {
-    // Grid lines of one sector as long as the vault, cut where stones end.
-    const Body sweep = sectors(3, inner, outer, from, to, count, length, {n[0], n[1], end},
-                               bias)[std::size_t(sector)];
+    const Body& sweep = sweeps[std::size_t(sector)];
     const int layer = (n[0] + 1) * (n[1] + 1);
     std::vector<int> ends{0};
     for (int z = sector % 2 == 1 ? whole / 2 : whole; z < end; z += whole)

@@ -6,7 +6,9 @@
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <cmath>
 #include <map>
+#include <numeric>
 
 namespace coplane
 {
@@ -57,9 +59,124 @@ void demandClosed(const Polyhedron& solid, const std::string& file)
       fail(ExitCode::Mesh,
            "{}: the surface of '{}' is not closed: the edge from ({}, {}, {}) to ({}, {}, {}) m "
            "belongs to {} face{}, and two were expected. Mend the surface, for instance by "
-           "merging points that lie on each other.",
-           file, solid.name, a.x, a.y, a.z, b.x, b.y, b.z, count, count == 1 ? "" : "s");
+           "merging points that lie on each other{}.",
+           file, solid.name, a.x, a.y, a.z, b.x, b.y, b.z, count, count == 1 ? "" : "s",
+           count > 2 ? "; solids that touch are groups or objects of their own" : "");
     }
+}
+/// The shells of a surface: faces that hang together through points.
+std::vector<Polyhedron> shellsOf(const Polyhedron& whole)
+{
+  std::vector<int> leader(whole.points.size());
+  std::iota(leader.begin(), leader.end(), 0);
+  const auto leaderOf = [&](int point)
+  {
+    while (leader[std::size_t(point)] != point)
+      point = leader[std::size_t(point)] = leader[std::size_t(leader[std::size_t(point)])];
+    return point;
+  };
+  for (const std::vector<int>& face : whole.faces)
+    for (const int point : face)
+      leader[std::size_t(leaderOf(point))] = leaderOf(face[0]);
+  std::map<int, std::size_t> shellOf;
+  std::vector<Polyhedron> shells;
+  std::vector<int> numbers(whole.points.size(), -1);
+  for (const std::vector<int>& face : whole.faces)
+  {
+    const auto [place, isNew] = shellOf.insert({leaderOf(face[0]), shells.size()});
+    if (isNew)
+      shells.push_back({whole.name, {}, {}, {}});
+    Polyhedron& shell = shells[place->second];
+    std::vector<int>& corners = shell.faces.emplace_back();
+    for (const int point : face)
+    {
+      int& number = numbers[std::size_t(point)];
+      if (number < 0)
+      {
+        number = int(shell.points.size());
+        shell.points.push_back(whole.points[std::size_t(point)]);
+      }
+      corners.push_back(number);
+    }
+  }
+  return shells;
+}
+
+/// Whether a ray from the point leaves the shell an odd number of times.
+bool isInside(const Vec3& point, const Polyhedron& shell)
+{
+  const Vec3 ray{0.5773, 0.2236, 0.7853}; // along no axis or diagonal
+  bool inside = false;
+  for (const std::vector<int>& face : shell.faces)
+    for (std::size_t k = 1; k + 1 < face.size(); ++k)
+    {
+      const Vec3& a = shell.points[std::size_t(face[0])];
+      const Vec3 u = shell.points[std::size_t(face[k])] - a,
+                 v = shell.points[std::size_t(face[k + 1])] - a, w = point - a;
+      const Real volume = dot(cross(u, v), ray);
+      if (volume == 0)
+        continue;
+      const Real s = dot(cross(w, v), ray) / volume, t = dot(cross(u, w), ray) / volume;
+      inside ^= s >= 0 && t >= 0 && s + t < 1 && dot(cross(u, v), w) / volume < 0;
+    }
+  return inside;
+}
+
+/// Shells inside an odd number of others are cavities of the innermost of them.
+std::vector<Polyhedron> solidsOf(const std::vector<Polyhedron>& shells)
+{
+  const std::size_t count = shells.size();
+  std::vector<std::vector<std::size_t>> around(count);
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = 0; b < count; ++b)
+      if (a != b && std::all_of(shells[a].points.begin(), shells[a].points.end(),
+                                [&](const Vec3& x) { return isInside(x, shells[b]); }))
+        around[a].push_back(b);
+  std::vector<Polyhedron> solids;
+  std::map<std::size_t, std::size_t> solidOf;
+  for (std::size_t a = 0; a < count; ++a)
+    if (around[a].size() % 2 == 0)
+    {
+      solidOf[a] = solids.size();
+      solids.push_back(shells[a]);
+    }
+  for (std::size_t a = 0; a < count; ++a)
+    if (around[a].size() % 2 == 1)
+      for (const std::size_t b : around[a])
+        if (around[b].size() + 1 == around[a].size())
+          solids[solidOf.at(b)].cavities.push_back(shells[a]);
+  return solids;
+}
+
+/// Whether all corners of all faces lie on planes, as Gmsh demands.
+bool isPlane(const Polyhedron& solid)
+{
+  constexpr Real tolerance = 1e-7; // [m], that of Open Cascade
+  for (const std::vector<int>& face : solid.faces)
+  {
+    Vec3 normal{};
+    const Vec3& first = solid.points[std::size_t(face[0])];
+    for (std::size_t k = 1; k + 1 < face.size(); ++k)
+      normal = normal + cross(solid.points[std::size_t(face[k])] - first,
+                              solid.points[std::size_t(face[k + 1])] - first);
+    for (const int corner : face)
+      if (std::abs(dot(solid.points[std::size_t(corner)] - first, normal)) >
+          tolerance * norm(normal))
+        return false;
+  }
+  return true;
+}
+
+std::vector<Polyhedron> surfacesOf(const aiScene& scene)
+{
+  std::vector<Polyhedron> surfaces;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m)
+  {
+    const std::string name = scene.mMeshes[m]->mName.C_Str();
+    surfaces.push_back(
+        polyhedronOf(*scene.mMeshes[m], name.empty() ? fmt::format("solid {}", m + 1) : name));
+  }
+  return surfaces;
 }
 } // namespace
 
@@ -73,13 +190,15 @@ std::vector<Polyhedron> readSolids(const std::string& file)
   if (!scene || scene->mNumMeshes == 0)
     fail(ExitCode::Mesh, "{}: no surfaces of solids can be read: {}", file,
          scene ? "it has no faces" : importer.GetErrorString());
+  std::vector<Polyhedron> surfaces = surfacesOf(*scene);
+  if (!std::all_of(surfaces.begin(), surfaces.end(), isPlane))
+    surfaces = surfacesOf(*importer.ApplyPostProcessing(aiProcess_Triangulate));
   std::vector<Polyhedron> solids;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m)
+  for (const Polyhedron& surface : surfaces)
   {
-    const std::string name = scene->mMeshes[m]->mName.C_Str();
-    solids.push_back(
-        polyhedronOf(*scene->mMeshes[m], name.empty() ? fmt::format("solid {}", m + 1) : name));
-    demandClosed(solids.back(), file);
+    demandClosed(surface, file);
+    for (const Polyhedron& solid : solidsOf(shellsOf(surface)))
+      solids.push_back(solid);
   }
   return solids;
 }

@@ -117,6 +117,44 @@ TEST(Abaqus, planeShapesAndSurfacesOfSetsAreRead)
   EXPECT_EQ(tip->nodes.size(), 1u);
 }
 
+TEST(Abaqus, namesAndNumbersAreReadAsTheManualHasThem)
+{
+  const std::string node = "\xEF\xBB\xBF*NODE\n1\n2,1.D0\n3,,1\n4,,,1,0,0,1\n";
+  const Mesh mesh = meshOf(node + "*ELEMENT, TYPE=T3D2, ELSET=Line1\n1,1,2\n"
+                                  "*ELEMENT, TYPE=C3D4, ELSET=\"left, half\"\n2,1,2,3,4\n"
+                                  "*NSET, NSET=all, ELSET=\"left, half\"\n"
+                                  "*NSET, NSET=some\nP-1.2, P-1.3,\n*NSET, NSET=same\nP-1.some\n");
+  EXPECT_EQ(mesh.coordinates[1].x, 1);
+  EXPECT_EQ(mesh.coordinates[3].z, 1);
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  EXPECT_EQ(mesh.blocks[0].name, "left, half");
+  ASSERT_EQ(mesh.nodeSets.size(), 3u);
+  EXPECT_EQ(mesh.nodeSets[0].nodes.size(), 4u);
+  EXPECT_EQ(mesh.nodeSets[1].nodes, (std::vector<int>{1, 2}));
+  EXPECT_EQ(mesh.nodeSets[2].nodes, (std::vector<int>{1, 2}));
+}
+
+/// Gmsh writes the surfaces of a model as plane elements with the lower numbers.
+TEST(Abaqus, surfacesAreThoseOfSolidsWherePlaneElementsStandBefore)
+{
+  const Mesh mesh = meshOf("*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n*ELEMENT, TYPE=CPS3, "
+                           "ELSET=s\n1,1,2,3\n*ELEMENT, TYPE=C3D4, ELSET=v\n2,1,2,3,4\n"
+                           "*SURFACE, NAME=top\n2, S3\n*NSET, NSET=top\n4\n");
+  ASSERT_EQ(mesh.sideSets.size(), 1u);
+  EXPECT_EQ(mesh.sideSets[0].elements.size(), 1u);
+  ASSERT_EQ(mesh.nodeSets.size(), 2u); // a set of nodes is not mixed with that of a surface
+  EXPECT_EQ(mesh.nodeSets[1].name, "top_nodes");
+  EXPECT_EQ(mesh.nodeSets[1].nodes, (std::vector<int>{3}));
+}
+
+TEST(Abaqus, planeElementsHaveNoHeight)
+{
+  const Mesh mesh = meshOf("*NODE\n1,0,0,5\n2,1,0,5\n3,0,1,5\n*ELEMENT, TYPE=CPE3, "
+                           "ELSET=s\n1,1,2,3\n");
+  EXPECT_EQ(mesh.dimension, 2);
+  EXPECT_EQ(mesh.coordinates[2].z, 0);
+}
+
 TEST(Abaqus, isRefusedInClearWords)
 {
   const auto contains = [](const std::string& text, const std::string& part)
@@ -131,6 +169,18 @@ TEST(Abaqus, isRefusedInClearWords)
   contains(errorOf(node + "1,0,0,0\n"), ":6: node 1 is given twice");
   contains(errorOf("*NODE\n1,x,0\n"), ":2: 'x' is found for a coordinate");
   contains(errorOf("*NODE\n1.5,0,0\n"), ":2: '1.5' is found for the number");
+  for (const char* const maker : {"*NGEN", "*NFILL", "*NCOPY", "*ELGEN", "*ELCOPY", "*SYSTEM"})
+    contains(errorOf(node + maker + "\n1, 2, 3\n"), fmt::format(":6: {} is not read", maker));
+  contains(errorOf("*NODE, INPUT=nodes.txt\n"), ":1: INPUT is not followed");
+  contains(errorOf("*NODE, SYSTEM=C\n"), "system C");
+  contains(errorOf(node + "*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n"),
+           ":7: a second instance");
+  contains(errorOf(node + "*NSET, NSET=a, GENERATE\n1\n"), ":7: GENERATE has lines of");
+  contains(errorOf(node + "*NSET, NSET=a, GENERATE\n1, 4000000000\n"), ":7: GENERATE goes from 1");
+  contains(errorOf(node + "*NSET, NSET=a\nb\n"), ":7: 'b' is no number, and no set");
+  contains(errorOf(node + "*NSET\n1\n"), ":6: *NSET has no name");
+  contains(errorOf(node + "*NSET, NSET=a, ELSET=b\n"), ":6: ELSET names 'b'");
+  contains(errorOf("*NODE\n1,nan,0\n"), ":2: 'nan' is found");
   contains(errorOf("*INCLUDE, INPUT=mesh.inp\n"), ":1: *INCLUDE is not followed");
   contains(errorOf("1, 2, 3\n"), ":1: the file does not begin with a keyword");
   contains(errorOf("*NODE\n1,0,0\n"), "has no elements");

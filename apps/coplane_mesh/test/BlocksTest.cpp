@@ -182,6 +182,9 @@ TEST(FractureTables, areRefusedWithTheirLine)
   contains(problemOf("x,y,z,radius,nx,ny,nz\n1,2,3,1,0,0,0\n"), "csv:2: the normal is zero");
   contains(problemOf("x,y,z,radius,nx,ny,nz\n1,2,3,-1,0,0,1\n"), "csv:2: the radius -1");
   contains(problemOf("x,y,z,radius,nx,ny,nz\n"), "no fracture");
+  // Byte order mark, quotes, spaces and the line ends of Windows.
+  EXPECT_EQ(problemOf("\xEF\xBB\xBF\"x\", \"y\", z,radius,nx,ny,nz\r\n5, \"5\" ,5,2,0,0,1\r\n"),
+            "");
 }
 
 TEST(BlocksRecipes, areRefusedInClearWords)
@@ -198,6 +201,64 @@ TEST(BlocksRecipes, areRefusedInClearWords)
            "not on the plane");
   contains(refusal("{planes: {point: [0, 0], normal: [0, 1], count: 3}}", 2), "needs spacing");
   contains(refusal("{voronoi: {cells: 1}}"), "cells");
+  contains(refusal("{planes: {point: [0, 0], normal: [0, 1], segment: [[1, 0], [1, 4]]}}", 2),
+           "segment has no length");
+  const auto polygon = [](const char* corners)
+  {
+    return refusal(
+        fmt::format("{{planes: {{point: [0, 0, 0], normal: [0, 0, 1], polygon: {}}}}}", corners));
+  };
+  contains(polygon("[[0, 0, 0], [3, 3, 0], [3, 0, 0], [0, 3, 0]]"), "crosses itself");
+  contains(polygon("[[0, 0, 0], [3, 3, 0], [3, 0, 0], [0, 2, 0]]"), "polygon crosses itself");
+  contains(polygon("[[0, 0, 0], [1, 0, 0], [2, 0, 0]]"), "has no area");
+  contains(polygon("[[0, 0, 0], [1, 0, 0], [1, 0, 0], [0, 1, 0]]"), "the corner 2 twice running");
+  contains(polygon("[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 0]]"), "the corner 4 twice running");
+  // Concave ones, and ones with a corner within a side, are polygons.
+  EXPECT_EQ(polygon("[[0, 0, 0], [4, 0, 0], [4, 4, 0], [2, 1, 0], [0, 4, 0]]"), "accepted");
+  EXPECT_EQ(polygon("[[0, 4, 0], [4, 4, 0], [4, 0, 0], [2, 0, 0], [0, 0, 0]]"), "accepted");
+}
+
+TEST(BlocksRecipes, haveNamesOfTheirOwnForAllThatMeshesName)
+{
+  const auto refusalOf = [](const std::string& rest)
+  {
+    try
+    {
+      parseBlocksRecipe("{dimension: 2, domain: {box: {min: [0, 0], max: [9, 9]}}, elements: "
+                        "{size: 1}, joints: {a: {planes: {point: [4, 0], normal: [1, 0]}}}, " +
+                            rest + "}",
+                        "blocks.yaml");
+    }
+    catch (const Error& error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  contains(refusalOf("side_sets: {a: {where: {x: 0}}}"), "side_sets.a has the name of a joint");
+  contains(refusalOf("openings: {rock: {circle: 1, at: [4, 4], keep: true}}"),
+           "openings.rock has the name of the domain's block");
+  EXPECT_EQ(refusalOf("openings: {rock: {circle: 1, at: [4, 4]}}, node_sets: {a: {where: {x: 0}}}"),
+            "accepted");
+}
+
+TEST(JointSets, areRefusedWhereThereAreTooManyJoints)
+{
+  const auto problemOf = [](const std::string& set)
+  {
+    Problems problems;
+    jointSurfaces(recipeOf("{set: {angle: 0, " + set + "}}", 2), "blocks.yaml", {0, 0, 0},
+                  {10, 10, 0}, problems);
+    return problems.text();
+  };
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  contains(problemOf("spacing: 1e-9"), "joints.a.set makes about");
+  contains(problemOf("spacing: 1, through: [0, 1e11]"), "joints.a.set makes about");
+  contains(problemOf("spacing: 1, persistence: 0.5, length: 1e-7"), "joints.a.set makes about");
+  EXPECT_EQ(problemOf("spacing: 1, through: [0, 1e3]"), "");
 }
 } // namespace
 } // namespace coplane

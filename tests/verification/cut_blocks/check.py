@@ -128,10 +128,34 @@ def refused(name, recipe, *words):
     case.check_equal(f"{name}: says what is wrong", [word for word in words if word not in said], [])
 
 
+# A box of several shells in one group: a cavity, a stone in it, and another stone beside it; a face that is not plane.
+def shell(low, size, count):
+    """A cube, as lines of an OBJ file whose corners come after `count` others."""
+    places = [[start + size * step for start, step in zip(low, corner)] for corner in corners]
+    return [f"v {x} {y} {z}" for x, y, z in places] + ["f " + " ".join(str(k + 1 + count) for k in face) for face in faces]
+
+
+shells = ["o all", *shell((0, 0, 0), 4, 0), *shell((0.5, 0.5, 0.5), 3, 8), *shell((1.5, 1.5, 1.5), 1, 16), *shell((6, 0, 0), 2, 24)]
+pathlib.Path("shells.obj").write_text("\n".join(shells) + "\n")
+lone = {"dimension": 3, "domain": {"file": str(pathlib.Path("shells.obj").resolve())}, "elements": {"size": 1}, "slivers": {"volume": 0, "thickness": 0},
+        "joints": {"crack": {"planes": {"point": [1, 0, 1], "normal": [0, 0, 1]}}}}
+made = cut("shells", lone)
+case.check_equal("shells of a group: bodies", made["bodies"], 5)  # the hollow one and that beside it are cut
+close("shells of a group: volume, area", [made["blocks"]["rock"], made["joints"]["crack"]], [64 - 27 + 1 + 8, 16 - 9 + 4], 1e-6)
+pathlib.Path("warped.obj").write_text("\n".join(shell((0, 0, 0), 4, 0)).replace("v 4 4 4", "v 4 4 5") + "\n")
+made = cut("warped", {**lone, "domain": {"file": str(pathlib.Path("warped.obj").resolve())}})
+case.check_within("a warped face: volume", made["blocks"]["rock"], 64 + 8 / 3 - 1e-6, 64 + 16 / 3 + 1e-6)  # by the diagonals
+shaft = {**solid, "openings": {"shaft": {"polygon": [[-1, -0.5], [1, -0.5], [1, 0.5], [-1, 0.5]], "path": [[4, 3, -1], [4, 3, 5]]}}}
+made = cut("shaft", {**shaft, "joints": {"z": solid["joints"]["z"]}})
+close("a shaft: volume, area", [made["blocks"]["rock"], made["joints"]["z"]], [192 - 8, 48 - 2], 1e-4)
+
 pathlib.Path("open.obj").write_text("\n".join(lines[: 1 + 8 + 5]) + "\n")
 refused("an open surface", {**stones, "domain": {**stones["domain"], "file": str(pathlib.Path("open.obj").resolve())}}, "is not closed", "belongs to 1 face", "exit code 4")
 refused("no such file", {**stones, "domain": {**stones["domain"], "file": "missing.obj"}}, "missing.obj", "exit code 4")
 refused("a joint outside", {**flat, "joints": {"a": {"planes": {"point": [0, 9], "normal": [0, 1]}}}}, "joints.a has no face inside", "exit code 3")
+level = {"planes": {"point": [0, 4], "normal": [0, 1]}}
+refused("two joints in one place", {**flat, "joints": {"a": level, "b": level}}, "joints.b lies wholly on joints that stand before it", "exit code 3")
+refused("an opening outside", {**hole, "openings": {"far": {"circle": 1, "at": [50, 0]}}}, "openings.far has no part of the domain", "exit code 3")
 refused("nothing left", {**flat, "openings": {"all": {"polygon": [[-1, -1], [9, -1], [9, 7], [-1, 7]], "at": [0, 0]}}}, "leave nothing", "exit code 3")
 refused("two dimensions with a file", {**flat, "domain": {"file": "x.obj"}}, "domain.file", "exit code 3")
 
