@@ -258,6 +258,9 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("a kind of film", [flat.folder, "--animation", "a.avi"], ["a.avi", ".mp4 or .gif"]),
                           ("a folder", [flat.folder, "--vector", "nowhere/a.svg"], ["no folder nowhere"]),
                           ("vector graphics in space", [space.folder, "--vector", "a.svg"], ["two dimensions"]),
+                          ("options that vector graphics do not know", [flat.folder, "--vector", "a.svg", "--mirror", "--palette", "dark"],
+                           ["--vector does not know --mirror, --palette", "--window"]),
+                          ("a misspelt vector", [flat.folder, "--color", "velocty"], ["no variable 'velocty'; did you mean velocity?"]),
                           ("a variable in an expression", [flat.folder, "--color", "1-damge"], ["no variable 'damge'"]),
                           ("a variable of the planes", [flat.folder, "--planes", "slop"], ["no variable 'slop' of the planes", "slip"]),
                           ("a window", [flat.folder, "--window", "0", "1"], ["--window has 2 numbers", "X0 X1 Y0 Y1"]),
@@ -265,6 +268,11 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("a run", ["nobody"], ["there is no run of this name"])):  # fmt: skip
     code, said = draw(*words)
     case.check_equal(f"{what}: refused with these words", (code, [word for word in told if word not in said]), (2, []))
+# What cannot be written is told before anything is drawn: a file stands where a folder is wanted (root may write everywhere).
+pathlib.Path("drawn/file").write_text("")
+for words in (["-o", "drawn/file"], ["-o", "drawn/file/deep"]):
+    code, said = draw(flat.folder, *words)
+    case.check_equal(f"{' '.join(words)}: refused", (code, "cannot be written: Not a directory" in said, words[1] in said), (5, True, True))
 # That ffmpeg is missing is told before anything is drawn: here nothing that draws is found either.
 which, told = shutil.which, ""
 shutil.which = lambda name: None
