@@ -94,6 +94,9 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     if missing:
         raise PicturesFailed(f"{' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)")
     runs, told = [run] if compare is None else [run, compare], []
+    if compare is not None and compare.results.dimension != run.results.dimension:
+        raise ValueError(f"{compare.folder / compare.name} has {compare.results.dimension} dimensions, {run.folder / run.name} has {run.results.dimension}: "
+                         "they cannot be seen from one place")
     for one in runs:
         _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
         told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "blocks": one.results.blocks,
@@ -202,7 +205,7 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
     axes.autoscale()
     if window:
         axes.set(xlim=window[:2], ylim=window[2:4])
-    axes.locator_params(nbins=6)  # numbers of small lengths are long
+    axes.locator_params(nbins=5)  # numbers of small lengths are long
     axes.set(aspect="equal", title=_told(times[step]), xlabel="x [m]", ylabel="y [m]")
     if values:
         figure.colorbar(polygons, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=_titled(color))  # as tall as what is seen
