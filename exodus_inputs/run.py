@@ -65,7 +65,7 @@ def arguments():
     parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; base: none; a+b: both together")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="one more change of the deck")
     parser.add_argument("--ranks", type=int, help="MPI ranks; default: as the example says, else 2")
-    parser.add_argument("--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
+    parser.add_argument("-o", "--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
     parser.add_argument("--overwrite", action="store_true",
                         help="also files of the same names in the folder that this program has not written")
     parser.add_argument("--no-pictures", action="store_true", help="compute and check only")
@@ -98,8 +98,10 @@ def read_example(source):
     return json.loads(done.stdout)
 
 
-def change(document, path, value):
+def change(document, path, value, is_deck=False):
     try:
+        if is_deck:
+            documents.demand_card(document, path)
         documents.change(document, path, value)
     except KeyError as error:
         fail(error.args[0])
@@ -180,13 +182,13 @@ class ExampleRun:
         for item in changes[1:]:
             for key, document, file in (("mesh", self.recipe, self.settings["recipe"]), ("set", self.deck, self.settings["deck"])):
                 for path, value in (item.get(key) or {}).items():
-                    change(document, path, value)
+                    change(document, path, value, is_deck=key == "set")
                     self.changed.setdefault(file, {})[path] = value
         for text in options.set:
             path, equals, value = text.partition("=")
             if not equals:
                 fail(f"--set {text}: KEY=VALUE is accepted, for instance time.end=1e-3.")
-            change(self.deck, path, documents.parse(value))
+            change(self.deck, path, documents.parse(value), is_deck=True)
         self.deck["mesh"] = "mesh.e"
         self.deck.setdefault("output", {}).pop("results", None)
         self.deck.setdefault("history", {}).pop("file", None)

@@ -132,6 +132,9 @@ case.check_equal("run.py: the deck of a new folder is not changed", (code, "exam
 code, said = called([*RUN, "rocks", "--no-pictures", "--no-check", "--ranks", 1], place)
 case.check_equal("run.py: what example.yaml changes is told", (code, [word for word in ("example.yaml changes rocks.yaml: time.end: 0.002", "mesh.yaml: parts.1.rotate: -3") if word not in said]),
                  (0, []))  # fmt: skip
+code, said = called([*RUN, "bars", "--set", "blocks.lfet.rigid=true", "-o", place / "misspelt"], place)
+case.check_equal("run.py: a card that the deck has not", (code, "blocks.lfet.rigid: the deck has no blocks.lfet; it has left, right." in said, (place / "misspelt").exists()),
+                 (1, True, False))  # fmt: skip
 code, said = called([*RUN, "nothing"], place)
 case.check_equal("run.py: no such folder", (code, [word for word in ("no example 'nothing'", "bars_2d", "coplane new") if word not in said]), (1, []))
 case.finish()

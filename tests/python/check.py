@@ -19,7 +19,7 @@ from coplanetest import Case, documents
 
 import coplane
 from coplane import exodus, needs, planes, tables
-from coplane.units import VARIABLES
+from coplane.units import PLANES, VARIABLES
 
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 case = Case("python", __file__)
@@ -106,6 +106,12 @@ for line in re.findall(r"^\| (`[a-z_]+[`_,x-z].*) \| (?:nodes|elements|global|si
     names = re.findall(r"`([a-z_]+?)(?:_x,.*|_xx,.*)?`", line[0])
     unit = {"–": "1", "kg/m³": "kg/m^3"}.get(line[1], line[1])
     case.check_equal(f"unit of {names} on the page", [name for name in names if name in VARIABLES and VARIABLES[name][0] != unit], [])
+
+of_planes = page[page.index("## Planes") : page.index("Open planes keep")]
+rows = {name: unit for names, unit in re.findall(r"^\| (`.*?`) \| (.*?) \|", of_planes, flags=re.M) for name, unit in
+        zip(re.findall("`(.*?)`", names), unit.split(", ") if ", " in unit else [unit] * 9)}  # fmt: skip
+told_units = {name: {"m²": "m^2", "–": None}.get(unit, unit) for name, unit in rows.items()}
+case.check_equal("units of planes on the page", {name: unit for name, unit in told_units.items() if unit}, PLANES)
 
 # --- history, tables, planes ------------------------------------------------------------------------
 

@@ -68,6 +68,19 @@ def change(document, path, value):
         document[last] = value
 
 
+def demand_card(deck, path):
+    """KeyError when a path leads into a joint, material or block that a deck has not: it would make one that nothing uses, and change nothing."""
+    group, _, rest = path.partition(".")
+    card, _, key = rest.partition(".")
+    if group not in ("joints", "materials", "blocks") or not key:
+        return
+    cards = list(deck.get(group) or {})
+    if group == "materials":  # also sets of the library that a block names
+        cards += {block.get("material"): None for block in (deck.get("blocks") or {}).values() if block.get("material") not in cards}
+    if card not in cards:
+        raise KeyError(f"{path}: the deck has no {group}.{card}; it has {', '.join(map(str, cards)) or 'none'}.")
+
+
 def value_at(document, path):
     """document.a.1.b; KeyError when there is none."""
     for key in path.split("."):

@@ -17,7 +17,7 @@ import numpy
 from . import program
 from .needs import needs
 from .results import NoRun, Run
-from .units import attributes
+from .units import PLANES, attributes
 
 CAMERAS = ("front", "back", "left", "right", "top", "bottom", "iso")
 
@@ -76,9 +76,9 @@ def _planes(run, planes):
     return series and str(series.path.resolve().with_suffix(".xmf3" if series.path.suffix == ".vtkhdf" else ".pvd"))
 
 
-def _titled(name):
-    """A variable with its unit."""
-    unit = attributes(name).get("units", "")
+def _titled(name, of_planes=False):
+    """A variable of the results or of the planes with its unit."""
+    unit = PLANES.get(name, "") if of_planes else attributes(name).get("units", "")
     return name + (f" [{unit}]" if unit not in ("", "1") else "")
 
 
@@ -104,7 +104,7 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     if isinstance(camera, str) and camera not in CAMERAS:
         raise ValueError(f"no camera '{camera}'; there are {', '.join(CAMERAS)}, or a direction of three numbers")
     want = dict(runs=told, color=color, title=title or _titled(color), range=range, palette=palette, blocks=list(blocks), plain=list(plain), camera=camera, window=window,
-                up=up or _up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes), dot_size=dot_size, opacity=opacity, mirror=mirror,
+                up=up or _up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes, True), dot_size=dot_size, opacity=opacity, mirror=mirror,
                 deformed=deformed, size=list(size), legend=legend, edges=edges, frames=_steps(numpy.array(run.results.times), times, steps))  # fmt: skip
     with tempfile.TemporaryDirectory() as draft:
         files = _drawn({**want, "folder": draft}, timeout)

@@ -67,17 +67,6 @@ def _demand_number(name, value):
         raise ValueError(f"{name}={value!r}; accepted: a whole number from 1 on.")
 
 
-def _demand_card(deck, path):
-    """KeyError when a path leads into a card that the deck lacks: it would become a new one, which nothing uses, and all runs the same."""
-    group, _, rest = path.partition(".")
-    card = rest.partition(".")[0]
-    cards = dict(deck.get(group) or {})
-    if group == "materials":  # a set of the library that a block names
-        cards.update({block.get("material"): None for block in (deck.get("blocks") or {}).values()})
-    if group in ("materials", "joints", "blocks", "define") and card not in cards:
-        raise KeyError(f"study: {path}: the deck has no {group}.{card}; it has {', '.join(map(str, cards)) or 'none'}.")
-
-
 def _state(path):
     """What changes when a file is replaced or written; None when it is not there."""
     try:
@@ -185,7 +174,7 @@ def study(deck, values, folder=None, measure=_last, ranks=1, threads=1):
     for path, choices in values.items():
         if isinstance(choices, (str, bytes, dict)) or not hasattr(choices, "__iter__"):
             raise ValueError(f"study: {path}: {choices!r} is no list of values; write [{choices!r}] for one.")
-        _demand_card(deck, path)
+        documents.demand_card(deck.document, path)
     values = {path: documents.plain(list(choices)) for path, choices in values.items()}
     lines = []
     for number, combination in enumerate(itertools.product(*values.values())):

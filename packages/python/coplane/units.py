@@ -28,6 +28,15 @@ VARIABLES = {
     "side_slip": ("m", "longest slip path"),
 }
 
+# Of the planes; what is not here has none.
+PLANES = {
+    **dict.fromkeys(("closure", "maximum_closure", "gap", "offset", "slip", "opening", "shearing"), "m"),
+    **dict.fromkeys(("area", "overlap"), "m^2"),
+    **dict.fromkeys(("normal_traction", "shear_traction"), "Pa"),
+    **dict.fromkeys(("work", "stored", "friction", "hysteresis", "fracture", "damping", "remainder"), "J"),
+    "force": "N",
+}
+
 
 def attributes(name):
     """`units` and `long_name` of a variable, as xarray wants them; of variables of laws only the name."""
