@@ -268,6 +268,7 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("vector graphics in space", [space.folder, "--vector", "a.svg"], ["two dimensions"]),
                           ("options that vector graphics do not know", [flat.folder, "--vector", "a.svg", "--mirror", "--palette", "dark"],
                            ["--vector does not know --mirror, --palette", "--window"]),
+                          ("a film and a strip", [flat.folder, "--animation", "a.gif", "--strip", "2", "-o", "drawn"], ["--animation does not know --output, --strip", "a.gif"]),
                           ("runs in other dimensions", [flat.folder, "--compare", space.folder], ["space/run has 3 dimensions, ", "flat/run has 2"]),
                           ("a misspelt vector", [flat.folder, "--color", "velocty"], ["no variable 'velocty'; did you mean velocity?"]),
                           ("a variable in an expression", [flat.folder, "--color", "1-damge"], ["no variable 'damge'"]),

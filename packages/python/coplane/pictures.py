@@ -327,6 +327,9 @@ def make(words):
         return [path]
     film = _file_of(options.animation, (".mp4", ".gif")) if options.animation else None
     if film:
+        ignored = [f"--{name}" for name in ("name", "output", "strip") if getattr(options, name)]
+        if ignored:
+            raise ValueError(f"--animation does not know {', '.join(ignored)}: it writes one file, {film}")
         _demand_film(film)  # before minutes of drawing
     other = Run(options.compare) if options.compare else None
     steps = options.steps or (len(run.results.times) if film else 2)
