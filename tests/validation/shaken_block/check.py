@@ -145,7 +145,7 @@ def falls(name, amplitude, ratio, end=1.3, **options):
 
 # Closed form against integration, where the first holds: slender blocks.
 for ratio in (2.0, 5.0):
-    slender = threshold(lambda a, ratio=ratio: half_sine(a, ratio * RATE), 4.0, alpha=0.002)
+    slender = threshold(lambda a, ratio=ratio: half_sine(a, ratio * RATE), 2.5, alpha=0.002)
     case.check(f"slender block, half a sine of {ratio:g} p: our integration over the closed form", slender / overturning(ratio), 1, 5e-3)
 
 # Sliding, 2 Hz.

@@ -53,7 +53,7 @@ case.check("held: vertical load before it is sheared [kN]", curve["vertical"][0]
 for way, load in MEASURED if case.full else MEASURED[:6]:
     words = f"held: shear at {way:g} mm against J4D, read off a plot within 8 kN [kN]"
     case.check(words + ("" if way < 0.7 else " (reported: we differ)"), at(curve, way), load, 8, report=bool(way >= 0.7))
-case.picture(run, "--times", "0", "0.03", "0.075", "0.155", "--strip", "4", "--planes", "none", "--size", "240", "260")
+case.picture(run, "--color", "von_mises", "--times", "0.03", "0.075", "0.2", "--strip", "3", "--planes", "dots", "--dot-size", "3", "--no-edges", "--range", "0", "6e6", "--size", "330", "360")
 if case.full:
     for way, load in MEASURED:
         case.other(f"shear at {way:g} mm [kN]", "Coplane, beam held at its height", at(curve, way), load, spent)
