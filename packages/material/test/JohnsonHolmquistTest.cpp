@@ -8,7 +8,7 @@
 #include <cmath>
 
 // The ceramic of the one-element tests of Johnson and Holmquist (1994), and the sandstone of
-// Baranowski, Kucewicz and Janiszewski (2024).
+// Baranowski, Kucewicz and Janiszewski (2024), which has all of the law's parameters.
 
 using namespace coplane;
 using namespace coplane::testing;
