@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 using namespace coplane;
 using namespace coplane::facepairs;
@@ -114,6 +115,31 @@ struct FacePair_Invariance : WithForces
 {
 };
 INSTANTIATE_TEST_SUITE_P(, FacePair_Invariance, WithForces::both(), WithForces::name);
+
+/// What bounds the step may not hang on which of two faces comes first.
+TEST(ApproachSpeed, isTheSameWithTheFacesInTheOtherOrder)
+{
+  const Vec3 normal = normalised(Vec3{0.3, 0.9, -0.2});
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> between(-1, 1);
+  for (int trial = 0; trial < 100; ++trial)
+  {
+    HalfStepFace a{}, b{};
+    a.count = 4;
+    b.count = 3;
+    Real fastest = -infinity, slowest = infinity;
+    for (HalfStepFace* face : {&a, &b})
+      for (int i = 0; i < face->count; ++i)
+      {
+        face->v[i] = {between(random), between(random), between(random)};
+        const Real along = dot(normal, face->v[i]);
+        (face == &a ? fastest : slowest) =
+            face == &a ? std::max(fastest, along) : std::min(slowest, along);
+      }
+    EXPECT_EQ(approachSpeed(normal, a, b), std::max(0.0, fastest - slowest));
+    EXPECT_EQ(approachSpeed(normal, a, b), approachSpeed(-normal, b, a));
+  }
+}
 } // namespace
 
 TEST(FacePair_InvarianceOfCommonNormal, labelsOfWarpedFacesCanBeSwappedWithCentroidWeights)

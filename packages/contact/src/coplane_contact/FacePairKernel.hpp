@@ -388,17 +388,18 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
 /// contact.
 constexpr Real deepestBirth = 0.25;
 
-/// Bound on the speed at which corners of the faces approach each other along the normal [m/s].
+/// Bound on the speed at which corners of the faces approach each other along the normal [m/s], the
+/// same to the bit with the faces in the other order.
 template <class T>
 KOKKOS_INLINE_FUNCTION T approachSpeed(const Vec3Of<T>& normal, const HalfStepFaceOf<T>& a,
                                        const HalfStepFaceOf<T>& b)
 {
-  T towards{}, away{};
-  for (int i = 0; i < a.count; ++i)
-    towards = branchFree::larger(dot(normal, a.v[i] - b.v[0]), towards);
-  for (int i = 0; i < b.count; ++i)
-    away = branchFree::larger(dot(normal, b.v[0] - b.v[i]), away);
-  return towards + away;
+  T fastest = dot(normal, a.v[0]), slowest = dot(normal, b.v[0]);
+  for (int i = 1; i < a.count; ++i)
+    fastest = branchFree::larger(dot(normal, a.v[i]), fastest);
+  for (int i = 1; i < b.count; ++i)
+    slowest = branchFree::smaller(dot(normal, b.v[i]), slowest);
+  return branchFree::larger(fastest - slowest, T(0.0));
 }
 
 /// Faces carry force when minus the product of their normals is above this [-].
