@@ -22,21 +22,22 @@ if missing:
 steel = {"model": "linear_elastic", "density": 8000, "youngs_modulus": 200e9, "poisson_ratio": 0.3}
 
 
-def boxes(dimension):
+def boxes(dimension, names=("left", "right")):
     size = [0.5, 0.1, 0.1][:dimension]
     return {"dimension": dimension, "parts": [{"shape": "box", "block": name, "min": [x, 0, 0][:dimension], "size": size, "divisions": [10, 2, 2][:dimension]}
-                                              for name, x in (("left", 0), ("right", 0.5))]}  # fmt: skip
+                                              for name, x in zip(names, (0, 0.5))]}  # fmt: skip
 
 
-def deck(speed):
-    return {"materials": {"steel": steel}, "blocks": {name: {"material": "steel"} for name in ("left", "right")},
-            "initial": [{"block": "left", "velocity": [speed, 0, 0]}], "time": {"end": 1e-4}, "output": {"every": 2e-5},
+def deck(speed, names=("left", "right")):
+    return {"materials": {"steel": steel}, "blocks": {name: {"material": "steel"} for name in names},
+            "initial": [{"block": names[0], "velocity": [speed, 0, 0]}], "time": {"end": 1e-4}, "output": {"every": 2e-5},
             "checkpoint": {"at_end": True}}  # fmt: skip
 
 
 flat, space = case.attempt("flat", boxes(2), deck(2)), case.attempt("space", boxes(3), {**deck(2), "output": {"every": 2e-5, "planes_format": "vtp"}})
 other = case.attempt("other", boxes(2), deck(1))
-for run in (flat, space, other):
+renamed = case.attempt("renamed", boxes(2, ("striker", "target")), deck(1, ("striker", "target")))
+for run in (flat, space, other, renamed):
     if run.code:
         sys.exit(run.output)
 # A second part of the results: what draws has to see both.
@@ -101,6 +102,13 @@ for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide 
 image = seen(pair)
 case.check_equal("comparison: size", image.shape, (300, 800, 3))
 case.check_equal("comparison: the halves differ in the bodies", bool((image[140:160, :400] != image[140:160, 400:]).any()), True)
+for color in ("block", "von_mises"):  # blocks of other names are drawn, too
+    (pair,) = drawn(f"blocks of other names by {color}", flat.folder, "--compare", renamed.folder, "-o", "drawn", "--times", "8e-5", "--color", color, "--size", "400", "300",
+                    "--planes", "none")  # fmt: skip
+    image = seen(pair)
+    widths = [int((half[140:160, :250] < 250).any(axis=(0, 2)).sum()) for half in (image[:, :400], image[:, 400:])]
+    case.check_within(f"blocks of other names by {color}: bodies of the first", widths[0], 100, 250)
+    case.check_within(f"blocks of other names by {color}: bodies of the other, as wide as these", widths[1], widths[0] - 3, widths[0] + 3)
 (film,) = drawn("gif", flat.folder, "--animation", "drawn/run.gif", "--size", "240", "160")
 case.check_equal("gif: a frame for each step of both parts", (Image.open(film).n_frames, steps > 8), (steps, True))
 (film,) = drawn("mp4 in space", space.folder, "--animation", "drawn/run.mp4", "--planes", "arrows", "--camera", "iso", "--steps", "3", "--size", "241", "161")
@@ -258,6 +266,10 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("a kind of film", [flat.folder, "--animation", "a.avi"], ["a.avi", ".mp4 or .gif"]),
                           ("a folder", [flat.folder, "--vector", "nowhere/a.svg"], ["no folder nowhere"]),
                           ("vector graphics in space", [space.folder, "--vector", "a.svg"], ["two dimensions"]),
+                          ("options that vector graphics do not know", [flat.folder, "--vector", "a.svg", "--mirror", "--palette", "dark"],
+                           ["--vector does not know --mirror, --palette", "--window"]),
+                          ("runs in other dimensions", [flat.folder, "--compare", space.folder], ["space/run has 3 dimensions, ", "flat/run has 2"]),
+                          ("a misspelt vector", [flat.folder, "--color", "velocty"], ["no variable 'velocty'; did you mean velocity?"]),
                           ("a variable in an expression", [flat.folder, "--color", "1-damge"], ["no variable 'damge'"]),
                           ("a variable of the planes", [flat.folder, "--planes", "slop"], ["no variable 'slop' of the planes", "slip"]),
                           ("a window", [flat.folder, "--window", "0", "1"], ["--window has 2 numbers", "X0 X1 Y0 Y1"]),
@@ -265,6 +277,11 @@ for what, words, told in (("a variable", [flat.folder, "--color", "stresss"], ["
                           ("a run", ["nobody"], ["there is no run of this name"])):  # fmt: skip
     code, said = draw(*words)
     case.check_equal(f"{what}: refused with these words", (code, [word for word in told if word not in said]), (2, []))
+# What cannot be written is told before anything is drawn: a file stands where a folder is wanted (root may write everywhere).
+pathlib.Path("drawn/file").write_text("")
+for words in (["-o", "drawn/file"], ["-o", "drawn/file/deep"]):
+    code, said = draw(flat.folder, *words)
+    case.check_equal(f"{' '.join(words)}: refused", (code, "cannot be written: Not a directory" in said, words[1] in said), (5, True, True))
 # That ffmpeg is missing is told before anything is drawn: here nothing that draws is found either.
 which, told = shutil.which, ""
 shutil.which = lambda name: None

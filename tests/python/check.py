@@ -170,6 +170,17 @@ case.check_equal("study: values", list(table["time.step_factor"]), [0.5, 2, 0.5,
 case.check_within("study: time of the third run", table.time[2], 1e-3, 1.1e-3)
 told("a failed run", coplane.RunFailed, lambda: coplane.run("study/001/run.yaml"), "exit code 3", "step_factor")
 
+told("a study of a joint that is not there", KeyError, lambda: coplane.study(checked, {"joints.tihgt.friction": [0.1, 0.2]}, "study"), "joints.tihgt", "it has tight")
+told("a study of a block that is not there", KeyError, lambda: coplane.study(checked, {"blocks.rok.rigid": [True]}, "study"), "blocks.rok", "it has rock")
+told("a study of a deck without a name", ValueError, lambda: coplane.study(coplane.Deck({"mesh": "mesh.e"}), {"time.end": [1]}), "no path")
+for ranks in (0, -1, 1.5, "2"):
+    told(f"ranks={ranks!r}", ValueError, lambda: coplane.run(checked, "nowhere", ranks=ranks), "ranks=", "a whole number from 1 on")
+told("threads=0", ValueError, lambda: coplane.run(checked, "nowhere", threads=0), "threads=0", "a whole number from 1 on")
+case.check_equal("such runs write nothing", pathlib.Path("nowhere").exists(), False)
+told("a step of the planes that is not there", IndexError, lambda: whole.planes[400], "no step 400", f"0 to {len(whole.planes) - 1}")
+told("a time for a step", IndexError, lambda: whole.planes[2e-4], "no step 0.0002", "0 to")
+told("fragments that nobody asked for", FileNotFoundError, lambda: whole.fragments, "writes no fragments", "output.fragments: true")
+told("a mesh for a deck", coplane.DeckError, lambda: coplane.Deck.read("straight/mesh.e"), "mesh.e: is no deck", "UTF-8")
 told("a value that is no list", ValueError, lambda: coplane.study(checked, {"time.end": 1e-3}, "study"), "time.end", "no list")
 measured = coplane.study(checked, {"time.end": numpy.array([5e-4])}, "measured", measure=lambda run: run.probes["nobody"])
 case.check_equal("study: a measure that fails", (list(measured.code), "nobody" in measured.error[0]), ([0], True))

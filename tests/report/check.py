@@ -28,9 +28,9 @@ case = Case("report", __file__)
 LOOK = """
 const seen = [];
 for (const [name, width] of PAGES) {
-  const page = await show(name, width, 3000), each = words => [...page.querySelectorAll(words)], box = thing => thing.getBoundingClientRect();
+  const page = await show(name, width, 3000), each = words => [...page.querySelectorAll(words)], box = thing => thing.getBoundingClientRect(), loaded = page.body.dataset.drawn;
   await until(() => page.body.dataset.drawn);
-  seen.push({drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth, plots: each('.plot').filter(plot => plot.querySelector('.main-svg')).length,
+  seen.push({loaded, drawn: page.body.dataset.drawn, page: page.documentElement.scrollWidth, plots: each('.plot').filter(plot => plot.querySelector('.main-svg')).length,
     widest: Math.max(...each('.main-svg').map(plot => box(plot).width)), row: Math.max(...each('tr').map(row => box(row).height)),
     scrolls: each('.legend .scrollbar').filter(bar => box(bar).height > 0).length});
 }
@@ -97,6 +97,7 @@ if "browser" in sys.argv:
     pages = [("a/run-report.html", 1400), ("a/run-report.html", 390), ("two.html", 390)]
     for (name, width), seen in zip(pages, browser.seen(".", LOOK.replace("PAGES", json.dumps(pages)))):
         what = f"{name}, {width} pixels"
+        case.check_equal(f"{what}: drawn when it counts as loaded, as screenshots and prints without a screen want it", seen.get("loaded"), "yes")
         case.check_equal(f"{what}: drawn, plots", (seen["drawn"], seen["plots"]), ("yes", len(Taken(name).figures)))
         case.check_within(f"{what}: widest plot", seen["widest"], 300, width)
         case.check_within(f"{what}: width of the page", seen["page"], width - 20, width)

@@ -202,7 +202,7 @@ class Picture:
             view.CameraViewAngle = angle
         self.flat = bool(box) or bool(bounds) and bounds[5] <= bounds[4]
         if label:
-            self.text(f"t = {1e3 * time:.4g} ms")
+            self.text(f"t = {1e6 * time:.4g} µs" if 0 < abs(time) < 1e-4 else f"t = {1e3 * time:.4g} ms")
 
     def _look(self, camera, bounds, axis_up, room):
         if isinstance(camera, str):

@@ -28,14 +28,24 @@ if want["window"]:
     bounds[: len(want["window"])] = want["window"]
 view = {"camera": want["camera"] or ("iso" if in_space else "front"), "bounds": bounds, "up": want["up"],
         "room": 1.0 if want["window"] else 1.2}  # fmt: skip
-chosen = want["blocks"] or runs[0].names
-colored = [name for name in chosen if name not in want["plain"]]
-by_block = want["color"] == "block" or not colored
+
+
+def chosen(run):
+    """Names of the blocks that are drawn; those of compared runs may differ."""
+    return want["blocks"] or run.names
+
+
+def colored(run):
+    """Of these, those that have the colours of the variable."""
+    return [name for name in chosen(run) if name not in want["plain"]]
+
+
+by_block = want["color"] == "block" or not all(map(colored, runs))
 of_planes = want["planes"] not in ("dots", "all", "arrows", "none")
 has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
 # Planes lie between bodies: their arrows and values shall be seen through them.
 bars = (not by_block) + (of_planes and has_planes)
-margin = cp.margin_for(want["size"], chosen if by_block and not of_planes else (), bars)
+margin = cp.margin_for(want["size"], [name for run in runs for name in chosen(run)] if by_block and not of_planes else (), bars)
 width = want["size"][0] - (margin if want["legend"] == "all" else 0)
 opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
 
@@ -47,7 +57,7 @@ def whole(source):
 
 def bodies(run):
     """The coloured ones, and the name of the variable by which they are."""
-    source, name = run.blocks(*colored), want["color"]
+    source, name = run.blocks(*colored(run)), want["color"]
     source.UpdatePipeline(times[0])
     if source.PointData.GetArray(name) or source.CellData.GetArray(name):
         return source, name
@@ -83,13 +93,13 @@ def draw(run, time, name):
     with_legend = want["legend"] == "all" or time == times[-1]
     picture = cp.Picture(run, nearest, size=[width + (margin if with_legend else 0), want["size"][1]], margin=margin if with_legend else 0, **view)
     if of_planes and want["color"] == "block":
-        picture.solid(whole(run.blocks(*chosen)), [0.96, 0.95, 0.93], want["edges"], opacity, [0.85, 0.84, 0.82])
+        picture.solid(whole(run.blocks(*chosen(run))), [0.96, 0.95, 0.93], want["edges"], opacity, [0.85, 0.84, 0.82])
     elif by_block:
-        picture.bodies(chosen, opacity, with_legend, whole, want["edges"])
+        picture.bodies(chosen(run), opacity, with_legend, whole, want["edges"])
     else:
         source, variable = bodies(run)
         picture.surface(whole(source), variable, colors, want["title"], edges=want["edges"], bar=with_legend, **styled(want["palette"], colors)).Opacity = opacity
-        picture.bodies([block for block in chosen if block not in colored] or ["none"], opacity, False, whole, want["edges"])
+        picture.bodies([block for block in chosen(run) if block in want["plain"]] or ["none"], opacity, False, whole, want["edges"])
     if has_planes and want["planes"] in ("dots", "all"):
         picture.dots(whole(run.planes(touching=want["planes"] == "dots")), size=want["dot_size"])
     elif has_planes and want["planes"] == "arrows":

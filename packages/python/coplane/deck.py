@@ -36,6 +36,8 @@ class Deck:
     def read(cls, path):
         try:
             return cls(_yaml().load(pathlib.Path(path).read_text(encoding="utf-8")), path)
+        except UnicodeDecodeError as error:
+            raise DeckError(f"{path}: is no deck: it is not text in UTF-8 ({error}).") from error
         except needs("ruamel.yaml", "Reading a deck").error.YAMLError as error:
             raise DeckError(f"{path}: is no YAML: {error}") from error
 

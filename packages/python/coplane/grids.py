@@ -69,10 +69,19 @@ def _field(ends, count, read, name, names):
     return numpy.stack([read(f"{name}_{end}") if f"{name}_{end}" in names else numpy.zeros(count) for end in ends], axis=1)
 
 
+def place_of(step, count):
+    """Position, from 0, of a step that is counted from 0, or from the end below 0."""
+    try:
+        return range(count)[step]
+    except (IndexError, TypeError):
+        raise IndexError(f"there is no step {step!r}; there are {count}: 0 to {count - 1}, or -1 for the last."
+                         if count else "there is no step yet.") from None
+
+
 def grid(series, step=-1, blocks=None, deformed=True, dead=False):
     """A step of the results as a vtkUnstructuredGrid, with all its fields; the text is that of Run.vtk."""
     vtk = _Vtk()
-    step = range(len(series.times))[step]
+    step = place_of(step, len(series.times))
     blocks = series.blocks if blocks is None else [blocks] if isinstance(blocks, str) else list(blocks)
     for name in blocks:
         if name not in series.blocks:
@@ -127,6 +136,6 @@ def cloud(planes, step=-1):
     found.SetVerts(vtk.cells([numpy.arange(len(places)).reshape(-1, 1)]))
     for name, values in fields.items():
         found.GetPointData().AddArray(vtk.array(values, name, "xyz" if values.ndim > 1 else ()))
-    found.GetFieldData().AddArray(vtk.array(planes.times[range(len(planes))[step] :][:1], "TimeValue"))
+    found.GetFieldData().AddArray(vtk.array(planes.times[place_of(step, len(planes)) :][:1], "TimeValue"))
     found.GetFieldData().AddArray(vtk.texts("joint_names", planes.joint_names(step)))
     return found

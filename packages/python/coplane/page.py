@@ -24,10 +24,13 @@ h1,p{overflow-wrap:anywhere}
 .columns td,.columns th{white-space:nowrap}
 pre{white-space:pre-wrap;overflow-wrap:anywhere;background:#f7f7f7;padding:8px;font-size:.85em}
 .add{background:#e6f4ea}.del{background:#fce8e6}img{max-width:100%;height:auto}summary{cursor:pointer}
+@media print{.grid>*{break-inside:avoid}}
 """
 SCRIPT = """
 (async function(){
   const say=t=>document.querySelectorAll('.plot').forEach(d=>{d.textContent=t});
+  // The page counts as loaded when the plots are there: until then a document is open in it. Otherwise a screenshot or a print without a screen is taken of empty plots.
+  const open=document.body.appendChild(document.createElement('iframe'));open.hidden=true;open.contentDocument.open();
   try{
     const packed=Uint8Array.from(atob(document.getElementById('library').textContent),c=>c.charCodeAt(0));
     const text=await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).text();
@@ -39,6 +42,7 @@ SCRIPT = """
     for(const d of document.querySelectorAll('.plot'))draw(d);
     document.body.dataset.drawn=document.querySelectorAll('.plot .main-svg').length?'yes':'no';
   }catch(e){say('The plots need a browser of 2023 or later: '+e)}
+  open.contentDocument.close();open.remove();
 })();
 """
 

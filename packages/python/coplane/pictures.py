@@ -1,7 +1,10 @@
 """Pictures of a run: states, strips, animations and comparisons by ParaView, and flat ones as vector graphics by matplotlib."""
 
 import argparse
+import difflib
+import errno
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -49,7 +52,10 @@ def _demand(series, color, blocks):
     names = series.element_names + series.nodal_names
     for word in [] if color == "block" else re.findall(r"[A-Za-z_]\w*", re.sub(r"\d[\d.]*(?:[eE][+-]?\d+)?", "", color)) or [color]:
         if word not in names and not any(name.rpartition("_")[0] == word for name in names) and (word == color or word not in _FUNCTIONS):
-            raise ValueError(f"no variable '{word}'; there are block, {', '.join(names)}")
+            vectors = sorted({name.rpartition("_")[0] for name in names if name.endswith("_x")})
+            there = ["block", *vectors, *names]
+            close = difflib.get_close_matches(word, there, 1)
+            raise ValueError(f"no variable '{word}'{'; did you mean ' + close[0] + '?' if close else ''}; there are {', '.join(there)}")
     for name in blocks:
         if name not in series.blocks:
             raise ValueError(f"no block '{name}'; there are {', '.join(series.blocks)}")
@@ -88,6 +94,9 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
     if missing:
         raise PicturesFailed(f"{' and '.join(missing)} not found (packages/cmake/dependencies.sh --with-paraview installs ParaView)")
     runs, told = [run] if compare is None else [run, compare], []
+    if compare is not None and compare.results.dimension != run.results.dimension:
+        raise ValueError(f"{compare.folder / compare.name} has {compare.results.dimension} dimensions, {run.folder / run.name} has {run.results.dimension}: "
+                         "they cannot be seen from one place")
     for one in runs:
         _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
         told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "blocks": one.results.blocks,
@@ -148,6 +157,11 @@ def animate(files, output, rate=12):
         raise PicturesFailed(f"ffmpeg: {' '.join(done.stderr.split())}")
 
 
+def _told(time):
+    """A time [s] as pictures tell it."""
+    return f"t = {1e6 * time:.4g} µs" if 0 < abs(time) < 1e-4 else f"t = {1e3 * time:.4g} ms"
+
+
 def _values(series, block, name, step):
     """A variable on the elements of a block: nodal ones as means; of vectors the length."""
     names = [name] if name in series.element_names + series.nodal_names else [f"{name}_{axis}" for axis in "xy"]
@@ -191,7 +205,8 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
     axes.autoscale()
     if window:
         axes.set(xlim=window[:2], ylim=window[2:4])
-    axes.set(aspect="equal", title=f"t = {1e3 * times[step]:.4g} ms", xlabel="x [m]", ylabel="y [m]")
+    axes.locator_params(nbins=5)  # numbers of small lengths are long
+    axes.set(aspect="equal", title=_told(times[step]), xlabel="x [m]", ylabel="y [m]")
     if values:
         figure.colorbar(polygons, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=_titled(color))  # as tall as what is seen
     else:
@@ -203,6 +218,10 @@ def vector(run, output, time=None, color="block", range=None, blocks=(), deforme
         axes.plot(*fields["Points"][touching, :2].T, ".", color="black", markersize=3)
     figure.savefig(output, bbox_inches="tight")
     pyplot.close(figure)
+
+
+# Options that vector graphics know.
+_OF_VECTOR = {"run", "vector", "color", "range", "blocks", "window", "times", "shares", "undeformed", "planes"}
 
 
 def _count(word):
@@ -275,7 +294,17 @@ def _file_of(name, endings):
         raise ValueError(f"{name}: the name ends with {' or '.join(endings)}")
     if not path.resolve().parent.is_dir():
         raise ValueError(f"{name}: there is no folder {path.parent}")
+    _demand_place(path.parent)
     return path
+
+
+def _demand_place(folder):
+    """PermissionError unless files can be written in a folder, which may have to be made, with those above it."""
+    there = next(place for place in (folder, *folder.resolve().parents) if place.exists())
+    if not there.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), str(folder))
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(folder))
 
 
 def make(words):
@@ -290,6 +319,9 @@ def make(words):
         options.times += [share * float(run.results.times[-1]) for share in options.shares]
     if options.vector:
         path = _file_of(options.vector, (".svg", ".pdf"))
+        others = sorted(f"--{name.replace('_', '-')}" for name, value in vars(options).items() if name not in _OF_VECTOR and value != _parser().get_default(name))
+        if others:
+            raise ValueError(f"--vector does not know {', '.join(others)}; it knows {', '.join('--' + name for name in sorted(_OF_VECTOR - {'run', 'vector', 'shares'}))}")
         vector(run, path, options.times[-1] if options.times else None, options.color, options.range, options.blocks, not options.undeformed,
                options.planes != "none", options.window)  # fmt: skip
         return [path]
@@ -299,6 +331,8 @@ def make(words):
     other = Run(options.compare) if options.compare else None
     steps = options.steps or (len(run.results.times) if film else 2)
     folder, name = pathlib.Path(options.output or run.folder / "pictures"), options.name or run.name
+    if not film:
+        _demand_place(folder)  # before minutes of drawing
     with tempfile.TemporaryDirectory() as draft:
         files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, options.direction or options.camera, not options.undeformed,
                      options.planes, options.size, None, options.title, options.palette, options.plain, options.window, options.dot_size, options.opacity,
@@ -322,5 +356,5 @@ def main():
         print(f"ERROR: {error}", file=sys.stderr)
         sys.exit(2)
     except OSError as error:
-        print(f"ERROR: {error}", file=sys.stderr)
+        print(f"ERROR: {error.filename or ''}: cannot be written: {error.strerror or error}", file=sys.stderr)
         sys.exit(5)

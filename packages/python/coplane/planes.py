@@ -8,7 +8,7 @@ import xml.etree.ElementTree
 import netCDF4
 import numpy
 
-from .grids import cloud
+from .grids import cloud, place_of
 from .needs import needs
 
 
@@ -94,11 +94,11 @@ class Planes:
 
     def fields(self, step):
         """Fields of the planes of a step as arrays, by name; `Points` are the points of contact."""
-        return self._steps.fields(range(len(self))[step])
+        return self._steps.fields(place_of(step, len(self)))
 
     def joint_names(self, step):
         """Names that the field `joint` counts, from 0."""
-        return self._steps.joint_names(range(len(self))[step])
+        return self._steps.joint_names(place_of(step, len(self)))
 
     def __getitem__(self, step):
         pandas = needs("pandas", "A table of planes")

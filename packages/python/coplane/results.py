@@ -393,6 +393,9 @@ class Run:
     @property
     def fragments(self):
         """Connected bodies over time, a pandas DataFrame: output.fragments in the deck gives it."""
+        self.written("")
+        if not self._asked("output", "fragments", bool):
+            raise FileNotFoundError(f"{self.fragments_path}: the run writes no fragments; output.fragments: true in the deck gives them.")
         return tables.frame(self.fragments_path)
 
     @property

@@ -1,6 +1,7 @@
 """Runs decks: one, while it goes on, and many with other values."""
 
 import itertools
+import numbers
 import os
 import pathlib
 import subprocess
@@ -60,6 +61,23 @@ class Started(Run):
         return Run(self.path(".yaml"))
 
 
+def _demand_number(name, value):
+    """ValueError unless a number of ranks or threads is a whole one from 1 on."""
+    if not isinstance(value, numbers.Integral) or isinstance(value, bool) or value < 1:
+        raise ValueError(f"{name}={value!r}; accepted: a whole number from 1 on.")
+
+
+def _demand_card(deck, path):
+    """KeyError when a path leads into a card that the deck lacks: it would become a new one, which nothing uses, and all runs the same."""
+    group, _, rest = path.partition(".")
+    card = rest.partition(".")[0]
+    cards = dict(deck.get(group) or {})
+    if group == "materials":  # a set of the library that a block names
+        cards.update({block.get("material"): None for block in (deck.get("blocks") or {}).values()})
+    if group in ("materials", "joints", "blocks", "define") and card not in cards:
+        raise KeyError(f"study: {path}: the deck has no {group}.{card}; it has {', '.join(map(str, cards)) or 'none'}.")
+
+
 def _state(path):
     """What changes when a file is replaced or written; None when it is not there."""
     try:
@@ -86,8 +104,10 @@ def run(deck, folder=None, ranks=1, threads=1, restart=False, options=(), wait=T
     restart: True: from the newest checkpoint; or the path of one.
     options: more of the command line, such as ["--max-wall", "3600"].
     wait: False: returns at once, with a Run that has `process` and `wait()`; coplane.watch follows it.
-    Raises RunFailed when the exit code is not 0, and RuntimeError when another run writes there.
+    Raises ValueError for numbers of ranks and threads that are none, RunFailed when the exit code is not 0, and RuntimeError when another run writes there.
     """
+    _demand_number("ranks", ranks)
+    _demand_number("threads", threads)
     deck = deck if isinstance(deck, Deck) else Deck.read(deck)
     if deck.path is None:
         raise ValueError("the deck has no path: write it to the folder in which it runs, with Deck.write, so that outputs have its name.")
@@ -155,13 +175,17 @@ def study(deck, values, folder=None, measure=_last, ranks=1, threads=1):
     values: lists by path of the deck, `{"define.v": [50, 70], "joints.mortar.friction": [0.4, 0.6]}`.
     folder: runs are made in folders 000, 001, ... in it; default: <name of the deck>-study beside the deck. A combination that fails has
         its exit code in the column `code`, the reason in `error`, and no measures; so has one whose measure fails. The others are run all the same.
+    Raises KeyError when a path leads into a joint, material or block that the deck has not: nothing would use it.
     """
     pandas = needs("pandas", "The table of a study")
     deck = deck if isinstance(deck, Deck) else Deck.read(deck)
+    if deck.path is None:
+        raise ValueError("study: the deck has no path: name it, coplane.Deck(document, \"wall.yaml\"), so that outputs have its name.")
     folder = pathlib.Path(folder or deck.folder / f"{deck.path.stem}-study")
     for path, choices in values.items():
         if isinstance(choices, (str, bytes, dict)) or not hasattr(choices, "__iter__"):
             raise ValueError(f"study: {path}: {choices!r} is no list of values; write [{choices!r}] for one.")
+        _demand_card(deck, path)
     values = {path: documents.plain(list(choices)) for path, choices in values.items()}
     lines = []
     for number, combination in enumerate(itertools.product(*values.values())):

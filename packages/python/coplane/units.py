@@ -15,6 +15,7 @@ VARIABLES = {
     "pressure": ("Pa", "pressure, compression positive"),
     "equivalent_plastic_strain": ("1", "equivalent plastic strain"),
     "density": ("kg/m^3", "current density"),
+    "temperature": ("K", "temperature"),
     "alive": ("1", "1 alive, 0 eroded"),
     "time_step": ("s", "time step"),
     "eroded_mass": ("kg", "mass of eroded elements"),

@@ -174,7 +174,7 @@ class View:
 
     def curve(self, name, value, y):
         """A line: name, last value, and how it came to be."""
-        text = f"{name:<17} {value:>10} "
+        text = f"{name:<18} {value:>9} "
         room = min(60, self.width - len(text))
         self.add(text + (small_curve(self.h["time"], y, room, self.letters) if room >= 8 else ""))
 

@@ -177,4 +177,11 @@ try:
 except KeyError as error:
     told = str(error)
 case.check_equal("a block that is not there", [word for word in ("'wall'", "target, striker") if word not in told], [])
+for step in (99, 1e-4):
+    try:
+        flat.vtk(step)
+        told = ""
+    except IndexError as error:
+        told = str(error)
+    case.check_equal(f"step {step}, which is not there", [word for word in (f"no step {step}", f"0 to {len(flat.results.times) - 1}") if word not in told], [])
 case.finish()

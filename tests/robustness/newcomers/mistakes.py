@@ -167,6 +167,21 @@ refused("a pressure on nodes", {"{type: fixed, node_set: base}": "{type: pressur
 refused("one block for a pair", {"dry}": "dry, pairs: [{blocks: lower, joint: dry}]}"}, "contact.pairs.0.blocks = 'lower'", "a list of 2 names", "such as [bricks")
 refused("axes as flags", {"base}": "base, components: [1, 0, 0]}"}, "conditions.0.components.0 = '1' is not known", "one of x, y, z")
 
+# --- the right thing in the wrong form -----------------------------------------------------------------------------
+refused("a start of nodes", {"gravity:": "initial: [{node_set: base, velocity: [1, 0, 0]}]\ngravity:"}, "initial.0.block is missing", "element block of the mesh")
+refused("components in one word", {"base}": "base, components: xy}"}, "conditions.0.components = 'xy'", "a list of names out of x, y, z")
+refused("a name for a pair", {"dry}": "dry, pairs: [{blocks: lower, joint: dry}]}"}, "contact.pairs.0.blocks = 'lower'", "a list of 2 names, such as")
+refused("two default joints", {"default_joint: dry": "default_joint: [dry, dry]"}, "contact.default_joint = a list of 2; accepted: text")
+refused("an interval", {"{every: 2e-4}": "{interval: 2e-4}"}, "output.interval is not known. It is called 'every' here.")
+refused("a frequency of outputs", {"{every: 2e-4}": "{frequency: 50}"}, "output.frequency is not known. It is called 'every' here.")
+refused("a stress of three numbers", {"gravity:": "initial: [{block: upper, stress: [-1e6, -1e6, 0]}]\ngravity:"}, "initial.0.stress = a list of 3", "a list of 6 numbers [Pa]")
+refused("reduced integration", {"upper: {material: granite}": "upper: {material: granite, element: reduced}"}, "blocks.upper.element = 'reduced' is not known", "one_point")
+refused("damping by a number", {"gravity:": "damping: 0.1\ngravity:"}, "damping = '0.1'; accepted: keys with values")
+refused("static and dynamic friction in one", {"friction: 0.6": "friction: [0.6, 0.4]"}, "joints.dry.friction = a list of 2", "a number >= 0")
+refused("two probes of one name", {"gravity:": "history: {probes: [{name: a, block: lower}, {name: a, block: upper}]}\ngravity:", "history: {every": "partition: {every"},
+        "history.probes.1.name = 'a' is taken", "each name once")  # fmt: skip
+typed("a colon in --set", "run.yaml --set time.end:0.1", "is not an assignment", "path=value, such as time.end=0.1", code=DECK)
+
 # --- two dimensions ------------------------------------------------------------------------------------------------
 refused("gravity along z", {"[0, -9.81, 0]": "[0, 0, -9.81]"}, "run.yaml:14:17: gravity along z has no effect", "two dimensions")
 refused("held along z", {"base}": "base, components: [z]}"}, "run.yaml:12:5: components: [z] holds nothing", "two dimensions", "x, y or both", two_ranks=True)
@@ -221,6 +236,13 @@ cooked("millimetres in a recipe", "size: [1,", "size: [1000 mm,", "parts.0.size.
 cooked("one number of divisions", "divisions: [2, 1]", "divisions: 2", "parts.0.divisions = '2'", "a list of 2 whole numbers >= 1")
 cooked("a set of a misspelt block", "block: lower, where", "block: lwoer, where", "node_sets.base.block = 'lwoer' is no block of the parts", "Did you mean 'lower'?")
 
+cooked("corners clockwise", "{shape: box", "{shape: quadrilateral, block: q, corners: [[5, 0], [5, 1], [6, 1], [6, 0]], divisions: [1, 1]}\n  - {shape: box",
+       "bar.yaml:4:", "parts.0.corners turn inside out", "counter-clockwise")  # fmt: skip
+cooked("three angles in two dimensions", "shape: box,", "shape: box, rotate: [0, 0, 30],", "parts.0.rotate must be one number in two dimensions")
+cooked("a list of sets", "node_sets:", "side_sets: [base]\nnode_sets:", "side_sets = a list of 1: names are wanted, not items with '-'")
+cooked("a place in words", "{y: 0}", "'y = 0'", 'node_sets.base.where = "y = 0"', "keys with values")
+
+
 def with_checkpoint(folder):
     program.run_program(["run.yaml", "--set", "checkpoint.at_end=true"], folder)
 
@@ -254,6 +276,10 @@ def inside_out(file):
     file["connect1"][:] = nodes
 
 
+def mirrored(file):
+    file["coordx"][:] = -file["coordx"][:]
+
+
 def flat(file):
     file["coordy"][:] = 0
 
@@ -270,6 +296,7 @@ def overlapping(file):
 
 
 meshed("an element inside out", inside_out, "mesh.e: 1 elements are inside out or flat", "element 1 of block 'lower'", "order of their nodes", two_ranks=True)
+meshed("a mesh that was mirrored", mirrored, "4 elements are inside out or flat", "order of their nodes")
 meshed("elements without area", flat, "4 elements are inside out or flat", "0 m^2")
 meshed("a mesh in another unit of length", long, "WARNING", "1.41e+08 m from corner to corner", "in metres", code=FINE, command="run.yaml --check")
 meshed("bodies in each other", overlapping, "mesh.e: bodies overlap before the first step", "'lower' and 'upper'", "0.01 m deep", "initial_overlap", two_ranks=True)
