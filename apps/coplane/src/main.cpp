@@ -438,6 +438,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       restart(solver, decks.back(), *checkpoint, settings);
     else
       solver.prepare();
+    for (std::size_t later = stage + 1; later < decks.size(); ++later)
+      solver.demandPossible(stageOf(decks[later], int(later), mesh, solver.mesh(), comm));
     reportModel(solver, mesh, deck);
     reportSoftening(deck, mesh, solver, comm);
     if (line.check)
