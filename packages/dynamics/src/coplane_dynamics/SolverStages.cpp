@@ -80,9 +80,9 @@ void Solver::demandPossible(const Stage& stage) const
   for (std::size_t b = 0; b < blocks().size(); ++b)
     if (historyNames(stage.model.blocks[b].material) != blocks()[b].historyVariables())
       failOnAllRanks(ExitCode::Deck,
-                     "stages.{}.set: block '{}' would have a law with other variables; accepted: "
-                     "other numbers of the keys that its material has from the start on.",
-                     stage.index, model_.blocks[b].name);
+                     "block '{}' would have a law with other variables; accepted: other numbers "
+                     "of the keys that its material has from the start on.",
+                     model_.blocks[b].name);
 }
 
 /// Masses of rigid bodies are those of the start.
