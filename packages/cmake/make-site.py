@@ -58,7 +58,7 @@ TOPICS = {
     "Materials": ["deck: materials blocks", "point-deck: title define materials material_paths"],
     "Joints and contact": ["deck: joints contact", "joint-recipe: define joints", "point-deck: joints joint_paths elements"],
     "Loads, supports, state at the start": ["deck: conditions initial gravity"],
-    "Time, damping, shocks": ["deck: time damping viscosity"],
+    "Time, stages, damping, shocks": ["deck: time stages damping viscosity"],
     "What is written": ["deck: output history"],
     "Long and parallel runs": ["deck: checkpoint partition"],
     "Sizes and variants": ["example: title recipe joints deck ranks default sizes variants pictures check summary"],

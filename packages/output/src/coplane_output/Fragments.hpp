@@ -2,6 +2,7 @@
 
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/TextFile.hpp>
+#include <coplane_core/Vec3.hpp>
 #include <coplane_dynamics/Observer.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 
