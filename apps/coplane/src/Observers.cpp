@@ -107,7 +107,7 @@ ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std
   results.filePerRank = deck.output.filePerRank;
   results.history = historyVariables(deck, mesh);
   if (deck.output.fragments)
-    results.fragmentDamage = deck.output.fragmentDamage;
+    results.bodies = std::make_shared<BodiesOfCycle>(deck.output.fragmentDamage);
   results.infoLines = linesOf(deck.text);
   results.infoLines.insert(results.infoLines.begin(), settings.command);
   results.run = run;
@@ -166,8 +166,8 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
     observers.add(std::make_unique<ResultsObserver>(comm, mesh, results));
     if (deck.output.fragments)
       observers.add(std::make_unique<FragmentsObserver>(
-          comm, FragmentsOptions{fragmentsFile(deck), results.when, deck.output.fragmentDamage,
-                                 settings.positions}));
+          comm,
+          FragmentsOptions{fragmentsFile(deck), results.when, results.bodies, settings.positions}));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
           comm,

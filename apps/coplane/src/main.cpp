@@ -343,6 +343,23 @@ void checkStages(const std::vector<Deck>& decks, const MeshSlice& mesh, const Ra
   }
 }
 
+/// What only the model shows of a later stage. Collective.
+void demandPossibleStage(const Solver& solver, const Deck& deck, int stage, const MeshSlice& mesh,
+                         const Comm& comm)
+{
+  try
+  {
+    solver.demandPossible(stageOf(deck, stage, mesh, solver.mesh(), comm));
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(),
+                fmt::format("stages.{} ('{}'): {}", stage, deck.stages[std::size_t(stage)].name,
+                            error.what()),
+                error.onAllRanks());
+  }
+}
+
 /// Says how a stage has ended. Collective.
 void tellEndOfStage(const Solver& solver, const StageCard& stage)
 {
@@ -438,6 +455,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       restart(solver, decks.back(), *checkpoint, settings);
     else
       solver.prepare();
+    for (std::size_t later = stage + 1; later < decks.size(); ++later)
+      demandPossibleStage(solver, decks[later], int(later), mesh, comm);
     reportModel(solver, mesh, deck);
     reportSoftening(deck, mesh, solver, comm);
     if (line.check)

@@ -1,6 +1,7 @@
 #include "Rig.hpp"
 
 #include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_material/J2Plasticity.hpp>
 
 #include <gtest/gtest.h>
 
@@ -43,6 +44,9 @@ Model flying(const Comm& comm, const std::vector<int>& absent = {},
   }
   model.blocks[2].velocity = {1, 2, -6};
   model.conditions.gravity = VectorOfTime(0, 0, -9.81);
+  // On a side of the column: of both blocks.
+  model.conditions.pressures = {
+      pressureWhere(model.mesh, 1e4, [](const Vec3& x) { return x.x == 1; })};
   model.time.fixedStep = 1e-4;
   model.inStages = model.blocksComeOrGo = true;
   model.absentBlocks = absent;
@@ -137,6 +141,7 @@ TEST(Stages, aBlockComesInFreeOfStressWhereItsNodesAre)
   cycles(solver, 60);
   expectClosedBooks(solver);
   solver.beginStage(stage(comm, {}, {1}, {1}));
+  cycles(solver, 1);
   const ElementBlock& upper = solver.blocks()[1];
   std::vector<ExactSum> volumes(1);
   for (int e = 0; e < upper.count(); ++e)
@@ -153,6 +158,133 @@ TEST(Stages, aBlockComesInFreeOfStressWhereItsNodesAre)
   cycles(solver, 60);
   EXPECT_LT(solver.energy().eroded, 0); // it came with the motion of the nodes that it shares
   expectClosedBooks(solver);
+}
+
+TEST(Stages, loadsOnFacesActFromWhenTheirBlockIsThere)
+{
+  const Comm comm;
+  const auto pushed = [](const Solver& solver)
+  {
+    std::vector<ExactSum> force(1);
+    for (int n = 0; n < solver.layout().owned(); ++n)
+      force[0].add(solver.state().external(n, 0));
+    return ExactSum::overRanks(force, solver.comm())[0];
+  };
+  Solver solver(flying(comm, {1}), comm);
+  solver.prepare();
+  cycles(solver, 5);
+  EXPECT_NEAR(pushed(solver), -2e4, 1e2); // two faces of 1 m^2
+  solver.beginStage(stage(comm, {}, {1}, {1}));
+  cycles(solver, 1);
+  EXPECT_NEAR(pushed(solver), -4e4, 2e2);
+  solver.beginStage(stage(comm, {0}, {}, {1}));
+  cycles(solver, 1);
+  EXPECT_NEAR(pushed(solver), -2e4, 1e2);
+}
+
+TEST(Stages, aStiffBlockThatComesInHasItsSayInTheStep)
+{
+  const Comm comm;
+  const auto withStiffUpper = [&]
+  {
+    Model model = flying(comm, {1});
+    model.blocks[1].material = makeLinearElastic(1e15, 0.25, 1000);
+    model.time.fixedStep.reset();
+    return model;
+  };
+  Solver solver(withStiffUpper(), comm);
+  solver.prepare();
+  cycles(solver, 20);
+  const Real soft = solver.clock().nextStep;
+  Stage next = stage(comm, {}, {1}, {1});
+  next.model = withStiffUpper();
+  solver.beginStage(std::move(next));
+  cycles(solver, 1);
+  EXPECT_EQ(solver.clock().step, soft); // without forces of the block
+  EXPECT_LT(solver.blocks()[1].smallestStableStep(), 0.01 * soft);
+  EXPECT_LE(solver.clock().nextStep, solver.blocks()[1].smallestStableStep());
+  cycles(solver, 200);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_LT(std::abs(energy.error()), 1e-3 * energy.initial);
+}
+
+TEST(Stages, whatHasErodedLeavesWithItsBlock)
+{
+  const Comm comm;
+  const auto eroding = [&]
+  {
+    Model model = flying(comm);
+    model.blocks[1].erosion.volumeRatio = {0, 1.00001};
+    return model;
+  };
+  Solver solver(eroding(), comm);
+  solver.prepare();
+  cycles(solver, 60);
+  EXPECT_EQ(solver.erosion().elements, 2);
+  EXPECT_EQ(massOf(solver), 4125); // its nodes fly on
+  Stage leaves = stage(comm, {1}, {});
+  leaves.model = eroding();
+  solver.beginStage(std::move(leaves));
+  cycles(solver, 1);
+  EXPECT_EQ(massOf(solver), 2125);
+  EXPECT_EQ(solver.erosion().elements, 2);
+  EXPECT_EQ(solver.erosion().mass, 2000);
+  expectClosedBooks(solver);
+  solver.beginStage(stage(comm, {}, {1})); // it may come in anew
+  cycles(solver, 30);
+  EXPECT_GT(massOf(solver), 4000);
+  expectClosedBooks(solver);
+}
+
+TEST(Stages, thatAreImpossibleLeaveTheSolverWhole)
+{
+  const Comm comm;
+  const auto rigidStone = [&]
+  {
+    Model model = flying(comm);
+    model.blocks[2].rigid = true;
+    model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 0, 1}, comm);
+    return model;
+  };
+  Solver solver(rigidStone(), comm);
+  solver.prepare();
+  cycles(solver, 5);
+  const std::uint64_t hash = solver.stateHash();
+  const Real kinetic = solver.energy().kinetic;
+  const auto refused = [&](const std::string& text, const std::function<void(Stage&)>& change)
+  {
+    Stage next = stage(comm, {}, {});
+    next.model = rigidStone();
+    change(next);
+    for (const bool begins : {false, true})
+      try
+      {
+        begins ? solver.beginStage(next) : solver.demandPossible(next);
+        ADD_FAILURE() << text;
+      }
+      catch (const Error& error)
+      {
+        EXPECT_TRUE(error.onAllRanks());
+        EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+      }
+  };
+  refused("nodes of a rigid body",
+          [](Stage& next)
+          {
+            PrescribedVelocity held;
+            held.nodes = ownedNodesWhere(next.model.mesh, [](const Vec3& x) { return x.z > 4.25; });
+            next.model.conditions.velocities = {held};
+          });
+  refused("shares nodes with a rigid body", [](Stage& next) { next.remove = {2}; });
+  refused("law with other variables",
+          [](Stage& next)
+          {
+            next.model.blocks[0].material =
+                makeJ2Plasticity(std::get<LinearElastic>(next.model.blocks[0].material), 1e9, 0);
+          });
+  EXPECT_EQ(solver.stateHash(), hash);
+  EXPECT_EQ(solver.energy().kinetic, kinetic);
+  cycles(solver, 1);
 }
 
 TEST(Stages, haveTheSameBitsFromAnyStateOnAnyPartition)

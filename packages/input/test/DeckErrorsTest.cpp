@@ -645,6 +645,18 @@ TEST(DeckErrors, windowsOfDampingNeedADamping)
             "later time.");
 }
 
+TEST(DeckErrors, fragmentsGoWithResults)
+{
+  EXPECT_EQ(errorWith("output: {fragments: true, fragment_damage: 0.5}\n"), "no error");
+  EXPECT_EQ(errorWith("output: {fragments: true, results: none}\n"),
+            "wall.yaml:5:21: output.fragments has no effect without results, which output.results "
+            "switches off; remove one of the two.");
+  EXPECT_EQ(errorWith("output: {fragment_damage: 0.5}\n"),
+            "wall.yaml:5:27: output.fragment_damage has no effect without output.fragments: true; "
+            "remove it or add that.");
+  EXPECT_NE(errorWith("output: {fragments: true, fragment_damage: 1.5}\n"), "no error");
+}
+
 TEST(DeckErrors, rigidBodiesOfRevolution)
 {
   EXPECT_EQ(errorOf("mesh: wall.e\ngeometry: axisymmetric\n"

@@ -282,6 +282,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
   for (std::string line; std::getline(lines, line);)
     if (line.find("rigid") == std::string::npos)
       withoutRigid += line + "\n";
+  const std::string withFragments = deckOfAllModels + std::string("output: {fragments: true}\n");
   for (const auto& [path, key] : leaves)
   {
     // Items of contact.pairs name faces in one way only, and some keys of materials need others.
@@ -307,9 +308,10 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
       if (path == from)
         place = to;
     const std::string assignment = place + "=" + key.example;
-    const std::string& deck = path == "geometry"             ? withoutRigid
-                              : path.rfind("stages", 0) == 0 ? deckWithStages
-                                                             : deckOfAllModels;
+    const std::string& deck = path == "geometry"                 ? withoutRigid
+                              : path == "output.fragment_damage" ? withFragments
+                              : path.rfind("stages", 0) == 0     ? deckWithStages
+                                                                 : deckOfAllModels;
     try
     {
       EXPECT_NE(show(parseDeck(deck, "x.yaml")), show(parseDeck(deck, "x.yaml", {assignment})))

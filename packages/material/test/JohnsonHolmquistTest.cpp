@@ -8,7 +8,7 @@
 #include <cmath>
 
 // The ceramic of the one-element tests of Johnson and Holmquist (1994), and the sandstone of
-// Baranowski, Kucewicz and Janiszewski (2024).
+// Baranowski, Kucewicz and Janiszewski (2024), which has all of the law's parameters.
 
 using namespace coplane;
 using namespace coplane::testing;
@@ -97,9 +97,8 @@ TEST(JohnsonHolmquist, bulkingPressuresOfTheOneElementTestsAreThePublishedOnes)
 
 TEST(JohnsonHolmquist, instantFractureTurnsTheShearEnergyIntoPressure)
 {
-  // Case A: yields at q = sigmaHEL A ((p + T) / PHEL)^N on the elastic line q = 2 G eps, p = K
-  // (J^-1
-  // - 1); then q^2 / 6G is in the pressure, (p + dp)^2 - p^2 = 2 K q^2 / 6G.
+  // Case A: yields at q = sigmaHEL A ((p + T) / PHEL)^N on the elastic line q = 2 G eps,
+  // p = K (1/J - 1); then q^2 / 6G is in the pressure, (p + dp)^2 - p^2 = 2 K q^2 / 6G.
   MaterialProbe probe(makeLaw(ceramic('A')), 1);
   Real q = 0, p = 0;
   ProbeStep step;
@@ -212,22 +211,89 @@ TEST(JohnsonHolmquist, meanTensionEndsAtItsLimitAndAtNothingWhenFractured)
   EXPECT_EQ(torn.history("bulking_pressure"), 0); // nothing presses against it
 }
 
+TEST(JohnsonHolmquist, whatATornCeramicStoredIsLost)
+{
+  // No stress is left, so all of the energy is lost: that of shear, and that of mean tension, which
+  // opened at the limit before damage took it.
+  const auto lackOf = [](const MaterialProbe& probe)
+  {
+    EXPECT_EQ(probe.history("damage"), 1);
+    EXPECT_NEAR(probe.pressure(), 0, 1e-3);
+    EXPECT_NEAR(probe.vonMises(), 0, 1e-3);
+    return 1 - probe.dissipation() / probe.energy();
+  };
+  MaterialProbe torn(makeLaw(ceramicJh2()), 0.01);
+  strainPath(torn, {0.01, 0, 0, 0, 0, 0}, 4000, nobody);
+  EXPECT_NEAR(lackOf(torn), 0, 0.01);
+  JohnsonHolmquistParameters tough = ceramicJh2();
+  tough.damageFactor = 0.05;
+  MaterialProbe opened(makeLaw(tough), 0.01);
+  strainPath(opened, {0.004, 0.004, 0.004, 0, 0, 0}, 4000, nobody);
+  EXPECT_EQ(opened.dissipation(), 0); // it is elastic until damage comes
+  strainPath(opened, {0.004, 0.004, 0.004, 0.2, 0, 0}, 4000, nobody);
+  EXPECT_NEAR(lackOf(opened), 0, 0.01);
+}
+
+TEST(JohnsonHolmquist, energyIsLostOrStored)
+{
+  for (const char which : {'A', 'B', 'C'})
+  {
+    MaterialProbe probe(makeLaw(ceramic(which)), 1);
+    strainPath(probe, {std::log(0.95), 0, 0, 0, 0, 0}, 5000, nobody);
+    // Of p = K (1/J - 1) + dp down to no pressure, at J0; q^2 / 6G.
+    const Real K = 130.95e9, J = probe.volumeRatio(), q = probe.vonMises();
+    const Real J0 = 1 / (1 - probe.history("bulking_pressure") / K);
+    const Real stored = K * (std::log(J0 / J) - 1 + J / J0) + q * q / (6 * 90.16e9) * J;
+    EXPECT_NEAR(probe.dissipation() + stored, probe.energy(), 0.002 * probe.energy()) << which;
+  }
+}
+
+TEST(JohnsonHolmquist, bulkingIsThatOfThePressureWhereverItComesFrom)
+{
+  const Real p = 2e9;
+  const JohnsonHolmquist law = makeLaw(ceramic('A'));
+  MaterialProbe started(law, 0.01, {-p, -p, -p, 0, 0, 0}), strained(law, 0.01);
+  const Real axis = -std::log1p(p / 130.95e9) / 3;
+  strainPath(strained, {axis, axis, axis, 0, 0, 0}, 100, nobody);
+  ASSERT_NEAR(strained.pressure(), p, 1);
+  strainPath(started, {0, 0, 0, 0.05, 0, 0}, 1000, nobody);
+  strainPath(strained, {axis, axis, axis, 0.05, 0, 0}, 1000, nobody);
+  ASSERT_EQ(started.history("damage"), 1);
+  EXPECT_NEAR(started.history("bulking_pressure"), strained.history("bulking_pressure"), 10);
+  // (p + dp)^2 - p^2 = 2 K q^2 / 6G, to the step of q.
+  const Real q = law.intactStrength(p, Real(1.0));
+  const Real raised = std::sqrt(p * p + 130.95e9 * q * q / (3 * 90.16e9)) - p;
+  EXPECT_NEAR(started.history("bulking_pressure"), raised, 1e-9 * raised);
+}
+
 TEST(JohnsonHolmquist, rateRaisesBothStrengths)
 {
-  JohnsonHolmquistParameters fast = sandstone();
-  fast.referenceRate = 10;
-  const JohnsonHolmquist law = makeLaw(fast);
-  // Equivalent rate 2 / sqrt3 times that of the tensor component.
-  MaterialProbe probe(law, 0.01);
-  const Real rate = 1e4;
-  probe.advance(Mat3{{{0, 0.04, 0}, {0.04, 0, 0}, {0, 0, 0}}}, 0.04 / rate);
-  const Real expected = 912e6 * 0.71 * std::pow(8.0 / 1374, 0.55) *
-                        (1 + 0.022 * std::log(2 / std::sqrt(3.0) * rate / 10));
-  EXPECT_NEAR(law.intactStrength(0.0, 1 + 0.022 * std::log(2 / std::sqrt(3.0) * rate / 10)),
-              expected, 1e-9 * expected);
-  EXPECT_EQ(probe.history("damage"), 1); // and then there is no strength without pressure
-  EXPECT_NEAR(probe.history("equivalent_plastic_strain"),
-              std::sqrt(3.0) * 2 * 2.686e9 * 0.04 / (3 * 2.686e9), 1e-3);
+  // Shear at a pressure that is held; the equivalent rate is 2 / sqrt3 times the tensor component.
+  JohnsonHolmquistParameters rated = ceramicJh2();
+  rated.rateFactor = 0.02;
+  rated.referenceRate = 10;
+  rated.bulkingFraction = 0;
+  const auto strengthOf = [](JohnsonHolmquistParameters p, Real damageFactor, Real rate)
+  {
+    p.damageFactor = damageFactor;
+    MaterialProbe probe(makeLaw(p), 0.01, {-1e9, -1e9, -1e9, 0, 0, 0});
+    const Real shear = 5e-4;
+    ProbeStep step;
+    step.value = {0, 0, 0, shear, 0, 0};
+    step.dt = shear / rate;
+    for (int i = 0; i < 200; ++i)
+      probe.advance(step);
+    EXPECT_EQ(probe.history("damage") == 1, damageFactor < 1);
+    return probe.vonMises();
+  };
+  const Real factor = 1 + 0.02 * std::log(2 / std::sqrt(3.0) * 1e4 / 10);
+  for (const Real damageFactor : {1e9, 0.005})
+    EXPECT_NEAR(strengthOf(rated, damageFactor, 1e4) / strengthOf(rated, damageFactor, 1), factor,
+                1e-6);
+  // The largest strength of the fractured material is one, whatever the rate.
+  rated.largestFractured = 0.2;
+  EXPECT_NEAR(strengthOf(rated, 0.005, 1e4), 0.2 * 2e9, 1);
+  EXPECT_NEAR(strengthOf(rated, 0.005, 1), 0.2 * 2e9, 1);
 }
 
 TEST(JohnsonHolmquist, badParametersAreRefusedWithTheNumber)

@@ -130,13 +130,39 @@ TEST(KaragozianCase, aCrackTakesTheFractureEnergyWhateverTheElement)
   for (const Real width : {0.002, 0.01, 0.05, 0.1})
   {
     MaterialProbe probe(law, width);
-    // Steps of 2e-6 to 20 times the strain at which G_F would be spent at ft.
+    // To 30 times the strain at which G_F would be spent at ft.
     const Real energy = completed(published()).fractureEnergy;
     uniaxialStress(probe, 30 * energy / (ft * width), 20000, [](const MaterialProbe&) {});
     EXPECT_EQ(probe.history("damage"), 1) << width;
     EXPECT_NEAR(probe.stress().xx, 0, 1e-6 * ft);
     EXPECT_NEAR(probe.energy() * width, energy, 0.005 * energy) << width;
     EXPECT_NEAR(probe.dissipation() * width, energy, 0.01 * energy) << width;
+  }
+}
+
+TEST(KaragozianCase, aFastCrackTakesTheEnergyOfItsStrength)
+{
+  // r_f G_F, as in pseudo_cap: r_f = 10^(6 d) rate^(1/3) / 100 from 1/s on, d = 1 / (1 + 0.8 fc).
+  KaragozianCaseParameters rated = published();
+  rated.rateEffects = true;
+  const Real rate = 10, energy = completed(published()).fractureEnergy;
+  const Real factor = std::pow(10, 6 / (1 + 8 * fc / 10e6) - 2) * std::cbrt(rate / 1e-6);
+  for (const Real width : {0.01, 0.05})
+  {
+    MaterialProbe probe(makeLaw(rated), width);
+    ProbeStep step;
+    step.stressGiven = {false, true, true, false, false, false};
+    step.value = {30 * energy / (ft * width) / 20000, 0, 0, 0, 0, 0};
+    step.dt = step.value[0] / rate;
+    Real peak = 0;
+    for (int i = 0; i < 20000; ++i)
+    {
+      probe.advance(step);
+      peak = std::max(peak, probe.stress().xx);
+    }
+    EXPECT_NEAR(peak, factor * ft, 0.005 * peak);
+    EXPECT_EQ(probe.history("damage"), 1) << width;
+    EXPECT_NEAR(probe.energy() * width, factor * energy, 0.01 * factor * energy) << width;
   }
 }
 
@@ -154,7 +180,7 @@ TEST(KaragozianCase, aLargerElementThanTheLimitCannotFollow)
 
 TEST(KaragozianCase, hydrostaticTensionOpensCracksThatClose)
 {
-  // Mean stress eta ft; lambda grows by s b3 (1 - left / ...) per volume strain of cracks.
+  // Mean stress eta ft; lambda grows by s b3 per volume strain of cracks.
   MaterialProbe probe(law, size);
   Real peak = 0;
   strainPath(probe, {0.02, 0.02, 0.02, 0, 0, 0}, 20000,

@@ -36,7 +36,11 @@ LAWS = {
     "pseudo_cap": {"model": "pseudo_cap", "set": "concrete_c40"},
     "pseudo_cap_rates": {"model": "pseudo_cap", "set": "concrete_c40", "rate_effects": True},
     "hjc": {"model": "hjc", "set": "concrete_hjc_48"},
-    "jh2": {"model": "jh2", "set": "sandstone"},
+    "jh2": {
+        "model": "jh2", "density": 2350, "shear_modulus": 2.686e9, "bulk_moduli": [3.7356e9, 9e9, 22e9], "elastic_limit": 1.982e9,
+        "elastic_limit_pressure": 1.374e9, "tensile_strength": 8e6, "intact_factor": 0.71, "intact_exponent": 0.55, "fractured_factor": 0.3,
+        "fractured_exponent": 0.4, "largest_fractured_strength": 0.25, "rate_factor": 0.022, "damage_factor": 0.002, "damage_exponent": 1.2,
+    },
     "kcc": {"model": "kcc", "set": "concrete_kcc_45", "rate_effects": True},
     # TNT with a hundredth of its pressures and a tenth of its speed: the front crosses most of the body.
     "jwl": {

@@ -1,6 +1,7 @@
 """V91: stages: a column of blocks before and after the upper ones are removed, and after they are added."""
 
 import json
+import math
 import pathlib
 
 import numpy
@@ -15,7 +16,7 @@ weight = density * gravity  # of one block of 1 m x 1 m, per metre [N]
 
 def column(name, shared):
     """With common nodes or each with nodes of its own."""
-    points, quads, sides = [], {}, {"floor": [], "base_top": []}
+    points, quads, sides = [], {}, {"floor": [], "base_top": [], "crest": []}
     for b, block in enumerate(("base", "middle", "top")):
         first = len(points)
         if shared and b:
@@ -26,6 +27,7 @@ def column(name, shared):
         quads[block] = [(first + 2 * r, first + 2 * r + 1, first + 2 * r + 3, first + 2 * r + 2) for r in range(4)]
         if b == 0:
             sides["floor"], sides["base_top"] = [(first, first + 1)], [(first + 8, first + 9)]
+    sides["crest"] = [(first + 8, first + 9)]
     conforming.write(name, points, quads, sides)
 
 
@@ -126,6 +128,33 @@ for which, row in (("least", 0), ("largest", 3)):  # compression is negative
     case.check(f"{name}: its height [m]", h[f"base_stress_yy_{which}_place_y"][-1], (row + 0.5) / 4, 1e-5)
     case.check_equal(f"{name}: its element", int(h[f"base_stress_yy_{which}_element"][-1]), int(results.ids_of("base")[row]))
 case.check_equal(f"{name}: a block that is not there has none", bool(numpy.isnan(h["top_stress_yy_least"][0])), True)
+
+# --- what comes in is loaded: the pressure on it acts from then on, and goes through a restart ----------------------------------
+
+load = 1e5
+name = "loaded"
+stages = [still, {"name": "filled", "at_rest": True, "add": ["middle", "top"]}]
+loaded = deck("shared", stages, 1, ("base",), contact={"enabled": False})
+loaded["conditions"] = [*loaded["conditions"], {"type": "pressure", "side_set": "crest", "value": load}]
+run_loaded = case.run(name, None, loaded, energy=1e-6)
+ends_at_rest(name, run_loaded, ("filled",))
+begins = numpy.flatnonzero(run_loaded.history["time"] <= 2e-3 * (1 + 1e-9))[-1]
+case.check(f"{name}: force of the floor before [N]", run_loaded.history["foot_reaction_y"][begins], weight, 1e-12, relative=True)
+case.check(f"{name}: force of the floor at the end [N]", run_loaded.history["foot_reaction_y"][-1], 3 * weight + load, 1e-5, relative=True)
+same_bits(name, loaded, run_loaded)
+
+# --- a block a thousand times as stiff comes in while the others vibrate: it limits the step from the start on ------------------
+
+name = "stiff"
+stiff = deck("shared", [still, {"name": "lined", "until": 4e-3, "add": ["top"]}], 2, ("base", "middle"), contact={"enabled": False})
+stiff["materials"] = {**stiff["materials"], "steel": {**stiff["materials"]["rock"], "youngs_modulus": 1e3 * modulus}}
+stiff["blocks"] = {**stiff["blocks"], "top": {"material": "steel"}}
+stiff |= {"gravity": [0, -1.2 * gravity, 0], "damping": {}, "time": {"end": 4e-3}}
+run_stiff = case.run(name, None, stiff, energy=1e-2)
+h = run_stiff.history
+first = numpy.flatnonzero(h["eroded"] != 0)[0]  # the cycle in which it comes, without forces of its own
+through = 0.25 / math.sqrt(1e3 * modulus / density)  # a wave through one of its elements [s]
+case.check_equal(f"{name}: steps after that are shorter than a wave takes through an element", bool(numpy.max(h["dt"][first + 1 :]) < through), True)
 
 # --- restarts in the middle of a stage and at its border, with what is to come changed -----------------------------------------
 

@@ -176,6 +176,14 @@ void Conditions::endLoadsOn(const std::vector<GlobalId>& dead)
     forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
 }
 
+void Conditions::takeFaceLoads(const Conditions& from)
+{
+  pressures = from.pressures;
+  tractions = from.tractions;
+  airBlasts = from.airBlasts;
+  absorbing = from.absorbing;
+}
+
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const
 {
   prescribeVelocities(t, 0, v, projections(t));

@@ -227,6 +227,9 @@ struct Conditions
   /// @param deadElements ids, sorted
   void endLoadsOn(const std::vector<GlobalId>& deadElements);
 
+  /// The loads on faces of other conditions, on all faces that those have.
+  void takeFaceLoads(const Conditions& from);
+
   /// Copies the components of velocities that are prescribed at t.
   void keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const;
 

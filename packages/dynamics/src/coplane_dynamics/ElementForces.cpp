@@ -55,6 +55,13 @@ ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int o
           }};
 }
 
+void ElementForces::initialise(std::size_t block, const ConstNodeVectors& x)
+{
+  blocks_[block].initialise(x);
+  const NodeVectors atRest("coplane::dynamics::atRest", x.extent(0));
+  blocks_[block].update(x, atRest, 0, {});
+}
+
 void ElementForces::setInitialStress(const Model& model)
 {
   for (std::size_t b = 0; b < blocks_.size(); ++b)

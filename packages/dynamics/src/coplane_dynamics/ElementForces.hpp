@@ -31,8 +31,8 @@ public:
 
   /// Masses of the owned nodes from all elements that have not been taken out [kg].
   void sumMasses(NodalState& state) const;
-  /// A block as new, free of stress, with the nodes at x [m].
-  void initialise(std::size_t block, const ConstNodeVectors& x) { blocks_[block].initialise(x); }
+  /// A block as new, free of stress and force, with the nodes at x [m] and its stable steps there.
+  void initialise(std::size_t block, const ConstNodeVectors& x);
 
   const std::vector<ElementBlock>& blocks() const { return blocks_; }
   ElementBlock& block(std::size_t b) { return blocks_[b]; }

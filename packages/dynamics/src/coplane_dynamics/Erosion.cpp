@@ -64,7 +64,7 @@ std::vector<std::pair<int, int>> Erosion::dying(const ElementForces& elements,
     if (std::find(leaving.begin(), leaving.end(), int(b)) != leaving.end())
     {
       for (int e = 0; e < block.count(); ++e)
-        if (block.isAlive(e))
+        if (!block.isTakenOut(e)) // also those that have eroded: their mass is still there
           found.emplace_back(int(b), e);
       continue;
     }
@@ -100,13 +100,15 @@ std::vector<GlobalId> Erosion::erode(const RankMesh& mesh, ElementForces& elemen
   for (const auto& [b, e] : mine)
   {
     const RankMesh::Block& part = mesh.blocks[b];
-    if (part.owned[e])
+    const bool lives = elements.blocks()[b].isAlive(e);
+    if (part.owned[e] && lives)
       book(part, elements.blocks()[b], b, e, v, dt);
     if (std::find(leaving.begin(), leaving.end(), b) != leaving.end())
       elements.block(b).takeOut(e);
     else
       elements.block(b).erode(e);
-    forget(part, b, e);
+    if (lives)
+      forget(part, b, e);
   }
   return dead;
 }
@@ -175,6 +177,13 @@ std::vector<GlobalId> Erosion::restore(const RankMesh& mesh, const ElementForces
   }
   if (!acts_)
     return {};
+  recount(mesh, elements);
+  return dead(mesh, elements, comm);
+}
+
+std::vector<GlobalId> Erosion::dead(const RankMesh& mesh, const ElementForces& elements,
+                                    const Comm& comm) const
+{
   std::vector<GlobalId> dead;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
@@ -183,7 +192,6 @@ std::vector<GlobalId> Erosion::restore(const RankMesh& mesh, const ElementForces
       if (!elements.blocks()[b].isAlive(e) && part.owned[e])
         dead.push_back(part.elementIds[e]);
   }
-  recount(mesh, elements);
   dead = comm.allGather(dead);
   std::sort(dead.begin(), dead.end());
   return dead;

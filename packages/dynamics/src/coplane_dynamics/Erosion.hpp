@@ -36,6 +36,9 @@ public:
   void beginWithout(const std::vector<int>& blocks, const RankMesh& mesh, ElementForces& elements);
   /// After elements have come in.
   void recount(const RankMesh& mesh, const ElementForces& elements);
+  /// Ids of all elements that have died or are not there, sorted, on all ranks. Collective.
+  std::vector<GlobalId> dead(const RankMesh& mesh, const ElementForces& elements,
+                             const Comm& comm) const;
   /// Energy that goes with elements, or comes with them: negative [J].
   void bookEnergy(int block, Real energy) { energies_[std::size_t(block)].add(energy); }
 

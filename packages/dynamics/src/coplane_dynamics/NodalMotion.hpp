@@ -65,6 +65,8 @@ public:
   /// @param ids of all nodes here
   void save(const std::vector<GlobalId>& ids, StateTables& out) const;
   void restore(const std::vector<GlobalId>& ids, const StateSource& in);
+  /// Throws on all ranks where rigid bodies cannot have the conditions. Collective.
+  void demandPossible(const Conditions& conditions) const { bodies_.demandPossible(conditions); }
   // Displacements of bodies that are told from now on; and their part of a checkpoint.
   void zeroDisplacements() { bodies_.zeroDisplacements(); }
   void saveZero(StateTables& out) const { bodies_.saveZero(out); }

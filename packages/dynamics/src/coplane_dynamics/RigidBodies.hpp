@@ -78,6 +78,8 @@ public:
   /// their given motions. A condition has to be on all nodes of a body or on none, and a body has
   /// conditions on nodes or a given motion: throws on all ranks otherwise. Collective.
   void takeConditions(Conditions& conditions);
+  /// Throws as takeConditions() of bodies without conditions would. Collective.
+  void demandPossible(Conditions conditions) const;
   /// Momenta from the velocities of the nodes at the start, and their velocities from the momenta.
   /// Collective.
   void start(NodalState& state);

@@ -73,6 +73,17 @@ void RigidBodies::takeConditions(Conditions& conditions)
   takeMotions(conditions.rigidMotions);
 }
 
+void RigidBodies::demandPossible(Conditions conditions) const
+{
+  RigidBodies trial = *this;
+  for (Body& body : trial.bodies_)
+  {
+    body.constraints.clear();
+    body.turning = Body::Turning::Free;
+  }
+  trial.takeConditions(conditions);
+}
+
 void RigidBodies::takeMotions(const std::vector<RigidMotion>& motions)
 {
   for (const RigidMotion& motion : motions)

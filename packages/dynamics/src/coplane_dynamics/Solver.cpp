@@ -174,7 +174,7 @@ void Solver::findElementForces()
 bool Solver::erode(Real dt)
 {
   const std::vector<int> leaving = std::exchange(leaving_, {});
-  const bool facesChange = std::exchange(facesChange_, false);
+  const bool facesChange = comeIn(std::exchange(coming_, {}));
   const std::vector<GlobalId> dead =
       erosion_->erode(mesh(), elements_, state_.v, dt, leaving, *comm_);
   if (dead.empty() && !facesChange)
@@ -341,7 +341,6 @@ bool Solver::goOn(Observer& observer, const NextStage& nextStage)
       return false;
     observer.endOfStage(*this);
     beginStage(std::move(*next));
-    observer.repartitioned(*this);
     return true;
   }
   catch (const Error& error)
@@ -356,12 +355,17 @@ ExitCode Solver::run(Observer& observer, Rebalancer* rebalancer, const NextStage
 {
   observer.start(*this);
   Ending ending;
-  while (!isOver() || goOn(observer, nextStage))
+  while (true)
   {
+    const bool begins = isOver();
+    if (begins && !goOn(observer, nextStage))
+      break;
     advance();
     judge(observer);
     try
     {
+      if (begins)
+        observer.repartitioned(*this); // the masses and places of blocks that came in are known now
       observer.endOfCycle(*this);
     }
     catch (const Error& error)

@@ -66,10 +66,13 @@ public:
   /// same run. Call between cycles. What is known of the parts of ranks (local numbers) is void
   /// afterwards. For a moment the state is there twice. Collective.
   void repartition(Model model);
-  /// Goes on with another stage; call between cycles. Blocks that come in are there at once, free
-  /// of stress, with their nodes where these are; those that leave do so in the next cycle, as
-  /// elements that erode, but with their mass. Collective.
+  /// Goes on with another stage; call between cycles. Blocks come and leave in the next cycle:
+  /// those that come are free of stress at its end, with their nodes where these are then; those
+  /// that leave do so as elements that erode, but with their mass. Collective.
   void beginStage(Stage stage);
+  /// What of a stage the mesh and the laws show to be impossible, now or before; throws on all
+  /// ranks. Collective.
+  void demandPossible(const Stage& stage) const;
   /// Cycles until the end time, a stop request or a failure. Returns how it ended; throws
   /// Error(ExitCode::Computation) on failure after the observers have finished. A rebalancer may
   /// change the partition at the end of cycles. Collective.
@@ -164,12 +167,18 @@ private:
   void openContact();
 
   void findElementForces();
+  /// Blocks, and conditions that still have the loads on their faces.
+  struct ComingBlocks
+  {
+    std::vector<int> blocks;
+    Conditions conditions;
+  };
   // Of stages. Collective.
   void rebuild(Model model);
   bool goOn(Observer& observer, const NextStage& nextStage);
   void demandNoRigidNodes(const std::vector<int>& blocks) const;
-  void demandThere(const std::vector<int>& blocks, bool there) const;
-  void comeIn(const std::vector<int>& blocks);
+  void demandThere(const std::vector<int>& blocks, bool there, int stage) const;
+  bool comeIn(const ComingBlocks& coming);
   void leaveAbsentBlocks();
   void takeMassAlong(const std::vector<int>& blocks);
   std::vector<GlobalId> facesThatGo() const;
@@ -232,6 +241,6 @@ private:
   std::map<int, std::vector<Vec3>> came_; ///< by block that has come in: places of the nodes then
   // Done in the next cycle.
   std::vector<int> leaving_;
-  bool facesChange_ = false;
+  ComingBlocks coming_;
 };
 } // namespace coplane

@@ -52,6 +52,12 @@ void Solver::rebuild(Model model)
 void Solver::beginStage(Stage stage)
 {
   TimedRegion region("coplane::dynamics::beginStage");
+  // All that may be refused: what is left of the run has to be told of by a solver that is whole.
+  demandPossible(stage);
+  demandThere(stage.remove, true, stage.index);
+  demandThere(stage.add, false, stage.index);
+  // Restoring ends the loads on what is not there.
+  const Conditions conditions = stage.add.empty() ? Conditions() : stage.model.conditions;
   rebuild(std::move(stage.model));
   stage_ = {stage.index, clock_.time};
   relaxation_.beginAnew();
@@ -62,12 +68,21 @@ void Solver::beginStage(Stage stage)
       set(state_.reference, n, at(state_.x, n));
     motion_->zeroDisplacements();
   }
+  coming_ = {std::move(stage.add), conditions};
+  leaving_ = std::move(stage.remove);
+}
+
+void Solver::demandPossible(const Stage& stage) const
+{
   demandNoRigidNodes(stage.add);
   demandNoRigidNodes(stage.remove);
-  demandThere(stage.remove, true);
-  demandThere(stage.add, false);
-  comeIn(stage.add);
-  leaving_ = std::move(stage.remove);
+  motion_->demandPossible(stage.model.conditions);
+  for (std::size_t b = 0; b < blocks().size(); ++b)
+    if (historyNames(stage.model.blocks[b].material) != blocks()[b].historyVariables())
+      failOnAllRanks(ExitCode::Deck,
+                     "block '{}' would have a law with other variables; accepted: other numbers "
+                     "of the keys that its material has from the start on.",
+                     model_.blocks[b].name);
 }
 
 /// Masses of rigid bodies are those of the start.
@@ -86,7 +101,7 @@ void Solver::demandNoRigidNodes(const std::vector<int>& blocks) const
 }
 
 /// The deck knows, but a restart may have changed it.
-void Solver::demandThere(const std::vector<int>& blocks, bool there) const
+void Solver::demandThere(const std::vector<int>& blocks, bool there, int stage) const
 {
   for (const int b : blocks)
   {
@@ -98,7 +113,7 @@ void Solver::demandThere(const std::vector<int>& blocks, bool there) const
       failOnAllRanks(ExitCode::Deck,
                      "stages.{}: block '{}' is {} there, so it cannot be {}. Blocks that a stage "
                      "adds are absent from the start of the run on: a restart cannot change which.",
-                     stage_.index, model_.blocks[std::size_t(b)].name, there ? "not" : "already",
+                     stage, model_.blocks[std::size_t(b)].name, there ? "not" : "already",
                      there ? "removed" : "added");
   }
 }
@@ -134,12 +149,15 @@ void Solver::leaveAbsentBlocks()
   layout_.refresh(state_.x, state_.v);
 }
 
-/// Blocks as new where their nodes are now, free of stress. The mass that they bring to nodes that
-/// move has momentum and kinetic energy, which are booked as coming in with it at n + 1/2.
-void Solver::comeIn(const std::vector<int>& blocks)
+/// Blocks as new where their nodes are now, at n + 1, free of stress: the step that follows is the
+/// first with forces of theirs, and they have their say in its length. The mass that they bring to
+/// nodes that move has momentum and kinetic energy, which are booked as coming in with it at
+/// n + 1/2. Whether any did.
+bool Solver::comeIn(const ComingBlocks& coming)
 {
+  const std::vector<int>& blocks = coming.blocks;
   if (blocks.empty())
-    return;
+    return false;
   for (const int b : blocks)
   {
     std::vector<Vec3>& places = came_[b];
@@ -167,7 +185,9 @@ void Solver::comeIn(const std::vector<int>& blocks)
   }
   layout_.refresh(state_.mass);
   erosion_->recount(mesh(), elements_);
-  facesChange_ = true;
+  model_.conditions.takeFaceLoads(coming.conditions);
+  model_.conditions.endLoadsOn(erosion_->dead(mesh(), elements_, *comm_));
+  return true;
 }
 
 /// Elements of these blocks have just gone; what their mass has of momentum and kinetic energy at

@@ -375,6 +375,19 @@ void checkStages(const Deck& deck, const DeckNode& root, Problems& problems)
   }
 }
 
+/// Fragments go beside the results and into them.
+void checkFragments(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  const DeckNode& output = nodeAt(root, {"output"});
+  if (deck.output.fragments && deck.output.results.empty())
+    problems.add(nodeAt(output, {"fragments"}),
+                 "output.fragments has no effect without results, which output.results switches "
+                 "off; remove one of the two.");
+  if (const DeckNode* given = deck.output.fragments ? nullptr : output.find("fragment_damage"))
+    problems.add(*given, "output.fragment_damage has no effect without output.fragments: true; "
+                         "remove it or add that.");
+}
+
 /// Outputs that a run never comes to.
 void warnOfLateOutputs(const Deck& deck, const DeckNode& root, Problems& problems)
 {
@@ -432,6 +445,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);
   checkStages(deck, root, problems);
+  checkFragments(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
 }

@@ -51,6 +51,7 @@ Key outputKeys()
                    number("fragment_damage", &OutputCard::fragmentDamage)
                        .in("-")
                        .above(0)
+                       .atMost(1)
                        .like("0.9")
                        .means("of fragments: elements with this damage connect nothing"),
                })

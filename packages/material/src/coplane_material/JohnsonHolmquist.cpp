@@ -157,11 +157,6 @@ ceramic_jh2: {model: jh2, density: 3700, shear_modulus: 90.16e9, bulk_moduli: [1
               elastic_limit: 2.7933333333e9, elastic_limit_pressure: 1.46e9, tensile_strength: 0.2e9,
               intact_factor: 0.93, intact_exponent: 0.6, fractured_factor: 0.31,
               fractured_exponent: 0.6, damage_factor: 0.005}
-sandstone: {model: jh2, density: 2350, shear_modulus: 2.686e9, bulk_moduli: [3.7356e9, 9e9, 22e9],
-            elastic_limit: 1.982e9, elastic_limit_pressure: 1.374e9, tensile_strength: 8e6,
-            intact_factor: 0.71, intact_exponent: 0.55, fractured_factor: 0.3,
-            fractured_exponent: 0.4, largest_fractured_strength: 0.25, rate_factor: 0.022,
-            damage_factor: 0.002, damage_exponent: 1.2}
 )");
 }
 } // namespace coplane

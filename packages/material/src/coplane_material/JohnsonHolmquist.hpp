@@ -11,7 +11,7 @@ namespace coplane
 /// first and D of the second. Damage by plastic strain, dD = dep / max(D1 (p* + T*)^D2, least).
 /// Pressure K1 mu + K2 mu^2 + K3 mu^3 over mu = density / reference density - 1, K1 mu in tension,
 /// down to -(1-D) T. What damage takes of the elastic energy of shear goes into pressure, by the
-/// fraction beta: bulking.
+/// fraction beta: bulking. What it takes of the elastic energy of mean tension is lost.
 ///
 /// Strength and ductility are those of the damage at the start of the step; at its end the deviator
 /// is on the surface of the damage then (Gazonas 2002). Pressures are positive in compression.
@@ -97,6 +97,7 @@ struct JohnsonHolmquist
     const T zero(0.0), one(1.0), threeG(3 * elastic.shearModulus), limit(tension);
     const T mu = one / point.volumeRatio - one, before = h[Damage];
     const T ofVolume = polynomial(mu) + h[Offset];
+    const T confining = positivePart(T(elastic.bulkModulus) * mu + h[Offset]);
     const T p = larger(ofVolume + h[BulkingPressure], (before - one) * limit);
 
     const SymTensorOf<T> trial =
@@ -109,22 +110,28 @@ struct JohnsonHolmquist
     const auto yields = q > strength;
     const T flow = choose(yields, (q - strength) / threeG, zero);
     const T damage = damageFactor > 0 ? smaller(before + flow / ductility(p), one)
-                                      : choose(yields, one, before); // at once
+                                      : choose(yields, one, before); // broken by its first flow
 
     // Damage takes strength, and with it elastic energy of shear.
     const T borne = smaller(strength, intact + damage * (fractured - intact));
     const T released = (strength * strength - borne * borne) * part / (T(2.0) * threeG);
-    const T kept = T(bulking) * confinement(mu) * released;
-    h[BulkingPressure] +=
-        gained(T(elastic.bulkModulus) * positivePart(mu) + h[BulkingPressure], kept);
+    const T kept = T(bulking) * confinement(confining) * released;
+    const T tension = positivePart(-ofVolume - h[BulkingPressure]);
+    const T torn =
+        storedBy(tension, (one - before) * limit) - storedBy(tension, (one - damage) * limit);
+    h[BulkingPressure] += gained(confining + h[BulkingPressure], kept);
     h[Damage] = damage;
-    h[PlasticStrain] += choose(yields, (q - borne) / threeG, zero);
+    const T plastic = choose(yields, (q - borne) / threeG, zero);
+    h[PlasticStrain] += plastic;
+    // The mean of the stresses before and after; kept is of those that damage took.
+    const T former = choose(yields, T(1.5) * contract(point.stress, trial) / q, zero);
+    const T ofShear = positivePart(plastic * T(0.5) * (former + borne * part) - kept);
 
     const T scale = choose(yields, borne / q, one);
     point.stress =
         stressOf(trial, scale, -larger(ofVolume + h[BulkingPressure], (damage - one) * limit));
     point.bendingScale = scale;
-    point.dissipation = strength * flow * part + (released - kept);
+    point.dissipation = ofShear + positivePart(torn);
     point.integrity = larger(one - damage, T(leastStiffness));
     const T pressed = positivePart(mu);
     point.stiffening = elastic.stiffeningOf(
@@ -145,14 +152,23 @@ private:
     return T(1.0) + T(rateFactor) * branchFree::logarithm(branchFree::larger(rate, T(1.0)));
   }
 
-  /// Share of bulking that meets a pressure: 0 without compression, 1 from T on. The source has all
-  /// or nothing, by the sign of mu.
+  /// Share of bulking that meets a pressure: 0 without one, 1 from T on, with a slope of 0 at 0.
+  /// The source has all or nothing, by the sign of mu.
+  /// @param p of compression and the initial stress
   template <class T>
-  KOKKOS_INLINE_FUNCTION T confinement(const T& mu) const
+  KOKKOS_INLINE_FUNCTION T confinement(const T& p) const
   {
-    const T share = branchFree::smaller(
-        branchFree::positivePart(mu) * T(elastic.bulkModulus / tension), T(1.0));
+    const T share = branchFree::smaller(p * T(1 / tension), T(1.0));
     return share * share;
+  }
+
+  /// Elastic energy per volume of a mean tension that ends at a limit.
+  /// @param tension without the limit
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T storedBy(const T& tension, const T& limit) const
+  {
+    const T borne = branchFree::smaller(tension, limit);
+    return borne * (tension - T(0.5) * borne) * T(1 / elastic.bulkModulus);
   }
 
   /// Pressure that an energy adds to another one: p^2 / 2K1 grows by it.

@@ -255,7 +255,8 @@ private:
     growth.perStrain = choose(relative < zero, branchFree::power(reach, -tensileExponent),
                               branchFree::power(reach, -compressiveExponent)) /
                        faster;
-    growth.softening = T(softeningGrowth) * size;
+    // Stress is r_f times the slow one; so is the energy of a crack, as in pseudo_cap.
+    growth.softening = T(softeningGrowth) * size * faster;
     const T tension =
         branchFree::smaller(branchFree::positivePart(-relative) * T(3.0), one); // 1: uniaxial
     growth.hardening = one + tension * (growth.softening - one);

@@ -1,9 +1,11 @@
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/Fragments.hpp>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <unordered_map>
 
@@ -74,6 +76,15 @@ public:
         bodies[b].push_back(connects_[b][e] ? bodyOf(labelOfNode(firstNode(b, e))) : 0);
     return bodies;
   }
+  /// Bodies here of which other ranks may have a part, ascending; with the elements of none.
+  std::vector<GlobalId> onSeveralRanks()
+  {
+    std::vector<GlobalId> bodies{0};
+    for (const std::size_t root : reaching_)
+      bodies.push_back(bodyOf(labels_[root]));
+    keepOneOfEach(bodies);
+    return bodies;
+  }
 
 private:
   int corners(std::size_t b) const { return topology(mesh_.blocks[b].type).nodes; }
@@ -120,7 +131,8 @@ private:
     for (std::size_t p = 0; p < planes.size(); ++p)
     {
       const Plane& plane = planes[p];
-      if (!plane.isBorn() || !plane.history.bonded)
+      // A bond without area carries nothing: its faces have left each other.
+      if (!plane.isBorn() || !plane.history.bonded || !(plane.area > 0))
         continue;
       const GlobalId a = elementOfFace(plane.faceId[0]), b = elementOfFace(plane.faceId[1]);
       const auto here = nodeOfElement_.find(a), there = nodeOfElement_.find(b);
@@ -151,12 +163,18 @@ private:
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
       for (int e = 0; e < mesh_.blocks[b].elements(); ++e)
         if (connects_[b][e] && !mesh_.blocks[b].owned[e])
+        {
+          reaching_.push_back(nodes_.rootOf(firstNode(b, e)));
           toOwner[std::size_t(ownerOf(b, e))].push_back(
-              {labelOfNode(firstNode(b, e)), mesh_.blocks[b].elementIds[e]});
+              {labels_[reaching_.back()], mesh_.blocks[b].elementIds[e]});
+        }
     std::vector<Edge> ofElements = comm.exchange(toOwner);
     std::vector<Edge> bonds;
     for (const Edge& bond : far_)
-      bonds.push_back({labelOfNode(std::size_t(bond.a)), bond.b});
+    {
+      reaching_.push_back(nodes_.rootOf(std::size_t(bond.a)));
+      bonds.push_back({labels_[reaching_.back()], bond.b});
+    }
     keepOneOfEach(bonds);
     for (const Edge& bond : comm.allGather(bonds))
       ofElements.push_back(bond);
@@ -167,10 +185,12 @@ private:
       const auto found = nodeOfElement_.find(edge.b);
       if (found == nodeOfElement_.end())
         continue; // of a bond to an element elsewhere
-      const GlobalId mine = labelOfNode(found->second);
+      reaching_.push_back(nodes_.rootOf(found->second));
+      const GlobalId mine = labels_[reaching_.back()];
       if (mine != edge.a)
         edges.push_back({std::min(mine, edge.a), std::max(mine, edge.a)});
     }
+    keepOneOfEach(reaching_);
     keepOneOfEach(edges);
     edges = comm.allGather(edges);
 
@@ -206,15 +226,15 @@ private:
   Sets nodes_;                                              ///< local nodes of one body
   std::vector<std::vector<char>> connects_;                 ///< [block][element]
   std::unordered_map<GlobalId, std::size_t> nodeOfElement_; ///< of those that connect
-  std::vector<Edge> far_;        ///< bonds: a node here, and an element that is not
-  std::vector<GlobalId> labels_; ///< of roots of nodes: least id of the elements here
+  std::vector<Edge> far_;             ///< bonds: a node here, and an element that is not
+  std::vector<GlobalId> labels_;      ///< of roots of nodes: least id of the elements here
+  std::vector<std::size_t> reaching_; ///< roots whose body other ranks may have a part of
   std::unordered_map<GlobalId, GlobalId> bodyOfLabel_; ///< where other ranks have a part
 };
 
 /// Mass and moments of an element about its own centre, from its corners.
 struct Share
 {
-  GlobalId fragment, element;
   Real mass;
   Vec3 center, momentum, angular; ///< angular momentum about the centre
   Real second[6];                 ///< sum of m r r^T: xx yy zz xy yz zx
@@ -261,15 +281,13 @@ struct NodesNow
   }
 };
 
-Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e, GlobalId fragment)
+Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e)
 {
   const RankMesh::Block& part = solver.mesh().blocks[b];
   const ElementBlock& block = solver.blocks()[b];
   const int corners = topology(part.type).nodes;
   const int* const nodes = &part.connectivity[std::size_t(e) * corners];
   Share share{};
-  share.fragment = fragment;
-  share.element = part.elementIds[e];
   share.lowest = {infinity, infinity, infinity};
   share.highest = {-infinity, -infinity, -infinity};
   for (int k = 0; k < corners; ++k)
@@ -309,72 +327,181 @@ Vec3 spinOf(const Real* s, const Vec3& angular, bool flat)
   return inverse(inertia) * angular;
 }
 
-/// Of shares in the order of element ids, about the centre of the first.
-Fragment sumOf(const Share* begin, const Share* end, bool flat)
+/// Sums over elements of a body, about a point; exact, so in any order.
+struct Sums
 {
-  Fragment f;
-  f.id = begin->fragment;
-  f.elements = end - begin;
-  f.lowest = begin->lowest;
-  f.highest = begin->highest;
-  Vec3 momentum{}, moment{}, angular{};
-  Real second[6] = {};
-  for (const Share* s = begin; s != end; ++s)
+  static constexpr int count = 16; ///< m, m r, m v, angular momentum, m r r^T
+  std::array<ExactSum, count> of;
+  std::int64_t elements = 0;
+  Vec3 lowest{infinity, infinity, infinity}, highest{-infinity, -infinity, -infinity};
+
+  void add(const Share& s, const Vec3& reference)
   {
-    const Vec3 r = s->center - begin->center;
-    f.mass += s->mass;
-    moment += s->mass * r;
-    momentum += s->momentum;
-    angular += s->angular + cross(r, s->momentum);
+    const Vec3 r = s.center - reference;
+    Real second[6];
+    std::copy(s.second, s.second + 6, second);
+    addSecond(second, s.mass, r);
+    const Vec3 angular = s.angular + cross(r, s.momentum);
+    of[0].add(s.mass);
+    for (int c = 0; c < 3; ++c)
+    {
+      of[1 + c].add(s.mass * r[c]);
+      of[4 + c].add(s.momentum[c]);
+      of[7 + c].add(angular[c]);
+    }
     for (int i = 0; i < 6; ++i)
-      second[i] += s->second[i];
-    addSecond(second, s->mass, r);
-    widen(f.lowest, f.highest, s->lowest);
-    widen(f.lowest, f.highest, s->highest);
+      of[10 + i].add(second[i]);
+    ++elements;
+    widen(lowest, highest, s.lowest);
+    widen(lowest, highest, s.highest);
   }
-  const Vec3 shift = (1 / f.mass) * moment;
-  f.center = begin->center + shift;
+};
+
+/// What a rank has of a body.
+struct Part
+{
+  GlobalId id;
+  std::int64_t elements;
+  Vec3 reference, lowest, highest;
+  std::array<std::array<Real, ExactSum::digitCount>, Sums::count> digits;
+
+  Part(GlobalId body, const Vec3& about, const Sums& sums)
+      : id(body), elements(sums.elements), reference(about), lowest(sums.lowest),
+        highest(sums.highest)
+  {
+    for (int i = 0; i < Sums::count; ++i)
+      digits[i] = sums.of[i].digits();
+  }
+  Part() = default;
+
+  void addTo(Sums& sums) const
+  {
+    for (int i = 0; i < Sums::count; ++i)
+      sums.of[i].add(ExactSum::fromDigits(digits[i].data()));
+    sums.elements += elements;
+    widen(sums.lowest, sums.highest, lowest);
+    widen(sums.lowest, sums.highest, highest);
+  }
+};
+
+Fragment fragmentOf(GlobalId id, const Vec3& reference, const Sums& sums, bool flat)
+{
+  std::array<Real, Sums::count> v;
+  for (int i = 0; i < Sums::count; ++i)
+    v[i] = sums.of[i].value();
+  Fragment f;
+  f.id = id;
+  f.elements = sums.elements;
+  f.lowest = sums.lowest;
+  f.highest = sums.highest;
+  f.mass = v[0];
+  const Vec3 shift = (1 / f.mass) * Vec3{v[1], v[2], v[3]}, momentum{v[4], v[5], v[6]};
+  f.center = reference + shift;
   f.velocity = (1 / f.mass) * momentum;
-  f.angularMomentum = angular - cross(shift, momentum);
-  addSecond(second, -f.mass, shift);
-  f.spin = spinOf(second, f.angularMomentum, flat);
+  f.angularMomentum = Vec3{v[7], v[8], v[9]} - cross(shift, momentum);
+  addSecond(&v[10], -f.mass, shift);
+  f.spin = spinOf(&v[10], f.angularMomentum, flat);
   return f;
 }
+
+/// An element of this rank.
+struct Place
+{
+  GlobalId body, element;
+  std::size_t block;
+  int local;
+  bool operator<(const Place& other) const
+  {
+    return body < other.body || (body == other.body && element < other.element);
+  }
+};
+
+std::vector<Place> placesOf(const Solver& solver, const ConnectedBodies& bodies)
+{
+  std::vector<Place> places;
+  for (std::size_t b = 0; b < bodies.ofElement.size(); ++b)
+  {
+    const RankMesh::Block& part = solver.mesh().blocks[b];
+    for (int e = 0; e < part.elements(); ++e)
+      if (part.owned[e])
+        places.push_back({bodies.ofElement[b][e], part.elementIds[e], b, e});
+  }
+  std::sort(places.begin(), places.end());
+  return places;
+}
+
+/// The point that sums are about: the centre of the element whose id is the body's.
+struct Reference
+{
+  GlobalId body;
+  Vec3 center;
+  bool operator<(const Reference& other) const { return body < other.body; }
+};
 } // namespace
 
-Fragments findFragments(const Solver& solver, Real damage)
+ConnectedBodies findBodies(const Solver& solver, Real damage)
 {
-  Fragments fragments;
-  fragments.ofElement = Connections(solver, damage).ofElements();
-  const NodesNow motion(solver);
-  // A rank sums up all of a body, element by element in the order of ids.
+  Connections connections(solver, damage);
+  return {connections.ofElements(), connections.onSeveralRanks()};
+}
+
+const ConnectedBodies& BodiesOfCycle::at(const Solver& solver)
+{
+  if (solver.clock().cycle != cycle_)
+    bodies_ = findBodies(solver, damage_);
+  cycle_ = solver.clock().cycle;
+  return bodies_;
+}
+
+std::vector<Fragment> sumsOf(const Solver& solver, const ConnectedBodies& bodies)
+{
   const Comm& comm = solver.comm();
-  std::vector<std::vector<Share>> toRank(std::size_t(comm.size()));
-  for (std::size_t b = 0; b < fragments.ofElement.size(); ++b)
-    for (int e = 0; e < int(fragments.ofElement[b].size()); ++e)
-      if (solver.mesh().blocks[b].owned[e])
-      {
-        const GlobalId id = fragments.ofElement[b][e];
-        toRank[std::size_t(id % comm.size())].push_back(shareOf(solver, motion, b, e, id));
-      }
-  std::vector<Share> shares = comm.exchange(toRank);
-  std::sort(shares.begin(), shares.end(),
-            [](const Share& a, const Share& b) {
-              return a.fragment < b.fragment || (a.fragment == b.fragment && a.element < b.element);
-            });
-  std::vector<Fragment> mine;
-  for (std::size_t i = 0; i < shares.size();)
+  const bool flat = solver.mesh().dimension == 2;
+  const NodesNow motion(solver);
+  const std::vector<Place> places = placesOf(solver, bodies);
+  const auto isOnSeveral = [&](GlobalId body)
+  { return std::binary_search(bodies.onSeveralRanks.begin(), bodies.onSeveralRanks.end(), body); };
+  std::vector<Reference> references;
+  for (const Place& place : places)
+    if (place.body == place.element && isOnSeveral(place.body))
+      references.push_back({place.body, shareOf(solver, motion, place.block, place.local).center});
+  references = comm.allGather(references);
+  std::sort(references.begin(), references.end());
+
+  std::vector<std::vector<Part>> parts(std::size_t(comm.size()));
+  std::vector<std::vector<Fragment>> toRoot(std::size_t(comm.size()));
+  for (std::size_t i = 0; i < places.size();)
   {
-    std::size_t end = i;
-    while (end < shares.size() && shares[end].fragment == shares[i].fragment)
-      ++end;
-    mine.push_back(sumOf(&shares[i], &shares[i] + (end - i), solver.mesh().dimension == 2));
-    i = end;
+    const GlobalId body = places[i].body;
+    const bool several = isOnSeveral(body);
+    Vec3 reference{}; // of the elements of none
+    if (several && body != 0)
+      reference =
+          std::lower_bound(references.begin(), references.end(), Reference{body, {}})->center;
+    else if (!several)
+      reference = shareOf(solver, motion, places[i].block, places[i].local).center;
+    Sums sums;
+    for (; i < places.size() && places[i].body == body; ++i)
+      sums.add(shareOf(solver, motion, places[i].block, places[i].local), reference);
+    if (several)
+      parts[std::size_t(body % comm.size())].emplace_back(body, reference, sums);
+    else
+      toRoot[0].push_back(fragmentOf(body, reference, sums, flat));
   }
-  fragments.all = comm.allGather(mine);
-  std::sort(fragments.all.begin(), fragments.all.end(),
+  std::vector<Part> here = comm.exchange(parts);
+  std::sort(here.begin(), here.end(), [](const Part& a, const Part& b) { return a.id < b.id; });
+  for (std::size_t i = 0; i < here.size();)
+  {
+    const Part& first = here[i];
+    Sums sums;
+    for (; i < here.size() && here[i].id == first.id; ++i)
+      here[i].addTo(sums);
+    toRoot[0].push_back(fragmentOf(first.id, first.reference, sums, flat));
+  }
+  std::vector<Fragment> all = comm.exchange(toRoot);
+  std::sort(all.begin(), all.end(),
             [](const Fragment& a, const Fragment& b) { return a.id < b.id; });
-  return fragments;
+  return all;
 }
 
 FragmentsObserver::FragmentsObserver(const Comm& comm, FragmentsOptions options)
@@ -415,6 +542,12 @@ void FragmentsObserver::endOfCycle(const Solver& solver)
     write(solver);
 }
 
+void FragmentsObserver::endOfStage(const Solver& solver)
+{
+  if (solver.clock().cycle != lastCycle_)
+    write(solver);
+}
+
 void FragmentsObserver::savePosition(std::map<std::string, std::string>& positions) const
 {
   if (table_.isOpen())
@@ -430,14 +563,14 @@ void FragmentsObserver::finish(const Solver& solver, const Ending&)
 void FragmentsObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::fragments");
-  const Fragments fragments = findFragments(solver, options_.damage);
+  const std::vector<Fragment> fragments = sumsOf(solver, options_.bodies->at(solver));
   solver.comm().together(
       [&]
       {
         if (!table_.isOpen())
           return;
         std::string lines;
-        for (const Fragment& f : fragments.all)
+        for (const Fragment& f : fragments)
         {
           lines += fmt::format("{:.17g},{},{},{},{:.17g}", solver.clock().time,
                                solver.clock().cycle, f.id, f.elements, f.mass);

@@ -7,6 +7,7 @@
 #include <coplane_output/OutputSchedule.hpp>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,22 +26,42 @@ struct Fragment
 };
 
 /// The bodies at the end of a cycle.
-struct Fragments
+struct ConnectedBodies
 {
   std::vector<std::vector<GlobalId>> ofElement; ///< [block][element] of this rank; 0: of none
-  std::vector<Fragment> all;                    ///< by id, the same on every rank
+  std::vector<GlobalId> onSeveralRanks; ///< of those here, ascending: that others may have, too
 };
 
 /// Elements are connected where they share a node, and where a declared joint between them still
-/// has a bond. Dead elements, and those whose `damage` has reached the threshold, connect nothing
-/// and belong to no body. The same bits on any ranks. Collective.
-Fragments findFragments(const Solver& solver, Real damage);
+/// has a bond that carries. Dead elements, and those whose `damage` has reached the threshold,
+/// connect nothing and belong to no body. The same bits on any ranks. Collective.
+ConnectedBodies findBodies(const Solver& solver, Real damage);
+
+/// Sums over each body, by id, on rank 0; nothing on the others. The same bits on any ranks.
+/// Collective.
+std::vector<Fragment> sumsOf(const Solver& solver, const ConnectedBodies& bodies);
+
+/// Finds the bodies once in a cycle, for all outputs that ask.
+class BodiesOfCycle
+{
+public:
+  explicit BodiesOfCycle(Real damage) : damage_(damage) {}
+  /// Collective when it is the first call of a cycle.
+  const ConnectedBodies& at(const Solver& solver);
+  /// The ranks have other elements now.
+  void forget() { cycle_ = -1; }
+
+private:
+  Real damage_; ///< from which an element connects nothing [-]
+  std::int64_t cycle_ = -1;
+  ConnectedBodies bodies_;
+};
 
 struct FragmentsOptions
 {
   std::string file; ///< CSV
   OutputTimes when;
-  Real damage = 0.99;                                ///< from which an element connects nothing [-]
+  std::shared_ptr<BodiesOfCycle> bodies;
   std::map<std::string, std::string> positions = {}; ///< of the run that is continued
 };
 
@@ -53,6 +74,8 @@ public:
 
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
+  void endOfStage(const Solver& solver) override;
+  void repartitioned(const Solver&) override { options_.bodies->forget(); }
   void savePosition(std::map<std::string, std::string>& positions) const override;
   void finish(const Solver& solver, const Ending& ending) override;
 

@@ -208,8 +208,8 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
 void ResultsObserver::open()
 {
   file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
-                variablesOf(dimension_, history_, options_.fragmentDamage.has_value()),
-                options_.infoLines, options_.filePerRank);
+                variablesOf(dimension_, history_, options_.bodies != nullptr), options_.infoLines,
+                options_.filePerRank);
 }
 
 void ResultsObserver::continueSeries()
@@ -367,10 +367,8 @@ void ResultsObserver::writeNodes(const Solver& solver)
 void ResultsObserver::writeElements(const Solver& solver)
 {
   constexpr int fixed = 11;
-  std::vector<std::vector<GlobalId>> fragments;
-  if (options_.fragmentDamage)
-    fragments = findFragments(solver, *options_.fragmentDamage).ofElement;
-  const int columns = fixed + int(history_.size()) + int(options_.fragmentDamage.has_value());
+  const ConnectedBodies* const bodies = options_.bodies ? &options_.bodies->at(solver) : nullptr;
+  const int columns = fixed + int(history_.size()) + int(bodies != nullptr);
   const RankMesh& mesh = solver.mesh();
   int owned = 0, rows = 0;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
@@ -403,8 +401,8 @@ void ResultsObserver::writeElements(const Solver& solver)
       mine(row, 10) = block.isAlive(e);
       for (std::size_t k = 0; k < history_.size(); ++k)
         mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history()(rowOf[k], e);
-      if (options_.fragmentDamage)
-        mine(row, columns - 1) = Real(fragments[b][e]);
+      if (bodies)
+        mine(row, columns - 1) = Real(bodies->ofElement[b][e]);
       ++row;
     }
   }

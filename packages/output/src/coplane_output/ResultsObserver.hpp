@@ -4,9 +4,11 @@
 #include <coplane_exodus/ResultsFile.hpp>
 #include <coplane_mesh/MeshSlice.hpp>
 #include <coplane_mesh/Redistribution.hpp>
+#include <coplane_output/Fragments.hpp>
 #include <coplane_output/OutputSchedule.hpp>
 #include <coplane_output/SideSetResults.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +22,7 @@ struct ResultsOptions
   bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
-  std::optional<Real> fragmentDamage = {}; ///< bodies are written, with this threshold
+  std::shared_ptr<BodiesOfCycle> bodies = {}; ///< are written if given
   int part = 1;              ///< of a series: 1 for a new run, one more with every restart
   std::string position = {}; ///< savePosition() of the run that is continued
   std::string run = {};      ///< identity, by which restarts know what they may cut or remove
