@@ -102,6 +102,15 @@ for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide 
 image = seen(pair)
 case.check_equal("comparison: size", image.shape, (300, 800, 3))
 case.check_equal("comparison: the halves differ in the bodies", bool((image[140:160, :400] != image[140:160, 400:]).any()), True)
+# Mirrored at x = 0: dots in colours of the planes lie at both seams.
+(file,) = drawn("planes, mirrored", flat.folder, "-o", "drawn", "--times", "8e-5", "--planes", "normal_traction", "--mirror", "--size", "480", "200", "--no-edges")
+image = seen(file)[:, :370]
+body = numpy.flatnonzero((image[90:110] < 252).any(axis=(0, 2)))
+dots = numpy.flatnonzero((numpy.ptp(image[80:120], axis=2) > 60).any(axis=0))
+middle = (body[0] + body[-1]) / 2
+case.check_equal("planes, mirrored: dots on both sides", [bool((dots < middle).any()), bool((dots > middle).any())], [True, True])
+if len(dots):
+    case.check("planes, mirrored: both are as far from the middle", float(dots.min() + dots.max()) / 2, float(middle), 3)
 for color in ("block", "von_mises"):  # blocks of other names are drawn, too
     (pair,) = drawn(f"blocks of other names by {color}", flat.folder, "--compare", renamed.folder, "-o", "drawn", "--times", "8e-5", "--color", color, "--size", "400", "300",
                     "--planes", "none")  # fmt: skip

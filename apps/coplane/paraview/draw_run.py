@@ -109,7 +109,7 @@ def draw(run, time, name):
         least = plane_colors[0] + 0.01 * (plane_colors[1] - plane_colors[0])
         some = Threshold(Input=run.planes(touching=False), Scalars=["POINTS", want["planes"]], LowerThreshold=least, UpperThreshold=least,
                          ThresholdMethod="Above Upper Threshold")  # fmt: skip
-        picture.points(some, want["planes"], plane_colors, want["planes_title"], size=want["dot_size"], bar=with_legend,
+        picture.points(whole(some), want["planes"], plane_colors, want["planes_title"], size=want["dot_size"], bar=with_legend,
                        points=cp.palette("dark", *plane_colors))  # fmt: skip
         if len(cp.values(some, want["planes"], nearest)) == 0:
             picture.text(f"{want['planes']}: 0", "Lower Right Corner")
