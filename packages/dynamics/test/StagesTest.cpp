@@ -201,8 +201,10 @@ TEST(Stages, aStiffBlockThatComesInHasItsSayInTheStep)
   solver.beginStage(std::move(next));
   cycles(solver, 1);
   EXPECT_EQ(solver.clock().step, soft); // without forces of the block
-  EXPECT_LT(solver.blocks()[1].smallestStableStep(), 0.01 * soft);
-  EXPECT_LE(solver.clock().nextStep, solver.blocks()[1].smallestStableStep());
+  // Not every rank has elements of the block.
+  const Real stiff = comm.min(solver.blocks()[1].smallestStableStep());
+  EXPECT_LT(stiff, 0.01 * soft);
+  EXPECT_LE(solver.clock().nextStep, stiff);
   cycles(solver, 200);
   const EnergyBalance energy = solver.energy();
   EXPECT_LT(std::abs(energy.error()), 1e-3 * energy.initial);
