@@ -1,0 +1,387 @@
+#pragma once
+
+#include <coplane_contact/AreaOfContact.hpp>
+#include <coplane_contact/ContactEnergy.hpp>
+#include <coplane_contact/FacePairSteps.hpp>
+#include <coplane_contact/OwnedSides.hpp>
+#include <coplane_geometry/AffineWeights.hpp>
+
+#include <type_traits>
+
+// The energy of a pair of faces and its gradient (docs/theory/contact-potential.md). Everything is
+// a function of the positions at one time, so the forces are those of a potential to round-off. T
+// is Real, or Lanes for several pairs side by side.
+
+namespace coplane
+{
+/// Part of a rim that an edge gets which lies beside another one, if it is nearer than the reach.
+template <class T>
+struct SharedRim
+{
+  T reach, part;
+};
+
+/// What the edges of both outlines are, 1 or 0 each, as in Plane: 0..3 of face 0, 4..7 of face 1.
+template <class T>
+struct EdgesOf
+{
+  T exits[8] = {}, turns[8] = {}, covered[8] = {};
+};
+
+/// A pair of faces on its common plane, the part of it in contact, and the gradient of an energy
+/// over that part.
+template <int Dim, class T>
+class PairPotential
+{
+public:
+  using Mask = branchFree::MaskOf<T>;
+  static constexpr int maxPieces = branchFree::widthOf<T> == 1 ? 4 : 1;
+
+  /// Faces at the time of the forces. `regular` tells the lanes where a shadow is not convex, which
+  /// only T = Real can do.
+  KOKKOS_INLINE_FUNCTION PairPotential(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                                       const ContactPotentialScale& scale)
+      : face_{&a, &b}, scale_(scale)
+  {
+    using namespace branchFree;
+    plane = stepB_trialPointOfContact<Dim>(a, b);
+    xi_ = -dot(a.normal, b.normal);
+    plane.opposed = plane.opposed && xi_ > scale.opposedFrom;
+    if (!anyOf(plane.opposed))
+      return;
+    shadow[0] = stepC_projectOntoPlane<Dim>(plane, a, 0);
+    shadow[1] = stepC_projectOntoPlane<Dim>(plane, b, 0);
+    plane.opposed = plane.opposed && !coplane::shadowsApart(shadow[0], shadow[1]);
+  }
+
+  TrialPlaneOf<T> plane; ///< its `opposed` tells which pairs can touch at all
+  ShadowOf<T> shadow[2];
+  Mask regular{true};
+  T overlap{};               ///< whole overlap of the shadows [m^2]
+  T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
+  ContactMoments<T> moments; ///< of the part in contact
+  T wayOut = T(1.0);         ///< chi
+  Mask hidden{false};        ///< the part in contact begins at covered edges only
+  T ways[2]{};               ///< closure along the border over which each body can be left [m^2]
+  T opposedness{};           ///< phi
+  T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
+  Vec3Of<T> gradient[2][4];  ///< of the energy [N]
+
+  /// Overlap of the shadows, closures in it, the part in contact.
+  /// @param offset gap at which the closure is zero [m]
+  /// @param whole the whole overlap carries: a bond
+  KOKKOS_INLINE_FUNCTION void meet(const T& offset, const Mask& whole, const EdgesOf<T>& edges)
+  {
+    using namespace branchFree;
+    const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
+    kappa_ = dot(plane.normal, a.normal);
+    const Vec3Of<T> tilt = 0.5 * (a.normal + b.normal), apart = b.center - a.center;
+    tilt_ = inPlane(tilt);
+    apart_ = inPlane(apart);
+    atPoint_ = offset - dot(plane.normal, apart);
+    const SmoothStep<T> opposed((xi_ - scale_.opposedFrom) *
+                                (1.0 / (scale_.opposedTo - scale_.opposedFrom)));
+    opposedness = opposed.value;
+    opposednessSlope_ = opposed.slope * (1.0 / (scale_.opposedTo - scale_.opposedFrom));
+    const T least = smaller(a.area, b.area);
+    size_ = least;
+    edges_ = edges;
+    findOverlap();
+    pressAll(whole);
+    if constexpr (Dim == 3 && widthOf<T> == 1)
+      if (!regular)
+      {
+        findPieces();
+        pressAll(whole);
+      }
+    findStrip(whole);
+    hidden = !whole && ((coveredSides_[0] > 0.0 && openSides_[0] == 0.0) ||
+                        (coveredSides_[1] > 0.0 && openSides_[1] == 0.0));
+  }
+
+  /// The law: k/2 chi H Int c^2, as the density whose integral changes as that does when the
+  /// moments change, and its value.
+  /// chi: where the way out is sideways, over an edge of each body, nothing is in contact. Uniform
+  /// closure c over a strip of width w between such edges: a function of w / 2c. An edge counts by
+  /// the closure along it, so that a strip begins smoothly when the closed part grows up to one.
+  /// H: PenaltyHardening.
+  /// @param inverseDepth 1 / depth, 0: no hardening [1/m]
+  KOKKOS_INLINE_FUNCTION T press(const T& stiffness, const T& inverseDepth,
+                                 EnergyDensity<T>& density)
+  {
+    using namespace branchFree;
+    const T& v = moments.volume;
+    const T& s = moments.squares;
+    const T mean = s / v;
+    const T z = inverseDepth * mean, z4 = z * z * z * z, grown = z4 / (1.0 + z4);
+    const T hard = 1.0 + PenaltyHardening::part * grown;
+    const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
+    wayOut = T(1.0);
+    T slope(0.0);
+    if constexpr (widthOf<T> == 1)
+      if (strip_)
+      {
+        const Real width = 1 / (scale_.wayOutTo - scale_.wayOutFrom);
+        const Real ratio = v * v / (s * acrossStrip());
+        const SmoothStep<Real> share((ratio - scale_.wayOutFrom) * width);
+        wayOut = share.value;
+        slope = share.slope * width * ratio;
+        alongStrip_ = -0.5 * stiffness * hard * s * slope;
+      }
+    density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - slope * hard);
+    density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
+    density.constant = T(0.0);
+    return 0.5 * stiffness * wayOut * hard * s;
+  }
+
+  /// Gradient of gamma phi (energy), where the energy is the integral of a density over the part in
+  /// contact: forces are minus that. Returns the sum of the forces along the normals [N].
+  /// @param energy that integral [J]
+  /// @param birth area of both faces when the plane was born [m^2]
+  KOKKOS_INLINE_FUNCTION T differentiate(const T& energy, const EnergyDensity<T>& density,
+                                         const T& birth0, const T& birth1)
+  {
+    using namespace branchFree;
+    const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
+    materialArea = 0.5 * (birth0 / a.area + birth1 / b.area);
+    T push = 2.0 * density.square * moments.volume + density.linear * moments.area;
+    Vec2Of<T> first =
+        (2.0 * density.square) * moments.volumeMoment + density.linear * moments.areaMoment;
+    Vec2Of<T> rim[2][4];
+    for (int i = 0; i < pieces_; ++i)
+      addRims(piece_[i], density, rim);
+    const T scale = materialArea * opposedness;
+    if constexpr (widthOf<T> == 1)
+      if (alongStrip_ != 0)
+        addStrip(scale, push, first, rim);
+
+    // Through the normal of the plane: turning it at fixed nodes is turning all nodes and normals
+    // back.
+    const T inverse = 1.0 / kappa_;
+    Vec2Of<T> turn = (push * dot(tilt_, apart_) * inverse * inverse) * tilt_;
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < face_[f]->count; ++i)
+        turn = turn - shadow[f].height[i] * rim[f][i];
+    turn = (0.5 * inverse) * turn;
+
+    const T birth[2] = {birth0, birth1};
+    for (int f = 0; f < 2; ++f)
+    {
+      const HalfStepFaceOf<T>& mine = *face_[f];
+      const Real sign = f == 0 ? 1 : -1;
+      const Vec2Of<T> about = first + (sign * 0.5 * push) * apart_; // this face's centre
+      const Vec2Of<T> q = sign * turn - inverse * about;
+      const Vec3Of<T> slopes =
+          scale * (spatial(q) + (sign * inverse * inverse * dot(tilt_, about)) * plane.normal) -
+          (materialArea * opposednessSlope_ * energy) * face_[1 - f]->normal;
+      const Vec3Of<T> inFace = slopes - dot(mine.normal, slopes) * mine.normal;
+      const T area = 1.0 / mine.area;
+      byVectorArea(f, area * inFace -
+                          (0.5 * opposedness * energy * birth[f] * area * area) * mine.normal);
+      const Vec3Of<T> even = (scale * push * inverse / mine.count) * mine.normal;
+      for (int i = 0; i < mine.count; ++i)
+        gradient[f][i] += even + scale * spatial(rim[f][i]);
+    }
+    return scale * push;
+  }
+
+  /// Adds q.dn to the gradient, for the change dn of a face's normal.
+  KOKKOS_INLINE_FUNCTION void addThroughNormal(int f, const Vec3Of<T>& q)
+  {
+    const HalfStepFaceOf<T>& mine = *face_[f];
+    byVectorArea(f, (1.0 / mine.area) * (q - dot(mine.normal, q) * mine.normal));
+  }
+
+  /// Rate of the plane's normal with the velocities of the nodes [1/s].
+  KOKKOS_INLINE_FUNCTION Vec3Of<T> normalRate() const
+  {
+    Vec3Of<T> rate{};
+    for (int f = 0; f < 2; ++f)
+    {
+      const HalfStepFaceOf<T>& m = *face_[f];
+      Vec3Of<T> area;
+      if constexpr (Dim == 2)
+        area = {m.v[1].y - m.v[0].y, m.v[0].x - m.v[1].x, T(0.0)};
+      else if (m.count == 3)
+        area = 0.5 *
+               (cross(m.v[1] - m.v[0], m.x[2] - m.x[0]) + cross(m.x[1] - m.x[0], m.v[2] - m.v[0]));
+      else
+        area = 0.5 *
+               (cross(m.v[2] - m.v[0], m.x[3] - m.x[1]) + cross(m.x[2] - m.x[0], m.v[3] - m.v[1]));
+      area = (1.0 / m.area) * (area - dot(m.normal, area) * m.normal);
+      rate = f == 0 ? area : rate - area;
+    }
+    rate = (0.5 / kappa_) * rate;
+    return rate - dot(plane.normal, rate) * plane.normal;
+  }
+
+  /// n . (mean normal of face f): what a face's normal has along the plane's.
+  KOKKOS_INLINE_FUNCTION const T& kappa() const { return kappa_; }
+
+  /// Weights of the nodes of both faces that reproduce a place in the plane: affine, of least norm.
+  KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2Of<T>& at, T (&weights)[2][4]) const
+  {
+    for (int f = 0; f < 2; ++f)
+    {
+      const ShadowOf<T>& s = shadow[f];
+      for (int i = 0; i < 4; ++i)
+        weights[f][i] = T(0.0);
+      if constexpr (Dim == 2)
+      {
+        weights[f][1] = (at.x - s.p[0].x) / (s.p[1].x - s.p[0].x);
+        weights[f][0] = 1.0 - weights[f][1];
+      }
+      else
+        affineWeights(s.p, s.count, at, weights[f]);
+    }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION T closureAt(const Vec2Of<T>& p) const
+  {
+    return atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
+  }
+
+private:
+  using Owned = detail::OwnedSides<T>;
+
+  KOKKOS_FORCEINLINE_FUNCTION Vec2Of<T> inPlane(const Vec3Of<T>& a) const
+  {
+    return {dot(plane.e1, a), Dim == 2 ? T(0.0) : dot(plane.e2, a)};
+  }
+  KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> spatial(const Vec2Of<T>& a) const
+  {
+    if constexpr (Dim == 2)
+      return a.x * plane.e1;
+    else
+      return a.x * plane.e1 + a.y * plane.e2;
+  }
+
+  /// Node at the start of edge e of the outline of face f, and at its end.
+  KOKKOS_FORCEINLINE_FUNCTION int nodeOfEdge(int f, int e, int end) const
+  {
+    const int count = face_[f]->count;
+    const int i = e + end == count ? 0 : e + end;
+    return f == 0 ? i : count - 1 - i;
+  }
+
+  // What of the overlap is in contact (ContactPotentialRegion.hpp).
+  KOKKOS_INLINE_FUNCTION void findOverlap();
+  KOKKOS_INLINE_FUNCTION void measureOverlap();
+  /// For shadows that are not convex, and where round-off asks for the order of the sides: convex
+  /// pieces, cut in order. A diagonal belongs to no edge: what both its sides have there cancels.
+  KOKKOS_INLINE_FUNCTION void findPieces();
+  static KOKKOS_INLINE_FUNCTION int convexParts(const detail::Outline<T>& outline, int firstOwner,
+                                                Owned (&parts)[2]);
+  KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole);
+  /// Cuts off what is not closed, and integrates.
+  KOKKOS_FORCEINLINE_FUNCTION void cutAndIntegrate(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void integrateSegment(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void cutPolygon(Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void integratePolygon(const Owned& q, const Mask& whole);
+  KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere);
+  /// Closure along the edges that bound a strip, the harmonic mean of both faces, twice; faces that
+  /// share most of what they have are no strip, however deep they lie in each other [m^2].
+  KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const;
+  /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
+  KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole);
+
+  // The gradient along the border of the part in contact (ContactPotentialRims.hpp).
+  /// The gradient of the area in contact times the density there, side by side. A side belongs to
+  /// one edge; an edge of the other face that lies beside it gets a part (shareRim), so that
+  /// round-off does not decide which of two edges that count as one is the owner, and slivers
+  /// between them carry nothing at their borders.
+  KOKKOS_FORCEINLINE_FUNCTION void addRims(const Owned& q, const EnergyDensity<T>& density,
+                                           Vec2Of<T> (&rim)[2][4]) const;
+  KOKKOS_FORCEINLINE_FUNCTION void addRimOfEnd(const Owned& q, int end,
+                                               const EnergyDensity<T>& density,
+                                               Vec2Of<T> (&rim)[2][4]) const;
+  KOKKOS_FORCEINLINE_FUNCTION void addRimOfSide(const Owned& q, int k,
+                                                const EnergyDensity<T>& density,
+                                                Vec2Of<T> (&rim)[2][4]) const;
+  /// What an edge of the other face gets of the rim at an edge of this one. In three dimensions
+  /// the reach is times the length of the other edge: the size of a face across it is its area over
+  /// that.
+  ///
+  /// Two mesh lines share evenly, and so do two edges at which surfaces end: where both count as
+  /// one, the mean of the gradients on both sides of it. What lies at such an edge beside a mesh
+  /// line is shared evenly as long as the closure changes across a face by less than its mean, so
+  /// that what is pressed evenly rests; at a corner that dips into a face all of it belongs to the
+  /// corner, for what pairs on both sides of a mesh line have there cancels. All of it is smooth,
+  /// so that round-off decides nothing.
+  /// @param change of the closure over the size of a face, out over its edge, the same whichever of
+  ///        both edges is the owner [m]
+  KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,
+                                                    const T& change) const;
+  /// The gradient of the energy beside one edge: its nodes share a part of it. total, second: of
+  /// the density along the side, and of that times 0..1 along it. Moments stay exact also where the
+  /// edge lies beside the side: it is taken where the line of the force crosses it.
+  KOKKOS_INLINE_FUNCTION void addRim(int f, int e, const Mask& there, const Vec2Of<T>& from,
+                                     const Vec2Of<T>& to, const T& total, const T& second,
+                                     const T& part, Vec2Of<T> (&rim)[2][4]) const;
+  /// Adds the gradient of what hangs on the borders of the strip.
+  KOKKOS_INLINE_FUNCTION void addStrip(const Real& scale, Real& push, Vec2& first,
+                                       Vec2 (&rim)[2][4]);
+  /// The gradient of the closure along a side, whose ends are where the lines of its neighbours
+  /// cross that of its edge; at a line of no closure the end counts nothing.
+  /// @param slope of the energy with that [N/m]
+  KOKKOS_INLINE_FUNCTION void addBorder(const Owned& q, int k, Real slope, Real& push, Vec2& first,
+                                        Vec2 (&rim)[2][4]) const;
+  /// Unit normal of the line of an edge, out of the polygon.
+  KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const;
+  /// A gradient with the motion of an edge at a place on it.
+  KOKKOS_INLINE_FUNCTION void pushEdge(int owner, const Vec2& at, const Vec2& slope,
+                                       Vec2 (&rim)[2][4]) const;
+  /// 0 for edges that count as one, 1 for edges that do not.
+  KOKKOS_FORCEINLINE_FUNCTION T apartness(const T& distance) const;
+
+  /// Adds h.dN to the gradient, for the change dN of a face's vector area.
+  KOKKOS_INLINE_FUNCTION void byVectorArea(int f, const Vec3Of<T>& h)
+  {
+    const HalfStepFaceOf<T>& m = *face_[f];
+    Vec3Of<T>(&g)[4] = gradient[f];
+    if constexpr (Dim == 2)
+    {
+      const Vec3Of<T> turned{-h.y, h.x, T(0.0)};
+      g[1] += turned;
+      g[0] -= turned;
+      return;
+    }
+    const Vec3Of<T> half = 0.5 * h;
+    if (m.count == 3)
+    {
+      const Vec3Of<T> one = cross(m.x[2] - m.x[0], half), two = cross(half, m.x[1] - m.x[0]);
+      g[1] += one;
+      g[2] += two;
+      g[0] -= one + two;
+      return;
+    }
+    const Vec3Of<T> even = cross(m.x[3] - m.x[1], half), odd = cross(half, m.x[2] - m.x[0]);
+    g[2] += even;
+    g[0] -= even;
+    g[3] += odd;
+    g[1] -= odd;
+  }
+
+  const HalfStepFaceOf<T>* face_[2];
+  ContactPotentialScale scale_;
+  T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
+  EdgesOf<T> edges_;
+  T coveredSides_[2]{}; ///< number of sides on covered edges of each face
+  T openSides_[2]{};    ///< and on others at which its surface turns
+  Vec2Of<T> tilt_, apart_;
+  bool inOrder_ = false;
+  int pieces_ = 0;
+  Owned piece_[maxPieces];
+  struct Nothing
+  {
+  };
+  /// Before what is not closed is cut off.
+  std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
+  Mask strip_{false};
+  T alongStrip_{}; ///< what the energy changes with the logarithm of the closure along its borders
+                   ///< [J]
+};
+} // namespace coplane
+
+#include <coplane_contact/ContactPotentialRegion.hpp>
+#include <coplane_contact/ContactPotentialRims.hpp>

@@ -1,0 +1,588 @@
+#pragma once
+
+#include <coplane_contact/ContactPotential.hpp>
+#include <coplane_contact/FacePairKernel.hpp>
+
+// Steps B to H of a pair of faces whose forces come from one potential
+// (docs/theory/contact-potential.md). Faces are those of the end of the step.
+
+namespace coplane
+{
+namespace detail
+{
+/// Spin of a face about an axis along its normal or nearly so [1/s].
+template <class T>
+KOKKOS_INLINE_FUNCTION T spinAbout(const Vec3Of<T>& axis, const HalfStepFaceOf<T>& face)
+{
+  T moment{}, inertia{};
+  for (int i = 0; i < face.count; ++i)
+  {
+    const Vec3Of<T> r = face.x[i] - face.center;
+    moment += dot(axis, cross(r, face.v[i]));
+    inertia += dot(r, r);
+  }
+  return moment / inertia;
+}
+
+template <class T>
+KOKKOS_INLINE_FUNCTION EdgesOf<T> edgesOf(const PlaneBatch<T>& planes)
+{
+  EdgesOf<T> edges;
+  unsigned any = 0;
+  for (int i = 0; i < planes.count; ++i)
+    any |= planes.plane[i]->turns | planes.plane[i]->covered; // exits turn
+  for (int e = 0; e < 8 && any != 0; ++e)
+  {
+    edges.exits[e] = planes.each([&](const Plane& p) { return Real(p.exits >> e & 1); });
+    edges.turns[e] = planes.each([&](const Plane& p) { return Real(p.turns >> e & 1); });
+    edges.covered[e] = planes.each([&](const Plane& p) { return Real(p.covered >> e & 1); });
+  }
+  return edges;
+}
+
+/// Depth beyond which a first overlap is not taken for a contact; approach: of the faces in two
+/// steps [m].
+KOKKOS_INLINE_FUNCTION Real smallestStart(const Plane& plane, Real approach)
+{
+  if (plane.isNew() || plane.sighting == Sighting::Woken)
+    return plane.depthLimit;
+  const Real start = deepestBirth * plane.depthLimit;
+  return approach > start ? approach : start;
+}
+
+/// Length of the shortest edge of both faces [m].
+template <class T>
+KOKKOS_INLINE_FUNCTION T shortestEdge(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b)
+{
+  T shortest(infinity);
+  for (const HalfStepFaceOf<T>* face : {&a, &b})
+    for (int i = 0; i < face->count; ++i)
+    {
+      const Vec3Of<T> edge = face->x[i + 1 == face->count ? 0 : i + 1] - face->x[i];
+      shortest = branchFree::smaller(dot(edge, edge), shortest);
+    }
+  return branchFree::squareRoot(shortest);
+}
+
+/// A bond carries by the mean closure, what is left of it where it is closed: half of a tilted
+/// pair. The offset by which the joint settles when the bond breaks, so that this makes no energy
+/// [m].
+/// @param energy that is left at the mean closure [J]
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
+                                       const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                                       int i, Real cosOpposed, Real energy)
+{
+  const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
+  const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
+  const Real permanent =
+      law.curve.straight() ? 0 : plane.history.maximumClosure - top.traction / top.stiffness;
+  const Real stiffness = law.curve.straight() ? plane.fit.normalStiffness : top.stiffness;
+  Real low = 0, high = 0;
+  for (int step = 0; step < 60; ++step)
+  {
+    const Real middle = 0.5 * (low + high);
+    PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(cosOpposed));
+    if (!pair.plane.opposed)
+      return 0;
+    pair.meet(plane.offset - permanent - middle, false, {});
+    if (step == 0)
+      high = pair.mostClosure > 0 ? pair.mostClosure : 0;
+    else
+      (0.5 * stiffness * pair.moments.squares > energy ? low : high) = middle;
+  }
+  return low > 1e-12 * high ? high : 0;
+}
+
+/// What the closure curve's history loses when its maximum closure rises from `before` to now, with
+/// the area in contact as it is [J]: the energy before less that after. The moments are those of
+/// closures beyond the permanent closure of now.
+KOKKOS_INLINE_FUNCTION Real lostByLoading(const JointLaw& law, const JointFit& fit, Real before,
+                                          Real now, Real area, Real volume, Real squares)
+{
+  const ClosureCurve::Point old = law.curve.at(fit, before), point = law.curve.at(fit, now);
+  const Real shift =
+      (now - point.traction / point.stiffness) - (before - old.traction / old.stiffness);
+  return 0.5 * (old.stiffness * (squares + 2 * shift * volume + shift * shift * area) -
+                point.stiffness * squares);
+}
+
+/// Steps B to H of a batch of pairs in one cycle, in the order of the functions.
+template <int Dim, class T>
+class PotentialCycle
+{
+  using Mask = branchFree::MaskOf<T>;
+
+public:
+  KOKKOS_FORCEINLINE_FUNCTION PotentialCycle(const PlaneBatch<T>& planes,
+                                             const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                                             const ContactOptions& options, Real dt,
+                                             PairPotential<Dim, T>& pair)
+      : planes_(planes), a_(a), b_(b), options_(options), dt_(dt), pair_(pair)
+  {
+  }
+
+  /// @returns the lanes that are done, see updatePotentialPlanes
+  KOKKOS_FORCEINLINE_FUNCTION Mask run()
+  {
+    linearise();
+    meet();
+    bookOldForce(planes_, done_, a_, b_, dt_);
+    const Mask touching = stepEF_findOrCreate();
+    if (branchFree::anyOf(touching))
+      stepGH_update(touching);
+    boundStep(touching);
+    return done_;
+  }
+
+private:
+  static constexpr int width = PlaneBatch<T>::width;
+  using PerLane = Real[width];
+
+  /// How the faces move against each other at the centre of pressure.
+  struct Relative
+  {
+    T weights[2][4];   ///< of the corners of a and b there
+    T apart;           ///< of the faces along the normal [m]
+    T closing;         ///< rate at which they close [m/s]
+    Vec3Of<T> sliding; ///< velocity of b past a [m/s]
+  };
+  /// What the law of a joint gives.
+  struct Response
+  {
+    PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
+    PerLane stored = {};    ///< energy of bonds per area [J/m^2]
+  };
+
+  /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
+  /// it unloads, from the permanent closure on.
+  KOKKOS_FORCEINLINE_FUNCTION void linearise()
+  {
+    bonded_ = planes_.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+    for (int i = 0; i < width; ++i)
+    {
+      const Plane& plane = *planes_.plane[i];
+      const JointLaw& law = *planes_.law[i];
+      slopes_[i] = plane.fit.normalStiffness;
+      permanents_[i] = 0;
+      if (!law.curve.straight() && !plane.history.bonded)
+      {
+        const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
+        slopes_[i] = top.stiffness;
+        permanents_[i] = plane.history.maximumClosure - top.traction / top.stiffness;
+      }
+    }
+    slope_ = all(slopes_);
+    hardening_ = branchFree::gathered<T>(
+        [&](int i) -> Real {
+          return i < planes_.count && planes_.law[i]->penalty ? 1 / planes_.plane[i]->depthLimit
+                                                              : 0;
+        });
+  }
+
+  /// Closure, area and moments of the pairs.
+  KOKKOS_FORCEINLINE_FUNCTION void meet()
+  {
+    const auto& opposed = pair_.plane.opposed;
+    const T permanent = all(permanents_);
+    const T offset = planes_.each([](const Plane& p) { return p.offset; });
+    if (branchFree::anyOf(opposed))
+      pair_.meet(offset - permanent, bonded_, edgesOf(planes_));
+    done_ = pair_.regular || !opposed || Mask(width == 1);
+    overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
+    overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
+    deepest_ = pair_.mostClosure + permanent;
+    speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
+  }
+
+  /// Steps E and F. @returns the lanes that carry
+  KOKKOS_FORCEINLINE_FUNCTION Mask stepEF_findOrCreate()
+  {
+    const Mask inContact =
+        done_ && overlaps_ && pair_.moments.area > 0.0 && (bonded_ || pair_.moments.volume > 0.0);
+    return branchFree::gathered<T>(
+               [&](int i) -> Real
+               {
+                 if (i >= planes_.count || !branchFree::lane(done_, i))
+                   return 0;
+                 Plane& plane = *planes_.plane[i];
+                 const bool inside = branchFree::lane(inContact, i);
+                 plane.overlap = branchFree::lane(overlap_, i);
+                 leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
+                 late_[i] = wasFoundLate(plane, inside);
+                 if (!inside)
+                   plane.refusal = Refusal::None;
+                 return inside && carries(plane, i);
+               }) > 0.0;
+  }
+
+  /// Of a plane in contact.
+  KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i)
+  {
+    const bool carried = plane.area > 0;
+    if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
+      refuse(plane, i);
+    if (plane.isRefused())
+      return false;
+    if (!(plane.birthArea[0] > 0))
+    {
+      plane.birthArea[0] = branchFree::lane(a_.area, i);
+      plane.birthArea[1] = branchFree::lane(b_.area, i);
+    }
+    if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
+      return true;
+    // Overlap that exists when a pair is found has no energy.
+    stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
+    plane.maximumBefore = plane.history.maximumClosure;
+    return !((late_[i] || plane.sighting == Sighting::Woken) && !plane.isInherited());
+  }
+
+  /// A contact begins at the surface, and begins there anew after its faces had no area in common.
+  /// Faces that come to share area while one lies deep behind the other did not meet: they carry
+  /// nothing until they share none. They have no energy yet, so this costs none.
+  KOKKOS_FORCEINLINE_FUNCTION void refuse(Plane& plane, int i)
+  {
+    if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
+      plane.refusal = Refusal::Hidden;
+    const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
+    // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
+    // quarter of that at its border.
+    const Real explained = (plane.lineage == Lineage::SlidesOn      ? 4
+                            : plane.isBorn() || plane.isInherited() ? 1
+                                                                    : 0) *
+                           plane.closure;
+    if (branchFree::lane(deepest_, i) - explained > start)
+      plane.refusal = Refusal::Deep;
+  }
+
+  /// Motion, law and forces of the planes that carry.
+  KOKKOS_FORCEINLINE_FUNCTION void stepGH_update(const Mask& touching)
+  {
+    using branchFree::choose;
+    const ContactMoments<T>& m = pair_.moments;
+    EnergyDensity<T> density;
+    const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
+    const T share = choose(bonded_, T(1.0), pair_.wayOut);
+    const T area = choose(touching, pair_.opposedness * share * m.area, T(0.0));
+    const Relative relative = stepG_motion();
+    Vec3Of<T> increment;
+    const Vec3Of<T> tau = shearAfter(area, relative, increment);
+    const T loaded = 2.0 * density.square * m.volume + density.linear * m.area;
+    Response response;
+    for (int i = 0; i < planes_.count; ++i)
+      if (branchFree::lane(touching, i))
+      {
+        Plane& plane = *planes_.plane[i];
+        plane.gap = branchFree::lane(relative.apart, i);
+        stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(share, i),
+                  branchFree::lane(loaded, i), branchFree::lane(tau, i),
+                  branchFree::lane(increment, i), response);
+      }
+
+    // A bond pulls evenly, by the mean closure.
+    const T mean = m.volume / m.area;
+    const T sigma = all(response.tractions), perArea = all(response.stored);
+    density.square = choose(bonded_, T(0.0), density.square);
+    density.constant = choose(bonded_, perArea - sigma * mean, density.constant);
+    density.linear = choose(bonded_, sigma, density.linear);
+    const T energy = choose(bonded_, perArea * m.area, pressed);
+    const T normalForce = pair_.differentiate(
+        energy, density, planes_.each([](const Plane& p) { return p.birthArea[0]; }),
+        planes_.each([](const Plane& p) { return p.birthArea[1]; }));
+    stepH_forces(touching, area, normalForce, relative);
+
+    const T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
+    const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
+                                   weighted(relative.weights[1], b_.x, b_.count));
+    for (int i = 0; i < planes_.count; ++i)
+      if (branchFree::lane(touching, i))
+      {
+        Plane& plane = *planes_.plane[i];
+        plane.pointOfContact = branchFree::lane(point, i);
+        plane.stored = branchFree::lane(normalEnergy, i) + plane.shearEnergy();
+      }
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION Relative stepG_motion() const
+  {
+    const ContactMoments<T>& m = pair_.moments;
+    const Vec3Of<T>& n = pair_.plane.normal;
+    const Vec2Of<T> at =
+        coplane::choose(bonded_, (1.0 / m.area) * m.areaMoment, (1.0 / m.volume) * m.volumeMoment);
+    Relative r;
+    pair_.weightsAt(at, r.weights);
+    r.apart = T{};
+    for (int i = 0; i < b_.count; ++i)
+      r.apart += r.weights[1][i] * pair_.shadow[1].height[i];
+    for (int i = 0; i < a_.count; ++i)
+      r.apart -= r.weights[0][i] * pair_.shadow[0].height[i];
+    const Vec3Of<T> drift =
+        weighted(r.weights[1], b_.v, b_.count) - weighted(r.weights[0], a_.v, a_.count);
+    r.closing = -dot(n, drift);
+    r.sliding = drift + r.closing * n - r.apart * pair_.normalRate();
+    return r;
+  }
+
+  /// The shear state is traction times the root of the area, so that its energy does not hang on
+  /// the area.
+  /// @param increment gets how far the faces slide past each other in this step [m]
+  /// @returns the shear traction before it, with the plane as it is now [Pa]
+  KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> shearAfter(const T& newArea, const Relative& relative,
+                                                   Vec3Of<T>& increment) const
+  {
+    using branchFree::choose;
+    const Vec3Of<T>& n = pair_.plane.normal;
+    const T oldArea = planes_.each([](const Plane& p) { return p.area; });
+    const T rootNew = branchFree::squareRoot(newArea);
+    const T rootOld = choose(oldArea > 0.0, branchFree::squareRoot(oldArea), rootNew);
+    const T perRoot = choose(newArea > 0.0, 1.0 / rootNew, T(0.0));
+    const T spin = 0.5 * (spinAbout(n, a_) + spinAbout(n, b_));
+    increment = (0.5 * dt_ * (rootOld + rootNew) * perRoot) * relative.sliding;
+    return (rootOld * perRoot) *
+           turnIntoPlane(planes_.eachVector([](const Plane& p) { return p.history.shearTraction; }),
+                         planes_.eachVector([](const Plane& p) { return p.normal; }), n, spin * n,
+                         dt_);
+  }
+
+  /// The law of one plane: shear, bonds, dilation; history of the closure curve.
+  /// @param area in contact; share: of the overlap that counts [-]; loaded: force [N] over
+  ///        opposedness
+  /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
+  KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real share,
+                                             Real loaded, const Vec3& tau, const Vec3& increment,
+                                             Response& out) const
+  {
+    const JointLaw& law = *planes_.law[i];
+    const ContactMoments<T>& m = pair_.moments;
+    const Real wholeArea = branchFree::lane(m.area, i);
+    const bool wasBonded = plane.history.bonded;
+    plane.normal = branchFree::lane(pair_.plane.normal, i);
+    plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
+    plane.tooDeep = plane.closure > plane.depthLimit;
+    if (!(area > 0) && plane.area > 0)
+      plane.frictionWork += plane.shearEnergy();
+    plane.history.shearTraction = tau;
+
+    const Real opposedness = branchFree::lane(pair_.opposedness, i);
+    JointState state = plane.history;
+    // Where a way out is open sideways the area stands for what is left of the pressure.
+    const Real closed = wasBonded  ? plane.closure
+                        : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
+                                   : permanents_[i];
+    const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
+    const JointResponse response = law(plane.fit, closed, increment, dt_, state, shrunk);
+    if (wasBonded)
+    {
+      plane.hysteresisWork += area * response.hysteresisWork;
+      plane.maximumBefore = state.maximumClosure;
+    }
+    else if (!law.curve.straight())
+      loadCurve(plane, i, opposedness * share, state);
+    plane.history = state;
+    out.tractions[i] = response.normalTraction;
+    out.stored[i] =
+        wasBonded ? law.storedNormally(plane.fit, plane.closure + response.dilation, plane.history)
+                  : 0;
+    plane.area = area;
+    plane.normalTraction = response.normalTraction;
+    plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
+                  : response.slipping                                   ? PlaneState::Slip
+                                                                        : PlaneState::Stick;
+    plane.offset += response.dilation;
+    plane.frictionWork += area * response.frictionWork;
+    plane.fractureWork += area * response.fractureWork;
+    if (wasBonded && !plane.history.bonded)
+      plane.offset -=
+          settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
+  }
+
+  /// The maximum closure of the next cycle; what it costs is booked half with the area of this
+  /// cycle and half with that of the next.
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare,
+                                             JointState& state) const
+  {
+    const JointLaw& law = *planes_.law[i];
+    const Real wholeArea = branchFree::lane(pair_.moments.area, i),
+               volume = branchFree::lane(pair_.moments.volume, i),
+               squares = branchFree::lane(pair_.moments.squares, i);
+    const Real before = plane.history.maximumClosure;
+    state.maximumClosure = before;
+    if (plane.maximumBefore < before)
+      plane.hysteresisWork +=
+          plane.halfHysteresis + 0.5 * energyShare *
+                                     lostByLoading(law, plane.fit, plane.maximumBefore, before,
+                                                   wholeArea, volume, squares);
+    plane.maximumBefore = before;
+    plane.halfHysteresis = 0;
+    const Real reached = permanents_[i] + squares / volume;
+    if (!(reached > before))
+      return;
+    const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
+    const Real shift = reached - next.traction / next.stiffness - permanents_[i];
+    state.maximumClosure = reached;
+    plane.halfHysteresis = 0.5 * energyShare * 0.5 *
+                           (slopes_[i] * squares - next.stiffness * (squares - 2 * shift * volume +
+                                                                     shift * shift * wholeArea));
+  }
+
+  /// Forces at the corners: of the potential, of shear, whose moment is carried by the turning of
+  /// the plane, and of damping.
+  KOKKOS_FORCEINLINE_FUNCTION void stepH_forces(const Mask& touching, const T& area,
+                                                const T& normalForce, const Relative& relative)
+  {
+    const auto& weights = relative.weights;
+    Vec3Of<T> tangential =
+        area * planes_.eachVector([](const Plane& p) { return p.history.shearTraction; });
+    T normalDamping{};
+    if (options_.dampNormal > 0 || options_.dampShear > 0)
+      tangential += damp(touching, area, normalForce, relative, normalDamping);
+    const Vec3Of<T> lever = (0.5 / pair_.kappa() * relative.apart) * tangential;
+    pair_.addThroughNormal(0, lever);
+    pair_.addThroughNormal(1, -lever);
+    const Vec3Of<T> carried = tangential + normalDamping * pair_.plane.normal;
+    Vec3Of<T> nodal[2][4];
+    for (int i = 0; i < a_.count; ++i)
+      nodal[0][i] = -pair_.gradient[0][i] - weights[0][i] * carried;
+    for (int i = 0; i < b_.count; ++i)
+      nodal[1][i] = weights[1][i] * carried - pair_.gradient[1][i];
+    putForces(planes_, touching, nodal, a_, b_, dt_);
+  }
+
+  /// Dashpots, whose work is booked.
+  /// @param normalDamping gets the force along the normal [N]
+  /// @returns the force along the plane [N]
+  KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T> damp(const Mask& touching, const T& area,
+                                             const T& normalForce, const Relative& relative,
+                                             T& normalDamping) const
+  {
+    using branchFree::choose;
+    T inverseMass{};
+    for (int i = 0; i < a_.count; ++i)
+      inverseMass += relative.weights[0][i] * relative.weights[0][i] / a_.mass[i];
+    for (int i = 0; i < b_.count; ++i)
+      inverseMass += relative.weights[1][i] * relative.weights[1][i] / b_.mass[i];
+    normalDamping = 2.0 * options_.dampNormal *
+                    branchFree::squareRoot(area * slope_ / inverseMass) * relative.closing;
+    normalDamping = choose(!bonded_ && normalDamping < -normalForce, -normalForce,
+                           normalDamping); // no tension
+    const auto sticks =
+        planes_.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
+    const T shearStiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
+    const Vec3Of<T> damping =
+        choose(sticks,
+               -2.0 * options_.dampShear *
+                   branchFree::squareRoot(area * shearStiffness / inverseMass),
+               T(0.0)) *
+        relative.sliding;
+    const T work = dt_ * (dot(damping, relative.sliding) - normalDamping * relative.closing);
+    for (int i = 0; i < planes_.count; ++i)
+      if (branchFree::lane(touching, i))
+        planes_.plane[i]->dampingWork -= branchFree::lane(work, i);
+    return damping;
+  }
+
+  /// What the planes add to the stiffness of their nodes. The overlap counts as soon as the faces
+  /// could touch within the look-ahead.
+  KOKKOS_FORCEINLINE_FUNCTION void boundStep(const Mask& touching)
+  {
+    const T ahead = options_.lookAhead * speed_;
+    const auto near = overlaps_ &&
+                      -pair_.mostClosure <= ahead + 1e-8 * branchFree::squareRoot(overlap_) &&
+                      !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
+    const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead) : T{};
+    for (int i = 0; i < planes_.count; ++i)
+    {
+      if (!branchFree::lane(done_, i))
+        continue;
+      Plane& plane = *planes_.plane[i];
+      if (!branchFree::lane(touching, i))
+      {
+        if (plane.area > 0)
+          plane.frictionWork += plane.shearEnergy();
+        carryNothing(plane);
+        if (plane.overlap > 0)
+          plane.gap = leastGaps_[i];
+      }
+      plane.sighting = late_[i] ? Sighting::FoundLate : Sighting::Known;
+      plane.nodeStiffness = branchFree::lane(near, i)
+                                ? float(plane.weightInStep() *
+                                        planes_.law[i]->stiffnessBound(plane.fit, plane.history) *
+                                        branchFree::lane(nodeArea, i))
+                                : 0;
+    }
+  }
+
+  // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
+  // on, by so many times the fraction beyond (docs/theory/contact-potential.md, "Stable step").
+  static constexpr Real rimsCountFrom = 0.02, rimStiffening = 3;
+
+  /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
+  KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
+  {
+    using branchFree::positivePart;
+    const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - rimsCountFrom);
+    const T z = hardening_ * positivePart(deepest_ + ahead), z2 = z * z;
+    // Beyond the steepest place the largest slope stays.
+    const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(PenaltyHardening::steepest));
+    const T hardened =
+        1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
+    return overlap_ * (1.0 + rimStiffening * deep) * hardened *
+           (rowSum * shareOfOverlap(a_.count, b_.count));
+  }
+
+  static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
+  {
+    return branchFree::gathered<T>([&](int i) { return values[i]; });
+  }
+
+  const PlaneBatch<T>& planes_;
+  const HalfStepFaceOf<T>&a_, &b_;
+  const ContactOptions& options_;
+  Real dt_;
+  PairPotential<Dim, T>& pair_; ///< apart from this, for what is here to stay in registers
+  PerLane slopes_, permanents_; ///< of the linear kernel [Pa/m], [m]
+  T slope_, hardening_;         ///< the same; one over the depth from which a penalty hardens [1/m]
+  Mask bonded_, done_;
+  T overlap_;                              ///< area of the shadows in common [m^2]
+  Mask overlaps_;                          ///< whether that is enough to count
+  T deepest_;                              ///< closure; negative: least distance [m]
+  PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
+  T speed_;                                ///< of approach [m/s]
+  bool late_[branchFree::widthOf<T>] = {}; ///< found later than they should have been
+};
+} // namespace detail
+
+/// Steps B to H of candidate pairs in one cycle. a and b: the faces at the end of the step.
+/// @returns the lanes that are done. With Lanes, planes whose shadows are not regular are left
+///          untouched; updatePotentialPlanes<Real> does them.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
+updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
+                      const HalfStepFaceOf<T>& b, const ContactOptions& options, Real dt)
+{
+  PairPotential<Dim, T> pair(a, b, ContactPotentialScale(options.cosOpposed));
+  return detail::PotentialCycle<Dim, T>(planes, a, b, options, dt, pair).run();
+}
+
+/// Steps B to H by the forces that the options ask for. Bodies of revolution have only those along
+/// the common normal.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
+updateByForces(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+               const ContactOptions& options, Real dt)
+{
+  return options.forces == ContactOptions::Forces::Potential
+             ? updatePotentialPlanes<Dim, T>(planes, a, b, options, dt)
+             : updatePlanes<Dim, T>(planes, a, b, options, dt);
+}
+template <int Dim>
+KOKKOS_INLINE_FUNCTION void updateByForces(Plane& plane, const HalfStepFace& a,
+                                           const HalfStepFace& b, const JointLaw& law,
+                                           const ContactOptions& options, Real dt)
+{
+  PlaneBatch<Real> one;
+  one.plane[0] = &plane;
+  one.law[0] = &law;
+  updateByForces<Dim, Real>(one, a, b, options, dt);
+}
+} // namespace coplane

@@ -1,0 +1,454 @@
+#pragma once
+
+#include <coplane_joint/BartonBandis.hpp>
+#include <coplane_joint/Bond.hpp>
+#include <coplane_joint/ClosureCurve.hpp>
+#include <coplane_joint/JointState.hpp>
+
+#include <cmath>
+#include <type_traits>
+
+namespace coplane
+{
+/// Law of a joint card: traction on a common plane per unit of its area. A table of laws is shared
+/// by all planes; each plane has its own JointFit and JointState.
+///
+/// Closure c > 0 when the joint closes [m]; normal traction sigma > 0 in compression [Pa]; the
+/// shear traction acts on the face with the higher id and opposes its slip. Compression follows the
+/// closure curve; a bonded joint also carries tension and cohesion until it is broken. Shear is
+/// elastic up to a strength of cohesion and friction.
+struct JointLaw
+{
+  enum class Strength : std::uint8_t
+  {
+    Coulomb,
+    BartonBandis
+  };
+
+  /// Penalty contact takes its normal stiffness from the elements behind the faces: fraction /
+  /// (h0/M0 + h1/M1), which is `fraction` times the stiffness of the two elements in series. With 2
+  /// contact is half as compliant as the elements: a ball of 32 elements in its radius is within
+  /// 3 % of Hertz, and the pressure at the depth limit is above what bodies bear.
+  bool penalty = true;
+  Real stiffnessFraction = 2; ///< [-]
+  Real initialStiffness = 0;  ///< [Pa/m], unless penalty or a table
+  ClosureCurve curve;
+  Real stiffnessCap = 0;    ///< of curves [Pa/m]; 0: 0.5 M/h of the softer element
+  Real shearStiffness = -1; ///< [Pa/m]; negative: shearRatio times the initial stiffness
+  Real shearRatio = 0.5;    ///< [-]
+
+  Strength strength = Strength::Coulomb;
+  Real friction = 0;         ///< at rest [-]
+  Real dynamicFriction = -1; ///< of fast slip [-]; negative: as at rest
+  Real slipSpeed = 1;        ///< v_c of mu_d + (mu_s - mu_d) exp(-v / v_c) [m/s]
+  Real cohesion = 0;         ///< shear strength of a closed or bonded joint; does not soften [Pa]
+  Real dilation = 0;         ///< tangent of the dilation angle of Coulomb friction [-]
+  Real dilationSlip = infinity; ///< slip path after which nothing dilates any more [m]
+  BartonBandis rough;
+  Bond bond;
+
+  /// h: thickness of the elements behind the faces at birth [m]; M: their undamaged P-wave modulus
+  /// [Pa].
+  JointFit fittedTo(Real h0, Real M0, Real h1, Real M1) const
+  {
+    JointFit fit;
+    fit.normalStiffness = penalty            ? stiffnessFraction / (h0 / M0 + h1 / M1)
+                          : curve.points > 0 ? curve.tableSlope(0)
+                                             : initialStiffness;
+    if (!curve.straight())
+    {
+      const Real soft = M0 / h0 < M1 / h1 ? M0 / h0 : M1 / h1;
+      const Real cap = stiffnessCap > 0 ? stiffnessCap : 0.5 * soft;
+      fit.stiffnessCap = cap > fit.normalStiffness ? cap : fit.normalStiffness;
+    }
+    fit.shearStiffness = shearStiffness >= 0 ? shearStiffness : shearRatio * fit.normalStiffness;
+    return fit;
+  }
+
+  /// Whether a declared joint with this law starts bonded.
+  KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
+  /// Whether what the joint does hangs on how far it has slipped.
+  KOKKOS_INLINE_FUNCTION bool remembersSlip() const
+  {
+    return strength == Strength::BartonBandis || dilation > 0;
+  }
+
+  /// 0: as at the start, 1: a bond that is broken, or never was. A joint without bond has none.
+  KOKKOS_INLINE_FUNCTION Real damage(const JointState& state) const
+  {
+    if (bond.kind == Bond::Kind::None)
+      return 0;
+    if (!state.bonded)
+      return 1;
+    return bond.softens() ? 1 - bond.share(state) : 0;
+  }
+
+  /// One step: closure at its end, tangential displacement increment of the higher face relative to
+  /// the lower one during it [m], its length [s]. The stored shear traction has been turned into
+  /// the plane by the caller. The caller raises the plane's offset, hence the closure, by the
+  /// dilation of the response.
+  /// @param shrunk where the caller keeps the shear energy of an area that changes: by what it has
+  ///        multiplied the stored traction for that, r, and the increment by (r + 1) / 2. What it
+  ///        raised slips back where it is beyond the strength, but nothing has moved for it. [-]
+  KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
+                                                  const Vec3& tangentialIncrement, Real dt,
+                                                  JointState& state, Real shrunk = 1) const
+  {
+    if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
+          dilation <= 0))
+      return general(fit, closure, tangentialIncrement, dt, state, shrunk);
+    JointResponse response;
+    close(fit, closure, state, response);
+    if (response.normalTraction > 0)
+      shear(fit, tangentialIncrement, cohesion + friction * response.normalTraction, shrunk, state,
+            response);
+    else
+      response.frictionWork = release(fit, tangentialIncrement, state);
+    return response;
+  }
+
+  /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.
+  KOKKOS_INLINE_FUNCTION Real storedNormally(const JointFit& fit, Real closure,
+                                             const JointState& state) const
+  {
+    const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
+    const Real c = closure + bond.permanentOpening(state);
+    const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
+    if (sigma > 0)
+      return 0.5 * sigma * sigma / top.stiffness;
+    if (!state.bonded)
+      return 0;
+    const Real opened = -sigma / top.stiffness;
+    return 0.5 * bond.tensionStiffness(fit.normalStiffness, state) * opened * opened;
+  }
+  /// Recoverable energy of the normal and the shear traction [J/m^2]; the closure after dilation.
+  KOKKOS_INLINE_FUNCTION Real stored(const JointFit& fit, Real closure,
+                                     const JointState& state) const
+  {
+    Real energy = storedNormally(fit, closure, state);
+    if (fit.shearStiffness > 0)
+      energy += 0.5 * dot(state.shearTraction, state.shearTraction) / fit.shearStiffness;
+    return energy;
+  }
+
+  /// Whether the closure curve has reached the cap, so that it is softer than the card says.
+  bool capped(const JointFit& fit, const JointState& state) const
+  {
+    return !curve.straight() && curve.slopeAhead(fit, state.maximumClosure) >= fit.stiffnessCap;
+  }
+
+  /// Irrecoverable part of the work of first loading to a closure [J/m^2].
+  KOKKOS_INLINE_FUNCTION Real hysteresis(const JointFit& fit, Real maximumClosure) const
+  {
+    return curve.hysteresis(fit, maximumClosure);
+  }
+
+  /// Closure under a compressive traction at first loading; under tension that of an undamaged
+  /// bond, at most its strength [m].
+  KOKKOS_INLINE_FUNCTION Real closureUnder(const JointFit& fit, Real compression) const
+  {
+    if (compression < 0 && cohesive())
+      return std::fmax(compression, -bond.tensileStrength) / fit.normalStiffness;
+    return curve.closureUnder(fit, compression);
+  }
+
+  /// Largest slope that the next step can see, of the normal or the shear traction, for the stable
+  /// step [Pa/m]. Slip with dilation couples both; its largest eigenvalue is a mean of the two.
+  KOKKOS_INLINE_FUNCTION Real stiffnessBound(const JointFit& fit, const JointState& state) const
+  {
+    return std::fmax(curve.slopeAhead(fit, state.maximumClosure), fit.shearStiffness);
+  }
+
+private:
+  /// Compression at closure c; raises the maximum closure. Returns how far a joint is open beyond
+  /// the closure at which it carries nothing [m]; negative: it is pressed.
+  KOKKOS_INLINE_FUNCTION Real close(const JointFit& fit, Real c, JointState& state,
+                                    JointResponse& response) const
+  {
+    const Real before = state.maximumClosure;
+    const bool loading = c > before;
+    if (loading)
+      state.maximumClosure = c;
+    const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
+    response.normalStiffness = top.stiffness;
+    const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
+    response.normalTraction = sigma > 0 ? sigma : 0;
+    if (loading && !curve.straight())
+      response.hysteresisWork +=
+          std::fmax(0.0, curve.hysteresis(fit, c) - curve.hysteresis(fit, before));
+    return -sigma / top.stiffness;
+  }
+
+  /// Compression that a closure would give.
+  KOKKOS_INLINE_FUNCTION Real pressedAt(const JointFit& fit, Real c, const JointState& state) const
+  {
+    const Real most = c > state.maximumClosure ? c : state.maximumClosure;
+    const ClosureCurve::Point top = curve.at(fit, most);
+    const Real sigma = top.traction - top.stiffness * (most - c);
+    return sigma > 0 ? sigma : 0;
+  }
+
+  /// Elastic shear up to the strength, slip beyond. Work of the mean traction of the step is stored
+  /// or dissipated to round-off, whatever the strength does.
+  KOKKOS_INLINE_FUNCTION void shear(const JointFit& fit, const Vec3& increment, Real most,
+                                    Real shrunk, JointState& state, JointResponse& response) const
+  {
+    const Vec3 before = state.shearTraction;
+    const Vec3 trial = before - fit.shearStiffness * increment;
+    const Real size = norm(trial);
+    if (size > most)
+      response.frictionWork = slip(fit, before, trial, size, most,
+                                   raised(fit, before, increment, size, shrunk), state, response);
+    else
+      state.shearTraction = trial;
+  }
+
+  /// What of the trial traction nothing has moved for: it came with an area that shrinks [Pa].
+  KOKKOS_INLINE_FUNCTION Real raised(const JointFit& fit, const Vec3& before, const Vec3& increment,
+                                     Real size, Real shrunk) const
+  {
+    if (!(shrunk > 1))
+      return 0;
+    const Real moved =
+        norm((1 / shrunk) * before - (2 * fit.shearStiffness / (1 + shrunk)) * increment);
+    return size > moved ? size - moved : 0;
+  }
+
+  /// Brings the traction from its trial back to the strength; work of the slip [J/m^2].
+  KOKKOS_INLINE_FUNCTION Real slip(const JointFit& fit, const Vec3& before, const Vec3& trial,
+                                   Real size, Real most, Real raised, JointState& state,
+                                   JointResponse& response) const
+  {
+    response.slipping = true;
+    state.shearTraction = (most / size) * trial;
+    if (!(fit.shearStiffness > 0))
+      return 0;
+    const Vec3 path = (1 / fit.shearStiffness) * (state.shearTraction - trial);
+    if (size - raised > most)
+      state.slip += (size - raised - most) / fit.shearStiffness;
+    const Real work = -0.5 * dot(before + state.shearTraction, path);
+    return work > 0 ? work : 0;
+  }
+
+  /// The joint is open: its shear traction is gone. Returns what it had stored and the work done on
+  /// it in this step, which are dissipated [J/m^2].
+  KOKKOS_INLINE_FUNCTION Real release(const JointFit& fit, const Vec3& increment,
+                                      JointState& state) const
+  {
+    const Vec3 before = state.shearTraction;
+    state.shearTraction = {};
+    if (!(fit.shearStiffness > 0))
+      return 0;
+    const Real work = 0.5 * (dot(before, before) / fit.shearStiffness - dot(before, increment));
+    return work > 0 ? work : 0;
+  }
+
+  /// Shear strength by friction over normal traction.
+  KOKKOS_INLINE_FUNCTION Real frictionAt(Real sigma, Real slipPath, Real speed) const
+  {
+    if (strength == Strength::BartonBandis)
+      return rough.friction(sigma, slipPath);
+    if (dynamicFriction < 0)
+      return friction;
+    return dynamicFriction + (friction - dynamicFriction) * std::exp(-speed / slipSpeed);
+  }
+
+  /// Tension of a bonded joint that is open by `opened`; it may break.
+  KOKKOS_INLINE_FUNCTION void pull(const JointFit& fit, Real opened, JointState& state,
+                                   JointResponse& response) const
+  {
+    const Real k = fit.normalStiffness;
+    if (bond.kind == Bond::Kind::Brittle)
+    {
+      response.normalStiffness = k;
+      response.normalTraction = -k * opened;
+      if (k * opened <= bond.tensileStrength)
+        return;
+      response.normalTraction = 0;
+      response.fractureWork += 0.5 * bond.tensileStrength * bond.tensileStrength / k;
+      state.bonded = false;
+      return;
+    }
+    const Real elastic = bond.kind == Bond::Kind::Linear ? opened - state.opening : opened;
+    const Real q = bond.wear(state);
+    if (k * elastic > bond.tensileStrength * bond.share(q))
+    {
+      const Real jump =
+          bond.inelasticJump(k * elastic, k, 0, bond.tensileStrength, bond.openingLength, q);
+      response.fractureWork += bond.openingWork(q, state.opening, jump);
+      state.opening += jump;
+      response.normalTraction = -bond.tensileStrength * bond.share(state);
+      response.normalStiffness = bond.tensionStiffness(k, state);
+    }
+    else
+    {
+      response.normalStiffness = bond.tensionStiffness(k, state);
+      response.normalTraction = -response.normalStiffness * opened;
+    }
+  }
+
+  /// Breaks the bond: its tension is gone. A joint that is pressed keeps what opened inelastically
+  /// between its faces, as dilation.
+  KOKKOS_INLINE_FUNCTION void breakBond(JointState& state, JointResponse& response) const
+  {
+    if (response.normalTraction > 0)
+      response.dilation += bond.permanentOpening(state);
+    else if (response.normalTraction < 0)
+    {
+      response.fractureWork +=
+          0.5 * response.normalTraction * response.normalTraction / response.normalStiffness;
+      response.normalTraction = 0;
+    }
+    state.bonded = false;
+  }
+
+  /// What a slip begins with.
+  struct SlipStart
+  {
+    Vec3 before, trial; ///< shear traction before the step, and as if nothing slipped [Pa]
+    Real size;          ///< of the trial [Pa]
+    Real raised;        ///< what of it nothing has moved for [Pa]
+    Real closure;       ///< with what a bond keeps open [m]
+    Real opened;        ///< beyond the closure at which nothing is carried [m]
+    Real pressed;       ///< compression [Pa]
+    Real speed;         ///< [m/s]
+    Real slip;          ///< path until now [m]
+    bool softening;
+    Real wear; ///< of the bond, if it softens
+    Real held; ///< strength without friction [Pa]
+    Real friction;
+  };
+
+  /// All laws; operator() has a shorter way for dry joints with constant friction.
+  KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
+                                        Real dt, JointState& state, Real shrunk) const
+  {
+    JointResponse response;
+    const bool wasBonded = state.bonded;
+    SlipStart s;
+    s.closure = closure + bond.permanentOpening(state);
+    s.opened = close(fit, s.closure, state, response);
+    if (wasBonded && response.normalTraction <= 0)
+      pull(fit, s.opened, state, response);
+    if (state.bonded && bond.softens() && bond.share(state) < Bond::brokenAt)
+      breakBond(state, response);
+    if (response.normalTraction <= 0 && !state.bonded)
+    {
+      (wasBonded ? response.fractureWork : response.frictionWork) += release(fit, increment, state);
+      return response;
+    }
+
+    s.softening = state.bonded && bond.softens();
+    s.wear = s.softening ? bond.wear(state) : 0;
+    s.pressed = response.normalTraction > 0 ? response.normalTraction : 0;
+    s.speed = dt > 0 ? 2 / (1 + shrunk) * norm(increment) / dt : 0;
+    s.slip = state.slip;
+    s.friction = s.pressed > 0 ? frictionAt(s.pressed, s.slip, s.speed) : 0;
+    s.held = s.softening ? bond.cohesion * bond.share(s.wear) : cohesion;
+    s.before = state.shearTraction;
+    s.trial = s.before - fit.shearStiffness * increment;
+    s.size = norm(s.trial);
+    if (!(s.size > s.held + s.friction * s.pressed))
+    {
+      state.shearTraction = s.trial;
+      return response;
+    }
+    if (state.bonded && bond.kind == Bond::Kind::Brittle)
+    {
+      breakBond(state, response);
+      if (s.pressed <= 0)
+      {
+        response.fractureWork += release(fit, increment, state);
+        return response;
+      }
+    }
+    s.raised = raised(fit, s.before, increment, s.size, shrunk);
+    slide(fit, s, state, response);
+    if (s.softening)
+      wearBySlip(fit, s, state, response);
+    return response;
+  }
+
+  /// Slip with dilation and softening; its work.
+  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, const SlipStart& s, JointState& state,
+                                    JointResponse& response) const
+  {
+    // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
+    const Real size = s.size - s.raised, excess = size - s.held - s.friction * s.pressed;
+    Real tangent = 0;
+    if (s.pressed > 0 && s.slip < dilationSlip)
+      tangent = strength == Strength::BartonBandis ? rough.dilation(s.pressed, s.slip) : dilation;
+    const Real slope = fit.shearStiffness + s.friction * response.normalStiffness * tangent;
+    Real x = 0;
+    if (slope > 0 && excess > 0)
+      x = s.softening ? bond.inelasticJump(size, slope, s.friction * s.pressed, bond.cohesion,
+                                           bond.shearingLength, s.wear)
+                      : excess / slope;
+    Real lift = 0, sigma = s.pressed, mu = s.friction, held = s.held;
+    if (tangent > 0 && x > 0)
+    {
+      const Real room = dilationSlip - s.slip;
+      if (strength == Strength::BartonBandis || !curve.straight())
+        x = slipOnCurve(fit, s, tangent, room, x, state);
+      lift = tangent * (x < room ? x : room);
+      close(fit, s.closure + lift, state, response);
+      sigma = response.normalTraction;
+      mu = frictionAt(sigma, s.slip, s.speed);
+      response.dilation += lift;
+    }
+    if (s.softening)
+    {
+      state.shearing += x;
+      held = bond.cohesion * bond.share(state);
+    }
+    const Real most = std::fmin(held + mu * sigma, s.size);
+    const Real work = slip(fit, s.before, s.trial, s.size, most, s.raised, state, response);
+    // Raising the offset stores energy, which the slip pays for.
+    const Real paid = std::fmax(work - 0.5 * (s.pressed + sigma) * lift, 0.0);
+    const Real fracture = s.softening && most > 0 ? paid * (held / most) : 0;
+    response.fractureWork += fracture;
+    response.frictionWork = paid - fracture;
+  }
+
+  /// Slip when the strength is no straight function of it: false position between 0 and x [m].
+  /// @param tangent of the dilation angle; room: slip path over which it acts [m]
+  KOKKOS_INLINE_FUNCTION Real slipOnCurve(const JointFit& fit, const SlipStart& s, Real tangent,
+                                          Real room, Real x, const JointState& state) const
+  {
+    const Real size = s.size - s.raised, start = size - s.held - s.friction * s.pressed;
+    for (int i = 0; i < 4; ++i)
+    {
+      const Real at = pressedAt(fit, s.closure + tangent * (x < room ? x : room), state);
+      const Real left =
+          s.softening ? bond.cohesion * bond.share(s.wear + x / bond.shearingLength) : s.held;
+      const Real residual =
+          size - fit.shearStiffness * x - left - at * frictionAt(at, s.slip, s.speed);
+      if (residual < start)
+        x *= start / (start - residual);
+    }
+    return x;
+  }
+
+  /// What slip does to the tension of a bond that softens: its secant is lower, and it may break.
+  KOKKOS_INLINE_FUNCTION void wearBySlip(const JointFit& fit, const SlipStart& s, JointState& state,
+                                         JointResponse& response) const
+  {
+    if (response.normalTraction < 0 && bond.kind == Bond::Kind::Linear)
+    {
+      const Real secant = bond.tensionStiffness(fit.normalStiffness, state);
+      const Real tension = -secant * s.opened;
+      response.fractureWork += 0.5 * (tension - response.normalTraction) * s.opened;
+      response.normalTraction = tension;
+      response.normalStiffness = secant;
+    }
+    if (bond.share(state) < Bond::brokenAt)
+    {
+      breakBond(state, response);
+      if (s.pressed <= 0)
+        response.fractureWork += release(fit, {}, state);
+    }
+  }
+};
+
+static_assert(std::is_trivially_copyable_v<JointLaw>, "a table of laws lies in a view");
+} // namespace coplane
