@@ -117,7 +117,7 @@ def check_citation():
     that looks like one, and every set of the library and data file a row of data."""
     from coplanetest import documents
 
-    cited = documents.load(SOURCE / "CITATION.cff")
+    cited = documents.load(SOURCE / "docs/CITATION.cff")
     required = {"authors", "cff-version", "message", "title"}
     allowed = required | {"abstract", "commit", "contact", "date-released", "doi", "identifiers", "keywords", "license", "license-url", "preferred-citation", "references", "repository",
                           "repository-artifact", "repository-code", "type", "url", "version"}  # fmt: skip
@@ -355,6 +355,14 @@ NAMES_OF_OTHERS = {
     "NewLaw", "NewLawParameters", "NewParameters", "NewLaw.hpp", "NewLaw.cpp", "run_my_experiments.sh",
     "SideSets", "SideSetFields", "rock_tri3", "rock_quad4", "odls_base_sigkill_timeout",
 }  # fmt: skip
+
+
+def check_layout():
+    """The top level holds what the project has there and nothing that a test or a person has left."""
+    top = {name.split("/")[0] for name in tracked()}
+    fixed = {"CMakeLists.txt", "CMakePresets.json", "LICENSE", "README.md", "apps", "docs", "exodus_inputs", "packages", "tests"}
+    found = {name for name in top if not name.startswith(".")}
+    assert found == fixed, f"at the top level: {sorted(found ^ fixed)}"
 
 
 def check_names():
