@@ -29,6 +29,7 @@ public:
 
   const std::string& reason() const { return reason_; } ///< of the first failure; empty: none
   int error() const { return error_; }                  ///< errno of it
+  int descriptor() const { return descriptor_; }
 
 private:
   void fails(int error, const std::string& before = "");

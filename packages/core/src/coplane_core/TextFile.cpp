@@ -105,8 +105,11 @@ ReplacedFile::Look ReplacedFile::lookAt(const std::string& file) const
   struct stat status
   {
   };
-  if (::lstat(file.c_str(), &status) != 0)
-    return {};
+  return ::lstat(file.c_str(), &status) == 0 ? lookOf(status) : Look{};
+}
+
+ReplacedFile::Look ReplacedFile::lookOf(const struct ::stat& status) const
+{
   const bool timed = edits_ == Edits::Matter;
   return {std::int64_t(status.st_dev), std::int64_t(status.st_ino), std::int64_t(status.st_size),
           timed ? std::int64_t(status.st_mtim.tv_sec) : 0,
@@ -116,6 +119,14 @@ ReplacedFile::Look ReplacedFile::lookAt(const std::string& file) const
 void ReplacedFile::remember()
 {
   left_ = lookAt(file_);
+}
+
+void ReplacedFile::remember(int descriptor)
+{
+  struct stat status
+  {
+  };
+  left_ = ::fstat(descriptor, &status) == 0 ? lookOf(status) : Look{};
 }
 
 int ReplacedFile::take(const std::string& draft)

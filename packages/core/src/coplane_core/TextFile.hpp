@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 #include <string>
+#include <sys/stat.h>
 #include <utility>
 
 namespace coplane
@@ -69,6 +70,8 @@ public:
   const std::string& file() const { return file_; }
   /// What has the name now is what this program left there, or found and may replace.
   void remember();
+  /// What this program has open, and has just written, is what it left: whatever has the name now.
+  void remember(int descriptor);
   bool isAsLeft() const { return lookAt(file_) == left_; }
   /// The draft, which is whole, takes its place. What has the name and is not as it was left is put
   /// aside, as by putForeignFileAside, also when it came there this very moment. Returns errno, 0:
@@ -80,6 +83,7 @@ public:
 private:
   using Look = std::array<std::int64_t, 5>; ///< device, inode, bytes, time of the last change
   Look lookAt(const std::string& file) const;
+  Look lookOf(const struct ::stat& status) const;
 
   std::string file_;
   Edits edits_;

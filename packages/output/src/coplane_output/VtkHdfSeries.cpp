@@ -95,7 +95,8 @@ VtkHdfSeries::VtkHdfSeries(const std::string& base, const std::string& run, bool
   }
   if (continues) // the index of another run is kept with its data
     makeWayFor(index_.file(), [&](const std::string& file) { return isIndex(file, run_); });
-  data_.remember();
+  if (isOwn)
+    data_.remember(file_->descriptor());
   index_.remember();
   writeIndex();
 }
@@ -295,7 +296,8 @@ void VtkHdfSeries::commit()
     fails(error);
   }
   written_ = std::move(next);
-  data_.remember();
+  // Not what has the name by now: that may be of somebody else.
+  data_.remember(file_->descriptor());
 }
 
 void VtkHdfSeries::finish()

@@ -123,9 +123,8 @@ void VtpSeries::add(Real time, const PlanePoints& points)
   const std::string file =
       fmt::format("{}_planes_{:04}.vtp", base_, firstNumber_ + int(steps_.size()));
   steps_.emplace_back(time, std::filesystem::path(file).filename().string());
-  // Those of this series have been removed.
-  makeWayNowFor(file, [](const std::string&) { return false; });
-  replaceFile(file, textOf(points, joints_, commentOf(run_)));
+  // Those of this series have been removed: what has the name is of somebody else.
+  ReplacedFile(file).replace(textOf(points, joints_, commentOf(run_)));
   writeSeries();
 }
 
