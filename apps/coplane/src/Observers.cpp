@@ -94,8 +94,8 @@ TablesOptions tablesOptions(const Deck& deck, const RunSettings& settings)
     const auto& tables = deck.history.tables;
     return std::find(tables.begin(), tables.end(), table) != tables.end();
   };
-  return {tablesBase(deck), deck.history.every, wants("blocks"),
-          wants("pairs"),   wants("materials"), settings.positions};
+  return {tablesBase(deck),   deck.history.every, wants("blocks"),   wants("pairs"),
+          wants("materials"), wants("lines"),     settings.positions};
 }
 
 ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std::string& run,

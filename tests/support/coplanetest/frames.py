@@ -111,6 +111,10 @@ def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
             card["joint_normal"] = turn(card["joint_normal"])
         if "lighting_points" in card:
             card["lighting_points"] = [point(place)[: len(place)] for place in card["lighting_points"]]
+    for card in deck.get("lines", {}).values():
+        card["points"] = [point(place)[: len(place)] for place in card["points"]]
+        if "copy_step" in card:
+            card["copy_step"] = turn(card["copy_step"])
     conditions = []
     for condition in deck.get("conditions", []):
         conditions += _turned_condition(condition, matrix, velocity, turn, point, along, hand)

@@ -11,8 +11,8 @@ namespace coplane
 Real EnergyBalance::scale() const
 {
   return std::max({std::abs(initial), std::abs(kinetic), std::abs(internal), std::abs(externalWork),
-                   chemical, std::abs(eroded), std::abs(contact.work), std::abs(massDamping),
-                   std::abs(localDamping), std::abs(kineticDamping)});
+                   chemical, std::abs(eroded), std::abs(contact.work), std::abs(lines.work),
+                   std::abs(massDamping), std::abs(localDamping), std::abs(kineticDamping)});
 }
 
 namespace
@@ -103,7 +103,8 @@ EnergyBalance Ledger::energy(const Parts& parts, const RelaxationState& relaxati
   balance.eroded = totals[Eroded];
   balance.massDamping = totals[Damping];
   balance.localDamping = totals[LocalDamping];
-  balance.externalWork = totals[External];
+  balance.lines = parts.lines.energy(); // every rank has all lines
+  balance.externalWork = totals[External] + balance.lines.pretension;
   balance.kineticDamping = relaxation.work;
   balance.nodalWork = totals[Nodal] - relaxation.work;
   if (parts.contact)

@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_dynamics/Line.hpp>
 
 namespace coplane
 {
@@ -16,10 +17,11 @@ struct EnergyBalance
   Real viscous = 0;        ///< bulk viscosity
   Real eroded = 0;         ///< of elements that have died, when they died
   ContactEnergy contact;   ///< stored, friction, hysteresis, damping, remainder
+  LineEnergy lines;        ///< stored, plastic, bond, dowel, rupture, remainder
   Real massDamping = 0;    ///< taken out by mass-proportional damping
   Real localDamping = 0;   ///< taken out by local damping
   Real kineticDamping = 0; ///< taken out by stops at peaks of the kinetic energy
-  Real externalWork = 0;   ///< of loads and reactions
+  Real externalWork = 0;   ///< of loads and reactions, and of pretension of lines
   Real chemical = 0;       ///< released by explosives, a source as external work is
   Real initial = 0;        ///< total at the start
   Real nodalWork = 0;      ///< of all forces on nodes; kinetic energy minus its initial value, to
@@ -27,8 +29,8 @@ struct EnergyBalance
 
   Real total() const
   {
-    return kinetic + internal + hourglass + viscous + eroded + contact.work + massDamping +
-           localDamping + kineticDamping;
+    return kinetic + internal + hourglass + viscous + eroded + contact.work + lines.work +
+           massDamping + localDamping + kineticDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
   Real error() const { return total() - externalWork - chemical - initial; }

@@ -4,6 +4,7 @@
 #include <coplane_contact/Plane.hpp>
 #include <coplane_dynamics/Conditions.hpp>
 #include <coplane_dynamics/ErosionRule.hpp>
+#include <coplane_dynamics/Line.hpp>
 #include <coplane_element/ElementBlock.hpp>
 #include <coplane_material/Material.hpp>
 #include <coplane_mesh/RankMesh.hpp>
@@ -78,6 +79,7 @@ struct Model
   std::optional<Real> skin; ///< [m]
   int searchEvery = -1;     ///< cycles; 0: once, -1: auto
   Conditions conditions;
+  std::vector<LineSetup> lines; ///< the same on all ranks
   TimeOptions time;
   // Stages.
   bool inStages = false;         ///< the run has several

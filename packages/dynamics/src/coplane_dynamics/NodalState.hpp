@@ -16,7 +16,7 @@ struct NodalState
   Array<Real> mass;           ///< lumped [kg]
   NodeVectors reference;      ///< position at the start [m]
   NodeVectors vPrevious;      ///< velocity at n - 1/2 [m/s]
-  NodeVectors force;          ///< internal and contact force at n [N]
+  NodeVectors force;          ///< of elements, contact and lines at n [N]
   NodeVectors contactForce;   ///< part of it [N]
   NodeVectors external;       ///< loads and reactions at n [N]
   NodeVectors damping;        ///< mass-proportional damping force at n [N]
@@ -30,7 +30,8 @@ struct NodalState
   Array<Real> dampingWork;      ///< taken out by mass-proportional damping [J]
   Array<Real> localDampingWork; ///< by local damping [J]
   Array<Real> totalWork;        ///< of all forces [J]
-  Array<Real> contactStiffness; ///< what planes add to the stiffness of the node, a bound [N/m]
+  /// What planes and lines add to the stiffness of the node, a bound [N/m].
+  Array<Real> contactStiffness;
 
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }

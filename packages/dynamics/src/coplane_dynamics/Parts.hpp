@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Clock.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
 #include <coplane_dynamics/Erosion.hpp>
+#include <coplane_dynamics/Lines.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalMotion.hpp>
 #include <coplane_dynamics/NodalState.hpp>
@@ -23,6 +24,7 @@ struct Parts
   const Erosion& erosion;
   const NodalMotion& motion;
   const Contact* contact; ///< nullptr: none
+  const Lines& lines;
   const Clock& clock;
 
   const RankMesh& mesh() const { return model.mesh; }

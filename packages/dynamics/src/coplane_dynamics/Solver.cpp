@@ -55,6 +55,7 @@ Solver::Solver(Model model, const Comm& comm)
   layout_.refresh(state_.mass);
   erosion_.emplace(model_, elements_);
   motion_.emplace(model_, elements_, state_, comm);
+  lines_.emplace(model_.lines, mesh(), comm);
   takeWorkTimes();
   if (model_.contactEnabled)
     makeContact();
@@ -161,6 +162,7 @@ void Solver::findForces(Real dt)
   }
   if (contact_)
     addContactForces();
+  lines_->addForces(elements_, state_, clock_.time + dt, dt, stage_.index, !contact_);
 }
 
 /// Forces and stable steps that belong to the present stress. That is no work of a cycle.

@@ -7,6 +7,7 @@
 #include <coplane_dynamics/ElementForces.hpp>
 #include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Ledger.hpp>
+#include <coplane_dynamics/Lines.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalMotion.hpp>
 #include <coplane_dynamics/NodalState.hpp>
@@ -92,6 +93,7 @@ public:
   const Contact& contact() const { return *contact_; }
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return motion_->bodies(); }
+  const Lines& lines() const { return *lines_; }
   /// Of conditions on the motion of an owned node, at the end of the cycle [N].
   Vec3 reaction(int node) const { return motion_->reaction(node); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
@@ -136,8 +138,8 @@ public:
 private:
   Parts parts() const
   {
-    return {*comm_,    model_,   layout_,        state_, elements_,
-            *erosion_, *motion_, contact_.get(), clock_};
+    return {*comm_,    model_,   layout_,        state_,  elements_,
+            *erosion_, *motion_, contact_.get(), *lines_, clock_};
   }
   void startVelocities();
   void makeContact();
@@ -223,6 +225,7 @@ private:
   ElementForces elements_;
   std::optional<Erosion> erosion_; // there from the constructor on, as is
   std::optional<NodalMotion> motion_;
+  std::optional<Lines> lines_;
   std::unique_ptr<Contact> contact_;
   std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
   Clock clock_;

@@ -97,6 +97,7 @@ void Solver::save(StateTables& out) const
   if (contact_)
     contact_->save(out);
   motion_->save(layout_.ids(), out);
+  lines_->save(out);
   erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
@@ -125,6 +126,7 @@ void Solver::restore(const StateSource& in)
     contact_->restorePlanes(in, layout_);
   }
   motion_->restore(layout_.ids(), in);
+  lines_->restore(in);
   findElementForces();
   restoreNumbers(in);
   if (contact_)
@@ -204,7 +206,8 @@ std::uint64_t Solver::stateHash() const
     Velocity,
     Element = 100,
     PlaneField = 200,
-    Time = 300
+    Time = 300,
+    LineField = 400
   };
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -236,6 +239,7 @@ std::uint64_t Solver::stateHash() const
   {
     hash.add(Time, clock_.cycle, 0, clock_.time);
     hash.add(Time, clock_.cycle, 1, clock_.nextStep);
+    lines_->addTo(hash, LineField); // every rank has all lines
   }
   std::vector<std::uint64_t> total{hash.part()};
   comm_->sum(total);

@@ -23,6 +23,8 @@ std::string StepControl::text() const
     return fmt::format("contact of the rigid body with node {}", node);
   if (!contact)
     return fmt::format("element {} at node {}", element, node);
+  if (line)
+    return fmt::format("a line at node {}", node);
   return fmt::format("contact at node {}, most by {} against {}", node, faceName(faceId[0]),
                      faceName(faceId[1]));
 }
@@ -55,7 +57,7 @@ Real TimeStep::bodyStep(const Parts& parts) const
 Real TimeStep::stable(const Parts& parts) const
 {
   const Real least = std::min(bodyStep(parts), parts.elements.smallestStep());
-  if (!parts.contact)
+  if (!parts.contact && parts.lines.empty())
     return least;
   const auto stiffness = parts.state.contactStiffness;
   const auto mass = parts.state.mass;
@@ -194,11 +196,13 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
   {
     const Real omega = 2 / parts.elements.leastStepAround(node);
     control.contact = stiffness(node) / mass(node) > omega * omega;
+    control.line = control.contact && parts.lines.stiffnessAt(node) > 0.5 * stiffness(node);
     control.element = parts.elements.limitingElement(parts.mesh(), node);
     if (parts.contact)
       namePlaneAt(*parts.contact, node, control.faceId);
   }
   control.contact = parts.comm.max(std::int64_t(control.contact)) > 0;
+  control.line = parts.comm.max(std::int64_t(control.line)) > 0;
   for (GlobalId* id : {&control.element, &control.faceId[0], &control.faceId[1]})
     *id = parts.comm.max(*id);
   return control;

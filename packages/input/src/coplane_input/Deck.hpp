@@ -141,6 +141,36 @@ struct ConditionCard
   }
 };
 
+/// A bolt, cable, tie rod or bar of reinforcement that crosses elements and joints.
+struct LineCard
+{
+  std::string name, where;
+  std::vector<std::vector<Real>> points; ///< in the mesh at t = 0 [m]
+  std::string attach = "grout";          ///< grout | ends | perfect
+  Real segmentLength = 0;                ///< at most; grout, perfect [m]
+  Real area = 0;                         ///< [m^2]
+  Real youngsModulus = 0;                ///< [Pa]
+  std::optional<Real> yieldStress;       ///< [Pa]
+  Real hardeningModulus = 0;             ///< [Pa]
+  std::optional<Real> ruptureStrain;     ///< [-]
+  bool compression = true;
+  Real groutStiffness = 0;            ///< force over slip and length [N/m^2]
+  std::optional<Real> groutStrength;  ///< [N/m]
+  Real groutFriction = 0;             ///< [-]
+  Real groutPerimeter = 0;            ///< [m]
+  bool plate = false;                 ///< grout: no slip at the first point
+  Real freeLength = 0;                ///< grout: without grout from the first point on [m]
+  std::optional<Real> dowelStiffness; ///< [N/m]
+  std::optional<Real> dowelStrength;  ///< [N]
+  Real pretension = 0;                ///< [N]
+  Real pretensionTime = 0;            ///< over which it grows [s]
+  Real spacing = 1;                   ///< out of the plane, in two dimensions [m]
+  int copies = 1;                     ///< a row of them
+  Vec3 copyStep{0, 0, 0};             ///< from one to the next [m]
+  Real from = 0;                      ///< [s]
+  std::string stage;                  ///< from whose beginning on; empty: the first
+};
+
 struct InitialCard
 {
   std::string where;
@@ -209,7 +239,7 @@ struct HistoryCard
   Real every = 0;   ///< [s]; 0: every cycle
   std::vector<ProbeCard> probes;
   std::vector<std::string> joints; ///< names of joint cards; "*": all
-  std::vector<std::string> tables; ///< blocks | pairs | materials
+  std::vector<std::string> tables; ///< blocks | pairs | materials | lines
   std::vector<std::string> rigid;  ///< names of rigid blocks; "*": all
 };
 
@@ -237,6 +267,7 @@ struct Deck
   ContactCard contact;
   std::vector<ConditionCard> conditions;
   std::vector<InitialCard> initial;
+  std::vector<LineCard> lines;
   std::array<TimeFunction, 3> gravity;    ///< [m/s^2]
   Real viscosityLinear = 0.06;            ///< bulk viscosity b1 [-]
   Real viscosityQuadratic = 1.5;          ///< b2 [-]

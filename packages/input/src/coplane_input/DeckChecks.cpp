@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coplane
 {
@@ -375,6 +376,63 @@ void checkStages(const Deck& deck, const DeckNode& root, Problems& problems)
   }
 }
 
+Real lengthOf(const LineCard& card)
+{
+  Real length = 0;
+  for (std::size_t i = 1; i < card.points.size(); ++i)
+  {
+    Real squares = 0;
+    for (std::size_t c = 0; c < std::min(card.points[i].size(), card.points[i - 1].size()); ++c)
+      squares += std::pow(card.points[i][c] - card.points[i - 1][c], 2);
+    if (!(squares > 0))
+      return 0;
+    length += std::sqrt(squares);
+  }
+  return length;
+}
+
+void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  if (!deck.lines.empty() && deck.geometry == "axisymmetric")
+    problems.add(nodeAt(root, {"lines"}),
+                 "lines do not go with geometry = 'axisymmetric': a line would be a cone all the "
+                 "way round. Accepted: plane strain or three dimensions.");
+  const Names stages = namesOf(deck.stages);
+  for (const LineCard& card : deck.lines)
+  {
+    const std::string path = "lines." + card.name;
+    const auto at = [&](const std::string& key) -> const DeckNode& {
+      return nodeAt(root, {"lines", card.name, key});
+    };
+    const Real length = lengthOf(card);
+    if (card.points.size() > 1 && length == 0)
+      problems.add(at("points"), path + ".points: two points, one after the other, are the same; "
+                                        "accepted: a path with a length.");
+    if (card.attach == "ends" && card.points.size() > 2)
+      problems.add(at("points"),
+                   fmt::format("{}.points has {} points; accepted with attach = 'ends': two, as "
+                               "the bar is straight between them.",
+                               path, card.points.size()));
+    if (length > 0 && card.freeLength >= length)
+      problems.add(at("free_length"),
+                   fmt::format("{}.free_length = {} m; accepted: less than the length of the line, "
+                               "{:.6g} m. Without grout at all it is attach: ends.",
+                               path, card.freeLength, length));
+    if ((card.groutFriction > 0) != (card.groutPerimeter > 0))
+      problems.add(at("grout"), path + ".grout: friction and perimeter go together; accepted: "
+                                       "both, or none of them.");
+    if (card.yieldStress && card.pretension > *card.yieldStress * card.area)
+      problems.add(at("pretension"),
+                   fmt::format("{}.pretension = {} N; accepted: not more than yield_stress times "
+                               "area, {:.6g} N.",
+                               path, card.pretension, *card.yieldStress * card.area));
+    if (card.copies > 1 && card.copyStep.x == 0 && card.copyStep.y == 0 && card.copyStep.z == 0)
+      problems.add(at("copies"), path + ".copies: they would all be in one place; give copy_step.");
+    if (!card.stage.empty() && !contains(stages, card.stage))
+      problems.add(at("stage"), unknown(path + ".stage", card.stage, "a stage", stages));
+  }
+}
+
 /// Fragments go beside the results and into them.
 void checkFragments(const Deck& deck, const DeckNode& root, Problems& problems)
 {
@@ -445,6 +503,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);
   checkStages(deck, root, problems);
+  checkLines(deck, root, problems);
   checkFragments(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
@@ -479,6 +538,23 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
            std::all_of(function.values.begin(), function.values.end(),
                        [](Real value) { return value == 0; });
   };
+  for (const LineCard& card : deck.lines)
+  {
+    const bool fits = std::all_of(card.points.begin(), card.points.end(),
+                                  [&](const auto& point)
+                                  {
+                                    return int(point.size()) == dimension ||
+                                           (dimension == 2 && point.size() == 3 && point[2] == 0);
+                                  });
+    if (!fits)
+      messages.push_back(fmt::format("{}: lines.{}.points: the mesh has {} dimensions; accepted: "
+                                     "{} numbers for each point.",
+                                     card.where, card.name, dimension, dimension));
+    if (dimension == 3 && card.spacing != 1)
+      messages.push_back(fmt::format("{}: lines.{}.spacing has no effect: the mesh has three "
+                                     "dimensions. Use copies and copy_step for a row.",
+                                     card.where, card.name));
+  }
   if (dimension == 3)
     return messages;
   demand(nothing(deck.gravity[2]),

@@ -302,6 +302,163 @@ Key conditions()
       .means("boundary conditions; t is the time [s], _pi is 3.14159...");
 }
 
+Key lines()
+{
+  const std::vector<std::string> divided{"grout", "perfect"};
+  return named(
+             "lines", &Deck::lines,
+             {
+                 points("points", &LineCard::points)
+                     .needed()
+                     .atLeastItems(2)
+                     .in("m")
+                     .like("[[0, 0, 0], [0, 0, 3]]")
+                     .means("ends, or corners of a path, in the mesh as it is at t = 0; all of it "
+                            "lies in elements"),
+                 text("attach", &LineCard::attach)
+                     .oneOf({"grout", "ends", "perfect"})
+                     .like("ends")
+                     .means("grout: along the line, with slip (bolts, cables); ends: both ends are "
+                            "tied, and it is free between them (anchors, tie rods); perfect: "
+                            "along the line, without slip (reinforcement)"),
+                 number("segment_length", &LineCard::segmentLength)
+                     .onlyFor(divided)
+                     .needed()
+                     .in("m")
+                     .above(0)
+                     .like("0.1")
+                     .means("the line is divided into equal segments that are not longer; about "
+                            "the size of the elements"),
+                 number("area", &LineCard::area)
+                     .needed()
+                     .in("m^2")
+                     .above(0)
+                     .like("4.9e-4")
+                     .means("cross section of the bar"),
+                 number("youngs_modulus", &LineCard::youngsModulus)
+                     .needed()
+                     .in("Pa")
+                     .usually(usual::modulus)
+                     .above(0)
+                     .like("200e9")
+                     .means("of the bar"),
+                 number("yield_stress", &LineCard::yieldStress)
+                     .in("Pa")
+                     .usually(usual::stress)
+                     .above(0)
+                     .defaultIs("no limit")
+                     .like("500e6")
+                     .means("from which on the bar is plastic"),
+                 number("hardening_modulus", &LineCard::hardeningModulus)
+                     .in("Pa")
+                     .atLeast(0)
+                     .like("1e9")
+                     .means("change of the yield stress over plastic strain"),
+                 number("rupture_strain", &LineCard::ruptureStrain)
+                     .in("-")
+                     .above(0)
+                     .defaultIs("no limit")
+                     .like("0.05")
+                     .means("strain of a segment, in tension, at which it tears"),
+                 flag("compression", &LineCard::compression)
+                     .like("false")
+                     .means("false: it goes slack instead of being pressed, as a cable"),
+                 section("grout",
+                         {
+                             number("stiffness", &LineCard::groutStiffness)
+                                 .needed()
+                                 .in("N/m^2")
+                                 .above(0)
+                                 .like("2e9")
+                                 .means("force against slip, over slip and length"),
+                             number("strength", &LineCard::groutStrength)
+                                 .in("N/m")
+                                 .atLeast(0)
+                                 .defaultIs("no limit")
+                                 .like("4e5")
+                                 .means("largest force over length, without pressure"),
+                             number("friction", &LineCard::groutFriction)
+                                 .in("-")
+                                 .atLeast(0)
+                                 .like("0.6")
+                                 .means("coefficient by which the pressure of the host across the "
+                                        "line adds to the strength"),
+                             number("perimeter", &LineCard::groutPerimeter)
+                                 .in("m")
+                                 .atLeast(0)
+                                 .like("0.1")
+                                 .means("around the grout, on which that pressure acts"),
+                         })
+                     .onlyFor({"grout"})
+                     .needed()
+                     .means("bond between bar and host"),
+                 flag("plate", &LineCard::plate)
+                     .onlyFor({"grout"})
+                     .like("true")
+                     .means("the first point is tied as well"),
+                 number("free_length", &LineCard::freeLength)
+                     .onlyFor({"grout"})
+                     .in("m")
+                     .atLeast(0)
+                     .like("4")
+                     .means("length without grout, from the first point on, which is tied then"),
+                 section("dowel",
+                         {
+                             number("stiffness", &LineCard::dowelStiffness)
+                                 .needed()
+                                 .in("N/m")
+                                 .above(0)
+                                 .like("1e8")
+                                 .means("force against sliding, over sliding"),
+                             number("strength", &LineCard::dowelStrength)
+                                 .in("N")
+                                 .above(0)
+                                 .defaultIs("no limit")
+                                 .like("1e5")
+                                 .means("largest force against sliding"),
+                         })
+                     .onlyFor(divided)
+                     .means("what the bar gives across itself wherever it crosses from one body to "
+                            "another; without it only the pull of its turned bar resists"),
+                 number("pretension", &LineCard::pretension)
+                     .in("N")
+                     .atLeast(0)
+                     .like("1e5")
+                     .means("force that the bar would have between fixed ends"),
+                 number("pretension_time", &LineCard::pretensionTime)
+                     .in("s")
+                     .atLeast(0)
+                     .like("0.01")
+                     .means("over which pretension grows from the installation on"),
+                 number("spacing", &LineCard::spacing)
+                     .in("m")
+                     .above(0)
+                     .like("1.5")
+                     .means("in two dimensions: distance to the next line out of the plane"),
+                 KeyBuilder(bound<int>("copies", KeyKind::Integer, &LineCard::copies, copyTo))
+                     .atLeast(1)
+                     .defaultIs("1")
+                     .like("5")
+                     .means("how many of them stand in a row; <name>_1, <name>_2, ..."),
+                 vector("copy_step", &LineCard::copyStep)
+                     .in("m")
+                     .like("[1.5, 0, 0]")
+                     .means("from one of the row to the next"),
+                 number("from", &LineCard::from)
+                     .in("s")
+                     .atLeast(0)
+                     .like("0.5")
+                     .means("time at which it is installed, free of stress where its hosts are"),
+                 text("stage", &LineCard::stage)
+                     .defaultIs("the first")
+                     .like("heading")
+                     .means("stage, by its name, in which it is installed"),
+             })
+      .decidedBy("attach")
+      .elsewhere({"bolts", "cables", "rebar", "trusses", "anchors", "embedded", "reinforcement"})
+      .means("bolts, cables, tie rods and bars that cross elements and joints");
+}
+
 Key initial()
 {
   Key velocityField =
@@ -550,6 +707,7 @@ Key makeSchema()
               jointKeys(),
               contactKeys(),
               conditions(),
+              lines(),
               initial(),
               gravity(),
               damping(),

@@ -122,12 +122,13 @@ Key historyKeys()
                             "open, stick and slip, closure, slip, force, energies; \"*\": all"),
                  bound<std::vector<std::string>>("tables", KeyKind::Texts, &HistoryCard::tables,
                                                  copyTo)
-                     .oneOf({"blocks", "pairs", "materials"})
+                     .oneOf({"blocks", "pairs", "materials", "lines"})
                      .defaultIs("[]")
                      .like("[blocks, pairs]")
                      .means("energies by element block, contact energies by pair of blocks and by "
-                            "pair of materials, as CSV files <history>_blocks.csv, "
-                            "<history>_pairs.csv and <history>_materials.csv"),
+                            "pair of materials, and force, strain and slip of every segment of "
+                            "lines, as CSV files <history>_blocks.csv, <history>_pairs.csv, "
+                            "<history>_materials.csv and <history>_lines.csv"),
                  bound<std::vector<std::string>>("rigid", KeyKind::Texts, &HistoryCard::rigid,
                                                  copyTo)
                      .defaultIs("[]")

@@ -16,7 +16,7 @@ constexpr const char* axes = "xyz";
 constexpr const char* firstColumns = "time[s],cycle,dt[s],kinetic[J],";
 
 /// Names and values of one line, so that header and lines cannot differ.
-class Line
+class Columns
 {
 public:
   void add(const std::string& name, Real value) { put(name, fmt::format("{:.17g}", value)); }
@@ -39,7 +39,7 @@ private:
   }
 };
 
-void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
+void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic, bool withLines)
 {
   line.add("kinetic[J]", energy.kinetic);
   line.add("internal[J]", energy.internal);
@@ -55,6 +55,16 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("contact_damping[J]", energy.contact.damping);
   line.add("contact_eroded[J]", energy.contact.eroded);
   line.add("contact_remainder[J]", energy.contact.remainder());
+  if (withLines)
+  {
+    line.add("line_stored[J]", energy.lines.stored);
+    line.add("line_plastic[J]", energy.lines.plastic);
+    line.add("line_bond[J]", energy.lines.bond);
+    line.add("line_dowel[J]", energy.lines.dowel);
+    line.add("line_rupture[J]", energy.lines.rupture);
+    line.add("line_remainder[J]", energy.lines.remainder());
+    line.add("line_pretension[J]", energy.lines.pretension);
+  }
   line.add("mass_damping[J]", energy.massDamping);
   line.add("local_damping[J]", energy.localDamping);
   line.add("kinetic_damping[J]", energy.kineticDamping);
@@ -66,7 +76,7 @@ void addEnergies(Line& line, const EnergyBalance& energy, Real initialKinetic)
   line.add("nodal_error[J]", energy.kinetic - initialKinetic - energy.nodalWork);
 }
 
-void addMomenta(Line& line, const Momenta& momenta)
+void addMomenta(Columns& line, const Momenta& momenta)
 {
   line.add("momentum", "[N*s]", momenta.linear);
   line.add("impulse", "[N*s]", momenta.impulse);
@@ -76,7 +86,7 @@ void addMomenta(Line& line, const Momenta& momenta)
   line.add("angular_momentum_error", "[N*m*s]", momenta.angularError());
 }
 
-void addBody(Line& line, const std::string& name, const RigidBodies::BodyMotion& motion)
+void addBody(Columns& line, const std::string& name, const RigidBodies::BodyMotion& motion)
 {
   line.add(name + "_displacement", "[m]", motion.displacement);
   line.add(name + "_velocity", "[m/s]", motion.velocity);
@@ -85,7 +95,7 @@ void addBody(Line& line, const std::string& name, const RigidBodies::BodyMotion&
   line.add(name + "_reaction_moment", "[N*m]", motion.moment);
 }
 
-void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
+void addCounts(Columns& line, const ContactCounts& counts, std::int64_t searches)
 {
   line.add("pairs", counts.slots);
   line.add("planes", counts.planes);
@@ -98,7 +108,7 @@ void addCounts(Line& line, const ContactCounts& counts, std::int64_t searches)
   line.add("searches", searches);
 }
 
-void addJoint(Line& line, const std::string& name, const JointSummary& joint)
+void addJoint(Columns& line, const std::string& name, const JointSummary& joint)
 {
   line.add(name + "_open_area[m^2]", joint.openArea);
   line.add(name + "_stick_area[m^2]", joint.stickArea);
@@ -314,11 +324,11 @@ std::vector<Vec3> HistoryObserver::reactions(const Solver& solver) const
 void HistoryObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::history");
-  Line line;
+  Columns line;
   line.add("time[s]", solver.clock().time);
   line.add("cycle", solver.clock().cycle);
   line.add("dt[s]", solver.clock().step);
-  addEnergies(line, solver.energy(), initialKinetic_);
+  addEnergies(line, solver.energy(), initialKinetic_, !solver.lines().empty());
   addMomenta(line, solver.momenta());
   addCounts(line, solver.hasContact() ? solver.contact().counts() : ContactCounts{},
             solver.searches());

@@ -124,6 +124,26 @@ Json censusOf(const Contact& contact)
   return json;
 }
 
+Json linesOf(const Solver& solver)
+{
+  Json list = Json::array();
+  for (const Line& line : solver.lines().lines())
+  {
+    const Line::Extremes& most = line.extremes();
+    list.push_back({{"name", line.name()},
+                    {"installed", line.installed()},
+                    {"points_with_host", line.points().size()},
+                    {"dowels", line.dowels().size()},
+                    {"greatest_force_N", most.greatestForce},
+                    {"time_of_greatest_force_s", most.timeOfGreatestForce},
+                    {"least_force_N", most.leastForce},
+                    {"greatest_slip_m", most.greatestSlip},
+                    {"broken_segments", line.broken()},
+                    {"steps_out_of_balance", line.unbalanced()}});
+  }
+  return list;
+}
+
 Json energiesOf(const EnergyBalance& e)
 {
   return {{"kinetic", e.kinetic},
@@ -140,6 +160,13 @@ Json energiesOf(const EnergyBalance& e)
           {"eroded", e.eroded},
           {"contact_eroded", e.contact.eroded},
           {"contact_remainder", e.contact.remainder()},
+          {"lines", e.lines.work},
+          {"line_stored", e.lines.stored},
+          {"line_plastic", e.lines.plastic},
+          {"line_bond", e.lines.bond},
+          {"line_dowel", e.lines.dowel},
+          {"line_rupture", e.lines.rupture},
+          {"line_remainder", e.lines.remainder()},
           {"mass_damping", e.massDamping},
           {"local_damping", e.localDamping},
           {"kinetic_damping", e.kineticDamping},
@@ -290,6 +317,8 @@ void RunRecord::finish(const Solver& solver, const Ending& ending)
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
   json["time_s"] = solver.clock().time;
   json["energies_J"] = energiesOf(solver.energy());
+  if (!solver.lines().empty())
+    json["lines"] = linesOf(solver);
   json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
   const Repartitions& rebalances = solver.repartitions();
   json["rebalances"] = {{"count", rebalances.count},

@@ -19,7 +19,7 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
     const auto found = options_.positions.find(table);
     return TextPosition::from(found == options_.positions.end() ? "" : found->second);
   };
-  for (const char* table : {"blocks", "pairs", "materials"})
+  for (const char* table : {"blocks", "pairs", "materials", "lines"})
     lastCycle_ = std::max(lastCycle_, positionOf(table).cycle);
   const auto open = [&](TextTable& lines, const char* table, const std::string& header)
   {
@@ -45,6 +45,10 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
           open(pairs_, "pairs", "time[s],cycle,block_a,block_b," + terms);
         if (options_.materials)
           open(materials_, "materials", "time[s],cycle,material_a,material_b," + terms);
+        if (options_.lines)
+          open(lines_, "lines",
+               "time[s],cycle,line,segment,x[m],y[m],z[m],force[N],stress[Pa],strain,"
+               "plastic_strain,slip_a[m],slip_b[m],bond_a[N],bond_b[N],broken,sliding[m],dowel[N]");
       });
 }
 
@@ -84,6 +88,7 @@ void TablesObserver::savePosition(std::map<std::string, std::string>& positions)
   save(blocks_, "blocks");
   save(pairs_, "pairs");
   save(materials_, "materials");
+  save(lines_, "lines");
 }
 
 void TablesObserver::endOfStage(const Solver& solver)
@@ -243,6 +248,35 @@ std::string TablesObserver::materialLines(const Solver& solver) const
   return text;
 }
 
+/// Of what has been installed; in two dimensions forces are those of one metre.
+std::string TablesObserver::segmentLines(const Solver& solver)
+{
+  std::string text;
+  for (const Line& line : solver.lines().lines())
+    for (std::size_t s = 0; line.installed() && s < line.segments().size(); ++s)
+    {
+      const Line::Segment& segment = line.segments()[s];
+      const Line::Point &a = line.points()[s], &b = line.points()[s + 1];
+      const Vec3 middle = 0.5 * (line.place(a.index) + line.place(b.index));
+      Real sliding = 0, dowels = 0;
+      for (const Line::Dowel& dowel : line.dowels())
+        if (dowel.segment >= a.index && dowel.segment < b.index)
+        {
+          sliding = std::max(sliding, norm(dowel.sliding));
+          dowels = std::max(dowels, norm(dowel.force));
+        }
+      text += fmt::format("{:.17g},{},{},{}", solver.clock().time, solver.clock().cycle,
+                          csvField(line.name()), a.index + 1);
+      for (const Real value :
+           {middle.x, middle.y, middle.z, segment.force, segment.force / line.section().area,
+            segment.strain, segment.plasticStrain, a.slip, b.slip, a.bondForce, b.bondForce,
+            segment.broken, sliding, dowels})
+        text += fmt::format(",{:.17g}", value);
+      text += "\n";
+    }
+  return text;
+}
+
 void TablesObserver::write(const Solver& solver)
 {
   TimedRegion region("coplane::output::tables");
@@ -261,6 +295,8 @@ void TablesObserver::write(const Solver& solver)
     append(pairs_, pairLines(solver));
   if (options_.materials)
     append(materials_, materialLines(solver));
+  if (options_.lines)
+    append(lines_, segmentLines(solver));
   lastCycle_ = solver.clock().cycle;
 }
 } // namespace coplane

@@ -1,0 +1,182 @@
+"""V87: bolts and bars that cross blocks: pulled out of grout, torn, sheared, carrying a block, installed in a stage."""
+
+import csv
+import math
+import pathlib
+
+import numpy
+from coplanetest import Case, documents, program, turned
+
+case = Case("V87", __file__)
+modulus, area = 200e9, 5e-4  # a bar of steel
+EA = modulus * area
+rock = {"model": "linear_elastic", "density": 2500, "youngs_modulus": 20e9, "poisson_ratio": 0.2}
+
+
+def table(run):
+    """Lines of <run>_lines.csv by name of the line and number of the segment: arrays over time of every column."""
+    with open(pathlib.Path(run.folder, "run_lines.csv")) as file:
+        rows = list(csv.DictReader(file))
+    found = {}
+    for row in rows:
+        found.setdefault((row["line"], int(row["segment"])), []).append(row)
+    names = [name for name in rows[0] if name not in ("line", "segment")]
+    return {key: {name.partition("[")[0]: numpy.array([float(row[name]) for row in lines]) for name in names} for key, lines in found.items()}
+
+
+# --- pull-out: a head is pulled out of a block, both rigid, so that the bar and its grout are all that gives ---------------------
+
+gap, length, grout = 0.1, 2.0, 2e9
+slope = EA * math.sqrt(grout / EA) * math.tanh(math.sqrt(grout / EA) * length)
+stiffness = 1 / (gap / EA + 1 / slope)  # of the head in series with the grout
+mesh = {
+    "dimension": 2,
+    "parts": [
+        {"shape": "box", "block": "head", "min": [-0.3, 0], "size": [0.3 - gap, 0.4], "divisions": [2, 2]},
+        {"shape": "box", "block": "rock", "min": [0, 0], "size": [2.5, 0.4], "divisions": [7, 3]},
+    ],
+}
+
+
+def pull(divisions, end, speed=0.01, **changes):
+    """The head goes away along -x."""
+    line = {"points": [[-gap, 0.17], [length, 0.17]], "segment_length": length / divisions, "free_length": gap, "area": area, "youngs_modulus": modulus}
+    return {
+        "materials": {"rock": rock},
+        "blocks": {"head": {"material": "rock", "rigid": True}, "rock": {"material": "rock", "rigid": True}},
+        "contact": {"enabled": False},
+        "conditions": [
+            {"type": "rigid_motion", "block": "head", "velocity": [-speed, 0, 0], "angular_velocity": [0, 0, 0]},
+            {"type": "rigid_motion", "block": "rock", "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]},
+        ],
+        "lines": {"bolt": {**line, "grout": {"stiffness": grout}, **changes}},
+        "time": {"end": end, "fixed_step": end / 400},
+        "history": {"tables": ["lines"], "rigid": ["*"]},
+    }
+
+
+errors = []
+for divisions in (20, 40, 80):
+    run = case.run(f"elastic_{divisions}", mesh, pull(divisions, 0.01))
+    lines = table(run)
+    force = lines["bolt", 1]["force"][-1]
+    errors.append(abs(force / (stiffness * 1e-4) - 1))
+    case.check(f"pull-out, {divisions} segments: force [N]", force, stiffness * 1e-4, 7 / divisions**2, relative=True)
+    case.check(f"pull-out, {divisions} segments: what holds the head [N]", -run.history["head_reaction_x"][-1], force, 1e-9, relative=True)
+    case.check(f"pull-out, {divisions} segments: force at its end [N]", lines["bolt", divisions + 1]["force"][-1] / force, 0, 0.01)
+    # Along the bar the force is sinh(lambda (L - x)) / sinh(lambda L) of that at the head.
+    rate, middle = math.sqrt(grout / EA), lines["bolt", divisions // 4 + 2]
+    x = length / divisions * (divisions // 4 + 0.5)
+    case.check(f"pull-out, {divisions} segments: force inside over that at the head", middle["force"][-1] / force, math.sinh(rate * (length - x)) / math.sinh(rate * length), 0.02)
+    case.check(f"pull-out, {divisions} segments: stored energy [J]", run.history["line_stored"][-1], force * 1e-4 / 2, 1e-6, relative=True)
+case.check("pull-out: order", math.log2(errors[1] / errors[2]), 2, 0.1)
+turned_mesh, turned_deck, matrix = turned(mesh, pull(40, 0.01), 27, offset=(3, -2, 0))
+again = case.run("elastic_turned", turned_mesh, turned_deck, angular=1e-10)
+case.check("pull-out, turned: force [N]", table(again)["bolt", 1]["force"][-1], table(case_run := case.run("elastic_40", mesh, pull(40, 0.01)))["bolt", 1]["force"][-1], 1e-9, relative=True)
+
+strength = 1e5
+for name, deck in (("slipping", pull(20, 1.0, grout={"stiffness": grout, "strength": strength})),):
+    run = case.run(name, mesh, deck, load=strength * length)
+    h, lines = run.history, table(run)
+    case.check(f"{name}: force [N]", lines["bolt", 1]["force"][-1], strength * length, 1e-9, relative=True)
+    case.check(f"{name}: force in the middle [N]", lines["bolt", 11]["force"][-1], strength * (length - 0.95), 1e-9, relative=True)
+    # All that the head has been pulled with and is not stored is lost by slip.
+    pulled = numpy.trapz(lines["bolt", 1]["force"], 0.01 * lines["bolt", 1]["time"])
+    case.check(f"{name}: lost by slip [J]", h["line_bond"][-1], pulled - h["line_stored"][-1], 1e-6, relative=True)
+    case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * pulled)
+    case.same_bits(name, mesh, deck, run, ranks=2)
+
+# --- a bar between its ends: elastic, plastic, torn ----------------------------------------------------------------------------
+
+name = "torn"
+bar = {"points": [[-gap, 0.2], [0.4, 0.2]], "attach": "ends", "area": 1e-3, "youngs_modulus": modulus, "yield_stress": 400e6, "hardening_modulus": 2e9, "rupture_strain": 0.02, "spacing": 2}
+deck = pull(1, 2.0)
+deck["lines"] = {"bar": bar}
+run = case.run(name, mesh, deck, load=2e5)
+h, lines = run.history, table(run)
+strain = 0.01 * lines["bar", 1]["time"] / 0.5
+tangent = 2e9 * modulus / (2e9 + modulus)
+exact = numpy.where(strain < 400e6 / modulus, modulus * strain, 400e6 + tangent * (strain - 400e6 / modulus)) * area
+whole = lines["bar", 1]["broken"] == 0
+case.check(f"{name}: force over strain [N]", numpy.max(numpy.abs(lines["bar", 1]["force"] - exact)[whole]), 0, 1e-9 * exact[whole][-1])
+case.check(f"{name}: strain when it tears", strain[whole][-1], 0.02, 1.01 * strain[1])
+case.check(f"{name}: force after that [N]", lines["bar", 1]["force"][-1], 0, 0)
+case.check(f"{name}: work of what pulled it is lost [J]", h["line_plastic"][-1] + h["line_rupture"][-1], numpy.trapz(exact[whole], strain[whole] * 0.5), 0.005, relative=True)
+case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * h["line_plastic"][-1])
+
+# --- dowel: blocks slide on each other, once across the line, in two frames ------------------------------------------------------
+
+name = "dowel"
+deck = pull(20, 0.5, grout={"stiffness": grout}, dowel={"stiffness": 1e8, "strength": 1e5})
+deck["lines"]["bolt"].pop("free_length")
+deck["conditions"][0]["velocity"] = [0, 0.01, 0]
+deck["lines"]["bolt"]["segment_length"] = 0.35
+for frame, angle in (("", 0), ("_turned", 27)):
+    problem = turned(mesh, deck, angle)
+    run = case.run(name + frame, problem[0], problem[1], angular=1e-10, load=1e5)
+    lines = table(run)["bolt", 1]  # the only segment over the gap
+    slid = 0.01 * lines["time"]
+    # Across the line: the bar turns by slid over the length between its points.
+    along = 0.35
+    across = slid * along / numpy.hypot(along, slid)
+    case.check(f"{name}{frame}: elastic over sliding, then its strength [N]", numpy.max(numpy.abs(lines["dowel"] - numpy.minimum(1e8 * across, 1e5))), 0, 1e-4 * 1e5)
+    head = numpy.array([run.history[f"head_reaction_{axis}"][-1] for axis in "xyz"]) @ problem[2]
+    pulling = lines["force"][-1] * slid[-1] / numpy.hypot(along, slid[-1])
+    side = 1e5 * along / numpy.hypot(along, slid[-1])
+    # The bar pulls along itself, the dowel across it.
+    case.check(f"{name}{frame}: what moves the head across [N]", head[1], pulling + side, 0.01, relative=True)
+    case.check(f"{name}{frame}: lost [J]", run.history["line_dowel"][-1], 1e5 * (across[-1] - 1e5 / 1e8), 0.01, relative=True)
+    case.check(f"{name}{frame}: remainder over what is lost", run.history["line_remainder"][-1] / run.history["line_dowel"][-1], 0, 1e-3)
+
+# --- a block hangs from a roof by one bolt -----------------------------------------------------------------------------------------
+
+gravity = 10.0
+hanging = {
+    "dimension": 3,
+    "parts": [
+        {"shape": "box", "block": "roof", "min": [0, 0, 1.01], "size": [1, 1, 0.99], "divisions": [3, 3, 3]},
+        {"shape": "box", "block": "block", "min": [0, 0, 0], "size": [1, 1, 1], "divisions": [3, 3, 3]},
+    ],
+    "node_sets": {"top": {"block": "roof", "where": {"z": 2}}},
+}
+weight = 2500 * gravity
+
+
+def hung(line):
+    return {
+        "materials": {"rock": rock},
+        "blocks": {"roof": {"material": "rock"}, "block": {"material": "rock"}},
+        "conditions": [{"type": "fixed", "node_set": "top"}],
+        "gravity": [0, 0, -gravity],
+        "damping": {"kinetic": True, "until_force_ratio": 1e-8},
+        "lines": {"bolt": {"area": area, "youngs_modulus": modulus, **line}},
+        "time": {"end": 2, "end_at_rest": True},
+        "history": {"every": 1e-3, "tables": ["lines"], "probes": [{"name": "top", "node_set": "top", "reaction": True}, {"name": "block", "block": "block"}]},
+    }
+
+
+axis = [[0.5, 0.5, 1.95], [0.5, 0.5, 0.05]]
+kinds = {
+    "grouted": {"points": axis, "segment_length": 0.19, "grout": {"stiffness": grout, "strength": 4e4}, "compression": False},
+    "anchored": {"points": axis, "attach": "ends"},
+    "perfect": {"points": axis, "attach": "perfect", "segment_length": 0.19},
+}
+for kind, line in kinds.items():
+    name, problem = f"hanging_{kind}", hung(line)
+    run = case.run(name, hanging, problem, angular=1e-10)
+    lines = table(run)
+    at_joint = [values["force"][-1] for (_, segment), values in sorted(lines.items()) if abs(values["z"][-1] - 1.005) < 0.1 or kind == "anchored"]
+    case.check(f"{name}: greatest force where it leaves the roof [N]", max(at_joint), weight, 1e-6, relative=True)
+    case.check(f"{name}: force of the roof's support [N]", run.history["top_reaction_z"][-1], weight * 1.99, 1e-6, relative=True)
+    case.check(f"{name}: kinetic energy at the end [J]", run.history["kinetic"][-1], 0, 1e-6)
+    case.same_bits(name, hanging, problem, run, ranks=3)
+    if kind == "grouted":
+        reference, grouted = run, problem
+
+# Rebalanced again and again, and from a checkpoint on another number of ranks.
+again = case.attempt("hanging_rebalanced", hanging, {**grouted, "partition": {"rebalance": "always", "rebalance_every": 29}}, ranks=2)
+case.check_equal("hanging: state hash with rebalancing", again.state_hash, reference.state_hash)
+half = 0.5 * float(reference.history["time"][-1])
+stopped = case.attempt("hanging_restarted", hanging, {**grouted, "time": {"end": half}, "checkpoint": {"at_end": True}}, ranks=2)
+case.check_equal("hanging: exit code of the first half", stopped.code, 0)
+case.finish()
