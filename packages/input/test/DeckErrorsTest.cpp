@@ -112,6 +112,35 @@ TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
             "below or both, as in porosity: {above: 0.5}.");
 }
 
+TEST(DeckErrors, linesSayWhatDoesNotFit)
+{
+  const auto lineWith = [](const std::string& keys)
+  { return leastDeck + "lines:\n  bolt: {area: 1e-3, youngs_modulus: 200e9, " + keys + "}\n"; };
+  const std::string grouted = "segment_length: 0.1, grout: {stiffness: 1e9}, ";
+  EXPECT_EQ(errorOf(lineWith(grouted + "points: [[0, 0], [1, 0]]")), "no error");
+  const auto expect = [&](const std::string& keys, const std::string& told)
+  {
+    const std::string error = errorOf(lineWith(keys));
+    EXPECT_NE(error.find(told), std::string::npos) << error;
+    EXPECT_EQ(error.rfind("wall.yaml:6:", 0), 0u) << error;
+  };
+  expect(grouted + "points: [[0, 0]]", "lines.bolt.points");
+  expect(grouted + "points: [[0, 0], [0, 0]]", "two points, one after the other, are the same");
+  expect("attach: ends, points: [[0, 0], [1, 0], [1, 1]]", "straight between them");
+  expect("attach: ends, segment_length: 1, points: [[0, 0], [1, 0]]", "segment_length");
+  expect("segment_length: 1, points: [[0, 0], [1, 0]]", "grout");
+  expect(grouted + "free_length: 2, points: [[0, 0], [1, 0]]", "less than the length of the line");
+  expect("segment_length: 1, grout: {stiffness: 1e9, friction: 0.5}, points: [[0, 0], [1, 0]]",
+         "friction and perimeter go together");
+  expect(grouted + "yield_stress: 1e8, pretension: 2e5, points: [[0, 0], [1, 0]]",
+         "not more than yield_stress times area");
+  expect(grouted + "copies: 3, points: [[0, 0], [1, 0]]", "give copy_step");
+  expect(grouted + "stage: bolted, points: [[0, 0], [1, 0]]", "'bolted' is not a stage");
+  const std::string rings =
+      errorOf("geometry: axisymmetric\n" + lineWith(grouted + "points: [[0, 0], [1, 0]]"));
+  EXPECT_NE(rings.find("axisymmetric"), std::string::npos) << rings;
+}
+
 TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
 {
   EXPECT_EQ(
@@ -133,7 +162,8 @@ TEST(DeckErrors, allAreReportedAtOnceInTheOrderOfTheFile)
           "wall.yaml:6:1: tilte is not known. Did you mean 'title'? Accepted here: define, "
           "title, mesh, "
           "geometry, "
-          "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
+          "materials, blocks, joints, contact, conditions, lines, initial, gravity, damping, "
+          "viscosity, "
           "time, stages, output, history, checkpoint, partition.");
 }
 
@@ -737,7 +767,8 @@ TEST(DeckSetErrors, comeAfterThoseOfTheFile)
             "wall.yaml:5:1: titel is not known. Did you mean 'title'? Accepted here: define, "
             "title, mesh, "
             "geometry, "
-            "materials, blocks, joints, contact, conditions, initial, gravity, damping, viscosity, "
+            "materials, blocks, joints, contact, conditions, lines, initial, gravity, damping, "
+            "viscosity, "
             "time, stages, output, history, checkpoint, partition.\n"
             "--set mesh.name=1: mesh is the value 'wall.e' and has no key 'name'.\n"
             "--set time.end=-1: time.end = '-1' is out of range; accepted: a number > 0 [s].");

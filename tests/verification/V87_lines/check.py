@@ -1,6 +1,7 @@
 """V87: bolts and bars that cross blocks: pulled out of grout, torn, sheared, carrying a block, installed in a stage."""
 
 import csv
+import json
 import math
 import pathlib
 
@@ -55,11 +56,12 @@ def pull(divisions, end, speed=0.01, **changes):
     }
 
 
-errors = []
+errors, forces = [], []
 for divisions in (20, 40, 80):
     run = case.run(f"elastic_{divisions}", mesh, pull(divisions, 0.01))
     lines = table(run)
     force = lines["bolt", 1]["force"][-1]
+    forces.append(force)
     errors.append(abs(force / (stiffness * 1e-4) - 1))
     case.check(f"pull-out, {divisions} segments: force [N]", force, stiffness * 1e-4, 7 / divisions**2, relative=True)
     case.check(f"pull-out, {divisions} segments: what holds the head [N]", -run.history["head_reaction_x"][-1], force, 1e-9, relative=True)
@@ -72,19 +74,19 @@ for divisions in (20, 40, 80):
 case.check("pull-out: order", math.log2(errors[1] / errors[2]), 2, 0.1)
 turned_mesh, turned_deck, matrix = turned(mesh, pull(40, 0.01), 27, offset=(3, -2, 0))
 again = case.run("elastic_turned", turned_mesh, turned_deck, angular=1e-10)
-case.check("pull-out, turned: force [N]", table(again)["bolt", 1]["force"][-1], table(case_run := case.run("elastic_40", mesh, pull(40, 0.01)))["bolt", 1]["force"][-1], 1e-9, relative=True)
+case.check("pull-out, turned: force [N]", table(again)["bolt", 1]["force"][-1], forces[1], 1e-9, relative=True)
 
 strength = 1e5
-for name, deck in (("slipping", pull(20, 1.0, grout={"stiffness": grout, "strength": strength})),):
-    run = case.run(name, mesh, deck, load=strength * length)
-    h, lines = run.history, table(run)
-    case.check(f"{name}: force [N]", lines["bolt", 1]["force"][-1], strength * length, 1e-9, relative=True)
-    case.check(f"{name}: force in the middle [N]", lines["bolt", 11]["force"][-1], strength * (length - 0.95), 1e-9, relative=True)
-    # All that the head has been pulled with and is not stored is lost by slip.
-    pulled = numpy.trapz(lines["bolt", 1]["force"], 0.01 * lines["bolt", 1]["time"])
-    case.check(f"{name}: lost by slip [J]", h["line_bond"][-1], pulled - h["line_stored"][-1], 1e-6, relative=True)
-    case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * pulled)
-    case.same_bits(name, mesh, deck, run, ranks=2)
+name, deck = "slipping", pull(20, 1.0, grout={"stiffness": grout, "strength": strength})
+run = case.run(name, mesh, deck, load=strength * length)
+h, lines = run.history, table(run)
+case.check(f"{name}: force [N]", lines["bolt", 1]["force"][-1], strength * length, 1e-9, relative=True)
+case.check(f"{name}: force in the middle [N]", lines["bolt", 11]["force"][-1], strength * (length - 0.95), 1e-9, relative=True)
+# All that the head has been pulled with and is not stored is lost by slip.
+pulled = numpy.trapz(lines["bolt", 1]["force"], 0.01 * lines["bolt", 1]["time"])
+case.check(f"{name}: lost by slip [J]", h["line_bond"][-1], pulled - h["line_stored"][-1], 1e-6, relative=True)
+case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * pulled)
+case.same_bits(name, mesh, deck, run, ranks=2)
 
 # --- a bar between its ends: elastic, plastic, torn ----------------------------------------------------------------------------
 
@@ -177,6 +179,40 @@ for kind, line in kinds.items():
 again = case.attempt("hanging_rebalanced", hanging, {**grouted, "partition": {"rebalance": "always", "rebalance_every": 29}}, ranks=2)
 case.check_equal("hanging: state hash with rebalancing", again.state_hash, reference.state_hash)
 half = 0.5 * float(reference.history["time"][-1])
-stopped = case.attempt("hanging_restarted", hanging, {**grouted, "time": {"end": half}, "checkpoint": {"at_end": True}}, ranks=2)
+name = "hanging_restarted"
+stopped = case.attempt(name, hanging, {**grouted, "time": {"end": half}, "checkpoint": {"at_end": True}}, ranks=2)
 case.check_equal("hanging: exit code of the first half", stopped.code, 0)
+documents.save({"mesh": "mesh.e", **grouted}, f"{name}/run.yaml")
+code, output = program.run_program(["run.yaml", "--restart"], name, ranks=3)
+case.check_equal("hanging: exit code of the restart", code, 0)
+case.check_equal("hanging: state hash of the restart", json.loads(pathlib.Path(name, "run.run-s0002.json").read_text())["state_hash"], reference.state_hash)
+summary = json.loads(pathlib.Path("hanging_grouted", "run.run.json").read_text())["lines"][0]
+case.check_equal("hanging: the record's greatest force is above what it ends with", summary["greatest_force_N"] > weight, True)
+
+# --- the roof is taken away: what held the bolt there is gone, and the block falls -----------------------------------------------
+
+name, problem = "roof_removed", hung(kinds["grouted"])
+problem |= {"damping": {}, "time": {"end": 0.06}, "stages": [{"name": "hanging", "until": 0.03}, {"name": "falling", "remove": ["roof"]}]}
+run = case.run(name, hanging, problem, angular=1e-10)
+h, lines = run.history, table(run)
+falls = h["time"] > 0.035
+speed = h["block_velocity_z"][falls]
+case.check(f"{name}: acceleration of the block [m/s^2]", (speed[-1] - speed[0]) / (h["time"][falls][-1] - h["time"][falls][0]), -gravity, 1e-6, relative=True)
+case.check_equal(f"{name}: energy is lost with the hosts", bool(h["line_rupture"][-1] > 0), True)
+case.same_bits(name, hanging, problem, run, ranks=2)
+
+# --- installed in a stage and pretensioned there -----------------------------------------------------------------------------------
+
+name, end, begins, jack = "in_a_stage", 0.4, 0.1, 5e4
+problem = pull(1, end)
+problem["stages"] = [{"name": "before", "until": begins}, {"name": "bolted"}]
+problem["lines"] = {"anchor": {"points": [[-gap, 0.2], [0.4, 0.2]], "attach": "ends", "area": area, "youngs_modulus": modulus, "stage": "bolted", "pretension": jack, "pretension_time": 0.1}}
+run = case.run(name, mesh, problem, load=4e5)
+lines = table(run)["anchor", 1]
+exact = jack * numpy.minimum((lines["time"] - begins) / 0.1, 1) + EA * 0.01 * (lines["time"] - begins) / 0.5
+case.check(f"{name}: begins with its stage [s]", lines["time"][0], begins, 1.01 * end / 400)
+case.check(f"{name}: force of pretension and motion [N]", numpy.max(numpy.abs(lines["force"] - exact)), 0, 1e-9 * exact[-1])
+growing = lines["time"] < begins + 0.1 * (1 + 1e-9)
+jacked = jack / EA * 0.5 * numpy.trapz(numpy.append(0, exact[growing]), numpy.append(begins, lines["time"][growing])) / 0.1
+case.check(f"{name}: work of the jack [J]", run.history["line_pretension"][-1], jacked, 1e-6, relative=True)
 case.finish()
