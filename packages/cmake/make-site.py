@@ -57,7 +57,7 @@ TOPICS = {
     "Sets of nodes and faces": ["recipe: node_sets side_sets", "blocks-recipe: node_sets side_sets"],
     "Materials": ["deck: materials blocks", "point-deck: title define materials material_paths"],
     "Joints and contact": ["deck: joints contact", "joint-recipe: define joints", "point-deck: joints joint_paths elements"],
-    "Loads, supports, state at the start": ["deck: conditions initial gravity"],
+    "Loads, supports, state at the start": ["deck: conditions lines initial gravity"],
     "Time, stages, damping, shocks": ["deck: time stages damping viscosity"],
     "What is written": ["deck: output history"],
     "Long and parallel runs": ["deck: checkpoint partition"],

@@ -95,6 +95,12 @@ history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point:
 // What needs stages, and what does not go with them.
 const std::string deckWithStages =
     deckOfAllModels + "stages: [{name: a, until: 0.25}, {name: b, until: 0.75}]\n";
+const std::string deckWithLines =
+    deckWithStages.substr(0, deckWithStages.rfind("}]")) + "}, {name: heading}]\n" + R"(lines:
+  bolt:
+    {points: [[0, 0, 0], [0, 0, 9]], segment_length: 1, area: 1e-3, youngs_modulus: 100e9, copy_step: [1, 0, 0],
+     grout: {stiffness: 1e9, friction: 0.1, perimeter: 0.2}, dowel: {stiffness: 1e7}}
+)";
 
 void show(std::string& out, const std::string& value)
 {
@@ -217,6 +223,16 @@ std::string show(const Deck& d)
   for (const auto& s : d.stages)
     showAll(out, s.name, s.until, s.atRest, fmt::format("{}", fmt::join(s.remove, " ")),
             fmt::format("{}", fmt::join(s.add, " ")), s.zeroDisplacements);
+  for (const auto& l : d.lines)
+  {
+    for (const auto& point : l.points)
+      showAll(out, point);
+    showAll(out, l.name, l.attach, l.segmentLength, l.area, l.youngsModulus, l.yieldStress,
+            l.hardeningModulus, l.ruptureStrain, l.compression, l.groutStiffness, l.groutStrength,
+            l.groutFriction, l.groutPerimeter, l.plate, l.freeLength, l.dowelStiffness,
+            l.dowelStrength, l.pretension, l.pretensionTime, l.spacing, l.copies, l.copyStep,
+            l.from, l.stage);
+  }
   return out;
 }
 
@@ -253,6 +269,8 @@ std::string cardFor(const Key& group, const Key& key)
     return key.name == "block" || key.name == "variables" ? ".1"
            : key.name == "point"                          ? ".2"
                                                           : ".0";
+  if (group.name == "lines")
+    return ".bolt";
   return group.name == "stages" ? ".1" : ".0";
 }
 
@@ -311,6 +329,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
     const std::string& deck = path == "geometry"                 ? withoutRigid
                               : path == "output.fragment_damage" ? withFragments
                               : path.rfind("stages", 0) == 0     ? deckWithStages
+                              : path.rfind("lines", 0) == 0      ? deckWithLines
                                                                  : deckOfAllModels;
     try
     {

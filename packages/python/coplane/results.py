@@ -18,7 +18,7 @@ _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_m
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
 # What follows the name of a run in the names of its files.
-_END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
+_END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials|lines)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
                   r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf3)|-report\.html")  # fmt: skip
 
 
@@ -252,9 +252,9 @@ class Run:
 
     @functools.cached_property
     def tables(self):
-        """Energies by blocks, pairs and materials, of those that the run wrote, as DataFrames."""
-        return _Named("table", "history.tables in the deck gives blocks, pairs, materials.",
-                      {name: tables.frame(path, index=None) for name in ("blocks", "pairs", "materials") if (path := self.table_path(name))})
+        """Energies by blocks, pairs and materials, and segments of lines, of those that the run wrote, as DataFrames."""
+        return _Named("table", "history.tables in the deck gives blocks, pairs, materials, lines.",
+                      {name: tables.frame(path, index=None) for name in ("blocks", "pairs", "materials", "lines") if (path := self.table_path(name))})
 
     def table_path(self, name):
         """Path of a table; None when the run wrote none: the deck of its record says so, whatever an earlier run has left."""

@@ -311,10 +311,10 @@ Key lines()
                  points("points", &LineCard::points)
                      .needed()
                      .atLeastItems(2)
-                     .in("m")
                      .like("[[0, 0, 0], [0, 0, 3]]")
-                     .means("ends, or corners of a path, in the mesh as it is at t = 0; all of it "
-                            "lies in elements"),
+                     .means(
+                         "ends, or corners of a path [m], in the mesh as it is at t = 0; all of it "
+                         "lies in elements"),
                  text("attach", &LineCard::attach)
                      .oneOf({"grout", "ends", "perfect"})
                      .like("ends")
@@ -436,6 +436,7 @@ Key lines()
                      .like("1.5")
                      .means("in two dimensions: distance to the next line out of the plane"),
                  KeyBuilder(bound<int>("copies", KeyKind::Integer, &LineCard::copies, copyTo))
+                     .in("-")
                      .atLeast(1)
                      .defaultIs("1")
                      .like("5")
