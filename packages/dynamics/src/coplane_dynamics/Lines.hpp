@@ -51,6 +51,7 @@ private:
   };
   void embed(const std::vector<Vec3>& places, const std::vector<GlobalId>& hosts,
              const RankMesh& mesh);
+  /// Collective.
   std::vector<LineHosts> gatherHosts(const ElementForces& elements, const NodalState& state) const;
 
   const Comm* comm_;

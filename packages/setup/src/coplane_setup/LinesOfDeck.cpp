@@ -1,8 +1,6 @@
 #include <coplane_setup/Lookups.hpp>
 #include <coplane_setup/detail/LinesOfDeck.hpp>
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 namespace coplane
@@ -86,7 +84,7 @@ std::vector<LineSetup> linesOf(const Deck& deck)
     line.bare = card.freeLength > 0 ? 1 : 0;
     for (int copy = 0; copy < card.copies; ++copy)
     {
-      line.name = card.copies == 1 ? card.name : fmt::format("{}_{}", card.name, copy + 1);
+      line.name = card.copies == 1 ? card.name : card.name + "_" + std::to_string(copy + 1);
       lines.push_back(line);
       for (LinePoint& point : line.points)
         point.place += card.copyStep;
