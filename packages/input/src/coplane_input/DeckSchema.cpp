@@ -709,6 +709,7 @@ Key makeSchema()
                  jointKeys(),
                  contactKeys(),
                  conditions(),
+                 lines(),
                  initial(),
                  gravity(),
                  damping(),
