@@ -377,7 +377,11 @@ private:
       plane.maximumBefore = state.maximumClosure;
     }
     else if (!law.curve.straight())
+    {
       loadCurve(plane, i, opposedness * share, state);
+      // What crushing by shear did not close is in the offset from now on.
+      plane.hysteresisWork -= area * response.normalTraction * response.widening;
+    }
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -406,6 +410,8 @@ private:
                volume = branchFree::lane(pair_.moments.volume, i),
                squares = branchFree::lane(pair_.moments.squares, i);
     const Real before = plane.history.maximumClosure;
+    // Shear crushes beyond what the closure does.
+    const Real sheared = law.curve.crushing.acts() ? state.maximumClosure : 0;
     state.maximumClosure = before;
     if (plane.maximumBefore < before)
       plane.hysteresisWork +=
@@ -414,7 +420,8 @@ private:
                                                    wholeArea, volume, squares);
     plane.maximumBefore = before;
     plane.halfHysteresis = 0;
-    const Real reached = permanents_[i] + squares / volume;
+    const Real pressed = permanents_[i] + squares / volume;
+    const Real reached = sheared > pressed ? sheared : pressed;
     if (!(reached > before))
       return;
     const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
