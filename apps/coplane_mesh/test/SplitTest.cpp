@@ -317,6 +317,39 @@ TEST(Split, bordersOfBlocksOpen)
   EXPECT_EQ(nodesAt(pair.mesh, {2, 0, 0}), 2);
 }
 
+TEST(Split, everyFaceOfABlockOpens)
+{
+  for (const char* more : {"", ", split: triangles"})
+  {
+    const Mesh whole = square(more);
+    const SplitMesh split = cut(whole, "{bonds: {every_face: rock}}");
+    const int elements = *more ? 32 : 16, perElement = *more ? 3 : 4;
+    EXPECT_EQ(split.bodies, elements) << "each element is a body";
+    EXPECT_EQ(split.mesh.nodes(), elements * perElement);
+    EXPECT_EQ(split.cuts[0].opened, (elements * perElement - 16) / 2) << "all but the 16 outside";
+    EXPECT_EQ(split.cuts[0].closed, 0);
+  }
+  const SplitMesh boxes = cut(cube(), "{bonds: {every_face: all}}");
+  EXPECT_EQ(boxes.bodies, 64);
+  EXPECT_EQ(boxes.mesh.nodes(), 8 * 64);
+  EXPECT_EQ(boxes.cuts[0].opened, 3 * 48);
+}
+
+TEST(Split, everyFaceStaysWithinItsBlocks)
+{
+  const auto opened = [](const std::string& joints)
+  { return cut(blocks(), joints).cuts[0].opened; };
+  EXPECT_EQ(opened("{bonds: {every_face: a}}"), 4);
+  EXPECT_EQ(opened("{bonds: {every_face: [a, b]}}"), 4 + 4 + 2) << "and the border of both";
+  EXPECT_EQ(opened("{bonds: {every_face: top}}"), 6 + 2 * 5);
+  const SplitMesh split = cut(blocks(), "{bed: {blocks: all}, bonds: {every_face: all}}");
+  EXPECT_EQ(split.cuts[0].opened, 6 + 2 * 2) << "borders belong to the joint before";
+  EXPECT_EQ(split.bodies, 24);
+  EXPECT_NE(errorOf(blocks(), "{bonds: {every_face: [a, topp]}}")
+                .find("names 'topp', which is no block of the mesh. Did you mean 'top'?"),
+            std::string::npos);
+}
+
 TEST(Split, sideSetsInsideTheMeshOpen)
 {
   Mesh mesh = square();

@@ -451,8 +451,8 @@ private:
     state.maximumClosure = crushed + strong / kn;
     response.normalTraction = normal;
     response.normalStiffness = crushing.unloading(crushed, kn);
-    response.widening = (1 - crushing.loss) * x - closing * x;
-    response.dilation += response.widening;
+    response.crushedByShear = true;
+    response.dilation += (1 - crushing.loss) * x - closing * x; // what is crushed and not closed
     response.slipping = true;
   }
 

@@ -36,6 +36,6 @@ struct JointResponse
   Real hysteresisWork = 0; ///< of the closure curve [J/m^2]
   Real dilation = 0; ///< by which the plane's offset rises in this step [m]; the tractions are
                      ///< those at the raised offset
-  Real widening = 0; ///< part of the dilation that crushing by shear does not close [m]
+  bool crushedByShear = false; ///< and the maximum closure raised by it
 };
 } // namespace coplane
