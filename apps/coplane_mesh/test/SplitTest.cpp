@@ -461,10 +461,11 @@ TEST(Split, mistakesAreNamedWithTheirPlace)
   EXPECT_EQ(errorOf(mesh, "{j: {planes: {point: [2, 0], normal: [0, 0]}}}"),
             "cuts.yaml:1:46: joints.j.planes.normal = a list of 2 without direction; accepted: a "
             "list of 2 numbers, not all zero [-].");
-  EXPECT_EQ(errorOf(mesh, "{j: {plane: {point: [2, 0], normal: [0, 0]}}}"),
-            "cuts.yaml:1:13: joints.j needs one of the keys planes, blocks, side_sets, every_face.\n"
-            "cuts.yaml:1:14: joints.j.plane is not known. Did you mean 'planes'? Accepted here: "
-            "planes, blocks, side_sets, every_face.");
+  EXPECT_EQ(
+      errorOf(mesh, "{j: {plane: {point: [2, 0], normal: [0, 0]}}}"),
+      "cuts.yaml:1:13: joints.j needs one of the keys planes, blocks, side_sets, every_face.\n"
+      "cuts.yaml:1:14: joints.j.plane is not known. Did you mean 'planes'? Accepted here: "
+      "planes, blocks, side_sets, every_face.");
   EXPECT_EQ(errorOf(mesh, "{j: {blocks: all}}"),
             "cuts.yaml:1:22: joints.j.blocks = all, but no two "
             "blocks of the mesh have a face in common.");
@@ -486,13 +487,14 @@ TEST(Split, mistakesAreNamedWithTheirPlace)
 
 TEST(Split, allProblemsAreToldAtOnce)
 {
-  EXPECT_EQ(errorOf(square(), "{i: {side_sets: tap}, j: {planes: {point: [2.5, 0, 1], count: 2, "
-                              "normal: [1, 0]}}, k: {blocks: every}, l: {}}"),
-            "cuts.yaml:1:51: joints.j.planes.point = a list of 3; accepted: a list of 2 numbers "
-            "[m].\n"
-            "cuts.yaml:1:104: joints.k.blocks = 'every'; accepted: all or a list of lists of 2 "
-            "names.\n"
-            "cuts.yaml:1:115: joints.l needs one of the keys planes, blocks, side_sets, every_face.");
+  EXPECT_EQ(
+      errorOf(square(), "{i: {side_sets: tap}, j: {planes: {point: [2.5, 0, 1], count: 2, "
+                        "normal: [1, 0]}}, k: {blocks: every}, l: {}}"),
+      "cuts.yaml:1:51: joints.j.planes.point = a list of 3; accepted: a list of 2 numbers "
+      "[m].\n"
+      "cuts.yaml:1:104: joints.k.blocks = 'every'; accepted: all or a list of lists of 2 "
+      "names.\n"
+      "cuts.yaml:1:115: joints.l needs one of the keys planes, blocks, side_sets, every_face.");
   EXPECT_EQ(errorOf(square(), "{i: {side_sets: tap}, j: {blocks: [[rok, rock]]}}"),
             "cuts.yaml:1:25: joints.i.side_sets names 'tap', which is no side set of the mesh. Did "
             "you mean 'top'?\n"

@@ -12,8 +12,8 @@ namespace coplane
 ///
 /// As a loading curve over the closure C = k + f(k) / k_n it unloads with the secant stiffness f /
 /// (f / k_n + loss k): a part `loss` of k is given back as the joint unloads, the rest is permanent
-/// (Oliveira and Lourenco 2004 unload less stiffly, too, by a curve). Under shear tau the
-/// strength is an ellipse, sigma^2 + shearWeight tau^2 = f(k)^2.
+/// (simpler than the curves of Oliveira and Lourenço 2004). Under shear tau the strength is an
+/// ellipse, sigma^2 + shearWeight tau^2 = f(k)^2.
 struct Crushing
 {
   static constexpr Real initial = 1.0 / 3, middle = 0.5; ///< of the strength [-]
