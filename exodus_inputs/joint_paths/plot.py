@@ -53,6 +53,16 @@ PANELS = {
         ),
     ],
 }
+PANELS["crushing"] = [
+    (
+        "Crushed, unloaded, crushed again", NORMAL, (MM, MPA), ("closure [mm]", "compression [MPa]"),
+        [("cycle", "no loss"), ("cycle_lost", "half lost")],
+    ),
+    (
+        "Sheared at a closure", ("normal_traction[Pa]", "shear_traction[Pa]"), (MPA, MPA), ("compression [MPa]", "shear [MPa]"),
+        [("sheared_5", "0.5 of the strength"), ("sheared_7", "0.7"), ("sheared_9", "0.9")],
+    ),
+]
 for name in ("mortar", "bilinear"):
     PANELS[name] = [
         ("Tension with unloading", TENSION, (MM, MPA), ("gap [mm]", "tension [MPa]"), [("cycle", "")]),

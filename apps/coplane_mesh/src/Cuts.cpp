@@ -70,6 +70,8 @@ public:
       note = selectPlanes(card, place, wanted);
     else if (!card.blocks.empty())
       selectBorders(card, place, wanted);
+    else if (!card.everyFace.empty())
+      selectEveryFace(card, place, wanted);
     else
       note = selectSideSets(card, place, wanted);
     Cut cut{card.name, {}};
@@ -248,7 +250,7 @@ private:
   }
 
   /// The block's position, or -1 with a problem.
-  int blockOfName(const CardPlace& joint, const std::string& name) const
+  int blockOfName(const CardPlace& joint, const std::string& name, const char* key = "blocks") const
   {
     std::vector<std::string> names;
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
@@ -257,9 +259,26 @@ private:
         return int(b);
       names.push_back(mesh_.blocks[b].name);
     }
-    joint.problem("blocks", fmt::format("names '{}', which is no block of the mesh.{}", name,
-                                        didYouMean(name, names)));
+    joint.problem(key, fmt::format("names '{}', which is no block of the mesh.{}", name,
+                                   didYouMean(name, names)));
     return -1;
+  }
+
+  void selectEveryFace(const JointCutCard& card, const CardPlace& joint,
+                       std::vector<bool>& wanted) const
+  {
+    const bool all = card.everyFace.size() == 1 && card.everyFace[0] == "all";
+    std::vector<bool> chosen(mesh_.blocks.size(), all);
+    for (const std::string& name : card.everyFace)
+      if (const int block = all ? -1 : blockOfName(joint, name, "every_face"); block >= 0)
+        chosen[block] = true;
+    bool found = false;
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+      if (faces_[f].count == 2 && chosen[places_[faces_[f].elements[0]].block] &&
+          chosen[places_[faces_[f].elements[1]].block])
+        found = wanted[f] = true;
+    if (!found && std::count(chosen.begin(), chosen.end(), true) > 0)
+      joint.problem("every_face", "finds no face between two elements.");
   }
 
   std::set<std::pair<int, int>> pairsOf(const JointCutCard& card, const CardPlace& joint) const

@@ -137,9 +137,15 @@ const Key& jointRecipeSchema()
                                         .atLeastItems(1)
                                         .like("crack")
                                         .means("faces of side sets inside the mesh"),
+                                    texts("every_face", &JointCutCard::everyFace)
+                                        .orOneAlone()
+                                        .atLeastItems(1)
+                                        .like("rock")
+                                        .means("all faces between the elements of these blocks, of "
+                                               "one block or of two of them; all: of the mesh"),
                                 })
                               .needed()
-                              .exactlyOneOf({"planes", "blocks", "side_sets"})
+                              .exactlyOneOf({"planes", "blocks", "side_sets", "every_face"})
                               .means("joints by the names of the side sets that hold both faces of "
                                      "every cut face; cut in the order of the file: a face that "
                                      "several find belongs to the first")),

@@ -39,6 +39,7 @@ struct JointCutCard
   std::vector<PlanesCard> planes;
   std::vector<std::vector<std::string>> blocks; ///< pairs, or the word all alone
   std::vector<std::string> sideSets;
+  std::vector<std::string> everyFace; ///< blocks, or the word all alone
 };
 
 /// What a recipe of joints says.

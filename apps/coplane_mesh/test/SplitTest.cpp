@@ -317,6 +317,39 @@ TEST(Split, bordersOfBlocksOpen)
   EXPECT_EQ(nodesAt(pair.mesh, {2, 0, 0}), 2);
 }
 
+TEST(Split, everyFaceOfABlockOpens)
+{
+  for (const char* more : {"", ", split: triangles"})
+  {
+    const Mesh whole = square(more);
+    const SplitMesh split = cut(whole, "{bonds: {every_face: rock}}");
+    const int elements = *more ? 32 : 16, perElement = *more ? 3 : 4;
+    EXPECT_EQ(split.bodies, elements) << "each element is a body";
+    EXPECT_EQ(split.mesh.nodes(), elements * perElement);
+    EXPECT_EQ(split.cuts[0].opened, (elements * perElement - 16) / 2) << "all but the 16 outside";
+    EXPECT_EQ(split.cuts[0].closed, 0);
+  }
+  const SplitMesh boxes = cut(cube(), "{bonds: {every_face: all}}");
+  EXPECT_EQ(boxes.bodies, 64);
+  EXPECT_EQ(boxes.mesh.nodes(), 8 * 64);
+  EXPECT_EQ(boxes.cuts[0].opened, 3 * 48);
+}
+
+TEST(Split, everyFaceStaysWithinItsBlocks)
+{
+  const auto opened = [](const std::string& joints)
+  { return cut(blocks(), joints).cuts[0].opened; };
+  EXPECT_EQ(opened("{bonds: {every_face: a}}"), 4);
+  EXPECT_EQ(opened("{bonds: {every_face: [a, b]}}"), 4 + 4 + 2) << "and the border of both";
+  EXPECT_EQ(opened("{bonds: {every_face: top}}"), 6 + 2 * 5);
+  const SplitMesh split = cut(blocks(), "{bed: {blocks: all}, bonds: {every_face: all}}");
+  EXPECT_EQ(split.cuts[0].opened, 6 + 2 * 2) << "borders belong to the joint before";
+  EXPECT_EQ(split.bodies, 24);
+  EXPECT_NE(errorOf(blocks(), "{bonds: {every_face: [a, topp]}}")
+                .find("names 'topp', which is no block of the mesh. Did you mean 'top'?"),
+            std::string::npos);
+}
+
 TEST(Split, sideSetsInsideTheMeshOpen)
 {
   Mesh mesh = square();
@@ -428,10 +461,11 @@ TEST(Split, mistakesAreNamedWithTheirPlace)
   EXPECT_EQ(errorOf(mesh, "{j: {planes: {point: [2, 0], normal: [0, 0]}}}"),
             "cuts.yaml:1:46: joints.j.planes.normal = a list of 2 without direction; accepted: a "
             "list of 2 numbers, not all zero [-].");
-  EXPECT_EQ(errorOf(mesh, "{j: {plane: {point: [2, 0], normal: [0, 0]}}}"),
-            "cuts.yaml:1:13: joints.j needs one of the keys planes, blocks, side_sets.\n"
-            "cuts.yaml:1:14: joints.j.plane is not known. Did you mean 'planes'? Accepted here: "
-            "planes, blocks, side_sets.");
+  EXPECT_EQ(
+      errorOf(mesh, "{j: {plane: {point: [2, 0], normal: [0, 0]}}}"),
+      "cuts.yaml:1:13: joints.j needs one of the keys planes, blocks, side_sets, every_face.\n"
+      "cuts.yaml:1:14: joints.j.plane is not known. Did you mean 'planes'? Accepted here: "
+      "planes, blocks, side_sets, every_face.");
   EXPECT_EQ(errorOf(mesh, "{j: {blocks: all}}"),
             "cuts.yaml:1:22: joints.j.blocks = all, but no two "
             "blocks of the mesh have a face in common.");
@@ -453,13 +487,14 @@ TEST(Split, mistakesAreNamedWithTheirPlace)
 
 TEST(Split, allProblemsAreToldAtOnce)
 {
-  EXPECT_EQ(errorOf(square(), "{i: {side_sets: tap}, j: {planes: {point: [2.5, 0, 1], count: 2, "
-                              "normal: [1, 0]}}, k: {blocks: every}, l: {}}"),
-            "cuts.yaml:1:51: joints.j.planes.point = a list of 3; accepted: a list of 2 numbers "
-            "[m].\n"
-            "cuts.yaml:1:104: joints.k.blocks = 'every'; accepted: all or a list of lists of 2 "
-            "names.\n"
-            "cuts.yaml:1:115: joints.l needs one of the keys planes, blocks, side_sets.");
+  EXPECT_EQ(
+      errorOf(square(), "{i: {side_sets: tap}, j: {planes: {point: [2.5, 0, 1], count: 2, "
+                        "normal: [1, 0]}}, k: {blocks: every}, l: {}}"),
+      "cuts.yaml:1:51: joints.j.planes.point = a list of 3; accepted: a list of 2 numbers "
+      "[m].\n"
+      "cuts.yaml:1:104: joints.k.blocks = 'every'; accepted: all or a list of lists of 2 "
+      "names.\n"
+      "cuts.yaml:1:115: joints.l needs one of the keys planes, blocks, side_sets, every_face.");
   EXPECT_EQ(errorOf(square(), "{i: {side_sets: tap}, j: {blocks: [[rok, rock]]}}"),
             "cuts.yaml:1:25: joints.i.side_sets names 'tap', which is no side set of the mesh. Did "
             "you mean 'top'?\n"

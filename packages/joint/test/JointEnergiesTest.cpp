@@ -33,6 +33,14 @@ std::vector<Named> allJoints()
   Joint curvedMortar = mortarJoint();
   curvedMortar.law.curve.inverseMaximumClosure = 1 / 1e-4;
   curvedMortar.fit = curvedMortar.law.fittedTo(1, 1e12, 1, 1e12);
+  // So soft that the paths crush it to the end.
+  Joint soft = crushedMortar(), weaker = crushedMortar(.6);
+  for (Joint* joint : {&soft, &weaker})
+  {
+    joint->law.curve.crushing.strength = 8e5;
+    joint->law.curve.crushing.peak = 5e-6;
+    joint->law.curve.crushing.length = 2e-5;
+  }
   return {{"linear", linearJoint(1e11, 5e10, .6), 2e-5},
           {"brittle", cohesive, 2e-5},
           {"hyperbola", hyperbola, 1e-4},
@@ -41,6 +49,8 @@ std::vector<Named> allJoints()
           {"dilating", dilating, 2e-5},
           {"speed", slippery, 2e-5},
           {"mortar", mortarJoint(), 2e-5},
+          {"crushed mortar", soft, 3e-5},
+          {"mortar that loses stiffness", weaker, 3e-5},
           {"curved mortar", curvedMortar, 3e-5},
           {"bilinear", mortarJoint(Bond::Kind::Linear), 2e-5}};
 }

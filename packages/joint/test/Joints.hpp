@@ -88,6 +88,22 @@ inline Joint mortarJoint(Bond::Kind kind = Bond::Kind::Exponential)
   return joint;
 }
 
+/// The same that is crushed as in the walls of Lourenco and Rots: f_m 10.5 MPa, G_fc 5 N/mm, k_p
+/// .09 mm, C_ss 9.
+/// @param loss of stiffness
+inline Joint crushedMortar(Real loss = 0, Real friction = .75)
+{
+  Joint joint = mortarJoint();
+  joint.law.friction = friction;
+  joint.law.bond.loss = loss;
+  Crushing& crushing = joint.law.curve.crushing;
+  crushing.strength = 10.5e6;
+  crushing.peak = 9e-5;
+  crushing.length = Crushing::lengthFrom(10.5e6, 5e3, crushing.residual);
+  crushing.loss = loss;
+  return joint;
+}
+
 inline Joint roughJoint()
 {
   Joint joint = linearJoint(2e10, 1e10, 0);

@@ -47,7 +47,7 @@ def area(x, y):
 # --- all decks run, and the list of them is complete -------------------------------------------------
 
 decks = sorted(path.stem for path in examples.glob("*.yaml"))
-known = ["barton_bandis", "bilinear", "closure_curve", "friction", "linear", "mortar", "penalty", "points", "table"]
+known = ["barton_bandis", "bilinear", "closure_curve", "crushing", "friction", "linear", "mortar", "penalty", "points", "table"]
 case.check_equal("decks", decks, known)
 for deck in decks:
     code, output = point(examples / f"{deck}.yaml")
@@ -217,6 +217,56 @@ for deck in ("mortar", "bilinear"):
     mixed.check("damage", mixed.damage[-1], 1, 0.01)
     mixed.check("sum of the modes' shares of their energies", wear, 1, 0.02)
     mixed.energies(1e-3)
+
+# --- crushing: f_m 10.5 MPa, G_fc 5 kJ/m^2, k_p 0.09 mm, a tenth is left, C_ss 9 ------------------------------------------------
+
+fm, Gc, kp = 10.5e6, 5e3, 9e-5
+L = 75 / 67 * Gc / fm
+
+
+def strength_at(k):
+    after = fm * (1 - 0.5 * ((k - kp) / L) ** 2)
+    rest = fm * (0.1 + 0.4 * numpy.exp(-(k - kp - L) / (0.4 * L)))
+    before = fm * (1 / 3 + 2 / 3 * numpy.sqrt(numpy.maximum(2 * k / kp - (k / kp) ** 2, 0)))
+    return numpy.where(k < kp, before, numpy.where(k < kp + L, after, rest))
+
+
+crush = Path("crushing", "crush")
+crush.check("peak [Pa]", numpy.max(crush.normal_traction), fm, 1e-4)
+k = crush.closure - crush.normal_traction / kn
+crush.check("compression against f(k), over its peak", numpy.max(numpy.abs(crush.normal_traction - strength_at(k))[k > 1e-7]) / fm, 0, 1e-9, relative=False)
+peak = int(numpy.argmax(crush.normal_traction))
+# The path ends where 2e-5 of the exponential is left; the strength's fall gives elastic energy back.
+beyond = area(k[peak:], crush.normal_traction[peak:] - 0.1 * fm)
+crush.check("area after the peak and above the residual [J/m^2]", beyond, Gc, 1e-3)
+crush.check("hysteresis [J/m^2]", crush.hysteresis[-1], fm * kp * (1 / 3 + math.pi / 6) + Gc + 0.1 * fm * (k[-1] - kp), 1e-3)
+crush.energies(1e-4)
+for name, loss in (("cycle", 0), ("cycle_lost", 0.5)):
+    cycle = Path("crushing", name)
+    cycle.energies(1e-4)
+    # Each stroke down goes along a line to (1 - loss) k.
+    for stroke in (1, 3, 5):
+        down = slice(2000 * stroke, 2000 * stroke + 40)
+        slope = numpy.diff(cycle.normal_traction[down]) / numpy.diff(cycle.closure[down])
+        f = cycle.normal_traction[2000 * stroke]
+        k = cycle.closure[2000 * stroke] - f / kn
+        cycle.check(f"slope of unloading {stroke} [Pa/m]", float(numpy.median(slope)), f / (f / kn + loss * k), 1e-6)
+        cycle.check(f"straightness of unloading {stroke}", float(numpy.ptp(slope) / numpy.median(slope)), 0, 1e-6, relative=False)
+lost = Path("crushing", "tension_lost")
+lost.energies(1e-3)
+for stroke in (1, 3):
+    f, d = -lost.normal_traction[2000 * stroke], lost.gap[2000 * stroke]
+    slope = (lost.normal_traction[2000 * stroke + 100] + f) / (d - lost.gap[2000 * stroke + 100])
+    lost.check(f"slope of unloading {stroke} [Pa/m]", slope, f / (f / kn + 0.5 * (d - f / kn)), 1e-6)
+for part in (5, 7, 9):
+    sheared = Path("crushing", f"sheared_{part}")
+    ellipse = numpy.sqrt(sheared.normal_traction**2 + 9 * sheared.shear_traction**2)
+    sheared.check("compression before the shear, over the strength", sheared.normal_traction[20000] / fm, part / 10, 1e-4)
+    # The compression falls meanwhile: at 0.5 of the strength friction takes over just before the peak.
+    sheared.check("largest ellipse of the tractions, over the strength", numpy.max(ellipse) / fm, 1, 2e-3 if part == 5 else 1e-4)
+    held = c + mu * sheared.normal_traction - sheared.shear_traction
+    sheared.check("shear beyond friction and cohesion [Pa]", max(-numpy.min(held), 0), 0, 1e-6, relative=False)
+    sheared.energies(2e-3)
 
 # --- errors -----------------------------------------------------------------------------------------------------
 

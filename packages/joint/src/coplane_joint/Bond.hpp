@@ -11,10 +11,11 @@ namespace coplane
 ///
 /// Softening bonds (Lourenco and Rots 1997, isotropic softening): tensile strength f_t S(q) and
 /// cohesion c S(q) fall together with q = opening / a_1 + shearing / a_2, the inelastic opening and
-/// slip over their lengths. Exponential: S = exp(-q), a = G / strength, unloading with the elastic
-/// stiffness. Linear: S = 1 - q, a = 2 G / strength, unloading in tension towards zero (traction (1
-/// - D) k d), in shear with the elastic stiffness. G_I and G_II are the areas under the curves of
-/// pure tension and of the cohesive part of pure shear. A brittle bond breaks at its tensile
+/// slip over their lengths. Exponential: S = exp(-q), a = G / strength. Linear: S = 1 - q, a = 2 G
+/// / strength. Unloading in tension goes straight to where a part 1 - loss of the opening is left:
+/// with loss = 0 along the elastic stiffness, with 1, as linear bonds do, towards zero (traction
+/// (1 - D) k d); in shear with the elastic stiffness. G_I and G_II are the areas under the curves
+/// of pure tension and of the cohesive part of pure shear. A brittle bond breaks at its tensile
 /// strength, or when it slips.
 struct Bond
 {
@@ -35,6 +36,7 @@ struct Bond
   Real cohesion = 0;        ///< c of a softening bond [Pa]
   Real openingLength = 1;   ///< a_1 [m]
   Real shearingLength = 1;  ///< a_2 [m]
+  Real loss = 0;            ///< of stiffness in tension: 0 plastic, 1 damage only [-]
 
   /// Lengths from the fracture energies [J/m^2].
   static Bond softening(Kind kind, Real tensileStrength, Real cohesion, Real tensionEnergy,
@@ -47,6 +49,7 @@ struct Bond
     const Real factor = kind == Kind::Linear ? 2 : 1;
     bond.openingLength = factor * tensionEnergy / tensileStrength;
     bond.shearingLength = cohesion > 0 ? factor * shearEnergy / cohesion : infinity;
+    bond.loss = kind == Kind::Linear ? 1 : 0;
     return bond;
   }
 
@@ -73,7 +76,7 @@ struct Bond
   /// Part of the closure that opened inelastically and is still between the faces [m].
   KOKKOS_INLINE_FUNCTION Real permanentOpening(const JointState& state) const
   {
-    return state.bonded && kind == Kind::Exponential ? state.opening : 0;
+    return state.bonded && kind == Kind::Exponential ? (1 - loss) * state.opening : 0;
   }
 
   /// Inelastic jump x that brings an elastic trial traction back to the strength, trial - k x =
@@ -106,20 +109,25 @@ struct Bond
   KOKKOS_INLINE_FUNCTION Real openingWork(Real q, Real opening, Real jump) const
   {
     if (kind == Kind::Exponential)
-      return tensileStrength * openingLength * std::exp(-q) * -std::expm1(-jump / openingLength);
+    {
+      const Real left = std::exp(-q), fall = -std::expm1(-jump / openingLength);
+      // Less what the secant gives back more than the elastic stiffness.
+      return tensileStrength * openingLength * left * fall -
+             0.5 * loss * tensileStrength * left * ((1 - fall) * jump - fall * opening);
+    }
     // Unloading towards zero: half of (traction times increment of opening - opening times
     // increment of traction).
     const Real most = 1 - q, wear = jump / openingLength;
     return 0.5 * tensileStrength * (openingLength * most + opening) * (wear < most ? wear : most);
   }
 
-  /// Slope of the tension branch: secant of a linear bond, else elastic [Pa/m].
+  /// Slope of the tension branch: a secant if stiffness is lost, else elastic [Pa/m].
   KOKKOS_INLINE_FUNCTION Real tensionStiffness(Real elastic, const JointState& state) const
   {
-    if (kind != Kind::Linear)
+    if (!(loss > 0))
       return elastic;
     const Real strength = tensileStrength * share(state);
-    return strength > 0 ? strength / (strength / elastic + state.opening) : 0;
+    return strength > 0 ? strength / (strength / elastic + loss * state.opening) : 0;
   }
 };
 } // namespace coplane

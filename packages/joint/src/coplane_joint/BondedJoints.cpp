@@ -1,5 +1,8 @@
 #include "detail/JointKeys.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace coplane
 {
 namespace
@@ -13,6 +16,19 @@ JointLaw softening(const BondParameters& p, Bond::Kind kind)
   law.stiffnessCap = p.stiffnessCap.value_or(0);
   law.bond = Bond::softening(kind, p.tensileStrength, p.cohesion, p.tensionEnergy, p.shearEnergy);
   return law;
+}
+
+Crushing crushingOf(const MortarParameters& p)
+{
+  Crushing crushing;
+  crushing.strength = p.compressiveStrength;
+  crushing.peak = p.peakCrushing;
+  crushing.residual = p.residualCompression;
+  crushing.length =
+      Crushing::lengthFrom(p.compressiveStrength, p.compressionEnergy, p.residualCompression);
+  crushing.shearWeight = p.shearInCrushing;
+  crushing.loss = p.stiffnessLoss;
+  return crushing;
 }
 
 /// The softening branch must not be steeper than the elastic one, or it could not be followed.
@@ -42,6 +58,44 @@ void checkSoftening(const BondParameters& p, Real share, const CardPlace& card)
 void checkMortar(const MortarParameters& p, const CardPlace& card)
 {
   checkSoftening(p, 1, card);
+  if (!(p.compressiveStrength > 0))
+  {
+    const auto useless = [&](const char* key, bool given)
+    {
+      if (given)
+        card.problem(key, "has no effect without compressive_strength; give both or none.");
+    };
+    const MortarParameters usual;
+    useless("compression_energy", p.compressionEnergy > 0);
+    useless("peak_crushing", p.peakCrushing > 0);
+    useless("residual_compression", p.residualCompression != usual.residualCompression);
+    useless("shear_in_crushing", p.shearInCrushing != usual.shearInCrushing);
+    return;
+  }
+  if (p.maximumClosure > 0)
+    card.problem("maximum_closure",
+                 "does not go with compressive_strength: a joint that is crushed is straight up "
+                 "to a third of its strength; remove one of them.");
+  if (!(p.compressionEnergy > 0))
+    card.problem("compressive_strength", "needs compression_energy, the fracture energy of "
+                                         "crushing [J/m^2].");
+  if (!(p.peakCrushing > 0))
+    card.problem("compressive_strength", "needs peak_crushing, the inelastic closure at the "
+                                         "strength [m].");
+  if (!(p.compressionEnergy > 0 && p.peakCrushing > 0 && p.normalStiffness > 0))
+    return;
+  const Crushing crushing = crushingOf(p);
+  const Real shear = p.shearStiffness.value_or(p.shearRatio * p.normalStiffness);
+  const Real soft = p.shearInCrushing > 0 && shear > 0
+                        ? std::min(p.normalStiffness, std::sqrt(p.shearInCrushing) * shear)
+                        : p.normalStiffness;
+  if (!(crushing.steepest() < soft))
+    card.problem("compression_energy",
+                 fmt::format("= {} J/m^2 is too small: beyond its strength of {} Pa the joint "
+                             "would have to spring back; accepted: more than {:.4g} J/m^2, or "
+                             "larger stiffnesses.",
+                             p.compressionEnergy, p.compressiveStrength,
+                             p.compressionEnergy * crushing.steepest() / soft));
 }
 void checkBilinear(const BilinearParameters& p, const CardPlace& card)
 {
@@ -96,9 +150,64 @@ std::vector<Key> bondKeys()
 }
 } // namespace
 
+namespace
+{
+std::vector<Key> crushingKeys()
+{
+  using P = MortarParameters;
+  using namespace schema;
+  return {
+      number<P, Real>("compressive_strength", &P::compressiveStrength)
+          .in("Pa")
+          .usually(usual::stress)
+          .above(0)
+          .like("11e6")
+          .defaultIs("none, the joint is never crushed")
+          .means("of the joint, f_m: crushing starts at a third of it and goes on along a "
+                 "hardening and a softening curve"),
+      number<P, Real>("compression_energy", &P::compressionEnergy)
+          .in("J/m^2")
+          .above(0)
+          .like("5e3")
+          .defaultIs("none; compressive_strength needs it")
+          .means("fracture energy of crushing G_fc: area under the curve of traction over "
+                 "inelastic closure, after its peak and above the residual"),
+      number<P, Real>("peak_crushing", &P::peakCrushing)
+          .in("m")
+          .above(0)
+          .like("9e-5")
+          .defaultIs("none; compressive_strength needs it")
+          .means("inelastic closure at which the joint has its compressive strength"),
+      number<P, Real>("residual_compression", &P::residualCompression)
+          .in("-")
+          .above(0)
+          .below(0.5)
+          .like("0.15")
+          .means("part of the compressive strength that a crushed joint keeps"),
+      number<P, Real>("shear_in_crushing", &P::shearInCrushing)
+          .in("-")
+          .atLeast(0)
+          .like("9")
+          .means("weight C_ss of the shear traction in sigma^2 + C_ss tau^2 = f^2, the limit of "
+                 "both tractions under compression; 0: shear does not crush"),
+      number<P, Real>("stiffness_loss", &P::stiffnessLoss)
+          .in("-")
+          .atLeast(0)
+          .atMost(1)
+          .like("0.5")
+          .means("part of the inelastic opening, and of the crushing, that unloading gives back: "
+                 "0 unloads with the elastic stiffness, 1 towards zero"),
+  };
+}
+} // namespace
+
 JointLaw makeLaw(const MortarParameters& p)
 {
-  return softening(p, Bond::Kind::Exponential);
+  JointLaw law = softening(p, Bond::Kind::Exponential);
+  law.bond.loss = p.stiffnessLoss;
+  if (p.compressiveStrength > 0)
+    law.curve.crushing = crushingOf(p);
+  return law;
 }
 
 JointLaw makeLaw(const BilinearParameters& p)
@@ -110,6 +219,7 @@ JointModel MortarParameters::model()
 {
   return JointModelOf<MortarParameters>("mortar", "a bond with exponential softening")
       .has(bondKeys<MortarParameters>())
+      .has(crushingKeys())
       .demands(checkMortar);
 }
 

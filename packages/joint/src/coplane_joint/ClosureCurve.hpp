@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_joint/Crushing.hpp>
 #include <coplane_joint/JointState.hpp>
 
 #include <cmath>
@@ -13,7 +14,8 @@ namespace coplane
 ///
 /// A straight line; or a hyperbola sigma = k c / (1 - c / c_m) (Goodman, Bandis); or a table of
 /// points from (0, 0) with rising slopes, which goes on straight beyond its last point. Where a
-/// curve would get steeper than the cap, it goes on with the slope of the cap.
+/// curve would get steeper than the cap, it goes on with the slope of the cap. Or a straight line
+/// up to a strength that falls: then the slope of unloading is the elastic one, or a secant.
 struct ClosureCurve
 {
   static constexpr int capacity = 16;
@@ -22,8 +24,11 @@ struct ClosureCurve
   int points = 0;                 ///< of the table without (0, 0); 0: no table
   Real closure[capacity] = {};    ///< [m]
   Real traction[capacity] = {};   ///< [Pa]
+  Crushing crushing;
 
-  KOKKOS_INLINE_FUNCTION bool straight() const { return inverseMaximumClosure <= 0 && points == 0; }
+  KOKKOS_INLINE_FUNCTION bool straight() const { return !stiffens() && !crushing.acts(); }
+  /// Whether it gets steeper as it closes.
+  KOKKOS_INLINE_FUNCTION bool stiffens() const { return inverseMaximumClosure > 0 || points > 0; }
 
   /// Closure at which the hyperbola becomes straight: at once if the cap is below the initial
   /// slope.
@@ -38,12 +43,18 @@ struct ClosureCurve
   struct Point
   {
     Real traction = 0;  ///< [Pa]
-    Real stiffness = 0; ///< [Pa/m]
+    Real stiffness = 0; ///< of unloading [Pa/m]
   };
 
   /// Traction and slope at closure c >= 0.
   KOKKOS_INLINE_FUNCTION Point at(const JointFit& fit, Real c) const
   {
+    if (crushing.acts())
+    {
+      const Real k = crushing.crushedAt(c, fit.normalStiffness);
+      return {k > 0 ? crushing.strengthAt(k) : fit.normalStiffness * c,
+              crushing.unloading(k, fit.normalStiffness)};
+    }
     if (points > 0)
       return atTable(fit, c);
     const Real q = 1 - c * inverseMaximumClosure;
@@ -59,6 +70,12 @@ struct ClosureCurve
   {
     if (points > 0)
       return tableWork(fit, c);
+    if (crushing.acts())
+    {
+      const Real elastic = at(fit, c).traction;
+      return crushing.workTo(crushing.crushedAt(c, fit.normalStiffness)) +
+             0.5 * elastic * elastic / fit.normalStiffness;
+    }
     if (inverseMaximumClosure <= 0)
       return 0.5 * fit.normalStiffness * c * c;
     const Real limit = cappedFrom(fit);
@@ -92,6 +109,8 @@ struct ClosureCurve
       return 0;
     if (points > 0)
       return tableClosureUnder(fit, sigma);
+    if (crushing.acts())
+      return crushing.closureUnder(sigma, fit.normalStiffness);
     const Real c = sigma / (fit.normalStiffness + sigma * inverseMaximumClosure);
     const Real limit = cappedFrom(fit);
     return c <= limit ? c : limit + (sigma - hyperbola(fit, limit)) / fit.stiffnessCap;
@@ -109,6 +128,8 @@ struct ClosureCurve
   /// Largest slope that a small step from closure c meets: at a corner of the table the next one.
   KOKKOS_INLINE_FUNCTION Real slopeAhead(const JointFit& fit, Real c) const
   {
+    if (crushing.acts())
+      return fit.normalStiffness;
     if (points == 0)
       return at(fit, c).stiffness;
     const Real slope = tableSlope(segment(c) + 1);

@@ -55,7 +55,7 @@ struct JointLaw
     fit.normalStiffness = penalty            ? stiffnessFraction / (h0 / M0 + h1 / M1)
                           : curve.points > 0 ? curve.tableSlope(0)
                                              : initialStiffness;
-    if (!curve.straight())
+    if (curve.stiffens())
     {
       const Real soft = M0 / h0 < M1 / h1 ? M0 / h0 : M1 / h1;
       const Real cap = stiffnessCap > 0 ? stiffnessCap : 0.5 * soft;
@@ -134,7 +134,7 @@ struct JointLaw
   /// Whether the closure curve has reached the cap, so that it is softer than the card says.
   bool capped(const JointFit& fit, const JointState& state) const
   {
-    return !curve.straight() && curve.slopeAhead(fit, state.maximumClosure) >= fit.stiffnessCap;
+    return curve.stiffens() && curve.slopeAhead(fit, state.maximumClosure) >= fit.stiffnessCap;
   }
 
   /// Irrecoverable part of the work of first loading to a closure [J/m^2].
@@ -269,7 +269,7 @@ private:
       state.bonded = false;
       return;
     }
-    const Real elastic = bond.kind == Bond::Kind::Linear ? opened - state.opening : opened;
+    const Real elastic = opened - bond.loss * state.opening;
     const Real q = bond.wear(state);
     if (k * elastic > bond.tensileStrength * bond.share(q))
     {
@@ -329,7 +329,11 @@ private:
     s.closure = closure + bond.permanentOpening(state);
     s.opened = close(fit, s.closure, state, response);
     if (wasBonded && response.normalTraction <= 0)
+    {
+      const Real open = bond.permanentOpening(state);
       pull(fit, s.opened, state, response);
+      s.opened -= bond.permanentOpening(state) - open;
+    }
     if (state.bonded && bond.softens() && bond.share(state) < Bond::brokenAt)
       breakBond(state, response);
     if (response.normalTraction <= 0 && !state.bonded)
@@ -351,6 +355,7 @@ private:
     if (!(s.size > s.held + s.friction * s.pressed))
     {
       state.shearTraction = s.trial;
+      crushInShear(fit, s, state, response);
       return response;
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
@@ -366,7 +371,89 @@ private:
     slide(fit, s, state, response);
     if (s.softening)
       wearBySlip(fit, s, state, response);
+    crushInShear(fit, s, state, response);
     return response;
+  }
+
+  /// Shear crushes a joint, too: brings both tractions back to the ellipse of the strength, along
+  /// its normal at the trial. What the falling compression takes from the strength of shear slips.
+  KOKKOS_INLINE_FUNCTION void crushInShear(const JointFit& fit, const SlipStart& s,
+                                           JointState& state, JointResponse& response) const
+  {
+    const Crushing& crushing = curve.crushing;
+    const Real sigma = response.normalTraction, tau = norm(state.shearTraction);
+    if (!(crushing.acts() && crushing.shearWeight > 0 && sigma > 0 && tau > 0))
+      return;
+    const Real kn = fit.normalStiffness, ks = fit.shearStiffness, weight = crushing.shearWeight;
+    const Real before = crushing.crushedAt(state.maximumClosure, kn);
+    const Real weak = crushing.strengthAt(before);
+    const Real size = std::sqrt(sigma * sigma + weight * weight * (tau * tau));
+    const Real elastic = sigma / crushing.unloading(before, kn);
+    const Real closing = (1 - crushing.loss) * (sigma / size), sliding = weight * tau / size;
+    const bool wears = state.bonded && bond.softens();
+    const Real held = wears ? bond.cohesion * bond.share(state) : s.held;
+    const auto normalAt = [&](Real x)
+    { return crushing.unloading(before + x, kn) * std::fmax(elastic - closing * x, 0.0); };
+    const auto shearAt = [&](Real x, Real normal)
+    { return std::fmin(std::fmax(tau - ks * sliding * x, 0.0), held + s.friction * normal); };
+    const auto beyond = [&](Real x)
+    {
+      const Real normal = normalAt(x), shear = shearAt(x, normal);
+      return std::sqrt(normal * normal + weight * (shear * shear)) -
+             crushing.strengthAt(before + x);
+    };
+    Real atLow = beyond(0);
+    if (!(atLow > 1e-12 * weak))
+      return;
+
+    // False position that halves the value of an end that stays (Illinois).
+    Real low = 0, high = atLow / kn, atHigh = beyond(high), x = high;
+    for (int i = 0; i < 200 && atHigh > 0; ++i)
+    {
+      low = high;
+      atLow = atHigh;
+      high *= 2;
+      x = high;
+      atHigh = beyond(high);
+    }
+    for (int i = 0, stays = 0; i < 100 && high > low; ++i)
+    {
+      x = low + (high - low) * (atLow / (atLow - atHigh));
+      const Real at = beyond(x);
+      if (std::fabs(at) <= 1e-14 * weak)
+        break;
+      const int side = at > 0 ? 1 : -1;
+      (at > 0 ? low : high) = x;
+      (at > 0 ? atLow : atHigh) = at;
+      if (side == stays)
+        (at > 0 ? atHigh : atLow) *= 0.5;
+      stays = side;
+    }
+
+    const Real crushed = before + x, strong = crushing.strengthAt(crushed);
+    const Real normal = normalAt(x), shear = shearAt(x, normal);
+    const Real ratio = weak / strong; // of the tractions at the start to those at the end
+    response.hysteresisWork += 0.5 * (1 + ratio) * normal * (closing * x) +
+                               0.5 * crushing.loss * ratio * (normal * normal) *
+                                   std::fmax(crushed / strong - before / weak, 0.0);
+    // Work of all slip of the step, less what of it is booked.
+    const Real carried = dot(s.before, s.trial) / s.size;
+    const Real more = (carried + shear) * (s.size - shear) - (carried + tau) * (s.size - tau);
+    if (ks > 0)
+    {
+      const Real slipped = (tau - shear) / ks;
+      state.slip += slipped;
+      if (wears)
+        state.shearing += std::fmax(slipped - sliding * x, 0.0);
+      response.frictionWork += std::fmax(0.5 * more / ks, 0.0);
+    }
+    state.shearTraction = (shear / tau) * state.shearTraction;
+    state.maximumClosure = crushed + strong / kn;
+    response.normalTraction = normal;
+    response.normalStiffness = crushing.unloading(crushed, kn);
+    response.crushedByShear = true;
+    response.dilation += (1 - crushing.loss) * x - closing * x; // what is crushed and not closed
+    response.slipping = true;
   }
 
   /// Slip with dilation and softening; its work.
@@ -433,7 +520,7 @@ private:
   KOKKOS_INLINE_FUNCTION void wearBySlip(const JointFit& fit, const SlipStart& s, JointState& state,
                                          JointResponse& response) const
   {
-    if (response.normalTraction < 0 && bond.kind == Bond::Kind::Linear)
+    if (response.normalTraction < 0 && bond.loss > 0)
     {
       const Real secant = bond.tensionStiffness(fit.normalStiffness, state);
       const Real tension = -secant * s.opened;

@@ -107,6 +107,13 @@ struct BondParameters : CoulombParameters
 };
 struct MortarParameters : BondParameters ///< exponential softening
 {
+  Real compressiveStrength = 0;   ///< f_m [Pa]; 0: never crushed
+  Real compressionEnergy = 0;     ///< G_fc, after the peak and above the residual [J/m^2]
+  Real peakCrushing = 0;          ///< inelastic closure at the peak [m]
+  Real residualCompression = 0.1; ///< of the strength that is left in the end [-]
+  Real shearInCrushing = 9;       ///< C_ss of sigma^2 + C_ss tau^2 = f_m^2 [-]
+  Real stiffnessLoss = 0;         ///< part of inelastic displacements that unloading gives back [-]
+
   static JointModel model();
 };
 JointLaw makeLaw(const MortarParameters& parameters);

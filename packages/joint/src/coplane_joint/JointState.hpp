@@ -16,7 +16,8 @@ struct JointFit
 /// History of a plane.
 struct JointState
 {
-  Real maximumClosure = 0; ///< largest closure so far [m]
+  Real maximumClosure = 0; ///< largest closure so far; of a joint that is crushed, that which
+                           ///< first loading without shear needs to crush it as much [m]
   Vec3 shearTraction{};    ///< on the face with the higher id [Pa]
   Real slip = 0;           ///< length of the slip path [m]
   Real opening = 0;        ///< inelastic opening [m]
@@ -35,5 +36,6 @@ struct JointResponse
   Real hysteresisWork = 0; ///< of the closure curve [J/m^2]
   Real dilation = 0; ///< by which the plane's offset rises in this step [m]; the tractions are
                      ///< those at the raised offset
+  bool crushedByShear = false; ///< and the maximum closure raised by it
 };
 } // namespace coplane

@@ -377,7 +377,7 @@ private:
       plane.maximumBefore = state.maximumClosure;
     }
     else if (!law.curve.straight())
-      loadCurve(plane, i, opposedness * share, state);
+      loadCurve(plane, i, area, opposedness * share, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -398,15 +398,14 @@ private:
 
   /// The maximum closure of the next cycle; what it costs is booked half with the area of this
   /// cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare,
-                                             JointState& state) const
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
+                                             const JointResponse& response, JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
     const Real wholeArea = branchFree::lane(pair_.moments.area, i),
                volume = branchFree::lane(pair_.moments.volume, i),
                squares = branchFree::lane(pair_.moments.squares, i);
     const Real before = plane.history.maximumClosure;
-    state.maximumClosure = before;
     if (plane.maximumBefore < before)
       plane.hysteresisWork +=
           plane.halfHysteresis + 0.5 * energyShare *
@@ -414,6 +413,14 @@ private:
                                                    wholeArea, volume, squares);
     plane.maximumBefore = before;
     plane.halfHysteresis = 0;
+    if (response.crushedByShear)
+    {
+      // Crushed by shear, for which the law knows the work; part of it is in the offset.
+      plane.hysteresisWork += area * response.hysteresisWork;
+      plane.maximumBefore = state.maximumClosure;
+      return;
+    }
+    state.maximumClosure = before;
     const Real reached = permanents_[i] + squares / volume;
     if (!(reached > before))
       return;
