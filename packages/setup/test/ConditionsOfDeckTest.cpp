@@ -29,8 +29,8 @@ conditions:
     EXPECT_EQ(moved.places[i].x, model.mesh.coordinates[moved.nodes[i]].x);
     EXPECT_DOUBLE_EQ(moved.field[1](2, moved.places[i]), moved.places[i].x + 2);
   }
-  EXPECT_TRUE(displaced.isDisplacement);
-  EXPECT_DOUBLE_EQ(displaced.speed(displaced.velocity[1], 1, 0.1), 0.5);
+  EXPECT_EQ(displaced.of, PrescribedVelocity::Of::Displacement);
+  EXPECT_DOUBLE_EQ(displaced.speed(displaced.velocity[1], {0.95, 0.1, 0.1}, 0), 0.5);
   ASSERT_EQ(conditions.symmetries.size(), 1u);
   EXPECT_DOUBLE_EQ(conditions.symmetries[0].normal.x, 1); // made a unit vector
 }
