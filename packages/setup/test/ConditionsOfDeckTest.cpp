@@ -35,6 +35,19 @@ conditions:
   EXPECT_DOUBLE_EQ(conditions.symmetries[0].normal.x, 1); // made a unit vector
 }
 
+TEST(ConditionsOfDeck, accelerationsByAScaledTable)
+{
+  const Model model = modelOf("define: {a: 3}\n" + blocksOfTwo + R"(
+conditions:
+  - {type: acceleration, node_set: lid, components: [x], value: [{times: [0, 2], values: [0, 1], scale: a/2}, 0, 0]}
+)");
+  ASSERT_EQ(model.conditions.velocities.size(), 1u);
+  const PrescribedVelocity& shaken = model.conditions.velocities[0];
+  EXPECT_EQ(shaken.of, PrescribedVelocity::Of::Acceleration);
+  EXPECT_DOUBLE_EQ(shaken.velocity[0](1), 0.75);
+  EXPECT_DOUBLE_EQ(shaken.speed(shaken.velocity[0], {1, 0.1, 0.05}, 2), 2.075);
+}
+
 TEST(ConditionsOfDeck, loadsOnSides)
 {
   const Model model = modelOf(blocksOfTwo + R"(
