@@ -30,13 +30,14 @@ def motion():
 def table():
     """Times and values as they stand in the deck; before START the ground rests."""
     made = motion()
-    return [0.0] + [round(float(t) + START, 4) for t in made.times], [0.0] + [round(float(a), 5) for a in made.acceleration]
+    rest = [0.0, START - 1e-6]  # its first value is not quite zero: the ground must not creep up to it
+    return rest + [round(float(t) + START, 4) for t in made.times], [0.0, 0.0] + [round(float(a), 5) for a in made.acceleration]
 
 
 def main():
     times, values = table()
     text = (HERE / "deck.yaml").read_text()
-    line = "      times: [" + ", ".join(f"{t:g}" for t in times) + "]\n      values: [" + ", ".join(f"{a:g}" for a in values) + "]\n"
+    line = "      times: [" + ", ".join(f"{t:.9g}" for t in times) + "]\n      values: [" + ", ".join(f"{a:g}" for a in values) + "]\n"
     (HERE / "deck.yaml").write_text(re.sub(r" {6}times: .*\n {6}values: .*\n", line, text))
 
 

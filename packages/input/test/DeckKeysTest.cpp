@@ -87,6 +87,7 @@ conditions:
   - {type: displacement, node_set: a, value: [0, 0, 0]}
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
   - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
+  - {type: acceleration, node_set: a, value: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
@@ -248,6 +249,7 @@ std::string cardFor(const Key& group, const Key& key)
            : key.appliesTo("displacement") ? ".6"
            : key.appliesTo("rigid_motion") ? ".7"
            : key.appliesTo("air_blast")    ? ".8"
+           : key.appliesTo("acceleration") ? ".9"
                                            : ".0";
   if (group.name == "probes")
     return key.name == "block" || key.name == "variables" ? ".1"
