@@ -193,9 +193,9 @@ std::string show(const Deck& d)
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
-    showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.normal, k.pressure,
-            k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass, k.chargePlace,
-            k.detonationTime, k.from, k.until);
+    showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.acceleration, k.normal,
+            k.pressure, k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass,
+            k.chargePlace, k.detonationTime, k.from, k.until);
   for (const auto& i : d.initial)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
