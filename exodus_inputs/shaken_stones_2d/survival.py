@@ -20,14 +20,14 @@ import coplane
 
 DEFAULT = [1, 1.5, 2, 2.25, 2.5, 2.75, 3, 4]
 PROBES = {"portal": ("crown", 3.6), "tower": ("top", 6.0)}  # probe and its height [m]
-FALLEN = 1.0  # a crown that has come down by this has fallen [m]
+FALLEN, LOST = 1.0, 0.2  # a crown that has come down by this [m], or is left this far over its height aside, has fallen
 
 
 def outcome(history, structure):
     """Largest and last drift against the ground over the height [-], and whether it stands."""
     probe, height = PROBES[structure]
     drift = numpy.abs(history[f"{probe}_displacement_x"] - history["ground_displacement_x"]) / height
-    return float(drift.max()), float(drift[-1]), bool(history[f"{probe}_displacement_y"][-1] > -FALLEN)
+    return float(drift.max()), float(drift[-1]), bool(history[f"{probe}_displacement_y"][-1] > -FALLEN and drift[-1] < LOST)
 
 
 def run(acceleration, folder):
