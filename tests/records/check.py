@@ -126,5 +126,7 @@ with warnings.catch_warnings(record=True) as warned:
     warnings.simplefilter("always")
     drifting.velocity_table()
 case.check_equal("a record that does not come to rest", ["the ground goes on with" in str(w.message) for w in warned], [True])
+told("an axis of a wave", lambda: fixed.enter(deck, "base", axis="north"), "x, y or z")
+told("what a record is of", lambda: fixed.enter(deck, "base", of="within"), "outcrop or wave")
 told("an axis", lambda: fixed.shake(deck, "base", axis="north"), "x, y or z")
 case.finish()

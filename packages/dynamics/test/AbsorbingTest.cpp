@@ -90,6 +90,68 @@ TEST(AbsorbingSides, stopARigidBodyByTheirImpedance)
   EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
 }
 
+TEST(AbsorbingSides, carryWhatASupportHasCarriedBeforeThem)
+{
+  // A column under gravity in balance with its weight, on a base that is held until 0.01 s, a time
+  // between two steps, and absorbs from then on. It has neither the weight nor a stress in its
+  // sides: they go on with the reactions. Held by components, or by rollers.
+  for (const bool rollers : {false, true})
+  {
+    const Comm comm;
+    Model model = rockModel(unitBox(1, 1, 3), comm);
+    const auto base = [](const Vec3& x) { return x.z == 0; };
+    model.conditions.gravity = {0, 0, -10};
+    model.blocks[0].stressGradient = {{0, 0, 1e4, 0, 0, 0}, {0, 0, 3}, {0, 0, 1}};
+    const std::vector<int> nodes = ownedNodesWhere(model.mesh, base);
+    if (rollers)
+      model.conditions.symmetries = {{nodes, {0, 0, 1}, {0, 0.01}}};
+    else
+    {
+      PrescribedVelocity fixed;
+      fixed.nodes = nodes;
+      fixed.when.until = 0.01;
+      model.conditions.velocities = {fixed};
+    }
+    model.conditions.absorbing = {absorbingWhere(model.mesh, {}, base)};
+    model.conditions.absorbing[0].when.from = 0.01;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    while (solver.clock().time < 0.05)
+      solver.advance();
+    EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-12);
+    EXPECT_LT(norm(solver.momenta().linearError()), 1e-10);
+  }
+}
+
+TEST(AbsorbingSides, thatCarryASupportStillLetWavesOut)
+{
+  // The same column, given a push along when the base is held no more: it loses it by dashpots
+  // alone, z A v, and stays where it then is.
+  const Comm comm;
+  Model model = rockModel(unitBox(1, 1, 1), comm);
+  const auto base = [](const Vec3& x) { return x.z == 0; };
+  model.conditions.gravity = {0, 0, -10};
+  PrescribedVelocity fixed;
+  fixed.nodes = ownedNodesWhere(model.mesh, base);
+  fixed.when.until = 0.5;
+  model.conditions.velocities = {fixed};
+  model.conditions.localDamping = 0.8;
+  model.conditions.dampingUntil = 0.5;
+  model.conditions.absorbing = {absorbingWhere(model.mesh, {}, base)};
+  model.conditions.absorbing[0].when.from = 0.5;
+  model.conditions.absorbing[0].incident =
+      VectorOfTime({OfTime(), OfTime(), [](Real t) { return t > 0.6 && t < 0.65 ? 0.02 : 0; }});
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  while (solver.clock().time < 0.9)
+    solver.advance();
+  EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
+  Real rise = 0;
+  for (const int n : ownedNodesWhere(solver.mesh(), [](const Vec3&) { return true; }))
+    rise = std::max(rise, solver.state().x(n, 2) - solver.state().reference(n, 2));
+  EXPECT_NEAR(comm.max(rise), 2 * 0.02 * 0.05, 2e-5);
+}
+
 TEST(AbsorbingSides, doNotShortenTheStepHoweverStiffTheyAre)
 {
   // With twenty times the impedance of the rock dt C / m is above 20; a force from the old velocity

@@ -234,7 +234,7 @@ TEST(PrescribedVelocity, asDisplacementBringsNodesThereWithoutDrift)
   addBox(mesh, "cube", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
   Model model = rockModel(mesh, comm);
   PrescribedVelocity shaken;
-  shaken.isDisplacement = true;
+  shaken.of = PrescribedVelocity::Of::Displacement;
   shaken.nodes = ownedNodesWhere(model.mesh, [](const Vec3&) { return true; });
   for (const int n : shaken.nodes)
     shaken.places.push_back(model.mesh.coordinates[n]);
@@ -251,6 +251,68 @@ TEST(PrescribedVelocity, asDisplacementBringsNodesThereWithoutDrift)
     const Vec3 start = at(solver.state().reference, n);
     EXPECT_NEAR(solver.state().x(n, 0) - start.x, (1 + start.z) * u, 1e-14);
   }
+}
+
+TEST(PrescribedVelocity, asAccelerationIsKickedAsByAForce)
+{
+  // a = 6 t: after n kicks, the first of half a step at t = 0, the velocity has grown by the sum of
+  // 6 k dt^2, 3 n (n + 1) dt^2, and x by v0 n dt and the sum of that, dt^3 (n - 1) n (n + 1). All
+  // of this is exact for a step that is a power of two. The same for a rigid body.
+  for (const bool rigid : {false, true})
+  {
+    const Comm comm;
+    Mesh mesh = unitBox(1, 1, 1);
+    Model model = rockModel(mesh, comm);
+    model.blocks[0].velocity = {0.5, 0, 0};
+    model.blocks[0].rigid = rigid;
+    if (rigid)
+      model.rigidBodyOfNode = std::vector<int>(std::size_t(model.mesh.nodes()), 0);
+    PrescribedVelocity shaken;
+    shaken.of = PrescribedVelocity::Of::Acceleration;
+    shaken.nodes = ownedNodesWhere(model.mesh, everywhere);
+    shaken.components = {true, false, false};
+    shaken.velocity[0] = [](Real t) { return 6 * t; };
+    model.conditions.velocities = {shaken};
+    const Real dt = 1.0 / 8192;
+    model.time.fixedStep = dt;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    cycles(solver, 20);
+    const Real exact = rigid ? 1e-15 : 0; // velocities of its nodes are differences of places
+    for (int n = 0; n < solver.layout().owned(); ++n)
+    {
+      EXPECT_NEAR(solver.state().v(n, 0), 0.5 + 3 * 20 * 21 * dt * dt, 1e4 * exact);
+      EXPECT_NEAR(solver.state().x(n, 0) - solver.state().reference(n, 0),
+                  0.5 * 20 * dt + 19 * 20 * 21 * dt * dt * dt, exact);
+    }
+    EXPECT_NEAR(solver.momenta().linear.x, 1000 * (0.5 + 3 * 20 * 21 * dt * dt), 1e-9);
+    EXPECT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+  }
+}
+
+TEST(PrescribedVelocity, asAccelerationOutlivesStopsOfKineticDamping)
+{
+  // Everything stops at peaks of the kinetic energy, but not what is prescribed: the base of a soft
+  // block that swings keeps the velocity of its acceleration.
+  const Comm comm;
+  Model model = rockModel(unitBox(1, 1, 2), comm);
+  model.blocks[0].material = makeLinearElastic(1e5, 0.25, 1000);
+  PrescribedVelocity shaken;
+  shaken.of = PrescribedVelocity::Of::Acceleration;
+  shaken.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z == 0; });
+  for (const int n : shaken.nodes)
+    shaken.places.push_back(model.mesh.coordinates[n]);
+  shaken.field[0] = [](Real, const Vec3& x) { return x.z == 0 ? 1e-3 : 0.0; };
+  model.blocks[0].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z}; };
+  model.conditions.velocities = {shaken};
+  model.conditions.relaxation.kinetic = true;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 300);
+  ASSERT_GT(solver.relaxation().stops, 0);
+  const Real middle = solver.clock().time + 0.5 * solver.clock().nextStep;
+  for (const int n : shaken.nodes)
+    EXPECT_NEAR(solver.state().v(n, 0), 1e-3 * middle, 1e-15);
 }
 
 TEST(FacePressure, mayVaryFromFaceToFace)

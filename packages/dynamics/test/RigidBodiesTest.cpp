@@ -282,7 +282,7 @@ TEST(RigidBodies, cannotBeHeldInPart)
     EXPECT_TRUE(error.onAllRanks());
     EXPECT_EQ(
         std::string(error.what()),
-        "conditions: a condition of type fixed or velocity holds 9 of the 36 nodes of a rigid "
+        "conditions: a condition on velocities holds 9 of the 36 nodes of a rigid "
         "body with its centre at (5.5, 1, 2) m; accepted: all of them or none. Use a node set "
         "with the whole block.");
   }

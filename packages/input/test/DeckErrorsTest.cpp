@@ -77,6 +77,10 @@ TEST(DeckErrors, tablesHaveAsManyTimesAsValuesAndTimesRise)
   EXPECT_EQ(errorOfGravity("{times: [0, 1]}"),
             "wall.yaml:5:14: gravity.1.values is missing; accepted: a table has times [s] and "
             "values, as in {times: [0, 0.01], values: [0, 1]}.");
+  EXPECT_EQ(errorOfGravity("{times: [0, 1], values: [0, -10], scale: big}"),
+            "wall.yaml:5:55: gravity.1.scale = 'big' is not a number; accepted: a number.");
+  EXPECT_EQ(errorOfGravity("{times: [0, 1], values: [0, -10], factor: 2}"),
+            "wall.yaml:5:48: gravity.1.factor is not known. Accepted here: times, values, scale.");
 }
 
 TEST(DeckErrors, rigidBlocksNeitherErodeNorCarryStress)

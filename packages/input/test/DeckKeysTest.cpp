@@ -87,6 +87,7 @@ conditions:
   - {type: displacement, node_set: a, value: [0, 0, 0]}
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
   - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
+  - {type: acceleration, node_set: a, value: [0, 0, 0]}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
@@ -198,9 +199,9 @@ std::string show(const Deck& d)
   for (const auto& p : c.pairs)
     showAll(out, p.blocks, p.materials, p.sideSets, p.jointSet, p.joint, p.declared, p.excluded);
   for (const auto& k : d.conditions)
-    showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.normal, k.pressure,
-            k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass, k.chargePlace,
-            k.detonationTime, k.from, k.until);
+    showAll(out, k.type, k.set, k.components, k.velocity, k.displacement, k.acceleration, k.normal,
+            k.pressure, k.traction, k.incident, k.translation, k.spin, k.burst, k.chargeMass,
+            k.chargePlace, k.detonationTime, k.from, k.until);
   for (const auto& i : d.initial)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
@@ -264,6 +265,7 @@ std::string cardFor(const Key& group, const Key& key)
            : key.appliesTo("displacement") ? ".6"
            : key.appliesTo("rigid_motion") ? ".7"
            : key.appliesTo("air_blast")    ? ".8"
+           : key.appliesTo("acceleration") ? ".9"
                                            : ".0";
   if (group.name == "probes")
     return key.name == "block" || key.name == "variables" ? ".1"

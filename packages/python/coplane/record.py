@@ -1,4 +1,4 @@
-"""Records of earthquakes: read, corrected, filtered, integrated, and put into a deck as the velocity of its base.
+"""Records of earthquakes: read, corrected, filtered, integrated, and put into a deck as the velocity of its base or as a wave from below.
 
     from coplane import record
     ground = record.read("station.AT2").scaled(peak=3.0).corrected()
@@ -155,14 +155,33 @@ class Record:
         """
         if axis not in ("x", "y", "z"):
             raise ValueError(f"shake: axis = {axis!r}; accepted: x, y or z.")
+        value = self._vector(axis, start)
+        _add(deck, {"type": "velocity", "node_set": node_set, "components": [axis], "value": value})
+
+    def enter(self, deck, side_set, axis="x", start=0.0, of="outcrop"):
+        """Adds an absorbing side to a Deck, through which the record comes in as a wave, from `start` [s] on.
+
+        of: "outcrop": the record is the motion of a free surface of the ground below, twice the wave that comes up; "wave": it is that wave.
+        """
+        if axis not in ("x", "y", "z"):
+            raise ValueError(f"enter: axis = {axis!r}; accepted: x, y or z.")
+        if of not in ("outcrop", "wave"):
+            raise ValueError(f"enter: of = {of!r}; accepted: outcrop or wave.")
+        wave = self.scaled(0.5) if of == "outcrop" else self
+        _add(deck, {"type": "absorbing", "side_set": side_set, "incident": wave._vector(axis, start)})
+
+    def _vector(self, axis, start):
+        """Velocity along an axis, as a value of a deck."""
         table = {key: _in_one_line(values) for key, values in self.velocity_table(start).items()}
-        value = [table if axis == one else 0 for one in "xyz"]
-        condition = {"type": "velocity", "node_set": node_set, "components": [axis], "value": value}
-        there = deck.get("conditions")
-        if there:
-            deck[f"conditions.{len(there)}"] = condition
-        else:
-            deck["conditions"] = [condition]
+        return [table if axis == one else 0 for one in "xyz"]
+
+
+def _add(deck, condition):
+    there = deck.get("conditions")
+    if there:
+        deck[f"conditions.{len(there)}"] = condition
+    else:
+        deck["conditions"] = [condition]
 
 
 def _in_one_line(values):

@@ -29,10 +29,23 @@ conditions:
     EXPECT_EQ(moved.places[i].x, model.mesh.coordinates[moved.nodes[i]].x);
     EXPECT_DOUBLE_EQ(moved.field[1](2, moved.places[i]), moved.places[i].x + 2);
   }
-  EXPECT_TRUE(displaced.isDisplacement);
-  EXPECT_DOUBLE_EQ(displaced.speed(displaced.velocity[1], 1, 0.1), 0.5);
+  EXPECT_EQ(displaced.of, PrescribedVelocity::Of::Displacement);
+  EXPECT_DOUBLE_EQ(displaced.speed(displaced.velocity[1], {0.95, 0.1, 0.1}, 0), 0.5);
   ASSERT_EQ(conditions.symmetries.size(), 1u);
   EXPECT_DOUBLE_EQ(conditions.symmetries[0].normal.x, 1); // made a unit vector
+}
+
+TEST(ConditionsOfDeck, accelerationsByAScaledTable)
+{
+  const Model model = modelOf("define: {a: 3}\n" + blocksOfTwo + R"(
+conditions:
+  - {type: acceleration, node_set: lid, components: [x], value: [{times: [0, 2], values: [0, 1], scale: a/2}, 0, 0]}
+)");
+  ASSERT_EQ(model.conditions.velocities.size(), 1u);
+  const PrescribedVelocity& shaken = model.conditions.velocities[0];
+  EXPECT_EQ(shaken.of, PrescribedVelocity::Of::Acceleration);
+  EXPECT_DOUBLE_EQ(shaken.velocity[0](1), 0.75);
+  EXPECT_DOUBLE_EQ(shaken.speed(shaken.velocity[0], {1, 0.1, 0.05}, 2), 2.075);
 }
 
 TEST(ConditionsOfDeck, loadsOnSides)

@@ -96,23 +96,6 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
       const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);
       addToCorners(face.side, ownedNodes, external, [&](int k) { return -pressure * areas[k]; });
     }
-  for (const AbsorbingBoundary& boundary : absorbing)
-  {
-    if (!boundary.when.holds(t))
-      continue;
-    const Vec3 incident = boundary.incident(t);
-    for (const AbsorbingSide& face : boundary.sides)
-    {
-      const std::array<Vec3, 4> areas = presentAreas(dimension, face.side, state.x, axisymmetric);
-      const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
-      const Vec3 along = dot(incident, normal) * normal;
-      const Vec3 wave =
-          2.0 * (face.normalImpedance * along + face.shearImpedance * (incident - along));
-      addToCorners(face.side, ownedNodes, external,
-                   [&](int k)
-                   { return dot(face.stress[k], areas[k]) + dot(areas[k], normal) * wave; });
-    }
-  }
 }
 
 void Conditions::clearConstrained(Real t, const std::vector<Projection>& fromSymmetry,
@@ -186,10 +169,11 @@ void Conditions::takeFaceLoads(const Conditions& from)
 
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const
 {
-  prescribeVelocities(t, 0, v, projections(t));
+  prescribeVelocities({t, 0, 0}, v, v, projections(t));
 }
 
-void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
+void Conditions::prescribeVelocities(const KickTimes& times, const ConstNodeVectors& before,
+                                     const NodeVectors& v,
                                      const std::vector<Projection>& fromSymmetry) const
 {
   for (const Projection& projection : fromSymmetry)
@@ -200,31 +184,38 @@ void Conditions::prescribeVelocities(Real t, Real dt, const NodeVectors& v,
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
     {
-      if (!condition.components[c] || !condition.when.holds(t))
+      if (!condition.components[c] || !condition.when.holds(times.middle()))
         continue;
-      if (condition.isDisplacement && !(dt > 0))
+      const bool accelerates = condition.of == PrescribedVelocity::Of::Acceleration;
+      if (condition.of != PrescribedVelocity::Of::Velocity && !(times.step > 0))
         continue; // at the start: the velocities that are given there
-      if (const OfTimeAndPlace& field = condition.field[c])
-      {
-        for (std::size_t i = 0; i < condition.nodes.size(); ++i)
-          v(condition.nodes[i], c) =
-              condition.speed([&](Real time) { return field(time, condition.places[i]); }, t, dt);
-        continue;
-      }
+      const OfTimeAndPlace& field = condition.field[c];
       const OfTime& function = condition.velocity[c];
-      const Real value = function ? condition.speed(function, t, dt) : 0;
-      for (const int n : condition.nodes)
-        v(n, c) = value;
+      const Real everywhere = function ? condition.speed(function, times, 0) : 0;
+      for (std::size_t i = 0; i < condition.nodes.size(); ++i)
+      {
+        const int n = condition.nodes[i];
+        const Real value =
+            field ? condition.speed([&](Real t) { return field(t, condition.places[i]); }, times, 0)
+                  : everywhere;
+        v(n, c) = accelerates ? before(n, c) + value : value;
+      }
     }
 }
 
-void Conditions::keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const
+void Conditions::keepPrescribed(const KickTimes& times, const ConstNodeVectors& from,
+                                const NodeVectors& to) const
 {
   for (const PrescribedVelocity& condition : velocities)
     for (int c = 0; c < 3; ++c)
-      if (condition.components[c] && condition.when.holds(t))
-        for (const int n : condition.nodes)
+      if (condition.components[c] && condition.when.holds(times.middle()))
+        for (std::size_t i = 0; i < condition.nodes.size(); ++i)
+        {
+          const int n = condition.nodes[i];
           to(n, c) = from(n, c);
+          if (condition.of == PrescribedVelocity::Of::Acceleration)
+            to(n, c) -= 0.5 * times.step * condition.at(c, i, times.t);
+        }
 }
 
 std::vector<int> Conditions::constrainedNodes() const

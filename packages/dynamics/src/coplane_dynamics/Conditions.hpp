@@ -42,8 +42,8 @@ private:
   std::array<OfTime, 3> functions_;
 };
 
-/// When a condition acts: from <= t < until [s]. Loads are asked at the ends of steps, motions in
-/// their middles.
+/// When a condition acts: from <= t < until [s]. Loads are asked at the ends of steps, motions and
+/// absorbing sides in their middles, so that one follows the other without a gap.
 struct Window
 {
   Real from = 0, until = infinity;
@@ -56,25 +56,51 @@ struct Window
   bool overlaps(const Window& other) const { return from < other.until && other.from < until; }
 };
 
-/// Given velocity of some components, or given displacement; zero fixes them.
+/// A kick and the step that follows it.
+struct KickTimes
+{
+  Real t;    ///< at n, when it happens [s]
+  Real kick; ///< from n - 1/2 to n + 1/2 [s]
+  Real step; ///< dt(n+1/2), from n to n + 1; 0: the start, where velocities are given [s]
+  Real middle() const { return t + 0.5 * step; }
+};
+
+/// Given velocity of some components, or given displacement or acceleration; zero fixes them.
 struct PrescribedVelocity
 {
-  bool isDisplacement = false; ///< the functions are displacements [m]
-  std::vector<int> nodes;      ///< owned local nodes
+  enum class Of
+  {
+    Velocity,     ///< [m/s], at n + 1/2
+    Displacement, ///< [m], at n and n + 1
+    Acceleration  ///< [m/s^2], at n: v(n+1/2) = v(n-1/2) + kick a(t_n), as of a force
+  };
+  Of of = Of::Velocity;   ///< what the functions are
+  std::vector<int> nodes; ///< owned local nodes
   std::array<bool, 3> components{true, true, true};
-  std::array<OfTime, 3> velocity;      ///< [m/s]; only those of the chosen components are called
+  std::array<OfTime, 3> velocity;      ///< of time; only those of the chosen components are called
   std::array<OfTimeAndPlace, 3> field; ///< instead of `velocity` where it varies with the place
   std::vector<Vec3> places;            ///< of the nodes at the start, where there is a field [m]
   Window when{};
 
   bool hasField() const { return field[0] || field[1] || field[2]; }
-  /// Mean speed from t - dt/2 to t + dt/2 of a displacement, speed at t of a velocity [m/s].
-  template <class F>
-  Real speed(const F& function, Real t, Real dt) const
+  /// Value of component c for the i-th node at t; zero without a function.
+  Real at(int c, std::size_t i, Real t) const
   {
-    if (!isDisplacement)
-      return function(t);
-    return dt > 0 ? (function(t + 0.5 * dt) - function(t - 0.5 * dt)) / dt : 0;
+    return field[c] ? field[c](t, places[i]) : velocity[c] ? velocity[c](t) : 0;
+  }
+  /// v(n+1/2) of a component [m/s].
+  /// @param before v(n-1/2); at a start the velocity that is given there [m/s]
+  template <class F>
+  Real speed(const F& function, const KickTimes& times, Real before) const
+  {
+    if (of == Of::Velocity)
+      return function(times.middle());
+    if (!(times.step > 0))
+      return before;
+    if (of == Of::Acceleration)
+      return before + times.kick * function(times.t);
+    const Real middle = times.middle(), half = 0.5 * times.step;
+    return (function(middle + half) - function(middle - half)) / times.step;
   }
 };
 
@@ -147,7 +173,8 @@ struct AirBlast
 ///
 ///     t = sigma0 n - z_n (v - 2 v_in)_normal - z_s (v - 2 v_in)_tangential
 ///
-/// Plane waves that arrive along the normal leave without reflection.
+/// Plane waves that arrive along the normal leave without reflection. What another condition has
+/// held until then goes on with that reaction in place of sigma0 (Dashpots).
 struct AbsorbingSide
 {
   LoadedSide side;
@@ -202,7 +229,7 @@ struct Conditions
   RelaxationOptions relaxation;
 
   /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
-  /// air blasts, and of absorbing sides what does not depend on the velocity.
+  /// air blasts. Those of absorbing sides: Dashpots.
   /// @param dt of the step that ends at t: air blasts push with their mean over that time around t
   void applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const;
 
@@ -218,10 +245,10 @@ struct Conditions
   /// Overwrites prescribed velocities; where symmetry planes and prescribed components meet, the
   /// latter win.
   void prescribeVelocities(Real t, const NodeVectors& v) const;
-  /// The same with projections(t) at hand, for a call in every cycle.
-  /// @param t in the middle of the step [s]; dt: its length [s]
-  void prescribeVelocities(Real t, Real dt, const NodeVectors& v,
-                           const std::vector<Projection>& fromSymmetry) const;
+  /// The same with the projections of the middle of the step at hand, for a call in every cycle.
+  /// @param before velocities at n - 1/2
+  void prescribeVelocities(const KickTimes& times, const ConstNodeVectors& before,
+                           const NodeVectors& v, const std::vector<Projection>& fromSymmetry) const;
 
   /// Loads end with the elements that carried them.
   /// @param deadElements ids, sorted
@@ -230,8 +257,10 @@ struct Conditions
   /// The loads on faces of other conditions, on all faces that those have.
   void takeFaceLoads(const Conditions& from);
 
-  /// Copies the components of velocities that are prescribed at t.
-  void keepPrescribed(Real t, const ConstNodeVectors& from, const NodeVectors& to) const;
+  /// Copies the components of velocities that are prescribed; those of an acceleration are taken
+  /// back to n, from where a start with half a step goes on.
+  void keepPrescribed(const KickTimes& times, const ConstNodeVectors& from,
+                      const NodeVectors& to) const;
 
   /// What the symmetry planes that act at t forbid, node by node: the normals of planes that meet
   /// at a node are made orthogonal (Gram and Schmidt), so that taking them out one after the other

@@ -28,18 +28,32 @@ Dashpots::Dashpots(const Conditions& conditions, int ownedNodes) : positions_(ow
       nodes_.push_back(n);
     }
   matrices_.resize(nodes_.size());
+  acts_.assign(nodes_.size(), 0);
+  initial_.assign(nodes_.size(), Vec3{});
+  supports_.assign(nodes_.size(), Vec3{});
 }
 
-void Dashpots::find(int dimension, const Conditions& conditions, Real t, const ConstNodeVectors& x)
+void Dashpots::act(int dimension, const Conditions& conditions, Real t, Real middle,
+                   const std::vector<Vec3>& released, const ConstNodeVectors& x,
+                   const NodeVectors& external)
 {
+  const std::vector<Vec3> before = initial_;
   matrices_.assign(nodes_.size(), SymTensor{});
+  acts_.assign(nodes_.size(), 0);
+  initial_.assign(nodes_.size(), Vec3{});
   for (const AbsorbingBoundary& boundary : conditions.absorbing)
-    for (const AbsorbingSide& face :
-         boundary.when.holds(t) ? boundary.sides : std::vector<AbsorbingSide>())
+  {
+    if (!boundary.when.holds(middle))
+      continue;
+    const Vec3 incident = boundary.incident(t);
+    for (const AbsorbingSide& face : boundary.sides)
     {
       const std::array<Vec3, 4> areas = cornerAreas(dimension, cornersAt(x, face.side).x,
                                                     face.side.count, conditions.axisymmetric);
       const Vec3 n = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      const Vec3 along = dot(incident, n) * n;
+      const Vec3 wave =
+          2.0 * (face.normalImpedance * along + face.shearImpedance * (incident - along));
       for (int k = 0; k < face.side.count; ++k)
       {
         const int node = face.side.nodes[k];
@@ -48,15 +62,29 @@ void Dashpots::find(int dimension, const Conditions& conditions, Real t, const C
         const Real area = dot(areas[k], n);
         const Real shear = area * face.shearImpedance;
         const Real rest = area * (face.normalImpedance - face.shearImpedance);
-        SymTensor& c = matrices_[positions_[node]];
+        const std::size_t i = std::size_t(positions_[node]);
+        SymTensor& c = matrices_[i];
         c.xx += shear + rest * n.x * n.x;
         c.yy += shear + rest * n.y * n.y;
         c.zz += shear + rest * n.z * n.z;
         c.xy += rest * n.x * n.y;
         c.yz += rest * n.y * n.z;
         c.zx += rest * n.z * n.x;
+        const Vec3 initial = dot(face.stress[k], areas[k]);
+        acts_[i] = 1;
+        initial_[i] += initial;
+        set(external, node, at(external, node) + (initial + area * wave));
       }
     }
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    if (!acts_[i])
+      continue;
+    if (const Vec3& force = released[i]; force.x != 0 || force.y != 0 || force.z != 0)
+      supports_[i] += force - (initial_[i] - before[i]);
+    set(external, nodes_[i], at(external, nodes_[i]) + supports_[i]);
+  }
 }
 
 void Dashpots::kick(Real dt, Real massDamping, const ConstArray<Real>& mass,
@@ -88,6 +116,47 @@ void Dashpots::book(const ConstNodeVectors& vOld, const ConstNodeVectors& v,
 {
   for (const int n : nodes_)
     set(external, n, at(external, n) - 0.5 * drag(n, at(vOld, n) + at(v, n)));
+}
+
+namespace
+{
+constexpr const char* supportsTable = "nodes/former_supports";
+const std::vector<std::string> supportsColumns{"support_x", "support_y", "support_z",
+                                               "initial_x", "initial_y", "initial_z"};
+} // namespace
+
+void Dashpots::save(const std::vector<GlobalId>& ids, StateTables& out) const
+{
+  KeyedRows rows;
+  rows.columns = supportsColumns;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    Real* row = rows.add({ids[std::size_t(nodes_[i])]});
+    for (int c = 0; c < 3; ++c)
+    {
+      row[c] = supports_[i][c];
+      row[3 + c] = initial_[i][c];
+    }
+  }
+  out.rows(supportsTable, rows);
+}
+
+void Dashpots::restore(const std::vector<GlobalId>& ids, const StateSource& in)
+{
+  if (!in.has(supportsTable))
+    return; // of a checkpoint that is older than supports that last
+  std::vector<GlobalId> mine;
+  for (const int node : nodes_)
+    mine.push_back(ids[std::size_t(node)]);
+  // Sides that a stage makes absorbing had no such force before.
+  const KeyedRows rows =
+      in.rowsOf(supportsTable, supportsColumns, mine, StateSource::Missing::Zero);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+    {
+      supports_[i][c] = rows.row(i)[c];
+      initial_[i][c] = rows.row(i)[3 + c];
+    }
 }
 
 Vec3 Dashpots::drag(int node, const Vec3& v) const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/Conditions.hpp>
@@ -9,8 +10,8 @@
 
 namespace coplane
 {
-/// The part of absorbing sides that depends on the velocity: a force -C v on each of their nodes, C
-/// a symmetric matrix of 3 x 3 numbers.
+/// Forces of absorbing sides on their nodes: initial stress, waves that enter, and -C v, C a
+/// symmetric matrix of 3 x 3 numbers.
 ///
 /// C v is taken at n, as the mean of v(n-1/2) and v(n+1/2), and solved for v(n+1/2) node by node.
 /// That keeps central differences second order, and the stable step as if the dashpots were not
@@ -22,9 +23,17 @@ public:
   Dashpots(const Conditions& conditions, int ownedNodes);
 
   bool empty() const { return nodes_.empty(); }
+  const std::vector<int>& nodes() const { return nodes_; } ///< owned, sorted
 
-  /// Sums C of the nodes from the sides that act at t, as they are at x [Pa s m].
-  void find(int dimension, const Conditions& conditions, Real t, const ConstNodeVectors& x);
+  /// Of the sides that act in the middle of the step, as they are at x: sums C of the nodes
+  /// [Pa s m], and adds what does not depend on the velocity to the external forces. A node that
+  /// other conditions have held until now keeps the force of that support, for as long as sides
+  /// act on it: it was in balance with what acted then, and is so with what acts now.
+  /// @param released the part of the last reactions that no condition takes up any more, for each
+  /// of nodes() [N]
+  void act(int dimension, const Conditions& conditions, Real t, Real middle,
+           const std::vector<Vec3>& released, const ConstNodeVectors& x,
+           const NodeVectors& external);
 
   /// Replaces the velocities of the nodes by the solution of
   ///
@@ -42,9 +51,17 @@ public:
   /// C v of an owned node; zero where it has no dashpot [N].
   Vec3 drag(int node, const Vec3& v) const;
 
+  /// Forces of former supports. Collective.
+  /// @param ids of all nodes here
+  void save(const std::vector<GlobalId>& ids, StateTables& out) const;
+  void restore(const std::vector<GlobalId>& ids, const StateSource& in);
+
 private:
   std::vector<int> nodes_;     // owned, sorted
   std::vector<int> positions_; // of owned nodes in nodes_; -1 elsewhere
   std::vector<SymTensor> matrices_;
+  std::vector<char> acts_;     // some side acts on the node
+  std::vector<Vec3> initial_;  // force of the initial stress on the sides that act [N]
+  std::vector<Vec3> supports_; // beside it, so that both are the force of a former support [N]
 };
 } // namespace coplane

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace coplane
 {
@@ -20,6 +21,11 @@ Real kickOf(const NodalMotion::Times& times)
 {
   return 0.5 * (times.before + times.after);
 }
+
+KickTimes kickTimesOf(const NodalMotion::Times& times)
+{
+  return {times.t, kickOf(times), times.after};
+}
 } // namespace
 
 NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const NodalState& state,
@@ -33,7 +39,9 @@ NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const Noda
   bodies_.takeConditions(model.conditions);
   for (int n = 0; n < model.mesh.ownedNodes; ++n)
     followsBody_(n) = bodies_.holds(n);
-  constrained_ = model.conditions.constrainedNodes();
+  const std::vector<int> held = model.conditions.constrainedNodes();
+  std::set_union(held.begin(), held.end(), dashpots_.nodes().begin(), dashpots_.nodes().end(),
+                 std::back_inserter(constrained_));
   beforeConstraint_ = NodeVectors("coplane::dynamics::beforeConstraint", constrained_.size());
   reactions_ = NodeVectors("coplane::dynamics::reactions", constrained_.size());
 }
@@ -112,13 +120,44 @@ void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalSt
   const Real localDamping = conditions.localDampingAt(times.damping);
   const Real middle = times.t + 0.5 * times.after;
   findProjections(conditions, middle);
+  if (!dashpots_.empty())
+    dashpots_.act(dimension_, conditions, times.t, middle,
+                  releasedReactions(conditions, middle, state), state.x, state.external);
   applyLocalDamping(localDamping, conditions, middle, state);
   kickNodes(times, conditions, state);
   prescribe(times, conditions, state);
   dashpots_.book(state.vPrevious, state.v, state.external);
-  bodies_.kick(kickOf(times), times.after, times.t, massDamping, localDamping, state);
+  bodies_.kick(kickTimesOf(times), massDamping, localDamping, state);
   bookForces(times, massDamping, state);
   bodies_.bookSecondHalf(times.before);
+}
+
+/// What conditions that do not act any more gave to the nodes of dashpots in the last cycle [N].
+std::vector<Vec3> NodalMotion::releasedReactions(const Conditions& conditions, Real middle,
+                                                 const NodalState& state)
+{
+  constexpr Real roundOff = 1e-12; // of projections on normals
+  const auto holds = [](const Vec3& f) { return f.x != 0 || f.y != 0 || f.z != 0; };
+  const std::vector<int>& nodes = dashpots_.nodes();
+  std::vector<Vec3> released(nodes.size());
+  bool some = false;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    released[i] = reaction(nodes[i]);
+    some |= holds(released[i]);
+  }
+  if (!some)
+    return released;
+  const NodeVectors left("coplane::dynamics::releasedReactions", std::size_t(state.owned()));
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    set(left, nodes[i], released[i]);
+  conditions.clearConstrained(middle, projections_, left);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+  {
+    const Vec3 rest = at(left, nodes[i]);
+    released[i] = norm(rest) > roundOff * norm(released[i]) ? rest : Vec3{};
+  }
+  return released;
 }
 
 /// Mass damping takes v at n as the mean of both half steps, like dashpots do: second order, and
@@ -147,7 +186,6 @@ void NodalMotion::kickNodes(const Times& times, const Conditions& conditions, No
       });
   if (dashpots_.empty())
     return;
-  dashpots_.find(dimension_, conditions, times.t, state.x);
   dashpots_.kick(dt, alpha, mass, given, vPrevious, v);
 }
 
@@ -159,7 +197,7 @@ void NodalMotion::prescribe(const Times& times, const Conditions& conditions, No
   const NodeVectors v = state.v, external = state.external;
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     set(beforeConstraint_, int(i), at(v, constrained_[i]));
-  conditions.prescribeVelocities(times.t + 0.5 * times.after, times.after, v, projections_);
+  conditions.prescribeVelocities(kickTimesOf(times), state.vPrevious, v, projections_);
   for (std::size_t i = 0; i < constrained_.size(); ++i)
   {
     const int n = constrained_[i];
@@ -248,7 +286,7 @@ Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalSt
         set(copy, n, at(v, n));
         set(v, n, {});
       });
-  conditions.keepPrescribed(times.t + 0.5 * times.after, copy, v);
+  conditions.keepPrescribed(kickTimesOf(times), copy, v);
   parallelFor(
       "coplane::dynamics::bookStop", state.owned(), KOKKOS_LAMBDA(const int n) {
         if (followsBody(n))
@@ -257,7 +295,7 @@ Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalSt
         set(impulse, n, at(impulse, n) + lost);
         set(angularImpulse, n, at(angularImpulse, n) + cross(at(x, n), lost));
       });
-  bodies_.stop(state);
+  bodies_.stop(kickTimesOf(times), state);
   applyLoads(conditions, times.t, 0, state);
   kick({times.t, 0, times.after, times.damping}, conditions, state); // a start
   mirrorVelocities(state);
@@ -291,6 +329,7 @@ void NodalMotion::save(const std::vector<GlobalId>& ids, StateTables& out) const
       row[c] = reactions_(i, c);
   }
   out.rows(reactionsTable, rows);
+  dashpots_.save(ids, out);
   bodies_.save(out);
 }
 
@@ -305,6 +344,7 @@ void NodalMotion::restore(const std::vector<GlobalId>& ids, const StateSource& i
   for (std::size_t i = 0; i < constrained_.size(); ++i)
     for (int c = 0; c < 3; ++c)
       reactions_(i, c) = rows.row(i)[c];
+  dashpots_.restore(ids, in);
   bodies_.restore(in);
 }
 

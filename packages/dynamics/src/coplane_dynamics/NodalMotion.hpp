@@ -57,8 +57,8 @@ public:
   Real kineticAtFullStep(const NodalState& state,
                          const Comm& comm) const; ///< sum m v(n-1/2).v(n+1/2)/2 [J]
 
-  /// Force of fixed, velocity, displacement and symmetry on an owned node at n; zero on nodes of
-  /// rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
+  /// Force of fixed, velocity, displacement, acceleration and symmetry on an owned node at n; zero
+  /// on nodes of rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
   Vec3 reaction(int node) const;
 
   /// Reactions, and the bodies' part of a checkpoint. Collective.
@@ -84,6 +84,8 @@ private:
   void applyLocalDamping(Real fraction, const Conditions& conditions, Real middle,
                          const NodalState& state);
   void kickNodes(const Times& times, const Conditions& conditions, NodalState& state);
+  std::vector<Vec3> releasedReactions(const Conditions& conditions, Real middle,
+                                      const NodalState& state);
   void prescribe(const Times& times, const Conditions& conditions, NodalState& state);
   void bookForces(const Times& times, Real massDamping, const NodalState& state);
   void takeBackWorkAhead(Real step, const NodalState& state) const;
@@ -92,7 +94,8 @@ private:
   RigidBodies bodies_;
   Array<bool> followsBody_; ///< owned nodes of rigid bodies
   Dashpots dashpots_;
-  std::vector<int> constrained_; ///< owned nodes with conditions on velocities, sorted
+  /// Owned nodes with conditions on velocities, and those of dashpots; sorted.
+  std::vector<int> constrained_;
   std::vector<Conditions::Projection> projections_;
   std::vector<char> activeSymmetries_; ///< those that projections_ are of
   NodeVectors beforeConstraint_;

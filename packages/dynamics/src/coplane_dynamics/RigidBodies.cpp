@@ -55,7 +55,7 @@ void RigidBodies::start(NodalState& state)
     body.angularMomentum = body.inertia * (ofNodes * Vec3{total[3], total[4], total[5]});
     if (dimension_ == 2)
       body.angularMomentum = {0, 0, body.angularMomentum.z};
-    applyConstraints(body, 0, 0);
+    applyConstraints(body, {0, 0, 0}, body.velocity);
     body.spin = spinOf(body, 0);
     if (body.turning == Body::Turning::AboutAxis || body.turning == Body::Turning::Given)
       body.angularMomentum = body.inertia * body.spin;
@@ -215,9 +215,10 @@ Vec3 RigidBodies::spinOf(const Body& body, Real dt) const
   return w;
 }
 
-void RigidBodies::kick(Real dtKick, Real dt, Real t, Real massDamping, Real localDamping,
+void RigidBodies::kick(const KickTimes& times, Real massDamping, Real localDamping,
                        const NodalState& state)
 {
+  const Real dtKick = times.kick, dt = times.step;
   const Real half = 0.5 * dtKick * massDamping;
   const auto drag = [&](const Vec3& given, const Vec3& speed)
   {
@@ -245,7 +246,7 @@ void RigidBodies::kick(Real dtKick, Real dt, Real t, Real massDamping, Real loca
     if (dimension_ == 2)
       body.angularMomentum = {0, 0, body.angularMomentum.z};
     const Vec3 freeVelocity = body.velocity, freeMomentum = body.angularMomentum;
-    applyConstraints(body, t + 0.5 * dt, dt);
+    applyConstraints(body, times, body.previousVelocity);
     body.spin = spinOf(body, dt);
     const Turn step = Turn{1, (0.5 * dt) * body.spin}.normalised();
     if ((body.turning == Body::Turning::AboutAxis && dimension_ == 3) ||
@@ -316,14 +317,18 @@ void RigidBodies::bookSecondHalf(Real dt)
     bookWork(body, dt, body.previousVelocity, body.previousSpin);
 }
 
-void RigidBodies::stop(const NodalState& state)
+void RigidBodies::stop(const KickTimes& times, const NodalState& state)
 {
   for (Body& body : bodies_)
   {
     const Vec3 velocity = body.velocity, angularMomentum = body.angularMomentum;
     body.velocity = {};
     for (const Constraint& c : body.constraints)
-      body.velocity += dot(velocity - body.velocity, c.direction) * c.direction;
+    {
+      // To n, from where a start with half a step goes on.
+      const Real ahead = c.acceleration ? 0.5 * times.step * c.acceleration(times.t) : 0;
+      body.velocity += (dot(velocity - body.velocity, c.direction) - ahead) * c.direction;
+    }
     if (body.turning != Body::Turning::Given)
       body.angularMomentum = body.spin = {};
     const Vec3 lost = body.mass * (body.velocity - velocity);

@@ -94,16 +94,14 @@ public:
   GlobalId nodeThatLimits(const NodeLayout& layout) const;
 
   /// Momenta to n + 1/2, and the velocities of the nodes.
-  /// @param dtKick from n - 1/2 to n + 1/2; dt: from n to n + 1; t: at n [s]
-  void kick(Real dtKick, Real dt, Real t, Real massDamping, Real localDamping,
-            const NodalState& state);
+  void kick(const KickTimes& times, Real massDamping, Real localDamping, const NodalState& state);
   void mirrorVelocities(); ///< v(-1/2) mirrors v(1/2) about the given velocities
   /// Work of the forces at n in the half step before them; drift() books the half after them.
   void bookSecondHalf(Real dt);
   void drift(Real dt); ///< to n + 1
   /// Takes out all motion that is not prescribed, at n after a kick, and books it as an impulse;
   /// velocities of the nodes follow. A kick from here comes next.
-  void stop(const NodalState& state);
+  void stop(const KickTimes& times, const NodalState& state);
 
   // The bodies' part of a checkpoint. Collective.
   void save(StateTables& out) const;
@@ -152,8 +150,10 @@ public:
 private:
   struct Constraint
   {
-    Vec3 direction;                             ///< unit
-    std::function<Real(Real t, Real dt)> speed; ///< empty: none [m/s]
+    Vec3 direction; ///< unit
+    /// v(n+1/2) along it, `before` is v(n-1/2); empty: none [m/s]
+    std::function<Real(const KickTimes&, Real before)> speed;
+    OfTime acceleration{}; ///< where that is given [m/s^2]
   };
   struct Wrench
   {
@@ -205,7 +205,8 @@ private:
   Real frequencyBound(const Body& body, const Real* spring) const;
   void takeMotions(const std::vector<RigidMotion>& motions);
   void constrain(Body& body, const Constraint& constraint);
-  void applyConstraints(Body& body, Real t, Real dt) const;
+  /// @param before velocity at n - 1/2
+  void applyConstraints(Body& body, const KickTimes& times, const Vec3& before) const;
   Vec3 spinOf(const Body& body, Real dt) const;
   void moveNodes(Body& body, Real dt, const NodalState& state) const;
   static void bookWork(Body& body, Real dt, const Vec3& velocity, const Vec3& spin);

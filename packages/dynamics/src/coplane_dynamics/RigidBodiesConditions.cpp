@@ -48,8 +48,7 @@ void RigidBodies::takeConditions(Conditions& conditions)
   for (PrescribedVelocity& condition : conditions.velocities)
   {
     const std::size_t before = condition.nodes.size();
-    const auto held =
-        take(condition.nodes, condition.when, "a condition of type fixed or velocity");
+    const auto held = take(condition.nodes, condition.when, "a condition on velocities");
     for (std::size_t b = 0; b < held.size(); ++b)
       for (int c = 0; c < 3 && held[b] > 0; ++c)
         if (condition.components[c] && c < dimension_)
@@ -59,8 +58,12 @@ void RigidBodies::takeConditions(Conditions& conditions)
           if (!condition.velocity[c])
             constrain(bodies_[b], {axis, {}});
           else
-            constrain(bodies_[b], {axis, [condition, c](Real t, Real dt)
-                                   { return condition.speed(condition.velocity[c], t, dt); }});
+            constrain(bodies_[b],
+                      {axis,
+                       [condition, c](const KickTimes& times, Real before)
+                       { return condition.speed(condition.velocity[c], times, before); },
+                       condition.of == PrescribedVelocity::Of::Acceleration ? condition.velocity[c]
+                                                                            : OfTime()});
         }
     const bool lost = condition.hasField() && condition.nodes.size() < before;
     if (comm_->max(std::int64_t(lost)) > 0)
@@ -102,8 +105,9 @@ void RigidBodies::takeMotions(const std::vector<RigidMotion>& motions)
         {
           Vec3 axis{};
           axis[c] = 1;
-          body.constraints.push_back(
-              {axis, [speed = motion.velocity[c]](Real t, Real) { return speed ? speed(t) : 0; }});
+          body.constraints.push_back({axis,
+                                      [speed = motion.velocity[c]](const KickTimes& times, Real)
+                                      { return speed ? speed(times.middle()) : 0; }});
         }
       if (motion.spin)
       {
@@ -129,11 +133,12 @@ void RigidBodies::constrain(Body& body, const Constraint& constraint)
   body.constraints.push_back(constraint);
 }
 
-void RigidBodies::applyConstraints(Body& body, Real t, Real dt) const
+void RigidBodies::applyConstraints(Body& body, const KickTimes& times, const Vec3& before) const
 {
+  const Real t = times.middle(), dt = times.step;
   for (const Constraint& c : body.constraints)
   {
-    const Real speed = c.speed ? c.speed(t, dt) : 0;
+    const Real speed = c.speed ? c.speed(times, dot(before, c.direction)) : 0;
     body.velocity += (speed - dot(body.velocity, c.direction)) * c.direction;
   }
   if (body.turning == Body::Turning::None)

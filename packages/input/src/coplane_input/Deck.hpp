@@ -114,16 +114,17 @@ struct ContactCard
 struct ConditionCard
 {
   std::string where;
-  std::string type; ///< fixed | velocity | displacement | symmetry | pressure | traction |
-                    ///< air_blast | absorbing | rigid_motion
-  /// Node set (fixed, velocity, displacement, symmetry), element block (rigid_motion) or side set
-  /// (the others).
+  std::string type; ///< fixed | velocity | displacement | acceleration | symmetry | pressure |
+                    ///< traction | air_blast | absorbing | rigid_motion
+  /// Node set (fixed, velocity, displacement, acceleration, symmetry), element block (rigid_motion)
+  /// or side set (the others).
   std::string set;
   Real from = 0;                                    ///< acts for from <= t < until [s]
   std::optional<Real> until;                        ///< [s]; not given: to the end
   std::array<bool, 3> components{true, true, true}; ///< fixed, velocity, rigid_motion
   std::array<TimeFunction, 3> velocity;             ///< velocity [m/s]
   std::array<TimeFunction, 3> displacement;         ///< displacement [m]
+  std::array<TimeFunction, 3> acceleration;         ///< acceleration [m/s^2]
   Vec3 normal{0, 0, 0};                             ///< symmetry
   TimeFunction pressure;                ///< pressure, follower, positive pushes into the body [Pa]
   std::array<TimeFunction, 3> traction; ///< traction, in fixed axes [Pa]
@@ -135,6 +136,11 @@ struct ConditionCard
   /// rigid_motion: of each body's centre [m/s], and its spin [rad/s]; free where not given
   std::optional<std::array<TimeFunction, 3>> translation, spin;
 
+  /// What type velocity, displacement or acceleration prescribes.
+  const std::array<TimeFunction, 3>& motion() const
+  {
+    return type == "displacement" ? displacement : type == "acceleration" ? acceleration : velocity;
+  }
   bool onSides() const
   {
     return type == "pressure" || type == "traction" || type == "air_blast" || type == "absorbing";

@@ -181,12 +181,9 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
                                    "one item for each block.",
                                    path, card.set, k));
     }
-    if (card.type == "velocity" || card.type == "displacement")
+    if (card.type == "velocity" || card.type == "displacement" || card.type == "acceleration")
       for (int c = 0; c < 3; ++c)
-      {
-        const auto& value = card.type == "velocity" ? card.velocity[c] : card.displacement[c];
-        checkComponent(card, node, path, "value", value, c, problems);
-      }
+        checkComponent(card, node, path, "value", card.motion()[c], c, problems);
   }
 }
 
@@ -596,6 +593,7 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
     demand(nothing(card.traction[2]), card.where, "a traction along z");
     demand(nothing(card.velocity[2]), card.where, "a velocity along z");
     demand(nothing(card.displacement[2]), card.where, "a displacement along z");
+    demand(nothing(card.acceleration[2]), card.where, "an acceleration along z");
     if (const auto& axes = card.components; axes[2] && !axes[0] && !axes[1])
       messages.push_back(fmt::format("{}: components: [z] holds nothing: the mesh has two "
                                      "dimensions. Accepted: x, y or both.",

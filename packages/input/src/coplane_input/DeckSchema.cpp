@@ -148,15 +148,16 @@ Key conditions()
     key.length = 3;
     return KeyBuilder(key);
   };
-  const std::vector<std::string> withTimes{"fixed",    "velocity", "displacement", "symmetry",
-                                           "pressure", "traction", "air_blast",    "absorbing"};
+  const std::vector<std::string> withTimes{"fixed",        "velocity",  "displacement",
+                                           "acceleration", "symmetry",  "pressure",
+                                           "traction",     "air_blast", "absorbing"};
   return list(
              "conditions", &Deck::conditions,
              {
                  text("type", &ConditionCard::type)
                      .needed()
-                     .oneOf({"fixed", "velocity", "displacement", "symmetry", "pressure",
-                             "traction", "air_blast", "absorbing", "rigid_motion"})
+                     .oneOf({"fixed", "velocity", "displacement", "acceleration", "symmetry",
+                             "pressure", "traction", "air_blast", "absorbing", "rigid_motion"})
                      .wordsElsewhere({{"encastre", "fixed"},
                                       {"pinned", "fixed"},
                                       {"clamped", "fixed"},
@@ -167,14 +168,15 @@ Key conditions()
                                       {"nonreflecting", "absorbing"},
                                       {"non_reflecting", "absorbing"}})
                      .like("fixed")
-                     .means("fixed: no motion; velocity, displacement: prescribed motion; "
+                     .means("fixed: no motion; velocity, displacement, acceleration: prescribed "
+                            "motion; "
                             "symmetry: no motion "
                             "along the normal; pressure: follows the moving faces; traction: in "
                             "fixed axes; air_blast: pressure of the blast wave of a charge; "
                             "absorbing: waves leave through the faces; rigid_motion: "
                             "prescribed velocity and spin of the bodies of a rigid block"),
                  text("node_set", &ConditionCard::set)
-                     .onlyFor({"fixed", "velocity", "displacement", "symmetry"})
+                     .onlyFor({"fixed", "velocity", "displacement", "acceleration", "symmetry"})
                      .needed()
                      .means("node set of the mesh")
                      .like("base"),
@@ -204,7 +206,7 @@ Key conditions()
                             "that they have"),
                  bound<std::vector<std::string>>("components", KeyKind::Texts,
                                                  &ConditionCard::components, takeComponents)
-                     .onlyFor({"fixed", "velocity", "displacement", "rigid_motion"})
+                     .onlyFor({"fixed", "velocity", "displacement", "acceleration", "rigid_motion"})
                      .oneOf({"x", "y", "z"})
                      .like("[x]")
                      .defaultIs("[x, y, z]")
@@ -226,6 +228,14 @@ Key conditions()
                      .like("[\"0.1*t\", 0, 0]")
                      .means("velocity in x, y, z; 0 for components that are left free; x, y, z: "
                             "place at t = 0"),
+                 vectorOfTime("value", &ConditionCard::acceleration)
+                     .onlyFor({"acceleration"})
+                     .needed()
+                     .ofPlaceToo()
+                     .in("m/s^2")
+                     .like("[{times: [0, 0.1, 0.2], values: [0, 3, 0], scale: 0.5}, 0, 0]")
+                     .means("acceleration in x, y, z, which changes the velocity that the nodes "
+                            "have; 0 for components that are left free; x, y, z: place at t = 0"),
                  freeVectorOfTime("velocity", &ConditionCard::translation)
                      .onlyFor({"rigid_motion"})
                      .in("m/s")

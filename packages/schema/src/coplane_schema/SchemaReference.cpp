@@ -121,12 +121,14 @@ Json shortSchema(const Key& group)
 Json timeFunctionSchema()
 {
   const Json numbers{{"type", "array"}, {"items", numberSchema(Key(), "number")}, {"minItems", 2}};
-  return Json{{"anyOf",
-               {{{"type", {"number", "string"}}},
-                {{"type", "object"},
-                 {"properties", {{"times", numbers}, {"values", numbers}}},
-                 {"required", {"times", "values"}},
-                 {"additionalProperties", false}}}}};
+  return Json{
+      {"anyOf",
+       {{{"type", {"number", "string"}}},
+        {{"type", "object"},
+         {"properties",
+          {{"times", numbers}, {"values", numbers}, {"scale", numberSchema(Key(), "number")}}},
+         {"required", {"times", "values"}},
+         {"additionalProperties", false}}}}};
 }
 
 /// A key with groups of keys.

@@ -285,7 +285,7 @@ private:
     return problem;
   }
 
-  /// {times: [...], values: [...]}
+  /// {times: [...], values: [...], scale: 1}
   std::optional<TimeFunction> readTable(DeckNode& node, const std::string& path)
   {
     const std::size_t before = reading_.problems.size();
@@ -294,8 +294,9 @@ private:
     reading_.checkNames(node, path);
     for (const auto& [name, value] : node.entries)
       if (name.kind == Kind::Scalar && name.text != "times" && name.text != "values" &&
-          name.text != "<<")
-        reading_.problems.add(name, fmt::format("{} is not known. Accepted here: times, values.",
+          name.text != "scale" && name.text != "<<")
+        reading_.problems.add(name, fmt::format("{} is not known. Accepted here: times, values, "
+                                                "scale.",
                                                 join(path, name.text)));
     for (const bool isTimes : {true, false})
     {
@@ -311,6 +312,12 @@ private:
       else if (const auto numbers = readNumbers(key, *list, join(path, name)))
         (isTimes ? function.times : function.values) = *numbers;
     }
+    Key factor;
+    factor.kind = KeyKind::Number;
+    if (DeckNode* const scale = node.find("scale"))
+      if (const auto number = readNumber(factor, *scale, join(path, "scale")))
+        for (Real& value : function.values)
+          value *= *number;
     if (reading_.problems.size() > before)
       return std::nullopt;
     const auto falls = std::adjacent_find(function.times.begin(), function.times.end(),

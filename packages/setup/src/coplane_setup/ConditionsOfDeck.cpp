@@ -164,8 +164,10 @@ PrescribedVelocity prescribedOf(const ConditionCard& card, const RankMesh& part,
   condition.when = windowOf(card);
   condition.nodes = nodes;
   condition.components = card.components;
-  condition.isDisplacement = card.type == "displacement";
-  const auto& motion = condition.isDisplacement ? card.displacement : card.velocity;
+  condition.of = card.type == "displacement"   ? PrescribedVelocity::Of::Displacement
+                 : card.type == "acceleration" ? PrescribedVelocity::Of::Acceleration
+                                               : PrescribedVelocity::Of::Velocity;
+  const auto& motion = card.motion();
   for (int c = 0; c < 3 && card.type != "fixed"; ++c)
     if (motion[c].ofPlace && condition.components[c])
       condition.field[c] = fieldOf(motion[c]);
@@ -248,7 +250,8 @@ namespace
 {
 bool prescribesMotion(const ConditionCard& card)
 {
-  return card.type == "fixed" || card.type == "velocity" || card.type == "displacement";
+  return card.type == "fixed" || card.type == "velocity" || card.type == "displacement" ||
+         card.type == "acceleration";
 }
 
 bool isZero(const TimeFunction& function)
@@ -262,7 +265,7 @@ bool isZero(const TimeFunction& function)
 bool movesAcross(const ConditionCard& card, const Vec3& normal)
 {
   const Real along[] = {normal.x, normal.y, normal.z};
-  const auto& motion = card.type == "displacement" ? card.displacement : card.velocity;
+  const auto& motion = card.motion();
   for (int c = 0; c < 3 && card.type != "fixed"; ++c)
     if (card.components[c] && along[c] != 0 && !isZero(motion[c]))
       return true;
@@ -462,7 +465,8 @@ std::vector<std::string> problemsOfReactions(const Deck& deck, const Mesh& mesh,
     else if (count[1] == 0)
       problems.push_back(fmt::format(
           "{}: history.probes.{}.reaction: no condition holds a node of '{}'; accepted: a node set "
-          "of which fixed, velocity, displacement or symmetry holds nodes. Remove reaction, or "
+          "of which fixed, velocity, displacement, acceleration or symmetry holds nodes. Remove "
+          "reaction, or "
           "name such a set.",
           probe.where, p, probe.nodeSet));
   }
