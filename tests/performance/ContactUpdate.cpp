@@ -106,9 +106,9 @@ void update(benchmark::State& state, Backend backend, ContactOptions::Forces for
     benchmark::DoNotOptimize(f.data());
   }
   std::int64_t planes = 0;
-  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
-    planes += contact.planes()(p).area > 0;
-  state.counters["slots"] = Real(contact.planes().extent(0));
+  for (std::size_t p = 0; p < contact.planes().size(); ++p)
+    planes += contact.planes()[p].area > 0;
+  state.counters["slots"] = Real(contact.slots());
   state.counters["planes"] = Real(planes);
   state.counters["planes/s"] =
       benchmark::Counter(Real(planes), benchmark::Counter::kIsIterationInvariantRate);

@@ -120,20 +120,25 @@ bool sameBits(const Plane& a, const Plane& b)
 struct Slots
 {
   explicit Slots(const std::vector<Plane>& of)
-      : planes(of), faces(of.size()), activity(of.size(), Activity::Awake)
+      : planes(of), places(of.size()), faces(of.size()), activity(of.size(), Activity::Awake)
   {
+    for (std::size_t p = 0; p < of.size(); ++p)
+      places[p] = &planes[p];
     for (std::size_t p = 0; p < of.size(); ++p)
       std::copy(of[p].face, of[p].face + 2, faces[p].face);
   }
   PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
                   const ContactOptions& options)
   {
-    const PairTables pairs{planes.data(), faces.data(), activity.data(), nullptr,
-                           nullptr,       laws.data(),  false,           &changed};
+    const PairTables pairs{nullptr,     places.data(), faces.data(), activity.data(),
+                           laws.data(), false,         &changed};
     return {pairs, halfStep.data(), options, dt};
   }
 
+  Slots(const Slots&) = delete; // places are of these planes
+
   std::vector<Plane> planes;
+  std::vector<Plane*> places;
   std::vector<SlotFaces> faces;
   std::vector<Activity> activity;
   std::atomic<bool> changed{false};

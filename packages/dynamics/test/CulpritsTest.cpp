@@ -67,8 +67,8 @@ TEST(WorstEntities, nameTheDeepestPlanesTheSameOnAnyNumberOfRanks)
   }
   // The deepest of all, counted by hand.
   Real deepest = 0;
-  for (std::size_t p = 0; p < one.contact().planes().extent(0); ++p)
-    if (const Plane& plane = one.contact().planes()(p); plane.area > 0)
+  for (std::size_t p = 0; p < one.contact().planes().size(); ++p)
+    if (const Plane& plane = one.contact().planes()[p]; plane.area > 0)
       deepest = std::max(deepest, plane.closure / plane.depthLimit);
   ASSERT_GT(deepest, 0);
   const std::string text = many.worstEntities();

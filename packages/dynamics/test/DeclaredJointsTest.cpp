@@ -106,10 +106,10 @@ TEST_P(DeclaredJoint, carriesTheInitialStressLessThePressureOnItsFaces)
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-9);
   Real least = infinity, most = -infinity;
   const auto planes = solver.contact().planes();
-  for (std::size_t p = 0; p < planes.extent(0); ++p)
-    if (planes(p).state != PlaneState::Open)
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    if (planes[p].state != PlaneState::Open)
     {
-      const Real traction = std::abs(planes(p).forceOn(1).z) / planes(p).area; // rims act along it
+      const Real traction = std::abs(planes[p].forceOn(1).z) / planes[p].area; // rims act along it
       least = std::min(least, traction);
       most = std::max(most, traction);
     }
@@ -138,8 +138,8 @@ TEST_P(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
   EXPECT_EQ(solver.contact().counts().stick, 1);
   const EnergyBalance balance = solver.energy();
   Real opening = -infinity;
-  for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
-    opening = solver.contact().planes()(p).gap;
+  for (std::size_t p = 0; p < solver.contact().planes().size(); ++p)
+    opening = solver.contact().planes()[p].gap;
   opening = comm.max(opening);
   EXPECT_GT(opening, 0.1);
   EXPECT_NEAR(balance.contact.fracture, 100 * (1 - std::exp(-opening / 0.1)), 0.2);
@@ -242,9 +242,9 @@ TEST_P(DeclaredJoint, closesFacesThatLieOnEachOtherAndNoOthers)
       Solver solver(std::move(model), comm);
       solver.prepare();
       std::vector<std::int64_t> closed(3, 0); // on the bed, elsewhere, and pairs in all
-      for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
+      for (std::size_t p = 0; p < solver.contact().planes().size(); ++p)
       {
-        const Plane& plane = solver.contact().planes()(p);
+        const Plane& plane = solver.contact().planes()[p];
         closed[0] += plane.countedHere && plane.declared && std::abs(plane.normal[up]) > 0.99;
         closed[1] += plane.countedHere && plane.declared && std::abs(plane.normal[up]) < 0.99;
         closed[2] += plane.countedHere;

@@ -82,8 +82,8 @@ TEST_P(ErodingBodies, endsPlanesWithTheirEnergy)
       if (!solver.blocks()[b].isAlive(e))
         dead.push_back(solver.mesh().blocks[b].elementIds[e]);
   dead = comm.allGather(dead);
-  for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
-    for (const GlobalId face : solver.contact().planes()(p).faceId)
+  for (std::size_t slot = 0; slot < solver.contact().slots(); ++slot)
+    for (const GlobalId face : solver.contact().planeOf(slot).faceId)
       EXPECT_EQ(std::count(dead.begin(), dead.end(), elementOfFace(face)), 0);
   for (const Face& face : solver.contact().faces())
     EXPECT_EQ(std::count(dead.begin(), dead.end(), elementOfFace(face.id)), 0);

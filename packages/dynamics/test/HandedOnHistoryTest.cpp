@@ -55,10 +55,10 @@ PlaneOfBlocks planeOnFloor(const Solver& solver, int brick)
 {
   std::vector<Real> found(4, -infinity);
   const auto& planes = solver.contact().planes();
-  for (std::size_t p = 0; p < planes.extent(0); ++p)
-    if (planes(p).block[0] == 0 && planes(p).block[1] == brick && planes(p).area > 0)
-      found = {planes(p).area, planes(p).offset, Real(planes(p).isInherited()),
-               norm(planes(p).history.shearTraction)};
+  for (std::size_t p = 0; p < planes.size(); ++p)
+    if (planes[p].block[0] == 0 && planes[p].block[1] == brick && planes[p].area > 0)
+      found = {planes[p].area, planes[p].offset, Real(planes[p].isInherited()),
+               norm(planes[p].history.shearTraction)};
   solver.comm().max(found);
   if (found[0] < 0)
     return {};
@@ -175,9 +175,9 @@ TEST_P(HandedOnHistory, aBlockCarriesItsShearTractionOverMeshLinesAndSeams)
       while (solver.clock().time < 0.05)
       {
         const auto& planes = solver.contact().planes();
-        for (std::size_t p = 0; p < planes.extent(0); ++p)
+        for (std::size_t p = 0; p < planes.size(); ++p)
         {
-          const Plane& plane = planes(p);
+          const Plane& plane = planes[p];
           // Not the front of the slider against the hidden side behind the seam.
           if (!plane.countedHere || !plane.isBorn() || plane.block[1] != sliding ||
               std::abs(dot(plane.normal, upwards(dimension))) < 0.9)
@@ -227,9 +227,9 @@ TEST_P(HandedOnHistory, aBondGoesOnOverMeshLines)
     {
       solver.advance();
       std::vector<ExactSum> sums(2); // area that is bonded, and that the blocks share
-      for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
+      for (std::size_t p = 0; p < solver.contact().planes().size(); ++p)
       {
-        const Plane& plane = solver.contact().planes()(p);
+        const Plane& plane = solver.contact().planes()[p];
         if (!plane.countedHere || plane.face[0] < 0)
           continue;
         sums[1].add(plane.overlap);

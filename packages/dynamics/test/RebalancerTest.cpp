@@ -71,10 +71,10 @@ WorkTimes countedWork(const Solver& solver)
   WorkTimes work;
   for (const ElementBlock& block : solver.blocks())
     work.elements.push_back(block.count());
-  const auto& planes = solver.contact().planes();
-  for (std::size_t p = 0; p < planes.extent(0); ++p)
-    if (planes(p).face[0] >= 0)
-      work.planes += planes(p).overlap > 0 ? 1 : 1 / costOfOverlap;
+  const Contact& contact = solver.contact();
+  for (std::size_t slot = 0; slot < contact.slots(); ++slot)
+    if (const Plane plane = contact.planeOf(slot); plane.face[0] >= 0)
+      work.planes += plane.overlap > 0 ? 1 : 1 / costOfOverlap;
   work.cycles = 1;
   return work;
 }

@@ -202,8 +202,8 @@ TEST(RigidBodies, stepIsThatOfTheWholeBodyOnItsSprings)
   solver.prepare();
   const StepControl control = solver.stepControl();
   EXPECT_TRUE(control.rigid);
-  const Real stiffness = solver.contact().planes().extent(0) > 0
-                             ? Real(solver.contact().planes()(0).fit.normalStiffness)
+  const Real stiffness = solver.contact().planes().size() > 0
+                             ? Real(solver.contact().planes()[0].fit.normalStiffness)
                              : 0;
   const Real k = comm.max(stiffness);
   ASSERT_GT(k, 0);

@@ -49,9 +49,9 @@ TEST_P(SearchAhead, bodiesThatPassTheSkinInOneStepMeetAtTheirSurfaces)
         {
           solver.advance();
           met.assign(3, 0);
-          for (std::size_t p = 0; p < solver.contact().planes().extent(0); ++p)
+          for (std::size_t p = 0; p < solver.contact().planes().size(); ++p)
           {
-            const Plane& plane = solver.contact().planes()(p);
+            const Plane& plane = solver.contact().planes()[p];
             if (!plane.countedHere || !(plane.isBorn() || plane.refusal == Refusal::Deep ||
                                         plane.sighting == Sighting::FoundLate))
               continue;

@@ -115,9 +115,9 @@ struct Survey
   explicit Survey(const Contact& contact)
       : n(Counts, 0), declared(contact.faces().size(), 0), closed(contact.faces().size(), 0)
   {
-    for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
-      if (contact.planes()(p).face[0] >= 0)
-        look(contact, contact.planes()(p));
+    for (std::size_t slot = 0; slot < contact.slots(); ++slot)
+      if (const Plane plane = contact.planeOf(slot); plane.face[0] >= 0)
+        look(contact, plane);
   }
 
 private:
@@ -171,9 +171,9 @@ std::vector<std::string> itemsWithoutPartner(const Contact& contact)
   if (items.empty())
     return {};
   std::vector<std::int64_t> closed(items.size(), 0);
-  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  for (std::size_t p = 0; p < contact.planes().size(); ++p)
   {
-    const Plane& plane = contact.planes()(p);
+    const Plane& plane = contact.planes()[p];
     if (!plane.declared || !plane.countedHere || plane.face[0] < 0)
       continue;
     const int item =

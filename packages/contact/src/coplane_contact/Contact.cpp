@@ -35,7 +35,8 @@ void demandFewKinds(const Comm& comm, const std::vector<Face>& faces, const Cont
 Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
                  ContactOptions options, ContactRules rules, Real skin, Real smallestFace)
     : comm_(&comm), dimension_(dimension), options_(options), rules_(std::move(rules)),
-      faces_(std::move(localFaces)), reach_(options, skin, smallestFace), planes_(rules_)
+      faces_(std::move(localFaces)), reach_(options, skin, smallestFace),
+      planes_(rules_, options_.depthMax)
 {
   demandFewKinds(comm, faces_.local(), rules_);
 }
@@ -72,15 +73,13 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
     }
     return stepA_halfStepFace(nodes, dt, dimension_);
   };
-  std::vector<std::size_t> kept;
-  for (std::size_t p = 0; p < planes_.count(); ++p)
+  std::vector<std::size_t> ending;
+  for (std::size_t p = 0; p < planes().size(); ++p)
   {
-    Plane& plane = planes()(p);
+    Plane& plane = planes()[p];
     if (!isDead(plane.faceId[0]) && !isDead(plane.faceId[1]))
-    {
-      kept.push_back(p);
       continue;
-    }
+    ending.push_back(planes().slotOf(p));
     if (!plane.isBorn() || !plane.countedHere)
       continue;
     // What the last force still does in this step belongs to what is lost.
@@ -90,7 +89,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
     eroded += plane.work;
     ended_.add(plane, eroded);
   }
-  planes_.keepOnly(kept);
+  planes_.drop(ending);
 }
 
 void Contact::replaceLocalFaces(std::vector<Face> localFaces)
@@ -101,8 +100,8 @@ void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 
 void Contact::listSlotsOfFaces(int ownedNodes)
 {
-  pairedFaces_.mark(planes_.slotFaces(), faces().size());
-  forceSums_.listPlanes(planes_.slotFaces(), localFaces().size());
+  pairedFaces_.mark(planes_.slots().faces, faces().size());
+  forceSums_.listPlanes(planes_.slots().faces, localFaces().size());
   forceSums_.listFaces(localFaces(), ownedNodes);
 }
 
@@ -128,15 +127,15 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
           const SlotFaces& faces = pairs.slots[p];
           if (faces.face[0] < 0)
             return;
-          Plane& plane = pairs.planes[p];
           const HalfStepFace& a = halfStep[faces.face[0]];
           const HalfStepFace& b = halfStep[faces.face[1]];
-          if ((pairs.isAsleep(p) || !(plane.area > 0)) && !mayMeet<2>(a, b, opposed))
+          if ((pairs.isAsleep(p) || !pairs.carries(p)) && !mayMeet<2>(a, b, opposed))
           {
             pairs.passBy(p, a, b, dt);
             return;
           }
           pairs.prepare(p);
+          Plane& plane = *pairs.planes[p];
           const auto before = pairs.passedBy(p);
           updateByForces<2>(plane, a, b, pairs.laws[plane.joint], options, dt);
           pairs.book(p, before);
@@ -170,9 +169,10 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   const bool incremental = options_.closure == ContactOptions::Closure::Incremental;
   stepsBtoH(planes_.forKernels(incremental), int(planes_.count()), pairedFaces_.data(), dimension_,
             options, dt);
+  planes_.listWoken();
   if (searches_.sinceUpdate && searches_.count > 1)
-    for (std::size_t p = 0; p < planes_.count(); ++p)
-      if (const Plane& plane = planes()(p);
+    for (std::size_t p = 0; p < planes().size(); ++p)
+      if (const Plane& plane = planes()[p];
           plane.sighting == Sighting::FoundLate && plane.countedHere && plane.face[0] >= 0)
         searches_.missed += wasMissed(plane, x);
   searches_.sinceUpdate = false;
@@ -191,8 +191,8 @@ ContactEnergy Contact::energy() const
   PlaneEnergySums mine;
   for (const auto& [kind, sums] : ended_.byKind())
     mine.add(sums);
-  for (std::size_t p = 0; p < planes_.count(); ++p)
-    if (const Plane& plane = planes()(p); plane.countedHere && plane.isBorn())
+  for (std::size_t p = 0; p < planes().size(); ++p)
+    if (const Plane& plane = planes()[p]; plane.countedHere && plane.isBorn())
       mine.add(plane, plane.stored);
   std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
   return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
@@ -201,12 +201,12 @@ ContactEnergy Contact::energy() const
 ContactCounts Contact::counts() const
 {
   std::vector<std::int64_t> n(8, 0);
-  for (std::size_t p = 0; p < planes_.count(); ++p)
+  n[0] = planes_.countedHere();
+  for (std::size_t p = 0; p < planes().size(); ++p)
   {
-    const Plane& plane = planes()(p);
+    const Plane& plane = planes()[p];
     if (!plane.countedHere)
       continue;
-    ++n[0];
     n[1] += plane.isBorn();
     n[2] += plane.state == PlaneState::Open;
     n[3] += plane.state == PlaneState::Stick;

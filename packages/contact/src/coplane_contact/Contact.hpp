@@ -86,15 +86,19 @@ public:
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
   void addForces(const NodeVectors& f, const Array<Real>& stiffness) const
   {
-    forceSums_.add(planes_.planes(), planes_.activity(), f, stiffness);
+    forceSums_.add(planes_.slots().plane.data(), planes_.slots().activity, f, stiffness);
   }
 
   const std::vector<Face>& faces() const { return faces_.all(); }
   const std::vector<Face>& localFaces() const { return faces_.local(); }
   /// Those that nothing has come near since the last search do not know yet what it found beside
   /// their faces; prepared() tells what they are when they do, which checkpoints and hashes have.
-  const PlaneTable::Planes& planes() const { return planes_.planes(); }
-  Plane prepared(std::size_t p) const { return planes_.prepared(p); }
+  const PlaneList& planes() const { return planes_.planes(); }
+  /// All pairs of the last search, most of which have no plane: how many, the plane that each has
+  /// or would get, and the same prepared.
+  std::size_t slots() const { return planes_.count(); }
+  Plane planeOf(std::size_t slot) const { return planes_.planeOf(slot); }
+  Plane prepared(std::size_t slot) const { return planes_.prepared(slot); }
   const ContactOptions& options() const { return options_; }
   const ContactRules& rules() const { return rules_; }
   /// Largest gap of the pairs that the last search took [m].

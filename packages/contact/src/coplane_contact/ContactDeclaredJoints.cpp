@@ -92,53 +92,66 @@ void closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
   plane.work = plane.stored + plane.hysteresisWork;
 }
 
-/// Whether two faces lie on each other; then the plane between them is one of a declared joint,
-/// without stress yet.
-/// @returns the area of their overlap [m^2], 0 if they do not
+/// What two faces share that lie on each other: the plane of a declared joint.
+struct DeclaredPlane
+{
+  Real area = 0; ///< [m^2], 0 if they do not
+  Vec3 normal{};
+  Overlap overlap;
+  Vec3 pointOfContact{};
+};
+
 template <int Dim>
-Real declare(Plane& plane, const FaceNodes& nodesA, const FaceNodes& nodesB,
-             const ContactOptions& options)
+DeclaredPlane declaredPlane(const FaceNodes& nodesA, const FaceNodes& nodesB,
+                            const ContactOptions& options)
 {
   const HalfStepFace a = stepA_halfStepFace<Dim>(nodesA, 0), b = stepA_halfStepFace<Dim>(nodesB, 0);
   const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
   if (!trial.opposed)
-    return 0;
+    return {};
   const Overlap overlap = overlapOf<Dim>(trial, a, b, options);
   const Patch& patch = overlap.patch;
   const Real smaller = std::min(a.area, b.area);
   if (!(patch.area > options.areaMin * smaller * depthOf(trial, options).at(patch.centroid.x)) ||
       !lieOnEachOther(dot(a.normal, b.normal), overlap.gap, faceSize(smaller, Dim)))
-    return 0;
+    return {};
+  return {patch.area, trial.normal, overlap, stepG_placePointOfContact(patch, a, b)};
+}
+
+/// Without stress yet.
+void declare(const DeclaredPlane& found, Plane& plane)
+{
   plane.declared = true;
   plane.state = PlaneState::Open;
-  plane.normal = trial.normal;
-  plane.overlap = patch.overlap;
-  plane.pointOfContact = stepG_placePointOfContact(patch, a, b);
-  plane.gap = overlap.gap;
-  return patch.area;
+  plane.normal = found.normal;
+  plane.overlap = found.overlap.patch.overlap;
+  plane.pointOfContact = found.pointOfContact;
+  plane.gap = found.overlap.gap;
 }
 } // namespace
 
 void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
 {
-  planes_.prepareAll(); // neighbours pass on nothing to planes that are closed here
-  for (std::size_t p = 0; p < planes_.count(); ++p)
+  for (std::size_t slot = 0; slot < planes_.count(); ++slot)
   {
-    Plane& plane = planes()(p);
-    if (plane.face[0] < 0)
+    const SlotFaces& pair = planes_.slots().faces(slot);
+    if (pair.face[0] < 0)
       continue;
-    const Face& faceA = faces()[plane.face[0]];
-    const Face& faceB = faces()[plane.face[1]];
+    const Face& faceA = faces()[pair.face[0]];
+    const Face& faceB = faces()[pair.face[1]];
     if (!rules_.between(faceA.group, faceB.group).declared)
       continue;
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
-    const Real area =
-        dimension_ == 2 ? declare<2>(plane, a, b, options_) : declare<3>(plane, a, b, options_);
-    if (!(area > 0))
+    const DeclaredPlane found =
+        dimension_ == 2 ? declaredPlane<2>(a, b, options_) : declaredPlane<3>(a, b, options_);
+    if (!(found.area > 0))
       continue;
+    Plane& plane = planes_.wake(slot); // neighbours pass on nothing to what is closed here
+    declare(found, plane);
     closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
                     stressOfBlock(faceB.block, plane.pointOfContact)),
-               0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), area, plane);
+               0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
   }
+  planes_.listWoken();
 }
 } // namespace coplane

@@ -10,15 +10,6 @@ namespace coplane
 {
 namespace
 {
-std::pair<GlobalId, GlobalId> keyOf(const Plane& plane)
-{
-  return {plane.faceId[0], plane.faceId[1]};
-}
-
-/// A plane more than this times as stiff as the elements behind its faces chatters: their nodes
-/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md).
-constexpr Real stiffestCalm = 2.5;
-
 /// Carries nothing until its faces are candidates again.
 void makeDormant(Plane& plane)
 {
@@ -34,25 +25,27 @@ void makeDormant(Plane& plane)
 struct Slots
 {
   std::vector<CandidatePair> pairs;   ///< candidates, then other pairs that carry traction
-  std::vector<std::int64_t> existing; ///< by pair: its plane from before the search, or -1
-  std::vector<std::int64_t> source;   ///< by slot: a pair, or ~p of a plane that becomes dormant
+  std::vector<std::int64_t> existing; ///< by pair: its slot from before the search, or -1
+  std::vector<std::int64_t>
+      source; ///< by slot: a pair, or ~p of a slot whose plane becomes dormant
 };
 
-/// Candidates and planes are both sorted by key: which pairs have their plane already, and what
+/// Candidates and slots are both sorted by key: which pairs have their slot already, and what
 /// becomes of planes that are no candidates. Those that end are booked in `ended`.
-Slots slotsOf(std::vector<CandidatePair> candidates, const PlaneTable::Planes& planes,
+Slots slotsOf(std::vector<CandidatePair> candidates, const PlaneTable& before,
               const FaceTable& faces, EndedPlanes& ended)
 {
-  const std::size_t old = planes.extent(0), candidateCount = candidates.size();
+  const std::size_t old = before.count(), candidateCount = candidates.size();
   Slots slots;
   slots.pairs = std::move(candidates);
   slots.existing.assign(candidateCount, -1);
   slots.source.reserve(candidateCount);
   const auto keep = [&](std::size_t p)
   {
-    const Plane& plane = planes(p);
-    if (!plane.isBorn())
+    const Plane* const known = before.slots().plane[p];
+    if (known == nullptr || !known->isBorn())
       return;
+    const Plane& plane = *known;
     if (plane.area > 0)
     {
       // A bond may hold while it is open farther than the skin, a contact be deeper than its limit,
@@ -75,9 +68,9 @@ Slots slotsOf(std::vector<CandidatePair> candidates, const PlaneTable::Planes& p
   {
     const auto key =
         std::make_pair(faces.all()[slots.pairs[i].lower].id, faces.all()[slots.pairs[i].higher].id);
-    for (; p < old && keyOf(planes(p)) < key; ++p)
+    for (; p < old && before.keyOf(p) < key; ++p)
       keep(p);
-    if (p < old && keyOf(planes(p)) == key)
+    if (p < old && before.keyOf(p) == key)
       slots.existing[i] = std::int64_t(p++);
     slots.source.push_back(std::int64_t(i));
   }
@@ -86,71 +79,87 @@ Slots slotsOf(std::vector<CandidatePair> candidates, const PlaneTable::Planes& p
   return slots;
 }
 
-/// Makes the slots of a search: those of planes that are there already, those of new pairs, and
+/// Makes the slots of a search: those of planes that are there already, those of other pairs, and
 /// those of planes that become dormant.
 class SlotFiller
 {
 public:
-  SlotFiller(const ContactOptions& options, const ContactRules& rules,
-             const std::vector<Face>& faces, const PlaneTable& before, const Slots& slots,
-             const Preparation& preparation)
-      : options_(options), rules_(rules), faces_(faces), before_(before), slots_(slots),
-        preparation_(preparation)
+  SlotFiller(bool inherit, const std::vector<Face>& faces, const PlaneTable& before,
+             const Slots& slots, const Preparation& preparation)
+      : inherit_(inherit), faces_(faces), before_(before), slots_(slots), preparation_(preparation)
   {
   }
 
-  /// @returns what is to be done when the pair comes near
-  Preparation::Todo fill(int slot, Plane& plane) const
+  /// The slots, with their planes where these are there already.
+  PlaneTable::Slots made() const
   {
-    const std::int64_t source = slots_.source[slot];
-    if (source < 0)
-    {
-      new (&plane) Plane(before_.planes()(~source));
-      makeDormant(plane);
-      return 0;
-    }
-    const CandidatePair& pair = slots_.pairs[source];
-    const Face &lower = faces_[pair.lower], &higher = faces_[pair.higher];
-    const std::int64_t known = slots_.existing[source];
-    new (&plane) Plane(known >= 0 ? before_.planes()(known) : newSlot(lower, higher));
-    plane.face[0] = pair.lower;
-    plane.face[1] = pair.higher;
-    Preparation::Todo todo = known >= 0 && !plane.isNew() ? Preparation::WasKnown : 0;
-    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
-    if (known < 0 || !(plane.overlap > 0 && plane.gap < plane.offset))
-      todo |= Preparation::LookAtEdges;
-    if (plane.sighting == Sighting::Missed)
-      plane.sighting = Sighting::Woken;
-    // The neighbours of a face that erosion has just laid bare lie on the old surface.
-    if (options_.inherit && !plane.isBorn() && !lower.young && !higher.young)
-      todo |= Preparation::TakeOver;
-    if (known < 0 || before_.activity()(known) == Activity::Asleep)
-      return todo;
-    preparation_.prepare(slot, todo, plane);
-    return 0;
+    const int count = int(slots_.source.size());
+    std::size_t planes = 0;
+    for (int slot = 0; slot < count; ++slot)
+      planes += planeBefore(slot) != nullptr;
+    PlaneTable::Slots next(std::size_t(count), planes);
+    planes = 0;
+    for (int slot = 0; slot < count; ++slot)
+      if (planeBefore(slot) != nullptr)
+        next.plane[slot] = &next.stored(planes++);
+    parallelFor("coplane::contact::fillSlots", count, [&](const int slot) { fill(slot, next); });
+    return next;
   }
 
 private:
-  Plane newSlot(const Face& a, const Face& b) const
+  /// The slot before the search, or -1.
+  std::int64_t slotBefore(int slot) const
   {
-    Plane plane;
-    const ContactRule& rule = rules_.between(a.group, b.group);
-    plane.faceId[0] = a.id;
-    plane.faceId[1] = b.id;
-    plane.joint = std::uint16_t(rule.joint);
-    plane.block[0] = std::uint16_t(a.block);
-    plane.block[1] = std::uint16_t(b.block);
-    plane.countedHere = a.ownedHere;
-    plane.fit =
-        rules_.joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
-    plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
-                  stiffestCalm;
-    plane.depthLimit = options_.depthMax * std::min(a.thickness, b.thickness);
-    return plane;
+    const std::int64_t source = slots_.source[std::size_t(slot)];
+    return source < 0 ? ~source : slots_.existing[std::size_t(source)];
+  }
+  const Plane* planeBefore(int slot) const
+  {
+    const std::int64_t before = slotBefore(slot);
+    return before < 0 ? nullptr : before_.slots().plane[before];
   }
 
-  const ContactOptions& options_;
-  const ContactRules& rules_;
+  void fill(int slot, const PlaneTable::Slots& next) const
+  {
+    const std::int64_t source = slots_.source[std::size_t(slot)];
+    const Plane* const before = planeBefore(slot);
+    Plane* const plane = next.plane[slot];
+    if (plane != nullptr)
+      new (plane) Plane(*before);
+    if (source < 0)
+    {
+      makeDormant(*plane);
+      return;
+    }
+    const CandidatePair& pair = slots_.pairs[std::size_t(source)];
+    const std::int64_t known = slotBefore(slot);
+    const bool asleep = known >= 0 && before_.isAsleep(std::size_t(known));
+    const bool wasKnown = before != nullptr ? !before->isNew() : asleep;
+    Preparation::Todo todo = wasKnown ? Preparation::WasKnown : 0;
+    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
+    if (before == nullptr || !(before->overlap > 0 && before->gap < before->offset))
+      todo |= Preparation::LookAtEdges;
+    // The neighbours of a face that erosion has just laid bare lie on the old surface.
+    if (inherit_ && !(before != nullptr && before->isBorn()) && !faces_[pair.lower].young &&
+        !faces_[pair.higher].young)
+      todo |= Preparation::TakeOver;
+    next.faces(slot).face[0] = pair.lower;
+    next.faces(slot).face[1] = pair.higher;
+    next.todo(slot) = todo;
+    next.activity(slot) = asleep ? Activity::Asleep : Activity::Awake;
+    if (plane == nullptr)
+      return;
+    plane->face[0] = pair.lower;
+    plane->face[1] = pair.higher;
+    if (plane->sighting == Sighting::Missed)
+      plane->sighting = Sighting::Woken;
+    if (asleep)
+      return;
+    preparation_.prepare(slot, todo, *plane);
+    next.todo(slot) = 0;
+  }
+
+  const bool inherit_;
   const std::vector<Face>& faces_;
   const PlaneTable& before_;
   const Slots& slots_;
@@ -181,14 +190,14 @@ Donor donorWithFaces(const Plane& plane, const Array<Face>& faces,
 std::vector<Donor> Contact::livingPlanes() const
 {
   std::vector<std::size_t> living;
-  for (std::size_t p = 0; p < planes_.count(); ++p)
-    if (planes_.activity()(p) != Activity::Asleep && isDonor(planes()(p)))
+  for (std::size_t p = 0; p < planes().size(); ++p)
+    if (!planes_.isAsleep(planes().slotOf(p)) && isDonor(planes()[p]))
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),
               [&](const int d)
               {
-                donors[d] = donorWithFaces(planes()(living[d]), faces_.forKernels(),
+                donors[d] = donorWithFaces(planes()[living[d]], faces_.forKernels(),
                                            firstHalf_.nodeIds, firstHalf_.x);
               });
   return donors;
@@ -198,8 +207,8 @@ void Contact::findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v, R
 {
   TimedRegion region("coplane::contact::step1_globalSpaceLimits");
   std::vector<Real> offset{0};
-  for (std::size_t p = 0; p < planes_.count(); ++p)
-    if (const Plane& plane = planes()(p); plane.isBorn())
+  for (std::size_t p = 0; p < planes().size(); ++p)
+    if (const Plane& plane = planes()[p]; plane.isBorn())
       offset[0] = std::max(offset[0], plane.offset);
   comm_->max(offset);
   Motion motion;
@@ -251,8 +260,8 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
 {
   std::vector<GhostFace>& ghosts = firstHalf_.ghosts.faces;
   std::vector<GlobalId> wanted;
-  for (std::size_t p = 0; p < planes_.count(); ++p)
-    if (const Plane& plane = planes()(p); plane.area > 0)
+  for (std::size_t p = 0; p < planes().size(); ++p)
+    if (const Plane& plane = planes()[p]; plane.area > 0)
       for (const GlobalId id : plane.faceId)
         if (!hasFace(localFaces(), id) && !hasFace(ghosts, id))
           wanted.push_back(id);
@@ -286,20 +295,13 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   reach_.takeVelocities(v);
   Slots slots = slotsOf(
       step5_candidatePairs(firstHalf_.bins, faces(), x, dimension_, reach_.rulesWith(rules_)),
-      planes(), faces_, ended_);
-  const int count = int(slots.source.size());
-  const PlaneTable::Planes next(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"),
-                                std::size_t(count));
+      planes_, faces_, ended_);
   const auto preparation = std::make_shared<const Preparation>(
       Preparation::Search{slots.pairs, slots.source, faces_.forKernels(), localFaces().size(), x,
                           dimension_, reach_.leastSkin()},
       std::move(donors), layout);
-  const SlotFiller filler(options_, rules_, faces(), planes_, slots, *preparation);
-  const PlaneTable::Todos todo("coplane::contact::todo", std::size_t(count));
-  parallelFor("coplane::contact::fillSlots", count,
-              [&](const int slot) { todo(slot) = filler.fill(slot, next(slot)); });
-
-  planes_.take(next, todo, preparation);
+  planes_.take(SlotFiller(options_.inherit, faces(), planes_, slots, *preparation).made(),
+               faces_.forKernels(), preparation);
   firstHalf_ = {};
   reach_.end();
   listSlotsOfFaces(layout.owned());

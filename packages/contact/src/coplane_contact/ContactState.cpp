@@ -82,9 +82,9 @@ void Contact::save(StateTables& out) const
   planes.columns = namesOfNumbers();
   for (std::size_t p = 0; p < planes_.count(); ++p)
   {
-    if (!planes_.planes()(p).countedHere)
-      continue;
     const Plane plane = prepared(p);
+    if (!plane.countedHere)
+      continue;
     Real* row = planes.add({plane.faceId[0], plane.faceId[1]});
     forEachNumber(plane, [&](const auto& number) { *row++ = Real(number); });
   }
@@ -188,11 +188,11 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
 {
   faces_.list(firstHalf_.ghosts.faces, layout);
   const std::vector<Plane>& restored = firstHalf_.restored;
-  const PlaneTable::Planes planes(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), restored.size());
+  PlaneTable::Slots slots(restored.size(), restored.size());
   for (std::size_t p = 0; p < restored.size(); ++p)
   {
-    Plane& plane = *new (&planes(p)) Plane(restored[p]);
+    Plane& plane = *new (&slots.stored(p)) Plane(restored[p]);
+    slots.plane[p] = &plane;
     const int lower = faces_.place(plane.faceId[0]);
     plane.countedHere = lower >= 0 && faces()[lower].ownedHere;
     if (plane.face[0] >= 0)
@@ -202,7 +202,7 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
     }
   }
   firstHalf_ = {};
-  planes_.take(planes);
+  planes_.take(std::move(slots), faces_.forKernels(), nullptr);
   forceSums_.forgetFaces();
   listSlotsOfFaces(layout.owned());
   ended_ = {};

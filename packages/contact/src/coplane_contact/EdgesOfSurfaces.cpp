@@ -24,6 +24,21 @@ constexpr Real leastShare = 0.2;
 constexpr Real convex = 0.1;
 /// Edges run along each other if their outward directions have more than this in common [-].
 constexpr Real sameWay = 0.7;
+
+/// Area that the boxes around two shadows share: what the shadows share is not larger [m^2].
+Real sharedByBoxes(const ConvexPolygon& a, const ConvexPolygon& b)
+{
+  Box boxes[2];
+  for (const auto& [box, shadow] : {std::pair(&boxes[0], &a), std::pair(&boxes[1], &b)})
+    for (int i = 0; i < shadow->size; ++i)
+      box->include(Vec3{shadow->vertex[i].x, shadow->vertex[i].y, 0});
+  const auto shared = [&](int axis)
+  {
+    return std::max(0.0, std::min(boxes[0].high[axis], boxes[1].high[axis]) -
+                             std::max(boxes[0].low[axis], boxes[1].low[axis]));
+  };
+  return shared(0) * shared(1);
+}
 } // namespace
 
 /// Edge e of a face, in the order of its nodes.
@@ -140,8 +155,11 @@ Real EdgesOfSurfaces::lieOn(int lower, int higher) const
   const Real smaller = std::min(areaAndCentroid(shadows[0]).area, areaAndCentroid(shadows[1]).area);
   const Real size = faceSize(smaller, dimension_);
   const Real gap = dot(normal, centers[1] - centers[0]);
+  // Most pairs are edge neighbours, which share next to nothing: their boxes tell. The factor is
+  // more than any round-off.
   const bool near =
       gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&
+      2 * sharedByBoxes(shadows[0], shadows[1]) > leastShare * smaller &&
       areaAndCentroid(intersection(shadows[0], shadows[1])).area > leastShare * smaller;
   return near ? size : 0;
 }

@@ -41,7 +41,7 @@ void ForceSums::listFaces(const std::vector<Face>& localFaces, int ownedNodes)
                   }};
 }
 
-void ForceSums::add(const Planes& planes, const Array<Activity>& activity, const NodeVectors& f,
+void ForceSums::add(Plane* const* planes, const Array<Activity>& activity, const NodeVectors& f,
                     const Array<Real>& stiffness) const
 {
   const auto loads = faceLoads_;
@@ -54,9 +54,9 @@ void ForceSums::add(const Planes& planes, const Array<Activity>& activity, const
         for (const std::int32_t& entry : planesOfFace[n])
         {
           if (end - &entry > ahead && activity((&entry)[ahead] / 2) == Activity::Loaded)
-            prefetch(planes((&entry)[ahead] / 2));
+            prefetch(*planes[(&entry)[ahead] / 2]);
           if (activity(entry / 2) == Activity::Loaded)
-            load.add(planes(entry / 2), entry % 2);
+            load.add(*planes[entry / 2], entry % 2);
         }
       });
   parallelFor(

@@ -15,7 +15,6 @@ namespace coplane
 class ForceSums
 {
 public:
-  using Planes = Kokkos::View<Plane*, Kokkos::HostSpace>;
   using SlotTable = Kokkos::View<SlotFaces*, Kokkos::HostSpace>;
 
   /// Lists of the planes of each local face.
@@ -34,7 +33,8 @@ public:
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
-  void add(const Planes& planes, const Array<Activity>& activity, const NodeVectors& f,
+  /// @param planes by slot; those that are loaded are there
+  void add(Plane* const* planes, const Array<Activity>& activity, const NodeVectors& f,
            const Array<Real>& stiffness) const;
 
 private:

@@ -1,85 +1,178 @@
 #include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/detail/FacePairLanes.hpp>
 
+#include <algorithm>
+
 namespace coplane
 {
 namespace
 {
-PlaneTable::Planes planesFor(std::size_t count)
-{
-  return PlaneTable::Planes(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"),
-                            count);
-}
+/// A plane more than this times as stiff as the elements behind its faces chatters: their nodes
+/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md).
+constexpr Real stiffestCalm = 2.5;
+
+constexpr std::size_t wokenAtOnce = 128; ///< planes for which there is memory at once
 } // namespace
 
-PlaneTable::PlaneTable(const ContactRules& rules)
-    : laws_("coplane::contact::laws", rules.joints.size())
+void PlaneList::clear()
+{
+  planes_.clear();
+  slots_.clear();
+}
+
+void PlaneList::add(std::size_t slot, Plane* plane)
+{
+  planes_.push_back(plane);
+  slots_.push_back(slot);
+}
+
+PlaneTable::Slots::Slots(std::size_t count, std::size_t planes)
+    : faces("coplane::contact::slotFaces", count), plane(count, nullptr),
+      activity("coplane::contact::activity", count), todo("coplane::contact::todo", count),
+      stored(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), planes)
+{
+}
+
+PlaneTable::PlaneTable(const ContactRules& rules, Real depthMax)
+    : rules_(&rules), depthMax_(depthMax), laws_("coplane::contact::laws", rules.joints.size())
 {
   for (std::size_t j = 0; j < rules.joints.size(); ++j)
     laws_(j) = rules.joints[j].law;
 }
 
-PairTables PlaneTable::forKernels(bool incremental)
+std::pair<GlobalId, GlobalId> PlaneTable::keyOf(std::size_t slot) const
 {
-  return {planes_.data(),     slotFaces_.data(), activity_.data(), todo_.data(),
-          preparation_.get(), laws_.data(),      incremental,      &passedOnHasChanged_};
+  if (const Plane* const plane = slots_.plane[slot])
+    return {plane->faceId[0], plane->faceId[1]};
+  const SlotFaces& pair = slots_.faces(slot);
+  return {faces_(pair.face[0]).id, faces_(pair.face[1]).id};
 }
 
-void PlaneTable::take(const Planes& planes, const Todos& todo,
+Plane PlaneTable::freshPlane(std::size_t slot) const
+{
+  const SlotFaces& pair = slots_.faces(slot);
+  const Face &a = faces_(pair.face[0]), &b = faces_(pair.face[1]);
+  const ContactRule& rule = rules_->between(a.group, b.group);
+  Plane plane;
+  plane.faceId[0] = a.id;
+  plane.faceId[1] = b.id;
+  plane.face[0] = pair.face[0];
+  plane.face[1] = pair.face[1];
+  plane.joint = std::uint16_t(rule.joint);
+  plane.block[0] = std::uint16_t(a.block);
+  plane.block[1] = std::uint16_t(b.block);
+  plane.countedHere = a.ownedHere;
+  plane.sighting = isAsleep(slot) ? Sighting::Known : Sighting::New;
+  plane.fit =
+      rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
+  plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
+                stiffestCalm;
+  plane.depthLimit = depthMax_ * std::min(a.thickness, b.thickness);
+  return plane;
+}
+
+Plane PlaneTable::planeOf(std::size_t slot) const
+{
+  const Plane* const plane = slots_.plane[slot];
+  return plane != nullptr ? *plane : freshPlane(slot);
+}
+
+Plane PlaneTable::prepared(std::size_t slot) const
+{
+  Plane plane = planeOf(slot);
+  if (slots_.todo(slot) != 0)
+    preparation_->prepare(int(slot), slots_.todo(slot), plane);
+  return plane;
+}
+
+PairTables PlaneTable::forKernels(bool incremental)
+{
+  return {this,         slots_.plane.data(), slots_.faces.data(), slots_.activity.data(),
+          laws_.data(), incremental,         &passedOnHasChanged_};
+}
+
+void PlaneTable::take(Slots slots, const Array<Face>& faces,
                       std::shared_ptr<const Preparation> preparation)
 {
-  planes_ = planes;
-  todo_ = todo;
+  slots_ = std::move(slots);
+  faces_ = faces;
   preparation_ = std::move(preparation);
   passedOnHasChanged_ = false;
-  slotFaces_ = Slots("coplane::contact::slotFaces", count());
-  activity_ = Array<Activity>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::activity"),
-                              count());
-  parallelFor("coplane::contact::slotFaces", int(count()),
+  woken_.clear();
+  wokenCount_ = 0;
+  parallelFor("coplane::contact::slots", int(count()),
               [&](const int p)
               {
-                activity_(p) = activityOf(planes_(p));
-                for (int side = 0; side < 2; ++side)
-                  slotFaces_(p).face[side] = planes_(p).face[side];
+                if (const Plane* const plane = slots_.plane[p])
+                {
+                  slots_.activity(p) = activityOf(*plane);
+                  for (int side = 0; side < 2; ++side)
+                    slots_.faces(p).face[side] = plane->face[side];
+                }
               });
+  countedHere_ = 0;
+  for (std::size_t p = 0; p < count(); ++p)
+  {
+    const Plane* const plane = slots_.plane[p];
+    countedHere_ +=
+        plane != nullptr ? plane->countedHere : faces_(slots_.faces(p).face[0]).ownedHere;
+  }
+  list();
 }
 
 void PlaneTable::forgetPreparation()
 {
   preparation_.reset();
-  todo_ = {};
 }
 
-void PlaneTable::keepOnly(const std::vector<std::size_t>& places)
+void PlaneTable::drop(const std::vector<std::size_t>& slots)
 {
-  const Planes next = planesFor(places.size());
-  const Array<Activity> activity("coplane::contact::activity", places.size());
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (const std::size_t slot : slots)
   {
-    new (&next(i)) Plane(planes_(places[i]));
-    activity(i) = activity_(places[i]);
+    slots_.plane[slot] = nullptr;
+    slots_.activity(slot) = Activity::Awake;
   }
-  planes_ = next;
-  activity_ = activity;
-  todo_ = {};
+  list();
 }
 
-void PlaneTable::prepareAll()
+Plane* PlaneTable::newPlace()
 {
-  parallelFor("coplane::contact::prepareAll", int(todo_.extent(0)),
-              [&](const int slot)
-              {
-                if (todo_(slot) != 0)
-                  preparation_->prepare(slot, todo_(slot), planes_(slot));
-                todo_(slot) = 0;
-              });
+  const std::lock_guard<std::mutex> lock(waking_);
+  if (wokenCount_ == wokenAtOnce * woken_.size())
+    woken_.push_back(std::make_unique<Plane[]>(wokenAtOnce));
+  const std::size_t place = wokenCount_++;
+  return &woken_[place / wokenAtOnce][place % wokenAtOnce];
 }
 
-Plane PlaneTable::prepared(std::size_t p) const
+Plane& PlaneTable::wake(std::size_t slot)
 {
-  Plane plane = planes_(p);
-  if (todo_.extent(0) > 0 && todo_(p) != 0)
-    preparation_->prepare(int(p), todo_(p), plane);
-  return plane;
+  Plane*& plane = slots_.plane[slot];
+  if (plane == nullptr)
+  {
+    Plane* const place = newPlace();
+    *place = freshPlane(slot);
+    plane = place;
+  }
+  if (std::uint8_t& todo = slots_.todo(slot); todo != 0)
+  {
+    preparation_->prepare(int(slot), todo, *plane);
+    todo = 0;
+  }
+  return *plane;
+}
+
+void PlaneTable::listWoken()
+{
+  if (wokenCount_ != wokenListed_)
+    list();
+}
+
+void PlaneTable::list()
+{
+  planes_.clear();
+  for (std::size_t slot = 0; slot < count(); ++slot)
+    if (Plane* const plane = slots_.plane[slot])
+      planes_.add(slot, plane);
+  wokenListed_ = wokenCount_;
 }
 } // namespace coplane

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <coplane_contact/ContactRules.hpp>
+#include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_core/Backend.hpp>
 
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace coplane
@@ -14,48 +17,99 @@ namespace coplane
 struct PairTables;
 class Preparation;
 
-/// The slots of the last search with their planes, sorted by key, and beside them the tables that
-/// every cycle looks through.
+/// The planes of those slots that have one, in the order of slots, which is that of their keys.
+class PlaneList
+{
+public:
+  std::size_t size() const { return planes_.size(); }
+  Plane& operator[](std::size_t p) const { return *planes_[p]; }
+  std::size_t slotOf(std::size_t p) const { return slots_[p]; }
+
+  void clear();
+  void add(std::size_t slot, Plane* plane);
+
+private:
+  std::vector<Plane*> planes_;
+  std::vector<std::size_t> slots_;
+};
+
+/// The slots of the last search, sorted by key, in tables that every cycle looks through. Most
+/// pairs that a search finds are edge neighbours whose shadows never meet: all that there is to
+/// know of them are their faces, and whether they have been looked at. A slot gets its plane, of
+/// hundreds of bytes, when its faces meet.
 class PlaneTable
 {
 public:
-  using Planes = Kokkos::View<Plane*, Kokkos::HostSpace>;
-  using Slots = Kokkos::View<SlotFaces*, Kokkos::HostSpace>;
-  using Todos = Array<std::uint8_t>; ///< by slot: what it has not been told yet (Preparation::Todo)
+  using SlotTable = Kokkos::View<SlotFaces*, Kokkos::HostSpace>;
 
-  explicit PlaneTable(const ContactRules& rules);
+  /// What a search fills, and cycles go on with.
+  struct Slots
+  {
+    Slots() = default;
+    /// @param planes how many have their plane at once
+    Slots(std::size_t count, std::size_t planes);
 
-  const Planes& planes() const { return planes_; }
-  std::size_t count() const { return planes_.extent(0); }
-  const Slots& slotFaces() const { return slotFaces_; }
-  const Array<Activity>& activity() const { return activity_; }
+    SlotTable faces;           ///< as in the plane
+    std::vector<Plane*> plane; ///< null: none yet
+    Array<Activity> activity;  ///< without a plane: Asleep once it has been looked at
+    Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
+    Kokkos::View<Plane*, Kokkos::HostSpace> stored; ///< those that there are at once; to be made
+  };
+
+  /// @param rules that outlive this
+  PlaneTable(const ContactRules& rules, Real depthMax);
+
+  std::size_t count() const { return slots_.faces.extent(0); } ///< of slots
+  const Slots& slots() const { return slots_; }
+  const PlaneList& planes() const { return planes_; }
+  std::int64_t countedHere() const { return countedHere_; } ///< slots
+  bool isAsleep(std::size_t slot) const { return slots_.activity(slot) == Activity::Asleep; }
   /// Whether planes have changed what they pass on since the last search.
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
 
-  /// For the steps A to H. @param incremental closures are sums of increments
+  /// Ids of the faces of a slot.
+  std::pair<GlobalId, GlobalId> keyOf(std::size_t slot) const;
+  /// The plane of a slot, or the one it would get.
+  Plane planeOf(std::size_t slot) const;
+  /// The same when it has been told all that the last search knows.
+  Plane prepared(std::size_t slot) const;
+
+  /// For the steps A to H, after which listWoken() is due. @param incremental closures are sums of
+  /// increments
   PairTables forKernels(bool incremental);
 
-  /// What a search has found; `preparation` tells planes the rest when they come near.
-  void take(const Planes& planes, const Todos& todo,
-            std::shared_ptr<const Preparation> preparation);
-  /// Planes that know everything already, of a checkpoint.
-  void take(const Planes& planes) { take(planes, {}, nullptr); }
+  /// What a search has found, with planes where there are some and what is known of the others.
+  /// @param faces that slots refer to; preparation: tells planes the rest when they come near, null
+  ///        where they know everything already
+  void take(Slots slots, const Array<Face>& faces, std::shared_ptr<const Preparation> preparation);
   /// Without what the last search had left to tell: for the time of the next one.
   void forgetPreparation();
-  /// Leaves those at these places only; a search has to follow, which tells them anew.
-  void keepOnly(const std::vector<std::size_t>& places);
-  /// Tells all planes what the last search knows of them.
-  void prepareAll();
-  /// A plane as it is when it has been told: not the same for those that nothing has come near yet.
-  Plane prepared(std::size_t p) const;
+  /// Takes the planes of these slots away; a search has to follow, which does not find the pairs.
+  void drop(const std::vector<std::size_t>& slots);
+
+  /// The plane of a slot, made where there is none, and told what the last search knows. By any
+  /// thread, each for slots of its own.
+  Plane& wake(std::size_t slot);
+  /// Planes that have been made since the last time into the list.
+  void listWoken();
 
 private:
-  Planes planes_;
-  Slots slotFaces_;
-  Array<Activity> activity_;
-  Todos todo_;
+  Plane freshPlane(std::size_t slot) const;
+  Plane* newPlace();
+  void list();
+
+  const ContactRules* rules_;
+  Real depthMax_;
+  Slots slots_;
+  Array<Face> faces_;
+  PlaneList planes_;
+  std::int64_t countedHere_ = 0;
   std::shared_ptr<const Preparation> preparation_; ///< of the last search
   Array<JointLaw> laws_;                           ///< by joint card
+  // Planes made since the last search.
+  std::mutex waking_;
+  std::vector<std::unique_ptr<Plane[]>> woken_;
+  std::size_t wokenCount_ = 0, wokenListed_ = 0;
   std::atomic<bool> passedOnHasChanged_{false};
 };
 } // namespace coplane

@@ -41,13 +41,12 @@ void dealPlanes(const Contact& contact, double work, std::vector<Real>& costs)
   const auto weight = [](const Plane& plane) {
     return plane.face[0] < 0 ? 0 : plane.overlap > 0 ? costOfOverlap : 1;
   };
-  const auto& planes = contact.planes();
   Real all = 0;
-  for (std::size_t p = 0; p < planes.extent(0); ++p)
-    all += weight(planes(p));
-  for (std::size_t p = 0; p < planes.extent(0); ++p)
+  for (std::size_t slot = 0; slot < contact.slots(); ++slot)
+    all += weight(contact.planeOf(slot));
+  for (std::size_t slot = 0; slot < contact.slots(); ++slot)
   {
-    const Plane& plane = planes(p);
+    const Plane plane = contact.planeOf(slot);
     if (plane.face[0] < 0)
       continue;
     int nodes[8], count = 0;

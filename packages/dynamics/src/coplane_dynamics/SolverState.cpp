@@ -229,11 +229,11 @@ std::uint64_t Solver::stateHash() const
           ++field;
         });
   }
-  for (std::size_t p = 0; contact_ && p < contact_->planes().extent(0); ++p)
+  for (std::size_t p = 0; contact_ && p < contact_->planes().size(); ++p)
   {
-    const Plane& plane = contact_->planes()(p);
+    const Plane& plane = contact_->planes()[p];
     if (plane.countedHere && plane.isBorn())
-      addTo(hash, PlaneField, contact_->prepared(p));
+      addTo(hash, PlaneField, contact_->prepared(contact_->planes().slotOf(p)));
   }
   if (comm_->isRoot())
   {

@@ -138,9 +138,9 @@ void namePlaneAt(const Contact& contact, int node, GlobalId* faceId)
 {
   // Planes stand in the order of their keys: the first of several equal ones is named.
   Real most = 0;
-  for (std::size_t p = 0; p < contact.planes().extent(0); ++p)
+  for (std::size_t p = 0; p < contact.planes().size(); ++p)
   {
-    const Plane& plane = contact.planes()(p);
+    const Plane& plane = contact.planes()[p];
     if (plane.face[0] < 0 || !(plane.nodeStiffness > most))
       continue;
     for (int side = 0; side < 2; ++side)

@@ -49,9 +49,9 @@ Real depthOf(const Plane& plane)
 std::string worstByRemainder(const Parts& parts)
 {
   std::vector<Entry> planes;
-  for (std::size_t p = 0; parts.contact && p < parts.contact->planes().extent(0); ++p)
+  for (std::size_t p = 0; parts.contact && p < parts.contact->planes().size(); ++p)
   {
-    const Plane& plane = parts.contact->planes()(p);
+    const Plane& plane = parts.contact->planes()[p];
     if (!plane.countedHere || !plane.isBorn())
       continue;
     const Real rest = plane.remainder();
@@ -66,9 +66,9 @@ std::string worstByRemainder(const Parts& parts)
 std::string deepestPlanes(const Parts& parts)
 {
   std::vector<Entry> planes;
-  for (std::size_t p = 0; parts.contact && p < parts.contact->planes().extent(0); ++p)
+  for (std::size_t p = 0; parts.contact && p < parts.contact->planes().size(); ++p)
   {
-    const Plane& plane = parts.contact->planes()(p);
+    const Plane& plane = parts.contact->planes()[p];
     if (plane.countedHere && plane.isBorn() && depthOf(plane) > 0)
       planes.push_back({depthOf(plane), plane.closure, plane.faceId[0], plane.faceId[1]});
   }
@@ -99,9 +99,9 @@ std::string worstEntities(const Parts& parts)
 CappedPlanes cappedPlanes(const Parts& parts)
 {
   std::vector<Entry> planes;
-  for (std::size_t p = 0; p < parts.contact->planes().extent(0); ++p)
+  for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
   {
-    const Plane& plane = parts.contact->planes()(p);
+    const Plane& plane = parts.contact->planes()[p];
     if (plane.countedHere && plane.area > 0 &&
         parts.contact->lawOf(plane).capped(plane.fit, plane.history))
       planes.push_back(

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/detail/PassedOn.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
 #include <coplane_contact/detail/Preparation.hpp>
@@ -70,39 +71,38 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
 /// The pairs of the last search, one beside the other.
 struct PairTables
 {
-  Plane* planes;
+  PlaneTable* table;    ///< makes planes
+  Plane* const* planes; ///< null: none yet
   const SlotFaces* slots;
   Activity* activity;
-  Preparation::Todo* todo; ///< null: nothing is left to do
-  const Preparation* preparation;
   const JointLaw* laws;
   bool incremental;          ///< closures are sums of increments
   std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
 
-  PassedOn passedBy(int p) const { return {planes[p], laws[planes[p].joint], incremental}; }
+  PassedOn passedBy(int p) const { return {*planes[p], laws[planes[p]->joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
   void book(int p, const PassedOn& before) const
   {
-    activity[p] = activityOf(planes[p]);
+    activity[p] = activityOf(*planes[p]);
     if (!passed->load(std::memory_order_relaxed) && passedBy(p) != before)
       passed->store(true, std::memory_order_relaxed);
   }
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
+  bool carries(int p) const { return planes[p] != nullptr && planes[p]->area > 0; }
   /// For a pair that carries nothing and whose shadows share nothing.
   void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
   {
     if (isAsleep(p))
       return;
-    coplane::passBy(planes[p], a, b, dt);
+    if (planes[p] != nullptr)
+      coplane::passBy(*planes[p], a, b, dt);
     activity[p] = Activity::Asleep;
   }
   /// Before a pair is evaluated that its faces have just brought near.
   void prepare(int p) const
   {
-    if (todo == nullptr || todo[p] == 0)
-      return;
-    preparation->prepare(p, todo[p], planes[p]);
-    todo[p] = 0;
+    if (table != nullptr)
+      table->wake(std::size_t(p));
   }
 };
 
@@ -115,8 +115,8 @@ class PairLanes
 public:
   PairLanes(const PairTables& pairs, const HalfStepFace* faces, const ContactOptions& options,
             Real dt)
-      : pairs_(pairs), planes_(pairs.planes), slots_(pairs.slots), faces_(faces), laws_(pairs.laws),
-        options_(options), leastOpposed_(leastOpposed(options)), dt_(dt)
+      : pairs_(pairs), slots_(pairs.slots), faces_(faces), laws_(pairs.laws), options_(options),
+        leastOpposed_(leastOpposed(options)), dt_(dt)
   {
   }
 
@@ -132,7 +132,7 @@ public:
       if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
         continue;
       const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
-      if (!pairs_.isAsleep(p) && planes_[p].area > 0) // it met in the last cycle
+      if (!pairs_.isAsleep(p) && pairs_.carries(p)) // it met in the last cycle
         put(p, kind);
       else if (toJudge_[kind].add(p))
         judge(kind);
@@ -164,8 +164,9 @@ private:
   void prefetchAhead(int p, int last) const
   {
     constexpr int planesAhead = 16, facesAhead = 8;
-    if (p + planesAhead < last && !pairs_.isAsleep(p + planesAhead))
-      prefetch(planes_[p + planesAhead]);
+    if (p + planesAhead < last && !pairs_.isAsleep(p + planesAhead) &&
+        pairs_.planes[p + planesAhead] != nullptr)
+      prefetch(*pairs_.planes[p + planesAhead]);
     if (p + facesAhead < last && slots_[p + facesAhead].face[1] >= 0)
       prefetch(face(p + facesAhead, 1));
   }
@@ -216,7 +217,7 @@ private:
   void put(int p, int kind)
   {
     // Those that carry are packed together: most of the others are done when they do not touch.
-    Queue& queue = toUpdate_[kind + (planes_[p].area > 0 ? kinds : 0)];
+    Queue& queue = toUpdate_[kind + (pairs_.carries(p) ? kinds : 0)];
     if (queue.add(p))
       updateMet(queue);
   }
@@ -229,7 +230,7 @@ private:
     batch.count = queue.count;
     for (int i = 0; i < laneCount; ++i)
     {
-      batch.plane[i] = &planes_[queue.at(i)];
+      batch.plane[i] = pairs_.planes[queue.at(i)];
       batch.law[i] = &laws_[batch.plane[i]->joint];
     }
     gatherFaces<true>(queue);
@@ -247,7 +248,6 @@ private:
   }
 
   const PairTables pairs_;
-  Plane* planes_;
   const SlotFaces* slots_;
   const HalfStepFace* faces_;
   const JointLaw* laws_;
