@@ -425,11 +425,11 @@ TEST(CornerOfThePotential, wedgeOnAPlane)
 TEST(CornerOfThePotential, sharpWedgesFadeWithTheirOpposition)
 {
   // The faces of a wedge oppose the plane by the sine of half its angle. Fully from three times
-  // cos_opposed on, a smooth step of the fifth degree below.
+  // cos_opposed on, a smooth step of the third degree below.
   ContactOptions blunt;
   blunt.cosOpposed = .1;
   for (const auto& [angle, share] :
-       {std::tuple{36., 1.}, std::tuple{30., .937}, std::tuple{20., .264}, std::tuple{11.4, 0.}})
+       {std::tuple{36., 1.}, std::tuple{30., .8903}, std::tuple{20., .3066}, std::tuple{11.4, 0.}})
   {
     const auto energy = [theta = .5 * angle * pi / 180](const ContactOptions& o)
     { return pushed<2>({slab2D()}, corner2D(theta, depth, 1, {}), o).stored; };

@@ -25,6 +25,7 @@ Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOpt
     return 0;
   pair.meet(0, true, {});
   patch.overlap = pair.overlap;
+  pair.oppose(0);
   patch.area = pair.opposedness * pair.moments.area;
   if (!(patch.area > 0))
     return 0;

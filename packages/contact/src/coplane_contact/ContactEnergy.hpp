@@ -22,6 +22,23 @@ struct SmoothStep
   }
 };
 
+/// Polynomial 0 to 1 with a vanishing derivative at both ends; constant outside 0..1. It begins as
+/// z^2.
+template <class T>
+struct SoftStep
+{
+  T value, slope;
+  T power; ///< z slope / value, at most 2
+
+  KOKKOS_FORCEINLINE_FUNCTION explicit SoftStep(const T& at)
+  {
+    const T z = branchFree::smaller(branchFree::positivePart(at), T(1.0));
+    value = z * z * (3.0 - 2.0 * z);
+    slope = 6.0 * z * (1.0 - z);
+    power = 6.0 * (1.0 - z) / (3.0 - 2.0 * z);
+  }
+};
+
 /// Energy per area as a function of the closure c: square c^2 + linear c + constant.
 template <class T>
 struct EnergyDensity
@@ -60,6 +77,9 @@ struct ContactPotentialScale
 {
   /// The energy falls to zero between these values of -n0.n1, so that pairs come and go smoothly.
   Real opposedFrom, opposedTo;
+  /// The more a pair stores the wider the range: this many times the mean closure over the size of
+  /// a face, up to so much. So turning is no stiffer than closing, and a step follows it.
+  Real widening = 2, widest = 0.5;
   /// Edges of both faces nearer than this fraction of a face across them count as one.
   Real oneEdge = 1e-3;
   /// The same for the borders of two bodies whose faces are pressed together all over: a block that

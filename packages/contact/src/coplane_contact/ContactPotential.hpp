@@ -79,10 +79,7 @@ public:
     tilt_ = inPlane(tilt);
     apart_ = inPlane(apart);
     atPoint_ = offset - dot(plane.normal, apart);
-    const SmoothStep<T> opposed((xi_ - scale_.opposedFrom) *
-                                (1.0 / (scale_.opposedTo - scale_.opposedFrom)));
-    opposedness = opposed.value;
-    opposednessSlope_ = opposed.slope * (1.0 / (scale_.opposedTo - scale_.opposedFrom));
+    bonded_ = whole;
     const T least = smaller(a.area, b.area);
     size_ = least;
     edges_ = edges;
@@ -97,6 +94,23 @@ public:
     findStrip(whole);
     hidden = !whole && ((coveredSides_[0] > 0.0 && openSides_[0] == 0.0) ||
                         (coveredSides_[1] > 0.0 && openSides_[1] == 0.0));
+  }
+
+  /// phi, and what it changes by. The energy E = U phi(xi, U) rises with U at any angle: phi falls
+  /// no faster than 1/U, since phi begins as the square of xi and the range grows no faster
+  /// than the root of U.
+  /// @param stored U over that of a closure as large as the faces are [-]
+  KOKKOS_FORCEINLINE_FUNCTION void oppose(const T& stored)
+  {
+    const Real narrow = scale_.opposedTo - scale_.opposedFrom;
+    const T wanted = (scale_.widening * scale_.widening) * stored;
+    const T rest = 1.0 / (1.0 + (1.0 / (scale_.widest * scale_.widest)) * wanted);
+    const T wider = wanted * rest;
+    const T square = wider + narrow * narrow, inverse = 1.0 / branchFree::squareRoot(square);
+    const SoftStep<T> opposed(inverse * (xi_ - scale_.opposedFrom));
+    opposedness = opposed.value;
+    opposednessSlope_ = inverse * opposed.slope;
+    falling_ = -0.5 * opposed.power * wider * rest / square;
   }
 
   /// The law: k/2 chi H Int c^2, as the density whose integral changes as that does when the
@@ -131,7 +145,17 @@ public:
     density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - slope * hard);
     density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
     density.constant = T(0.0);
-    return 0.5 * stiffness * wayOut * hard * s;
+    const T stored = wayOut * hard * s;
+    T perSize = 1.0 / (face_[0]->area * face_[1]->area);
+    if constexpr (Dim == 2)
+      perSize = perSize * squareRoot(perSize);
+    oppose(choose(bonded_, T(0.0), stored * perSize));
+    const T rising = 1.0 + falling_;
+    density.square = rising * density.square;
+    density.linear = rising * density.linear;
+    if constexpr (widthOf<T> == 1)
+      alongStrip_ = rising * alongStrip_;
+    return 0.5 * stiffness * stored;
   }
 
   /// Gradient of gamma phi (energy), where the energy is the integral of a density over the part in
@@ -176,8 +200,10 @@ public:
           (materialArea * opposednessSlope_ * energy) * face_[1 - f]->normal;
       const Vec3Of<T> inFace = slopes - dot(mine.normal, slopes) * mine.normal;
       const T area = 1.0 / mine.area;
-      byVectorArea(f, area * inFace -
-                          (0.5 * opposedness * energy * birth[f] * area * area) * mine.normal);
+      byVectorArea(f, area * inFace - (opposedness * energy * area *
+                                       (0.5 * birth[f] * area +
+                                        (Dim == 2 ? 1.5 : 1.0) * materialArea * falling_)) *
+                                          mine.normal);
       const Vec3Of<T> even = (scale * push * inverse / mine.count) * mine.normal;
       for (int i = 0; i < mine.count; ++i)
         gradient[f][i] += even + scale * spatial(rim[f][i]);
@@ -365,6 +391,8 @@ private:
   const HalfStepFaceOf<T>* face_[2];
   ContactPotentialScale scale_;
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
+  T falling_{}; ///< d ln phi / d ln U, 0 to -1
+  Mask bonded_{false};
   EdgesOf<T> edges_;
   T coveredSides_[2]{}; ///< number of sides on covered edges of each face
   T openSides_[2]{};    ///< and on others at which its surface turns
