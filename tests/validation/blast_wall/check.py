@@ -140,7 +140,7 @@ def blast(name, distance, friction=3.0, end=1.5, across=4, stiffness=1e11, cours
     if courses > 1:
         height = HIGH / courses
         recipe["parts"][1:] = [{**wall, "block": f"course_{i}", "min": [0, i * height], "size": [THICK, height], "divisions": [across, FACES // courses]} for i in range(courses)]
-        recipe["side_sets"]["front"] = [{"block": f"course_{i}", "where": {"x": 0}} for i in range(courses)]
+        recipe["side_sets"]["front"] = {"where": {"x": 0}}
         del deck["blocks"]["wall"]
         deck["blocks"].update({f"course_{i}": {"material": "masonry", "rigid": True} for i in range(courses)})
         deck["history"]["probes"][0]["block"] = f"course_{courses - 1}"
