@@ -177,7 +177,7 @@ for friction, words in ((3.0, "it rocks"), (0.5, "it rocks and slides")):
             if friction < 1:
                 case.check(f"{name}: way of the foot [m]", run[2][at][-1], ways[-1], 0.15, relative=True)
             else:
-                case.picture(run[4], "--times", "0", "33%", "67%", "100%", "--strip", "4", "--planes", "none", "--window", "-0.3", "1.2", "-0.1", "2.3", "--size", "230", "330")
+                case.picture(run[4], "--shares", "0", "0.33", "0.67", "1", "--strip", "4", "--planes", "none", "--window", "-0.3", "1.2", "-0.1", "2.3", "--size", "230", "330")
 limit = critical(3.0)
 solid = blast("solid", 1.05 * limit, solid=True, across=2, end=0.7)
 flat = blast("flat", 1.05 * limit, across=2, end=0.7)
