@@ -171,6 +171,19 @@ TEST(DeckErrors, aKeyInTheWrongPlaceIsToldItsPlace)
             "until_force_ratio.");
 }
 
+TEST(DeckErrors, aKeyThatPeopleLookForBringsAdvice)
+{
+  const auto expectAdvice = [](const std::string& error, const std::string& words)
+  { EXPECT_NE(error.find(words), std::string::npos) << error; };
+  expectAdvice(errorWith("units: SI\n"), "units is not known. A deck names no units");
+  expectAdvice(errorWith("dimension: 2\n"), "The mesh says whether");
+  expectAdvice(errorWith("checkpoint: {every: 1}\n"),
+               "checkpoint.every is not known. Checkpoints come by count of cycles (every_cycles)");
+  expectAdvice(errorOfMaterial("model: linear_elastic, density: 1, bulk_modulus: 1, "
+                               "shear_modulus: 1"),
+               "poisson_ratio = (3 K - 2 G) / (6 K + 2 G)");
+}
+
 TEST(DeckErrors, aKeyGivenTwice)
 {
   EXPECT_EQ(errorWith("damping:\n  mass: 1\n  mass: 2\n"),

@@ -35,6 +35,19 @@ TEST(DeckWarnings, aWeightThatLifts)
                                       "upwards where y points up; there it is -9.81."}));
 }
 
+TEST(DeckWarnings, aJointThatActsNowhere)
+{
+  const std::string joints = "joints: {slick: {model: penalty}, slik: {model: penalty}}\n";
+  EXPECT_EQ(warningsOf(joints + "contact: {default_joint: slick, pairs: [{blocks: [\"*\", \"*\"], "
+                                "joint: slik}]}\n"),
+            std::vector<std::string>());
+  const std::vector<std::string> warnings =
+      warningsOf(joints + "contact: {default_joint: slick}\n");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("joints.slik acts nowhere"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("Did you mean 'slick'?"), std::string::npos) << warnings[0];
+}
+
 TEST(DeckWarnings, theUsualRangeIsThatOfTheModel)
 {
   const auto ofDensity = [](const std::string& model)

@@ -421,6 +421,30 @@ void warnOfGravityUpwards(const Deck& deck, const DeckNode& root, Problems& prob
                                 "points up; there it is -{1:g}.",
                                 c, g, "xyz"[c]));
 }
+
+/// A joint law that acts nowhere, as one whose name is misspelt in --set does. Stages may come to
+/// it later.
+void warnOfJointsWithoutUse(const Deck& deck, const DeckNode& root, const Names& joints,
+                            Problems& problems)
+{
+  const auto acts = [&](const std::string& joint)
+  {
+    const auto& pairs = deck.contact.pairs;
+    return joint == deck.contact.defaultJoint ||
+           std::any_of(pairs.begin(), pairs.end(),
+                       [&](const ContactPairCard& pair) { return pair.joint == joint; });
+  };
+  for (const std::string& joint : joints)
+    if (deck.stages.empty() && !acts(joint))
+    {
+      Names others = joints;
+      others.erase(std::find(others.begin(), others.end(), joint));
+      problems.warn(nodeAt(root, {"joints", joint}),
+                    fmt::format("joints.{} acts nowhere: neither contact.default_joint nor an item "
+                                "of contact.pairs names it.{}",
+                                joint, didYouMean(joint, others)));
+    }
+}
 } // namespace
 
 void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
@@ -448,6 +472,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkFragments(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
+  warnOfJointsWithoutUse(deck, root, joints, problems);
 }
 
 std::vector<std::string> absentAtStart(const Deck& deck)

@@ -533,48 +533,53 @@ Key damping()
 Key makeSchema()
 {
   return section(
-      "", {
-              definitions(),
-              text("title", &Deck::title).means("for the records").like("Bar through a wall"),
-              text("mesh", &Deck::mesh)
-                  .needed()
-                  .like("bricks.e")
-                  .means("Exodus file, relative to the folder of the deck"),
-              text("geometry", &Deck::geometry)
-                  .oneOf({"plane_strain", "axisymmetric"})
-                  .like("axisymmetric")
-                  .means("what a mesh in two dimensions is a section of; axisymmetric: x is the "
-                         "distance from the axis, y runs along it"),
-              materialKeys(),
-              blocks(),
-              jointKeys(),
-              contactKeys(),
-              conditions(),
-              initial(),
-              gravity(),
-              damping(),
-              section("viscosity",
-                      {
-                          number("linear", &Deck::viscosityLinear)
-                              .in("-")
-                              .usually(usual::fraction)
-                              .atLeast(0)
-                              .like("0.1")
-                              .means("bulk viscosity b1, in compression"),
-                          number("quadratic", &Deck::viscosityQuadratic)
-                              .in("-")
-                              .atLeast(0)
-                              .like("1.2")
-                              .means("bulk viscosity b2, in compression"),
-                      })
-                  .means("bulk viscosity, which spreads shocks over a few elements"),
-              timeGroup(),
-              stages(),
-              outputKeys(),
-              historyKeys(),
-              checkpointKeys(),
-              partitionKeys(),
-          });
+             "",
+             {
+                 definitions(),
+                 text("title", &Deck::title).means("for the records").like("Bar through a wall"),
+                 text("mesh", &Deck::mesh)
+                     .needed()
+                     .like("bricks.e")
+                     .means("Exodus file, relative to the folder of the deck"),
+                 text("geometry", &Deck::geometry)
+                     .oneOf({"plane_strain", "axisymmetric"})
+                     .like("axisymmetric")
+                     .means("what a mesh in two dimensions is a section of; axisymmetric: x is the "
+                            "distance from the axis, y runs along it"),
+                 materialKeys(),
+                 blocks(),
+                 jointKeys(),
+                 contactKeys(),
+                 conditions(),
+                 initial(),
+                 gravity(),
+                 damping(),
+                 section("viscosity",
+                         {
+                             number("linear", &Deck::viscosityLinear)
+                                 .in("-")
+                                 .usually(usual::fraction)
+                                 .atLeast(0)
+                                 .like("0.1")
+                                 .means("bulk viscosity b1, in compression"),
+                             number("quadratic", &Deck::viscosityQuadratic)
+                                 .in("-")
+                                 .atLeast(0)
+                                 .like("1.2")
+                                 .means("bulk viscosity b2, in compression"),
+                         })
+                     .means("bulk viscosity, which spreads shocks over a few elements"),
+                 timeGroup(),
+                 stages(),
+                 outputKeys(),
+                 historyKeys(),
+                 checkpointKeys(),
+                 partitionKeys(),
+             })
+      .absent("units", "A deck names no units: any consistent set will do, and messages, usual "
+                       "ranges and the library of materials are in SI (m, kg, s, N, Pa).")
+      .absent("dimension", "The mesh says whether it is in two or three dimensions.")
+      .absent("include", "A deck is one file. For variants of it there is --set KEY=VALUE.");
 }
 } // namespace
 

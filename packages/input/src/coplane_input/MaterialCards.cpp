@@ -36,6 +36,11 @@ Key materialKeys()
   return named("materials", &Deck::materials, materialCardKeys())
       .decidedBy("model")
       .completedBy("set")
+      .absent("bulk_modulus", "From bulk modulus K and shear modulus G: youngs_modulus = "
+                              "9 K G / (3 K + G), poisson_ratio = (3 K - 2 G) / (6 K + 2 G).")
+      .absent("shear_modulus", "From Young's modulus E and shear modulus G: poisson_ratio = "
+                               "E / (2 G) - 1; from bulk modulus K and G: youngs_modulus = "
+                               "9 K G / (3 K + G), poisson_ratio = (3 K - 2 G) / (6 K + 2 G).")
       .means("laws of the continuum, by a name of your choice; blocks may name sets of the library "
              "without a card here");
 }

@@ -165,6 +165,8 @@ Key checkpointKeys()
                        .like("true")
                        .means("a checkpoint at the end, to go on from with a later time.end"),
                })
+      .absent("every", "Checkpoints come by count of cycles (every_cycles) or by the clock on the "
+                       "wall (every_seconds), not by the time of the model.")
       .means("state of the run, for --restart; without this group only when asked for (signals, "
              "--max-wall, a file <name>.stop)");
 }

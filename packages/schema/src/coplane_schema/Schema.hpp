@@ -55,6 +55,13 @@ struct RemovedKey
   std::string instead; ///< whole sentences
 };
 
+/// A key that people look for and that no such group ever had: what to do in its place.
+struct AbsentKey
+{
+  std::string name;
+  std::string advice; ///< whole sentences
+};
+
 /// Where the magnitudes of a value lie as a rule; zero is always usual. What lies outside is a
 /// warning, not an error.
 struct UsualRange
@@ -111,6 +118,7 @@ struct Key
   std::function<std::string(const std::string& model)> problemOfModel;
   std::vector<Alternatives> alternatives;
   std::vector<RemovedKey> removed;
+  std::vector<AbsentKey> absent;
   std::string completedBy; ///< a key (`set`) that gives all required ones that are not given
   std::string shortFor;    ///< a value that is no map is that of this key of the group
   /// What one key of the group demands of another; asked when all of them could be read.

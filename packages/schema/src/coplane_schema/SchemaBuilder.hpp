@@ -96,6 +96,12 @@ public:
     key_.removed.push_back({name, instead});
     return *this;
   }
+  /// Of a group: a key that it never had, though people look for it, and what to do instead.
+  KeyBuilder& absent(const std::string& name, const std::string& advice)
+  {
+    key_.absent.push_back({name, advice});
+    return *this;
+  }
 
 private:
   template <class T>

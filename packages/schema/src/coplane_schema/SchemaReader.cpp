@@ -157,14 +157,17 @@ private:
     if (known)
       return problems_.add(name,
                            fmt::format("{} belongs to {}: {}, but {} is {} here; remove it or "
-                                       "change {}.",
+                                       "change {}.{}",
                                        join(path, name.text), group.discriminator, listOf(owners),
-                                       group.discriminator, *model, group.discriminator));
+                                       group.discriminator, *model, group.discriminator,
+                                       adviceOnAbsent(group, name.text)));
     for (const RemovedKey& gone : group.removed)
       if (gone.name == name.text)
         return problems_.add(
             name, fmt::format("{} is no longer a key. {}", join(path, name.text), gone.instead));
-    std::string hint = hintOfName(group, name.text, names);
+    std::string hint = adviceOnAbsent(group, name.text);
+    if (hint.empty())
+      hint = hintOfName(group, name.text, names);
     if (hint.empty())
     {
       std::vector<std::string> places;
@@ -174,6 +177,14 @@ private:
     }
     problems_.add(name, fmt::format("{} is not known.{} Accepted here: {}.", join(path, name.text),
                                     hint, listOf(names)));
+  }
+
+  static std::string adviceOnAbsent(const Key& group, const std::string& name)
+  {
+    for (const AbsentKey& absent : group.absent)
+      if (absent.name == name)
+        return " " + absent.advice;
+    return "";
   }
 
   /// The key that is meant: by its name in other programs, or by its letters.
