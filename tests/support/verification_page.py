@@ -219,12 +219,15 @@ def validation_section(folder, lines):
 
 
 def validation_index():
-    """All cases, with their verdicts."""
-    rows = []
+    """All cases, with their verdicts, behind a line of those in which we differ."""
+    rows, differ = [], []
     for folder in cases("validation"):
         title, verdict, _ = validation_parts(folder)
-        rows.append([f"[{folder.name}](#{heading(folder)[3:].lower().replace(' ', '-')})", title, verdict])
-    return "\n".join(table(("case", "what", "verdict"), rows))
+        link = f"[{folder.name}](#{heading(folder)[3:].lower().replace(' ', '-')})"
+        rows.append([link, title, verdict])
+        if not verdict.startswith("agrees") or "differs" in verdict.lower() or "does not converge" in verdict:
+            differ.append(link)
+    return "\n".join([f"Where we differ or do not converge, wholly or in part: {', '.join(differ)}.", "", *table(("case", "what", "verdict"), rows)])
 
 
 def page(build, old="", suite="verification"):
