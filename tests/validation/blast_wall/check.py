@@ -132,18 +132,11 @@ def critical(friction):
 # --- runs ------------------------------------------------------------------------------------------------
 
 
-def blast(name, distance, friction=3.0, end=1.5, across=4, stiffness=1e11, courses=1, solid=False, states=None):
+def blast(name, distance, friction=3.0, end=1.5, across=4, stiffness=1e11, solid=False):
     """Times after the arrival, tilts, ways of the foot, whether it falls; run and seconds."""
     recipe, deck = case.load("mesh.yaml"), case.load()
     wall = recipe["parts"][1]
     wall["divisions"] = [across, FACES]
-    if courses > 1:
-        height = HIGH / courses
-        recipe["parts"][1:] = [{**wall, "block": f"course_{i}", "min": [0, i * height], "size": [THICK, height], "divisions": [across, FACES // courses]} for i in range(courses)]
-        recipe["side_sets"]["front"] = {"where": {"x": 0}}
-        del deck["blocks"]["wall"]
-        deck["blocks"].update({f"course_{i}": {"material": "masonry", "rigid": True} for i in range(courses)})
-        deck["history"]["probes"][0]["block"] = f"course_{courses - 1}"
     if solid:
         recipe["dimension"] = 3
         for part in recipe["parts"]:
@@ -189,7 +182,4 @@ if case.full:
     for stiffness in (1e9, 1e10, 1e11):
         run = blast(f"bed_{stiffness:g}", 1.05 * limit, stiffness=stiffness, end=0.9)
         case.study("charge at 1.05 of the limit: largest tilt [rad]", f"bed of {stiffness / 1e9:g} GPa/m", run[1].max(), rigid(1.05 * limit, 3.0)[1].max(), run[5])
-    for factor in (0.7, 0.8, 0.9, 1.0, 1.1, 1.2):
-        run = blast(f"courses_{factor}", factor * limit, friction=0.7, courses=8, end=2.0)
-        case.study("8 dry courses, friction of 0.7: largest displacement of the top [m]", f"charge at {factor} of the limit of one block", run[4].history["top_displacement_x"].max(), None, run[5])
 case.finish()
