@@ -252,7 +252,7 @@ def check_tellings():
 def check_retold():
     """The cases that are told in other words are registered; every case once and every way of telling it twice are told without `slow`, but for cases that only `slow` tells."""
     sys.path.insert(0, str(SOURCE / "tests/metamorphic/retold"))
-    from cases import CASES
+    from cases import CASES, UNTOLD
     from coplanetest import tellings
 
     text = (SOURCE / "tests/CMakeLists.txt").read_text()
@@ -261,6 +261,8 @@ def check_retold():
     assert [name for name in CASES if CASES[name].often] == [name for name in CASES if name in often], "cases without words that are told often are in _retold_slow"
     folders = [name for name in CASES if not (SOURCE / "tests/verification" / name).is_dir() and not (SOURCE / "exodus_inputs" / name).is_dir()]
     assert not folders, f"no verification cases or examples: {folders}"
+    every = [path.parent.name for pattern in ("tests/verification/*/check.py", "exodus_inputs/*/example.yaml") for path in SOURCE.glob(pattern)]
+    assert sorted([*CASES, *UNTOLD]) == sorted(every), f"told, or not told with a reason, in retold/cases.py: {sorted(set([*CASES, *UNTOLD]) ^ set(every))}"
     for word in [*tellings.WORDS, *tellings.WITH]:
         cases = [name for name, known in CASES.items() if any(told.split(":")[0] == word for told in known.often)]
         assert len(cases) >= 2, f"{word} is told of {cases} only"

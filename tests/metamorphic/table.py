@@ -67,10 +67,40 @@ def put(text, mark, head, of, found, order):
     return before + mark + "\n".join([head, "|---" * (head.count("|") - 1) + "|", *lines]) + "\n" + "<!-- end -->".join(["", *after])
 
 
+def not_covered(cases, untold, words_of_every_case):
+    """Lines for what is not told, with the reason: words left out of the runs without `all`, answers that are only reported, runs whose motion is
+    not compared, verification cases and examples that are not told at all.
+    """
+    root = README.parents[2]
+    lines = []
+    for name, case in cases.items():
+        rest = [word for word in case.words(True) if word not in case.often]
+        why = "takes minutes: with `all` alone" if not case.often else "with `all` alone: the covering set has these words with other cases"
+        lines.append(f"| {name} | {', '.join(rest)} | {why} |")
+        lines += [f"| {name} | {word}: its answers are only reported | {reason} |" for word, reason in case.other.items()]
+        lines += [f"| {name} | run {run}: motion not compared | {reason} |" for run, reason in case.apart.items()]
+        lines += [f"| {name} | {word}: motion only reported | the bound is none |" for word, bound in case.bounds.items() if bound is None]
+    for word in words_of_every_case:
+        if not any(word in case.often for case in cases.values()):
+            lines.append(f"| all | {word} | with `all` alone |")
+    every = sorted(path.parent.name for path in (root / "tests/verification").glob("*/check.py")) + sorted(path.parent.name for path in (root / "exodus_inputs").glob("*/example.yaml"))
+    unknown = sorted(set(every) - set(cases) - set(untold)) + sorted(set(untold) - set(every))
+    if unknown:
+        sys.exit(f"retold/cases.py says of {', '.join(unknown)} neither how they are told nor why not, or they are no more")
+    lines += [f"| {name} | all | {untold[name]} |" for name in every if name in untold]
+    return lines
+
+
+def replace_between(text, mark, body):
+    before, old = text.split(mark)
+    return before + mark + body + "<!-- end -->" + old.split("<!-- end -->", 1)[1]
+
+
 if __name__ == "__main__":
     sys.path[:0] = [str(README.parents[1] / "support"), str(README.parent / "retold")]
-    from cases import CASES
+    from cases import CASES, EXACT, NEAR, UNTOLD
     from scenes import SCENES  # in their order
 
     text = put(README.read_text(), "<!-- cases -->\n", "| case | told as | runs | checks that fail | any motion, over the largest | answers |", of_case, rows(sys.argv[1:], "retold"), CASES)
+    text = replace_between(text, "<!-- not covered -->\n", "\n".join(["| case | not told as | why |", "|---|---|---|", *not_covered(CASES, UNTOLD, [*EXACT, *NEAR])]) + "\n")
     README.write_text(put(text, "<!-- table -->\n", "| scene | told as | what | difference | bound |", of_scene, rows(sys.argv[1:], "metamorphic"), SCENES))

@@ -23,7 +23,7 @@ MARK = "<!-- made by tests/support/trust_page.py -->\n"
 # Against measurements: these decks are of experiments that were published, or of the charts that stand for them.
 EXPERIMENTS = ("verification.V49_taylor_anvil", "verification.V75_cylinder_test", "verification.V74_air_blast", "gallery.perforation", "gallery.penetration")
 # Cases of tests/validation whose reference is a closed form or a solution of the equations, not a measurement.
-SOLUTIONS = ("validation.bouncing_bar", "validation.brazilian_disc", "validation.shaken_block")
+SOLUTIONS = ("validation.blast_wall", "validation.boulder_wall", "validation.bouncing_bar", "validation.brazilian_disc", "validation.shaken_block")
 # A letter for each kind of evidence, the strongest first.
 EVIDENCE = {
     "X": "against an exact answer, a published solution or a balance that must hold (`tests/verification`)",

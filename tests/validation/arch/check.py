@@ -57,7 +57,7 @@ case.check("hinge theory: share of the weight for a thickness of 0.15 R", share,
 for part, falls in ((0.8, False), (1.04, True)):
     moved, run, spent = stand(f"tilted_{part}", 0.15, math.atan(part * share))
     case.check_within(f"0.15 R, tilted by {part} of the tangent at the limit: motion from 2 to 3 s [m]", moved, *((0.2, math.inf) if falls else (0, 0.03)))
-case.picture(run, "--times", "0", "67%", "83%", "100%", "--strip", "2", "--planes", "none", "--size", "560", "330", "--window", "-13", "14", "-2", "12")
+case.picture(run, "--shares", "0", "0.67", "0.83", "1", "--strip", "2", "--planes", "none", "--size", "560", "330", "--window", "-13", "14", "-2", "12")
 for thickness, falls in ((0.118, False), (0.104, True)):
     moved, run, spent = stand(f"thickness_{thickness}", thickness)
     case.check_within(f"{thickness} R, level: motion from 2 to 3 s [m]", moved, *((0.1, math.inf) if falls else (0, 0.01)))

@@ -64,7 +64,7 @@ for name, part, low, high in (("plus_3", 1.03, 0, 1e-3), ("minus_3", 0.97, 0.1, 
     case.check_within(f"{part} of the limiting friction: largest motion in 4.8 s [m]", moved.max(), low, high)
     case.note("study", f"largest motion at {part} of the limiting friction [m]", moved.max(), None, size="5 m", seconds=spent)
 case.check_equal("0.97: blocks that moved", [n for n in range(1, 17) if moved[n - 1] > 1e-3], list(range(1, 14)))
-case.picture(run, "--times", "100%", "--planes", "none", "--size", "900", "560")
+case.picture(run, "--shares", "1", "--planes", "none", "--size", "900", "560")
 if case.full:
     for size in (10.0, 5.0, 2.5, 1.25):
         found, spent = limit_of(size)

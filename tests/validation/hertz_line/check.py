@@ -96,7 +96,7 @@ width, peak = hertz(found["load"])
 case.check("largest pressure over Hertz'", found["peak"] / peak, 1, 0.05)
 case.check("half width less Hertz' [m]", found["width"] - width, 0, 67e-6)
 case.check_within("load that the planes carry [N/m]", found["load"], 0.9e6, 1.1e6)
-case.picture(run, "--color", "von_mises", "--times", "100%", "--window", "-0.003", "0.003", "-0.0003", "0.004", "--blocks", "cylinder", "--size", "800", "620")
+case.picture(run, "--color", "von_mises", "--shares", "1", "--window", "-0.003", "0.003", "-0.0003", "0.004", "--blocks", "cylinder", "--size", "800", "620")
 
 
 def tell(code, found, spent, lines):

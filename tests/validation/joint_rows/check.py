@@ -85,7 +85,7 @@ for number, amplitude in ((1, 0.1), (1, 0.5), (1, 2.0), (2, 0.5), (4, 0.5)) if n
     name = f"hyperbola, {number} joints, {amplitude} m/s: |T|"
     case.check(name, found, tangent, 0.015, relative=True)
     case.other(name, "same curve for loading and unloading (Zhao and Cai)", elastic, tangent)
-case.picture(ended, "--color", "velocity", "--times", "60%", "--planes", "none", "--size", "1200", "160")
+case.picture(ended, "--color", "velocity", "--shares", "0.6", "--planes", "none", "--size", "1200", "160")
 
 if case.full:
     for per_wave in (20, 40, 80, 160):

@@ -39,7 +39,7 @@ for speed, end in ((450, 1.8e-3),) if not case.full else ((300, 1.4e-3), (450, 1
     depth, run, spent = shoot(f"v{speed}", speed, end)
     case.check(f"{speed} m/s: depth [m]", depth, forrestal(speed), 0.12, relative=True)
     if speed == 450:
-        case.picture(run, "--color", "damage", "--times", "0", "25%", "100%", "--strip", "3", "--planes", "none", "--mirror", "--window", "-0.2", "0.2", "-0.4", "0.16", "--size", "360", "500")
+        case.picture(run, "--color", "damage", "--shares", "0", "0.25", "1", "--strip", "3", "--planes", "none", "--mirror", "--window", "-0.2", "0.2", "-0.4", "0.16", "--size", "360", "500")
 if case.full:
     for size in (8e-3, 6e-3, 4e-3):
         depth, _, spent = shoot(f"v300_{1e3 * size:.0f}mm", 300, 1.4e-3, size)

@@ -40,7 +40,7 @@ for speed, tolerance in ((749, 40), (1058, 40)) if not case.full else ((606, 40)
     found, run, spent = shoot(f"v{speed}", speed)
     case.check(f"{speed} m/s: residual speed, pseudo-cap [m/s]", found, MEASURED[speed], tolerance)
     if speed == 749:
-        case.picture(run, "--color", "damage", "--times", "0", "40%", "100%", "--strip", "3", "--planes", "none", "--mirror", "--window", "-0.16", "0.16", "-0.3", "0.16", "--size", "330", "460")
+        case.picture(run, "--color", "damage", "--shares", "0", "0.4", "1", "--strip", "3", "--planes", "none", "--mirror", "--window", "-0.16", "0.16", "-0.3", "0.16", "--size", "330", "460")
 slow = {}
 for speed in (360,) if not case.full else (301, 360, 381, 434):
     for held in (False, True):

@@ -37,7 +37,7 @@ for degrees in (0, 10, 20, 30):
     case.check(f"teeth of {degrees} degrees, friction of 30: shear over normal force", ratio, math.tan(math.radians(30 + degrees)), 0.02, relative=True)
     case.check(f"teeth of {degrees} degrees, friction of 30: rise over way", rise, math.tan(math.radians(degrees)), 0.005)
     if degrees == 20:
-        case.picture(run, "--times", "100%", "--planes", "arrows", "--size", "800", "500")
+        case.picture(run, "--shares", "1", "--planes", "arrows", "--size", "800", "500")
 if case.full:
     for along in (1, 2, 4, 8):
         ratio, rise, run, spent = shear(f"along_{along}", 20, along=along)

@@ -44,7 +44,7 @@ for name, (speed, length, radius, *measured, tolerance) in MEASURED.items():
             report = name == "steel_4340"
             case.check(f"{name}, {speed:.0f} m/s: {what}" + (" (reported: we differ)" if report else ""), value, known, tolerance, relative=True, report=report)
     if name == "iron_armco":
-        case.picture(run, "--color", "equivalent_plastic_strain", "--mirror", "--times", "0", "25%", "50%", "100%", "--strip", "4", "--planes", "none", "--blocks", "rod",
+        case.picture(run, "--color", "equivalent_plastic_strain", "--mirror", "--shares", "0", "0.25", "0.5", "1", "--strip", "4", "--planes", "none", "--blocks", "rod",
                      "--window", "-0.008", "0.008", "-0.001", "0.027", "--size", "260", "440")  # fmt: skip
 # Wilkins and Guinan's copper of von Mises: the range of published codes, which all have a plane of symmetry: the anvil holds on.
 *found, run, spent = strike("copper_227", "copper", 227.0, 32.4e-3, 3.2e-3, 6, tensile_strength=1e12, cohesion=1e12)

@@ -64,7 +64,7 @@ for name, parts in stones.items():
 bracket("flat_stone_slides", stack(0.1, [0.05]), 0.5, friction=0.5)
 exact = least_multiplier(2, 6)
 run = bracket("bond_2x6", bond(2, 6), exact, 0.92, 1.06, friction=1.2, stiffness=2e10)
-case.picture(run, "--times", "0", "67%", "83%", "100%", "--strip", "4", "--planes", "none", "--window", "0.4", "0.95", "-0.05", "0.32", "--size", "330", "240")
+case.picture(run, "--shares", "0", "0.67", "0.83", "1", "--strip", "4", "--planes", "none", "--window", "0.4", "0.95", "-0.05", "0.32", "--size", "330", "240")
 if case.full:
     for size in (1, 2):
         for part in (0.92, 1.06):

@@ -88,7 +88,7 @@ case.check("velocity of the right bar afterwards [m/s]", found["velocity"], SPEE
 strained, run, _, _ = ours("published_speed", 0.2, 0.1)
 case.check("at the published 0.1 m/s: end of contact [s]", strained["touching"], 20.0, 0.03, relative=True)
 case.check("at the published 0.1 m/s: stress [Pa]", strained["stress"], 0.1, 0.05, relative=True)
-case.picture(run, "--color", "velocity", "--times", "0", "17%", "50%", "100%", "--strip", "1", "--planes", "none", "--camera", "front", "--size", "1000", "150")
+case.picture(run, "--color", "velocity", "--shares", "0", "0.17", "0.5", "1", "--strip", "1", "--planes", "none", "--camera", "front", "--size", "1000", "150")
 for key in exact:
     case.other(words[key], "Coplane, 50 elements along a bar", found[key], exact[key], spent, lines)
 if not calculix.found():
