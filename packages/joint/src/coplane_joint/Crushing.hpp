@@ -2,6 +2,8 @@
 
 #include <coplane_core/Real.hpp>
 
+#include <Kokkos_Core.hpp>
+
 #include <cmath>
 
 namespace coplane
