@@ -400,6 +400,29 @@ TEST(Line, isNoStifferThanItsBoundAcrossAnOpenJoint)
   }
 }
 
+TEST(Line, isNoStifferThanItsBoundWhereItTurns)
+{
+  LineSetup setup;
+  setup.section.area = 5e-4;
+  setup.section.youngsModulus = 200e9;
+  setup.bond.stiffness = grout;
+  constexpr int leg = 20;
+  constexpr Real step = 0.1;
+  for (int i = 0; i <= 2 * leg; ++i)
+    setup.points.push_back({{step * std::min(i, leg), step * std::max(0, i - leg), 0},
+                            false,
+                            i == 0 || i == 2 * leg ? 0.5 * step : step});
+  LineHosts hosts = hostsOf(setup);
+  const Line line = installed(setup, hosts);
+  Line moved = line;
+  const Vec3 outwards = normalised(Vec3{1, -1, 0});
+  hosts.x[leg] += 1e-7 * outwards;
+  moved.advance(hosts, 1, 1, 0);
+  const Real stiffness = -dot(moved.forces()[leg], outwards) / 1e-7;
+  EXPECT_GT(stiffness, 1.5 * grout * step); // more than its own grout
+  EXPECT_LE(stiffness, 1.001 * line.stiffness()[leg]);
+}
+
 TEST(Line, isNoStifferThanItsBound)
 {
   // Rows of the stiffness by differences, while everything is elastic.

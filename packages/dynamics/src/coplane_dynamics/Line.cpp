@@ -498,6 +498,17 @@ void Line::findStiffness(const std::vector<Vec3>& x)
         still[std::size_t(end->index)] += (a->tied && b->tied ? 2 : 1) * k;
     }
   }
+  // Where the line turns, what moves the point lengthens one of the segments beside it.
+  const auto along = [&](std::size_t s)
+  { return normalised(x[std::size_t(points_[s + 1].index)] - x[std::size_t(points_[s].index)]); };
+  for (std::size_t i = 1; i + 1 < points_.size(); ++i)
+    if (!points_[i].tied && segments_[i - 1].broken == 0 && segments_[i].broken == 0)
+    {
+      const Vec3 turn = along(i) - along(i - 1);
+      const Real k = dot(turn, turn) * ea / std::max(segments_[i - 1].length, segments_[i].length);
+      still[std::size_t(points_[i].index)] += k;
+      stiff[std::size_t(points_[i].index)] += k;
+    }
   Real grout = 0;
   for (const Point& point : points_)
     if (!point.tied)
