@@ -434,7 +434,13 @@ bool Line::slideDowels(const LineHosts& hosts)
     const Vec3 flat = across(dowel.plastic, along);
     const Real size = norm(flat);
     Vec3 plastic = size > 0 ? (norm(dowel.plastic) / size) * flat : Vec3{};
-    Vec3 force = dowel_.stiffness * (dowel.sliding - plastic);
+    // Both sides are the same place told from two elements: what is at rest has no round-off to
+    // carry as energy.
+    constexpr Real roundOff = 1e-15;
+    const Vec3 elastic = dowel.sliding - plastic;
+    Vec3 force = norm(elastic) > roundOff * (norm(hosts.x[near]) + norm(hosts.x[far]))
+                     ? dowel_.stiffness * elastic
+                     : Vec3{};
     if (const Real most = norm(force); most > dowel_.strength)
     {
       force = (dowel_.strength / most) * force;
