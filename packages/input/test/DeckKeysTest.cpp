@@ -71,6 +71,9 @@ joints:
   bilinear: {model: bilinear, normal_stiffness: 8e10, tensile_strength: 2e5, tension_energy: 18, shear_energy: 125}
   closure_curve: {model: closure_curve, initial_stiffness: 1, maximum_closure: 1}
   dry: {}
+  crushed: {model: mortar, normal_stiffness: 8e10, tensile_strength: 2e5, cohesion: 4e5, tension_energy: 18,
+    shear_energy: 125, compressive_strength: 1e7, compression_energy: 6e3, peak_crushing: 1e-4, residual_compression: 0.2,
+    shear_in_crushing: 4}
 contact:
   pairs:
     - {blocks: [a, b]}
@@ -321,6 +324,11 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
         {"materials.j2.distension", "materials.porous.distension"},
         {"materials.j2.crush_start", "materials.porous.crush_start"},
         {"materials.j2.crush_end", "materials.porous.crush_end"},
+        {"joints.mortar.compressive_strength", "joints.crushed.compressive_strength"},
+        {"joints.mortar.compression_energy", "joints.crushed.compression_energy"},
+        {"joints.mortar.peak_crushing", "joints.crushed.peak_crushing"},
+        {"joints.mortar.residual_compression", "joints.crushed.residual_compression"},
+        {"joints.mortar.shear_in_crushing", "joints.crushed.shear_in_crushing"},
         {"contact.pairs.0.materials", "contact.pairs.1.materials"},
         {"contact.pairs.0.side_sets", "contact.pairs.2.side_sets"},
         {"contact.pairs.0.joint_set", "contact.pairs.3.joint_set"}};

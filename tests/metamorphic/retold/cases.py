@@ -73,6 +73,7 @@ AXIS = "bodies of revolution: the axis may not be turned, moved or cut"
 SAME = "its verification case is told: {}"
 NONE = "no contact"
 OWN = "compares runs with each other, or what is refused, and not with an answer"
+ITSELF = "turned or tilted by its own check"
 TRIED = "not tried"
 
 # Verification cases and examples that are not told at all, and why.
@@ -81,8 +82,9 @@ UNTOLD = {
                      "V76_spinning_block", "V83_soil_column", "fields"], NONE),
     **dict.fromkeys(["V49_taylor_anvil", "V50_spinning_ring", "V72_axisymmetric_contact", "V75_cylinder_test", "ring_forms", "penetration", "perforation"], AXIS),
     **dict.fromkeys(["cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
+    **dict.fromkeys(["V87_lines", "V93_crushed_joint", "fast_blocks"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     **dict.fromkeys(["V11_brick_column", "V35_lamb", "V36_V37_shock_waves", "V39_gas_shocks", "V43_energy_order", "V44_punch",
-                     "V56_brick_wall", "V81_water_in_joints", "V84_factor_of_safety", "V92_opening_in_rock", "conditions_act", "joint_laws", "relaxation", "rigid_motion", "symmetry",
-                     "perforation_3d", "rock_slope_2d", "tunnel_2d"], TRIED),
+                     "V56_brick_wall", "V81_water_in_joints", "V84_factor_of_safety", "V85_compliant_base", "V92_opening_in_rock", "V94_bonded_blocks", "conditions_act", "joint_laws", "relaxation", "rigid_motion", "symmetry",
+                     "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], TRIED),
 }  # fmt: skip
