@@ -294,6 +294,33 @@ TEST(Line, slidesByItsDowelAsAnElasticPlasticSpring)
   EXPECT_NEAR(line.energy().remainder(), 0, 1e-3 * lost);
 }
 
+TEST(Line, countsSlidingFromItsInstallationOn)
+{
+  LineSetup setup;
+  setup.section = {1e-4, 1e6, infinity, 0, infinity, false};
+  setup.points = {{{-1, 0, 0}, true, 0}, {{1, 0, 0}, true, 0}};
+  setup.dowel = LineDowel{1e8, infinity};
+  setup.from = 1;
+  LineHosts hosts = hostsOf(setup);
+  for (int side = 0; side < 2; ++side)
+  {
+    hosts.x.push_back({0, 0, 0});
+    hosts.alive.push_back(1);
+  }
+  Line line = installed(setup, hosts, {0});
+  hosts.x[1].y = hosts.x[3].y = 5e-3; // before there is a line
+  line.advance(hosts, 0.5, 0.5, 0);
+  line.advance(hosts, 1, 0.5, 0);
+  EXPECT_TRUE(line.installed());
+  EXPECT_NEAR(norm(line.dowels()[0].force), 0, 1e-6);
+  EXPECT_NEAR(line.energy().remainder(), 0, 1e-9);
+  hosts.x[1].y = hosts.x[3].y = 6e-3;
+  line.advance(hosts, 2, 1, 0);
+  // Across the chord, which turns.
+  const auto across = [](Real slid) { return slid * 2 / std::hypot(2, slid); };
+  EXPECT_NEAR(norm(line.dowels()[0].force), 1e8 * (across(6e-3) - across(5e-3)), 1e-6);
+}
+
 TEST(Line, losesWhatItsDeadHostsHeld)
 {
   LineSetup setup = boltOf(20);
@@ -341,6 +368,59 @@ TEST(Line, goesOnFromWhatWasSaved)
   for (std::size_t i = 0; i < hosts.x.size(); ++i)
     EXPECT_EQ(line.forces()[i].x, again.forces()[i].x);
   EXPECT_EQ(line.energy().bond, again.energy().bond);
+}
+
+TEST(Line, isNoStifferThanItsBoundAcrossAnOpenJoint)
+{
+  LineSetup setup;
+  setup.section = {1e-4, 1e6, infinity, 0, infinity, false};
+  setup.points = {{{-1, 0, 0}, true, 0}, {{1, 0, 0}, true, 0}};
+  setup.dowel = LineDowel{1e8, infinity};
+  LineHosts hosts = hostsOf(setup);
+  for (const Real x : {-0.9, 0.8}) // the joint is nearly as wide as the segment
+  {
+    hosts.x.push_back({x, 0, 0});
+    hosts.alive.push_back(1);
+  }
+  const Line line = installed(setup, hosts, {0});
+  std::vector<Real> rows(hosts.x.size(), 0);
+  for (std::size_t j = 0; j < hosts.x.size(); ++j)
+  {
+    Line moved = line;
+    LineHosts there = hosts;
+    there.x[j].y += 1e-7;
+    moved.advance(there, 1, 1, 0);
+    for (std::size_t i = 0; i < hosts.x.size(); ++i)
+      rows[i] += std::abs(moved.forces()[i].y) / 1e-7;
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    EXPECT_GT(rows[i], 0.5 * 1e8);
+    EXPECT_LE(rows[i], 1.001 * line.stiffness()[i]);
+  }
+}
+
+TEST(Line, isNoStifferThanItsBoundWhereItTurns)
+{
+  LineSetup setup;
+  setup.section.area = 5e-4;
+  setup.section.youngsModulus = 200e9;
+  setup.bond.stiffness = grout;
+  constexpr int leg = 20;
+  constexpr Real step = 0.1;
+  for (int i = 0; i <= 2 * leg; ++i)
+    setup.points.push_back({{step * std::min(i, leg), step * std::max(0, i - leg), 0},
+                            false,
+                            i == 0 || i == 2 * leg ? 0.5 * step : step});
+  LineHosts hosts = hostsOf(setup);
+  const Line line = installed(setup, hosts);
+  Line moved = line;
+  const Vec3 outwards = normalised(Vec3{1, -1, 0});
+  hosts.x[leg] += 1e-7 * outwards;
+  moved.advance(hosts, 1, 1, 0);
+  const Real stiffness = -dot(moved.forces()[leg], outwards) / 1e-7;
+  EXPECT_GT(stiffness, 1.5 * grout * step); // more than its own grout
+  EXPECT_LE(stiffness, 1.001 * line.stiffness()[leg]);
 }
 
 TEST(Line, isNoStifferThanItsBound)

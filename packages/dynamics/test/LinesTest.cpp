@@ -130,6 +130,41 @@ TEST(Lines, ofAMeshWithoutContactSetTheStepToo)
   EXPECT_NE(solver.stepControl().text().find("a line at node"), std::string::npos);
 }
 
+TEST(Lines, haveBothSidesOfADowelInTheElementsAtTheJoint)
+{
+  // The first halving finds neither body: the middle of the segment lies in the gap.
+  const Comm comm = Comm::alone();
+  Model model = rockModel(twoCubes(0.1), comm);
+  model.lines = {boltFrom({0.3, 0.3, 0.3}, {0.3, 0.3, 1.8}, 1)};
+  model.lines[0].points[1].tied = true;
+  model.lines[0].dowel = LineDowel{1e6, infinity};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Real onNodes = 0;
+  for (int n = 0; n < solver.mesh().ownedNodes; ++n)
+    onNodes += solver.lines().stiffnessAt(n);
+  // From the element at the gap, 0.5 m high, the other side of the gap is told with the weights 1.2
+  // and -0.2; all else lies within its element.
+  const std::vector<Real>& stiffness = solver.lines().lines()[0].stiffness();
+  ASSERT_EQ(stiffness.size(), 4u);
+  const Real expected = stiffness[0] + stiffness[1] + stiffness[2] + 1.4 * stiffness[3];
+  EXPECT_NEAR(onNodes, expected, 1e-6 * expected);
+}
+
+TEST(Lines, atRestHaveNoForceAtAll)
+{
+  // The two sides of a dowel differ by the round-off of their weights.
+  const Comm comm;
+  Model model = rockModel(twoCubes(), comm);
+  model.lines = {boltFrom({0.41, 0.37, 0.13}, {0.63, 0.71, 1.87}, 9)};
+  model.lines[0].dowel = LineDowel{1e8, 1e5};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 10); // with the watch over the balance of energy
+  EXPECT_EQ(norm(solver.lines().lines()[0].dowels()[0].force), 0);
+  EXPECT_EQ(solver.energy().kinetic, 0);
+}
+
 TEST(Lines, outsideOfTheMeshAreRefused)
 {
   const Comm comm;

@@ -139,6 +139,12 @@ TEST(DeckErrors, linesSayWhatDoesNotFit)
   expect(grouted + "yield_stress: 1e8, pretension: 2e5, points: [[0, 0], [1, 0]]",
          "not more than yield_stress times area");
   expect(grouted + "copies: 3, points: [[0, 0], [1, 0]]", "give copy_step");
+  expect("segment_length: 1e-12, grout: {stiffness: 1e9}, points: [[0, 0], [1, 0]]",
+         "makes 1e+12 segments");
+  expect(grouted + "points: [[0, 0], [1, 0]], copies: 2, copy_step: [0, 1, 0]}\n"
+                   "  bolt_2: {area: 1e-3, youngs_modulus: 200e9, attach: ends, "
+                   "points: [[0, 0], [1, 0]]",
+         "copy 2 would be called bolt_2");
   expect(grouted + "stage: bolted, points: [[0, 0], [1, 0]]", "'bolted' is not a stage");
   const std::string rings =
       errorOf("geometry: axisymmetric\n" + lineWith(grouted + "points: [[0, 0], [1, 0]]"));

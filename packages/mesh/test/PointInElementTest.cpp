@@ -80,6 +80,26 @@ TEST(PointInElement, givesBackTheWeightsThatMadeThePoint)
     }
 }
 
+TEST(PointInElement, isFoundFarFromTheOrigin)
+{
+  // Coordinates of a national grid: their round-off is 1e-9 m.
+  const Vec3 origin{4.5e6, -5.6e6, 0};
+  for (const Sample& sample : samples())
+  {
+    std::vector<Vec3> corners;
+    Vec3 x{};
+    for (const Vec3& c : sample.corners)
+    {
+      corners.push_back(c + origin);
+      x += (1.0 / Real(sample.corners.size())) * (corners.back() - origin);
+    }
+    const PointInElement found = pointInElement(sample.type, corners.data(), x + origin);
+    EXPECT_LT(found.outside, 0);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      EXPECT_NEAR(found.weights[k], 1.0 / Real(corners.size()), 1e-8);
+  }
+}
+
 TEST(PointInElement, saysHowFarAPointLiesOutside)
 {
   const Vec3 square[] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};

@@ -56,5 +56,25 @@ lines:
   for (const LinePoint& point : bar.points)
     EXPECT_TRUE(point.tied);
 }
+
+TEST(LinesOfDeck, haveGroutFromTheEndOfTheFreeLengthOnAlsoWhereThatIsACorner)
+{
+  const Model model = modelOf(R"(
+blocks: {lower: {material: rock}, upper: {material: rock}}
+lines:
+  straight: {points: [[0.1, 1.9], [0.1, 0.1]], segment_length: 0.5, free_length: 0.8, area: 1e-3, youngs_modulus: 200e9, grout: {stiffness: 1e9}}
+  corner: {points: [[0.1, 1.9], [0.1, 1.1], [0.1, 0.1]], segment_length: 0.5, free_length: 0.8, area: 1e-3, youngs_modulus: 200e9,
+           grout: {stiffness: 1e9}}
+)");
+  const auto &straight = model.lines[0].points, &corner = model.lines[1].points;
+  ASSERT_EQ(straight.size(), 4u);
+  ASSERT_EQ(corner.size(), 4u);
+  for (std::size_t i = 0; i < corner.size(); ++i)
+  {
+    EXPECT_NEAR(norm(corner[i].place - straight[i].place), 0, 1e-14);
+    EXPECT_NEAR(corner[i].bonded, straight[i].bonded, 1e-14);
+    EXPECT_EQ(corner[i].tied, straight[i].tied);
+  }
+}
 } // namespace
 } // namespace coplane

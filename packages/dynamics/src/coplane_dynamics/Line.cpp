@@ -1,3 +1,4 @@
+#include <coplane_core/Log.hpp>
 #include <coplane_dynamics/Conditions.hpp>
 #include <coplane_dynamics/Line.hpp>
 
@@ -6,6 +7,15 @@
 
 namespace coplane
 {
+namespace
+{
+/// The part of v that is normal to a direction.
+Vec3 across(const Vec3& v, const Vec3& along)
+{
+  return v - dot(v, along) * along;
+}
+} // namespace
+
 LineEnergy& LineEnergy::operator+=(const LineEnergy& other)
 {
   work += other.work;
@@ -65,12 +75,27 @@ void Line::install(const LineHosts& hosts, Real time)
 {
   installed_ = true;
   installTime_ = time;
-  for (std::size_t i = points_.size(); i-- > 0;)
-    if (!hosts.alive[std::size_t(points_[i].index)])
-      remove(i);
+  const std::size_t all = points_.size();
+  detachFromDead(hosts);
+  if (points_.size() < all)
+    logWarning(
+        "lines without hosts",
+        fmt::format("lines.{}: {} of its {} points are let go, as the blocks that they lie in "
+                    "are not there when it is installed, at t = {:.6g} s. A line that holds a "
+                    "block which a stage adds is given that stage.",
+                    name_, all - points_.size(), all, time));
   for (std::size_t s = 0; s < segments_.size(); ++s)
     segments_[s].chord =
         norm(x_[std::size_t(points_[s + 1].index)] - x_[std::size_t(points_[s].index)]);
+  // What joints have slid before is nothing to a dowel.
+  const std::size_t first = x_.size() - 2 * dowels_.size();
+  for (std::size_t d = 0; d < dowels_.size(); ++d)
+    if (const auto over = segmentOver(dowels_[d].segment))
+    {
+      const Vec3 along = normalised(x_[std::size_t(points_[*over + 1].index)] -
+                                    x_[std::size_t(points_[*over].index)]);
+      dowels_[d].plastic = across(x_[first + 2 * d + 1] - x_[first + 2 * d], along);
+    }
 }
 
 /// The segments beside a point become one with the sum of their elongations.
@@ -404,13 +429,18 @@ bool Line::slideDowels(const LineHosts& hosts)
       continue;
     const Vec3 along = normalised(hosts.x[std::size_t(points_[*over + 1].index)] -
                                   hosts.x[std::size_t(points_[*over].index)]);
-    const auto across = [&](const Vec3& v) { return v - dot(v, along) * along; };
-    dowel.sliding = across(hosts.x[far] - hosts.x[near]);
+    dowel.sliding = across(hosts.x[far] - hosts.x[near], along);
     // What is lost turns with the line.
-    const Vec3 flat = across(dowel.plastic);
+    const Vec3 flat = across(dowel.plastic, along);
     const Real size = norm(flat);
     Vec3 plastic = size > 0 ? (norm(dowel.plastic) / size) * flat : Vec3{};
-    Vec3 force = dowel_.stiffness * (dowel.sliding - plastic);
+    // Both sides are the same place told from two elements: what is at rest has no round-off to
+    // carry as energy.
+    constexpr Real roundOff = 1e-15;
+    const Vec3 elastic = dowel.sliding - plastic;
+    Vec3 force = norm(elastic) > roundOff * (norm(hosts.x[near]) + norm(hosts.x[far]))
+                     ? dowel_.stiffness * elastic
+                     : Vec3{};
     if (const Real most = norm(force); most > dowel_.strength)
     {
       force = (dowel_.strength / most) * force;
@@ -474,6 +504,17 @@ void Line::findStiffness(const std::vector<Vec3>& x)
         still[std::size_t(end->index)] += (a->tied && b->tied ? 2 : 1) * k;
     }
   }
+  // Where the line turns, what moves the point lengthens one of the segments beside it.
+  const auto along = [&](std::size_t s)
+  { return normalised(x[std::size_t(points_[s + 1].index)] - x[std::size_t(points_[s].index)]); };
+  for (std::size_t i = 1; i + 1 < points_.size(); ++i)
+    if (!points_[i].tied && segments_[i - 1].broken == 0 && segments_[i].broken == 0)
+    {
+      const Vec3 turn = along(i) - along(i - 1);
+      const Real k = dot(turn, turn) * ea / std::max(segments_[i - 1].length, segments_[i].length);
+      still[std::size_t(points_[i].index)] += k;
+      stiff[std::size_t(points_[i].index)] += k;
+    }
   Real grout = 0;
   for (const Point& point : points_)
     if (!point.tied)
@@ -502,8 +543,20 @@ void Line::findStiffness(const std::vector<Vec3>& x)
   }
   const std::size_t first = x.size() - 2 * dowels_.size();
   for (std::size_t d = 0; d < dowels_.size(); ++d)
-    for (const std::size_t side : {first + 2 * d, first + 2 * d + 1})
-      stiffness_[side] += dowels_[d].gone != 0 ? 0 : 2 * dowel_.stiffness;
+  {
+    if (dowels_[d].gone != 0)
+      continue;
+    // Sliding is that of both sides less `lever` times the way of the ends of the chord.
+    const std::size_t near = first + 2 * d, far = near + 1, s = *segmentOver(dowels_[d].segment),
+                      a = std::size_t(points_[s].index), b = std::size_t(points_[s + 1].index);
+    const Vec3 chord = x[b] - x[a];
+    const Real lever = std::abs(dot(x[far] - x[near], chord)) / dot(chord, chord),
+               k = 2 * (1 + lever) * dowel_.stiffness;
+    for (const std::size_t side : {near, far})
+      stiffness_[side] += k;
+    for (const std::size_t end : {a, b})
+      stiffness_[end] += lever * k;
+  }
 }
 
 LineEnergy Line::energy() const

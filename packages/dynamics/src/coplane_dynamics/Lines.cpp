@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
 
 namespace coplane
 {
@@ -96,9 +97,24 @@ public:
   {
     constexpr Real tolerance = 1e-6; // in natural coordinates
     std::vector<std::int64_t> found(places.size(), -nobody), bodies(places.size(), -1);
+    // Places in their order along the longest side of what they cover.
+    Box all;
+    for (const Vec3& place : places)
+      all.add(place);
+    const Vec3 size = places.empty() ? Vec3{} : all.high - all.low;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b)
+              { return std::pair(places[a][axis], a) < std::pair(places[b][axis], b); });
     for (const Candidate& candidate : candidates_)
-      for (std::size_t i = 0; i < places.size(); ++i)
+      for (auto one =
+               std::lower_bound(order.begin(), order.end(), candidate.box.low[axis],
+                                [&](std::size_t a, Real low) { return places[a][axis] < low; });
+           one != order.end() && places[*one][axis] <= candidate.box.high[axis]; ++one)
       {
+        const std::size_t i = *one;
         Box point;
         point.add(places[i]);
         if (!candidate.box.meets(point))
@@ -152,8 +168,8 @@ struct Crossing
   GlobalId near, far; ///< elements
 };
 
-/// Where lines leave the body of a point on the way to the next, which lies in another: halving of
-/// the way, for all at once. Collective.
+/// Where lines leave the body of a point on the way to the next, which lies in another, and the
+/// element of that where it begins: halving of the way from both ends, for all at once. Collective.
 /// @param hosts of the points of the lines, one after the other
 std::vector<std::vector<Crossing>> crossingsOf(const std::vector<LineSetup>& setups,
                                                const std::vector<Host>& hosts,
@@ -172,8 +188,11 @@ std::vector<std::vector<Crossing>> crossingsOf(const std::vector<LineSetup>& set
   for (std::size_t l = 0; l < setups.size(); ++l)
     for (std::size_t i = 0; i < setups[l].points.size(); ++i, ++point)
       if (setups[l].dowel && int(i) > setups[l].bare && hosts[point].body != hosts[point - 1].body)
-        ways.push_back({l, int(i) - 1, setups[l].points[i - 1].place, setups[l].points[i].place,
-                        hosts[point - 1], hosts[point]});
+      {
+        const Vec3 &a = setups[l].points[i - 1].place, &b = setups[l].points[i].place;
+        ways.push_back({l, int(i) - 1, a, b, hosts[point - 1], hosts[point]});
+        ways.push_back({l, int(i) - 1, b, a, hosts[point], hosts[point - 1]});
+      }
   if (ways.empty())
     return std::vector<std::vector<Crossing>>(setups.size());
   for (int halving = 0; halving < halvings; ++halving)
@@ -192,9 +211,7 @@ std::vector<std::vector<Crossing>> crossingsOf(const std::vector<LineSetup>& set
       {
         ways[w].high = middles[w];
         // A gap of the joint, or a third body: the next point has to be what comes behind it.
-        if (found[w].body == ways[w].highHost.body)
-          ways[w].highHost = found[w];
-        else if (found[w].body >= 0)
+        if (found[w].body >= 0 && found[w].body != ways[w].highHost.body)
           failOnAllRanks(
               ExitCode::Deck,
               "{}: lines.{}: between its points at ({:.6g}, {:.6g}, {:.6g}) and ({:.6g}, "
@@ -210,9 +227,9 @@ std::vector<std::vector<Crossing>> crossingsOf(const std::vector<LineSetup>& set
       }
   }
   std::vector<std::vector<Crossing>> crossings(setups.size());
-  for (const Way& way : ways)
-    crossings[way.line].push_back(
-        {way.segment, way.low, way.lowHost.element, way.highHost.element});
+  for (std::size_t w = 0; w < ways.size(); w += 2)
+    crossings[ways[w].line].push_back(
+        {ways[w].segment, ways[w].low, ways[w].lowHost.element, ways[w + 1].lowHost.element});
   return crossings;
 }
 

@@ -394,7 +394,8 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
     problems.add(nodeAt(root, {"lines"}),
                  "lines do not go with geometry = 'axisymmetric': a line would be a cone all the "
                  "way round. Accepted: plane strain or three dimensions.");
-  const Names stages = namesOf(deck.stages);
+  constexpr Real mostSegments = 1e6;
+  const Names stages = namesOf(deck.stages), names = namesOf(deck.lines);
   for (const LineCard& card : deck.lines)
   {
     const std::string path = "lines." + card.name;
@@ -410,7 +411,7 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
                    fmt::format("{}.points has {} points; accepted with attach = 'ends': two, as "
                                "the bar is straight between them.",
                                path, card.points.size()));
-    if (length > 0 && card.freeLength >= length)
+    if (length > 0 && card.freeLength > 0.999999 * length)
       problems.add(at("free_length"),
                    fmt::format("{}.free_length = {} m; accepted: less than the length of the line, "
                                "{:.6g} m. Without grout at all it is attach: ends.",
@@ -423,8 +424,20 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
                    fmt::format("{}.pretension = {} N; accepted: not more than yield_stress times "
                                "area, {:.6g} N.",
                                path, card.pretension, *card.yieldStress * card.area));
+    if (card.segmentLength > 0 && length / card.segmentLength * card.copies > mostSegments)
+      problems.add(
+          at("segment_length"),
+          fmt::format("{}.segment_length = {} m makes {:.3g} segments; accepted: {:.0e} at "
+                      "most, with all copies. About the size of the elements is enough.",
+                      path, card.segmentLength, length / card.segmentLength * card.copies,
+                      mostSegments));
     if (card.copies > 1 && card.copyStep.x == 0 && card.copyStep.y == 0 && card.copyStep.z == 0)
       problems.add(at("copies"), path + ".copies: they would all be in one place; give copy_step.");
+    for (int copy = 1; card.copies > 1 && copy <= std::min(card.copies, int(mostSegments)); ++copy)
+      if (const std::string name = fmt::format("{}_{}", card.name, copy); contains(names, name))
+        problems.add(at("copies"), fmt::format("{}.copies: copy {} would be called {}, as another "
+                                               "line is; accepted: names of their own.",
+                                               path, copy, name));
     if (!card.stage.empty() && !contains(stages, card.stage))
       problems.add(at("stage"), unknown(path + ".stage", card.stage, "a stage", stages));
   }

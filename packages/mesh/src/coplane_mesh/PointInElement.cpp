@@ -59,8 +59,8 @@ PointInElement inBrick(int dimension, const Vec3* c, const Vec3& x)
   PointInElement found;
   for (int step = 0; step < mostSteps; ++step)
   {
-    Vec3 miss = x;
-    Mat3 map; // columns: derivatives of the place along the natural coordinates
+    Vec3 miss{}; // all places relative to x, so that those far from the origin are not rounded
+    Mat3 map;    // columns: derivatives of the place along the natural coordinates
     map(2, 2) = dimension == 2 ? 1 : 0;
     for (int k = 0; k < corners; ++k)
     {
@@ -68,7 +68,8 @@ PointInElement inBrick(int dimension, const Vec3* c, const Vec3& x)
       for (int a = 0; a < dimension; ++a)
         weight *= factor(k, a, xi[a]);
       found.weights[std::size_t(k)] = weight;
-      miss -= weight * c[k];
+      const Vec3 corner = c[k] - x;
+      miss -= weight * corner;
       for (int a = 0; a < dimension; ++a)
       {
         Real change = slope(k, a);
@@ -76,7 +77,7 @@ PointInElement inBrick(int dimension, const Vec3* c, const Vec3& x)
           if (b != a)
             change *= factor(k, b, xi[b]);
         for (int i = 0; i < dimension; ++i)
-          map(i, a) += change * c[k][i];
+          map(i, a) += change * corner[i];
       }
     }
     if (dimension == 2)
@@ -90,7 +91,7 @@ PointInElement inBrick(int dimension, const Vec3* c, const Vec3& x)
     }
     if (!std::isfinite(most) || most > 1e3)
       break;
-    if (most < roundOff || (step > 8 && most < 1e-10)) // round-off of far away coordinates
+    if (most < roundOff || (step > 8 && most < 1e-10)) // round-off in oblique elements
     {
       found.outside = -infinity;
       for (int a = 0; a < dimension; ++a)

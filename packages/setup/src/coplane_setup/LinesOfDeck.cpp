@@ -22,21 +22,25 @@ std::vector<LinePoint> pointsOf(const LineCard& card)
   for (const std::vector<Real>& point : card.points)
     path.push_back({point[0], point[1], point.size() > 2 ? point[2] : 0});
   std::vector<LinePoint> points{{path[0], true, 0}};
-  Real left = card.attach == "grout" ? card.freeLength : 0; // of what has no grout
+  constexpr Real rounding = 1e-9;
+  Real left = card.freeLength; // of what has no grout
   for (std::size_t i = 1; i < path.size(); ++i)
   {
     Vec3 from = path[i - 1];
     const Real leg = norm(path[i] - from);
-    if (left >= leg)
+    if (left > (1 + rounding) * leg)
     {
       left -= leg; // a bend without grout has no force across: the bar takes the straight way
       continue;
     }
     if (left > 0)
     {
-      from = from + (left / leg) * (path[i] - from);
+      const bool toTheEnd = left >= (1 - rounding) * leg;
+      from = toTheEnd ? path[i] : from + (left / leg) * (path[i] - from);
       points.push_back({from, true, 0});
       left = 0;
+      if (toTheEnd)
+        continue;
     }
     divide(from, path[i], card.attach == "ends" ? infinity : card.segmentLength, points);
   }
