@@ -17,6 +17,10 @@ conditions = {
         {"node_set": "base", "value": [0, "0.1*t", 0]},
         {"node_set": "flank", "components": ["y"], "value": [0, "0.2*t", 0]},
     ),
+    "acceleration": (
+        {"node_set": "base", "value": [0, "0.1*t", 0]},
+        {"node_set": "flank", "components": ["y"], "value": [0, "0.2*t", 0]},
+    ),
     "displacement": (
         {"node_set": "base", "value": [0, "0.1*t", 0]},
         {"node_set": "flank", "components": ["y"], "value": [0, "0.2*t", 0]},
