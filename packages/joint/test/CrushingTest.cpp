@@ -182,6 +182,20 @@ TEST(Crushing_Shear, whereItMeetsFrictionBothHold)
   EXPECT_NEAR(run.imbalance(), 0, 2e-3 * run.work);
 }
 
+TEST(Crushing_Shear, longSlipIsBookedAtTheStrengthThatCrushingLeaves)
+{
+  // Steps that slip a thousand times as far as shear is elastic: what is booked before the return
+  // to the ellipse is far too much.
+  JointRun run(crushedMortar());
+  run.state.bonded = false;
+  run.step(-run.joint.closureUnder(.6 * fm), {});
+  for (int i = 0; i < 200; ++i)
+    run.step(run.gap - 1e-6, {1e-2, 0, 0});
+  EXPECT_GT(crushing(run), kp);
+  EXPECT_GE(run.leastDissipation, 0);
+  EXPECT_NEAR(run.imbalance(), 0, 1e-3 * run.work);
+}
+
 TEST(Crushing_Shear, withoutWeightShearDoesNotCrush)
 {
   Joint joint = crushedMortar(0, 50);

@@ -45,6 +45,8 @@ std::pair<GlobalId, GlobalId> PlaneTable::keyOf(std::size_t slot) const
   if (const Plane* const plane = slots_.plane[slot])
     return {plane->faceId[0], plane->faceId[1]};
   const SlotFaces& pair = slots_.faces(slot);
+  if (pair.face[0] < 0)
+    return {-1, -1};
   return {faces_(pair.face[0]).id, faces_(pair.face[1]).id};
 }
 

@@ -67,7 +67,8 @@ public:
   /// Whether planes have changed what they pass on since the last search.
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
 
-  /// Ids of the faces of a slot.
+  /// Ids of the faces of a slot; before all others for one whose plane has been taken away while
+  /// its faces were no candidates.
   std::pair<GlobalId, GlobalId> keyOf(std::size_t slot) const;
   /// The plane of a slot, or the one it would get.
   Plane planeOf(std::size_t slot) const;

@@ -445,7 +445,7 @@ private:
       state.slip += slipped;
       if (wears)
         state.shearing += std::fmax(slipped - sliding * x, 0.0);
-      response.frictionWork += std::fmax(0.5 * more / ks, 0.0);
+      response.frictionWork = std::fmax(response.frictionWork + 0.5 * more / ks, 0.0);
     }
     state.shearTraction = (shear / tau) * state.shearTraction;
     state.maximumClosure = crushed + strong / kn;
