@@ -78,7 +78,7 @@ struct ContactPotentialScale
   /// The energy falls to zero between these values of -n0.n1, so that pairs come and go smoothly.
   Real opposedFrom, opposedTo;
   /// The more a pair stores the wider the range: this many times the mean closure over the size of
-  /// a face, up to so much. So turning is no stiffer than closing, and a step follows it.
+  /// the smaller face, up to so much. So turning is no stiffer than closing, and a step follows it.
   Real widening = 2, widest = 0.5;
   /// Edges of both faces nearer than this fraction of a face across them count as one.
   Real oneEdge = 1e-3;

@@ -99,7 +99,7 @@ public:
   /// phi, and what it changes by. The energy E = U phi(xi, U) rises with U at any angle: phi falls
   /// no faster than 1/U, since phi begins as the square of xi and the range grows no faster
   /// than the root of U.
-  /// @param stored U over that of a closure as large as the faces are [-]
+  /// @param stored U over that of a closure as large as the smaller face is, smoothly [-]
   KOKKOS_FORCEINLINE_FUNCTION void oppose(const T& stored)
   {
     const Real narrow = scale_.opposedTo - scale_.opposedFrom;
@@ -146,9 +146,14 @@ public:
     density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
     density.constant = T(0.0);
     const T stored = wayOut * hard * s;
-    T perSize = 1.0 / (face_[0]->area * face_[1]->area);
-    if constexpr (Dim == 2)
-      perSize = perSize * squareRoot(perSize);
+    for (int f = 0; f < 2; ++f)
+    {
+      const T inverse = 1.0 / face_[f]->area;
+      sizes_[f] = inverse * inverse * (Dim == 2 ? inverse : T(1.0));
+    }
+    const T perSize = 0.5 * (sizes_[0] + sizes_[1]);
+    for (T& size : sizes_)
+      size = ((Dim == 2 ? 1.5 : 1.0) / perSize) * size;
     oppose(choose(bonded_, T(0.0), stored * perSize));
     const T rising = 1.0 + falling_;
     density.square = rising * density.square;
@@ -200,10 +205,10 @@ public:
           (materialArea * opposednessSlope_ * energy) * face_[1 - f]->normal;
       const Vec3Of<T> inFace = slopes - dot(mine.normal, slopes) * mine.normal;
       const T area = 1.0 / mine.area;
-      byVectorArea(f, area * inFace - (opposedness * energy * area *
-                                       (0.5 * birth[f] * area +
-                                        (Dim == 2 ? 1.5 : 1.0) * materialArea * falling_)) *
-                                          mine.normal);
+      byVectorArea(f,
+                   area * inFace - (opposedness * energy * area *
+                                    (0.5 * birth[f] * area + materialArea * falling_ * sizes_[f])) *
+                                       mine.normal);
       const Vec3Of<T> even = (scale * push * inverse / mine.count) * mine.normal;
       for (int i = 0; i < mine.count; ++i)
         gradient[f][i] += even + scale * spatial(rim[f][i]);
@@ -391,7 +396,8 @@ private:
   const HalfStepFaceOf<T>* face_[2];
   ContactPotentialScale scale_;
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
-  T falling_{}; ///< d ln phi / d ln U, 0 to -1
+  T falling_{};  ///< d ln phi / d ln U, 0 to -1
+  T sizes_[2]{}; ///< minus d ln Y / d ln of the area of each face, Y: what is stored as in oppose()
   Mask bonded_{false};
   EdgesOf<T> edges_;
   T coveredSides_[2]{}; ///< number of sides on covered edges of each face
