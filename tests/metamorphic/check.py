@@ -141,17 +141,18 @@ def meshed(part, finer=1, split=False):
     return retold.without_fixed_step(problem)
 
 
-def sliced():
-    """The plane problem as hexahedra, one element of 1 m thick, between planes of symmetry. Bulk viscosity and hourglass control measure
-    an element by its volume^(1/dimension), and are switched off in both.
+def sliced(thickness):
+    """The plane problem as hexahedra, one element thick [m], between planes of symmetry. Bulk viscosity and hourglass control measure
+    an element by its volume^(1/dimension), and are switched off in both. Contact measures faces that turn by their area^(1/2): where some
+    do, a slice as thick as they are long knows them as the plane problem does.
     """
     flat, thick = scene.problem(), scene.problem()
     thick.recipe["dimension"] = 3
     for part in thick.recipe["parts"]:
-        part["min"], part["size"], part["divisions"] = [*part["min"], 0.0], [*part["size"], 1.0], [*part["divisions"], 1]
+        part["min"], part["size"], part["divisions"] = [*part["min"], 0.0], [*part["size"], thickness], [*part["divisions"], 1]
         if "rotate" in part:
             part.update(rotate=[0, 0, part["rotate"]], about=[*part["about"], 0.0], offset=[*part["offset"], 0.0])
-    thick.recipe.setdefault("node_sets", {}).update(back={"where": {"z": 0}}, front={"where": {"z": 1}})
+    thick.recipe.setdefault("node_sets", {}).update(back={"where": {"z": 0}}, front={"where": {"z": thickness}})
     conditions = thick.deck.setdefault("conditions", [])
     conditions += [{"type": "symmetry", "node_set": name, "normal": [0, 0, 1]} for name in ("back", "front")]
     for problem in (flat, thick):
@@ -231,9 +232,8 @@ if everything or scene.thorough:
         near(f"{words} split", meshed(part, split=True), scene.mesh)
 
 if (kind in ("bars", "settle", "slide") or name == "corner_2d") and dimension == 2 and not rough:
-    flat, thick = sliced()
-    # Faces 1 m thick are of another size in space than in the plane, by which the range of opposition goes once they turn.
-    near("slice of 3D", thick, 1e-5 if kind == "slide" else 1e-8, other=look("plane to be sliced", flat))
+    flat, thick = sliced(0.05 if kind == "slide" else 1.0)  # the rider's ends and the slab have faces of 0.05 m
+    near("slice of 3D", thick, 1e-8, other=look("plane to be sliced", flat))
 if kind in ("bars", "settle"):
     near("joint declared", declared(), 1e-3)
 if kind == "spin" and rough:  # round-off decides about gaps of exactly zero: README.md
