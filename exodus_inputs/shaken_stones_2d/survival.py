@@ -3,7 +3,7 @@
 
     survival.py [FOLDER] [ACCELERATION ...]
 
-FOLDER: where the runs go (default: survival). ACCELERATION: largest ones of the ground [m/s^2] (default: 1 to 4). About half a minute each
+FOLDER: where the runs go (default: survival). ACCELERATION: largest ones of the ground [m/s^2] (default: 1 to 4). About ten seconds each
 on one core; writes survival.csv, and survival.png where matplotlib is there.
 """
 
