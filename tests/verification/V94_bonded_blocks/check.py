@@ -20,4 +20,5 @@ with open(run.path("run_fragments.csv")) as file:
     rows = [line.split(",") for line in file.read().splitlines()[1:]]
 pieces = [int(float(row[3])) for row in rows if row[0] == rows[-1][0]]
 case.check_equal("elements of the fragments at the end", sorted(pieces)[-2:], [32, 32])
+case.same_bits("bar", recipe, deck, run, joints=joints)
 case.finish()
