@@ -91,6 +91,7 @@ conditions:
   - {type: rigid_motion, block: c, velocity: [0, 0, 0]}
   - {type: air_blast, side_set: a, charge_mass: 1, charge_place: [0, 0, 0]}
   - {type: acceleration, node_set: a, value: [0, 0, 0]}
+  - {type: free_field, side_set: a}
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
@@ -269,6 +270,7 @@ std::string cardFor(const Key& group, const Key& key)
            : key.appliesTo("rigid_motion") ? ".7"
            : key.appliesTo("air_blast")    ? ".8"
            : key.appliesTo("acceleration") ? ".9"
+           : key.appliesTo("free_field")   ? ".10"
                                            : ".0";
   if (group.name == "probes")
     return key.name == "block" || key.name == "variables" ? ".1"
@@ -373,6 +375,7 @@ TEST(DeckKeys, modelsAndTypesActOnTheDeck)
   EXPECT_EQ(deck.conditions[5].type, "absorbing");
   EXPECT_EQ(deck.conditions[6].type, "displacement");
   EXPECT_EQ(deck.conditions[7].type, "rigid_motion");
+  EXPECT_EQ(deck.conditions[10].type, "free_field");
 }
 
 void eachKey(const Key& group, const std::function<void(const Key& group, const Key& key)>& action)

@@ -157,6 +157,8 @@ void Conditions::endLoadsOn(const std::vector<GlobalId>& dead)
     forget(blast.sides, [&](const BlastSide& face) { return isDead(face.side); });
   for (AbsorbingBoundary& boundary : absorbing)
     forget(boundary.sides, [&](const AbsorbingSide& face) { return isDead(face.side); });
+  for (FreeFieldBoundary& boundary : freeFields)
+    forget(boundary.sides, [&](const FreeFieldSide& face) { return isDead(face.side); });
 }
 
 void Conditions::takeFaceLoads(const Conditions& from)
@@ -165,6 +167,7 @@ void Conditions::takeFaceLoads(const Conditions& from)
   tractions = from.tractions;
   airBlasts = from.airBlasts;
   absorbing = from.absorbing;
+  freeFields = from.freeFields;
 }
 
 void Conditions::prescribeVelocities(Real t, const NodeVectors& v) const

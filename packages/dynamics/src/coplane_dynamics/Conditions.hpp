@@ -191,6 +191,28 @@ struct AbsorbingBoundary
   Window when{};
 };
 
+/// A face of a side beyond which the ground goes on level without end (FreeFieldColumn):
+///
+///     t = sigma_ff n - z_n (v - v_ff)_normal - z_s (v - v_ff)_tangential
+///
+/// with the stress and the velocity of a column of the side's layers that the model does not move.
+/// What another condition has held until then goes on beside it, as at absorbing sides.
+struct FreeFieldSide
+{
+  LoadedSide side;
+  int block = 0, element = 0; ///< of this rank, behind the face
+  Real normalImpedance = 0;   ///< rho c_d of that element [Pa s/m]
+  Real shearImpedance = 0;    ///< rho c_s [Pa s/m]
+};
+
+struct FreeFieldBoundary
+{
+  std::string name;  ///< of the side set
+  std::string where; ///< in the deck
+  std::vector<FreeFieldSide> sides;
+  Window when{};
+};
+
 /// s n: with a stress and a unit normal, the traction on the side that the normal leaves.
 inline Vec3 dot(const SymTensor& s, const Vec3& n)
 {
@@ -221,6 +243,7 @@ struct Conditions
   std::vector<FaceTraction> tractions;
   std::vector<AirBlast> airBlasts;
   std::vector<AbsorbingBoundary> absorbing;
+  std::vector<FreeFieldBoundary> freeFields;
   bool axisymmetric = false; ///< faces are those of a body of revolution about x = 0
   VectorOfTime gravity;      ///< [m/s^2]
   OfTime massDamping;        ///< alpha of the force -alpha m v [1/s]; empty: none
@@ -229,7 +252,7 @@ struct Conditions
   RelaxationOptions relaxation;
 
   /// Loads at time t into state.external (owned nodes, overwritten): gravity, pressures, tractions,
-  /// air blasts. Those of absorbing sides: Dashpots.
+  /// air blasts. Those of absorbing and free-field sides: Dashpots.
   /// @param dt of the step that ends at t: air blasts push with their mean over that time around t
   void applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const;
 

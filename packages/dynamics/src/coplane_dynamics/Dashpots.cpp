@@ -21,6 +21,11 @@ Dashpots::Dashpots(const Conditions& conditions, int ownedNodes) : positions_(ow
       for (int k = 0; k < face.side.count; ++k)
         if (face.side.nodes[k] < ownedNodes)
           positions_[face.side.nodes[k]] = 0;
+  for (const FreeFieldBoundary& boundary : conditions.freeFields)
+    for (const FreeFieldSide& face : boundary.sides)
+      for (int k = 0; k < face.side.count; ++k)
+        if (face.side.nodes[k] < ownedNodes)
+          positions_[face.side.nodes[k]] = 0;
   for (int n = 0; n < ownedNodes; ++n)
     if (positions_[n] == 0)
     {
@@ -30,12 +35,35 @@ Dashpots::Dashpots(const Conditions& conditions, int ownedNodes) : positions_(ow
   matrices_.resize(nodes_.size());
   acts_.assign(nodes_.size(), 0);
   initial_.assign(nodes_.size(), Vec3{});
+  drive_.assign(nodes_.size(), Vec3{});
   supports_.assign(nodes_.size(), Vec3{});
 }
 
-void Dashpots::act(int dimension, const Conditions& conditions, Real t, Real middle,
-                   const std::vector<Vec3>& released, const ConstNodeVectors& x,
-                   const NodeVectors& external)
+namespace
+{
+/// Z of a face: z_n along its normal, z_s across it; times an area [Pa s m].
+SymTensor impedanceOf(Real normalImpedance, Real shearImpedance, Real area, const Vec3& n)
+{
+  const Real shear = area * shearImpedance;
+  const Real rest = area * (normalImpedance - shearImpedance);
+  return {shear + rest * n.x * n.x, shear + rest * n.y * n.y, shear + rest * n.z * n.z,
+          rest * n.x * n.y,         rest * n.y * n.z,         rest * n.z * n.x};
+}
+
+void add(SymTensor& sum, const SymTensor& c)
+{
+  sum.xx += c.xx;
+  sum.yy += c.yy;
+  sum.zz += c.zz;
+  sum.xy += c.xy;
+  sum.yz += c.yz;
+  sum.zx += c.zx;
+}
+} // namespace
+
+void Dashpots::act(int dimension, const Conditions& conditions, const FreeFields& freeFields,
+                   Real t, Real middle, const std::vector<Vec3>& released,
+                   const ConstNodeVectors& x, const NodeVectors& external)
 {
   const std::vector<Vec3> before = initial_;
   matrices_.assign(nodes_.size(), SymTensor{});
@@ -60,16 +88,8 @@ void Dashpots::act(int dimension, const Conditions& conditions, Real t, Real mid
         if (node >= int(positions_.size()))
           continue;
         const Real area = dot(areas[k], n);
-        const Real shear = area * face.shearImpedance;
-        const Real rest = area * (face.normalImpedance - face.shearImpedance);
         const std::size_t i = std::size_t(positions_[node]);
-        SymTensor& c = matrices_[i];
-        c.xx += shear + rest * n.x * n.x;
-        c.yy += shear + rest * n.y * n.y;
-        c.zz += shear + rest * n.z * n.z;
-        c.xy += rest * n.x * n.y;
-        c.yz += rest * n.y * n.z;
-        c.zx += rest * n.z * n.x;
+        add(matrices_[i], impedanceOf(face.normalImpedance, face.shearImpedance, area, n));
         const Vec3 initial = dot(face.stress[k], areas[k]);
         acts_[i] = 1;
         initial_[i] += initial;
@@ -77,6 +97,7 @@ void Dashpots::act(int dimension, const Conditions& conditions, Real t, Real mid
       }
     }
   }
+  addFreeFields(dimension, conditions, freeFields, middle, x, external);
   for (std::size_t i = 0; i < nodes_.size(); ++i)
   {
     if (!acts_[i])
@@ -85,6 +106,47 @@ void Dashpots::act(int dimension, const Conditions& conditions, Real t, Real mid
       supports_[i] += force - (initial_[i] - before[i]);
     set(external, nodes_[i], at(external, nodes_[i]) + supports_[i]);
   }
+}
+
+void Dashpots::addFreeFields(int dimension, const Conditions& conditions,
+                             const FreeFields& freeFields, Real middle, const ConstNodeVectors& x,
+                             const NodeVectors& external)
+{
+  drive_.assign(nodes_.size(), Vec3{});
+  for (std::size_t b = 0; b < conditions.freeFields.size(); ++b)
+  {
+    if (!conditions.freeFields[b].when.holds(middle))
+      continue;
+    const FreeFieldColumn& column = freeFields.column(b);
+    for (const FreeFieldSide& face : conditions.freeFields[b].sides)
+    {
+      const std::array<Vec3, 4> areas =
+          cornerAreas(dimension, cornersAt(x, face.side).x, face.side.count);
+      const Vec3 n = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      for (int k = 0; k < face.side.count; ++k)
+      {
+        const int node = face.side.nodes[k];
+        if (node >= int(positions_.size()))
+          continue;
+        const Real area = dot(areas[k], n);
+        const SymTensor c = impedanceOf(face.normalImpedance, face.shearImpedance, area, n);
+        const Vec3 beyond = area * column.traction(face.side, k);
+        const std::size_t i = std::size_t(positions_[node]);
+        add(matrices_[i], c);
+        acts_[i] = 1;
+        initial_[i] += beyond;
+        drive_[i] += dot(c, column.velocity(face.side, k));
+        set(external, node, at(external, node) + beyond);
+      }
+    }
+  }
+}
+
+void Dashpots::drive(const NodeVectors& external) const
+{
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (const Vec3& force = drive_[i]; force.x != 0 || force.y != 0 || force.z != 0)
+      set(external, nodes_[i], at(external, nodes_[i]) + force);
 }
 
 void Dashpots::kick(Real dt, Real massDamping, const ConstArray<Real>& mass,

@@ -4,14 +4,15 @@
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/FreeField.hpp>
 
 #include <functional>
 #include <vector>
 
 namespace coplane
 {
-/// Forces of absorbing sides on their nodes: initial stress, waves that enter, and -C v, C a
-/// symmetric matrix of 3 x 3 numbers.
+/// Forces of absorbing and free-field sides on their nodes: initial stress or that of the ground
+/// beyond, waves that enter, and -C v or C (v_ff - v), C a symmetric matrix of 3 x 3 numbers.
 ///
 /// C v is taken at n, as the mean of v(n-1/2) and v(n+1/2), and solved for v(n+1/2) node by node.
 /// That keeps central differences second order, and the stable step as if the dashpots were not
@@ -31,9 +32,12 @@ public:
   /// act on it: it was in balance with what acted then, and is so with what acts now.
   /// @param released the part of the last reactions that no condition takes up any more, for each
   /// of nodes() [N]
-  void act(int dimension, const Conditions& conditions, Real t, Real middle,
-           const std::vector<Vec3>& released, const ConstNodeVectors& x,
+  void act(int dimension, const Conditions& conditions, const FreeFields& freeFields, Real t,
+           Real middle, const std::vector<Vec3>& released, const ConstNodeVectors& x,
            const NodeVectors& external);
+  /// Adds what free fields drive their sides with, C v_ff, to the external forces: like the
+  /// dashpots themselves no force out of balance.
+  void drive(const NodeVectors& external) const;
 
   /// Replaces the velocities of the nodes by the solution of
   ///
@@ -57,11 +61,15 @@ public:
   void restore(const std::vector<GlobalId>& ids, const StateSource& in);
 
 private:
+  void addFreeFields(int dimension, const Conditions& conditions, const FreeFields& freeFields,
+                     Real middle, const ConstNodeVectors& x, const NodeVectors& external);
+
   std::vector<int> nodes_;     // owned, sorted
   std::vector<int> positions_; // of owned nodes in nodes_; -1 elsewhere
   std::vector<SymTensor> matrices_;
   std::vector<char> acts_;     // some side acts on the node
-  std::vector<Vec3> initial_;  // force of the initial stress on the sides that act [N]
+  std::vector<Vec3> initial_;  // force of the stress beyond the sides that act [N]
+  std::vector<Vec3> drive_;    // of free fields [N]
   std::vector<Vec3> supports_; // beside it, so that both are the force of a former support [N]
 };
 } // namespace coplane

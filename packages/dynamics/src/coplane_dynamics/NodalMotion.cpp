@@ -34,7 +34,7 @@ NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const Noda
       bodies_(model.mesh, model.rigidBodyOfNode, rigidBlocksOf(model), elements.blocks(), state,
               comm),
       followsBody_("coplane::dynamics::followsBody", model.mesh.ownedNodes),
-      dashpots_(model.conditions, model.mesh.ownedNodes)
+      freeFields_(model, comm), dashpots_(model.conditions, model.mesh.ownedNodes)
 {
   bodies_.takeConditions(model.conditions);
   for (int n = 0; n < model.mesh.ownedNodes; ++n)
@@ -62,6 +62,7 @@ void NodalMotion::drift(Real dt, const NodalState& state)
       "coplane::dynamics::drift", state.owned(),
       KOKKOS_LAMBDA(const int n) { set(x, n, at(x, n) + dt * at(v, n)); });
   bodies_.drift(dt);
+  freeFields_.advance(dt);
 }
 
 void NodalMotion::applyLoads(const Conditions& conditions, Real t, Real dt, NodalState& state) const
@@ -113,6 +114,13 @@ void NodalMotion::applyLocalDamping(Real fraction, const Conditions& conditions,
       });
 }
 
+void NodalMotion::startFreeFields(const Times& times, const Conditions& conditions,
+                                  const RankMesh& mesh, const NodalState& state,
+                                  const ElementForces& elements, const Comm& comm)
+{
+  freeFields_.start(kickTimesOf(times), conditions, mesh, state, elements, comm);
+}
+
 void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalState& state)
 {
   TimedRegion region("coplane::dynamics::kick");
@@ -120,10 +128,12 @@ void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalSt
   const Real localDamping = conditions.localDampingAt(times.damping);
   const Real middle = times.t + 0.5 * times.after;
   findProjections(conditions, middle);
+  freeFields_.kick(kickTimesOf(times), conditions, massDamping, localDamping);
   if (!dashpots_.empty())
-    dashpots_.act(dimension_, conditions, times.t, middle,
+    dashpots_.act(dimension_, conditions, freeFields_, times.t, middle,
                   releasedReactions(conditions, middle, state), state.x, state.external);
   applyLocalDamping(localDamping, conditions, middle, state);
+  dashpots_.drive(state.external);
   kickNodes(times, conditions, state);
   prescribe(times, conditions, state);
   dashpots_.book(state.vPrevious, state.v, state.external);
@@ -296,6 +306,7 @@ Real NodalMotion::stop(const Times& times, const Conditions& conditions, NodalSt
         set(angularImpulse, n, at(angularImpulse, n) + cross(at(x, n), lost));
       });
   bodies_.stop(kickTimesOf(times), state);
+  freeFields_.stop(kickTimesOf(times), conditions);
   applyLoads(conditions, times.t, 0, state);
   kick({times.t, 0, times.after, times.damping}, conditions, state); // a start
   mirrorVelocities(state);
@@ -330,6 +341,7 @@ void NodalMotion::save(const std::vector<GlobalId>& ids, StateTables& out) const
   }
   out.rows(reactionsTable, rows);
   dashpots_.save(ids, out);
+  freeFields_.save(out);
   bodies_.save(out);
 }
 
@@ -345,6 +357,7 @@ void NodalMotion::restore(const std::vector<GlobalId>& ids, const StateSource& i
     for (int c = 0; c < 3; ++c)
       reactions_(i, c) = rows.row(i)[c];
   dashpots_.restore(ids, in);
+  freeFields_.restore(in);
   bodies_.restore(in);
 }
 

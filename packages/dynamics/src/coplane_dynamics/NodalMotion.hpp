@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Conditions.hpp>
 #include <coplane_dynamics/Dashpots.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/FreeField.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_dynamics/RigidBodies.hpp>
@@ -42,6 +43,9 @@ public:
     Real after;   ///< dt(n+1/2) [s]
     Real damping; ///< for the dampings; infinity: none acts any more [s]
   };
+  /// Free fields that begin to act with the next kick. Collective.
+  void startFreeFields(const Times& times, const Conditions& conditions, const RankMesh& mesh,
+                       const NodalState& state, const ElementForces& elements, const Comm& comm);
   /// v(n-1/2) to v(n+1/2) under all forces at n, dampings, dashpots and conditions; books them.
   void kick(const Times& times, const Conditions& conditions, NodalState& state);
   /// At n, after a kick that has been booked: velocities that nothing prescribes are zero, and the
@@ -60,6 +64,7 @@ public:
   /// Force of fixed, velocity, displacement, acceleration and symmetry on an owned node at n; zero
   /// on nodes of rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
   Vec3 reaction(int node) const;
+  const FreeFields& freeFields() const { return freeFields_; }
 
   /// Reactions, and the bodies' part of a checkpoint. Collective.
   /// @param ids of all nodes here
@@ -93,6 +98,7 @@ private:
   int dimension_;
   RigidBodies bodies_;
   Array<bool> followsBody_; ///< owned nodes of rigid bodies
+  FreeFields freeFields_;
   Dashpots dashpots_;
   /// Owned nodes with conditions on velocities, and those of dashpots; sorted.
   std::vector<int> constrained_;

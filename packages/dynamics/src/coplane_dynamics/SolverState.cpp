@@ -207,7 +207,8 @@ std::uint64_t Solver::stateHash() const
     Element = 100,
     PlaneField = 200,
     Time = 300,
-    LineField = 400
+    LineField = 400,
+    FreeFieldNumber = 500
   };
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -239,7 +240,9 @@ std::uint64_t Solver::stateHash() const
   {
     hash.add(Time, clock_.cycle, 0, clock_.time);
     hash.add(Time, clock_.cycle, 1, clock_.nextStep);
-    lines_->addTo(hash, LineField); // every rank has all lines
+    // Every rank has all of these.
+    lines_->addTo(hash, LineField);
+    motion_->freeFields().addTo(hash, FreeFieldNumber);
   }
   std::vector<std::uint64_t> total{hash.part()};
   comm_->sum(total);

@@ -56,7 +56,8 @@ Real TimeStep::bodyStep(const Parts& parts) const
 
 Real TimeStep::stable(const Parts& parts) const
 {
-  const Real least = std::min(bodyStep(parts), parts.elements.smallestStep());
+  const Real least = std::min(
+      {bodyStep(parts), parts.elements.smallestStep(), parts.motion.freeFields().stableStep()});
   if (!parts.contact && parts.lines.empty())
     return least;
   const auto stiffness = parts.state.contactStiffness;

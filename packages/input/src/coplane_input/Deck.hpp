@@ -115,7 +115,7 @@ struct ConditionCard
 {
   std::string where;
   std::string type; ///< fixed | velocity | displacement | acceleration | symmetry | pressure |
-                    ///< traction | air_blast | absorbing | rigid_motion
+                    ///< traction | air_blast | absorbing | free_field | rigid_motion
   /// Node set (fixed, velocity, displacement, acceleration, symmetry), element block (rigid_motion)
   /// or side set (the others).
   std::string set;
@@ -143,7 +143,8 @@ struct ConditionCard
   }
   bool onSides() const
   {
-    return type == "pressure" || type == "traction" || type == "air_blast" || type == "absorbing";
+    return type == "pressure" || type == "traction" || type == "air_blast" || type == "absorbing" ||
+           type == "free_field";
   }
 };
 

@@ -148,16 +148,17 @@ Key conditions()
     key.length = 3;
     return KeyBuilder(key);
   };
-  const std::vector<std::string> withTimes{"fixed",        "velocity",  "displacement",
-                                           "acceleration", "symmetry",  "pressure",
-                                           "traction",     "air_blast", "absorbing"};
+  const std::vector<std::string> withTimes{"fixed",     "velocity",  "displacement", "acceleration",
+                                           "symmetry",  "pressure",  "traction",     "air_blast",
+                                           "absorbing", "free_field"};
   return list(
              "conditions", &Deck::conditions,
              {
                  text("type", &ConditionCard::type)
                      .needed()
                      .oneOf({"fixed", "velocity", "displacement", "acceleration", "symmetry",
-                             "pressure", "traction", "air_blast", "absorbing", "rigid_motion"})
+                             "pressure", "traction", "air_blast", "absorbing", "free_field",
+                             "rigid_motion"})
                      .wordsElsewhere({{"encastre", "fixed"},
                                       {"pinned", "fixed"},
                                       {"clamped", "fixed"},
@@ -166,14 +167,18 @@ Key conditions()
                                       {"quiet", "absorbing"},
                                       {"viscous", "absorbing"},
                                       {"nonreflecting", "absorbing"},
-                                      {"non_reflecting", "absorbing"}})
+                                      {"non_reflecting", "absorbing"},
+                                      {"freefield", "free_field"},
+                                      {"free-field", "free_field"}})
                      .like("fixed")
                      .means("fixed: no motion; velocity, displacement, acceleration: prescribed "
                             "motion; "
                             "symmetry: no motion "
                             "along the normal; pressure: follows the moving faces; traction: in "
                             "fixed axes; air_blast: pressure of the blast wave of a charge; "
-                            "absorbing: waves leave through the faces; rigid_motion: "
+                            "absorbing: waves leave through the faces; free_field: level ground "
+                            "goes on beyond the vertical side and moves with its own base; "
+                            "rigid_motion: "
                             "prescribed velocity and spin of the bodies of a rigid block"),
                  text("node_set", &ConditionCard::set)
                      .onlyFor({"fixed", "velocity", "displacement", "acceleration", "symmetry"})
@@ -181,7 +186,7 @@ Key conditions()
                      .means("node set of the mesh")
                      .like("base"),
                  text("side_set", &ConditionCard::set)
-                     .onlyFor({"pressure", "traction", "air_blast", "absorbing"})
+                     .onlyFor({"pressure", "traction", "air_blast", "absorbing", "free_field"})
                      .needed()
                      .means("side set of the mesh")
                      .like("top"),

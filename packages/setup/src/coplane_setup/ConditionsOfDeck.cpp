@@ -77,6 +77,23 @@ Window windowOf(const ConditionCard& card)
   return {card.from, card.until.value_or(infinity)};
 }
 
+FreeFieldBoundary freeFieldOf(const ConditionCard& card, const RankMesh& part,
+                              const std::vector<RankMesh::Side>& set,
+                              const std::vector<BlockSetup>& blocks)
+{
+  FreeFieldBoundary boundary{card.set, card.where, {}, windowOf(card)};
+  for (const RankMesh::Side& side : set)
+  {
+    const LinearElastic& elastic = elasticity(blocks[side.block].material);
+    boundary.sides.push_back({loadedSide(part, side), side.block, side.element,
+                              std::sqrt(elastic.density * pWaveModulus(elastic)),
+                              std::sqrt(elastic.density * elastic.shearModulus)});
+  }
+  std::sort(boundary.sides.begin(), boundary.sides.end(),
+            [](const auto& a, const auto& b) { return a.side.id < b.side.id; });
+  return boundary;
+}
+
 std::function<Real(Real)> dampingOf(const TimeFunction& card)
 {
   if (card.expression.empty() && card.constant == 0)
@@ -201,6 +218,8 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
         conditions.tractions.push_back(tractionOf(card, part, set));
       else if (card.type == "air_blast")
         conditions.airBlasts.push_back(airBlastOf(card, part, set));
+      else if (card.type == "free_field")
+        conditions.freeFields.push_back(freeFieldOf(card, part, set, blocks));
       else
         conditions.absorbing.push_back(
             {absorbingSidesOf(part, set, blocks), vectorOf(card.incident), windowOf(card)});

@@ -71,12 +71,15 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice
             "dimensions; accepted: 0 there, a spin about z.",
             card.where, "xy"[c], card.set));
   for (const ConditionCard& card : deck.conditions)
-    if (const int set = card.type == "absorbing" ? indexOf(mesh.sideSets, card.set) : -1; set >= 0)
+    if (const int set = card.type == "absorbing" || card.type == "free_field"
+                            ? indexOf(mesh.sideSets, card.set)
+                            : -1;
+        set >= 0)
       if (const int block = rigidBlockBehind(mesh.sideSets[set], rigid, slice, comm); block >= 0)
-        problems.push_back(fmt::format(
-            "{}: absorbing side set '{}' has a side of the rigid block '{}', through which no "
-            "waves run; take it out of the set, or remove rigid.",
-            card.where, card.set, mesh.blocks[block].name));
+        problems.push_back(
+            fmt::format("{}: {} side set '{}' has a side of the rigid block '{}', through which no "
+                        "waves run; take it out of the set, or remove rigid.",
+                        card.where, card.type, card.set, mesh.blocks[block].name));
   return problems;
 }
 } // namespace coplane

@@ -1,0 +1,156 @@
+// Checkpoints of free-field columns, and the columns of a run.
+#include <coplane_dynamics/FreeField.hpp>
+
+#include <algorithm>
+
+namespace coplane
+{
+std::string FreeFieldColumn::tableName() const
+{
+  std::string name = name_;
+  std::replace(name.begin(), name.end(), '/', '|');
+  return "free_field/" + name;
+}
+
+template <class Self, class F>
+void FreeFieldColumn::forEachVector(Self& self, F&& f)
+{
+  for (auto* vectors :
+       {&self.displacement_, &self.velocity_, &self.previous_, &self.support_, &self.reaction_})
+    for (auto& vector : *vectors)
+      f(vector);
+}
+
+void FreeFieldColumn::save(StateTables& out) const
+{
+  if (!started_)
+    return;
+  std::vector<Real> numbers;
+  forEachVector(*this,
+                [&](const Vec3& vector) {
+                  numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
+                });
+  for (const LayerElement& element : elements_)
+  {
+    const ElementBlock& block = blocks_[std::size_t(element.block)];
+    const std::size_t first = numbers.size();
+    numbers.resize(first + block.stateColumns().size());
+    block.saveState(element.element, numbers.data() + first);
+  }
+  out.numbers(tableName(), numbers);
+}
+
+void FreeFieldColumn::restore(const StateSource& in)
+{
+  if (!in.has(tableName()))
+    return; // begins later
+  const std::vector<Real> numbers = in.numbers(tableName());
+  std::size_t expected = 0;
+  forEachVector(*this, [&](const Vec3&) { expected += 3; });
+  for (const LayerElement& element : elements_)
+    expected += blocks_[std::size_t(element.block)].stateColumns().size();
+  if (numbers.size() != expected)
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "{}: the column beside side set '{}' has {} numbers and should have {}. Restart "
+                   "with the program that wrote it ({}).",
+                   in.name(), name_, numbers.size(), expected, in.program());
+  const Real* next = numbers.data();
+  forEachVector(*this,
+                [&](Vec3& vector)
+                {
+                  vector = {next[0], next[1], next[2]};
+                  next += 3;
+                });
+  for (const LayerElement& element : elements_)
+  {
+    ElementBlock& block = blocks_[std::size_t(element.block)];
+    block.restoreState(element.element, next);
+    next += block.stateColumns().size();
+  }
+  placeCorners();
+  for (ElementBlock& block : blocks_)
+    block.update(x_, v_, 0);
+  sumForces();
+  started_ = true;
+}
+
+void FreeFieldColumn::addTo(StateHash& hash, std::uint64_t field, GlobalId id) const
+{
+  std::uint64_t component = 0;
+  if (started_)
+    forEachVector(*this,
+                  [&](const Vec3& vector)
+                  {
+                    for (int c = 0; c < 3; ++c)
+                      hash.add(field, id, component++, vector[c]);
+                  });
+}
+
+FreeFields::FreeFields(const Model& model, const Comm& comm)
+{
+  const std::vector<FreeFieldBoundary>& boundaries = model.conditions.freeFields;
+  for (std::size_t b = 0; b < boundaries.size(); ++b)
+  {
+    for (std::size_t other = 0; other < b; ++other)
+      if (boundaries[other].name == boundaries[b].name &&
+          boundaries[other].when.overlaps(boundaries[b].when))
+        failOnAllRanks(ExitCode::Deck,
+                       "{}: side set '{}' has a free field already ({}); accepted: one at a time.",
+                       boundaries[b].where, boundaries[b].name, boundaries[other].where);
+    columns_.emplace_back(b, model, comm);
+  }
+}
+
+void FreeFields::start(const KickTimes& times, const Conditions& conditions, const RankMesh& mesh,
+                       const NodalState& state, const ElementForces& elements, const Comm& comm)
+{
+  for (std::size_t b = 0; b < columns_.size(); ++b)
+    if (!columns_[b].hasStarted() && conditions.freeFields[b].when.holds(times.middle()))
+      columns_[b].start(times.t, conditions, mesh, state, elements, comm);
+}
+
+void FreeFields::advance(Real dt)
+{
+  for (FreeFieldColumn& column : columns_)
+    column.advance(dt);
+}
+
+void FreeFields::kick(const KickTimes& times, const Conditions& conditions, Real massDamping,
+                      Real localDamping)
+{
+  for (FreeFieldColumn& column : columns_)
+    column.kick(times, conditions, massDamping, localDamping);
+}
+
+void FreeFields::stop(const KickTimes& times, const Conditions& conditions)
+{
+  for (FreeFieldColumn& column : columns_)
+    column.stop(times, conditions);
+}
+
+Real FreeFields::stableStep() const
+{
+  Real least = infinity;
+  for (const FreeFieldColumn& column : columns_)
+    least = std::min(least, column.stableStep());
+  return least;
+}
+
+void FreeFields::save(StateTables& out) const
+{
+  for (const FreeFieldColumn& column : columns_)
+    column.save(out);
+}
+
+void FreeFields::restore(const StateSource& in)
+{
+  for (FreeFieldColumn& column : columns_)
+    column.restore(in);
+}
+
+void FreeFields::addTo(StateHash& hash, std::uint64_t field) const
+{
+  for (std::size_t b = 0; b < columns_.size(); ++b)
+    columns_[b].addTo(hash, field, GlobalId(b));
+}
+} // namespace coplane
