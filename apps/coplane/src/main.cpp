@@ -459,6 +459,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       demandPossibleStage(solver, decks[later], int(later), mesh, comm);
     reportModel(solver, mesh, deck);
     reportSoftening(deck, mesh, solver, comm);
+    reportDamping(deck);
     if (line.check)
     {
       reportEstimate(solver, mesh, decks.back());

@@ -55,7 +55,7 @@ materials:
     detonation_energy: 7.1e9, detonation_speed: 6950, detonation_pressure: 21.2e9, bulk_modulus: 8e9,
     lighting_points: [[1, 0, 0]], lighting_times: [1e-6]}
 blocks:
-  a: {material: j2, erosion: {variables: {energy: {above: 1}}}}
+  a: {material: j2, erosion: {variables: {energy: {above: 1}}}, damping: {ratio: 0.05, low: 1, high: 10}}
   b: {material: j2}
   c: {material: j2, rigid: true}
   tool: {material: j2, rigid: true}

@@ -369,3 +369,23 @@ TEST_P(LawProperties, smallStrainsFeelTheElasticConstants)
 
 INSTANTIATE_TEST_SUITE_P(Laws, LawProperties, ::testing::ValuesIn(allLaws()),
                          [](const auto& law) { return law.param.name; });
+
+namespace
+{
+/// With so little that the law itself is what is seen.
+std::vector<NamedLaw> dampedLaws()
+{
+  std::vector<NamedLaw> damped;
+  for (const NamedLaw& law : allLaws())
+    for (const bool volumetric : {false, true})
+      if (law.name == "linearElastic" || law.name == "hardeningPlasticity" ||
+          law.name == "neoHookean" || law.name == "mohrCoulomb")
+        damped.push_back({law.name + (volumetric ? "Volumetric" : ""),
+                          withMaxwell(law.law, fitMaxwell(5e-5, 0.1, 1, 3).elements, volumetric),
+                          law.strain});
+  return damped;
+}
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(Damped, LawProperties, ::testing::ValuesIn(dampedLaws()),
+                         [](const auto& law) { return law.param.name; });

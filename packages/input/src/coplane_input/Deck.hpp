@@ -48,6 +48,15 @@ struct ErosionCard
   }
 };
 
+/// Maxwell elements beside the law of a block.
+struct MaxwellCard
+{
+  Real ratio = 0;                ///< of critical damping [-]; 0: none
+  std::optional<Real> low, high; ///< the band of frequencies [Hz]
+  int elements = 3;
+  bool volumetric = false;
+};
+
 struct BlockCard
 {
   std::string name, where; ///< element block of the mesh
@@ -58,6 +67,7 @@ struct BlockCard
   Real hourglassStiffness = 0.05;              ///< [-]
   Real hourglassViscosity = 0;                 ///< [-]
   ErosionCard erosion;
+  MaxwellCard damping;
   bool rigid = false;
 };
 

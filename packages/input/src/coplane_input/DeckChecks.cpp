@@ -212,6 +212,29 @@ void checkErosion(const Deck& deck, const DeckNode& root, Problems& problems)
   }
 }
 
+void checkBlockDamping(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  for (const BlockCard& block : deck.blocks)
+  {
+    const std::string path = "blocks." + block.name + ".damping";
+    const DeckNode& node = nodeAt(root, {"blocks", block.name, "damping"});
+    const MaxwellCard& damping = block.damping;
+    const bool any = damping.ratio > 0 || damping.low || damping.high || damping.elements != 3 ||
+                     damping.volumetric;
+    if (block.rigid && any)
+      problems.add(node, fmt::format("{} has no effect because blocks.{}.rigid is true; remove one "
+                                     "of them.",
+                                     path, block.name));
+    else if (any && !(damping.ratio > 0 && damping.low && damping.high))
+      problems.add(node, fmt::format("{0} needs ratio (above 0), low and high; accepted: {0}: "
+                                     "{{ratio: 0.02, low: 0.5, high: 20}}.",
+                                     path));
+    else if (any && !(*damping.low < *damping.high))
+      problems.add(node, fmt::format("{}: low = {} Hz is not below high = {} Hz.", path,
+                                     *damping.low, *damping.high));
+  }
+}
+
 void checkForces(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   if (const std::string reason = commonNormalBecauseOf(deck);
@@ -534,6 +557,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkDamping(deck, root, problems);
   checkForces(deck, root, problems);
   checkErosion(deck, root, problems);
+  checkBlockDamping(deck, root, problems);
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);
   checkStages(deck, root, problems);

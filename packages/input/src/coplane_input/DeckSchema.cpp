@@ -65,6 +65,44 @@ Key erosion()
              "and one of the limits, if there are any, is exceeded; without keys none dies");
 }
 
+Key blockDamping()
+{
+  return group("damping", &BlockCard::damping,
+               {
+                   number("ratio", &MaxwellCard::ratio)
+                       .in("-")
+                       .atLeast(0)
+                       .below(0.2)
+                       .like("0.02")
+                       .means("ratio of critical damping between the two frequencies"),
+                   number("low", &MaxwellCard::low)
+                       .in("Hz")
+                       .above(0)
+                       .defaultIs("none")
+                       .like("0.5")
+                       .means("the lowest frequency"),
+                   number("high", &MaxwellCard::high)
+                       .in("Hz")
+                       .above(0)
+                       .defaultIs("none")
+                       .like("20")
+                       .means("the highest frequency"),
+                   integer("elements", &MaxwellCard::elements)
+                       .in("-")
+                       .atLeast(1)
+                       .atMost(4)
+                       .like("2")
+                       .means("Maxwell elements by which it is fitted; each stores six numbers "
+                              "of an element"),
+                   flag("volumetric", &MaxwellCard::volumetric)
+                       .like("true")
+                       .means("dilatation is damped, too, not the deviator of strain alone"),
+               })
+      .means(
+          "Maxwell elements beside the law, which take a constant fraction of the energy in each "
+          "cycle of strain and leave the step nearly as it is");
+}
+
 Key blocks()
 {
   return named("blocks", &Deck::blocks,
@@ -105,6 +143,7 @@ Key blocks()
                        .onlyFor({"one_point"})
                        .means("control of the zero-energy modes of one-point elements"),
                    erosion(),
+                   blockDamping(),
                    flag("rigid", &BlockCard::rigid)
                        .like("true")
                        .means("each connected part of the block moves as a rigid body; of its "

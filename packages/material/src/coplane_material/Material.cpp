@@ -35,10 +35,15 @@ std::vector<std::string> historyNames(const Material& material)
       [](const auto& law)
       {
         using Law = std::decay_t<decltype(law)>;
-        static_assert(Law::historyCount <= maximumHistory);
         std::vector<std::string> names;
-        if constexpr (Law::historyCount > 0)
-          names.assign(std::begin(Law::historyNames), std::end(Law::historyNames));
+        if constexpr (std::is_same_v<Law, MaxwellDamped>)
+          names = law.historyNames();
+        else
+        {
+          static_assert(Law::historyCount <= maximumHistory);
+          if constexpr (Law::historyCount > 0)
+            names.assign(std::begin(Law::historyNames), std::end(Law::historyNames));
+        }
         return names;
       },
       material);
@@ -48,6 +53,8 @@ std::array<Real, maximumHistory> initialHistory(const Material& material, const 
                                                 const Vec3& place)
 {
   std::array<Real, maximumHistory> history{};
+  if (const auto* damped = std::get_if<MaxwellDamped>(&material))
+    return initialHistory(damped->held->law, stress, place); // no overstress yet
   std::visit(
       [&](const auto& law)
       {
@@ -66,13 +73,22 @@ LawFunction lawFunction(const Material& material)
       [](const auto& law)
       {
         using Law = std::decay_t<decltype(law)>;
-        return LawFunction{&law,
-                           &advance<Law, Lanes>,
-                           &advance<Law, Real>,
-                           Law::historyCount,
-                           Law::usesVolume,
-                           Law::changesTangent,
-                           Law::hasStrength};
+        if constexpr (std::is_same_v<Law, MaxwellDamped>)
+          return LawFunction{&law,
+                             &advance<Law, Lanes>,
+                             &advance<Law, Real>,
+                             law.historyCount(),
+                             law.inner.usesVolume,
+                             true,
+                             law.inner.hasStrength};
+        else
+          return LawFunction{&law,
+                             &advance<Law, Lanes>,
+                             &advance<Law, Real>,
+                             Law::historyCount,
+                             Law::usesVolume,
+                             Law::changesTangent,
+                             Law::hasStrength};
       },
       material);
 }

@@ -10,7 +10,9 @@
 #include <coplane_material/JohnsonHolmquist.hpp>
 #include <coplane_material/Jwl.hpp>
 #include <coplane_material/KaragozianCase.hpp>
+#include <coplane_material/LawFunction.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/MaxwellDamping.hpp>
 #include <coplane_material/MohrCoulomb.hpp>
 #include <coplane_material/NeoHookean.hpp>
 #include <coplane_material/PseudoCap.hpp>
@@ -29,7 +31,11 @@ namespace coplane
 using Material =
     std::variant<LinearElastic, J2Plasticity, HardeningPlasticity, NeoHookean, DruckerPrager,
                  MohrCoulomb, JohnsonCook, PseudoCap, HolmquistJohnsonCook, Fluid, HoekBrown,
-                 UbiquitousJoints, Jwl, JohnsonHolmquist, KaragozianCase>;
+                 UbiquitousJoints, Jwl, JohnsonHolmquist, KaragozianCase, MaxwellDamped>;
+struct HeldMaterial
+{
+  Material law;
+};
 
 /// @param youngsModulus E [Pa], positive
 /// @param poissonRatio nu, between -1 and 0.5, both excluded
@@ -39,6 +45,10 @@ LinearElastic makeLinearElastic(Real youngsModulus, Real poissonRatio, Real dens
 /// Throws Error(ExitCode::Deck) with what is wrong.
 Material makeLaw(const J2Parameters& parameters);
 
+/// A law with Maxwell elements beside it (MaxwellDamped). Throws Error(ExitCode::Deck) where it has
+/// no shear modulus, or too many variables.
+Material withMaxwell(const Material& law, const MaxwellElements& elements, bool volumetric);
+
 /// Names of the law's history variables, in their order.
 std::vector<std::string> historyNames(const Material& material);
 
@@ -47,20 +57,6 @@ std::vector<std::string> historyNames(const Material& material);
 std::array<Real, maximumHistory>
 initialHistory(const Material& material, const SymTensor& stress = {}, const Vec3& place = {});
 
-/// A law as kernels call it: one function per law, whatever the element.
-struct LawFunction
-{
-  const void* law = nullptr;
-  void (*advanceLanes)(const void*, MaterialPoint<Lanes>&) = nullptr;
-  void (*advanceOne)(const void*, MaterialPoint<Real>&) = nullptr;
-  int historyCount = 0;
-  bool usesVolume = false;     ///< reads volume ratios, energy and size of the point
-  bool changesTangent = false; ///< writes stiffening and integrity
-  bool hasStrength = false;    ///< lets bending flow
-
-  void operator()(MaterialPoint<Lanes>& point) const { advanceLanes(law, point); }
-  void operator()(MaterialPoint<Real>& point) const { advanceOne(law, point); }
-};
 /// The function refers to the material, which has to stay where it is.
 LawFunction lawFunction(const Material& material);
 

@@ -7,7 +7,7 @@
 namespace coplane
 {
 /// Most numbers that a law may remember of a point.
-constexpr int maximumHistory = 24;
+constexpr int maximumHistory = 40;
 
 /// What destroyed material keeps of its stiffness, so that hourglass modes do not run free and
 /// steps stay bounded: least values of MaterialPoint::integrity and MaterialPoint::stiffening.

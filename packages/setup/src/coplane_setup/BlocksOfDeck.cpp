@@ -74,6 +74,23 @@ void setStart(const InitialCard& card, BlockSetup& setup)
   setup.stressGradient = {tensorOf(card.stressGradient), card.stressPoint,
                           normalised(card.stressAxis)};
 }
+/// The law with the Maxwell elements that the block asks for.
+Material dampedLaw(const Material& law, const BlockCard& card)
+{
+  const MaxwellCard& damping = card.damping;
+  if (!(damping.ratio > 0) || card.rigid)
+    return law;
+  try
+  {
+    return withMaxwell(
+        law, fitMaxwell(damping.ratio, *damping.low, *damping.high, damping.elements).elements,
+        damping.volumetric);
+  }
+  catch (const Error& error)
+  {
+    failOnAllRanks(error.code(), "{}: blocks.{}.damping: {}", card.where, card.name, error.what());
+  }
+}
 } // namespace
 
 BlockSetup setupOf(const Deck& deck, const Mesh::Block& block)
@@ -82,7 +99,7 @@ BlockSetup setupOf(const Deck& deck, const Mesh::Block& block)
   BlockSetup setup;
   setup.name = block.name;
   setup.materialName = card.material;
-  setup.material = materialOf(materialCardOf(deck, card));
+  setup.material = dampedLaw(materialOf(materialCardOf(deck, card)), card);
   setup.hourglass = {card.hourglassStiffness, card.hourglassViscosity};
   setup.element = elementOptionsOf(deck, card, block);
   setup.erosion = erosionOf(card.erosion);

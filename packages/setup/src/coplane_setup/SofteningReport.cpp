@@ -37,4 +37,30 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
                              limit.strength));
   }
 }
+
+void reportDamping(const Deck& deck)
+{
+  constexpr Real far = 0.1; // of the ratio
+  for (const BlockCard& block : deck.blocks)
+  {
+    const MaxwellCard& asked = block.damping;
+    if (!(asked.ratio > 0) || block.rigid)
+      continue;
+    const MaxwellFit fit = fitMaxwell(asked.ratio, *asked.low, *asked.high, asked.elements);
+    const Real middle = std::sqrt(*asked.low * *asked.high);
+    const Real added = fit.elements.added();
+    const std::string told = fmt::format(
+        "block '{}': {} Maxwell elements give {:.4g} to {:.4g} of critical damping between {:.4g} "
+        "and {:.4g} Hz (asked for: {:.4g})",
+        block.name, fit.elements.count, fit.least, fit.largest, *asked.low, *asked.high,
+        asked.ratio);
+    logInfo(
+        "{}; {} are {:.4g} times those at rest at {:.4g} Hz, and at most {:.4g} times, by which "
+        "the stable step is divided by at most {:.4g}",
+        told, asked.volumetric ? "moduli" : "shear moduli", fit.elements.storage(middle), middle,
+        1 + added, std::sqrt(1 + added));
+    if (std::max(asked.ratio - fit.least, fit.largest - asked.ratio) > far * asked.ratio)
+      logWarning("Maxwell damping", told + ": use more elements, or a narrower band.");
+  }
+}
 } // namespace coplane

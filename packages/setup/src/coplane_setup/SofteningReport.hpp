@@ -11,4 +11,7 @@ namespace coplane
 /// Collective.
 void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solver,
                      const Comm& comm);
+
+/// Tells what the Maxwell elements of blocks give, and warns where that is far from what is asked.
+void reportDamping(const Deck& deck);
 } // namespace coplane
