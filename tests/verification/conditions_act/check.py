@@ -33,6 +33,7 @@ conditions = {
         {"side_set": "right", "charge_mass": 0.2, "charge_place": [1, 3, 0], "burst": "air", "detonation_time": 1e-3},
     ),
     "absorbing": ({"side_set": "top"}, {"side_set": "right", "incident": [0.1, 0, 0]}),
+    "free_field": ({"side_set": "right"}, {"side_set": "left"}),
     "rigid_motion": (
         {"block": "tool", "velocity": [1, 0, 0]},
         {"block": "other", "components": ["x"], "velocity": [{"times": [0, 0.02], "values": [0, 1]}, 0, 0], "angular_velocity": [0, 0, 5]},
