@@ -140,8 +140,11 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
   std::vector<std::string> names;
   for (const Mesh::Block& block : mesh.mine.blocks)
   {
-    const MaterialCard& material = materialCardOf(deck, cardOf(deck, block));
-    for (const std::string& name : historyNames(materialOf(material)))
+    const BlockCard& card = cardOf(deck, block);
+    std::vector<std::string> own = historyNames(materialOf(materialCardOf(deck, card)));
+    if (card.damping.ratio > 0 && !card.rigid)
+      own.emplace_back("maxwell_dissipation");
+    for (const std::string& name : own)
       if (name != "equivalent_plastic_strain" &&
           std::find(names.begin(), names.end(), name) == names.end())
         names.push_back(name);
