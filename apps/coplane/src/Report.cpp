@@ -1,5 +1,6 @@
 #include "Report.hpp"
 
+#include "BondSoftness.hpp"
 #include "CensusReport.hpp"
 
 #include <coplane_core/Log.hpp>
@@ -69,6 +70,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
     return;
   }
   reportCensus(solver.contact());
+  reportBondSoftness(solver);
   if (solver.clock().cycle == 0)
     reportInitialOverlaps(solver, deck.mesh, deck.contact.initialOverlap == "allow");
 }

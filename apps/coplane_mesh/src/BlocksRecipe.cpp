@@ -105,12 +105,18 @@ Key domainKey()
                      .onlyInDimension(3)
                      .like("mountain.stl")
                      .means("closed surfaces of solids, in metres: STL, OBJ, PLY, with a group or "
-                            "object a solid; beside the recipe"),
+                            "object a solid; JSON: an assembly of COMPAS (compas_assembly, "
+                            "compas_dem); beside the recipe"),
                  text("joint", &DomainCard::joint)
                      .onlyInDimension(3)
                      .defaultIs("solids that touch hang together")
                      .like("mortar")
                      .means("name of the joint where solids of the file touch"),
+                 text("supports", &DomainCard::supports)
+                     .onlyInDimension(3)
+                     .like("piers")
+                     .means(
+                         "element block of the blocks that an assembly of COMPAS calls supports"),
              })
       .needed()
       .exactlyOneOf({"box", "polygon", "file"})
@@ -380,6 +386,15 @@ Key jointsKey()
              "on each other, the first in the file has the place");
 }
 
+void checkElements(BlockElementsCard& elements, const CardPlace& place)
+{
+  for (const ElementSizeCard& region : elements.regions)
+    if (!(region.size < elements.size))
+      place.problem("regions", fmt::format("have the size {} m, which must be less than that of "
+                                           "elements = {} m: it is the largest.",
+                                           region.size, elements.size));
+}
+
 Key elementsKey()
 {
   return group(
@@ -401,8 +416,31 @@ Key elementsKey()
                      .above(0)
                      .atMost(2)
                      .like("0.5")
-                     .means("by how much the size grows per distance from openings"),
+                     .means("by how much the size grows per distance from openings and regions"),
+                 list("regions", &BlockElementsCard::regions,
+                      {
+                          group("box", &ElementSizeCard::box,
+                                {corner("min", &DomainCard::Box::min, "lowest corner").needed(),
+                                 corner("max", &DomainCard::Box::max, "highest corner").needed()})
+                              .checkedBy(checkBox)
+                              .means("between two corners"),
+                          text("block", &ElementSizeCard::block)
+                              .like("granite")
+                              .means("element block: the domain's, an opening that is kept, or the "
+                                     "supports"),
+                          number("size", &ElementSizeCard::size)
+                              .needed()
+                              .in("m")
+                              .above(0)
+                              .like("0.1")
+                              .means("of elements there; less than that of elements"),
+                      })
+                     .exactlyOneOf({"box", "block"})
+                     .orOneAlone()
+                     .means("parts of the domain with smaller elements; their size grows with the "
+                            "distance from them"),
              })
+      .checkedBy(checkElements)
       .needed()
       .means("of the mesh");
 }

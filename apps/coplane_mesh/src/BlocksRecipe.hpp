@@ -21,6 +21,7 @@ struct DomainCard
   std::vector<std::vector<Real>> polygon; ///< 2D [m]; empty: not given
   std::string file;                       ///< 3D: surfaces of solids; empty: not given
   std::string joint;                      ///< where solids of a file touch; empty: welded
+  std::string supports = "supports";      ///< block of the solids of an assembly that stand still
 };
 
 /// A hole, or a part of the domain that is kept to be dug out later: a section at a point (2D), or
@@ -88,11 +89,21 @@ enum class BlockElements
   Cubes      ///< quadrilaterals, hexahedra
 };
 
+/// Smaller elements in a part of the domain: in a box, or in the blocks of an element block.
+struct ElementSizeCard
+{
+  std::string where;
+  DomainCard::Box box; ///< empty: not given
+  std::string block;   ///< empty: not given
+  Real size = 0;       ///< [m]
+};
+
 struct BlockElementsCard
 {
   Real size = 0; ///< [m]
   BlockElements shape = BlockElements::Simplices;
-  Real growth = 0.3; ///< of the size with the distance from openings [-]
+  Real growth = 0.3; ///< of the size with the distance from openings and regions [-]
+  std::vector<ElementSizeCard> regions;
 };
 
 struct SliverCard

@@ -1,5 +1,6 @@
 #include "CutBlocks.hpp"
 
+#include "ElementSizes.hpp"
 #include "JointSurfaces.hpp"
 #include "ShapeModel.hpp"
 #include "SolidFile.hpp"
@@ -124,6 +125,7 @@ private:
   struct Body
   {
     int opening = -1; ///< position in the recipe; -1: the domain
+    bool support = false;
     Entity entity;
   };
 
@@ -159,11 +161,14 @@ private:
     for (const Polyhedron& solid : readSolids(file.string()))
     {
       widen(solid.points);
-      addBody(-1, addSolid(solid));
+      addBody(-1, addSolid(solid), solid.support);
     }
   }
 
-  void addBody(int opening, int tag) { bodies_.push_back({opening, {dimension_, tag}}); }
+  void addBody(int opening, int tag, bool support = false)
+  {
+    bodies_.push_back({opening, support, {dimension_, tag}});
+  }
 
   /// The corners of a section: to the right and upward.
   static std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
@@ -326,6 +331,7 @@ private:
     std::vector<Entities> parts;
     occ::fragment(objects, tools, all, parts);
     blocks_.clear();
+    isSupport_.clear();
     // A part of the domain that is also one of an opening belongs to the first opening; what an
     // opening has outside of the domain is no part of the model.
     std::map<Entity, int> openingOf;
@@ -333,7 +339,10 @@ private:
     for (std::size_t b = 0; b < bodies_.size(); ++b)
       for (const Entity& part : parts[b])
         if (bodies_[b].opening < 0)
+        {
           inDomain.insert(part);
+          isSupport_[part] = bodies_[b].support;
+        }
         else
           openingOf.insert({part, bodies_[b].opening});
     Entities outside;
@@ -514,7 +523,7 @@ private:
           const std::vector<int> sides = blocksAt(face);
           if (sides.size() == 2 &&
               blocks_.at({dimension_, sides[0]}) != blocks_.at({dimension_, sides[1]}))
-            walls_[opening].push_back(face);
+            sized_.walls[opening].push_back(face);
         }
       if (isRemoved(block))
         removed.push_back(block);
@@ -555,11 +564,13 @@ private:
 
   void nameEntities()
   {
-    std::map<std::string, std::vector<int>> blocks;
+    std::map<std::string, std::vector<int>>& blocks = sized_.blocks;
     const std::set<int> inside = loosePieces();
     for (const auto& [block, opening] : blocks_)
     {
-      blocks[opening < 0 ? recipe_.domain.block : recipe_.openings[std::size_t(opening)].name]
+      blocks[opening >= 0           ? recipe_.openings[std::size_t(opening)].name
+             : isSupport_.at(block) ? recipe_.domain.supports
+                                    : recipe_.domain.block]
           .push_back(block.second);
       result_.blockVolumes.push_back(measureOf(block));
     }
@@ -598,39 +609,11 @@ private:
       result_.mesh.physicalsOfEntity[{dimension, tag}] = {number};
   }
 
-  /// Sizes: that of elements, and near openings their own, growing with the distance.
-  void setSizes(Real factor)
-  {
-    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 0);
-    gmsh::option::setNumber("Mesh.MeshSizeFromPoints", 0);
-    gmsh::option::setNumber("Mesh.MeshSizeMax", size_ * factor);
-    std::vector<double> fields;
-    for (const auto& [opening, faces] : walls_)
-    {
-      const int distance = gmsh::model::mesh::field::add("Distance");
-      std::vector<double> tags(faces.begin(), faces.end());
-      gmsh::model::mesh::field::setNumbers(distance,
-                                           dimension_ == 2 ? "CurvesList" : "SurfacesList", tags);
-      gmsh::model::mesh::field::setNumber(distance, "NumPointsPerCurve", 40);
-      const int size = gmsh::model::mesh::field::add("MathEval");
-      gmsh::model::mesh::field::setString(
-          size, "F",
-          fmt::format("{:.17g} + {:.17g} * F{}",
-                      factor * recipe_.openings[std::size_t(opening)].elementSize,
-                      recipe_.elements.growth, distance));
-      fields.push_back(size);
-    }
-    if (fields.empty())
-      return;
-    const int least = gmsh::model::mesh::field::add("Min");
-    gmsh::model::mesh::field::setNumbers(least, "FieldsList", fields);
-    gmsh::model::mesh::field::setAsBackgroundMesh(least);
-  }
-
   void mesh()
   {
     const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
-    setSizes(cubes ? 2 : 1); // each element is cut in half along its edges
+    setElementSizes(recipe_, recipeFile_, sized_,
+                    cubes ? 2 : 1); // each element is cut in half along its edges
     if (cubes)
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", dimension_ == 2 ? 1 : 2);
     gmsh::model::mesh::generate(dimension_);
@@ -688,9 +671,10 @@ private:
   Real size_, leastVolume_, leastThickness_, leastStub_;
   Vec3 low_{}, high_{};
   std::vector<Body> bodies_;
-  std::map<Entity, int> pieces_;          ///< parts of joints, and whose
-  std::map<Entity, int> blocks_;          ///< and the opening they are in; -1: none
-  std::map<int, std::vector<int>> walls_; ///< faces of openings with element sizes of their own
+  std::map<Entity, int> pieces_;     ///< parts of joints, and whose
+  std::map<Entity, int> blocks_;     ///< and the opening they are in; -1: none
+  std::map<Entity, bool> isSupport_; ///< blocks of the domain
+  SizedParts sized_;
   std::map<std::size_t, int> nodeOfTag_;
   CutDomain result_;
 };

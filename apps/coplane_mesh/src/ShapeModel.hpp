@@ -35,6 +35,7 @@ ShapeModel projectileModel();
 ShapeModel ogiveModel();
 ShapeModel sectorModel();
 ShapeModel domeModel();
+ShapeModel crossVaultModel();
 ShapeModel halfDiscModel();
 
 /// A shape under construction (CardModelBuilder). makeLaw(const P&) makes the bodies; P has the

@@ -7,7 +7,7 @@ const std::vector<ShapeModel>& shapeModels()
   static const std::vector<ShapeModel> models{
       boxModel(),    quadrilateralModel(), hexahedronModel(), wallModel(),       imbricateModel(),
       rockModel(),   cylinderModel(),      sphereModel(),     projectileModel(), ogiveModel(),
-      sectorModel(), domeModel(),          halfDiscModel()};
+      sectorModel(), domeModel(),          crossVaultModel(), halfDiscModel()};
   return models;
 }
 

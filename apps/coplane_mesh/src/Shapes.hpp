@@ -115,6 +115,14 @@ std::vector<Body> barrelVault(Real inner, Real outer, Real from, Real to, int co
 std::vector<Body> dome(Real inner, Real outer, Real from, Real to, int courses, int count,
                        const std::array<int, 3>& n);
 
+/// Cross vault over a square bay of side `length` about the origin, axis y: two equal barrels, each
+/// an arch of `count` courses (odd) between elevations `from` and 180 - `from` [degrees], meet in
+/// groins above the diagonals. Half the bay is `rows` stones long at the crown, every other course
+/// is shifted by half a stone. n is radial, around (even), along. Stones that meet in a groin or on
+/// a course joint have the same coordinates to the bit where they meet at nodes.
+std::vector<Body> crossVault(Real inner, Real outer, Real from, int count, Real length, int rows,
+                             const std::array<int, 3>& n);
+
 /// Lower half of a disc of centre (0, radius): its lowest point is the origin. Elements have the
 /// length `fine` within `fineRadius` <= radius / 4 of the origin and grow with the distance beyond.
 Body halfDisc(Real radius, Real fine, Real fineRadius);

@@ -601,6 +601,84 @@ TEST(Vaults, fillTheRingOfTheirSectors)
   EXPECT_EQ(places.size(), std::size_t(3 * 22 * 17));
 }
 
+TEST(CrossVaults, fillTheirBarrelsAndMeetInGroins)
+{
+  // Of an arm: (half - r |cos|) r over the ring.
+  const Real f = 20 * pi / 180, ring = (pi - 2 * f) * (2.3 * 2.3 - 4) / 2;
+  const Real whole = 4 * (2.25 * ring - 2 * (1 - std::sin(f)) * (2.3 * 2.3 * 2.3 - 8) / 3);
+  Real before = 1;
+  for (const int n : {2, 4, 8})
+  {
+    const MeshReport report = reportOf(fmt::format(
+        "{{dimension: 3, parts: [{{shape: cross_vault, block: v, inner_radius: 2, outer_radius: "
+        "2.3, from: 20, count: 9, length: 4.5, rows: 3, divisions: [{}, {}, {}]}}]}}",
+        n / 2, n, n));
+    EXPECT_TRUE(meshProblems(report).empty());
+    const Real error = std::abs(1 - report.blocks[0].volume / whole);
+    EXPECT_LT(error, 0.3 * before); // of second order
+    before = error;
+  }
+  EXPECT_LT(before, 1e-3);
+}
+
+TEST(CrossVaults, haveTheSameNodesOnBothSidesOfAGroin)
+{
+  std::map<std::array<Real, 3>, std::set<int>> armsAt; // of places above the diagonals
+  const auto stones = crossVault(2, 2.3, 20, 9, 4.5, 3, {1, 4, 2});
+  ASSERT_EQ(stones.size() % 4, 0u);
+  for (std::size_t s = 0; s < stones.size(); ++s)
+    for (const Vec3& p : stones[s].points)
+      if (std::abs(p.x) == std::abs(p.z))
+        armsAt[{p.x, p.y, p.z}].insert(int(4 * s / stones.size()));
+  // Two radii; 37 places over each of two groins, which have the crown in common.
+  EXPECT_EQ(armsAt.size(), std::size_t(2 * (2 * 37 - 1)));
+  for (const auto& [place, arms] : armsAt)
+    EXPECT_EQ(arms.size(), place[0] == 0 ? 4u : 2u);
+}
+
+TEST(CrossVaults, haveNoJointAboveAnother)
+{
+  const auto stones = crossVault(2, 2.3, 20, 9, 4.5, 3, {1, 2, 2});
+  std::map<int, std::set<Real>> ends; // along the barrel of the first arm, by course
+  for (std::size_t s = 0; s < stones.size() / 4; ++s)
+  {
+    const Vec3 middle = 0.25 * (stones[s].points[0] + stones[s].points[1] + stones[s].points[4] +
+                                stones[s].points[5]);
+    const int course = int((70 - std::atan2(middle.x, middle.y) * 180 / pi) / (140. / 9));
+    ends[course].insert(stones[s].points.back().z);
+  }
+  ASSERT_EQ(ends.size(), 9u);
+  for (int course = 0; course + 1 < 9; ++course)
+    for (const Real z : ends[course])
+      EXPECT_EQ(ends[course + 1].count(z), z == 2.25 ? 1u : 0u) << course << " " << z;
+  EXPECT_EQ(ends[4].size(), 3u) << "the crown has all rows";
+}
+
+TEST(CrossVaults, areRefusedInClearWords)
+{
+  const auto refusal = [](const std::string& keys) -> std::string
+  {
+    try
+    {
+      reportOf("{dimension: 3, parts: [{shape: cross_vault, block: v, inner_radius: 2, "
+               "outer_radius: 2.3, rows: 3, " +
+               keys + "}]}");
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("from: 20, count: 9, length: 4.5, divisions: [1, 2, 2]"), "accepted");
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  contains(refusal("from: 0, count: 9, length: 4.5, divisions: [1, 2, 2]"),
+           "4.6 m, where the groins");
+  contains(refusal("from: 20, count: 8, length: 4.5, divisions: [1, 2, 2]"), "odd count");
+  contains(refusal("from: 20, count: 9, length: 4.5, divisions: [1, 3, 2]"), "must be even");
+}
+
 TEST(Domes, fillTheirShell)
 {
   Real before = 1;

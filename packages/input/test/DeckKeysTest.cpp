@@ -74,6 +74,9 @@ joints:
   crushed: {model: mortar, normal_stiffness: 8e10, tensile_strength: 2e5, cohesion: 4e5, tension_energy: 18,
     shear_energy: 125, compressive_strength: 1e7, compression_energy: 6e3, peak_crushing: 1e-4, residual_compression: 0.2,
     shear_in_crushing: 4}
+  glued: {model: linear, normal_stiffness: 1, tensile_strength: 2e5}
+  bent: {model: mortar, normal_stiffness: 8e10, tensile_strength: 2e5, cohesion: 4e5, tension_energy: 18,
+    shear_energy: 125, stiffness_loss: 1}
 contact:
   pairs:
     - {blocks: [a, b]}
@@ -331,6 +334,8 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
         {"joints.mortar.peak_crushing", "joints.crushed.peak_crushing"},
         {"joints.mortar.residual_compression", "joints.crushed.residual_compression"},
         {"joints.mortar.shear_in_crushing", "joints.crushed.shear_in_crushing"},
+        {"joints.linear.resists_bending", "joints.glued.resists_bending"},
+        {"joints.mortar.resists_bending", "joints.bent.resists_bending"},
         {"contact.pairs.0.materials", "contact.pairs.1.materials"},
         {"contact.pairs.0.side_sets", "contact.pairs.2.side_sets"},
         {"contact.pairs.0.joint_set", "contact.pairs.3.joint_set"}};

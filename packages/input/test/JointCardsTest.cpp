@@ -202,3 +202,37 @@ TEST(JointCards, keysOfOtherModelsAreRefused)
             "joints.j.friction belongs to model: penalty, linear, closure_curve, table, mortar, "
             "bilinear, but model is barton_bandis here; remove it or change model.");
 }
+
+TEST(JointCards, bondsThatResistBending)
+{
+  EXPECT_FALSE(
+      lawOf("model: bilinear, tension_energy: 18, shear_energy: 125, " + bond).bond.resistsBending);
+  const std::string bends = bond + "resists_bending: true, ",
+                    energies = "tension_energy: 18, shear_energy: 125";
+  EXPECT_TRUE(lawOf("model: bilinear, " + bends + energies).bond.resistsBending);
+  EXPECT_TRUE(lawOf("model: mortar, stiffness_loss: 1, " + bends + energies).bond.resistsBending);
+  EXPECT_TRUE(
+      lawOf("model: linear, normal_stiffness: 2e10, tensile_strength: 1e6, resists_bending: true")
+          .bond.resistsBending);
+  EXPECT_NE(problemOf("model: mortar, " + bends + energies).find("needs stiffness_loss: 1"),
+            std::string::npos);
+  EXPECT_NE(problemOf("model: linear, normal_stiffness: 2e10, resists_bending: true")
+                .find("without tensile_strength"),
+            std::string::npos);
+  EXPECT_NE(problemOf("model: bilinear, dilation: 0.1, " + bends + energies)
+                .find("does not go with dilation"),
+            std::string::npos);
+  EXPECT_NE(problemOf("model: bilinear, maximum_closure: 1e-4, " + bends + energies)
+                .find("does not go with maximum_closure"),
+            std::string::npos);
+}
+
+TEST(JointCards, bondsThatResistBendingNeedForcesOfThePotential)
+{
+  const std::string text = errorOf(
+      leastDeck + "joints:\n  j: {model: linear, normal_stiffness: 2e10, tensile_strength: 1e6, "
+                  "resists_bending: true}\ncontact: {forces: common_normal}\n");
+  EXPECT_NE(text.find("joints.j.resists_bending does not go with contact.forces = 'common_normal'"),
+            std::string::npos)
+      << text;
+}

@@ -245,3 +245,48 @@ TEST(Bond_Start, onlyLawsWithABondStartBonded)
   EXPECT_EQ(mortarJoint().law.damage(fresh), 1.0);
   EXPECT_NEAR(mortarJoint().closureUnder(-1e5), -1e5 / kn, 1e-18);
 }
+
+// A bond that resists bending.
+
+TEST(Bond_Bent, isTheSameBondWhereItOpensEvenly)
+{
+  Joint bent = mortarJoint(Bond::Kind::Linear);
+  bent.law.bond.resistsBending = true;
+  JointRun run(bent), plain(mortarJoint(Bond::Kind::Linear));
+  for (const Real gap : {2e-6, 5e-5, 1e-5, -3e-6, 9e-5, 1.2e-4, 2e-4})
+  {
+    run.go(gap, {1e-7, 0, 0}, 20);
+    plain.go(gap, {1e-7, 0, 0}, 20);
+    EXPECT_NEAR(run.sigma(), plain.sigma(), 1e-9 * ft) << gap;
+    EXPECT_NEAR(run.fracture, plain.fracture, 1e-9 * G1) << gap;
+    EXPECT_EQ(run.state.bonded, plain.state.bonded);
+  }
+  EXPECT_FALSE(run.state.bonded);
+}
+
+TEST(Bond_Bent, theFirstFibreThatReachesTheStrengthWearsIt)
+{
+  for (const Bond::Kind kind : {Bond::Kind::Brittle, Bond::Kind::Linear})
+  {
+    Joint joint = kind == Bond::Kind::Brittle ? brittle() : mortarJoint(kind);
+    joint.law.bond.resistsBending = true;
+    const Real most = joint.law.bond.tensileStrength / joint.fit.normalStiffness;
+    for (const Real part : {.999, 1.001})
+    {
+      JointState state;
+      state.bonded = true;
+      Bending bending; // over a length of 1, from -part to part of the opening at the strength
+      bending.opened = part * most;
+      bending.openSquares = part * most * part * most / 6;
+      bending.closedMean = part * most / 4;
+      const JointResponse r = joint.law(joint.fit, 0, {}, 1e-6, state, 1, &bending);
+      const bool worn = kind == Bond::Kind::Brittle ? !state.bonded : state.opening > 0;
+      EXPECT_EQ(worn, part > 1);
+      if (kind == Bond::Kind::Brittle && worn)
+      {
+        EXPECT_NEAR(r.fractureWork, 5. / 6, 1e-12);
+        EXPECT_NEAR(r.normalTraction, joint.fit.normalStiffness * bending.closedMean, 1e-6);
+      }
+    }
+  }
+}

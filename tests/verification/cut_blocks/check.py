@@ -1,12 +1,13 @@
 """Blocks that joints cut out of a domain: counts, volumes, areas, equilibrium."""
 
+import json
 import math
 import pathlib
 import re
 import sys
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, meshes
 from coplanetools import program
 
 case = Case("cut blocks", __file__)
@@ -120,6 +121,47 @@ case.check_equal("stones with a crack: bodies", made["bodies"], 4)
 close("stones with a crack: areas", [made["joints"]["crack"], made["joints"]["mortar"]], [2, 2], 1e-6)
 
 
+# --- an assembly of COMPAS, its support a block of its own ----------------------------------------------------
+def block_of(group):
+    """A block of 2 x 1 x 1 as compas_dem writes it."""
+    mesh = {"vertex": {str(k): {"x": 2 * x, "y": y, "z": z + group} for k, (x, y, z) in enumerate(corners)}, "face": {str(f): list(face) for f, face in enumerate(faces)}}
+    return {"dtype": "compas_dem.elements/Block", "data": {"transformation": None, "geometry": {"dtype": "compas.datastructures/Mesh", "data": mesh}, "is_support": group == 0}}
+
+
+pathlib.Path("pile.json").write_text(json.dumps({"dtype": "compas_dem.models/BlockModel", "data": {"elements": {f"guid-{group}": block_of(group) for group in range(3)}}}))
+pile = {**stones, "domain": {"file": str(pathlib.Path("pile.json").resolve()), "joint": "dry", "block": "stone", "supports": "base"}}
+made = cut("assembly", pile)
+case.check_equal("assembly of COMPAS: parts, bodies", [made["parts"], made["bodies"]], [3, 3])
+close("assembly of COMPAS: volumes, joints", [made["blocks"]["stone"], made["blocks"]["base"], made["joints"]["dry"]], [4, 2, 4], 1e-6)
+
+
+# --- sizes of elements by region ---------------------------------------------------------------------------------
+def mean_edges(made, inside):
+    """Mean length of the edges of elements whose middle `inside` takes, by their block and middle [m]."""
+    mesh, lengths = meshes.read(made["mesh"]), []
+    for block in mesh.blocks:
+        corners_of = mesh.points[block.nodes]
+        chosen = corners_of[inside(block.name, corners_of.mean(axis=1))]
+        count = corners_of.shape[1]
+        lengths += [numpy.linalg.norm(chosen[:, a] - chosen[:, b], axis=1) for a in range(count) for b in range(a)] if count == corners_of.shape[2] + 1 else []
+    return float(numpy.concatenate(lengths).mean())
+
+
+plate = {**flat, "joints": {"level": {"planes": {"point": [0, 3], "normal": [0, 1]}}}, "elements": {"size": 0.8, "growth": 0.5, "regions": [{"box": {"min": [2, 1], "max": [4, 4]}, "size": 0.1}]}}
+made = cut("finer_box", plate)
+case.check("finer in a box, 2D: mean edge over the size asked for", mean_edges(made, lambda block, x: (abs(x[:, 0] - 3) < 0.9) & (abs(x[:, 1] - 2.5) < 1.4)) / 0.1, 1, 0.1)
+case.check("finer in a box, 2D: mean edge far from it over that of elements", mean_edges(made, lambda block, x: x[:, 0] > 6.2) / 0.8, 1, 0.2)
+cube = {**solid, "joints": {"x": solid["joints"]["x"]}, "elements": {"size": 1, "growth": 0.6, "regions": {"box": {"min": [0, 0, 0], "max": [2, 2, 2]}, "size": 0.3}}}
+made = cut("finer_corner", cube)
+case.check("finer in a box, 3D: mean edge over the size asked for", mean_edges(made, lambda block, x: x.max(axis=1) < 1.8) / 0.3, 1, 0.2)
+case.check_within("finer in a box, 3D: mean edge far from it over that of elements", mean_edges(made, lambda block, x: x[:, 0] > 6) / 1, 0.8, 1.2)
+made = cut("finer_base", {**pile, "elements": {"size": 0.5, "growth": 1, "regions": [{"block": "base", "size": 0.12}]}})
+case.check("finer in a block: mean edge over the size asked for", mean_edges(made, lambda block, x: numpy.full(len(x), block == "base")) / 0.12, 1, 0.2)
+case.check_within("finer in a block: mean edge of the farthest stone over that of elements", mean_edges(made, lambda block, x: x[:, 2] > 2) / 0.5, 0.8, 1.2)
+coarse = cut("as_coarse", {**pile, "elements": {"size": 0.5}})
+case.check_within("the same without the region: mean edge of the base over that of elements", mean_edges(coarse, lambda block, x: numpy.full(len(x), block == "base")) / 0.5, 0.8, 1.2)
+
+
 def refused(name, recipe, *words):
     try:
         said = cut(name, recipe)["said"]
@@ -151,6 +193,10 @@ close("a shaft: volume, area", [made["blocks"]["rock"], made["joints"]["z"]], [1
 
 pathlib.Path("open.obj").write_text("\n".join(lines[: 1 + 8 + 5]) + "\n")
 refused("an open surface", {**stones, "domain": {**stones["domain"], "file": str(pathlib.Path("open.obj").resolve())}}, "is not closed", "belongs to 1 face", "exit code 4")
+refused("a region of no block", {**pile, "elements": {"size": 0.5, "regions": {"block": "bse", "size": 0.1}}}, "has no block 'bse'", "base, stone", "exit code 3")
+refused("a region that is coarser", {**flat, "elements": {"size": 0.5, "regions": {"box": {"min": [0, 0], "max": [1, 1]}, "size": 0.9}}}, "must be less than that of elements", "exit code 3")
+pathlib.Path("no_blocks.json").write_text('{"vertices": []}')
+refused("an assembly without blocks", {**pile, "domain": {**pile["domain"], "file": str(pathlib.Path("no_blocks.json").resolve())}}, "no blocks were found", "exit code 4")
 refused("no such file", {**stones, "domain": {**stones["domain"], "file": "missing.obj"}}, "missing.obj", "exit code 4")
 refused("a joint outside", {**flat, "joints": {"a": {"planes": {"point": [0, 9], "normal": [0, 1]}}}}, "joints.a has no face inside", "exit code 3")
 level = {"planes": {"point": [0, 4], "normal": [0, 1]}}

@@ -272,6 +272,22 @@ public:
     return atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
   }
 
+  /// Least closure over the part in contact, which is the whole overlap of a bond; infinity without
+  /// any [m].
+  KOKKOS_INLINE_FUNCTION T leastClosure() const;
+
+  /// The pair with what is closed of a bond for its part in contact.
+  /// @param offset as in meet() [m]
+  KOKKOS_INLINE_FUNCTION PairPotential<Dim, Real> closedPart(const Real& offset) const
+  {
+    PairPotential<Dim, Real> closed(*face_[0], *face_[1], scale_);
+    EdgesOf<Real> edges = edges_;
+    for (Real& exit : edges.exits)
+      exit = 0;
+    closed.meet(offset, false, edges);
+    return closed;
+  }
+
 private:
   using Owned = detail::OwnedSides<T>;
 

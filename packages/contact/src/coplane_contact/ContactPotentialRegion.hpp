@@ -83,6 +83,23 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::measureOverlap()
 }
 
 template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION T PairPotential<Dim, T>::leastClosure() const
+{
+  using namespace branchFree;
+  T least(infinity);
+  for (int i = 0; i < pieces_; ++i)
+  {
+    const PolygonSides<T>& sides = piece_[i].sides;
+    for (int k = 0; k < sides.size; ++k)
+    {
+      const Mask there = Dim == 2 ? Mask(true) : sides.isThere(k);
+      least = choose(there, smaller(closureAt(sides.from[k]), least), least);
+    }
+  }
+  return least;
+}
+
+template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findPieces()
 {
   const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);

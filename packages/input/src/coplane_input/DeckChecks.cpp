@@ -243,6 +243,16 @@ void checkForces(const Deck& deck, const DeckNode& root, Problems& problems)
                  fmt::format("contact.forces = 'potential' does not go with {}; leave that out, or "
                              "use common_normal.",
                              reason));
+  const std::string other = deck.contact.forces == "common_normal"
+                                ? std::string("contact.forces = 'common_normal'")
+                                : commonNormalBecauseOf(deck);
+  if (!other.empty())
+    for (const JointCard& joint : deck.joints)
+      if (jointLawOf(joint).bond.resistsBending)
+        problems.add(nodeAt(root, {"joints", joint.name, "resists_bending"}),
+                     fmt::format("joints.{}.resists_bending does not go with {}, whose forces act "
+                                 "at one point of a face; remove one of them.",
+                                 joint.name, other));
   if (deck.geometry == "axisymmetric")
     for (const auto& block : deck.blocks)
       if (block.rigid)

@@ -37,6 +37,7 @@ struct Bond
   Real openingLength = 1;   ///< a_1 [m]
   Real shearingLength = 1;  ///< a_2 [m]
   Real loss = 0;            ///< of stiffness in tension: 0 plastic, 1 damage only [-]
+  bool resistsBending = false;
 
   /// Lengths from the fracture energies [J/m^2].
   static Bond softening(Kind kind, Real tensileStrength, Real cohesion, Real tensionEnergy,
@@ -128,6 +129,55 @@ struct Bond
       return elastic;
     const Real strength = tensileStrength * share(state);
     return strength > 0 ? strength / (strength / elastic + loss * state.opening) : 0;
+  }
+
+  /// A bond that resists bending: what is open of it carries by its secant, which wears by the
+  /// opening where that is largest. All openings grow together, so the work of fracture is that of
+  /// even opening times the share of the open energy.
+  KOKKOS_INLINE_FUNCTION void bend(Real k, const Bending& bending, JointState& state,
+                                   JointResponse& response) const
+  {
+    const Real most = bending.opened, strength = tensileStrength;
+    const Real part = most > 0 ? bending.openSquares / (most * most) : 0;
+    Real slope = k;
+    if (kind == Bond::Kind::Brittle)
+    {
+      if (k * most > strength)
+      {
+        response.fractureWork += 0.5 * strength * strength / k * part;
+        slope = 0;
+        state.bonded = false;
+      }
+    }
+    else
+    {
+      const Real q = wear(state), trial = k * (most - loss * state.opening);
+      if (trial > strength * share(q))
+      {
+        const Real jump = inelasticJump(trial, k, 0, strength, openingLength, q);
+        response.fractureWork += openingWork(q, state.opening, jump) * part;
+        state.opening += jump;
+      }
+      slope = tensionStiffness(k, state);
+    }
+    carryBent(k, bending, slope, response);
+  }
+
+  /// Tractions of a bond that is bent, with a slope where it is open.
+  KOKKOS_INLINE_FUNCTION void carryBent(Real k, const Bending& bending, Real slope,
+                                        JointResponse& response) const
+  {
+    response.bondStiffness = slope;
+    response.normalTraction = k * bending.closedMean + slope * (bending.mean - bending.closedMean);
+    response.normalStiffness = bending.mean > 0 ? k : slope;
+  }
+
+  /// What is open of it gives back what it has stored where its slope falls.
+  KOKKOS_INLINE_FUNCTION void weakenBent(Real k, const Bending& bending, Real slope,
+                                         JointResponse& response) const
+  {
+    response.fractureWork += 0.5 * (response.bondStiffness - slope) * bending.openSquares;
+    carryBent(k, bending, slope, response);
   }
 };
 } // namespace coplane

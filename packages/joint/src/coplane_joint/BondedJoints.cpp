@@ -15,6 +15,7 @@ JointLaw softening(const BondParameters& p, Bond::Kind kind)
   law.curve.inverseMaximumClosure = p.maximumClosure > 0 ? 1 / p.maximumClosure : 0;
   law.stiffnessCap = p.stiffnessCap.value_or(0);
   law.bond = Bond::softening(kind, p.tensileStrength, p.cohesion, p.tensionEnergy, p.shearEnergy);
+  law.bond.resistsBending = p.resistsBending;
   return law;
 }
 
@@ -40,6 +41,8 @@ void checkSoftening(const BondParameters& p, Real share, const CardPlace& card)
     card.problem("stiffness_cap",
                  "has no effect on a straight line; give maximum_closure or remove it.");
   checkCoulomb(p, card);
+  if (p.resistsBending && p.maximumClosure > 0)
+    card.problem("resists_bending", "does not go with maximum_closure; remove one of them.");
   const auto enough = [&](const char* key, const char* what, Real energy, Real strength, Real k)
   {
     const Real least = share * strength * strength / k;
@@ -58,6 +61,9 @@ void checkSoftening(const BondParameters& p, Real share, const CardPlace& card)
 void checkMortar(const MortarParameters& p, const CardPlace& card)
 {
   checkSoftening(p, 1, card);
+  checkBending(p, p.stiffnessLoss, card);
+  if (p.resistsBending && p.compressiveStrength > 0)
+    card.problem("resists_bending", "does not go with compressive_strength; remove one of them.");
   if (!(p.compressiveStrength > 0))
   {
     const auto useless = [&](const char* key, bool given)
@@ -100,6 +106,7 @@ void checkMortar(const MortarParameters& p, const CardPlace& card)
 void checkBilinear(const BilinearParameters& p, const CardPlace& card)
 {
   checkSoftening(p, 0.5, card);
+  checkBending(p, 1, card);
 }
 
 template <class P>
@@ -143,6 +150,7 @@ std::vector<Key> bondKeys()
           .above(0)
           .like("130")
           .means("fracture energy G_II: area under the cohesive part of traction over slip"),
+      resistsBendingKey<P>(),
   };
   const std::vector<Key> coulomb = coulombKeys<P>();
   keys.insert(keys.end(), coulomb.begin(), coulomb.end());

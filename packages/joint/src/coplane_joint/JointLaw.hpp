@@ -90,13 +90,15 @@ struct JointLaw
   /// @param shrunk where the caller keeps the shear energy of an area that changes: by what it has
   ///        multiplied the stored traction for that, r, and the increment by (r + 1) / 2. What it
   ///        raised slips back where it is beyond the strength, but nothing has moved for it. [-]
+  /// @param bending how the closure is spread, for bonds that resist bending; none: evenly
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
                                                   const Vec3& tangentialIncrement, Real dt,
-                                                  JointState& state, Real shrunk = 1) const
+                                                  JointState& state, Real shrunk = 1,
+                                                  const Bending* bending = nullptr) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
           dilation <= 0))
-      return general(fit, closure, tangentialIncrement, dt, state, shrunk);
+      return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending);
     JointResponse response;
     close(fit, closure, state, response);
     if (response.normalTraction > 0)
@@ -105,6 +107,17 @@ struct JointLaw
     else
       response.frictionWork = release(fit, tangentialIncrement, state);
     return response;
+  }
+
+  /// Whether a bond has worn, or may wear in this step: where it has half of its strength.
+  /// @param opened where it is most open [m]
+  KOKKOS_INLINE_FUNCTION bool mayWear(const JointFit& fit, const JointState& state,
+                                      Real opened) const
+  {
+    const Real held = bond.softens() ? bond.cohesion : cohesion;
+    return state.opening > 0 || state.shearing > 0 ||
+           fit.normalStiffness * opened > 0.5 * bond.tensileStrength ||
+           dot(state.shearTraction, state.shearTraction) > 0.25 * held * held;
   }
 
   /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.
@@ -289,9 +302,12 @@ private:
 
   /// Breaks the bond: its tension is gone. A joint that is pressed keeps what opened inelastically
   /// between its faces, as dilation.
-  KOKKOS_INLINE_FUNCTION void breakBond(JointState& state, JointResponse& response) const
+  KOKKOS_INLINE_FUNCTION void breakBond(const JointFit& fit, const Bending& bending,
+                                        JointState& state, JointResponse& response) const
   {
-    if (response.normalTraction > 0)
+    if (bond.resistsBending)
+      bond.weakenBent(fit.normalStiffness, bending, 0, response);
+    else if (response.normalTraction > 0)
       response.dilation += bond.permanentOpening(state);
     else if (response.normalTraction < 0)
     {
@@ -317,25 +333,31 @@ private:
     Real wear; ///< of the bond, if it softens
     Real held; ///< strength without friction [Pa]
     Real friction;
+    Bending bending;
   };
 
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
-                                        Real dt, JointState& state, Real shrunk) const
+                                        Real dt, JointState& state, Real shrunk,
+                                        const Bending* bending) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
     SlipStart s;
     s.closure = closure + bond.permanentOpening(state);
     s.opened = close(fit, s.closure, state, response);
-    if (wasBonded && response.normalTraction <= 0)
+    if (bond.resistsBending)
+      s.bending = bending ? *bending : Bending::even(closure);
+    if (wasBonded && bond.resistsBending)
+      bond.bend(fit.normalStiffness, s.bending, state, response);
+    else if (wasBonded && response.normalTraction <= 0)
     {
       const Real open = bond.permanentOpening(state);
       pull(fit, s.opened, state, response);
       s.opened -= bond.permanentOpening(state) - open;
     }
     if (state.bonded && bond.softens() && bond.share(state) < Bond::brokenAt)
-      breakBond(state, response);
+      breakBond(fit, s.bending, state, response);
     if (response.normalTraction <= 0 && !state.bonded)
     {
       (wasBonded ? response.fractureWork : response.frictionWork) += release(fit, increment, state);
@@ -360,7 +382,7 @@ private:
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
     {
-      breakBond(state, response);
+      breakBond(fit, s.bending, state, response);
       if (s.pressed <= 0)
       {
         response.fractureWork += release(fit, increment, state);
@@ -520,7 +542,10 @@ private:
   KOKKOS_INLINE_FUNCTION void wearBySlip(const JointFit& fit, const SlipStart& s, JointState& state,
                                          JointResponse& response) const
   {
-    if (response.normalTraction < 0 && bond.loss > 0)
+    if (bond.resistsBending)
+      bond.weakenBent(fit.normalStiffness, s.bending,
+                      bond.tensionStiffness(fit.normalStiffness, state), response);
+    else if (response.normalTraction < 0 && bond.loss > 0)
     {
       const Real secant = bond.tensionStiffness(fit.normalStiffness, state);
       const Real tension = -secant * s.opened;
@@ -530,7 +555,7 @@ private:
     }
     if (bond.share(state) < Bond::brokenAt)
     {
-      breakBond(state, response);
+      breakBond(fit, s.bending, state, response);
       if (s.pressed <= 0)
         response.fractureWork += release(fit, {}, state);
     }

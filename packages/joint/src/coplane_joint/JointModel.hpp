@@ -51,6 +51,7 @@ struct LinearParameters : CoulombParameters
 {
   Real normalStiffness = 0; ///< [Pa/m]
   Real tensileStrength = 0; ///< [Pa]; 0: no bond
+  bool resistsBending = false;
 
   static JointModel model();
 };
@@ -104,6 +105,7 @@ struct BondParameters : CoulombParameters
   Real tensileStrength = 0; ///< [Pa]
   Real tensionEnergy = 0;   ///< G_I [J/m^2]
   Real shearEnergy = 0;     ///< G_II [J/m^2]
+  bool resistsBending = false;
 };
 struct MortarParameters : BondParameters ///< exponential softening
 {

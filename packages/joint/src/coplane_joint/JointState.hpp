@@ -25,11 +25,37 @@ struct JointState
   bool bonded = false;     ///< carries tension and cohesion until broken
 };
 
+/// How the closure is spread over the area of a plane: linearly, so that a bond is bent. Means over
+/// the area; what is open has a closure below zero.
+struct Bending
+{
+  Real mean = 0;        ///< closure [m]
+  Real opened = 0;      ///< opening where it is largest [m]
+  Real openSquares = 0; ///< mean of the square of the closure where it is open, 0 elsewhere [m^2]
+  Real closedMean = 0;  ///< mean of the closure where it is closed, 0 elsewhere [m]
+
+  /// The same closure everywhere.
+  static KOKKOS_INLINE_FUNCTION Bending even(Real closure)
+  {
+    Bending bending;
+    bending.mean = closure;
+    if (closure > 0)
+      bending.closedMean = closure;
+    else
+    {
+      bending.opened = -closure;
+      bending.openSquares = closure * closure;
+    }
+    return bending;
+  }
+};
+
 /// What a step gives, with the increments of dissipated work per area.
 struct JointResponse
 {
   Real normalTraction = 0;  ///< compression positive; negative: tension of a bonded joint [Pa]
   Real normalStiffness = 0; ///< slope of the branch in use [Pa/m]
+  Real bondStiffness = 0;   ///< of a bond that resists bending: slope where it is open [Pa/m]
   bool slipping = false;
   Real frictionWork = 0;   ///< [J/m^2]
   Real fractureWork = 0;   ///< [J/m^2]

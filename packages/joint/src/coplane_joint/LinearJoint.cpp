@@ -2,6 +2,15 @@
 
 namespace coplane
 {
+namespace
+{
+void checkLinear(const LinearParameters& p, const CardPlace& card)
+{
+  checkCoulomb(p, card);
+  checkBending(p, 1, card);
+}
+} // namespace
+
 JointLaw makeLaw(const LinearParameters& p)
 {
   JointLaw law = coulombLaw(p);
@@ -10,6 +19,7 @@ JointLaw makeLaw(const LinearParameters& p)
   {
     law.bond.kind = Bond::Kind::Brittle;
     law.bond.tensileStrength = p.tensileStrength;
+    law.bond.resistsBending = p.resistsBending;
   }
   return law;
 }
@@ -42,7 +52,8 @@ JointModel LinearParameters::model()
               .means("of a declared joint, until it breaks at once: in tension, or when it slips; "
                      "0: no "
                      "bond"),
+          resistsBendingKey<P>(),
       })
-      .demands(checkCoulomb);
+      .demands(checkLinear);
 }
 } // namespace coplane

@@ -2,6 +2,8 @@
 
 #include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
+#include <coplane_contact/detail/BentBonds.hpp>
+#include <coplane_contact/detail/LostEnergies.hpp>
 
 // Steps B to H of a pair of faces whose forces come from one potential
 // (docs/theory/contact-potential.md). Faces are those of the end of the step.
@@ -64,49 +66,6 @@ KOKKOS_INLINE_FUNCTION T shortestEdge(const HalfStepFaceOf<T>& a, const HalfStep
   return branchFree::squareRoot(shortest);
 }
 
-/// A bond carries by the mean closure, what is left of it where it is closed: half of a tilted
-/// pair. The offset by which the joint settles when the bond breaks, so that this makes no energy
-/// [m].
-/// @param energy that is left at the mean closure [J]
-template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
-                                       const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
-                                       int i, Real cosOpposed, Real energy)
-{
-  const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
-  const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
-  const Real permanent =
-      law.curve.straight() ? 0 : plane.history.maximumClosure - top.traction / top.stiffness;
-  const Real stiffness = law.curve.straight() ? plane.fit.normalStiffness : top.stiffness;
-  Real low = 0, high = 0;
-  for (int step = 0; step < 60; ++step)
-  {
-    const Real middle = 0.5 * (low + high);
-    PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(cosOpposed));
-    if (!pair.plane.opposed)
-      return 0;
-    pair.meet(plane.offset - permanent - middle, false, {});
-    if (step == 0)
-      high = pair.mostClosure > 0 ? pair.mostClosure : 0;
-    else
-      (0.5 * stiffness * pair.moments.squares > energy ? low : high) = middle;
-  }
-  return low > 1e-12 * high ? high : 0;
-}
-
-/// What the closure curve's history loses when its maximum closure rises from `before` to now, with
-/// the area in contact as it is [J]: the energy before less that after. The moments are those of
-/// closures beyond the permanent closure of now.
-KOKKOS_INLINE_FUNCTION Real lostByLoading(const JointLaw& law, const JointFit& fit, Real before,
-                                          Real now, Real area, Real volume, Real squares)
-{
-  const ClosureCurve::Point old = law.curve.at(fit, before), point = law.curve.at(fit, now);
-  const Real shift =
-      (now - point.traction / point.stiffness) - (before - old.traction / old.stiffness);
-  return 0.5 * (old.stiffness * (squares + 2 * shift * volume + shift * shift * area) -
-                point.stiffness * squares);
-}
-
 /// Steps B to H of a batch of pairs in one cycle, in the order of the functions.
 template <int Dim, class T>
 class PotentialCycle
@@ -152,6 +111,7 @@ private:
   {
     PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
     PerLane stored = {};    ///< energy of bonds per area [J/m^2]
+    PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -159,6 +119,12 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void linearise()
   {
     bonded_ = planes_.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+    bends_ = branchFree::gathered<T>(
+                 [&](int i) -> Real
+                 {
+                   return i < planes_.count && planes_.plane[i]->history.bonded &&
+                          planes_.law[i]->bond.resistsBending;
+                 }) > 0.0;
     for (int i = 0; i < width; ++i)
     {
       const Plane& plane = *planes_.plane[i];
@@ -193,6 +159,8 @@ private:
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
     deepest_ = pair_.mostClosure + permanent;
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
+    if (branchFree::anyOf(bends_ && overlaps_))
+      done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, bent_);
   }
 
   /// Steps E and F. @returns the lanes that carry
@@ -279,19 +247,25 @@ private:
                   branchFree::lane(increment, i), response);
       }
 
-    // A bond pulls evenly, by the mean closure.
+    // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
     const T sigma = all(response.tractions), perArea = all(response.stored);
-    density.square = choose(bonded_, T(0.0), density.square);
-    density.constant = choose(bonded_, perArea - sigma * mean, density.constant);
-    density.linear = choose(bonded_, sigma, density.linear);
-    const T energy = choose(bonded_, perArea * m.area, pressed);
-    const T normalForce = pair_.differentiate(
-        energy, density, planes_.each([](const Plane& p) { return p.birthArea[0]; }),
-        planes_.each([](const Plane& p) { return p.birthArea[1]; }));
+    const T bent = 0.5 * all(response.slopes);
+    const Mask even = bonded_ && !bends_;
+    density.square = choose(bonded_, choose(bends_, bent, T(0.0)), density.square);
+    density.constant = choose(even, perArea - sigma * mean, density.constant);
+    density.linear = choose(bonded_, choose(bends_, T(0.0), sigma), density.linear);
+    const T energy = choose(bonded_, choose(bends_, bent * m.squares, perArea * m.area), pressed);
+    const T birth[2] = {planes_.each([](const Plane& p) { return p.birthArea[0]; }),
+                        planes_.each([](const Plane& p) { return p.birthArea[1]; })};
+    T normalForce = pair_.differentiate(energy, density, birth[0], birth[1]);
+    T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
+    if constexpr (width == 1)
+      if (bent_.partly && touching)
+        addClosedPart(pair_, planes_.plane[0]->offset, slope_ - response.slopes[0], birth,
+                      normalForce, normalEnergy);
     stepH_forces(touching, area, normalForce, relative);
 
-    const T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
     const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
                                    weighted(relative.weights[1], b_.x, b_.count));
     for (int i = 0; i < planes_.count; ++i)
@@ -370,7 +344,10 @@ private:
                         : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
                                    : permanents_[i];
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
-    const JointResponse response = law(plane.fit, closed, increment, dt_, state, shrunk);
+    const bool bends = branchFree::lane(bends_, i);
+    const JointResponse response =
+        law(plane.fit, closed, increment, dt_, state, shrunk, bends ? &bent_.lanes[i] : nullptr);
+    out.slopes[i] = bends && bent_.lanes[i].opened > 0 ? response.bondStiffness : slopes_[i];
     if (wasBonded)
     {
       plane.hysteresisWork += area * response.hysteresisWork;
@@ -391,7 +368,7 @@ private:
     plane.offset += response.dilation;
     plane.frictionWork += area * response.frictionWork;
     plane.fractureWork += area * response.fractureWork;
-    if (wasBonded && !plane.history.bonded)
+    if (wasBonded && !plane.history.bonded && !bends)
       plane.offset -=
           settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
   }
@@ -550,6 +527,8 @@ private:
   PerLane slopes_, permanents_; ///< of the linear kernel [Pa/m], [m]
   T slope_, hardening_;         ///< the same; one over the depth from which a penalty hardens [1/m]
   Mask bonded_, done_;
+  Mask bends_;                             ///< bonds that resist bending
+  BentBonds<T> bent_;                      ///< how these are bent
   T overlap_;                              ///< area of the shadows in common [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
   T deepest_;                              ///< closure; negative: least distance [m]

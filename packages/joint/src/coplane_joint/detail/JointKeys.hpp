@@ -109,6 +109,17 @@ std::vector<Key> coulombKeys()
   return keys;
 }
 
+/// Of a P with resistsBending.
+template <class P>
+Key resistsBendingKey()
+{
+  return flag("resists_bending", &P::resistsBending)
+      .like("true")
+      .means("the bond's traction follows the opening at each point of a face, so that a face "
+             "carries moments, and breaks from its most open point; false: one traction all over "
+             "a face, by its mean opening. With contact.forces: potential");
+}
+
 /// Of CoulombParameters of a joint without a bond that softens.
 template <class P>
 Key cohesionKey()
@@ -130,6 +141,22 @@ JointLaw shearLaw(const ShearStiffnessParameters& parameters);
 
 /// What friction and dilation demand of each other.
 void checkCoulomb(const CoulombParameters& parameters, const CardPlace& place);
+
+/// What a bond that resists bending demands.
+/// @param loss of stiffness where it is open [-]; bonds that break at once have none
+template <class P>
+void checkBending(const P& p, Real loss, const CardPlace& card)
+{
+  if (!p.resistsBending)
+    return;
+  if (!(p.tensileStrength > 0))
+    card.problem("resists_bending", "has no effect without tensile_strength; give both or none.");
+  if (!(loss >= 1))
+    card.problem("resists_bending", "needs stiffness_loss: 1, so that what has opened unloads "
+                                    "towards zero at each point.");
+  if (p.dilation > 0)
+    card.problem("resists_bending", "does not go with dilation; remove one of them.");
+}
 
 /// A cap has to be at least the slope of the curve at its start.
 /// @param what its key
