@@ -7,6 +7,7 @@
 #include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_output/Fragments.hpp>
 #include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/LinesObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ProgressObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
@@ -168,6 +169,10 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
       observers.add(std::make_unique<FragmentsObserver>(
           comm,
           FragmentsOptions{fragmentsFile(deck), results.when, results.bodies, settings.positions}));
+    if (deck.output.lines)
+      observers.add(std::make_unique<LinesObserver>(
+          comm, LinesOptions{planesBase(deck), results.when,
+                             positionOfOutput(settings, "drawn_lines"), run}));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
           comm,

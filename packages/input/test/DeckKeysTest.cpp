@@ -211,7 +211,7 @@ std::string show(const Deck& d)
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
-          d.output.filePerRank, d.output.fragments, d.output.fragmentDamage);
+          d.output.filePerRank, d.output.lines, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
     showAll(out, t);
   showAll(out, d.history.file, d.history.every);
@@ -235,7 +235,7 @@ std::string show(const Deck& d)
             l.hardeningModulus, l.ruptureStrain, l.compression, l.groutStiffness, l.groutStrength,
             l.groutFriction, l.groutPerimeter, l.plate, l.freeLength, l.dowelStiffness,
             l.dowelStrength, l.pretension, l.pretensionTime, l.spacing, l.copies, l.copyStep,
-            l.from, l.stage);
+            l.from, l.until, l.stage);
   }
   return out;
 }
@@ -339,7 +339,8 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
     const std::string& deck = path == "geometry"                 ? withoutRigid
                               : path == "output.fragment_damage" ? withFragments
                               : path.rfind("stages", 0) == 0     ? deckWithStages
-                              : path.rfind("lines", 0) == 0      ? deckWithLines
+                              : path.rfind("lines", 0) == 0 || path == "output.lines"
+                                  ? deckWithLines
                                                                  : deckOfAllModels;
     try
     {

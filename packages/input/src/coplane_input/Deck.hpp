@@ -175,6 +175,7 @@ struct LineCard
   Vec3 copyStep{0, 0, 0};             ///< from one to the next [m]
   Real from = 0;                      ///< [s]
   std::string stage;                  ///< from whose beginning on; empty: the first
+  std::optional<Real> until;          ///< [s]; not given: stays to the end
 };
 
 struct InitialCard
@@ -224,6 +225,7 @@ struct OutputCard
   bool planes = true;                  ///< contact planes beside the results
   std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
+  bool lines = false;         ///< bolts, cables and bars beside the results
   bool fragments = false;     ///< connected bodies beside the results and in them
   Real fragmentDamage = 0.99; ///< from which an element connects nothing [-]
 };

@@ -438,15 +438,24 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
         problems.add(at("copies"), fmt::format("{}.copies: copy {} would be called {}, as another "
                                                "line is; accepted: names of their own.",
                                                path, copy, name));
+    if (card.until && *card.until <= card.from)
+      problems.add(at("until"), fmt::format("{}.until = {} s; accepted: later than from, {} s.",
+                                            path, *card.until, card.from));
     if (!card.stage.empty() && !contains(stages, card.stage))
       problems.add(at("stage"), unknown(path + ".stage", card.stage, "a stage", stages));
   }
 }
 
-/// Fragments go beside the results and into them.
-void checkFragments(const Deck& deck, const DeckNode& root, Problems& problems)
+/// Lines and fragments go beside the results.
+void checkBesideResults(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   const DeckNode& output = nodeAt(root, {"output"});
+  if (deck.output.lines && (deck.output.results.empty() || deck.lines.empty()))
+    problems.add(nodeAt(output, {"lines"}),
+                 deck.lines.empty()
+                     ? "output.lines has no effect without the section lines; remove it or add that."
+                     : "output.lines has no effect without results, which output.results switches "
+                       "off; remove one of the two.");
   if (deck.output.fragments && deck.output.results.empty())
     problems.add(nodeAt(output, {"fragments"}),
                  "output.fragments has no effect without results, which output.results switches "
@@ -538,7 +547,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkHistory(deck, root, joints, problems);
   checkStages(deck, root, problems);
   checkLines(deck, root, problems);
-  checkFragments(deck, root, problems);
+  checkBesideResults(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
   warnOfJointsWithoutUse(deck, root, joints, problems);

@@ -43,6 +43,10 @@ Key outputKeys()
                    flag("file_per_rank", &OutputCard::filePerRank)
                        .like("true")
                        .means("one results file for each rank instead of a shared one"),
+                   flag("lines", &OutputCard::lines)
+                       .like("true")
+                       .means("the segments of lines with their forces, as <results>_lines.pvd "
+                              "and a .vtp file for each step, which ParaView draws"),
                    flag("fragments", &OutputCard::fragments)
                        .like("true")
                        .means("connected bodies: mass, place, velocity, spin and box of each as "
