@@ -94,7 +94,8 @@ conditions:
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
-history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]}]}
+history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]},
+    {name: d, plane: [0, 0, 0]}, {name: e, between: [[0, 0, 0], [1, 0, 0]]}]}
 )";
 // What needs stages, and what does not go with them.
 const std::string deckWithStages =
@@ -214,6 +215,7 @@ std::string show(const Deck& d)
           d.output.filePerRank, d.output.lines, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
     showAll(out, t);
+  showAll(out, fmt::format("{}", fmt::join(d.output.variables, " ")));
   showAll(out, d.history.file, d.history.every);
   for (const auto& name : d.history.joints)
     showAll(out, name);
@@ -222,8 +224,12 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point,
+  {
+    for (const auto& point : p.between)
+      showAll(out, point);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point, p.plane, p.joint, p.count,
             fmt::format("{}", fmt::join(p.variables, " ")));
+  }
   for (const auto& s : d.stages)
     showAll(out, s.name, s.until, s.atRest, fmt::format("{}", fmt::join(s.remove, " ")),
             fmt::format("{}", fmt::join(s.add, " ")), s.zeroDisplacements);
@@ -273,6 +279,8 @@ std::string cardFor(const Key& group, const Key& key)
   if (group.name == "probes")
     return key.name == "block" || key.name == "variables" ? ".1"
            : key.name == "point"                          ? ".2"
+           : key.name == "plane" || key.name == "joint"   ? ".3"
+           : key.name == "between" || key.name == "count" ? ".4"
                                                           : ".0";
   if (group.name == "lines")
     return ".bolt";

@@ -222,6 +222,7 @@ struct OutputCard
                        ///< (deck: none)
   Real every = 0;      ///< [s]; 0: only `times` (and first and last state)
   std::vector<Real> times;             ///< [s]
+  std::vector<std::string> variables;  ///< of nodes and elements; empty: all
   bool planes = true;                  ///< contact planes beside the results
   std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
@@ -236,7 +237,11 @@ struct ProbeCard
   std::string nodeSet;       ///< mean motion of a node set ...
   std::string block;         ///< ... or mass-weighted mean motion of a block
   std::optional<Vec3> point; ///< ... or of the nearest node [m]
-  /// Of the element nearest to the point, or least and largest of the block.
+  std::optional<Vec3> plane; ///< ... or what the nearest contact plane has [m]
+  std::string joint;         ///< of that plane; empty: any
+  std::vector<std::vector<Real>> between; ///< ... or of the nodes nearest to points on a line [m]
+  int count = 2;                          ///< of these points, with both ends
+  /// Of the element nearest to the point, or least and largest of the block or node set.
   std::vector<std::string> variables;
   bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };

@@ -273,6 +273,44 @@ void checkListed(const std::string& key, const Names& listed, const std::string&
                    unknown(fmt::format("history.{}.{}", key, i), listed[i], what, there));
 }
 
+/// Of planes and points on a line.
+void checkProbe(const Deck& deck, std::size_t i, const Names& joints, const DeckNode& node,
+                Problems& problems)
+{
+  const ProbeCard& probe = deck.history.probes[i];
+  const std::string path = fmt::format("history.probes.{}", i);
+  if (probe.plane && !probe.variables.empty())
+    problems.add(nodeAt(node, {"variables"}),
+                 path + ".variables does not belong to plane, which has columns of its own; "
+                        "remove it.");
+  if (!probe.joint.empty() && !probe.plane)
+    problems.add(nodeAt(node, {"joint"}),
+                 path + ".joint belongs to plane; name a point there, or remove it.");
+  else if (!probe.joint.empty() && !contains(joints, probe.joint))
+    problems.add(nodeAt(node, {"joint"}),
+                 unknown(path + ".joint", probe.joint, "a card in joints", joints));
+  if (probe.plane && !deck.contact.enabled)
+    problems.add(nodeAt(node, {"plane"}),
+                 path + ".plane: there are no planes, as contact.enabled is false; remove one of "
+                        "the two.");
+  if (node.find("count") && probe.between.empty())
+    problems.add(nodeAt(node, {"count"}),
+                 path + ".count belongs to between; name the ends of a line there, or remove it.");
+  if (probe.between.empty())
+    return;
+  if (probe.between.size() != 2 || probe.between[0].size() != probe.between[1].size() ||
+      probe.between[0] == probe.between[1])
+    problems.add(nodeAt(node, {"between"}),
+                 path + ".between: accepted: two different points, [[x, y, z], [x, y, z]].");
+  for (const ProbeCard& other : deck.history.probes)
+    for (int k = 1; k <= probe.count; ++k)
+      if (other.name == fmt::format("{}_{}", probe.name, k))
+        problems.add(nodeAt(node, {"name"}),
+                     fmt::format("{}: point {} would be called '{}', as another probe is; "
+                                 "accepted: names of their own.",
+                                 path, k, other.name));
+}
+
 void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, Problems& problems)
 {
   Names seen;
@@ -284,11 +322,7 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
-    if (!deck.history.probes[i].variables.empty() && !deck.history.probes[i].nodeSet.empty())
-      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "variables"}),
-                   fmt::format("history.probes.{}.variables belongs to point or block; name one of "
-                               "these, or remove it.",
-                               i));
+    checkProbe(deck, i, joints, nodeAt(root, {"history", "probes", std::to_string(i)}), problems);
     if (deck.history.probes[i].reaction && deck.history.probes[i].nodeSet.empty())
       problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
                    fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
