@@ -349,7 +349,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
                               : path.rfind("stages", 0) == 0     ? deckWithStages
                               : path.rfind("lines", 0) == 0 || path == "output.lines"
                                   ? deckWithLines
-                                                                 : deckOfAllModels;
+                                  : deckOfAllModels;
     try
     {
       EXPECT_NE(show(parseDeck(deck, "x.yaml")), show(parseDeck(deck, "x.yaml", {assignment})))

@@ -59,9 +59,9 @@ public:
   struct Overpressed
   {
     std::int64_t planes = 0;
-    int joint = 0;          ///< position of its card
-    Real compression = 0;   ///< that the initial stress asks for [Pa]
-    Vec3 pointOfContact{};  ///< [m]
+    int joint = 0;         ///< position of its card
+    Real compression = 0;  ///< that the initial stress asks for [Pa]
+    Vec3 pointOfContact{}; ///< [m]
     GlobalId faceId[2] = {0, 0};
   };
   Overpressed closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);

@@ -144,9 +144,9 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
   {
     const Real beyond = a.compression / strengthOf(a.joint),
                other = b.planes > 0 ? b.compression / strengthOf(b.joint) : 0;
-    return beyond != other ? beyond > other
-                           : std::pair(a.faceId[0], a.faceId[1]) <
-                                 std::pair(b.faceId[0], b.faceId[1]);
+    return beyond != other
+               ? beyond > other
+               : std::pair(a.faceId[0], a.faceId[1]) < std::pair(b.faceId[0], b.faceId[1]);
   };
   for (std::size_t slot = 0; slot < planes_.count(); ++slot)
   {
@@ -171,7 +171,10 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
         !(compression > (1 + rounding) * strengthOf(plane.joint)))
       continue;
-    const Overpressed here{worst.planes + 1, plane.joint, compression, plane.pointOfContact,
+    const Overpressed here{worst.planes + 1,
+                           plane.joint,
+                           compression,
+                           plane.pointOfContact,
                            {plane.faceId[0], plane.faceId[1]}};
     if (isWorse(here, worst))
       worst = here;

@@ -234,14 +234,15 @@ void Solver::openContact()
   {
     const JointRecipe& joint = model_.contactRules.joints[std::size_t(pressed.joint)];
     const Vec3& place = pressed.pointOfContact;
-    logWarning("joints crushed by the initial stress",
-               fmt::format("{} planes of declared joints are under more initial compression than "
-                           "their joint bears: most at ({:.6g}, {:.6g}, {:.6g}) m, {:.4g} Pa where "
-                           "joints.{} has compressive_strength = {:.4g} Pa. They begin at their "
-                           "strength, crushed to the peak and out of equilibrium. Lower the initial "
-                           "stress, raise compressive_strength, or load the model in time.",
-                           pressed.planes, place.x, place.y, place.z, pressed.compression,
-                           joint.name, joint.law.curve.crushing.strength));
+    logWarning(
+        "joints crushed by the initial stress",
+        fmt::format("{} planes of declared joints are under more initial compression than "
+                    "their joint bears: most at ({:.6g}, {:.6g}, {:.6g}) m, {:.4g} Pa where "
+                    "joints.{} has compressive_strength = {:.4g} Pa. They begin at their "
+                    "strength, crushed to the peak and out of equilibrium. Lower the initial "
+                    "stress, raise compressive_strength, or load the model in time.",
+                    pressed.planes, place.x, place.y, place.z, pressed.compression, joint.name,
+                    joint.law.curve.crushing.strength));
   }
   // Once more, so that their neighbours know the offsets of joints that are closed now.
   if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),

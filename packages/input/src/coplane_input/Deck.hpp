@@ -234,11 +234,11 @@ struct OutputCard
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet;       ///< mean motion of a node set ...
-  std::string block;         ///< ... or mass-weighted mean motion of a block
-  std::optional<Vec3> point; ///< ... or of the nearest node [m]
-  std::optional<Vec3> plane; ///< ... or what the nearest contact plane has [m]
-  std::string joint;         ///< of that plane; empty: any
+  std::string nodeSet;                    ///< mean motion of a node set ...
+  std::string block;                      ///< ... or mass-weighted mean motion of a block
+  std::optional<Vec3> point;              ///< ... or of the nearest node [m]
+  std::optional<Vec3> plane;              ///< ... or what the nearest contact plane has [m]
+  std::string joint;                      ///< of that plane; empty: any
   std::vector<std::vector<Real>> between; ///< ... or of the nodes nearest to points on a line [m]
   int count = 2;                          ///< of these points, with both ends
   /// Of the element nearest to the point, or least and largest of the block or node set.

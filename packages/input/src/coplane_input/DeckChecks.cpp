@@ -485,11 +485,12 @@ void checkBesideResults(const Deck& deck, const DeckNode& root, Problems& proble
 {
   const DeckNode& output = nodeAt(root, {"output"});
   if (deck.output.lines && (deck.output.results.empty() || deck.lines.empty()))
-    problems.add(nodeAt(output, {"lines"}),
-                 deck.lines.empty()
-                     ? "output.lines has no effect without the section lines; remove it or add that."
-                     : "output.lines has no effect without results, which output.results switches "
-                       "off; remove one of the two.");
+    problems.add(
+        nodeAt(output, {"lines"}),
+        deck.lines.empty()
+            ? "output.lines has no effect without the section lines; remove it or add that."
+            : "output.lines has no effect without results, which output.results switches "
+              "off; remove one of the two.");
   if (deck.output.fragments && deck.output.results.empty())
     problems.add(nodeAt(output, {"fragments"}),
                  "output.fragments has no effect without results, which output.results switches "

@@ -126,8 +126,8 @@ Key historyKeys()
                               .means("points at equal distances on a line, from its one end to the "
                                      "other: a probe with a point for each, <name>_1, <name>_2, "
                                      "..."),
-                          KeyBuilder(bound<int>("count", KeyKind::Integer, &ProbeCard::count,
-                                                copyTo))
+                          KeyBuilder(
+                              bound<int>("count", KeyKind::Integer, &ProbeCard::count, copyTo))
                               .in("-")
                               .atLeast(2)
                               .defaultIs("2")

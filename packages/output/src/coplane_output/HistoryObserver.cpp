@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/detail/ProbedElements.hpp>
+#include <coplane_output/detail/ProbedPlanes.hpp>
 
 #include <algorithm>
 
@@ -246,8 +247,7 @@ void HistoryObserver::findElements(const Solver& solver)
   }
 }
 
-HistoryObserver::NamedValues HistoryObserver::variablesOf(const Solver& solver,
-                                                          std::size_t p) const
+auto HistoryObserver::variablesOf(const Solver& solver, std::size_t p) const -> NamedValues
 {
   const Probe& probe = options_.probes[p];
   NamedValues columns;
@@ -306,8 +306,8 @@ std::vector<Real> HistoryObserver::probeValues(const Solver& solver) const
   return values;
 }
 
-std::vector<HistoryObserver::NamedValues>
-HistoryObserver::planeValues(const Solver& solver, const std::vector<Real>& motions) const
+auto HistoryObserver::planeValues(const Solver& solver, const std::vector<Real>& motions) const
+    -> std::vector<NamedValues>
 {
   std::vector<WantedPlane> wanted;
   for (std::size_t p = 0; p < options_.probes.size(); ++p)

@@ -63,6 +63,7 @@ public:
   void finish(const Solver& solver, const Ending& ending) override;
 
 private:
+  using NamedValues = std::vector<std::pair<std::string, Real>>;
   /// A node of a probe and its share of the mean (not divided by the sum of all shares).
   struct Share
   {
@@ -77,9 +78,9 @@ private:
   void findElements(const Solver& solver);
   /// Columns and values of the variables of a probe.
   NamedValues variablesOf(const Solver& solver, std::size_t probe) const;
-  using NamedValues = std::vector<std::pair<std::string, Real>>;
   /// Of those of planes, in the order of the probes; values count on rank 0.
-  std::vector<NamedValues> planeValues(const Solver& solver, const std::vector<Real>& motions) const;
+  std::vector<NamedValues> planeValues(const Solver& solver,
+                                       const std::vector<Real>& motions) const;
   std::vector<Vec3> reactions(const Solver& solver) const; ///< per probe, zero if not wanted [N]
 
   HistoryOptions options_;

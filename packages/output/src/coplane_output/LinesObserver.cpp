@@ -77,8 +77,8 @@ LinesObserver::LinesObserver(const Comm& comm, LinesOptions options)
       [&]
       {
         if (comm.isRoot())
-          steps_ = std::make_unique<VtpSteps>(base(), options_.run, !options_.position.empty(),
-                                              steps);
+          steps_ =
+              std::make_unique<VtpSteps>(base(), options_.run, !options_.position.empty(), steps);
       });
 }
 

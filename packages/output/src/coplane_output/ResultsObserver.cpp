@@ -75,9 +75,9 @@ std::vector<int> placesOf(const std::vector<std::string>& all,
   { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); };
   std::vector<int> places;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (const std::string whole = wholeOf(all[i]);
-        chosen.empty() || whole == "displacement" || all[i] == "alive" || isChosen(all[i]) ||
-        (!whole.empty() && isChosen(whole)))
+    if (const std::string whole = wholeOf(all[i]); chosen.empty() || whole == "displacement" ||
+                                                   all[i] == "alive" || isChosen(all[i]) ||
+                                                   (!whole.empty() && isChosen(whole)))
       places.push_back(int(i));
   return places;
 }

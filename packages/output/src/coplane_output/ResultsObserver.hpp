@@ -22,8 +22,8 @@ struct ResultsOptions
   bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
-  /// Those of nodes and elements that are written, by names of variables, vectors and tensors; empty:
-  /// all. Displacement and alive are in any case.
+  /// Those of nodes and elements that are written, by names of variables, vectors and tensors;
+  /// empty: all. Displacement and alive are in any case.
   std::vector<std::string> variables = {};
   std::shared_ptr<BodiesOfCycle> bodies = {}; ///< are written if given
   int part = 1;              ///< of a series: 1 for a new run, one more with every restart
@@ -34,8 +34,8 @@ struct ResultsOptions
 /// Name of a part of a series of results: wall.e, wall.e-s0002, ...
 std::string resultsPart(const std::string& file, int part);
 
-/// Names by which variables of nodes and elements can be chosen: of the variables, and of vectors and
-/// tensors without the ends _x and _xx.
+/// Names by which variables of nodes and elements can be chosen: of the variables, and of vectors
+/// and tensors without the ends _x and _xx.
 /// @param history variables of the blocks' laws that are written besides
 std::vector<std::string> resultsChoices(int dimension, const std::vector<std::string>& history,
                                         bool fragments);

@@ -81,7 +81,7 @@ int firstFreeNumber(const std::string& base)
 } // namespace
 
 VtpSteps::VtpSteps(const std::string& base, const std::string& run, bool continues,
-                     const std::string& steps)
+                   const std::string& steps)
     : base_(base), run_(run), continues_(continues)
 {
   std::istringstream lines(steps);
