@@ -38,8 +38,8 @@ LIGHT = (0.45, 0.6)  # ambient and diffuse: faces seen at a slant shall not be d
 class Run:
     """Results `run.e`, with the parts that restarts have written and the files of ranks, and planes `run_planes.xmf3` or `.pvd` in a folder."""
 
-    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None, names=None):
-        """files: all files of the results, and planes: the series, in place of those in the folder. names: of the blocks as the mesh has them; the
+    def __init__(self, results=None, pictures=None, stem="run", deformed=True, files=None, planes=None, names=None, lines=None):
+        """files: all files of the results, planes and lines: the series, in place of those in the folder. names: of the blocks as the mesh has them; the
         reader of ParaView writes them small, with _ for spaces."""
         self.folder = os.path.abspath(results or sys.argv[1])
         self.deformed = deformed
@@ -56,6 +56,7 @@ class Run:
         places = [os.path.join(self.folder, stem + "_planes" + end) for end in (".xmf3", ".pvd")]
         # Of a run that has changed its format, what was written last.
         self.planes_file = planes or max(filter(os.path.exists, places), key=os.path.getmtime, default=places[0])
+        self.lines_file = lines or os.path.join(self.folder, stem + "_lines.pvd")
 
     def _open(self):
         reader = IOSSReader(FileName=self.files)
@@ -84,6 +85,13 @@ class Run:
 
     def planes_reader(self):
         return PVDReader(FileName=self.planes_file) if self.planes_file.endswith(".pvd") else Xdmf3ReaderS(FileName=[self.planes_file])
+
+    def has_lines(self):
+        return os.path.exists(self.lines_file)
+
+    def lines(self):
+        """Segments of bolts, cables and bars."""
+        return PVDReader(FileName=self.lines_file)
 
     def bounds(self, times, names=()):
         """x0, x1, y0, y1, z0, z1 of these bodies over these times; without names: of all."""
@@ -371,6 +379,19 @@ class Picture:
         shown = self.surface(source, color, range, title, representation="Points", **more)
         shown.PointSize = size
         shown.RenderPointsAsSpheres = 0 if self.flat else 1
+
+    def lines(self, source, color, range, title, width=5, **more):
+        """Segments of lines coloured by a variable of theirs."""
+        source.UpdatePipeline(self.time)
+        if source.GetDataInformation().GetNumberOfCells() == 0:
+            return
+        if self.flat:  # before the bodies, not in their plane
+            toward = numpy.array(self.view.CameraPosition) - numpy.array(self.view.CameraFocalPoint)
+            source = Transform(Input=source)
+            source.Transform.Translate = list(0.01 * toward)
+        shown = self.surface(source, color, range, title, representation="Surface", **more)
+        shown.LineWidth = width
+        shown.RenderLinesAsTubes = 0 if self.flat else 1
 
     def save(self, name):
         file = os.path.join(self.run.pictures, f"{name}_{round(1e6 * self.time):06d}us.png")

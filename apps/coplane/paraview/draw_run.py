@@ -1,11 +1,12 @@
 """Pictures of any run, for pvbatch: what coplane.pictures asks for, as JSON in the first argument; prints the files, a line each.
 
-    runs: [{folder, name, files (of the results), planes (the series, or null), blocks (their names, as in the mesh)}, ...]   one, or two to be compared
+    runs: [{folder, name, files (of the results), planes and lines (the series, or null), blocks (their names, as in the mesh)}, ...]   one, or two to be compared
     folder: of the pictures   frames: positions in the times of the first run
     color: a variable, an expression of variables, or "block"   title: of its bar   range: [lowest, highest] or null: of all frames
     palette: of its colours   blocks: names, none for all   plain: blocks in colours of their own
     camera: a name, a direction [x, y, z] or null   window: what is seen, [x0, x1, y0, y1] or with z0, z1, or null   up: y or z
     planes: dots (of those that carry traction), all, arrows, none or a variable of theirs   dot_size: in points of the screen   opacity: of bodies, or null
+    lines: a variable of the segments of lines, or none; drawn where the run has written them
     mirror, deformed, edges: bool   size: [width, height]
     legend: names and colour bars at the right of the bodies, within the width, in all pictures; or last: only in the last, which is so much wider
 """
@@ -17,7 +18,7 @@ import coplane_pictures as cp
 from paraview.simple import MergeBlocks, Reflect, Threshold
 
 want = json.loads(sys.argv[1])
-runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"], run["blocks"]) for run in want["runs"]]
+runs = [cp.Run(run["folder"], want["folder"], run["name"], want["deformed"], run["files"], run["planes"], run["blocks"], run["lines"]) for run in want["runs"]]
 times = [runs[0].times[frame] for frame in want["frames"]]
 boxes = [run.bounds(run.nearest(times[0], times[-1]), want["blocks"]) for run in runs]
 bounds = [(min if side % 2 == 0 else max)(box[side] for box in boxes) for side in range(6)]
@@ -43,11 +44,12 @@ def colored(run):
 by_block = want["color"] == "block" or not all(map(colored, runs))
 of_planes = want["planes"] not in ("dots", "all", "arrows", "none")
 has_planes = want["planes"] != "none" and all(run.has_planes() for run in runs)
+has_lines = want["lines"] != "none" and all(run.has_lines() for run in runs)
 # Planes lie between bodies: their arrows and values shall be seen through them.
-bars = (not by_block) + (of_planes and has_planes)
+bars = (not by_block) + (of_planes and has_planes) + has_lines
 margin = cp.margin_for(want["size"], [name for run in runs for name in chosen(run)] if by_block and not of_planes else (), bars)
 width = want["size"][0] - (margin if want["legend"] == "all" else 0)
-opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows") else 1.0)
+opacity = want["opacity"] or (0.3 if in_space and (of_planes or want["planes"] == "arrows" or has_lines) else 1.0)
 
 
 def whole(source):
@@ -82,6 +84,8 @@ colors = None if by_block else want["range"] or spread(bodies)
 most = spread(lambda run: (run.planes(), "force"), 100)[1] if want["planes"] == "arrows" and has_planes else 1.0
 plane_colors = want["range"] or spread(lambda run: (run.planes(touching=False), want["planes"])) if of_planes and has_planes else None
 
+line_colors = spread(lambda run: (run.lines(), want["lines"]), 100) if has_lines else None
+
 
 def styled(name, range):
     """How colours are told to Picture.surface()."""
@@ -113,6 +117,11 @@ def draw(run, time, name):
                        points=cp.palette("dark", *plane_colors))  # fmt: skip
         if len(cp.values(some, want["planes"], nearest)) == 0:
             picture.text(f"{want['planes']}: 0", "Lower Right Corner")
+    if has_lines:
+        if by_block and not of_planes:
+            picture.bars += 1  # names stand above
+        # A third bar has no place.
+        picture.lines(whole(run.lines()), want["lines"], line_colors, want["lines_title"], bar=with_legend and picture.bars < 2, points=cp.palette("dark", *line_colors))
     picture.scale_bar()
     if len(runs) > 1:
         stem = os.path.basename(run.file)[:-2]

@@ -73,8 +73,8 @@ void reportEstimate(Solver& solver, const MeshSlice& mesh, const Deck& deck)
   if (!deck.output.results.empty())
   {
     const Real steps = outputSteps({deck.output.every, deck.output.times}, begin, deck.time.end);
-    const std::int64_t bytes =
-        bytesOfResultsStep(mesh, historyVariables(deck, mesh), deck.output.fragments);
+    const std::int64_t bytes = bytesOfResultsStep(mesh, historyVariables(deck, mesh),
+                                                  deck.output.fragments, deck.output.variables);
     results = fmt::format("{:.6g} steps of results, {} in all, and contact planes besides", steps,
                           bytesText(steps * Real(bytes)));
   }

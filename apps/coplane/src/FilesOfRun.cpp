@@ -116,6 +116,12 @@ void addResults(Outputs& outputs, const Deck& deck)
   }
   if (deck.output.fragments)
     outputs.grows(fragmentsFile(deck), "the fragments (output.fragments)");
+  if (deck.output.lines)
+  {
+    const std::string lines = "the lines (output.lines)", ofLines = planesBase(deck) + "_lines";
+    outputs.replaces(ofLines + ".pvd", lines);
+    outputs.replacesSeries({ofLines + "_", ".vtp"}, lines);
+  }
   if (!deck.output.planes || !deck.contact.enabled)
     return;
   const std::string series = planesBase(deck) + "_planes";

@@ -3,10 +3,12 @@
 #include "FilesOfRun.hpp"
 #include "Restart.hpp"
 
+#include <coplane_core/Suggestion.hpp>
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_output/Fragments.hpp>
 #include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/LinesObserver.hpp>
 #include <coplane_output/PlanesObserver.hpp>
 #include <coplane_output/ProgressObserver.hpp>
 #include <coplane_output/ResultsObserver.hpp>
@@ -60,6 +62,11 @@ bool isListed(const std::vector<std::string>& list, const std::string& name)
                      [&](const std::string& item) { return item == "*" || item == name; });
 }
 
+Vec3 placeOf(const std::vector<Real>& numbers)
+{
+  return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0};
+}
+
 HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSettings& settings)
 {
   HistoryOptions history;
@@ -73,9 +80,20 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.nodeSet = indexOf(mesh.nodeSets, card.nodeSet);
     probe.block = indexOf(mesh.blocks, card.block);
     probe.reaction = card.reaction;
-    probe.point = card.point;
+    probe.point = card.plane ? card.plane : card.point;
+    probe.plane = card.plane.has_value();
+    probe.joint = card.joint;
     probe.variables = card.variables;
-    history.probes.push_back(probe);
+    for (int k = 0; k < card.count && !card.between.empty(); ++k)
+    {
+      Probe one = probe;
+      one.name = fmt::format("{}_{}", card.name, k + 1);
+      const Vec3 a = placeOf(card.between[0]), b = placeOf(card.between[1]);
+      one.point = a + (Real(k) / (card.count - 1)) * (b - a);
+      history.probes.push_back(one);
+    }
+    if (card.between.empty())
+      history.probes.push_back(probe);
   }
   for (const JointCard& card : deck.joints)
     if (isListed(deck.history.joints, card.name))
@@ -106,6 +124,7 @@ ResultsOptions resultsOptions(const Deck& deck, const MeshSlice& mesh, const std
   results.when = {deck.output.every, deck.output.times};
   results.filePerRank = deck.output.filePerRank;
   results.history = historyVariables(deck, mesh);
+  results.variables = deck.output.variables;
   if (deck.output.fragments)
     results.bodies = std::make_shared<BodiesOfCycle>(deck.output.fragmentDamage);
   results.infoLines = linesOf(deck.text);
@@ -152,6 +171,31 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
   return names;
 }
 
+std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension)
+{
+  std::vector<std::string> history, problems;
+  for (const BlockCard& card : deck.blocks)
+    for (const std::string& name : historyNames(materialOf(materialCardOf(deck, card))))
+      history.push_back(name);
+  const auto demand = [&](const std::string& where, const std::string& path,
+                          const std::vector<std::string>& wanted,
+                          const std::vector<std::string>& choices, const char* of)
+  {
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (std::find(choices.begin(), choices.end(), wanted[i]) == choices.end())
+        problems.push_back(fmt::format("{}: {}.{} = '{}' is not a variable of {}.{} There is: {}.",
+                                       where, path, i, wanted[i], of,
+                                       didYouMean(wanted[i], choices), fmt::join(choices, ", ")));
+  };
+  demand(deck.file, "output.variables", deck.output.variables,
+         resultsChoices(dimension, history, deck.output.fragments), "the results");
+  for (std::size_t p = 0; p < deck.history.probes.size(); ++p)
+    if (const ProbeCard& probe = deck.history.probes[p]; !probe.nodeSet.empty())
+      demand(probe.where, fmt::format("history.probes.{}.variables", p), probe.variables,
+             nodalVariables(), "nodes");
+  return problems;
+}
+
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,
                   const Comm& comm, const RunSettings& settings)
 {
@@ -171,6 +215,10 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
       observers.add(std::make_unique<FragmentsObserver>(
           comm,
           FragmentsOptions{fragmentsFile(deck), results.when, results.bodies, settings.positions}));
+    if (deck.output.lines)
+      observers.add(std::make_unique<LinesObserver>(
+          comm, LinesOptions{planesBase(deck), results.when,
+                             positionOfOutput(settings, "drawn_lines"), run}));
     if (deck.output.planes && deck.contact.enabled)
       observers.add(std::make_unique<PlanesObserver>(
           comm,

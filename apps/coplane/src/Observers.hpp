@@ -28,6 +28,9 @@ struct RunSettings
 /// are written anyway are left out.
 std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh);
 
+/// Variables that outputs ask for and that are not there, a line for each. Laws have been checked.
+std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension);
+
 /// Adds everything that a deck asks to be written: results, planes, history, progress, run record,
 /// checkpoints. `observers` and `mesh` have to stay where they are. Collective.
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,

@@ -307,7 +307,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
                                               namesOf(known.sideSets));
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
-              ofRigidBlocks, ofAirBlasts, ofReactions})
+              problemsOfOutputs(deck, known.dimension), ofRigidBlocks, ofAirBlasts, ofReactions})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));

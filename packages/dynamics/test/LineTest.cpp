@@ -348,6 +348,48 @@ TEST(Line, losesWhatItsDeadHostsHeld)
   EXPECT_NEAR(line.energy().remainder(), 0, 1e-8 * energy.work);
 }
 
+TEST(Line, isTakenOutWithWhatItStores)
+{
+  LineSetup setup = boltOf(8);
+  setup.until = 2;
+  const LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  pull(line, hosts, 1e-3);
+  const LineEnergy before = line.energy();
+  const Real force = line.forces()[0].x, stored = before.stored;
+  ASSERT_GT(stored, 1);
+  LineHosts there = hosts;
+  there.x[0].x -= 1.5e-3;
+  line.advance(there, 2, 1, 0);
+  EXPECT_TRUE(line.removed());
+  for (std::size_t i = 0; i < hosts.x.size(); ++i)
+  {
+    EXPECT_EQ(norm(line.forces()[i]), 0);
+    EXPECT_EQ(line.stiffness()[i], 0);
+  }
+  // Half a step's work of the force that it had.
+  const LineEnergy after = line.energy();
+  EXPECT_EQ(after.stored, 0);
+  EXPECT_NEAR(after.work - before.work, 0.5 * force * 0.5e-3, 1e-12 * stored);
+  EXPECT_NEAR(after.rupture, stored + 0.5 * force * 0.5e-3, 1e-12 * stored);
+  EXPECT_NEAR(after.remainder(), before.remainder(), 1e-12 * stored);
+
+  // It stays away, from what was saved too.
+  std::vector<Real> numbers;
+  line.save(numbers);
+  Line again(setup, {});
+  const Real* next = numbers.data();
+  again.restore(next);
+  EXPECT_EQ(next, numbers.data() + numbers.size());
+  for (Line* one : {&line, &again})
+  {
+    pull(*one, hosts, 3e-3);
+    EXPECT_TRUE(one->removed());
+    EXPECT_EQ(norm(one->forces()[0]), 0);
+    EXPECT_EQ(one->energy().work, after.work);
+  }
+}
+
 TEST(Line, goesOnFromWhatWasSaved)
 {
   LineSetup setup = boltOf(20);

@@ -145,7 +145,15 @@ TEST(DeckErrors, linesSayWhatDoesNotFit)
                    "  bolt_2: {area: 1e-3, youngs_modulus: 200e9, attach: ends, "
                    "points: [[0, 0], [1, 0]]",
          "copy 2 would be called bolt_2");
+  expect(grouted + "from: 0.2, until: 0.2, points: [[0, 0], [1, 0]]", "later than from, 0.2 s");
   expect(grouted + "stage: bolted, points: [[0, 0], [1, 0]]", "'bolted' is not a stage");
+  const auto besides = [&](const std::string& output)
+  { return errorOf(lineWith(grouted + "points: [[0, 0], [1, 0]]") + "output: " + output + "\n"); };
+  EXPECT_EQ(besides("{lines: true}"), "no error");
+  EXPECT_NE(besides("{lines: true, results: none}").find("output.lines has no effect without res"),
+            std::string::npos);
+  EXPECT_NE(errorWith("output: {lines: true}\n").find("without the section lines"),
+            std::string::npos);
   const std::string rings =
       errorOf("geometry: axisymmetric\n" + lineWith(grouted + "points: [[0, 0], [1, 0]]"));
   EXPECT_NE(rings.find("axisymmetric"), std::string::npos) << rings;

@@ -98,7 +98,8 @@ conditions:
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
-history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]}]}
+history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]},
+    {name: d, plane: [0, 0, 0]}, {name: e, between: [[0, 0, 0], [1, 0, 0]]}]}
 )";
 // What needs stages, and what does not go with them.
 const std::string deckWithStages =
@@ -215,9 +216,10 @@ std::string show(const Deck& d)
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
           d.time.energyTolerance, d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
-          d.output.filePerRank, d.output.fragments, d.output.fragmentDamage);
+          d.output.filePerRank, d.output.lines, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
     showAll(out, t);
+  showAll(out, fmt::format("{}", fmt::join(d.output.variables, " ")));
   showAll(out, d.history.file, d.history.every);
   for (const auto& name : d.history.joints)
     showAll(out, name);
@@ -226,8 +228,12 @@ std::string show(const Deck& d)
   for (const auto& name : d.history.rigid)
     showAll(out, name);
   for (const auto& p : d.history.probes)
-    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point,
+  {
+    for (const auto& point : p.between)
+      showAll(out, point);
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point, p.plane, p.joint, p.count,
             fmt::format("{}", fmt::join(p.variables, " ")));
+  }
   for (const auto& s : d.stages)
     showAll(out, s.name, s.until, s.atRest, fmt::format("{}", fmt::join(s.remove, " ")),
             fmt::format("{}", fmt::join(s.add, " ")), s.zeroDisplacements);
@@ -239,7 +245,7 @@ std::string show(const Deck& d)
             l.hardeningModulus, l.ruptureStrain, l.compression, l.groutStiffness, l.groutStrength,
             l.groutFriction, l.groutPerimeter, l.plate, l.freeLength, l.dowelStiffness,
             l.dowelStrength, l.pretension, l.pretensionTime, l.spacing, l.copies, l.copyStep,
-            l.from, l.stage);
+            l.from, l.until, l.stage);
   }
   return out;
 }
@@ -278,6 +284,8 @@ std::string cardFor(const Key& group, const Key& key)
   if (group.name == "probes")
     return key.name == "block" || key.name == "variables" ? ".1"
            : key.name == "point"                          ? ".2"
+           : key.name == "plane" || key.name == "joint"   ? ".3"
+           : key.name == "between" || key.name == "count" ? ".4"
                                                           : ".0";
   if (group.name == "lines")
     return ".bolt";
@@ -346,8 +354,9 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
     const std::string& deck = path == "geometry"                 ? withoutRigid
                               : path == "output.fragment_damage" ? withFragments
                               : path.rfind("stages", 0) == 0     ? deckWithStages
-                              : path.rfind("lines", 0) == 0      ? deckWithLines
-                                                                 : deckOfAllModels;
+                              : path.rfind("lines", 0) == 0 || path == "output.lines"
+                                  ? deckWithLines
+                                  : deckOfAllModels;
     try
     {
       EXPECT_NE(show(parseDeck(deck, "x.yaml")), show(parseDeck(deck, "x.yaml", {assignment})))

@@ -62,6 +62,25 @@ TEST(VtpPoints, nameTheirNumberInThePieceAndInEveryArray)
       << text;
 }
 
+TEST(VtpPoints, haveSegmentsInPlaceOfVertices)
+{
+  VtpPoints points({0, 0, 0, 1, 0, 0, 2, 0, 0}, {0, 1, 1, 2});
+  points.addScalarOfCells("force", {0.5, 0.25});
+  const std::string text = points.text("<!-- of a test -->");
+  EXPECT_NE(text.find("NumberOfPoints=\"3\" NumberOfVerts=\"0\" NumberOfLines=\"2\""),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("<Verts>"), std::string::npos);
+  // Ends of cells: 16 bytes, then 2 and 4.
+  EXPECT_NE(text.find("Name=\"offsets\" NumberOfComponents=\"1\" "
+                      "format=\"binary\">EAAAAAAAAAACAAAAAAAAAAQAAAAAAAAA<"),
+            std::string::npos)
+      << text;
+  const std::size_t cells = text.find("<CellData>"), end = text.find("</CellData>");
+  const std::size_t force = text.find("Name=\"force\"");
+  EXPECT_TRUE(cells < force && force < end) << text;
+}
+
 TEST(VtpPoints, keepNamesAsNumbersOfTheirCharacters)
 {
   // ASCII: r 114, o 111, c 99, k 107; every name ends with a zero.

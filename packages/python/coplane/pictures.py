@@ -76,6 +76,18 @@ def _planes(run, planes):
     return series and str(series.path.resolve().with_suffix(".xmf3" if series.path.suffix == ".vtkhdf" else ".pvd"))
 
 
+# Variables of lines and their units.
+LINES = {"force": "N", "stress": "Pa", "strain": "1", "plastic_strain": "1", "broken": "1", "slip": "m", "bond": "N"}
+
+
+def _lines(run, lines):
+    """Path of what ParaView opens for the lines; None where there are none. ValueError when there is no such variable of lines."""
+    if lines != "none" and lines not in LINES:
+        raise ValueError(f"no variable '{lines}' of the lines; there are {', '.join(LINES)}")
+    series = run.folder / f"{run.results_path.stem}_lines.pvd"
+    return str(series.resolve()) if lines != "none" and series.exists() else None
+
+
 def _titled(name, of_planes=False):
     """A variable of the results or of the planes with its unit."""
     unit = PLANES.get(name, "") if of_planes else attributes(name).get("units", "")
@@ -84,7 +96,7 @@ def _titled(name, of_planes=False):
 
 def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None, blocks=(), camera=None, deformed=True, planes="dots",
          size=(1200, 800), timeout=None, title=None, palette="green_blue", plain=(), window=None, dot_size=4, opacity=None, mirror=False,
-         legend="all", edges=True, up=None):  # fmt: skip
+         legend="all", edges=True, up=None, lines="force"):  # fmt: skip
     """Draws states with ParaView into a folder, over those that an earlier call has left; returns the PNG files, in order of time.
 
     Meanings are those of the options of `coplane pictures` (docs/user/paraview.md). camera: a name or a direction; window: 4 or 6 numbers [m];
@@ -99,12 +111,12 @@ def draw(run, folder, compare=None, times=(), steps=2, color="block", range=None
                          "they cannot be seen from one place")
     for one in runs:
         _demand(one.results, color, [*blocks, *plain])  # raises for what cannot be read, before ParaView does worse
-        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "blocks": one.results.blocks,
+        told.append({"folder": str(one.folder.resolve()), "name": one.results_path.stem, "planes": _planes(one, planes), "lines": _lines(one, lines), "blocks": one.results.blocks,
                      "files": [str(file.path if pathlib.Path(file.path).is_absolute() else pathlib.Path(file.path).resolve()) for part in one.results.parts for file in part]})
     if isinstance(camera, str) and camera not in CAMERAS:
         raise ValueError(f"no camera '{camera}'; there are {', '.join(CAMERAS)}, or a direction of three numbers")
     want = dict(runs=told, color=color, title=title or _titled(color), range=range, palette=palette, blocks=list(blocks), plain=list(plain), camera=camera, window=window,
-                up=up or _up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes, True), dot_size=dot_size, opacity=opacity, mirror=mirror,
+                up=up or _up(run), planes=planes, planes_title=title if title and color == "block" else _titled(planes, True), lines=lines, lines_title=f"{lines} of lines [{LINES.get(lines, '')}]".replace(" [1]", ""), dot_size=dot_size, opacity=opacity, mirror=mirror,
                 deformed=deformed, size=list(size), legend=legend, edges=edges, frames=_steps(numpy.array(run.results.times), times, steps))  # fmt: skip
     with tempfile.TemporaryDirectory() as draft:
         files = _drawn({**want, "folder": draft}, timeout)
@@ -263,6 +275,8 @@ def _parser():
                         help="what is seen [m]: X0 X1 Y0 Y1, in space also with Z0 Z1; default: all bodies, with room around them")
     parser.add_argument("--planes", default="dots", metavar="KIND",
                         help="dots (default), all (dots, also of those that carry nothing), arrows of their force, none, or a variable of theirs (slip, closure, ...): dots in its colours")
+    parser.add_argument("--lines", default="force", metavar="VARIABLE",
+                        help="segments of lines, where the run has output.lines, in the colours of their force (default), stress, strain, plastic_strain, broken, slip or bond; or none")
     parser.add_argument("--dot-size", type=_count, default=4, metavar="N", help="points of the screen; default: 4")
     parser.add_argument("--opacity", type=_share, metavar="X", help="of the bodies, to 1; default: 1, and 0.3 where arrows or colours of planes lie between bodies in space")
     parser.add_argument("--mirror", action="store_true", help="also the mirror image at x = 0: the other half of a problem in axes r and z")
@@ -339,7 +353,7 @@ def make(words):
     with tempfile.TemporaryDirectory() as draft:
         files = draw(run, draft, other, options.times, steps, options.color, options.range, options.blocks, options.direction or options.camera, not options.undeformed,
                      options.planes, options.size, None, options.title, options.palette, options.plain, options.window, options.dot_size, options.opacity,
-                     options.mirror, "last" if options.strip else "all", not options.no_edges, options.up)  # fmt: skip
+                     options.mirror, "last" if options.strip else "all", not options.no_edges, options.up, options.lines)  # fmt: skip
         if film:
             animate(files, film)
             return [film]

@@ -24,10 +24,10 @@ def planes(path):
     return fields
 
 
-def joint_names(path):
-    """Names that the field `joint` counts, from 0."""
+def joint_names(path, field="joint_names"):
+    """Names that the field `joint` counts, from 0; with "line_names" those of the field `line` in files of lines."""
     for array in xml.etree.ElementTree.parse(path).iter("Array"):
-        if array.get("Name") == "joint_names":
+        if array.get("Name") == field:
             return bytes(map(int, array.text.split())).decode().split("\0")[:-1]
     return []
 

@@ -19,7 +19,7 @@ _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip"
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
 # What follows the name of a run in the names of its files.
 _END = re.compile(r"\.run(-s[0-9]+)?\.json|_(blocks|pairs|materials|lines)\.csv|\.csv|\.e(-s[0-9]+)?(\.[0-9]+\.[0-9]+)?|\.yaml|\.log|\.chk\.[01]"
-                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf3)|-report\.html")  # fmt: skip
+                  r"|_planes(\.pvd|_[0-9]+\.vtp|\.vtkhdf|\.xmf3)|_lines(\.pvd|_[0-9]+\.vtp)|-report\.html")  # fmt: skip
 
 
 class NoRun(FileNotFoundError):

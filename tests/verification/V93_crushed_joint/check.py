@@ -159,4 +159,17 @@ for dimension in (2, 3):
         code, output = program.run_program(["run.yaml", "--restart"], part.folder, 1)
         case.check_equal(f"{name}: exit codes of the parts", [part.code, code], [0, 0])
         case.check_equal(f"{name}: history of the parts differs", part.bytes_of("run.csv") != run.bytes_of("run.csv"), False)
+# --- initial stress within the strength and beyond it ---------------------------------------------------------------------------
+
+for factor in (0.9, 1.2):
+    name = f"initial_{factor}"
+    deck = changed([(0, 0, 1e-4)])
+    deck["initial"] = [{"block": block, "stress": [0, -factor * f_m, 0, 0, 0, 0]} for block in deck["blocks"]]
+    for ranks in (1, 2):
+        run = case.attempt(f"{name}_{ranks}", meshes[2], deck, ranks=ranks)
+        case.check_equal(f"{name}, {ranks} ranks: exit code", run.code, 0)
+        case.check(f"{name}, {ranks} ranks: traction at the start [Pa]", numpy.max(numpy.abs(run.planes(0)["normal_traction"] - min(factor, 1) * f_m)), 0, 1e-9 * f_m)
+        warned = f"{len(run.planes(0)['closure'])} planes of declared joints are under more initial compression"
+        case.check_equal(f"{name}, {ranks} ranks: warning", warned in run.output, factor > 1)
+
 case.finish()

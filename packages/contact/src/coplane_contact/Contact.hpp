@@ -52,9 +52,19 @@ public:
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
-  /// at the point of contact [Pa, tension positive], less the pressure on their faces.
+  /// at the point of contact [Pa, tension positive], less the pressure on their faces. What is
+  /// pressed beyond its compressive strength carries the strength, out of equilibrium.
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
-  void closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
+  /// Planes of all ranks of which that is so, and that which is furthest beyond. Collective.
+  struct Overpressed
+  {
+    std::int64_t planes = 0;
+    int joint = 0;         ///< position of its card
+    Real compression = 0;  ///< that the initial stress asks for [Pa]
+    Vec3 pointOfContact{}; ///< [m]
+    GlobalId faceId[2] = {0, 0};
+  };
+  Overpressed closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
   /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy
   /// booked as eroded: the elements have died, the faces have been covered, on the way to x. Every

@@ -66,10 +66,11 @@ SymTensor mean(const SymTensor& a, const SymTensor& b)
 }
 
 /// Closes a plane at its gap, in equilibrium with a stress: closure and shear traction that carry
-/// it. The traction on face 1 is minus that of the solid of face 0 across the plane.
+/// it. The traction on face 1 is minus that of the solid of face 0 across the plane. Returns the
+/// compression [Pa].
 /// @param pressure that conditions put on both faces, which the plane does not carry [Pa]
 /// @param area of its overlap [m^2]
-void closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Real area,
+Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Real area,
                 Plane& plane)
 {
   const Vec3 total = traction(stress, plane.normal);
@@ -91,6 +92,7 @@ void closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
   plane.hysteresisWork = plane.area * law.hysteresis(plane.fit, plane.history.maximumClosure);
   plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
   plane.work = plane.stored + plane.hysteresisWork;
+  return compression;
 }
 
 /// What two faces share that lie on each other: the plane of a declared joint.
@@ -131,8 +133,21 @@ void declare(const DeclaredPlane& found, Plane& plane)
 }
 } // namespace
 
-void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock)
+Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
+                                                  const StressOfBlock& stressOfBlock)
 {
+  constexpr Real rounding = 1e-9;
+  Overpressed worst;
+  const auto strengthOf = [&](int joint)
+  { return rules_.joints[std::size_t(joint)].law.curve.crushing.strength; };
+  const auto isWorse = [&](const Overpressed& a, const Overpressed& b)
+  {
+    const Real beyond = a.compression / strengthOf(a.joint),
+               other = b.planes > 0 ? b.compression / strengthOf(b.joint) : 0;
+    return beyond != other
+               ? beyond > other
+               : std::pair(a.faceId[0], a.faceId[1]) < std::pair(b.faceId[0], b.faceId[1]);
+  };
   for (std::size_t slot = 0; slot < planes_.count(); ++slot)
   {
     const SlotFaces& pair = planes_.slots().faces(slot);
@@ -149,10 +164,32 @@ void Contact::closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock
       continue;
     Plane& plane = planes_.wake(slot); // neighbours pass on nothing to what is closed here
     declare(found, plane);
-    closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
-                    stressOfBlock(faceB.block, plane.pointOfContact)),
-               0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
+    const Real compression =
+        closeUnder(mean(stressOfBlock(faceA.block, plane.pointOfContact),
+                        stressOfBlock(faceB.block, plane.pointOfContact)),
+                   0.5 * (faceA.pressure + faceB.pressure), lawOf(plane), found.area, plane);
+    if (!lawOf(plane).curve.crushing.acts() || !plane.countedHere ||
+        !(compression > (1 + rounding) * strengthOf(plane.joint)))
+      continue;
+    const Overpressed here{worst.planes + 1,
+                           plane.joint,
+                           compression,
+                           plane.pointOfContact,
+                           {plane.faceId[0], plane.faceId[1]}};
+    if (isWorse(here, worst))
+      worst = here;
+    else
+      ++worst.planes;
   }
   planes_.listWoken();
+  Overpressed all;
+  for (const Overpressed& ofRank : comm_->allGather(std::vector<Overpressed>{worst}))
+  {
+    const std::int64_t planes = all.planes + ofRank.planes;
+    if (ofRank.planes > 0 && isWorse(ofRank, all))
+      all = ofRank;
+    all.planes = planes;
+  }
+  return all;
 }
 } // namespace coplane

@@ -41,7 +41,8 @@ struct Line::Trial
 Line::Line(const LineSetup& setup, const std::vector<int>& dowels)
     : name_(setup.name), section_(setup.section), bond_(setup.bond),
       dowel_(setup.dowel.value_or(LineDowel{})), pretension_(setup.pretension),
-      pretensionTime_(setup.pretensionTime), from_(setup.from), stage_(setup.stage)
+      pretensionTime_(setup.pretensionTime), from_(setup.from), until_(setup.until),
+      stage_(setup.stage)
 {
   for (std::size_t i = 0; i < setup.points.size(); ++i)
   {
@@ -96,6 +97,28 @@ void Line::install(const LineHosts& hosts, Real time)
                                     x_[std::size_t(points_[*over].index)]);
       dowels_[d].plastic = across(x_[first + 2 * d + 1] - x_[first + 2 * d], along);
     }
+}
+
+/// Its force does the work of half a step more, and what it stores then is lost. Slips, strains and
+/// torn segments stay as they were.
+void Line::takeOut(const LineHosts& hosts)
+{
+  const Real before = energy().stored, work = hostWork(hosts.x);
+  removed_ = true;
+  for (Segment& segment : segments_)
+    segment.force = 0;
+  for (Point& point : points_)
+    point.bondForce = 0;
+  for (Dowel& dowel : dowels_)
+  {
+    dowel.gone = 1;
+    dowel.force = {};
+  }
+  std::fill(forces_.begin(), forces_.end(), Vec3{});
+  std::fill(stiffness_.begin(), stiffness_.end(), 0);
+  energy_.work += work;
+  energy_.rupture += before + work;
+  x_ = hosts.x;
 }
 
 /// The segments beside a point become one with the sum of their elongations.
@@ -326,6 +349,10 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
     }
     install(hosts, t - dt);
   }
+  if (removed_)
+    return;
+  if (Window::isReached(until_, t))
+    return takeOut(hosts);
   const Real before = energy().stored;
   const Real prestrain = prestrainAt(t), pull = prestrain - prestrain_;
   const auto pretensionWork = [&]
@@ -557,97 +584,5 @@ void Line::findStiffness(const std::vector<Vec3>& x)
     for (const std::size_t end : {a, b})
       stiffness_[end] += lever * k;
   }
-}
-
-LineEnergy Line::energy() const
-{
-  LineEnergy energy = energy_;
-  for (const Segment& segment : segments_)
-    energy.stored += 0.5 * segment.force * segment.force * segment.length / axialStiffness();
-  for (const Point& point : points_)
-    if (!point.tied)
-      energy.stored += 0.5 * point.bondForce * point.bondForce / (point.bonded * bond_.stiffness);
-  for (const Dowel& dowel : dowels_)
-    if (dowel.gone == 0)
-      energy.stored += 0.5 * dot(dowel.force, dowel.force) / dowel_.stiffness;
-  return energy;
-}
-
-int Line::broken() const
-{
-  return int(std::count_if(segments_.begin(), segments_.end(),
-                           [](const Segment& segment) { return segment.broken != 0; }));
-}
-
-/// All that changes, but for the numbers of points and segments.
-template <class Self, class F>
-void Line::forEachNumber(Self& self, F&& number)
-{
-  const auto vector = [&](auto& v)
-  {
-    number(v.x);
-    number(v.y);
-    number(v.z);
-  };
-  number(self.installTime_);
-  number(self.prestrain_);
-  number(self.unbalanced_);
-  for (auto& point : self.points_)
-    for (auto* value : {&point.slip, &point.plasticSlip, &point.bondForce})
-      number(*value);
-  for (auto& s : self.segments_)
-    for (auto* value :
-         {&s.length, &s.chord, &s.strain, &s.plasticStrain, &s.hardening, &s.force, &s.broken})
-      number(*value);
-  for (auto& dowel : self.dowels_)
-  {
-    number(dowel.gone);
-    vector(dowel.sliding);
-    vector(dowel.plastic);
-    vector(dowel.force);
-  }
-  for (auto& x : self.x_)
-    vector(x);
-  for (auto& force : self.forces_)
-    vector(force);
-  for (auto& stiffness : self.stiffness_)
-    number(stiffness);
-  auto& e = self.energy_;
-  for (auto* value : {&e.work, &e.pretension, &e.plastic, &e.bond, &e.dowel, &e.rupture})
-    number(*value);
-  auto& most = self.extremes_;
-  for (auto* value :
-       {&most.greatestForce, &most.leastForce, &most.greatestSlip, &most.timeOfGreatestForce})
-    number(*value);
-}
-
-void Line::save(std::vector<Real>& numbers) const
-{
-  numbers.push_back(installed_);
-  numbers.push_back(Real(x_.size()));
-  numbers.push_back(Real(points_.size()));
-  for (const Point& point : points_)
-    numbers.push_back(point.index);
-  forEachNumber(*this, [&](const Real& value) { numbers.push_back(value); });
-}
-
-void Line::restore(const Real*& numbers)
-{
-  installed_ = *numbers++ != 0;
-  x_.resize(std::size_t(*numbers++));
-  std::vector<Point> points(std::size_t(*numbers++));
-  for (Point& point : points)
-    point = points_[std::size_t(*numbers++)];
-  points_ = points;
-  segments_.resize(points_.empty() ? 0 : points_.size() - 1);
-  forEachNumber(*this, [&](Real& value) { value = *numbers++; });
-}
-
-void Line::addTo(StateHash& hash, std::uint64_t field, GlobalId id) const
-{
-  std::vector<Real> numbers;
-  save(numbers);
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    hash.add(field, id, i, numbers[i]);
 }
 } // namespace coplane

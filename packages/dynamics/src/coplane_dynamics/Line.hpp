@@ -59,6 +59,7 @@ struct LineSetup
   Real pretensionTime = 0;       ///< over which it grows from the installation on [s]
   Real from = 0;                 ///< installed at this time ... [s]
   int stage = 0;                 ///< ... and in this stage
+  Real until = infinity;         ///< taken out at this time, with what it stores [s]
 };
 
 /// Energies of lines [J].
@@ -70,7 +71,7 @@ struct LineEnergy
   Real plastic = 0;    ///< lost in bars
   Real bond = 0;       ///< lost by slip
   Real dowel = 0;      ///< lost by sliding of dowels
-  Real rupture = 0;    ///< lost where bars tore or hosts died
+  Real rupture = 0;    ///< lost where bars tore, hosts died or a line was taken out
   /// What the discrete motion leaves over.
   Real remainder() const { return work - stored - plastic - bond - dowel - rupture; }
   LineEnergy& operator+=(const LineEnergy& other);
@@ -110,7 +111,8 @@ public:
 
   const std::string& name() const { return name_; }
   const LineSection& section() const { return section_; }
-  bool installed() const { return installed_; }
+  bool installed() const { return installed_; } ///< also when it has been taken out again
+  bool removed() const { return removed_; }
 
   struct Point
   {
@@ -165,6 +167,7 @@ private:
   template <class Self, class F>
   static void forEachNumber(Self& self, F&& number);
   void install(const LineHosts& hosts, Real time);
+  void takeOut(const LineHosts& hosts);
   bool detachFromDead(const LineHosts& hosts);
   void remove(std::size_t point);
   std::vector<Real> chords(const std::vector<Vec3>& x) const;
@@ -185,10 +188,10 @@ private:
   LineSection section_;
   LineBond bond_;
   LineDowel dowel_;
-  Real pretension_, pretensionTime_, from_;
+  Real pretension_, pretensionTime_, from_, until_;
   int stage_;
 
-  bool installed_ = false;
+  bool installed_ = false, removed_ = false;
   Real installTime_ = 0; ///< [s]
   Real prestrain_ = 0;
   std::vector<Point> points_;     ///< with a host

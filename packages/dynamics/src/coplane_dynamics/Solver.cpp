@@ -228,8 +228,22 @@ void Solver::openContact()
   step_.boundFirst(comm_->min(elements_.smallestStep()), comm_->min(contact_->thinnestElement()),
                    searches_.relativeSpeed());
   search();
-  contact_->closeDeclaredJoints(state_.x, [this](int block, const Vec3& x)
-                                { return model_.blocks[block].stressAt(x); });
+  const Contact::Overpressed pressed = contact_->closeDeclaredJoints(
+      state_.x, [this](int block, const Vec3& x) { return model_.blocks[block].stressAt(x); });
+  if (pressed.planes > 0)
+  {
+    const JointRecipe& joint = model_.contactRules.joints[std::size_t(pressed.joint)];
+    const Vec3& place = pressed.pointOfContact;
+    logWarning(
+        "joints crushed by the initial stress",
+        fmt::format("{} planes of declared joints are under more initial compression than "
+                    "their joint bears: most at ({:.6g}, {:.6g}, {:.6g}) m, {:.4g} Pa where "
+                    "joints.{} has compressive_strength = {:.4g} Pa. They begin at their "
+                    "strength, crushed to the peak and out of equilibrium. Lower the initial "
+                    "stress, raise compressive_strength, or load the model in time.",
+                    pressed.planes, place.x, place.y, place.z, pressed.compression, joint.name,
+                    joint.law.curve.crushing.strength));
+  }
   // Once more, so that their neighbours know the offsets of joints that are closed now.
   if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
                   [](const ContactRule& rule) { return rule.declared; }))

@@ -186,6 +186,7 @@ struct LineCard
   Vec3 copyStep{0, 0, 0};             ///< from one to the next [m]
   Real from = 0;                      ///< [s]
   std::string stage;                  ///< from whose beginning on; empty: the first
+  std::optional<Real> until;          ///< [s]; not given: stays to the end
 };
 
 struct InitialCard
@@ -232,9 +233,11 @@ struct OutputCard
                        ///< (deck: none)
   Real every = 0;      ///< [s]; 0: only `times` (and first and last state)
   std::vector<Real> times;             ///< [s]
+  std::vector<std::string> variables;  ///< of nodes and elements; empty: all
   bool planes = true;                  ///< contact planes beside the results
   std::string planesFormat = "vtkhdf"; ///< vtkhdf: one file | vtp: .pvd and .vtp for each step
   bool filePerRank = false;
+  bool lines = false;         ///< bolts, cables and bars beside the results
   bool fragments = false;     ///< connected bodies beside the results and in them
   Real fragmentDamage = 0.99; ///< from which an element connects nothing [-]
 };
@@ -242,10 +245,14 @@ struct OutputCard
 struct ProbeCard
 {
   std::string name, where;
-  std::string nodeSet;       ///< mean motion of a node set ...
-  std::string block;         ///< ... or mass-weighted mean motion of a block
-  std::optional<Vec3> point; ///< ... or of the nearest node [m]
-  /// Of the element nearest to the point, or least and largest of the block.
+  std::string nodeSet;                    ///< mean motion of a node set ...
+  std::string block;                      ///< ... or mass-weighted mean motion of a block
+  std::optional<Vec3> point;              ///< ... or of the nearest node [m]
+  std::optional<Vec3> plane;              ///< ... or what the nearest contact plane has [m]
+  std::string joint;                      ///< of that plane; empty: any
+  std::vector<std::vector<Real>> between; ///< ... or of the nodes nearest to points on a line [m]
+  int count = 2;                          ///< of these points, with both ends
+  /// Of the element nearest to the point, or least and largest of the block or node set.
   std::vector<std::string> variables;
   bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
 };

@@ -306,6 +306,44 @@ void checkListed(const std::string& key, const Names& listed, const std::string&
                    unknown(fmt::format("history.{}.{}", key, i), listed[i], what, there));
 }
 
+/// Of planes and points on a line.
+void checkProbe(const Deck& deck, std::size_t i, const Names& joints, const DeckNode& node,
+                Problems& problems)
+{
+  const ProbeCard& probe = deck.history.probes[i];
+  const std::string path = fmt::format("history.probes.{}", i);
+  if (probe.plane && !probe.variables.empty())
+    problems.add(nodeAt(node, {"variables"}),
+                 path + ".variables does not belong to plane, which has columns of its own; "
+                        "remove it.");
+  if (!probe.joint.empty() && !probe.plane)
+    problems.add(nodeAt(node, {"joint"}),
+                 path + ".joint belongs to plane; name a point there, or remove it.");
+  else if (!probe.joint.empty() && !contains(joints, probe.joint))
+    problems.add(nodeAt(node, {"joint"}),
+                 unknown(path + ".joint", probe.joint, "a card in joints", joints));
+  if (probe.plane && !deck.contact.enabled)
+    problems.add(nodeAt(node, {"plane"}),
+                 path + ".plane: there are no planes, as contact.enabled is false; remove one of "
+                        "the two.");
+  if (node.find("count") && probe.between.empty())
+    problems.add(nodeAt(node, {"count"}),
+                 path + ".count belongs to between; name the ends of a line there, or remove it.");
+  if (probe.between.empty())
+    return;
+  if (probe.between.size() != 2 || probe.between[0].size() != probe.between[1].size() ||
+      probe.between[0] == probe.between[1])
+    problems.add(nodeAt(node, {"between"}),
+                 path + ".between: accepted: two different points, [[x, y, z], [x, y, z]].");
+  for (const ProbeCard& other : deck.history.probes)
+    for (int k = 1; k <= probe.count; ++k)
+      if (other.name == fmt::format("{}_{}", probe.name, k))
+        problems.add(nodeAt(node, {"name"}),
+                     fmt::format("{}: point {} would be called '{}', as another probe is; "
+                                 "accepted: names of their own.",
+                                 path, k, other.name));
+}
+
 void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, Problems& problems)
 {
   Names seen;
@@ -317,11 +355,7 @@ void checkHistory(const Deck& deck, const DeckNode& root, const Names& joints, P
                    fmt::format("history.probes.{}.name = '{}' is taken; accepted: each name once.",
                                i, name));
     seen.push_back(name);
-    if (!deck.history.probes[i].variables.empty() && !deck.history.probes[i].nodeSet.empty())
-      problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "variables"}),
-                   fmt::format("history.probes.{}.variables belongs to point or block; name one of "
-                               "these, or remove it.",
-                               i));
+    checkProbe(deck, i, joints, nodeAt(root, {"history", "probes", std::to_string(i)}), problems);
     if (deck.history.probes[i].reaction && deck.history.probes[i].nodeSet.empty())
       problems.add(nodeAt(root, {"history", "probes", std::to_string(i), "reaction"}),
                    fmt::format("history.probes.{}.reaction belongs to node_set; name a node set "
@@ -471,15 +505,25 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
         problems.add(at("copies"), fmt::format("{}.copies: copy {} would be called {}, as another "
                                                "line is; accepted: names of their own.",
                                                path, copy, name));
+    if (card.until && *card.until <= card.from)
+      problems.add(at("until"), fmt::format("{}.until = {} s; accepted: later than from, {} s.",
+                                            path, *card.until, card.from));
     if (!card.stage.empty() && !contains(stages, card.stage))
       problems.add(at("stage"), unknown(path + ".stage", card.stage, "a stage", stages));
   }
 }
 
-/// Fragments go beside the results and into them.
-void checkFragments(const Deck& deck, const DeckNode& root, Problems& problems)
+/// Lines and fragments go beside the results.
+void checkBesideResults(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   const DeckNode& output = nodeAt(root, {"output"});
+  if (deck.output.lines && (deck.output.results.empty() || deck.lines.empty()))
+    problems.add(
+        nodeAt(output, {"lines"}),
+        deck.lines.empty()
+            ? "output.lines has no effect without the section lines; remove it or add that."
+            : "output.lines has no effect without results, which output.results switches "
+              "off; remove one of the two.");
   if (deck.output.fragments && deck.output.results.empty())
     problems.add(nodeAt(output, {"fragments"}),
                  "output.fragments has no effect without results, which output.results switches "
@@ -572,7 +616,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkHistory(deck, root, joints, problems);
   checkStages(deck, root, problems);
   checkLines(deck, root, problems);
-  checkFragments(deck, root, problems);
+  checkBesideResults(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
   warnOfGravityUpwards(deck, root, problems);
   warnOfJointsWithoutUse(deck, root, joints, problems);

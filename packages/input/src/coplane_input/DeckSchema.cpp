@@ -504,6 +504,11 @@ Key lines()
                      .atLeast(0)
                      .like("0.5")
                      .means("time at which it is installed, free of stress where its hosts are"),
+                 number("until", &LineCard::until)
+                     .in("s")
+                     .above(0)
+                     .like("1.5")
+                     .means("time at which it is taken out again; its force is gone from then on"),
                  text("stage", &LineCard::stage)
                      .defaultIs("the first")
                      .like("heading")

@@ -32,6 +32,11 @@ Key outputKeys()
                        .atLeast(0)
                        .like("[0.0013, 0.002]")
                        .means("times at which results are written besides"),
+                   texts("variables", &OutputCard::variables)
+                       .like("[stress, von_mises]")
+                       .means("of nodes and elements that the results have, by name, or by the "
+                              "name of a vector or tensor without _x or _xx; displacement and "
+                              "alive are always there. Without the key: all"),
                    flag("planes", &OutputCard::planes)
                        .like("false")
                        .means("contact planes as points beside the results"),
@@ -43,6 +48,10 @@ Key outputKeys()
                    flag("file_per_rank", &OutputCard::filePerRank)
                        .like("true")
                        .means("one results file for each rank instead of a shared one"),
+                   flag("lines", &OutputCard::lines)
+                       .like("true")
+                       .means("the segments of lines with their forces, as <results>_lines.pvd "
+                              "and a .vtp file for each step, which ParaView draws"),
                    flag("fragments", &OutputCard::fragments)
                        .like("true")
                        .means("connected bodies: mass, place, velocity, spin and box of each as "
@@ -60,15 +69,16 @@ Key outputKeys()
 
 namespace
 {
-Key pointOfProbe()
+Key pointOfProbe(const std::string& name, std::optional<Vec3> ProbeCard::*member,
+                 const std::string& meaning)
 {
-  Key key = bound<std::vector<Real>>("point", KeyKind::Numbers, &ProbeCard::point,
+  Key key = bound<std::vector<Real>>(name, KeyKind::Numbers, member,
                                      [](std::optional<Vec3>& point, const std::vector<Real>& v) {
                                        point = Vec3{v[0], v[1], v[2]};
                                      })
                 .in("m")
                 .like("[0, 2.5, 0]")
-                .means("motion of the node that is nearest at t = 0");
+                .means(meaning);
   key.length = 3;
   return key;
 }
@@ -101,19 +111,43 @@ Key historyKeys()
                           text("block", &ProbeCard::block)
                               .like("bar")
                               .means("mass-weighted mean motion of an element block"),
-                          pointOfProbe(),
+                          pointOfProbe("point", &ProbeCard::point,
+                                       "motion of the node that is nearest at t = 0"),
+                          pointOfProbe("plane", &ProbeCard::plane,
+                                       "gap, closure, slip and tractions of the contact plane that "
+                                       "is nearest; the point goes with the node that is nearest "
+                                       "to it at t = 0"),
+                          text("joint", &ProbeCard::joint)
+                              .like("mortar")
+                              .means("of plane: only planes of this card in joints"),
+                          points("between", &ProbeCard::between)
+                              .in("m")
+                              .like("[[0, 0, 0], [4, 0, 0]]")
+                              .means("points at equal distances on a line, from its one end to the "
+                                     "other: a probe with a point for each, <name>_1, <name>_2, "
+                                     "..."),
+                          KeyBuilder(
+                              bound<int>("count", KeyKind::Integer, &ProbeCard::count, copyTo))
+                              .in("-")
+                              .atLeast(2)
+                              .defaultIs("2")
+                              .like("9")
+                              .means("of between: how many points"),
                           texts("variables", &ProbeCard::variables)
                               .like("[stress_yy, equivalent_plastic_strain]")
-                              .means("element variables, by their names in the results: at a point "
-                                     "those of the element whose middle is nearest at t = 0; of a "
-                                     "block the least and the largest, with element and place"),
+                              .means("variables by their names in the results. At points those of "
+                                     "the element whose middle is nearest at t = 0; of a block the "
+                                     "least and the largest over its elements, of a node set over "
+                                     "its nodes (displacement and velocity, whole or as _x, _y, "
+                                     "_z, contact_pressure, _closure, _gap, _slip), with element "
+                                     "or node and place"),
                           flag("reaction", &ProbeCard::reaction)
                               .like("true")
                               .means("of a node set: also the sum of the forces with which fixed, "
                                      "velocity, displacement and symmetry hold its nodes"),
                       })
-                     .exactlyOneOf({"node_set", "block", "point"})
-                     .means("motions to be recorded"),
+                     .exactlyOneOf({"node_set", "block", "point", "plane", "between"})
+                     .means("motions, variables and planes to be recorded"),
                  bound<std::vector<std::string>>("joints", KeyKind::Texts, &HistoryCard::joints,
                                                  copyTo)
                      .defaultIs("[]")

@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/detail/ProbedElements.hpp>
+#include <coplane_output/detail/ProbedPlanes.hpp>
 
 #include <algorithm>
 
@@ -228,6 +229,8 @@ void HistoryObserver::findElements(const Solver& solver)
       at = nearestElement(solver, *probe.point);
     nearest_.emplace_back(at.block, at.element);
     const int block = probe.point ? at.block : probe.block;
+    if (probe.nodeSet >= 0)
+      continue; // names of nodes are those of every mesh
     for (const std::string& name : probe.variables)
       solver.comm().together(
           [&]
@@ -244,25 +247,28 @@ void HistoryObserver::findElements(const Solver& solver)
   }
 }
 
-std::vector<std::pair<std::string, Real>> HistoryObserver::variablesOf(const Solver& solver,
-                                                                       std::size_t p) const
+auto HistoryObserver::variablesOf(const Solver& solver, std::size_t p) const -> NamedValues
 {
   const Probe& probe = options_.probes[p];
-  std::vector<std::pair<std::string, Real>> columns;
+  NamedValues columns;
   if (probe.variables.empty())
     return columns;
   const auto column = [&](const std::string& name, const std::string& rest)
   { return probe.name + "_" + name + rest; };
   if (!probe.point)
   {
-    const std::vector<Extreme> extremes = extremesOf(solver, probe.block, probe.variables);
+    const bool ofNodes = probe.nodeSet >= 0;
+    const std::vector<Extreme> extremes =
+        ofNodes ? nodalExtremesOf(solver, probe.nodeSet, probe.variables)
+                : extremesOf(solver, probe.block, probe.variables);
+    const std::string_view item = ofNodes ? "node" : "element";
     for (std::size_t i = 0; i < extremes.size(); ++i)
     {
       const std::string& name = probe.variables[i / 2];
       const std::string which = i % 2 == 0 ? "_least" : "_largest";
       const Extreme& extreme = extremes[i];
       columns.emplace_back(column(name, which + unitOfVariable(name)), extreme.value);
-      columns.emplace_back(column(name, which + "_element"), Real(extreme.element));
+      columns.emplace_back(column(name, fmt::format("{}_{}", which, item)), Real(extreme.id));
       for (int c = 0; c < 3; ++c)
         columns.emplace_back(column(name, fmt::format("{}_place_{}[m]", which, axes[c])),
                              extreme.place[c]);
@@ -298,6 +304,19 @@ std::vector<Real> HistoryObserver::probeValues(const Solver& solver) const
   for (std::size_t i = 0; i < values.size(); ++i)
     values[i] /= totalWeight_[i / 6];
   return values;
+}
+
+auto HistoryObserver::planeValues(const Solver& solver, const std::vector<Real>& motions) const
+    -> std::vector<NamedValues>
+{
+  std::vector<WantedPlane> wanted;
+  for (std::size_t p = 0; p < options_.probes.size(); ++p)
+    if (const Probe& probe = options_.probes[p]; probe.plane)
+    {
+      const Real* moved = &motions[6 * p];
+      wanted.push_back({*probe.point + Vec3{moved[0], moved[1], moved[2]}, probe.joint});
+    }
+  return wanted.empty() ? std::vector<NamedValues>{} : nearestPlanes(solver, wanted);
 }
 
 std::vector<Vec3> HistoryObserver::reactions(const Solver& solver) const
@@ -337,10 +356,18 @@ void HistoryObserver::write(const Solver& solver)
   line.add("eroded_mass[kg]", erosion.mass);
   const std::vector<Real> probes = probeValues(solver);
   const std::vector<Vec3> reactionsOf = reactions(solver);
+  const std::vector<NamedValues> planes = planeValues(solver, probes);
+  std::size_t plane = 0;
   for (std::size_t p = 0; p < options_.probes.size(); ++p)
   {
     const Real* value = &probes[6 * p];
     const std::string& name = options_.probes[p].name;
+    if (options_.probes[p].plane)
+    {
+      for (const auto& [column, ofPlane] : planes[plane++])
+        line.add(name + "_" + column, ofPlane);
+      continue;
+    }
     line.add(name + "_displacement", "[m]", {value[0], value[1], value[2]});
     line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
     if (options_.probes[p].reaction)

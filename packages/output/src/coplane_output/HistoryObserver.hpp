@@ -14,7 +14,8 @@
 namespace coplane
 {
 /// A place whose motion is recorded: the mean over a node set, the mass-weighted mean over the
-/// nodes of an element block, or the node nearest to a point.
+/// nodes of an element block, or the node nearest to a point. Or the plane nearest to a point that
+/// goes with that node.
 struct Probe
 {
   std::string name;
@@ -22,9 +23,15 @@ struct Probe
   int block = -1;                 ///< position in Mesh::blocks
   bool reaction = false;          ///< also the sum of the reactions on the nodes of the set
   std::optional<Vec3> point = {}; ///< or that, at the start [m]
-  /// Of the element nearest to the point, or least and largest of the block.
+  /// Of the element nearest to the point, or least and largest of the block or node set.
   std::vector<std::string> variables = {};
+  bool plane = false;     ///< of the point: the nearest plane, in place of the motion
+  std::string joint = {}; ///< of the plane; empty: any
 };
+
+/// Variables of nodes of which a probe can have the extremes over a node set: names of the results,
+/// and displacement and velocity for their lengths.
+const std::vector<std::string>& nodalVariables();
 
 struct HistoryOptions
 {
@@ -56,6 +63,7 @@ public:
   void finish(const Solver& solver, const Ending& ending) override;
 
 private:
+  using NamedValues = std::vector<std::pair<std::string, Real>>;
   /// A node of a probe and its share of the mean (not divided by the sum of all shares).
   struct Share
   {
@@ -69,8 +77,10 @@ private:
   std::vector<Real> probeValues(const Solver& solver) const;
   void findElements(const Solver& solver);
   /// Columns and values of the variables of a probe.
-  std::vector<std::pair<std::string, Real>> variablesOf(const Solver& solver,
-                                                        std::size_t probe) const;
+  NamedValues variablesOf(const Solver& solver, std::size_t probe) const;
+  /// Of those of planes, in the order of the probes; values count on rank 0.
+  std::vector<NamedValues> planeValues(const Solver& solver,
+                                       const std::vector<Real>& motions) const;
   std::vector<Vec3> reactions(const Solver& solver) const; ///< per probe, zero if not wanted [N]
 
   HistoryOptions options_;

@@ -1,3 +1,5 @@
+#include <coplane_output/HistoryObserver.hpp>
+#include <coplane_output/detail/NodalContact.hpp>
 #include <coplane_output/detail/ProbedElements.hpp>
 
 #include <algorithm>
@@ -52,6 +54,12 @@ std::string unitOfVariable(const std::string& name)
 {
   if (name == "density")
     return "[kg/m^3]";
+  if (name == "contact_pressure")
+    return "[Pa]";
+  if (name.rfind("velocity", 0) == 0)
+    return "[m/s]";
+  if (name.rfind("displacement", 0) == 0 || name.rfind("contact_", 0) == 0)
+    return "[m]";
   const bool isStress = name == "von_mises" || name == "pressure" ||
                         std::find(stresses.begin(), stresses.end(), name) != stresses.end();
   return isStress ? "[Pa]" : "";
@@ -100,44 +108,44 @@ ProbedElement nearestElement(const Solver& solver, const Vec3& point)
   return isNearest(solver.comm(), least, lowest) ? nearest : ProbedElement{};
 }
 
-std::vector<Extreme> extremesOf(const Solver& solver, int b,
-                                const std::vector<std::string>& variables)
+namespace
 {
-  const Comm& comm = solver.comm();
-  const RankMesh::Block& part = solver.mesh().blocks[std::size_t(b)];
-  const ElementBlock& block = solver.blocks()[std::size_t(b)];
-  const std::size_t count = 2 * variables.size();
+/// Least and largest over items of all ranks, [2 i] and [2 i + 1] of variable i. Collective.
+/// @param valueOf, idOf, placeOf of items, those from 0 to `items` for which isMine
+template <class IsMine, class ValueOf, class IdOf, class PlaceOf>
+std::vector<Extreme> extremesOver(const Comm& comm, int items, std::size_t variables,
+                                  const IsMine& isMine, const ValueOf& valueOf, const IdOf& idOf,
+                                  const PlaceOf& placeOf)
+{
+  const std::size_t count = 2 * variables;
   // Largest of minus the value and of the value, and the lowest id with it.
   std::vector<Real> most(count, -infinity), ids(count, -infinity), places(3 * count, -infinity);
-  std::vector<int> elements(count, -1);
-  const auto signedValue = [&](std::size_t i, int e)
+  std::vector<int> found(count, -1);
+  const auto signedValue = [&](std::size_t i, int item)
   {
-    const Real value = elementVariable(block, e, variables[i / 2]).value_or(0);
+    const Real value = valueOf(i / 2, item);
     return i % 2 == 0 ? -value : value;
   };
-  const auto isMine = [&](int e) { return part.owned[std::size_t(e)] && block.isAlive(e); };
   for (std::size_t i = 0; i < count; ++i)
-    for (int e = 0; e < part.elements(); ++e)
-      if (isMine(e))
-        most[i] = std::max(most[i], signedValue(i, e));
+    for (int item = 0; item < items; ++item)
+      if (isMine(item))
+        most[i] = std::max(most[i], signedValue(i, item));
   comm.max(most);
   for (std::size_t i = 0; i < count; ++i)
-    for (int e = 0; e < part.elements(); ++e)
-      if (isMine(e) && signedValue(i, e) == most[i] &&
-          -Real(part.elementIds[std::size_t(e)]) > ids[i])
+    for (int item = 0; item < items; ++item)
+      if (isMine(item) && signedValue(i, item) == most[i] && -Real(idOf(item)) > ids[i])
       {
-        ids[i] = -Real(part.elementIds[std::size_t(e)]);
-        elements[i] = e;
+        ids[i] = -Real(idOf(item));
+        found[i] = item;
       }
   const std::vector<Real> mine = ids;
   comm.max(ids);
   for (std::size_t i = 0; i < count; ++i)
-    if (elements[i] >= 0 && mine[i] == ids[i])
+    if (found[i] >= 0 && mine[i] == ids[i])
     {
-      const Vec3 middle =
-          middleOf(part, elements[i], [&](int node) { return at(solver.state().x, node); });
+      const Vec3 place = placeOf(found[i]);
       for (std::size_t c = 0; c < 3; ++c)
-        places[3 * i + c] = middle[int(c)];
+        places[3 * i + c] = place[int(c)];
     }
   comm.max(places);
   std::vector<Extreme> extremes(count);
@@ -149,5 +157,81 @@ std::vector<Extreme> extremesOf(const Solver& solver, int b,
     else
       extremes[i].value = std::numeric_limits<Real>::quiet_NaN();
   return extremes;
+}
+} // namespace
+
+std::vector<Extreme> extremesOf(const Solver& solver, int b,
+                                const std::vector<std::string>& variables)
+{
+  const RankMesh::Block& part = solver.mesh().blocks[std::size_t(b)];
+  const ElementBlock& block = solver.blocks()[std::size_t(b)];
+  return extremesOver(
+      solver.comm(), part.elements(), variables.size(),
+      [&](int e) { return part.owned[std::size_t(e)] && block.isAlive(e); },
+      [&](std::size_t variable, int e)
+      { return elementVariable(block, e, variables[variable]).value_or(0); },
+      [&](int e) { return part.elementIds[std::size_t(e)]; },
+      [&](int e)
+      { return middleOf(part, e, [&](int node) { return at(solver.state().x, node); }); });
+}
+
+namespace
+{
+const std::vector<std::string> motions{"displacement",   "displacement_x", "displacement_y",
+                                       "displacement_z", "velocity",       "velocity_x",
+                                       "velocity_y",     "velocity_z"};
+const std::vector<std::string> ofContact{"contact_pressure", "contact_closure", "contact_gap",
+                                         "contact_slip"};
+
+bool isIn(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+} // namespace
+
+const std::vector<std::string>& nodalVariables()
+{
+  static const std::vector<std::string> all = []
+  {
+    std::vector<std::string> names = motions;
+    names.insert(names.end(), ofContact.begin(), ofContact.end());
+    return names;
+  }();
+  return all;
+}
+
+std::vector<Extreme> nodalExtremesOf(const Solver& solver, int nodeSet,
+                                     const std::vector<std::string>& variables)
+{
+  const std::vector<int>& nodes = solver.mesh().nodeSets[std::size_t(nodeSet)]; // owned ones
+  const NodalState& state = solver.state();
+  NodalContact contact;
+  if (std::any_of(variables.begin(), variables.end(),
+                  [](const std::string& name) { return isIn(ofContact, name); }))
+    contact = nodalContact(solver);
+  const auto valueOf = [&](std::size_t variable, int item)
+  {
+    const std::string& name = variables[variable];
+    const int n = nodes[std::size_t(item)];
+    if (name == "contact_pressure")
+      return contact.pressure[std::size_t(n)];
+    if (name == "contact_closure")
+      return contact.closure[std::size_t(n)];
+    if (name == "contact_gap")
+      return contact.gap[std::size_t(n)];
+    if (name == "contact_slip")
+      return contact.slip[std::size_t(n)];
+    Vec3 vector{};
+    for (int c = 0; c < 3; ++c)
+      vector[c] = name[0] == 'd' ? state.x(n, c) - state.reference(n, c)
+                                 : 0.5 * (state.vPrevious(n, c) + state.v(n, c));
+    const char end = name.back();
+    return name[name.size() - 2] == '_' ? vector[end - 'x'] : norm(vector);
+  };
+  const std::vector<GlobalId>& ids = solver.layout().ids();
+  return extremesOver(
+      solver.comm(), int(nodes.size()), variables.size(), [](int) { return true; }, valueOf,
+      [&](int item) { return ids[std::size_t(nodes[std::size_t(item)])]; },
+      [&](int item) { return at(state.x, nodes[std::size_t(item)]); });
 }
 } // namespace coplane

@@ -56,12 +56,67 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
   names.side = sideVariableNames();
   return names;
 }
+
+/// displacement of displacement_x, stress of stress_xx; empty for what is no such part.
+std::string wholeOf(const std::string& name)
+{
+  for (const char* stem :
+       {"displacement", "velocity", "contact_force", "contact_traction", "stress"})
+    if (name.rfind(stem + std::string("_"), 0) == 0)
+      return stem;
+  return "";
+}
+
+/// Places of the variables that are written, in the order of all.
+std::vector<int> placesOf(const std::vector<std::string>& all,
+                          const std::vector<std::string>& chosen)
+{
+  const auto isChosen = [&](const std::string& name)
+  { return std::find(chosen.begin(), chosen.end(), name) != chosen.end(); };
+  std::vector<int> places;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const std::string whole = wholeOf(all[i]); chosen.empty() || whole == "displacement" ||
+                                                   all[i] == "alive" || isChosen(all[i]) ||
+                                                   (!whole.empty() && isChosen(whole)))
+      places.push_back(int(i));
+  return places;
+}
+
+std::vector<std::string> taken(const std::vector<std::string>& all, const std::vector<int>& places)
+{
+  std::vector<std::string> names;
+  for (const int place : places)
+    names.push_back(all[std::size_t(place)]);
+  return names;
+}
 } // namespace
 
-std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history,
-                                bool fragments)
+std::vector<std::string> resultsChoices(int dimension, const std::vector<std::string>& history,
+                                        bool fragments)
 {
-  const ResultsVariables names = variablesOf(mesh.mine.dimension, history, fragments);
+  const ResultsVariables all = variablesOf(dimension, history, fragments);
+  std::vector<std::string> names;
+  const auto add = [&](const std::string& name)
+  {
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  };
+  for (const auto* list : {&all.nodal, &all.element})
+    for (const std::string& name : *list)
+    {
+      if (const std::string whole = wholeOf(name); !whole.empty())
+        add(whole);
+      add(name);
+    }
+  return names;
+}
+
+std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history,
+                                bool fragments, const std::vector<std::string>& chosen)
+{
+  ResultsVariables names = variablesOf(mesh.mine.dimension, history, fragments);
+  names.nodal = taken(names.nodal, placesOf(names.nodal, chosen));
+  names.element = taken(names.element, placesOf(names.element, chosen));
   std::int64_t sides = 0;
   for (const int size : mesh.sideSetSizes)
     sides += size;
@@ -186,6 +241,9 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
   // Parts of restarts that were left behind. The checkpoint may be of a part that had no step yet:
   // what that part wrote afterwards has to go, too.
   const ResultsPosition position = ResultsPosition::from(options_.position);
+  const ResultsVariables all = variablesOf(dimension_, history_, options_.bodies != nullptr);
+  nodal_ = placesOf(all.nodal, options_.variables);
+  element_ = placesOf(all.element, options_.variables);
   options_.infoLines.insert(options_.infoLines.begin(), infoLineOf(options_.run));
   comm.together(
       [&]
@@ -207,9 +265,11 @@ ResultsObserver::ResultsObserver(const Comm& comm, const MeshSlice& mesh, Result
 
 void ResultsObserver::open()
 {
-  file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_,
-                variablesOf(dimension_, history_, options_.bodies != nullptr), options_.infoLines,
-                options_.filePerRank);
+  ResultsVariables names = variablesOf(dimension_, history_, options_.bodies != nullptr);
+  names.nodal = taken(names.nodal, nodal_);
+  names.element = taken(names.element, element_);
+  file_.emplace(resultsPart(options_.file, options_.part), *comm_, *mesh_, names,
+                options_.infoLines, options_.filePerRank);
 }
 
 void ResultsObserver::continueSeries()
@@ -356,11 +416,11 @@ void ResultsObserver::writeNodes(const Solver& solver)
   Table<Real> inFile("coplane::output::nodesInFile", rows, columns);
   nodesToFile_->move(mine, inFile);
   std::vector<Real> values(rows);
-  for (int column = 0; column < columns; ++column)
+  for (std::size_t variable = 0; variable < nodal_.size(); ++variable)
   {
     for (int i = 0; i < rows; ++i)
-      values[i] = inFile(i, column);
-    file_->putNodal(column, values);
+      values[i] = inFile(i, nodal_[variable]);
+    file_->putNodal(int(variable), values);
   }
 }
 
@@ -412,11 +472,11 @@ void ResultsObserver::writeElements(const Solver& solver)
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
   {
     std::vector<Real> values(file_->myElements(int(b)).count);
-    for (int column = 0; column < columns; ++column)
+    for (std::size_t variable = 0; variable < element_.size(); ++variable)
     {
       for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = inFile(first + i, column);
-      file_->putElement(column, int(b), values);
+        values[i] = inFile(first + i, element_[variable]);
+      file_->putElement(int(variable), int(b), values);
     }
     first += int(values.size());
   }

@@ -22,6 +22,9 @@ struct ResultsOptions
   bool filePerRank = false;              ///< file.N.r, to be joined by `epu -auto`
   std::vector<std::string> infoLines;    ///< kept in the file: command line, deck
   std::vector<std::string> history = {}; ///< variables of the blocks' laws that are written besides
+  /// Those of nodes and elements that are written, by names of variables, vectors and tensors;
+  /// empty: all. Displacement and alive are in any case.
+  std::vector<std::string> variables = {};
   std::shared_ptr<BodiesOfCycle> bodies = {}; ///< are written if given
   int part = 1;              ///< of a series: 1 for a new run, one more with every restart
   std::string position = {}; ///< savePosition() of the run that is continued
@@ -31,10 +34,17 @@ struct ResultsOptions
 /// Name of a part of a series of results: wall.e, wall.e-s0002, ...
 std::string resultsPart(const std::string& file, int part);
 
-/// What one step of the results takes in files [bytes].
+/// Names by which variables of nodes and elements can be chosen: of the variables, and of vectors
+/// and tensors without the ends _x and _xx.
 /// @param history variables of the blocks' laws that are written besides
+std::vector<std::string> resultsChoices(int dimension, const std::vector<std::string>& history,
+                                        bool fragments);
+
+/// What one step of the results takes in files [bytes].
+/// @param chosen as ResultsOptions::variables
 std::int64_t bytesOfResultsStep(const MeshSlice& mesh, const std::vector<std::string>& history,
-                                bool fragments = false);
+                                bool fragments = false,
+                                const std::vector<std::string>& chosen = {});
 
 /// Writes the Exodus results: at t = 0, in the first cycle at or after each due time, on request
 /// (SIGUSR1) and at the end. Names and their order are those that ParaView's IOSS reader groups
@@ -73,6 +83,7 @@ private:
   int dimension_;
   std::vector<std::string> history_;
   OutputSchedule schedule_;
+  std::vector<int> nodal_, element_; ///< places of what is written among all variables
   std::optional<ResultsFile> file_;
   std::int64_t lastCycle_ = -1; ///< that was written
   /// From owned nodes and elements to the contiguous ranges of the file.

@@ -253,7 +253,7 @@ std::string TablesObserver::segmentLines(const Solver& solver)
 {
   std::string text;
   for (const Line& line : solver.lines().lines())
-    for (std::size_t s = 0; line.installed() && s < line.segments().size(); ++s)
+    for (std::size_t s = 0; line.installed() && !line.removed() && s < line.segments().size(); ++s)
     {
       const Line::Segment& segment = line.segments()[s];
       const Line::Point &a = line.points()[s], &b = line.points()[s + 1];

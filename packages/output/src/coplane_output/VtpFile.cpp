@@ -45,6 +45,22 @@ VtpPoints::VtpPoints(const std::vector<Real>& coordinates)
 {
 }
 
+VtpPoints::VtpPoints(const std::vector<Real>& coordinates, const std::vector<std::int64_t>& ends)
+    : VtpPoints(coordinates)
+{
+  ends_ = ends;
+}
+
+void VtpPoints::addScalarOfCells(const std::string& name, const std::vector<Real>& values)
+{
+  cellData_ += dataArray("Float64", name, 1, values);
+}
+
+void VtpPoints::addIntegersOfCells(const std::string& name, const std::vector<std::int64_t>& values)
+{
+  cellData_ += dataArray("Int64", name, 1, values);
+}
+
 void VtpPoints::addScalar(const std::string& name, const std::vector<Real>& values)
 {
   data_ += dataArray("Float64", name, 1, values);
@@ -77,21 +93,27 @@ void VtpPoints::addNames(const std::string& name, const std::vector<std::string>
 
 std::string VtpPoints::text(const std::string& comment) const
 {
-  std::vector<std::int64_t> connectivity(count_), offsets(count_);
-  for (std::int64_t i = 0; i < count_; ++i)
-  {
-    connectivity[i] = i;
-    offsets[i] = i + 1;
-  }
+  std::vector<std::int64_t> connectivity, offsets;
+  if (ends_)
+    connectivity = *ends_;
+  else
+    for (std::int64_t i = 0; i < count_; ++i)
+      connectivity.push_back(i);
+  const std::int64_t ofCell = ends_ ? 2 : 1, cells = std::int64_t(connectivity.size()) / ofCell;
+  for (std::int64_t i = 1; i <= cells; ++i)
+    offsets.push_back(ofCell * i);
+  const std::string cellData =
+      cellData_.empty() ? "" : "      <CellData>\n" + cellData_ + "      </CellData>\n";
   return fmt::format(
       "<?xml version=\"1.0\"?>\n{6}\n"
       "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
       "header_type=\"UInt64\">\n  <PolyData>\n    <FieldData>\n{5}    </FieldData>\n"
-      "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{0}\" NumberOfLines=\"0\" "
+      "    <Piece NumberOfPoints=\"{0}\" NumberOfVerts=\"{7}\" NumberOfLines=\"{8}\" "
       "NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n"
-      "      <Points>\n{1}      </Points>\n      <Verts>\n{2}{3}      </Verts>\n"
-      "      <PointData>\n{4}      </PointData>\n    </Piece>\n  </PolyData>\n</VTKFile>\n",
+      "      <Points>\n{1}      </Points>\n      <{9}>\n{2}{3}      </{9}>\n"
+      "      <PointData>\n{4}      </PointData>\n{10}    </Piece>\n  </PolyData>\n</VTKFile>\n",
       count_, points_, dataArray("Int64", "connectivity", 1, connectivity),
-      dataArray("Int64", "offsets", 1, offsets), data_, fields_, comment);
+      dataArray("Int64", "offsets", 1, offsets), data_, fields_, comment, ends_ ? 0 : cells,
+      ends_ ? cells : 0, ends_ ? "Lines" : "Verts", cellData);
 }
 } // namespace coplane

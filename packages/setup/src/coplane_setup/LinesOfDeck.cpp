@@ -83,6 +83,7 @@ std::vector<LineSetup> linesOf(const Deck& deck)
     line.pretension = card.pretension / card.spacing;
     line.pretensionTime = card.pretensionTime;
     line.from = card.from;
+    line.until = card.until.value_or(infinity);
     line.stage = card.stage.empty() ? 0 : indexOf(deck.stages, card.stage);
     line.points = pointsOf(card);
     line.bare = card.freeLength > 0 ? 1 : 0;

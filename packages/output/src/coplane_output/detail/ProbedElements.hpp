@@ -28,15 +28,19 @@ struct ProbedElement
 /// The same of elements, by their middles.
 ProbedElement nearestElement(const Solver& solver, const Vec3& point);
 
-/// Least and largest value in the living elements of a block, with its element (the lowest id) and
-/// that one's present middle. Without living elements no number, and id 0.
+/// Least or largest value, with the element or node that has it (the lowest id) and its present
+/// place, the middle of an element. Without living elements, or nodes, no number, and id 0.
 struct Extreme
 {
   Real value = 0;
-  GlobalId element = 0;
+  GlobalId id = 0;
   Vec3 place{}; ///< [m]
 };
-/// [2 i]: least, [2 i + 1]: largest of variable i. Collective.
+/// Of the living elements of a block. [2 i]: least, [2 i + 1]: largest of variable i. Collective.
 std::vector<Extreme> extremesOf(const Solver& solver, int block,
                                 const std::vector<std::string>& variables);
+
+/// The same of the nodes of a set, and nodalVariables(). Collective.
+std::vector<Extreme> nodalExtremesOf(const Solver& solver, int nodeSet,
+                                     const std::vector<std::string>& variables);
 } // namespace coplane

@@ -1,0 +1,94 @@
+"""What a deck chooses to be written: variables of the results, planes nearest to points, points on a line, extremes over sets of nodes."""
+
+import copy
+
+import numpy
+from coplanetest import Case, differences
+
+case = Case("chosen outputs", __file__)
+deck, recipe = case.load("tests/outputs/contact_fields/deck.yaml"), case.load("tests/outputs/contact_fields/mesh.yaml")
+pressure, normal_stiffness, shear_stiffness, friction, speed = 1e6, 10e9, 5e9, 0.3, 0.1
+closure = pressure / normal_stiffness
+deck["conditions"][2]["value"] = [speed, 0, 0]  # the upper block is drawn over the lower one
+deck["history"]["probes"] = [
+    {"name": "near", "plane": [0.4, 1.0, 0]},
+    {"name": "bed", "plane": [0.4, 1.0, 0], "joint": "bed"},
+    {"name": "none", "plane": [0.4, 1.0, 0], "joint": "unused"},
+    {"name": "row", "between": [[0, 2], [1, 2]], "count": 4, "variables": ["stress_yy"]},
+    {"name": "upper", "node_set": "upper", "variables": ["displacement_y", "velocity", "contact_pressure", "contact_slip"]},
+]
+full = copy.deepcopy(deck)
+run = case.run("full", recipe, full, energy=2e-2)
+h = run.history
+
+# --- the nearest plane ---------------------------------------------------------------------------------------------------------
+planes = run.planes(-1)
+place = numpy.array([0.4 + h["row_1_displacement_x"][-1], 1.0])  # the point goes with the block that has its node
+nearest = None
+for own in (numpy.array([0.4, 1.0]), place):  # whichever of both blocks that is
+    distance = numpy.hypot(*(planes["Points"][:, :2] - own).T)
+    if abs(distance.min() - h["near_distance"][-1]) < 1e-9:
+        nearest = int(distance.argmin())
+case.check_equal("plane: it is the nearest of those in the file", nearest is not None, True)
+for what, of_file in (("closure", planes["closure"]), ("gap", planes["gap"]), ("slip", planes["slip"]), ("normal_traction", planes["normal_traction"]), ("area", planes["area"]),
+                      ("shear_traction", numpy.linalg.norm(planes["shear_traction"], axis=1)), ("state", planes["state"]), ("lower_element", planes["lower_element"])):  # fmt: skip
+    case.check(f"plane: {what} is that of the file", h[f"near_{what}"][-1], float(of_file[nearest or 0]), 1e-12 * max(1.0, abs(float(of_file[nearest or 0]))))
+    case.check_equal(f"plane of the joint: {what} is the same", bool((h[f"near_{what}"] == h[f"bed_{what}"]).all()), True)
+t = h["time"][-1]
+case.check("plane: normal traction [Pa]", h["near_normal_traction"][-1], pressure, 0.3, relative=True)  # the drawn block tilts
+case.check("plane: shear over normal traction", h["near_shear_traction"][-1] / h["near_normal_traction"][-1], friction, 1e-9)
+case.check("plane: slip [m]", h["near_slip"][-1], speed * t - friction * pressure / shear_stiffness, 0.05, relative=True)
+case.check_equal("plane of a joint without planes: state", sorted(set(h["none_state"].tolist())), [0.0])
+case.check_equal("plane of a joint without planes: distance", bool(numpy.isnan(h["none_distance"]).all()), True)
+
+# --- points on a line ------------------------------------------------------------------------------------------------------------
+results = run.results
+top = numpy.flatnonzero(results.coordinates[:, 1] == 2)
+top = top[numpy.argsort(results.coordinates[top, 0])]
+for k in range(4):
+    for c, axis in enumerate("xy"):
+        case.check(f"point {k + 1} of the line: displacement along {axis} [m]", h[f"row_{k + 1}_displacement_{axis}"][-1], float(results.nodal("displacement")[top[k], c]), 1e-15)
+case.check_equal("points of the line have the variables", [f"row_{k}_stress_yy" in h for k in range(1, 5)], [True] * 4)
+
+# --- extremes over a node set ------------------------------------------------------------------------------------------------------
+nodes = numpy.flatnonzero(results.coordinates[:, 1] >= 1)
+nodes = nodes[len(nodes) - 16 :]  # the upper block has the last 4 x 4
+moved = results.nodal("displacement")
+for name, values in (("displacement_y", moved[nodes, 1]), ("velocity", numpy.linalg.norm(results.nodal("velocity")[nodes], axis=1)),
+                     ("contact_pressure", results.nodal("contact_pressure")[nodes]), ("contact_slip", results.nodal("contact_slip")[nodes])):  # fmt: skip
+    for which, value, at in (("least", values.min(), values.argmin()), ("largest", values.max(), values.argmax())):
+        column = f"upper_{name}_{which}"
+        case.check(f"{column}", h[column][-1], float(value), 1e-12 * max(1.0, abs(float(value))))
+        for c, axis in enumerate("xy"):
+            case.check(f"{column}: place along {axis} [m]", h[f"{column}_place_{axis}"][-1], float((results.coordinates[nodes] + moved[nodes])[at, c]), 1e-12)
+        case.check_equal(f"{column}: node", int(h[f"{column}_node"][-1]), int(nodes[at]) + 1)
+
+# --- chosen variables ----------------------------------------------------------------------------------------------------------------
+few = copy.deepcopy(deck)
+few["output"]["variables"] = ["stress", "velocity_x", "contact_slip"]
+some = case.run("few", recipe, few, energy=2e-2)
+case.check_equal("few: variables of nodes", sorted(some.results.nodal_names), sorted(["displacement_x", "displacement_y", "velocity_x", "contact_slip"]))
+case.check_equal("few: variables of elements", sorted(some.results.element_names), sorted(["alive", *(f"stress_{c}" for c in ("xx", "yy", "zz", "xy", "yz", "zx"))]))
+case.check_equal("few: their values are those of the whole file", bool((some.results.nodal("contact_slip") == results.nodal("contact_slip")).all()), True)
+case.check_equal("few: stress", bool((some.results.element("upper", "stress_yy") == results.element("upper", "stress_yy")).all()), True)
+case.check_equal("few: state hash", some.state_hash, run.state_hash)
+
+# --- the same on two ranks -------------------------------------------------------------------------------------------------------------
+again = case.attempt("few_on_2_ranks", recipe, few, ranks=2)
+case.check_equal("2 ranks: exit code", again.code, 0)
+case.check_equal("2 ranks: differences of the results", differences(some.path("run.e"), again.path("run.e")), [])
+case.check_equal("2 ranks: run.csv has the same bytes", some.bytes_of("run.csv") == again.bytes_of("run.csv"), True)
+
+# --- what is not there -----------------------------------------------------------------------------------------------------------------
+for name, key, told in (("misspelt", {"output": {"variables": ["von_mices"]}}, "Did you mean 'von_mises'?"),
+                        ("no_node_variable", {"probes": [{"name": "a", "node_set": "upper", "variables": ["contact_presure"]}]}, "Did you mean 'contact_pressure'?"),
+                        ("no_joint", {"probes": [{"name": "a", "plane": [0, 1, 0], "joint": "bet"}]}, "Did you mean 'bed'?"),
+                        ("taken", {"probes": [{"name": "a", "between": [[0, 2], [1, 2]]}, {"name": "a_2", "block": "upper"}]}, "point 2 would be called 'a_2'"),
+                        ("one_point", {"probes": [{"name": "a", "between": [[0, 2], [0, 2]]}]}, "two different points")):  # fmt: skip
+    wrong = copy.deepcopy(deck)
+    wrong["output"].update(key.get("output", {}))
+    wrong["history"]["probes"] = key.get("probes", [])
+    refused = case.attempt(name, recipe, wrong)
+    case.check_equal(f"{name}: exit code", refused.code, 2)
+    case.check_equal(f"{name}: is told '{told}'", told in refused.output, True)
+case.finish()
