@@ -148,6 +148,13 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  /// A pair of a checkpoint that has no plane, and nothing to remember but this.
+  struct BarePair
+  {
+    GlobalId faceId[2];
+    bool lookedAt;
+    EdgesOfPair edges;
+  };
   /// What the first half of a search leaves to the second.
   struct FirstHalf
   {
@@ -156,8 +163,9 @@ private:
     // Of the nodes of the table of faces that was made by the search before.
     std::vector<GlobalId> nodeIds;
     ConstNodeVectors x;
-    /// Of a checkpoint, whose planes need no search.
+    // Of a checkpoint, whose slots need no search; sorted by key.
     std::vector<Plane> restored;
+    std::vector<BarePair> bare;
 
     std::vector<GlobalId> nodesOfGhosts() const;
   };
@@ -180,10 +188,10 @@ private:
                                      const std::vector<GlobalId>& nodeIds) const;
   void listSlotsOfFaces(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
-  /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
-  /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
-  /// a candidate. Collective.
-  std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
+  /// Slots of a checkpoint that have a face here; members of planes that only mean something on one
+  /// rank are left as they are in a new plane, but face[0] is 0 where the pair is a candidate.
+  /// Collective.
+  void readSlots(const StateSource& in);
 
   // What contact is between ...
   const Comm* comm_;
