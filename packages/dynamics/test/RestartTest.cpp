@@ -68,6 +68,18 @@ TEST(Restart, ofSlidingCubesHasTheBitsOfTheStraightRun)
                  40, {1, 5, 18, 39});
 }
 
+TEST(Restart, withScaledMassesHasTheBitsOfTheStraightRun)
+{
+  expectSameBits(
+      [](const Comm& comm, const std::string& method)
+      {
+        Model model = slidingCubes(comm, method);
+        model.time.massScaling = MassScalingOptions{2e-4, 100};
+        return model;
+      },
+      40, {1, 5, 18, 39});
+}
+
 TEST(Restart, givesPlanesToThosePairsThatHadOne)
 {
   const Comm comm;

@@ -18,7 +18,7 @@ struct NodeColumns
   std::vector<Array<Real>> scalars;
 };
 
-/// What changes of the owned nodes. Masses and places at the start come from the mesh.
+/// What changes of the owned nodes. Their own masses and places at the start come from the mesh.
 NodeColumns nodeColumns(const NodalState& state)
 {
   NodeColumns columns;
@@ -49,6 +49,7 @@ NodeColumns nodeColumns(const NodalState& state)
   scalar("local_damping_work", state.localDampingWork);
   scalar("total_work", state.totalWork);
   scalar("contact_stiffness", state.contactStiffness);
+  scalar("added_mass", state.addedMass);
   return columns;
 }
 
@@ -115,7 +116,7 @@ void Solver::restore(const StateSource& in)
   if (erosion_->acts())
     leaveWithoutElements(dead, nullptr);
   layout_.refresh(state_.x, state_.v);
-  if (model_.blocksComeOrGo)
+  if (model_.blocksComeOrGo || model_.time.massScaling)
   {
     elements_.sumMasses(state_);
     layout_.refresh(state_.mass);
