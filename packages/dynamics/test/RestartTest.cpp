@@ -74,7 +74,7 @@ TEST(Restart, withScaledMassesHasTheBitsOfTheStraightRun)
       [](const Comm& comm, const std::string& method)
       {
         Model model = slidingCubes(comm, method);
-        model.time.massScaling = MassScalingOptions{2e-4, 100};
+        model.time.massScaling = MassScalingOptions{6e-4, 100};
         return model;
       },
       40, {1, 5, 18, 39});
