@@ -18,9 +18,10 @@ void reportStep(const Solver& solver, const Deck& deck)
   const StepControl control = solver.stepControl();
   const TimeOptions& time = solver.model().time;
   const Real step = solver.clock().nextStep, rest = deck.time.end - solver.clock().time;
-  const char* const key = time.fixedStep && step == *time.fixedStep       ? "fixed_step"
-                          : time.maximumStep && step == *time.maximumStep ? "maximum_step"
-                                                                          : nullptr;
+  const char* const key = time.massScaling && step == time.massScaling->step ? "mass_scaling.step"
+                          : time.fixedStep && step == *time.fixedStep        ? "fixed_step"
+                          : time.maximumStep && step == *time.maximumStep    ? "maximum_step"
+                                                                             : nullptr;
   if (!(control.stableStep < infinity))
     logInfo("first step: {:.6e} s{}; its stability is limited by {}", step,
             key ? fmt::format(", time.{}", key) : "", control.text());
@@ -48,6 +49,24 @@ void reportStep(const Solver& solver, const Deck& deck)
 }
 } // namespace
 
+namespace
+{
+/// What mass scaling has added. Collective.
+void reportAddedMass(const Solver& solver)
+{
+  if (!solver.scalesMass())
+    return;
+  logInfo("mass scaling for steps of {:g} s:", solver.model().time.massScaling->step);
+  const std::vector<AddedMass> blocks = solver.addedMasses();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    if (const AddedMass& block = blocks[b]; !solver.model().blocks[b].rigid)
+      logInfo("  block '{}': {:.4g} kg added, {:.3g} % of its mass; of what is added momentum "
+              "{:.3e} N s, kinetic energy {:.3e} J",
+              solver.model().blocks[b].name, block.added, 100 * block.ratio(), norm(block.momentum),
+              block.kinetic);
+}
+} // namespace
+
 void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
 {
   const Comm& comm = solver.comm();
@@ -64,6 +83,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
             mesh.mine.blocks[b].id, mesh.elementsOf(int(b)), totals[b]);
 
   reportStep(solver, deck);
+  reportAddedMass(solver);
   if (!solver.hasContact())
   {
     logInfo("contact: off");
@@ -99,6 +119,7 @@ void reportEnd(const Solver& solver)
             erosion.elements, erosion.mass, energy.eroded, energy.contact.eroded);
   logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,
           momenta.linear.y, momenta.linear.z, norm(momenta.linearError()), momenta.magnitude);
+  reportAddedMass(solver);
   if (solver.hasContact())
   {
     const ContactCounts counts = solver.contact().counts();

@@ -68,6 +68,47 @@ TEST(Restart, ofSlidingCubesHasTheBitsOfTheStraightRun)
                  40, {1, 5, 18, 39});
 }
 
+TEST(Restart, withScaledMassesHasTheBitsOfTheStraightRun)
+{
+  expectSameBits(
+      [](const Comm& comm, const std::string& method)
+      {
+        Model model = slidingCubes(comm, method);
+        model.time.massScaling = MassScalingOptions{6e-4, 100};
+        return model;
+      },
+      40, {1, 5, 18, 39});
+}
+
+TEST(Restart, givesPlanesToThosePairsThatHadOne)
+{
+  const Comm comm;
+  const TestFolder folder(comm);
+  const std::string file = folder / "some.chk";
+  Solver straight(slidingCubes(comm), comm);
+  straight.prepare();
+  cycles(straight, 10);
+  save(straight, file, comm);
+  const auto planes = [&](const Solver& solver)
+  {
+    const PlaneList& all = solver.contact().planes();
+    std::int64_t count = 0;
+    for (std::size_t p = 0; p < all.size(); ++p)
+      count += all[p].countedHere;
+    return comm.sum(count);
+  };
+  const CheckpointReader in(file, comm);
+  const std::int64_t written = in.rowCount("contact/planes"), bare = in.rowCount("contact/pairs");
+  EXPECT_EQ(written + bare, straight.contact().counts().slots);
+  EXPECT_GE(written, planes(straight)); // and pairs that would take something over
+  EXPECT_GT(planes(straight), 0);
+  EXPECT_GT(bare, 0);
+  Solver again(slidingCubes(comm), comm);
+  again.restore(in);
+  EXPECT_EQ(planes(again), written);
+  EXPECT_EQ(again.contact().counts().slots, straight.contact().counts().slots);
+}
+
 TEST(Restart, keepsReactions)
 {
   const Comm comm;

@@ -214,7 +214,8 @@ std::string show(const Deck& d)
     showAll(out, i.block, i.velocity, i.angularVelocity, i.center, i.velocityField, i.stress,
             i.stressGradient, i.stressAxis, i.stressPoint);
   showAll(out, d.time.end, d.time.stepFactor, d.time.maximumStep, d.time.fixedStep,
-          d.time.energyTolerance, d.time.contactGainTolerance);
+          d.time.scaledStep, d.time.scalingLimit, d.time.scalingWithWaves, d.time.energyTolerance,
+          d.time.contactGainTolerance);
   showAll(out, d.output.results, d.output.every, d.output.planes, d.output.planesFormat,
           d.output.filePerRank, d.output.lines, d.output.fragments, d.output.fragmentDamage);
   for (const Real t : d.output.times)
@@ -318,6 +319,15 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
   for (std::string line; std::getline(lines, line);)
     if (line.find("rigid") == std::string::npos)
       withoutRigid += line + "\n";
+  std::string withScaling = deckOfAllModels;
+  const std::string timeCard = "time: {end: 1}";
+  withScaling.replace(withScaling.find(timeCard), timeCard.size(),
+                      "time: {end: 1, mass_scaling: {step: 1e-6}}");
+  for (const char* type : {"absorbing, side_set: a", "acceleration, node_set: a, value: [0, 0, 0]"})
+  {
+    const std::string wave = fmt::format("  - {{type: {}}}\n", type);
+    withScaling.replace(withScaling.find(wave), wave.size(), "");
+  }
   const std::string withFragments = deckOfAllModels + std::string("output: {fragments: true}\n");
   for (const auto& [path, key] : leaves)
   {
@@ -351,9 +361,10 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
       if (path == from)
         place = to;
     const std::string assignment = place + "=" + key.example;
-    const std::string& deck = path == "geometry"                 ? withoutRigid
-                              : path == "output.fragment_damage" ? withFragments
-                              : path.rfind("stages", 0) == 0     ? deckWithStages
+    const std::string& deck = path == "geometry"                        ? withoutRigid
+                              : path == "output.fragment_damage"        ? withFragments
+                              : path.rfind("time.mass_scaling", 0) == 0 ? withScaling
+                              : path.rfind("stages", 0) == 0            ? deckWithStages
                               : path.rfind("lines", 0) == 0 || path == "output.lines"
                                   ? deckWithLines
                                   : deckOfAllModels;

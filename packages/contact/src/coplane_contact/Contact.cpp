@@ -101,7 +101,7 @@ void Contact::replaceLocalFaces(std::vector<Face> localFaces)
 void Contact::listSlotsOfFaces(int ownedNodes)
 {
   pairedFaces_.mark(planes_.slots().faces, faces().size());
-  forceSums_.listPlanes(planes_.slots().faces, localFaces().size());
+  forceSums_.listPlanes(planes_.slots().faces, localFaces().size(), faces().size());
   forceSums_.listFaces(localFaces(), ownedNodes);
 }
 
@@ -167,8 +167,9 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
   const bool incremental = options_.closure == ContactOptions::Closure::Incremental;
-  stepsBtoH(planes_.forKernels(incremental), int(planes_.count()), pairedFaces_.data(), dimension_,
-            options, dt);
+  PairTables pairs = planes_.forKernels(incremental);
+  pairs.changedFaces = forceSums_.changed().data();
+  stepsBtoH(pairs, int(planes_.count()), pairedFaces_.data(), dimension_, options, dt);
   planes_.listWoken();
   if (searches_.sinceUpdate && searches_.count > 1)
     for (std::size_t p = 0; p < planes().size(); ++p)

@@ -51,6 +51,10 @@ public:
   /// when the layout knows the ghosts' nodes, and x and v hold what they are there. Collective.
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
+  /// Tells pairs that have not touched anew what lies at their edges and what they take over from
+  /// others, from where faces and planes are now, as a search that finds the same pairs. Call when
+  /// x holds what ghosts' nodes are. Collective.
+  void renew(const ConstNodeVectors& x, const NodeLayout& layout);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive], less the pressure on their faces. What is
   /// pressed beyond its compressive strength carries the strength, out of equilibrium.
@@ -158,6 +162,13 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  /// A pair of a checkpoint that has no plane, and nothing to remember but this.
+  struct BarePair
+  {
+    GlobalId faceId[2];
+    bool lookedAt;
+    EdgesOfPair edges;
+  };
   /// What the first half of a search leaves to the second.
   struct FirstHalf
   {
@@ -166,8 +177,9 @@ private:
     // Of the nodes of the table of faces that was made by the search before.
     std::vector<GlobalId> nodeIds;
     ConstNodeVectors x;
-    /// Of a checkpoint, whose planes need no search.
+    // Of a checkpoint, whose slots need no search; sorted by key.
     std::vector<Plane> restored;
+    std::vector<BarePair> bare;
 
     std::vector<GlobalId> nodesOfGhosts() const;
   };
@@ -182,7 +194,13 @@ private:
   // Of a search.
   void findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v,
                   Real ahead); ///< Collective.
-  std::vector<Donor> livingPlanes() const;
+  /// @param nodeIds, x of the nodes of the table of faces
+  std::vector<Donor> livingPlanes(const std::vector<GlobalId>& nodeIds,
+                                  const ConstNodeVectors& x) const;
+  void rememberGhosts();
+  /// Living planes of the ghosts here, from the ranks that own these. @param mine those here.
+  /// Collective.
+  std::vector<Donor> donorsOfGhosts(const std::vector<Donor>& mine);
   /// Copies of faces far away to whom living planes hold on. Collective.
   void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
@@ -190,10 +208,10 @@ private:
                                      const std::vector<GlobalId>& nodeIds) const;
   void listSlotsOfFaces(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
-  /// Planes of a checkpoint that have a face here, sorted by key; members that only mean
-  /// something on one rank are left as they are in a new plane, but face[0] is 0 where the pair is
-  /// a candidate. Collective.
-  std::vector<Plane> planesOfCheckpoint(const StateSource& in) const;
+  /// Slots of a checkpoint that have a face here; members of planes that only mean something on one
+  /// rank are left as they are in a new plane, but face[0] is 0 where the pair is a candidate.
+  /// Collective.
+  void readSlots(const StateSource& in);
 
   // What contact is between ...
   const Comm* comm_;
@@ -204,7 +222,10 @@ private:
   // ... what searches find ...
   SearchReach reach_;
   Searches searches_;
-  FirstHalf firstHalf_; ///< empty between searches
+  FirstHalf firstHalf_;                         ///< empty between searches
+  std::vector<std::vector<GlobalId>> ghostIds_; ///< copies here of faces of others, by their rank
+  std::vector<std::vector<GlobalId>> copies_;   ///< of faces here, by the rank that has the copy
+  bool copiesKnown_ = false;                    ///< copies_ is what ranks have now
   // ... and what cycles work on.
   PlaneTable planes_;
   PairedFaces pairedFaces_;

@@ -1,10 +1,11 @@
-// Contact's part of a checkpoint: faces with what they got at their birth, all slots, planes that
-// have ended.
+// Contact's part of a checkpoint: faces with what they got at their birth, planes, pairs that have
+// none, planes that have ended.
 #include <coplane_contact/Contact.hpp>
 #include <coplane_contact/PlaneState.hpp>
 #include <coplane_core/StateHash.hpp>
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <type_traits>
 
@@ -13,6 +14,7 @@ namespace coplane
 namespace
 {
 const std::vector<std::string> faceColumns{"thickness", "modulus"};
+const std::vector<std::string> pairColumns{"looked_at", "exits", "turns", "covered"};
 
 /// A rank that looks after what belongs to a face while data find their way.
 int rankFor(GlobalId face, const Comm& comm)
@@ -28,11 +30,12 @@ struct Holder
   bool owns;
 };
 
-/// A plane under way to the ranks that have one of its faces.
-struct SentPlane
+/// A plane or a pair under way to the ranks that have one of its faces.
+template <class Record>
+struct Sent
 {
   GlobalId face;
-  Plane plane;
+  Record record;
 };
 
 struct WantedFace
@@ -62,6 +65,32 @@ void forEachHolder(const std::vector<Holder>& all, GlobalId face, const F& f)
        h != all.end() && h->face == face; ++h)
     f(*h);
 }
+
+/// Planes or pairs that have a face here, sorted by key, from ranks that have read some of them
+/// each. Collective.
+template <class Record>
+std::vector<Record> withAFaceHere(const std::vector<Record>& read, const std::vector<Holder>& all,
+                                  const Comm& comm)
+{
+  std::vector<std::vector<Sent<Record>>> send(comm.size());
+  for (const Record& record : read)
+    for (const GlobalId face : record.faceId)
+      send[rankFor(face, comm)].push_back({face, record});
+  const std::vector<Sent<Record>> arrived = comm.exchange(send);
+  std::vector<std::vector<Record>> toHolder(comm.size());
+  for (const Sent<Record>& sent : arrived)
+    forEachHolder(all, sent.face,
+                  [&](const Holder& holder) { toHolder[holder.rank].push_back(sent.record); });
+  std::vector<Record> records = comm.exchange(toHolder);
+  const auto less = [](const Record& a, const Record& b) { return keyLess(a, b); };
+  std::sort(records.begin(), records.end(), less);
+  // Once only where both faces are here.
+  records.erase(std::unique(records.begin(), records.end(),
+                            [&](const Record& a, const Record& b)
+                            { return !less(a, b) && !less(b, a); }),
+                records.end());
+  return records;
+}
 } // namespace
 
 void Contact::save(StateTables& out) const
@@ -77,52 +106,58 @@ void Contact::save(StateTables& out) const
     }
   out.rows("contact/faces", faces);
 
-  KeyedRows planes;
-  planes.keySize = 2;
+  // Most pairs have nothing to remember: their planes follow from their faces.
+  KeyedRows planes, pairs;
+  planes.keySize = pairs.keySize = 2;
   planes.columns = namesOfNumbers();
+  pairs.columns = pairColumns;
   for (std::size_t p = 0; p < planes_.count(); ++p)
   {
     const Plane plane = prepared(p);
     if (!plane.countedHere)
       continue;
+    if (planes_.isBare(p, plane))
+    {
+      const std::array<Real, 4> numbers{Real(!plane.isNew()), Real(plane.exits), Real(plane.turns),
+                                        Real(plane.covered)};
+      std::copy(numbers.begin(), numbers.end(), pairs.add({plane.faceId[0], plane.faceId[1]}));
+      continue;
+    }
     Real* row = planes.add({plane.faceId[0], plane.faceId[1]});
     forEachNumber(plane, [&](const auto& number) { *row++ = Real(number); });
   }
   out.rows("contact/planes", planes);
+  out.rows("contact/pairs", pairs);
   out.numbers("contact/ended", ended_.numbers(*comm_));
   out.numbers("contact/counts", {Real(searches_.count), Real(comm_->sum(searches_.missed))});
 }
 
-std::vector<Plane> Contact::planesOfCheckpoint(const StateSource& in) const
+void Contact::readSlots(const StateSource& in)
 {
+  std::vector<Plane> planes;
   const KeyedRows rows = in.part("contact/planes", namesOfNumbers());
-  std::vector<std::vector<SentPlane>> send(comm_->size());
   for (std::size_t i = 0; i < rows.count(); ++i)
   {
-    Plane plane;
+    Plane& plane = planes.emplace_back();
     const Real* row = rows.row(i);
     plane.faceId[0] = rows.key(i)[0];
     plane.faceId[1] = rows.key(i)[1];
     forEachNumber(plane, [&](auto& number)
                   { number = static_cast<std::decay_t<decltype(number)>>(*row++); });
     plane.face[0] = plane.sighting == Sighting::Missed ? -1 : 0;
-    for (const GlobalId face : plane.faceId)
-      send[rankFor(face, *comm_)].push_back({face, plane});
+  }
+  std::vector<BarePair> pairs;
+  const KeyedRows bare = in.part("contact/pairs", pairColumns);
+  for (std::size_t i = 0; i < bare.count(); ++i)
+  {
+    const Real* row = bare.row(i);
+    pairs.push_back({{bare.key(i)[0], bare.key(i)[1]},
+                     row[0] != 0,
+                     {std::uint8_t(row[1]), std::uint8_t(row[2]), std::uint8_t(row[3])}});
   }
   const std::vector<Holder> all = holders(localFaces(), *comm_);
-  const std::vector<SentPlane> arrived = comm_->exchange(send);
-  std::vector<std::vector<Plane>> toHolder(comm_->size());
-  for (const SentPlane& sent : arrived)
-    forEachHolder(all, sent.face,
-                  [&](const Holder& holder) { toHolder[holder.rank].push_back(sent.plane); });
-  std::vector<Plane> planes = comm_->exchange(toHolder);
-  std::sort(planes.begin(), planes.end(), keyLess);
-  // Once only where both faces are here.
-  planes.erase(std::unique(planes.begin(), planes.end(),
-                           [](const Plane& a, const Plane& b)
-                           { return !keyLess(a, b) && !keyLess(b, a); }),
-               planes.end());
-  return planes;
+  firstHalf_.restored = withAFaceHere(planes, all, *comm_);
+  firstHalf_.bare = withAFaceHere(pairs, all, *comm_);
 }
 
 std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
@@ -143,8 +178,11 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   const std::vector<WantedFace> mine = comm_->exchange(toOwner);
   std::vector<std::vector<GhostFace>> answer(comm_->size());
   for (const WantedFace& one : mine)
+  {
     answer[one.byRank].push_back(
         toGhostFace(*findFace(localFaces().begin(), localFaces().end(), one.face), nodeIds));
+    answer[one.byRank].back().owner = comm_->rank();
+  }
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
@@ -168,13 +206,19 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
   }
 
   firstHalf_ = {};
-  firstHalf_.restored = planesOfCheckpoint(in);
+  readSlots(in);
   std::vector<GlobalId> wanted;
-  const auto isLocal = [&](GlobalId id) { return std::binary_search(ids.begin(), ids.end(), id); };
-  for (const Plane& plane : firstHalf_.restored)
-    for (const GlobalId face : plane.faceId)
-      if (plane.face[0] >= 0 && !isLocal(face))
+  const auto want = [&](const GlobalId(&faces)[2])
+  {
+    for (const GlobalId face : faces)
+      if (!std::binary_search(ids.begin(), ids.end(), face))
         wanted.push_back(face);
+  };
+  for (const Plane& plane : firstHalf_.restored)
+    if (plane.face[0] >= 0)
+      want(plane.faceId);
+  for (const BarePair& pair : firstHalf_.bare)
+    want(pair.faceId);
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
   firstHalf_.ghosts.faces = fetchGhosts(wanted, nodeIds);
@@ -187,12 +231,26 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
 void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
 {
   faces_.list(firstHalf_.ghosts.faces, layout);
+  rememberGhosts();
   const std::vector<Plane>& restored = firstHalf_.restored;
-  PlaneTable::Slots slots(restored.size(), restored.size());
-  for (std::size_t p = 0; p < restored.size(); ++p)
+  const std::vector<BarePair>& bare = firstHalf_.bare;
+  PlaneTable::Slots slots(restored.size() + bare.size(), restored.size());
+  slots.edges.resize(slots.plane.size());
+  std::size_t p = 0, b = 0;
+  for (std::size_t slot = 0; slot < slots.plane.size(); ++slot)
   {
+    if (b < bare.size() && (p == restored.size() || keyLess(bare[b], restored[p])))
+    {
+      const BarePair& pair = bare[b++];
+      for (int side = 0; side < 2; ++side)
+        slots.faces(slot).face[side] = faces_.place(pair.faceId[side]);
+      slots.activity(slot) = pair.lookedAt ? Activity::Asleep : Activity::Awake;
+      slots.edges[slot] = pair.edges;
+      continue;
+    }
     Plane& plane = *new (&slots.stored(p)) Plane(restored[p]);
-    slots.plane[p] = &plane;
+    ++p;
+    slots.plane[slot] = &plane;
     const int lower = faces_.place(plane.faceId[0]);
     plane.countedHere = lower >= 0 && faces()[lower].ownedHere;
     if (plane.face[0] >= 0)

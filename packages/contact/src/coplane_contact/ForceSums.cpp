@@ -13,7 +13,7 @@ void prefetch(const Plane& plane)
 }
 } // namespace
 
-void ForceSums::listPlanes(const SlotTable& slots, std::size_t localFaces)
+void ForceSums::listPlanes(const SlotTable& slots, std::size_t localFaces, std::size_t faces)
 {
   // Planes are visited in the order of their keys, so each face's list is in that order on every
   // rank.
@@ -25,6 +25,11 @@ void ForceSums::listPlanes(const SlotTable& slots, std::size_t localFaces)
                              face >= 0 && std::size_t(face) < localFaces)
                            visit(std::size_t(face), std::int32_t(2 * p + side));
                    }};
+  loaded_ = Array<std::int32_t>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::loaded"),
+                                planesOfFace_.entries().size());
+  loadedCount_ = Array<std::int32_t>("coplane::contact::loadedCount", localFaces);
+  changed_ = Array<std::uint8_t>("coplane::contact::changed", faces);
+  Kokkos::deep_copy(changed_, std::uint8_t(1));
 }
 
 void ForceSums::listFaces(const std::vector<Face>& localFaces, int ownedNodes)
@@ -41,23 +46,50 @@ void ForceSums::listFaces(const std::vector<Face>& localFaces, int ownedNodes)
                   }};
 }
 
+void ForceSums::listLoaded(const Array<Activity>& activity) const
+{
+  const auto planesOfFace = planesOfFace_.view();
+  const auto loaded = loaded_, loadedCount = loadedCount_;
+  const auto changed = changed_;
+  parallelFor(
+      "coplane::contact::listLoaded", int(loadedCount.extent(0)), KOKKOS_LAMBDA(const int face) {
+        if (changed(face) == 0)
+          return;
+        changed(face) = 0;
+        std::int32_t* const first = loaded.data() + planesOfFace.start[face];
+        std::int32_t* next = first;
+        for (const std::int32_t entry : planesOfFace[face])
+          if (activity(entry / 2) == Activity::Loaded)
+            *next++ = entry;
+        loadedCount(face) = std::int32_t(next - first);
+      });
+}
+
 void ForceSums::add(Plane* const* planes, const Array<Activity>& activity, const NodeVectors& f,
                     const Array<Real>& stiffness) const
 {
+  listLoaded(activity);
   const auto loads = faceLoads_;
-  const auto planesOfFace = planesOfFace_.view(), facesOfNode = facesOfNode_.view();
-  const std::int32_t* const end = planesOfFace_.entries().data() + planesOfFace_.entries().size();
-  constexpr std::int32_t ahead = 6;
+  const int* const start = planesOfFace_.view().start;
+  const auto facesOfNode = facesOfNode_.view();
+  const auto loaded = loaded_, loadedCount = loadedCount_;
+  const int faces = int(loads.extent(0));
+  constexpr int ahead = 3; // faces
   parallelFor(
-      "coplane::contact::faceLoads", int(loads.extent(0)), KOKKOS_LAMBDA(const int n) {
-        FaceLoad& load = *new (&loads(n)) FaceLoad;
-        for (const std::int32_t& entry : planesOfFace[n])
+      "coplane::contact::faceLoads", faces, KOKKOS_LAMBDA(const int face) {
+        const auto loadedOf = [&](int of) -> Stretch<std::int32_t>
         {
-          if (end - &entry > ahead && activity((&entry)[ahead] / 2) == Activity::Loaded)
-            prefetch(*planes[(&entry)[ahead] / 2]);
-          if (activity(entry / 2) == Activity::Loaded)
-            load.add(*planes[entry / 2], entry % 2);
-        }
+          const std::int32_t* const first = loaded.data() + start[of];
+          return {first, first + loadedCount(of)};
+        };
+        if (face + ahead < faces)
+          for (const std::int32_t entry : loadedOf(face + ahead))
+            prefetch(*planes[entry / 2]);
+        if (loadedCount(face) == 0)
+          return;
+        FaceLoad& load = *new (&loads(face)) FaceLoad;
+        for (const std::int32_t entry : loadedOf(face))
+          load.add(*planes[entry / 2], entry % 2);
       });
   parallelFor(
       "coplane::contact::addForces", int(facesOfNode_.count()), KOKKOS_LAMBDA(const int node) {
@@ -65,6 +97,8 @@ void ForceSums::add(Plane* const* planes, const Array<Activity>& activity, const
         Real sum = 0;
         for (const std::int32_t entry : facesOfNode[node])
         {
+          if (loadedCount(entry / 4) == 0)
+            continue;
           const FaceLoad& load = loads(entry / 4);
           force += load.force[entry % 4];
           sum += load.stiffness;

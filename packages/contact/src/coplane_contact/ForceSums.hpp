@@ -12,14 +12,22 @@ namespace coplane
 {
 /// Which planes are of which local face, and which faces of which owned node: sums what planes do
 /// at nodes in an order that hangs on ids alone, so that sums have the same bits on any ranks.
+///
+/// Of the slots of a face few are loaded. Each face has a list of those, which is made anew when
+/// one of its slots becomes loaded or ceases to be.
 class ForceSums
 {
 public:
   using SlotTable = Kokkos::View<SlotFaces*, Kokkos::HostSpace>;
 
   /// Lists of the planes of each local face.
-  /// @param slots of the planes, which are sorted by key; local faces come first in the table
-  void listPlanes(const SlotTable& slots, std::size_t localFaces);
+  /// @param slots of the planes, which are sorted by key; local faces come first in the table of
+  ///        faces
+  void listPlanes(const SlotTable& slots, std::size_t localFaces, std::size_t faces);
+
+  /// By face: 1 where slots have become loaded, or have ceased to be, since the last sum. For those
+  /// who change that.
+  const Array<std::uint8_t>& changed() const { return changed_; }
 
   /// Lists of the local faces of each owned node, unless they have been listed since
   /// forgetFaces().
@@ -38,8 +46,14 @@ public:
            const Array<Real>& stiffness) const;
 
 private:
-  Lists<std::int32_t> planesOfFace_;                     ///< 2 * plane + side, in the order of keys
-  Lists<std::int32_t> facesOfNode_;                      ///< 4 * face + corner, in the order of ids
+  void listLoaded(const Array<Activity>& activity) const;
+
+  Lists<std::int32_t> planesOfFace_; ///< 2 * plane + side, in the order of keys
+  Array<std::int32_t> loaded_;       ///< of each list of planesOfFace_ those that are loaded, from
+                                     ///< where that list begins
+  Array<std::int32_t> loadedCount_;  ///< by local face
+  Array<std::uint8_t> changed_;      ///< by face: loaded_ is out of date
+  Lists<std::int32_t> facesOfNode_;  ///< 4 * face + corner, in the order of ids
   Kokkos::View<FaceLoad*, Kokkos::HostSpace> faceLoads_; ///< what planes add to the nodes of a face
 };
 } // namespace coplane

@@ -214,8 +214,9 @@ struct SlotFaces
   std::int32_t face[2] = {-1, -1};
 };
 
-/// Key of a plane: permanent, independent of the partition.
-inline bool keyLess(const Plane& a, const Plane& b)
+/// Key of a plane, or of a pair without one: permanent, independent of the partition.
+template <class A, class B>
+bool keyLess(const A& a, const B& b)
 {
   return a.faceId[0] != b.faceId[0] ? a.faceId[0] < b.faceId[0] : a.faceId[1] < b.faceId[1];
 }

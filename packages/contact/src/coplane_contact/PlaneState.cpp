@@ -16,6 +16,20 @@ void addNames(const std::string& name, const T& value, std::vector<std::string>&
   else
     names.push_back(name);
 }
+
+/// As forEachPart, of two at once.
+template <class T, class F>
+void forEachPartOfTwo(const T& a, const T& b, const F& f)
+{
+  if constexpr (std::is_array_v<T>)
+    for (std::size_t i = 0; i < std::extent_v<T>; ++i)
+      forEachPartOfTwo(a[i], b[i], f);
+  else if constexpr (std::is_same_v<T, Vec3>)
+    for (int c = 0; c < 3; ++c)
+      f(a[c], b[c]);
+  else
+    f(a, b);
+}
 } // namespace
 
 std::vector<std::string> namesOfNumbers()
@@ -29,6 +43,20 @@ std::vector<std::string> namesOfNumbers()
           addNames(member.name, member.get(plane), names);
       });
   return names;
+}
+
+bool sameNumbers(const Plane& a, const Plane& b)
+{
+  bool same = true;
+  forEachMember(
+      [&](const auto& member)
+      {
+        if (!member.leftOut)
+          forEachPartOfTwo(member.get(a), member.get(b),
+                           [&](const auto& one, const auto& other)
+                           { same = same && one == other; });
+      });
+  return same;
 }
 
 void addTo(StateHash& hash, std::uint64_t what, const Plane& plane)

@@ -241,6 +241,9 @@ void forEachNumber(PlaneOrConst& plane, F&& f)
 /// Names of these numbers.
 std::vector<std::string> namesOfNumbers();
 
+/// Whether they are the same in two planes.
+bool sameNumbers(const Plane& a, const Plane& b);
+
 /// Adds these numbers to the hash of a state, as field `what`.
 void addTo(StateHash& hash, std::uint64_t what, const Plane& plane);
 } // namespace coplane

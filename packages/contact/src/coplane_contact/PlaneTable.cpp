@@ -1,3 +1,4 @@
+#include <coplane_contact/PlaneState.hpp>
 #include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/detail/FacePairLanes.hpp>
 
@@ -12,6 +13,13 @@ namespace
 constexpr Real stiffestCalm = 2.5;
 
 constexpr std::size_t wokenAtOnce = 128; ///< planes for which there is memory at once
+
+void putEdges(const EdgesOfPair& edges, Plane& plane)
+{
+  plane.exits = edges.exits;
+  plane.turns = edges.turns;
+  plane.covered = edges.covered;
+}
 } // namespace
 
 void PlaneList::clear()
@@ -70,6 +78,8 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
                 stiffestCalm;
   plane.depthLimit = depthMax_ * std::min(a.thickness, b.thickness);
+  if (!slots_.edges.empty())
+    putEdges(slots_.edges[slot], plane);
   return plane;
 }
 
@@ -85,6 +95,15 @@ Plane PlaneTable::prepared(std::size_t slot) const
   if (slots_.todo(slot) != 0)
     preparation_->prepare(int(slot), slots_.todo(slot), plane);
   return plane;
+}
+
+bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
+{
+  if (slots_.plane[slot] != nullptr)
+    return false;
+  Plane bare = freshPlane(slot);
+  putEdges({prepared.exits, prepared.turns, prepared.covered}, bare);
+  return sameNumbers(prepared, bare);
 }
 
 PairTables PlaneTable::forKernels(bool incremental)
@@ -120,6 +139,25 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces,
         plane != nullptr ? plane->countedHere : faces_(slots_.faces(p).face[0]).ownedHere;
   }
   list();
+}
+
+void PlaneTable::renew(std::shared_ptr<const Preparation> preparation, bool inherit)
+{
+  preparation_ = std::move(preparation);
+  passedOnHasChanged_ = false;
+  parallelFor("coplane::contact::renew", int(count()),
+              [&](const int p)
+              {
+                if (slots_.faces(p).face[0] < 0)
+                  return;
+                Plane* const plane = slots_.plane[p];
+                const bool asleep = isAsleep(p);
+                slots_.todo(p) = Preparation::todoOf(plane, asleep, inherit);
+                if (plane == nullptr || asleep)
+                  return;
+                preparation_->prepare(p, slots_.todo(p), *plane);
+                slots_.todo(p) = 0;
+              });
 }
 
 void PlaneTable::forgetPreparation()

@@ -33,6 +33,12 @@ private:
   std::vector<std::size_t> slots_;
 };
 
+/// What the last search has seen at the edges of the faces of a pair, as in its plane.
+struct EdgesOfPair
+{
+  std::uint8_t exits = 0, turns = 0, covered = 0;
+};
+
 /// The slots of the last search, sorted by key, in tables that every cycle looks through. Most
 /// pairs that a search finds are edge neighbours whose shadows never meet: all that there is to
 /// know of them are their faces, and whether they have been looked at. A slot gets its plane, of
@@ -54,6 +60,8 @@ public:
     Array<Activity> activity;  ///< without a plane: Asleep once it has been looked at
     Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
     Kokkos::View<Plane*, Kokkos::HostSpace> stored; ///< those that there are at once; to be made
+    /// Of a checkpoint, for slots without a plane; empty: the preparation tells.
+    std::vector<EdgesOfPair> edges;
   };
 
   /// @param rules that outlive this
@@ -74,6 +82,9 @@ public:
   Plane planeOf(std::size_t slot) const;
   /// The same when it has been told all that the last search knows.
   Plane prepared(std::size_t slot) const;
+  /// Whether all that there is to know of a slot are its faces, whether they have been looked at,
+  /// and what lies at their edges. @param prepared of the slot
+  bool isBare(std::size_t slot, const Plane& prepared) const;
 
   /// For the steps A to H, after which listWoken() is due. @param incremental closures are sums of
   /// increments
@@ -83,6 +94,9 @@ public:
   /// @param faces that slots refer to; preparation: tells planes the rest when they come near, null
   ///        where they know everything already
   void take(Slots slots, const Array<Face>& faces, std::shared_ptr<const Preparation> preparation);
+  /// Pairs that have not touched, and those that have parted, know from now on what `preparation`
+  /// tells, as after a search that finds the same pairs. @param inherit pairs take over from others
+  void renew(std::shared_ptr<const Preparation> preparation, bool inherit);
   /// Without what the last search had left to tell: for the time of the next one.
   void forgetPreparation();
   /// Takes the planes of these slots away; a search has to follow, which does not find the pairs.

@@ -53,11 +53,11 @@ void addToCorners(const LoadedSide& side, int ownedNodes, const NodeVectors& ext
 void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const
 {
   const auto external = state.external;
-  const ConstArray<Real> mass = state.mass;
+  const ConstArray<Real> mass = state.mass, added = state.addedMass;
   const Vec3 g = gravity(t);
   parallelFor(
       "coplane::dynamics::applyLoads", ownedNodes,
-      KOKKOS_LAMBDA(const int n) { set(external, n, mass(n) * g); });
+      KOKKOS_LAMBDA(const int n) { set(external, n, (mass(n) - added(n)) * g); });
   for (const FacePressure& load : pressures)
   {
     if (!load.when.holds(t))

@@ -37,6 +37,8 @@ void ElementForces::sumMasses(NodalState& state) const
         if (!blocks_[b].isTakenOut(entry / corners))
           state.mass(n) += blocks_[b].cornerMass(entry / corners, entry % corners);
   }
+  for (int n = 0; n < state.owned(); ++n)
+    state.mass(n) += state.addedMass(n);
 }
 
 ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int owned)
@@ -182,6 +184,23 @@ Real ElementForces::leastStepAround(int node) const
   forEachAround(node,
                 [&](std::size_t b, int e) { least = std::min(least, blocks_[b].stableStep()(e)); });
   return least;
+}
+
+Real ElementForces::massOverSquaredSteps(int node) const
+{
+  Real sum = 0;
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+  {
+    if (isRigid(b))
+      continue;
+    const int corners = topology(blocks_[b].type()).nodes;
+    for (const int entry : gathers_[b][node])
+    {
+      const Real step = blocks_[b].stableStep()(entry / corners);
+      sum += blocks_[b].cornerMass(entry / corners, entry % corners) / (step * step);
+    }
+  }
+  return sum;
 }
 
 GlobalId ElementForces::limitingElement(const RankMesh& mesh, int node) const

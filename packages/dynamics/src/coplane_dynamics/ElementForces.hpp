@@ -29,7 +29,8 @@ public:
 
   void setInitialStress(const Model& model);
 
-  /// Masses of the owned nodes from all elements that have not been taken out [kg].
+  /// Masses of the owned nodes from all elements that have not been taken out, and what mass
+  /// scaling has added [kg].
   void sumMasses(NodalState& state) const;
   /// A block as new, free of stress and force, with the nodes at x [m] and its stable steps there.
   void initialise(std::size_t block, const ConstNodeVectors& x);
@@ -46,6 +47,9 @@ public:
 
   Real smallestStep() const;            ///< stable, of this rank's elements [s]
   Real leastStepAround(int node) const; ///< of the elements around an owned node [s]
+  /// Sum of m / dt^2 over the elements around an owned node that deform: m their mass there, dt
+  /// their stable step [kg/s^2].
+  Real massOverSquaredSteps(int node) const;
   /// The lowest id among those with that step.
   GlobalId limitingElement(const RankMesh& mesh, int node) const;
 

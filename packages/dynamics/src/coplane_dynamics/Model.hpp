@@ -52,14 +52,22 @@ struct BlockSetup
   std::array<SymTensor, 4> stressOfSide(const RankMesh& mesh, const RankMesh::Side& side) const;
 };
 
+/// Nodal masses are raised until elements, planes and lines allow a given step.
+struct MassScalingOptions
+{
+  Real step = 0;    ///< [s]
+  Real limit = 0.1; ///< largest added mass of a block over its own [-]
+};
+
 struct TimeOptions
 {
   Real end = 0; ///< [s]
   Real stepFactor = 0.8;
   std::optional<Real> maximumStep, fixedStep; ///< [s]
-  Real energyTolerance = 0.1;                 ///< fraction of the energy in play
-  Real contactGainTolerance = 0.5;            ///< the same, of what contact may gain
-  bool endAtRest = false; ///< the end has come when relaxation has found the state of rest
+  std::optional<MassScalingOptions> massScaling;
+  Real energyTolerance = 0.1;      ///< fraction of the energy in play
+  Real contactGainTolerance = 0.5; ///< the same, of what contact may gain
+  bool endAtRest = false;          ///< the end has come when relaxation has found the state of rest
 };
 
 /// Everything the solver needs to know, on this rank.

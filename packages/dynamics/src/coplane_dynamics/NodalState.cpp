@@ -11,7 +11,8 @@ NodalState::NodalState(const RankMesh& mesh)
       angularImpulse("angularImpulse", mesh.ownedNodes), atSearch("atSearch", mesh.ownedNodes),
       externalWork("externalWork", mesh.ownedNodes), dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes),
-      totalWork("totalWork", mesh.ownedNodes), contactStiffness("contactStiffness", mesh.ownedNodes)
+      totalWork("totalWork", mesh.ownedNodes),
+      contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes)
 {
   for (int n = 0; n < mesh.nodes(); ++n)
     set(x, n, mesh.coordinates[n]);

@@ -13,7 +13,7 @@ struct NodalState
 {
   NodeVectors x;              ///< position at n [m]
   NodeVectors v;              ///< velocity at n + 1/2: the kick closes a cycle [m/s]
-  Array<Real> mass;           ///< lumped [kg]
+  Array<Real> mass;           ///< lumped, of inertia [kg]
   NodeVectors reference;      ///< position at the start [m]
   NodeVectors vPrevious;      ///< velocity at n - 1/2 [m/s]
   NodeVectors force;          ///< of elements, contact and lines at n [N]
@@ -32,6 +32,8 @@ struct NodalState
   Array<Real> totalWork;        ///< of all forces [J]
   /// What planes and lines add to the stiffness of the node, a bound [N/m].
   Array<Real> contactStiffness;
+  /// Part of the mass of owned nodes that mass scaling has added: inertia without weight [kg].
+  Array<Real> addedMass;
 
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }

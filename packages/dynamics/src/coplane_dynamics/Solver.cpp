@@ -102,10 +102,17 @@ void Solver::prepare()
   motion_->start(state_);
   refresh();
   leaveAbsentBlocks();
+  if (step_.scaling().acts())
+  {
+    findElementForces();
+    raiseMasses(true);
+    layout_.refresh(state_.mass);
+  }
   if (contact_)
     openContact();
   findForces(0);
   sumLoads();
+  raiseMasses(true);
   if (const auto step = agreeOnNextStep({})) // requests are for the first cycle
   {
     kick(*step);
@@ -128,6 +135,7 @@ void Solver::advance()
   clock_.step = dt;
   ++work_.cycles;
   sumLoads();
+  raiseMasses(false);
   if (const auto step = agreeOnNextStep(takeRequests()))
   {
     kick(*step);
@@ -154,6 +162,8 @@ void Solver::findForces(Real dt)
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searches_.isDue() || someDied))
     search();
+  else if (contact_ && searches_.isRenewalDue())
+    renewPairs();
   if (contact_)
     updatePlanes(dt);
   {
@@ -220,6 +230,13 @@ void Solver::search(bool again)
       KOKKOS_LAMBDA(const int n) { set(atSearch, n, at(x, n)); });
 }
 
+void Solver::renewPairs()
+{
+  TimedRegion region("coplane::dynamics::renewPairs");
+  contact_->renew(state_.x, layout_);
+  searches_.renewed();
+}
+
 /// First search, and declared joints closed.
 void Solver::openContact()
 {
@@ -276,14 +293,38 @@ void Solver::sumLoads()
   motion_->sumForcesOnBodies(state_, elements_);
 }
 
+void Solver::raiseMasses(bool atStart)
+{
+  if (step_.scaling().acts() && step_.scaling().raise(parts(), state_, atStart))
+    massesRaised_ = true;
+}
+
+/// Some rank has raised masses: all know them, and whether they are too large now.
+void Solver::agreeOnMasses()
+{
+  massesRaised_ = false;
+  layout_.refresh(state_.mass);
+  const std::string beyond = step_.scaling().beyondLimit(parts());
+  if (beyond.empty())
+    return;
+  failed_ = true;
+  trouble_ = Error(ExitCode::Computation, beyond);
+}
+
 std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
 {
   // One reduction decides everything that must not differ between ranks.
-  std::vector<Real> extremes{-step_.stable(parts()), Real(mine.results), Real(mine.checkpoint),
-                             Real(mine.stop), contact_ ? -contact_->thinnestElement() : -infinity};
+  std::vector<Real> extremes{-step_.stable(parts()),
+                             Real(mine.results),
+                             Real(mine.checkpoint),
+                             Real(mine.stop),
+                             contact_ ? -contact_->thinnestElement() : -infinity,
+                             Real(massesRaised_)};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
+  if (extremes[5] > 0 && !failed_)
+    agreeOnMasses();
   if (failed_)
     return std::nullopt;
   const Real step = step_.choose(-extremes[0], -extremes[4], searches_.relativeSpeed(), parts());

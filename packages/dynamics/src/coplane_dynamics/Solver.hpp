@@ -8,6 +8,7 @@
 #include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Lines.hpp>
+#include <coplane_dynamics/MassScaling.hpp>
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_dynamics/NodalMotion.hpp>
 #include <coplane_dynamics/NodalState.hpp>
@@ -114,6 +115,8 @@ public:
   const EnergyBalance& initialEnergy() const { return ledger_.initialEnergy(); }
   ErosionTotals erosion() const { return erosion_->totals(*comm_); }
   Momenta momenta() const { return ledger_.momenta(parts()); }
+  bool scalesMass() const { return step_.scaling().acts(); }
+  std::vector<AddedMass> addedMasses() const { return MassScaling::byBlock(parts()); } ///< by block
   StepControl stepControl() const { return step_.control(parts(), searches_.relativeSpeed()); }
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
@@ -151,15 +154,19 @@ private:
   void refresh();
   void findForces(Real dt);
   void sumLoads();
+  /// For the forces that there are now; agreeOnNextStep() tells other ranks.
+  void raiseMasses(bool atStart);
   /// The step of the next cycle, the same on all ranks, and their requests; nothing when an element
   /// or a force has failed, or the step is far too small. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
+  void agreeOnMasses(); ///< collective
   void kick(Real step);
   void relax(Real step);
   void planSearch();
   // Of findForces. Collective.
   bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
   void search(bool again = false);
+  void renewPairs();
   void updatePlanes(Real dt);
   void addContactForces();
 
@@ -234,6 +241,7 @@ private:
   Relaxation relaxation_;
   Ledger ledger_;
   BalanceWatch watch_;
+  bool massesRaised_ = false;    ///< on this rank, since ranks agreed on a step
   bool failed_ = false;          ///< the same on all ranks
   std::optional<Error> trouble_; ///< of this rank
   Requests requests_;

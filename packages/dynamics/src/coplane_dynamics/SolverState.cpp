@@ -18,7 +18,7 @@ struct NodeColumns
   std::vector<Array<Real>> scalars;
 };
 
-/// What changes of the owned nodes. Masses and places at the start come from the mesh.
+/// What changes of the owned nodes. Places at the start come from the mesh.
 NodeColumns nodeColumns(const NodalState& state)
 {
   NodeColumns columns;
@@ -49,6 +49,9 @@ NodeColumns nodeColumns(const NodalState& state)
   scalar("local_damping_work", state.localDampingWork);
   scalar("total_work", state.totalWork);
   scalar("contact_stiffness", state.contactStiffness);
+  // Mass scaling adds to masses bit by bit: what they are does not follow from both parts.
+  scalar("mass", state.mass);
+  scalar("added_mass", state.addedMass);
   return columns;
 }
 
@@ -116,10 +119,9 @@ void Solver::restore(const StateSource& in)
     leaveWithoutElements(dead, nullptr);
   layout_.refresh(state_.x, state_.v);
   if (model_.blocksComeOrGo)
-  {
     elements_.sumMasses(state_);
+  if (model_.blocksComeOrGo || model_.time.massScaling)
     layout_.refresh(state_.mass);
-  }
   if (contact_)
   {
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));

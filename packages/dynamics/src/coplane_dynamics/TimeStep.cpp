@@ -19,6 +19,8 @@ std::string StepControl::text() const
         "more than a fraction of the thinnest element behind one, {:.4g} m, in a "
         "step",
         relativeSpeed, thinnest);
+  if (scaledMass)
+    return "time.mass_scaling.step, for which masses are raised";
   if (rigid)
     return fmt::format("contact of the rigid body with node {}", node);
   if (!contact)
@@ -39,6 +41,8 @@ Real TimeStep::dampingRate(Real frequency) const
 
 Real TimeStep::nodeStep(const Parts& parts, int node) const
 {
+  if (scaling_.acts())
+    return scaling_.nodeStep(parts, node);
   const Real stiffness = parts.state.contactStiffness(node),
              elements = parts.elements.leastStepAround(node);
   if (stiffness == 0)
@@ -56,6 +60,8 @@ Real TimeStep::bodyStep(const Parts& parts) const
 
 Real TimeStep::stable(const Parts& parts) const
 {
+  if (scaling_.acts())
+    return std::min(bodyStep(parts), scaling_.stable(parts));
   const Real least = std::min(
       {bodyStep(parts), parts.elements.smallestStep(), parts.motion.freeFields().stableStep()});
   if (!parts.contact && parts.lines.empty())
@@ -104,7 +110,10 @@ Real TimeStep::choose(Real stable, Real thinnest, Real relativeSpeed, const Part
   const Clock& clock = parts.clock;
   stable_ = stable;
   thinnest_ = thinnest;
-  Real step = std::min(options_.stepFactor * stable, motionStep(thinnest, relativeSpeed));
+  Real step = options_.stepFactor * stable;
+  if (scaling_.acts() && stable == scaling_.target())
+    step = options_.massScaling->step; // without rounding
+  step = std::min(step, motionStep(thinnest, relativeSpeed));
   if (options_.maximumStep)
     step = std::min(step, *options_.maximumStep);
   if (options_.fixedStep)
@@ -126,6 +135,8 @@ Real TimeStep::choose(Real stable, Real thinnest, Real relativeSpeed, const Part
 
 void TimeStep::boundFirst(Real elements, Real thinnest, Real relativeSpeed)
 {
+  if (scaling_.acts())
+    elements = std::max(elements, scaling_.target());
   Real least = std::min(options_.stepFactor * elements, motionStep(thinnest, relativeSpeed));
   least = std::min(least, options_.maximumStep.value_or(infinity));
   least = options_.fixedStep.value_or(least);
@@ -177,6 +188,12 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
   const Real mine = control.stableStep, bodies = bodyStep(parts);
   const Real least = parts.comm.min(mine);
   control.stableStep = std::min(least, bodies);
+  if (scaling_.acts())
+  {
+    const Real cap = std::max(scaling_.target(), parts.comm.min(parts.elements.smallestStep()));
+    control.scaledMass = cap <= control.stableStep && cap == scaling_.target();
+    control.stableStep = std::min(control.stableStep, cap);
+  }
   if (parts.contact)
   {
     control.relativeSpeed = relativeSpeed;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_dynamics/MassScaling.hpp>
 #include <coplane_dynamics/Parts.hpp>
 #include <coplane_dynamics/StepGrowth.hpp>
 
@@ -12,6 +13,7 @@ struct StepControl
 {
   Real stableStep = infinity;           ///< without the safety factor [s]
   GlobalId node = 0;                    ///< the node with it (the lowest id when several have)
+  bool scaledMass = false;              ///< masses are raised for this step and no larger one
   bool motion = false;                  ///< the motion of faces limits it, see TimeStep::motionStep
   Real relativeSpeed = 0, thinnest = 0; ///< with motion [m/s], [m]
   bool rigid = false;                   ///< a rigid body, which has the node, is what limits it
@@ -29,10 +31,11 @@ class TimeStep
 public:
   /// @param contactDamping the larger damping ratio of planes [-]
   TimeStep(const TimeOptions& options, Real contactDamping)
-      : options_(options), contactDamping_(contactDamping)
+      : options_(options), contactDamping_(contactDamping), scaling_(options, contactDamping)
   {
   }
 
+  const MassScaling& scaling() const { return scaling_; }
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stable(const Parts& parts) const;
@@ -77,6 +80,7 @@ private:
 
   TimeOptions options_;
   Real contactDamping_;
+  MassScaling scaling_;
   StepGrowth growth_;
   Real largestNext_ = 0;
   Real stable_ = infinity, thinnest_ = infinity; ///< that the last step was chosen from

@@ -220,6 +220,9 @@ struct TimeCard
   Real stepFactor = 0.8;           ///< fraction of the stable step [-]
   std::optional<Real> maximumStep; ///< [s]
   std::optional<Real> fixedStep;   ///< [s]; refused above the stable step only by a warning
+  std::optional<Real> scaledStep;  ///< that masses are raised for; not given: they are not [s]
+  Real scalingLimit = 0.1;         ///< largest added mass of a block over its own [-]
+  bool scalingWithWaves = false;   ///< also with absorbing sides and ground motions
   bool endAtRest = false; ///< the run ends when damping does, by a ratio of the section damping
   Real energyTolerance =
       0.1; ///< stop when the balance is off by this fraction of the energy in play [-]

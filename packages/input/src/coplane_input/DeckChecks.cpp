@@ -139,6 +139,41 @@ void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
                              *deck.dampingUntil, deck.dampingFrom));
 }
 
+void checkMassScaling(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  if (!deck.time.scaledStep)
+    return;
+  const DeckNode& node = nodeAt(root, {"time", "mass_scaling"});
+  if (deck.time.fixedStep)
+    problems.add(node, "time.mass_scaling and time.fixed_step give two steps; accepted: one of "
+                       "them. Masses follow mass_scaling.step.");
+  if (deck.time.maximumStep && *deck.time.maximumStep < *deck.time.scaledStep)
+    problems.add(nodeAt(node, {"step"}),
+                 fmt::format("time.mass_scaling.step = {:g} s is above time.maximum_step = {:g} s: "
+                             "mass would be added for nothing; accepted: at most that.",
+                             *deck.time.scaledStep, *deck.time.maximumStep));
+  for (std::size_t i = 0; i < deck.stages.size(); ++i)
+    for (const char* key : {"remove", "add"})
+      if (const DeckNode* given = nodeAt(root, {"stages", std::to_string(i)}).find(key))
+        problems.add(*given,
+                     fmt::format("stages.{}.{} does not go with time.mass_scaling: what blocks "
+                                 "have of an added mass is not known when they come or leave; "
+                                 "accepted: stages that change conditions, loads and strengths.",
+                                 i, key));
+  for (std::size_t i = 0; i < deck.conditions.size(); ++i)
+  {
+    const std::string& type = deck.conditions[i].type;
+    if (!deck.time.scalingWithWaves && (type == "absorbing" || type == "acceleration"))
+      problems.add(node,
+                   fmt::format("time.mass_scaling with conditions.{} of type {}: added mass slows "
+                               "waves down and sends them back, so what the condition is for comes "
+                               "out wrong. Remove mass_scaling, or set "
+                               "time.mass_scaling.with_waves: true if no wave passes where mass is "
+                               "added.",
+                               i, type));
+  }
+}
+
 void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
@@ -609,6 +644,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkPairs(deck, root, joints, problems);
   checkConditions(deck, root, problems);
   checkDamping(deck, root, problems);
+  checkMassScaling(deck, root, problems);
   checkForces(deck, root, problems);
   checkErosion(deck, root, problems);
   checkBlockDamping(deck, root, problems);

@@ -616,6 +616,30 @@ Key timeGroup()
                        .defaultIs("the step follows the stable step")
                        .like("1e-6")
                        .means("time step of all cycles"),
+                   section("mass_scaling",
+                           {
+                               number("step", &TimeCard::scaledStep)
+                                   .needed()
+                                   .in("s")
+                                   .elsewhere({"dt2ms", "dt2msf"})
+                                   .above(0)
+                                   .like("2e-6")
+                                   .means("time step that elements, contact and lines allow after "
+                                          "masses of nodes have been raised"),
+                               number("limit", &TimeCard::scalingLimit)
+                                   .in("-")
+                                   .above(0)
+                                   .like("0.02")
+                                   .means("the run stops when the mass that is added to a block "
+                                          "is above this part of its own"),
+                               flag("with_waves", &TimeCard::scalingWithWaves)
+                                   .like("true")
+                                   .means("also with absorbing sides and accelerations of the "
+                                          "ground, where added mass slows waves down and "
+                                          "sends them back"),
+                           })
+                       .means("nodal masses are raised where the stable step is smaller than a "
+                              "given one: for slow motions only"),
                    number("energy_tolerance", &TimeCard::energyTolerance)
                        .in("-")
                        .above(0)

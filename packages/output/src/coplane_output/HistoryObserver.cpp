@@ -87,6 +87,20 @@ void addMomenta(Columns& line, const Momenta& momenta)
   line.add("angular_momentum_error", "[N*m*s]", momenta.angularError());
 }
 
+void addAddedMasses(Columns& line, const Solver& solver)
+{
+  const std::vector<AddedMass> blocks = solver.addedMasses();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+  {
+    if (solver.model().blocks[b].rigid)
+      continue;
+    const std::string& name = solver.model().blocks[b].name;
+    line.add(name + "_added_mass[kg]", blocks[b].added);
+    line.add(name + "_added_momentum", "[N*s]", blocks[b].momentum);
+    line.add(name + "_added_kinetic[J]", blocks[b].kinetic);
+  }
+}
+
 void addBody(Columns& line, const std::string& name, const RigidBodies::BodyMotion& motion)
 {
   line.add(name + "_displacement", "[m]", motion.displacement);
@@ -354,6 +368,8 @@ void HistoryObserver::write(const Solver& solver)
   const ErosionTotals erosion = solver.erosion();
   line.add("eroded_elements", erosion.elements);
   line.add("eroded_mass[kg]", erosion.mass);
+  if (solver.scalesMass())
+    addAddedMasses(line, solver);
   const std::vector<Real> probes = probeValues(solver);
   const std::vector<Vec3> reactionsOf = reactions(solver);
   const std::vector<NamedValues> planes = planeValues(solver, probes);

@@ -144,6 +144,20 @@ Json linesOf(const Solver& solver)
   return list;
 }
 
+Json addedMassesOf(const Solver& solver)
+{
+  Json list = Json::array();
+  const std::vector<AddedMass> blocks = solver.addedMasses();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    list.push_back(
+        {{"block", solver.model().blocks[b].name},
+         {"mass_kg", blocks[b].own},
+         {"added_kg", blocks[b].added},
+         {"added_momentum_Ns", {blocks[b].momentum.x, blocks[b].momentum.y, blocks[b].momentum.z}},
+         {"added_kinetic_J", blocks[b].kinetic}});
+  return list;
+}
+
 Json energiesOf(const EnergyBalance& e)
 {
   return {{"kinetic", e.kinetic},
@@ -319,6 +333,8 @@ void RunRecord::finish(const Solver& solver, const Ending& ending)
   json["energies_J"] = energiesOf(solver.energy());
   if (!solver.lines().empty())
     json["lines"] = linesOf(solver);
+  if (solver.scalesMass())
+    json["added_masses"] = addedMassesOf(solver);
   json["state_hash"] = fmt::format("{:016x}", solver.stateHash());
   const Repartitions& rebalances = solver.repartitions();
   json["rebalances"] = {{"count", rebalances.count},

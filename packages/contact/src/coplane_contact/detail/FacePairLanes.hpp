@@ -78,12 +78,14 @@ struct PairTables
   const JointLaw* laws;
   bool incremental;          ///< closures are sums of increments
   std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
+  /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
+  std::uint8_t* changedFaces = nullptr;
 
   PassedOn passedBy(int p) const { return {*planes[p], laws[planes[p]->joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
   void book(int p, const PassedOn& before) const
   {
-    activity[p] = activityOf(*planes[p]);
+    setActivity(p, activityOf(*planes[p]));
     if (!passed->load(std::memory_order_relaxed) && passedBy(p) != before)
       passed->store(true, std::memory_order_relaxed);
   }
@@ -96,7 +98,14 @@ struct PairTables
       return;
     if (planes[p] != nullptr)
       coplane::passBy(*planes[p], a, b, dt);
-    activity[p] = Activity::Asleep;
+    setActivity(p, Activity::Asleep);
+  }
+  void setActivity(int p, Activity now) const
+  {
+    if (changedFaces != nullptr && (activity[p] == Activity::Loaded) != (now == Activity::Loaded))
+      for (const std::int32_t face : slots[p].face)
+        __atomic_store_n(&changedFaces[face], std::uint8_t(1), __ATOMIC_RELAXED); // by any thread
+    activity[p] = now;
   }
   /// Before a pair is evaluated that its faces have just brought near.
   void prepare(int p) const
