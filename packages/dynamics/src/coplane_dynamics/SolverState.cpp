@@ -101,6 +101,8 @@ void Solver::save(StateTables& out) const
     contact_->save(out);
   motion_->save(layout_.ids(), out);
   lines_->save(out);
+  if (debris_)
+    debris_->save(out);
   erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
@@ -129,6 +131,11 @@ void Solver::restore(const StateSource& in)
   }
   motion_->restore(layout_.ids(), in);
   lines_->restore(in);
+  if (debris_)
+  {
+    renewDebris();
+    debris_->restore(in, mesh(), elements_, state_);
+  }
   findElementForces();
   restoreNumbers(in);
   if (contact_)
@@ -210,7 +217,8 @@ std::uint64_t Solver::stateHash() const
     PlaneField = 200,
     Time = 300,
     LineField = 400,
-    FreeFieldNumber = 500
+      FreeFieldNumber = 500,
+      DebrisField = 600
   };
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -245,6 +253,8 @@ std::uint64_t Solver::stateHash() const
     // Every rank has all of these.
     lines_->addTo(hash, LineField);
     motion_->freeFields().addTo(hash, FreeFieldNumber);
+    if (debris_)
+      debris_->addTo(hash, DebrisField);
   }
   std::vector<std::uint64_t> total{hash.part()};
   comm_->sum(total);

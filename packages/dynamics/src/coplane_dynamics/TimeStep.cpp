@@ -61,7 +61,8 @@ Real TimeStep::bodyStep(const Parts& parts) const
 Real TimeStep::stable(const Parts& parts) const
 {
   if (scaling_.acts())
-    return std::min(bodyStep(parts), scaling_.stable(parts));
+    return std::min(
+        {bodyStep(parts), scaling_.stable(parts), parts.motion.freeFields().stableStep()});
   const Real least = std::min(
       {bodyStep(parts), parts.elements.smallestStep(), parts.motion.freeFields().stableStep()});
   if (!parts.contact && parts.lines.empty())
