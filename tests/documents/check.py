@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 from coplanetest import browser
+from drawn import check_classic, check_packages, check_potential  # noqa: F401
 
 SOURCE = pathlib.Path(os.environ["COPLANE_SOURCE"])
 BINARIES = pathlib.Path(os.environ["COPLANE_BIN"])
@@ -34,26 +35,6 @@ def check_format():
     done = run(["clang-format", "--dry-run", "-Werror", *names], cwd=SOURCE)
     assert done.returncode == 0, done.stdout[:4000]
     print(f"{len(names)} files are formatted")
-
-
-def check_packages():
-    """The picture of the packages is the one that their dependency files give."""
-    picture = pathlib.Path("packages.svg")
-    done = run([sys.executable, str(SOURCE / "packages/cmake/draw-packages.py"), str(picture)])
-    assert done.returncode == 0, done.stdout
-    kept = (SOURCE / "docs/developer/packages.svg").read_text()
-    assert picture.read_text() == kept, "docs/developer/packages.svg is old: run packages/cmake/draw-packages.py"
-
-
-def check_classic():
-    """The picture of corners under both kinds of common plane is the one that the contact package gives."""
-    table = run([str(BINARIES / "coplane_classic_corner_table")])
-    assert table.returncode == 0, table.stdout
-    picture = pathlib.Path("classic-corners.svg")
-    done = run([sys.executable, str(SOURCE / "docs/theory/pictures/draw-classic.py"), str(picture)], input=table.stdout)
-    assert done.returncode == 0, done.stdout
-    kept = (SOURCE / "docs/theory/pictures/classic-corners.svg").read_text()
-    assert picture.read_text() == kept, "docs/theory/pictures/classic-corners.svg is old: see docs/theory/pictures/draw-classic.py"
 
 
 def check_verification():

@@ -1,20 +1,23 @@
 #!/usr/bin/env python3
 """Contact of one revision of the program beside another, in tables: seams, corners, tumbling bodies, inclines.
 
-    python3 tests/measure/contact_tables.py BEFORE/bin AFTER/bin > tables.md
+    python3 tests/measure/contact_tables.py BEFORE/bin AFTER/bin [TABLE ...] > tables.md
+    python3 tests/measure/contact_tables.py BEFORE/bin AFTER/bin examples [NAME/SIZE/VARIANT ...] > examples.md
 
-Takes some ten minutes on one core, in a folder contact_tables beside the working folder. Decks give only keys that both revisions know.
+Without names: all tables but the examples, some ten minutes on one core; the examples at size S take another half an hour. Works in a folder contact_tables
+of the working folder. Decks give only keys that both revisions know.
 """
 
 import itertools
 import math
 import os
 import pathlib
+import re
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
 import numpy
-from coplanetest import Case, documents
+from coplanetest import Case, examples
 
 DENSITY, G = 2000.0, 9.81
 SOFT = {"model": "linear_elastic", "density": DENSITY, "youngs_modulus": 1e8, "poisson_ratio": 0.2}
@@ -223,9 +226,9 @@ def floors(runs):
 
 
 # --- a box of blocks ------------------------------------------------------------------------------------------------
-def tumbling(end, factor):
+def tumbling(end, factor, start=0):
     """Nine blocks fly in a box without friction, damping or viscosity: all energy can come back. The law has an energy
-    of its own, so that what is lost is lost by contact.
+    of its own, so that what is lost is lost by contact. `start`: which of several first motions.
     """
     walls = [box("walls", [-0.1, -0.1], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 1.2], [1.4, 0.1], [7, 1]), box("walls", [-0.1, 0.0], [0.1, 1.2], [1, 6]),
              box("walls", [1.2, 0.0], [0.1, 1.2], [1, 6])]
@@ -235,22 +238,28 @@ def tumbling(end, factor):
         names.append(name)
         center = [0.2 + 0.4 * i, 0.2 + 0.4 * j]
         parts.append(box(name, [center[0] - 0.08, center[1] - 0.08], [0.16, 0.16], [2, 2], rotate=13.0 * (i + 2 * j), about=center))
-        initial.append({"block": name, "velocity": [1.5 * math.cos(7 * i + 3 * j), 1.5 * math.sin(5 * i + 11 * j), 0.0],
+        initial.append({"block": name, "velocity": [1.5 * math.cos(7 * i + 3 * j + start), 1.5 * math.sin(5 * i + 11 * j + start), 0.0],
                         "angular_velocity": [0.0, 0.0, 3.0 * math.cos(i - 2 * j)], "center": [*center, 0.0]})
     recipe = {"dimension": 2, "parts": [*walls, *parts], "node_sets": {"walls": {"block": "walls"}}}
     deck = {
         "materials": {"soft": {**SOFT, "model": "neo_hookean"}}, "blocks": {name: {"material": "soft"} for name in ("walls", *names)},
         "time": {"end": end, "step_factor": factor, "energy_tolerance": 1e9}, "conditions": [{"type": "fixed", "node_set": "walls"}], "initial": initial,
-        "viscosity": {"linear": 0, "quadratic": 0}, "output": {"planes": False}, "history": {"every": end / 200},
+        "viscosity": {"linear": 0, "quadratic": 0}, "output": {"planes": False}, "history": {"every": end / 1000},
     }
     return recipe, deck
 
 
 def boxes(runs):
+    """One motion is no measure: each run goes another way after some bounces. So eight of them."""
     rows = []
-    for factor in (0.8, 0.4, 0.2, 0.1):
-        rows.append([factor, *(f"{lost(run):.1e}{ended(run)}" for run in runs.both(*tumbling(2.0, factor)))])
-    table("Nine blocks in a box for 2 s: remainder over the largest kinetic energy", ["step factor", "before", "after"], rows)
+    for end, factor in itertools.product((2.0, 10.0), (0.8, 0.4, 0.2, 0.1, 0.05)):
+        found = [[], []]
+        for start in range(8):
+            for which, run in enumerate(runs.both(*tumbling(end, factor, start))):
+                found[which].append(lost(run))
+        rows.append([f"{end:g}", factor, *(f"{f(numpy.array(values)):.1e}" for values in found for f in (numpy.median, numpy.max))])
+    table("Nine blocks in a box: remainder over the largest kinetic energy, of eight first motions",
+          ["time [s]", "step factor", *(f"{what}, {when}" for when in ("before", "after") for what in ("median", "largest"))], rows)
 
 
 # --- inclines -----------------------------------------------------------------------------------------------------
@@ -272,16 +281,66 @@ def inclines(runs):
     table("A block slides down an incline: way against g (sin - friction cos) t^2 / 2", ["slabs", "before", "after"], rows)
 
 
+# --- examples -----------------------------------------------------------------------------------------------------
+SHOWN = ["rocking_block_2d/S", "arch_2d/S", "arch_2d/S/falls", "column_3d/S", "column_3d/S/stands", "ball_wall_2d/S", "projectile_wall_2d/S", "bar_wall_3d/S", "jointed_rock_2d/S",
+         "explosion_3d/S"]  # fmt: skip
+PARTS = ("contact_friction", "contact_hysteresis", "contact_fracture", "contact_damping")
+
+
+def whole(deck):
+    """Values in place of their names: the first release has no `define`."""
+    named = {name: f"({value!r})" for name, value in deck.pop("define", {}).items()}
+
+    def put(value):
+        if isinstance(value, dict):
+            return {key: put(item) for key, item in value.items()}
+        if isinstance(value, list):
+            return [put(item) for item in value]
+        if isinstance(value, str):
+            for name, number in named.items():
+                value = re.sub(rf"(?<![\w.]){name}(?![\w(])", number, value)
+        return value
+
+    return put(deck) if named else deck
+
+
+def largest(values):
+    return float(values[numpy.argmax(numpy.abs(values))])
+
+
+def shown(runs, names):
+    rows = []
+    for name in names:
+        recipe, deck, _ = examples.sized(*name.split("/"))
+        deck = whole(deck)
+        deck["output"]["planes"] = False
+        for when, run in zip(("before", "after"), runs.both(recipe, deck)):
+            h, record = run.history, run.record
+            in_play = max(h["initial"][-1], *(numpy.abs(h[column]).max() for column in ("kinetic", "internal", "external_work")))
+            internal = numpy.abs(h["internal"]).max()
+            parts = [f"{largest(h[part]) / in_play:.1e}" for part in PARTS if part in h]
+            rows.append([name.replace("/", " "), when + ended(run), f"{largest(h['contact_stored']) / in_play:.1e}", *parts, f"{largest(h['contact_remainder']) / in_play:.1e}",
+                         f"{100 * numpy.abs(h['hourglass']).max() / internal:.2g} %" if internal > 0 else "rigid", f"{record['wall_seconds']:.0f}"])  # fmt: skip
+            print(f"{name} {when}: {rows[-1]}", file=sys.stderr, flush=True)
+    table("Examples: parts of the work of contact and the remainder, each at its largest over the energy in play; hourglass energy over the largest internal one",
+          ["example", "", "stored", "friction", "hysteresis", "fracture", "damping", "remainder", "hourglass", "seconds"], rows)  # fmt: skip
+
+
 TABLES = {"seams_2d": lambda runs: seams(runs, 2), "seams_3d": lambda runs: seams(runs, 3), "corners": corners, "ends": ends, "floors": floors, "boxes": boxes,
           "inclines": inclines}
 if __name__ == "__main__":
     folders = [os.path.abspath(folder) for folder in sys.argv[1:3]]
     if len(folders) != 2:
         sys.exit(__doc__)
+    wanted = sys.argv[3:] or [*TABLES]
     work = pathlib.Path("contact_tables")
     work.mkdir(exist_ok=True)
     os.chdir(work)
-    for name in sys.argv[3:] or TABLES:
+    if wanted[0] == "examples":
+        os.environ["COPLANE_BIN"] = folders[1]
+        names, wanted = wanted[1:] or SHOWN, ["examples"]
+        TABLES["examples"] = lambda runs: shown(runs, names)
+    for name in wanted:
         pathlib.Path(name).mkdir(exist_ok=True)
         os.chdir(name)
         TABLES[name](Runs(folders))
