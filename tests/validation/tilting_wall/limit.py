@@ -3,7 +3,6 @@
 import numpy
 
 LENGTH, COURSE, FRICTION = 0.4, 0.175, 0.65  # [m], [m], [-]: stones of Ferris and Tin-Loi's walls
-CLIMB = 0.01  # part of the friction that may still climb in the iteration for friction that does not
 
 
 def _courses(*rows):
@@ -90,45 +89,29 @@ def least(cost, equations, right, steps=80):
     raise ArithmeticError("the linear program did not converge")
 
 
-def multiplier(courses, friction=FRICTION, held=None):
-    """The largest part of its weight that a wall bears to the side, and the normal forces [weights of a stone].
+def multiplier(courses, friction=FRICTION):
+    """The largest part of its weight that a wall bears to the side.
 
-    Equilibrium of every stone under its weight and the part of it to the side; in every joint forces at its two ends, pushes alone. held: None, the bound of friction grows with
-    the normal force, and the rule of flow is the associated one (stones that slide climb): the theorem of limit analysis makes that a bound from above of what Coulomb's friction
-    without climbing bears. Else the bound of friction [weights] of each joint, whatever its normal force.
+    Equilibrium of every stone under its weight and that part of it to the side; in every joint forces at its two ends that push and lie within the cone of friction. The multiplier is that of stones
+    that climb as they slide (the associated rule of flow); by the static theorem stones that do not climb, as Coulomb's, bear no more.
     """
     found = stones(courses)
     rows = joints(found)
-    count = 4  # forces in a joint: at two ends, each to one side or the other; or at two ends, and along it to one side or the other
-    matrix = numpy.zeros((3 * len(found), count * len(rows) + 1))
-
-    def push(column, stone, at, force, sign):
-        if stone < 0:
-            return
-        x, y, length = found[stone]
-        arm = numpy.array(at) - (x + length / 2, y + COURSE / 2)
-        matrix[3 * stone : 3 * stone + 3, column] += sign * numpy.array([force[0], force[1], (arm[0] * force[1] - arm[1] * force[0]) / LENGTH])
-
+    matrix = numpy.zeros((3 * len(found), 4 * len(rows) + 1))
     for k, (one, other, first, second, normal) in enumerate(rows):
         along = numpy.array([normal[1], -normal[0]])
-        forces = [(first, 1), (first, -1), (second, 1), (second, -1)] if held is None else [(first, 0), (second, 0), (first, 1), (first, -1)]
-        for i, (at, side) in enumerate(forces):
-            force = numpy.array(normal) + side * friction * along if held is None else side * along if side else numpy.array(normal)
+        for i, (at, side) in enumerate([(first, 1), (first, -1), (second, 1), (second, -1)]):
+            force = numpy.array(normal) + side * friction * along
             for stone, sign in ((one, 1), (other, -1)):
-                push(count * k + i, stone, at, force, sign)
-    weights = numpy.array([length / LENGTH for _, _, length in found])
+                if stone < 0:
+                    continue
+                x, y, length = found[stone]
+                arm = numpy.array(at) - (x + length / 2, y + COURSE / 2)
+                matrix[3 * stone : 3 * stone + 3, 4 * k + i] += sign * numpy.array([*force, (arm[0] * force[1] - arm[1] * force[0]) / LENGTH])
+    weights = numpy.array([length / LENGTH for _, _, length in found])  # of a stone
     matrix[0::3, -1] = weights
     right = numpy.zeros(len(matrix))
     right[1::3] = weights
-    columns = matrix.shape[1]
-    if held is not None:  # both pushes along a joint and what is left of the bound add up to it
-        bound = numpy.zeros((len(rows), columns + len(rows)))
-        for k in range(len(rows)):
-            bound[k, [count * k + 2, count * k + 3, columns + k]] = 1
-            bound[k, [count * k, count * k + 1]] = -CLIMB * friction
-        matrix, right = numpy.vstack([numpy.hstack([matrix, numpy.zeros((len(matrix), len(rows)))]), bound]), numpy.concatenate([right, held])
     cost = numpy.zeros(matrix.shape[1])
-    cost[columns - 1] = -1
-    solution = least(cost, matrix, right)
-    parts = solution[: count * len(rows)].reshape(-1, count)
-    return float(solution[columns - 1]), parts.sum(axis=1) if held is None else parts[:, :2].sum(axis=1)
+    cost[-1] = -1
+    return float(least(cost, matrix, right)[-1])
