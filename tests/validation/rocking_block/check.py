@@ -96,7 +96,7 @@ def calculix_slide(name, friction=0.3, bystander=100.0):
         *NODE PRINT, NSET=NBx0
         U
         *END STEP""")
-    spent = deck.run(name, timeout=150)
+    spent = deck.run(name, timeout=600)
     if spent is None:
         return None, None, len(deck.own)
     return calculix.printed(name)[-1][3][:, 1].mean(), spent, len(deck.own)
@@ -145,7 +145,7 @@ def calculix_rock(name, step, bystander=100.0):
         *NODE PRINT, NSET=NBx0
         U
         *END STEP""")
-    spent = deck.run(name, timeout=240)
+    spent = deck.run(name, timeout=600)
     if spent is None:
         return None, None, None, len(deck.own)
     tables = calculix.printed(name)

@@ -82,12 +82,12 @@ climbing = {name: limit.multiplier(courses) for name, courses in limit.walls().i
 case.check("limit analysis of wall 1 against the published multiplier", climbing["wall 1"], 0.643, 1e-3, relative=True)
 for name, exact in climbing.items():
     for part in (STANDS[name], 1.04):
-        moved, run, _ = stand(f"{name.replace(' ', '_')}_{part}", published(name), part * exact, friction=limit.FRICTION)
+        moved, run, _ = stand(f"{name.replace(' ', '_')}_{part}", published(name), part * exact, friction=limit.FRICTION, stiffness=1e10)
         words = f"{name} of Ferris and Tin-Loi: at {part} of the multiplier {exact:.4f} of limit analysis: motion [m]"
         case.check_within(words, moved, *((2e-3, math.inf) if part > 1 else (0, 1.5e-3)))
 if case.full:
     for name, exact in climbing.items():
-        for stiffness in (5e9, 5e10):
+        for stiffness in (1e10,) if name not in ("wall 1", "wall 3") else (1e10, 5e10):
             for part in (0.99, 0.97, 0.95, 0.92, 0.89, 0.86, 0.83, 0.8):
                 moved, _, spent = stand(f"{name.replace(' ', '_')}_search", published(name), part * exact, friction=limit.FRICTION, stiffness=stiffness)
                 if moved < 1.5e-3:
