@@ -59,6 +59,14 @@ class Input:
         """Lines of one's own."""
         self.own += [line.strip() for line in text.strip().splitlines()]
 
+    def bystander(self, at, speed, material):
+        """A block of one element [m] at this corner, nowhere near the others, that flies past along y with this speed [m/s]. In implicit steps with contact CalculiX refuses a converged increment whose balance of
+        energy has changed by more than 0.25 % of the largest energy so far (checkimpacts.f: "Friction has not been tested deeply"). Bodies that begin at rest have none yet, so that each increment is refused and cut until
+        "too many cutbacks" or "solution seems to diverge". The energy of the bystander is what it takes its share of; the forces between the others do not change. Returns the lines of its section and of its velocity.
+        """
+        self.box("BYSTANDER", at, tuple(x + 0.1 for x in at), (1, 1, 1))
+        return f"*SOLID SECTION, ELSET=EBYSTANDER, MATERIAL={material}", f"NBYSTANDER, 2, {speed}"
+
     def run(self, folder, timeout=600):
         """Runs ccx on one thread in the folder. Returns the seconds, or None where it ended with an error."""
         folder = pathlib.Path(folder).resolve()

@@ -117,13 +117,13 @@ def turned_deck(deck, matrix, offset=(0, 0, 0), velocity=(0, 0, 0)):
             card["copy_step"] = turn(card["copy_step"])
     conditions = []
     for condition in deck.get("conditions", []):
-        conditions += _turned_condition(condition, matrix, velocity, turn, point, along, hand)
+        conditions += _turned_condition(condition, matrix, velocity, turn, point, along, hand, places)
     if conditions:
         deck["conditions"] = conditions
     return deck
 
 
-def _turned_condition(condition, matrix, velocity, turn, point, along, hand):
+def _turned_condition(condition, matrix, velocity, turn, point, along, hand, places):
     """One condition in the other frame: a list, as some need several."""
     kind, drift = condition["type"], any(velocity)
     components = condition.get("components", ["x", "y", "z"])
@@ -132,6 +132,8 @@ def _turned_condition(condition, matrix, velocity, turn, point, along, hand):
     for key in ("normal", "value", "incident", "velocity"):
         if isinstance(condition.get(key), list):
             condition[key] = turn(condition[key])
+        elif isinstance(condition.get(key), str):  # a pressure that depends on the place
+            condition[key] = _replaced(condition[key], places)
     if "charge_place" in condition:
         condition["charge_place"] = point(condition["charge_place"])
     if isinstance(condition.get("angular_velocity"), list):

@@ -54,7 +54,7 @@ for key, tolerance in dict(begin=0.01, duration=0.03, pressure=0.01, growth=0.02
     case.check(words[key], found[key], exact[key], tolerance, relative=exact[key] != 0)
 case.picture(run, "--color", "velocity", "--times", "0", "1.1666", "1.3333", "2.6666", "5.3", "--strip", "5", "--planes", "none", "--size", "160", "500")
 if case.full:
-    for elements in (50, 100, 200, 400):
+    for elements in (100, 200, 400):
         found, run, spent = bounce(f"elements_{elements}", elements)
         for key in exact:
             case.study(words[key], f"{elements} along the bar", found[key], exact[key] if exact[key] else None, spent)

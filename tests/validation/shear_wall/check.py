@@ -11,8 +11,8 @@ SETTLE, SHEAR, WAY = 0.03, 0.12, 3e-3  # [s, s, m]
 MEASURED = numpy.array([[0.2, 18], [0.4, 34], [0.7, 48], [1.0, 57], [1.4, 54], [1.8, 48], [2.2, 42], [2.6, 38]])
 
 
-def wall(name, held, fine=1, shear=SHEAR, stiffness=1.0, until=WAY):
-    """Displacement [mm], shear and vertical load [kN]. held: the upper beam is pushed down until the pressure is there and then kept at its height; else it bears a constant load. It never turns. until: way of the beam at the end [m]."""
+def wall(name, held, fine=1, shear=SHEAR, stiffness=1.0, until=WAY, crushed=None):
+    """Displacement [mm], shear and vertical load [kN]. held: the upper beam is pushed down until the pressure is there and then kept at its height; else it bears a constant load. It never turns. until: way of the beam at the end [m]. crushed: keys of the cap of the joints."""
     recipe, deck = case.load("mesh.yaml"), case.load()
     for course in range(COURSES):
         x, width = 0.0, BRICK / (1 + course % 2)  # four bricks and a half, the half one in turns at the left and at the right
@@ -28,6 +28,7 @@ def wall(name, held, fine=1, shear=SHEAR, stiffness=1.0, until=WAY):
         deck["conditions"].append({"type": "traction", "side_set": "top", "value": [0, f"-{PRESSURE!r}*min(t/0.02, 1)", 0]})
     deck["conditions"].append({"type": "rigid_motion", "block": "upper", "angular_velocity": [0, 0, 0], **motion})
     deck["materials"]["brick"]["youngs_modulus"] *= stiffness
+    deck["joints"]["bed"].update(crushed or {})
     deck["time"]["end"] = SETTLE + 0.005 + shear * until / WAY
     deck["output"]["times"] = [SETTLE, SETTLE + 0.005 + shear / 3]
     run, spent = case.timed(name, recipe, deck, load=PRESSURE * LENGTH)
@@ -58,6 +59,12 @@ if case.full:
     for way, load in MEASURED:
         case.other(f"shear at {way:g} mm [kN]", "Coplane, beam held at its height", at(curve, way), load, spent)
         case.other(f"shear at {way:g} mm [kN]", "Coplane, constant vertical load", at(free, way), load, free_seconds)
+    # Joints that are crushed as in V93, with the numbers of these walls; and weaker ones.
+    for strength in (10.5e6, 5e6):
+        cap = {"compressive_strength": strength, "compression_energy": 5e3 * strength / 10.5e6, "peak_crushing": 9e-5}
+        capped, _, _, seconds = wall(f"crushed_{strength:g}", sunk, crushed=cap)
+        for way, load in MEASURED:
+            case.other(f"shear at {way:g} mm [kN]", f"Coplane, beam held, joints that crush at {strength / 1e6:g} MPa", at(capped, way), load, seconds)
     for label, options in (("4 x 1 in a brick", {}), ("8 x 2 in a brick", dict(fine=2)), ("4 x 1, sheared half as fast", dict(shear=2 * SHEAR)), ("4 x 1, bricks twice as stiff", dict(stiffness=2.0))):
         finer, _, _, seconds = wall("again", sunk, until=1.9e-3, **options)
         for way in (0.4, 0.7, 1.0, 1.8):

@@ -35,6 +35,7 @@ def theirs(name, size, step):
     n = round(LENGTH / size)
     points, first = deck.box("L", (-LENGTH, 0, 0), (0, 1, 1), (n, 2, 2))
     _, second = deck.box("R", (0, 0, 0), (LENGTH, 1, 1), (n, 2, 2))
+    section, velocity = deck.bystander((0, 50, 0), 1.0, "ONE")
     deck.say(f"""
         *MATERIAL, NAME=ONE
         *ELASTIC
@@ -43,12 +44,14 @@ def theirs(name, size, step):
         1.
         *SOLID SECTION, ELSET=EL, MATERIAL=ONE
         *SOLID SECTION, ELSET=ER, MATERIAL=ONE
+        {section}
         *SURFACE INTERACTION, NAME=TOUCH
         *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
         50.
         *CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE
         SLx1, SRx0
         *INITIAL CONDITIONS, TYPE=VELOCITY
+        {velocity}
         NL, 1, {SPEED}
         NR, 1, {-SPEED}
         *STEP, NLGEOM, INC=1000000
