@@ -61,7 +61,7 @@ def oscillator(frequency, axis, volumetric=False, cycles=12):
         "conditions": [{"type": "fixed", "node_set": "base"}, other],
         "initial": [{"block": "soil", "velocity_field": ["1e-4*y" if axis == "x" else 0, "1e-4*y" if axis == "y" else 0, 0]}],
         "time": {"end": cycles / frequency, "maximum_step": 2e-3 / frequency},
-        "history": {"every_cycles": 1, "probes": [{"name": "top", "node_set": "top"}]},
+        "history": {"every": 2e-3 / frequency, "probes": [{"name": "top", "node_set": "top"}]},
     }  # fmt: skip
 
 
