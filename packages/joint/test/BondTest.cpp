@@ -275,7 +275,7 @@ TEST(Bond_Bent, theFirstFibreThatReachesTheStrengthWearsIt)
     {
       JointState state;
       state.bonded = true;
-      Bending bending; // over a length of 1, from -part to part of the opening at the strength
+      BondBending bending; // over a length of 1, from -part to part of the opening at the strength
       bending.opened = part * most;
       bending.openSquares = part * most * part * most / 6;
       bending.closedMean = part * most / 4;

@@ -134,7 +134,7 @@ struct Bond
   /// A bond that resists bending: what is open of it carries by its secant, which wears by the
   /// opening where that is largest. All openings grow together, so the work of fracture is that of
   /// even opening times the share of the open energy.
-  KOKKOS_INLINE_FUNCTION void bend(Real k, const Bending& bending, JointState& state,
+  KOKKOS_INLINE_FUNCTION void bend(Real k, const BondBending& bending, JointState& state,
                                    JointResponse& response) const
   {
     const Real most = bending.opened, strength = tensileStrength;
@@ -164,7 +164,7 @@ struct Bond
   }
 
   /// Tractions of a bond that is bent, with a slope where it is open.
-  KOKKOS_INLINE_FUNCTION void carryBent(Real k, const Bending& bending, Real slope,
+  KOKKOS_INLINE_FUNCTION void carryBent(Real k, const BondBending& bending, Real slope,
                                         JointResponse& response) const
   {
     response.bondStiffness = slope;
@@ -173,7 +173,7 @@ struct Bond
   }
 
   /// What is open of it gives back what it has stored where its slope falls.
-  KOKKOS_INLINE_FUNCTION void weakenBent(Real k, const Bending& bending, Real slope,
+  KOKKOS_INLINE_FUNCTION void weakenBent(Real k, const BondBending& bending, Real slope,
                                          JointResponse& response) const
   {
     response.fractureWork += 0.5 * (response.bondStiffness - slope) * bending.openSquares;

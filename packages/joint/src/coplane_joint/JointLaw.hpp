@@ -94,7 +94,7 @@ struct JointLaw
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
                                                   const Vec3& tangentialIncrement, Real dt,
                                                   JointState& state, Real shrunk = 1,
-                                                  const Bending* bending = nullptr) const
+                                                  const BondBending* bending = nullptr) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
           dilation <= 0))
@@ -302,7 +302,7 @@ private:
 
   /// Breaks the bond: its tension is gone. A joint that is pressed keeps what opened inelastically
   /// between its faces, as dilation.
-  KOKKOS_INLINE_FUNCTION void breakBond(const JointFit& fit, const Bending& bending,
+  KOKKOS_INLINE_FUNCTION void breakBond(const JointFit& fit, const BondBending& bending,
                                         JointState& state, JointResponse& response) const
   {
     if (bond.resistsBending)
@@ -333,13 +333,13 @@ private:
     Real wear; ///< of the bond, if it softens
     Real held; ///< strength without friction [Pa]
     Real friction;
-    Bending bending;
+    BondBending bending;
   };
 
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
                                         Real dt, JointState& state, Real shrunk,
-                                        const Bending* bending) const
+                                        const BondBending* bending) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
@@ -347,7 +347,7 @@ private:
     s.closure = closure + bond.permanentOpening(state);
     s.opened = close(fit, s.closure, state, response);
     if (bond.resistsBending)
-      s.bending = bending ? *bending : Bending::even(closure);
+      s.bending = bending ? *bending : BondBending::even(closure);
     if (wasBonded && bond.resistsBending)
       bond.bend(fit.normalStiffness, s.bending, state, response);
     else if (wasBonded && response.normalTraction <= 0)

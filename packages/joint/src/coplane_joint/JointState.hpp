@@ -27,7 +27,7 @@ struct JointState
 
 /// How the closure is spread over the area of a plane: linearly, so that a bond is bent. Means over
 /// the area; what is open has a closure below zero.
-struct Bending
+struct BondBending
 {
   Real mean = 0;        ///< closure [m]
   Real opened = 0;      ///< opening where it is largest [m]
@@ -35,9 +35,9 @@ struct Bending
   Real closedMean = 0;  ///< mean of the closure where it is closed, 0 elsewhere [m]
 
   /// The same closure everywhere.
-  static KOKKOS_INLINE_FUNCTION Bending even(Real closure)
+  static KOKKOS_INLINE_FUNCTION BondBending even(Real closure)
   {
-    Bending bending;
+    BondBending bending;
     bending.mean = closure;
     if (closure > 0)
       bending.closedMean = closure;

@@ -12,7 +12,7 @@ namespace coplane::detail
 template <class T>
 struct BentBonds
 {
-  Bending lanes[PlaneBatch<T>::width];
+  BondBending lanes[PlaneBatch<T>::width];
   bool partly = false; ///< a bond that may wear is in part closed; T = Real only
 };
 
@@ -33,7 +33,7 @@ findBending(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& of,
     if (!branchFree::lane(of, i))
       continue;
     const Plane& plane = *planes.plane[i];
-    Bending& bending = bent.lanes[i];
+    BondBending& bending = bent.lanes[i];
     bending.mean = branchFree::lane(mean, i);
     bending.opened = -branchFree::lane(least, i);
     if (!(bending.opened > 0))
