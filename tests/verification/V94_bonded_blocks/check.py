@@ -39,10 +39,10 @@ for bends in (False, True):
         for joint in sheared["joints"].values():
             joint.update(resists_bending=True, stiffness_loss=1)
     sheared["joints"]["weak"].update(tensile_strength=6e6, cohesion=4e6, shear_energy=200)
-    sheared["conditions"] = [{"type": "velocity", "node_set": side, "components": ["x", "y"], "value": ["0.01*min(t/0.0005,1)" if side == "upper" else 0, 0, 0]} for side in ("lower", "upper")]
+    sheared["conditions"] = [{"type": "velocity", "node_set": side, "components": ["x", "y"], "value": ["0.025*min(t/0.0005,1)" if side == "upper" else 0, 0, 0]} for side in ("lower", "upper")]
     sheared["conditions"] += [{"type": "velocity", "node_set": side, "components": ["y"], "value": [0, 0, 0]} for side in ("left", "right")]
     sheared["history"]["probes"] = [{"name": "lower", "node_set": "lower", "reaction": True}, {"name": "upper", "node_set": "upper"}]
-    run = case.run(name, case.load("mesh_shear.yaml"), sheared, joints={"joints": along})
+    run = case.run(name, case.load("mesh_shear.yaml"), sheared, joints={"joints": along}, load=0.4 * sheared["joints"]["weak"]["cohesion"])
     h, weak = run.history, sheared["joints"]["weak"]
     force, path = -h["lower_reaction_x"], h["upper_displacement_x"]
     case.check(f"{name}: largest force over the area [Pa]", force.max() / 0.4, weak["cohesion"], 0.03, relative=True)
