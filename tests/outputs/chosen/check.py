@@ -89,6 +89,6 @@ for name, key, told in (("misspelt", {"output": {"variables": ["von_mices"]}}, "
     wrong["output"].update(key.get("output", {}))
     wrong["history"]["probes"] = key.get("probes", [])
     refused = case.attempt(name, recipe, wrong)
-    case.check_equal(f"{name}: exit code", refused.code, 2)
+    case.check_equal(f"{name}: exit code", refused.code, 3)
     case.check_equal(f"{name}: is told '{told}'", told in refused.output, True)
 case.finish()
