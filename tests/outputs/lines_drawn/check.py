@@ -31,8 +31,8 @@ deck = {
     "gravity": [0, -10, 0],
     "lines": {
         "bolt": {"points": [[0.3, 1.9], [0.3, 0.1]], "segment_length": 0.2, "grout": {"stiffness": 2e9, "strength": 1e5}, **steel},
-        "late": {"points": [[0.6, 1.9], [0.6, 0.1]], "attach": "ends", "from": 2.05e-3, **steel},
-        "gone": {"points": [[0.8, 1.9], [0.8, 0.1]], "attach": "ends", "until": 4.05e-3, **steel},
+        "late": {"points": [[0.6, 1.9], [0.6, 0.1]], "attach": "ends", "from": 2.5e-3, **steel},
+        "gone": {"points": [[0.8, 1.9], [0.8, 0.1]], "attach": "ends", "until": 4.5e-3, **steel},
     },
     "time": {"end": 6e-3},
     "output": {"every": 1e-3, "lines": True},
@@ -79,7 +79,7 @@ case.check_equal("ranks: exit code", other.code, 0)
 files = sorted(path.name for path in pathlib.Path(run.folder).glob("run_lines*") if path.suffix != ".csv")
 for name in files:
     case.check_equal(f"{name} has the same bytes on two ranks", other.bytes_of(name) == run.bytes_of(name), True)
-half = case.attempt("restarted", recipe, {**deck, "time": {"end": 4.5e-3}, "checkpoint": {"at_end": True}}, ranks=2)
+half = case.attempt("restarted", recipe, {**deck, "time": {"end": 3.5e-3}, "checkpoint": {"at_end": True}}, ranks=2)
 case.check_equal("restart: exit code of the first half", half.code, 0)
 documents.save({"mesh": "mesh.e", **deck}, "restarted/run.yaml")
 code, output = program.run_program(["run.yaml", "--restart"], "restarted", ranks=1)
