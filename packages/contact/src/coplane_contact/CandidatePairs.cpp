@@ -131,9 +131,13 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
 bool hadToBeFound(const Face& a, const Face& b, const FacePlane& planeA, const FacePlane& planeB,
                   const CandidateRules& rules, Real moved, Real turned)
 {
-  const Real gap = dot(normalised(planeA.normal - planeB.normal), planeB.center - planeA.center);
+  const Vec3 n = normalised(planeA.normal - planeB.normal), apart = planeB.center - planeA.center;
+  const Real gap = dot(n, apart);
   const Real deepest = rules.depthMax * std::min(a.thickness, b.thickness);
-  return dot(planeA.normal, planeB.normal) < -rules.cosOpposed - turned && gap > moved - deepest &&
+  // The normal of the pair turns with its faces: by that the gap of faces beside each other changes
+  // at their centres.
+  const Real risen = moved + turned * norm(apart - gap * n);
+  return dot(planeA.normal, planeB.normal) < -rules.cosOpposed - turned && gap > risen - deepest &&
          (!shareNode(a, b) || mayShareNode(a, b, planeA, planeB, rules, {moved, turned}));
 }
 

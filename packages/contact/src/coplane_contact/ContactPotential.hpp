@@ -88,7 +88,7 @@ public:
     if constexpr (Dim == 3 && widthOf<T> == 1)
       if (!regular)
       {
-        findPieces();
+        findPieces(whole);
         pressAll(whole);
       }
     findStrip(whole);
@@ -142,6 +142,9 @@ public:
         slope = share.slope * width * ratio;
         alongStrip_ = -0.5 * stiffness * hard * s * slope;
       }
+    if constexpr (canFold)
+      if (folded_[0].area > 0 || folded_[1].area > 0)
+        weighFolded(0.5 * stiffness * hard * s, slope);
     density.square = 0.5 * stiffness * (wayOut * (hard + hardSlope) - slope * hard);
     density.linear = 0.5 * stiffness * mean * (2.0 * slope * hard - wayOut * hardSlope);
     density.constant = T(0.0);
@@ -155,24 +158,34 @@ public:
     for (T& size : sizes_)
       size = ((Dim == 2 ? 1.5 : 1.0) / perSize) * size;
     oppose(choose(bonded_, T(0.0), stored * perSize));
-    const T rising = 1.0 + falling_;
-    density.square = rising * density.square;
-    density.linear = rising * density.linear;
+    density.square = rising() * density.square;
+    density.linear = rising() * density.linear;
     if constexpr (widthOf<T> == 1)
-      alongStrip_ = rising * alongStrip_;
+      alongStrip_ = rising() * alongStrip_;
+    if constexpr (canFold)
+      for (Folded& folded : folded_)
+        folded.slope *= rising();
     return 0.5 * stiffness * stored;
   }
 
+  /// Areas of both faces when the plane was born [m^2]: gamma.
+  KOKKOS_FORCEINLINE_FUNCTION void growFrom(const T& birth0, const T& birth1)
+  {
+    birth_[0] = birth0;
+    birth_[1] = birth1;
+    materialArea = 0.5 * (birth0 / face_[0]->area + birth1 / face_[1]->area);
+  }
+
+  /// 1 + psi, d ln(phi U) / d ln U: what the energy rises with U, over phi; 0 to 1. After press().
+  KOKKOS_FORCEINLINE_FUNCTION T rising() const { return 1.0 + falling_; }
+
   /// Gradient of gamma phi (energy), where the energy is the integral of a density over the part in
-  /// contact: forces are minus that. Returns the sum of the forces along the normals [N].
+  /// contact: forces are minus that. Returns the sum of the forces along the normals [N]. After
+  /// growFrom().
   /// @param energy that integral [J]
-  /// @param birth area of both faces when the plane was born [m^2]
-  KOKKOS_INLINE_FUNCTION T differentiate(const T& energy, const EnergyDensity<T>& density,
-                                         const T& birth0, const T& birth1)
+  KOKKOS_INLINE_FUNCTION T differentiate(const T& energy, const EnergyDensity<T>& density)
   {
     using namespace branchFree;
-    const HalfStepFaceOf<T>&a = *face_[0], &b = *face_[1];
-    materialArea = 0.5 * (birth0 / a.area + birth1 / b.area);
     T push = 2.0 * density.square * moments.volume + density.linear * moments.area;
     Vec2Of<T> first =
         (2.0 * density.square) * moments.volumeMoment + density.linear * moments.areaMoment;
@@ -183,6 +196,10 @@ public:
     if constexpr (widthOf<T> == 1)
       if (alongStrip_ != 0)
         addStrip(scale, push, first, rim);
+    if constexpr (canFold)
+      for (int f = 0; f < 2; ++f)
+        if (folded_[f].slope != 0)
+          addFolded(f, rim);
 
     // Through the normal of the plane: turning it at fixed nodes is turning all nodes and normals
     // back.
@@ -193,7 +210,6 @@ public:
         turn = turn - shadow[f].height[i] * rim[f][i];
     turn = (0.5 * inverse) * turn;
 
-    const T birth[2] = {birth0, birth1};
     for (int f = 0; f < 2; ++f)
     {
       const HalfStepFaceOf<T>& mine = *face_[f];
@@ -207,7 +223,7 @@ public:
       const T area = 1.0 / mine.area;
       byVectorArea(f,
                    area * inFace - (opposedness * energy * area *
-                                    (0.5 * birth[f] * area + materialArea * falling_ * sizes_[f])) *
+                                    (0.5 * birth_[f] * area + materialArea * falling_ * sizes_[f])) *
                                        mine.normal);
       const Vec3Of<T> even = (scale * push * inverse / mine.count) * mine.normal;
       for (int i = 0; i < mine.count; ++i)
@@ -316,9 +332,22 @@ private:
   KOKKOS_INLINE_FUNCTION void measureOverlap();
   /// For shadows that are not convex, and where round-off asks for the order of the sides: convex
   /// pieces, cut in order. A diagonal belongs to no edge: what both its sides have there cancels.
-  KOKKOS_INLINE_FUNCTION void findPieces();
+  /// @param whole a bond: folded faces have no piece
+  KOKKOS_INLINE_FUNCTION void findPieces(bool whole);
   static KOKKOS_INLINE_FUNCTION int convexParts(const detail::Outline<T>& outline, int firstOwner,
                                                 Owned (&parts)[2]);
+  /// Of a quadrilateral two of whose edges cross: the triangle that lies right side up. It begins
+  /// as what a quadrilateral with a reentrant corner is when that corner passes an edge, so that
+  /// the energy does not jump when a face folds.
+  /// @returns how many parts there are, 1 or 0
+  KOKKOS_INLINE_FUNCTION int foldedPart(const detail::Outline<T>& outline, int firstOwner,
+                                        Owned& part);
+  /// Takes into chi how far faces have folded, which counts less the more of a face lies upside
+  /// down, and nothing when that is as much as lies right side up: then its normal turns over.
+  /// @param stored without chi [J]; slope: of chi with the logarithm of rho
+  KOKKOS_INLINE_FUNCTION void weighFolded(const Real& stored, Real& slope);
+  /// Adds the gradient of what hangs on how far a face has folded.
+  KOKKOS_INLINE_FUNCTION void addFolded(int f, Vec2 (&rim)[2][4]) const;
   KOKKOS_INLINE_FUNCTION void pressAll(const Mask& whole);
   /// Cuts off what is not closed, and integrates.
   KOKKOS_FORCEINLINE_FUNCTION void cutAndIntegrate(Owned& q, const Mask& whole);
@@ -414,6 +443,7 @@ private:
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
   T falling_{};  ///< d ln phi / d ln U, 0 to -1
   T sizes_[2]{}; ///< minus d ln Y / d ln of the area of each face, Y: what is stored as in oppose()
+  T birth_[2]{}; ///< areas [m^2]
   Mask bonded_{false};
   EdgesOf<T> edges_;
   T coveredSides_[2]{}; ///< number of sides on covered edges of each face
@@ -425,6 +455,17 @@ private:
   struct Nothing
   {
   };
+  /// A face two of whose edges cross.
+  struct Folded
+  {
+    Real area = 0; ///< of what lies right side up on the plane [m^2]; 0: not folded
+    Vec2 corner[3];
+    int edge[3];    ///< of the face, from these corners to the next
+    Real share = 1; ///< area of the shadow, less what lies upside down, over `area` [-]
+    Real slope = 0; ///< of the energy with the share [J]
+  };
+  static constexpr bool canFold = Dim == 3 && branchFree::widthOf<T> == 1;
+  std::conditional_t<canFold, Folded, Nothing> folded_[2];
   /// Before what is not closed is cut off.
   std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
   Mask strip_{false};

@@ -100,13 +100,18 @@ KOKKOS_INLINE_FUNCTION T PairPotential<Dim, T>::leastClosure() const
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findPieces()
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findPieces(bool whole)
 {
   const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
   pieces_ = 0;
   inOrder_ = true;
   Owned partsA[2], partsB[2];
-  const int countA = convexParts(a, 0, partsA), countB = convexParts(b, 4, partsB);
+  int countA = convexParts(a, 0, partsA), countB = convexParts(b, 4, partsB);
+  if (!whole)
+  {
+    countA = countA > 0 ? countA : foldedPart(a, 0, partsA[0]);
+    countB = countB > 0 ? countB : foldedPart(b, 4, partsB[0]);
+  }
   for (int i = 0; i < countA; ++i)
     for (int j = 0; j < countB; ++j)
     {
@@ -156,7 +161,48 @@ KOKKOS_INLINE_FUNCTION int PairPotential<Dim, T>::convexParts(const detail::Outl
     fill(parts[1], second, 3);
     return 2;
   }
-  return 0; // folded: carries nothing
+  return 0; // folded
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION int PairPotential<Dim, T>::foldedPart(const detail::Outline<T>& outline,
+                                                             int firstOwner, Owned& part)
+{
+  if (outline.count != 4)
+    return 0;
+  for (int e = 0; e < 2; ++e)
+  {
+    const int f = e + 2, afterE = e + 1, afterF = (e + 3) % 4;
+    const Vec2 a = outline.p[e], c = outline.p[f];
+    const Vec2 along = outline.p[afterE] - a, other = outline.p[afterF] - c;
+    const Real sine = cross(along, other);
+    const Real onE = cross(c - a, other), onF = cross(c - a, along); // times sine
+    const Real sign = sine > 0 ? 1 : -1;
+    if (!(sine != 0 && sign * onE >= 0 && sign * (onE - sine) <= 0 && sign * onF >= 0 &&
+          sign * (onF - sine) <= 0))
+      continue;
+    // From the crossing to the end of f, along the edge after f, and along e back to it; or the
+    // other way round.
+    const Vec2 crossing = a + (onE / sine) * along;
+    const bool upright = cross(crossing - a, outline.p[afterF] - a) > 0;
+    Folded& folded = folded_[firstOwner / 4];
+    const Vec2 corners[3] = {crossing, upright ? outline.p[afterF] : outline.p[afterE],
+                             upright ? a : c};
+    const int edges[3] = {upright ? f : e, upright ? afterF : afterE, upright ? e : f};
+    part.sides.size = 3;
+    for (int i = 0; i < 3; ++i)
+    {
+      folded.corner[i] = part.sides.from[i] = corners[i];
+      part.sides.to[i] = corners[i == 2 ? 0 : i + 1];
+      folded.edge[i] = edges[i];
+      part.owner[i] = firstOwner + edges[i];
+    }
+    folded.area = 0.5 * cross(corners[1] - crossing, corners[2] - crossing);
+    const Real whole = 0.5 * cross(outline.p[2] - outline.p[0], outline.p[3] - outline.p[1]);
+    folded.share = folded.area > 0 ? whole / folded.area : 0;
+    return folded.area > 0 ? 1 : 0;
+  }
+  return 0;
 }
 
 template <int Dim, class T>

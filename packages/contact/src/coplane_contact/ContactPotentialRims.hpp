@@ -220,6 +220,36 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
 }
 
 template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::weighFolded(const Real& stored, Real& slope)
+{
+  const SmoothStep<Real> parts[2] = {SmoothStep<Real>(folded_[0].share),
+                                     SmoothStep<Real>(folded_[1].share)};
+  for (int f = 0; f < 2; ++f)
+    folded_[f].slope = stored * wayOut * parts[1 - f].value * parts[f].slope;
+  const Real both = parts[0].value * parts[1].value;
+  wayOut *= both;
+  slope *= both;
+  alongStrip_ *= both;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addFolded(int f, Vec2 (&rim)[2][4]) const
+{
+  const Folded& folded = folded_[f];
+  const Real perArea = folded.slope / folded.area;
+  const ShadowOf<T>& s = shadow[f];
+  const Real half = f == 0 ? 0.5 : -0.5; // corners of the higher face go round the other way
+  for (int i = 0; i < 4; ++i)
+  {
+    const Vec2 across = s.p[(i + 1) % 4] - s.p[(i + 3) % 4];
+    rim[f][i] = rim[f][i] + (perArea * half) * Vec2{across.y, -across.x};
+  }
+  for (int k = 0; k < 3; ++k)
+    addRim(f, folded.edge[k], true, folded.corner[k], folded.corner[(k + 1) % 3], 1.0, 0.5,
+           -perArea * folded.share, rim);
+}
+
+template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION Vec2 PairPotential<Dim, T>::outwardOf(int owner) const
 {
   const int f = owner / 4, e = owner % 4;

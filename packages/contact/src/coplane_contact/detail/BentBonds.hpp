@@ -58,20 +58,20 @@ findBending(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& of,
 
 /// What is closed of a bond that is bent is as stiff as ever: adds that to the gradient.
 /// @param more stiffness than where it is open [Pa/m]
-/// @param birth areas of the faces when the plane was born [m^2]
 /// @param force along the normals [N] and energy [J], to which it adds
 template <int Dim>
-KOKKOS_INLINE_FUNCTION void addClosedPart(PairPotential<Dim, Real>& pair, Real offset, Real more,
-                                          const Real (&birth)[2], Real& force, Real& energy)
+KOKKOS_INLINE_FUNCTION void addClosedPart(PairPotential<Dim, Real>& pair, const Plane& plane,
+                                          Real more, Real& force, Real& energy)
 {
   if (!(more > 0))
     return;
-  PairPotential<Dim, Real> closed = pair.closedPart(offset);
+  PairPotential<Dim, Real> closed = pair.closedPart(plane.offset);
   if (!(closed.moments.volume > 0))
     return;
   EnergyDensity<Real> density;
   const Real stored = closed.press(more, 0, density);
-  force += closed.differentiate(stored, density, birth[0], birth[1]);
+  closed.growFrom(plane.birthArea[0], plane.birthArea[1]);
+  force += closed.differentiate(stored, density);
   energy += closed.materialArea * closed.opposedness * stored;
   for (int f = 0; f < 2; ++f)
     for (int i = 0; i < 4; ++i)

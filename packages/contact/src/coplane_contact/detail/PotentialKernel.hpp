@@ -236,13 +236,17 @@ private:
     Vec3Of<T> increment;
     const Vec3Of<T> tau = shearAfter(area, relative, increment);
     const T loaded = 2.0 * density.square * m.volume + density.linear * m.area;
+    pair_.growFrom(planes_.each([](const Plane& p) { return p.birthArea[0]; }),
+                   planes_.each([](const Plane& p) { return p.birthArea[1]; }));
+    // The energy of the pair rises by this much for each that its closure stores more.
+    const T perStored = pair_.materialArea * pair_.opposedness * pair_.rising() * share;
     Response response;
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
       {
         Plane& plane = *planes_.plane[i];
         plane.gap = branchFree::lane(relative.apart, i);
-        stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(share, i),
+        stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(perStored, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), response);
       }
@@ -256,14 +260,12 @@ private:
     density.constant = choose(even, perArea - sigma * mean, density.constant);
     density.linear = choose(bonded_, choose(bends_, T(0.0), sigma), density.linear);
     const T energy = choose(bonded_, choose(bends_, bent * m.squares, perArea * m.area), pressed);
-    const T birth[2] = {planes_.each([](const Plane& p) { return p.birthArea[0]; }),
-                        planes_.each([](const Plane& p) { return p.birthArea[1]; })};
-    T normalForce = pair_.differentiate(energy, density, birth[0], birth[1]);
+    T normalForce = pair_.differentiate(energy, density);
     T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
     if constexpr (width == 1)
       if (bent_.partly && touching)
-        addClosedPart(pair_, planes_.plane[0]->offset, slope_ - response.slopes[0], birth,
-                      normalForce, normalEnergy);
+        addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
+                      normalEnergy);
     stepH_forces(touching, area, normalForce, relative);
 
     const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
@@ -319,10 +321,10 @@ private:
   }
 
   /// The law of one plane: shear, bonds, dilation; history of the closure curve.
-  /// @param area in contact; share: of the overlap that counts [-]; loaded: force [N] over
-  ///        opposedness
+  /// @param area in contact; perStored: change of the energy of the pair over that of what its
+  ///        closure stores [-]; loaded: force [N] over opposedness
   /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
-  KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real share,
+  KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real perStored,
                                              Real loaded, const Vec3& tau, const Vec3& increment,
                                              Response& out) const
   {
@@ -354,7 +356,7 @@ private:
       plane.maximumBefore = state.maximumClosure;
     }
     else if (!law.curve.straight())
-      loadCurve(plane, i, area, opposedness * share, response, state);
+      loadCurve(plane, i, area, perStored, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -375,7 +377,7 @@ private:
 
   /// The maximum closure of the next cycle; what it costs is booked half with the area of this
   /// cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real perStored,
                                              const JointResponse& response, JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
@@ -385,7 +387,7 @@ private:
     const Real before = plane.history.maximumClosure;
     if (plane.maximumBefore < before)
       plane.hysteresisWork +=
-          plane.halfHysteresis + 0.5 * energyShare *
+          plane.halfHysteresis + 0.5 * perStored *
                                      lostByLoading(law, plane.fit, plane.maximumBefore, before,
                                                    wholeArea, volume, squares);
     plane.maximumBefore = before;
@@ -404,7 +406,7 @@ private:
     const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
     const Real shift = reached - next.traction / next.stiffness - permanents_[i];
     state.maximumClosure = reached;
-    plane.halfHysteresis = 0.5 * energyShare * 0.5 *
+    plane.halfHysteresis = 0.5 * perStored * 0.5 *
                            (slopes_[i] * squares - next.stiffness * (squares - 2 * shift * volume +
                                                                      shift * shift * wholeArea));
   }
