@@ -111,6 +111,52 @@ TEST(KaragozianCase, yieldsFirstAtItsOwnSurface)
   EXPECT_NEAR(first / fc, q, 1e-3);
 }
 
+TEST(KaragozianCase, hardensAndSoftensByItsTableOfEta)
+{
+  // On the compression meridian under pressure on the sides, where the line of tension does not
+  // count, the strength is that of first yield and the intact one, then that of the crushed and
+  // the intact one, in the shares of the published table.
+  const Real measures[] = {0, 8e-6, 2.4e-5, 4e-5, 5.6e-5, 7.2e-5, 1e-4, 1e-3, 3e-3, 5e-3, 1};
+  const Real shares[] = {0, 0.85, 0.97, 0.99, 1, 0.99, 0.97, 0.5, 0.1, 0, 0};
+  const auto eta = [&](Real lambda)
+  {
+    int i = 0;
+    while (lambda > measures[i + 1])
+      ++i;
+    return shares[i] +
+           (shares[i + 1] - shares[i]) * (lambda - measures[i]) / (measures[i + 1] - measures[i]);
+  };
+  for (const Real lateral : {0.3, 1.0})
+  {
+    MaterialProbe probe(law, size, {-lateral * fc, -lateral * fc, -lateral * fc, 0, 0, 0});
+    Real peak = 0, measureAtPeak = 0;
+    int hardening = 0, softening = 0;
+    uniaxialStress(
+        probe, -0.25, 20000,
+        [&](const MaterialProbe& now)
+        {
+          const Real lambda = now.history("damage_measure"), p = now.pressure() / fc;
+          const Real q = now.vonMises() / fc;
+          if (q > peak)
+          {
+            peak = q;
+            measureAtPeak = lambda;
+          }
+          if (lambda == 0)
+            return;
+          const bool beyond = lambda > 5.6e-5;
+          const Real base = beyond ? p / (0.4417 + 0.1183 * p) : 0.22325 + p / (0.625 + 0.2575 * p);
+          EXPECT_NEAR(q, base + eta(lambda) * (intact(p) - base), 1e-8) << lateral << " " << lambda;
+          ++(beyond ? softening : hardening);
+          EXPECT_NEAR(now.history("damage"), beyond ? 1 - eta(lambda) : 0, 1e-12);
+        },
+        -lateral * fc);
+    EXPECT_GT(hardening, 20);
+    EXPECT_GT(softening, 1000);
+    EXPECT_NEAR(measureAtPeak, 5.6e-5, 1e-6); // where eta is 1
+  }
+}
+
 TEST(KaragozianCase, crushedConcreteKeepsTheResidualStrength)
 {
   MaterialProbe probe(law, 0.05);
