@@ -160,6 +160,39 @@ TEST_P(ErodingBodies, damageIsAGateForTheOtherLimits)
             0);
 }
 
+TEST_P(ErodingBodies, aCornerThatTurnsInsideOutKillsWithTheLimitOfVolume)
+{
+  // A corner of a cube flies through the opposite side of it: a point of integration turns inside
+  // out while the volume is still within the limits.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "cube", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "other", {1, 1, 1}, {5, 0, 0}, {1, 1, 1});
+  const auto struck = [&](bool limited)
+  {
+    Model model = rockModel(mesh, comm);
+    model.blocks[0].element.form = ElementForm::FullIntegration;
+    model.blocks[0].velocityField = [](const Vec3& x) {
+      return x.x * x.y * x.z == 1 ? Vec3{-2000, -2000, -2000} : Vec3{};
+    };
+    if (limited)
+      model.blocks[0].erosion.volumeRatio = {0.05, 4};
+    model.time.fixedStep = 2e-5;
+    model.time.end = 6e-4;
+    return model;
+  };
+  Solver guarded(struck(true), comm), open(struck(false), comm);
+  guarded.prepare();
+  open.prepare();
+  ASSERT_EQ(deadAfter(guarded, 30), 1);
+  EXPECT_LT(norm(guarded.momenta().linearError()), 1e-12 * guarded.momenta().magnitude);
+  EXPECT_LT(std::abs(guarded.energy().error()), 0.05 * guarded.energy().initial);
+  for (int e = 0; e < guarded.blocks()[0].count(); ++e)
+    EXPECT_GT(guarded.blocks()[0].volume()(e), 0.05);
+  Recorder recorder;
+  EXPECT_THROW(open.run(recorder), Error);
+}
+
 TEST_P(ErodingBodies, hasTheSameBitsOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);

@@ -42,6 +42,9 @@ bool ErosionRule::exceedsLimit(const ElementBlock& block, int e) const
     const Real ratio = block.volume()(e) / block.referenceVolume()(e);
     if (!(ratio >= (*criteria_.volumeRatio)[0] && ratio <= (*criteria_.volumeRatio)[1]))
       return true;
+    // With full integration a corner may have turned inside out while the volume is still positive.
+    if (!(block.stableStep()(e) > 0))
+      return true;
   }
   return criteria_.stableStep && !(block.stableStep()(e) >= *criteria_.stableStep);
 }

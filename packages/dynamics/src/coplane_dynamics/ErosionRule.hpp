@@ -21,8 +21,9 @@ struct ErosionCriteria
   };
   std::optional<Real> damage; ///< of the law's variable `damage` [-]
   std::vector<Limit> variables;
-  std::optional<std::array<Real, 2>> volumeRatio; ///< exceeded outside: volume over the first one
-  std::optional<Real> stableStep;                 ///< exceeded below [s]
+  /// Exceeded outside: volume over the first one; and when some part has turned inside out.
+  std::optional<std::array<Real, 2>> volumeRatio;
+  std::optional<Real> stableStep; ///< exceeded below [s]
 
   bool hasLimits() const { return !variables.empty() || volumeRatio || stableStep; }
   bool any() const { return damage || hasLimits(); }
