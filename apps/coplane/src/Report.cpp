@@ -95,6 +95,9 @@ void reportEnd(const Solver& solver)
   if (const ErosionTotals erosion = solver.erosion(); erosion.elements > 0)
     logInfo("  eroded: {} elements, {:.6g} kg, with {:.3e} J, and {:.3e} J of their planes",
             erosion.elements, erosion.mass, energy.eroded, energy.contact.eroded);
+  if (const Debris* debris = solver.debris(); debris && debris->count() > 0)
+    logInfo("  debris: {} points, {} of them in contact; stored {:.3e} J, remainder {:.3e} J",
+            debris->count(), debris->touching(), energy.debris.stored, energy.debris.remainder());
   logInfo("momentum [N s]: ({:.6e}, {:.6e}, {:.6e}), off by {:.3e} of {:.3e}", momenta.linear.x,
           momenta.linear.y, momenta.linear.z, norm(momenta.linearError()), momenta.magnitude);
   if (solver.hasContact())

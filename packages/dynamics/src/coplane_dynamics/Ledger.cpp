@@ -109,6 +109,8 @@ EnergyBalance Ledger::energy(const Parts& parts, const RelaxationState& relaxati
   balance.nodalWork = totals[Nodal] - relaxation.work;
   if (parts.contact)
     balance.contact = parts.contact->energy();
+  if (parts.debris)
+    balance.debris = parts.debris->energy();
   balance.initial = initialEnergy_.total();
   return balance;
 }

@@ -2,6 +2,7 @@
 
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Vec3.hpp>
+#include <coplane_dynamics/DebrisEnergy.hpp>
 #include <coplane_dynamics/Line.hpp>
 
 namespace coplane
@@ -18,6 +19,7 @@ struct EnergyBalance
   Real eroded = 0;         ///< of elements that have died, when they died
   ContactEnergy contact;   ///< stored, friction, hysteresis, damping, remainder
   LineEnergy lines;        ///< stored, plastic, bond, dowel, rupture, remainder
+  DebrisEnergy debris;     ///< stored, remainder: of mass points that faces stop
   Real massDamping = 0;    ///< taken out by mass-proportional damping
   Real localDamping = 0;   ///< taken out by local damping
   Real kineticDamping = 0; ///< taken out by stops at peaks of the kinetic energy
@@ -30,7 +32,7 @@ struct EnergyBalance
   Real total() const
   {
     return kinetic + internal + hourglass + viscous + eroded + contact.work + lines.work +
-           massDamping + localDamping + kineticDamping;
+           debris.work + massDamping + localDamping + kineticDamping;
   }
   /// What the balance lacks; the contact remainder is part of contact.work and listed by itself.
   Real error() const { return total() - externalWork - chemical - initial; }

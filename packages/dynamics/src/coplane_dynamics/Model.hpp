@@ -79,6 +79,7 @@ struct Model
   std::optional<Real> skin; ///< [m]
   int searchEvery = -1;     ///< cycles; 0: once, -1: auto
   Conditions conditions;
+  bool debris = false;          ///< nodes that erosion leaves are stopped by faces (Debris.hpp)
   std::vector<LineSetup> lines; ///< the same on all ranks
   TimeOptions time;
   // Stages.

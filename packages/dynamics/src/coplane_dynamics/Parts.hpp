@@ -3,6 +3,7 @@
 #include <coplane_contact/Contact.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_dynamics/Clock.hpp>
+#include <coplane_dynamics/Debris.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
 #include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Lines.hpp>
@@ -25,6 +26,7 @@ struct Parts
   const NodalMotion& motion;
   const Contact* contact; ///< nullptr: none
   const Lines& lines;
+  const Debris* debris; ///< nullptr: nodes without elements fly through everything
   const Clock& clock;
 
   const RankMesh& mesh() const { return model.mesh; }

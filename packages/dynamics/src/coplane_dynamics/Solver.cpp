@@ -59,6 +59,8 @@ Solver::Solver(Model model, const Comm& comm)
   takeWorkTimes();
   if (model_.contactEnabled)
     makeContact();
+  if (contact_ && model_.debris)
+    debris_.emplace(comm);
 }
 
 /// Where blocks share nodes, the last one's velocity counts.
@@ -163,6 +165,8 @@ void Solver::findForces(Real dt)
   if (contact_)
     addContactForces();
   lines_->addForces(elements_, state_, clock_.time + dt, dt, stage_.index, !contact_);
+  if (debris_)
+    debris_->addForces(mesh(), elements_, state_, dt);
 }
 
 /// Forces and stable steps that belong to the present stress. That is no work of a cycle.
@@ -186,7 +190,20 @@ bool Solver::erode(Real dt)
                           state_.v, dt);
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
   takeMassAlong(leaving); // planes have ended with the velocities that there were
+  renewDebris();
   return true;
+}
+
+/// Which nodes have mass and no element, and which faces may stop them.
+void Solver::renewDebris()
+{
+  if (!debris_ || !erosion_->acts())
+    return;
+  std::vector<Debris::FreeNode> points;
+  for (int n = 0; n < layout_.owned(); ++n)
+    if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
+      points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n)});
+  debris_->renew(points, erosion_->exterior(), bodyOfNode_, layout_);
 }
 
 /// Ends the loads on elements that have died, and lays bare the faces behind them.

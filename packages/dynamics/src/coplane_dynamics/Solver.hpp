@@ -4,6 +4,7 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
+#include <coplane_dynamics/Debris.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
 #include <coplane_dynamics/Erosion.hpp>
 #include <coplane_dynamics/Ledger.hpp>
@@ -94,6 +95,8 @@ public:
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return motion_->bodies(); }
   const Lines& lines() const { return *lines_; }
+  /// Mass points that erosion has left, where faces stop them; nullptr: they do not.
+  const Debris* debris() const { return debris_ ? &*debris_ : nullptr; }
   /// Of conditions on the motion of an owned node, at the end of the cycle [N].
   Vec3 reaction(int node) const { return motion_->reaction(node); }
   const RelaxationState& relaxation() const { return relaxation_.state(); }
@@ -139,7 +142,8 @@ private:
   Parts parts() const
   {
     return {*comm_,    model_,   layout_,        state_,  elements_,
-            *erosion_, *motion_, contact_.get(), *lines_, clock_};
+            *erosion_, *motion_, contact_.get(), *lines_, debris_ ? &*debris_ : nullptr,
+            clock_};
   }
   void startVelocities();
   void makeContact();
@@ -165,6 +169,7 @@ private:
 
   // Collective.
   void leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known);
+  void renewDebris();
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
 
@@ -227,7 +232,8 @@ private:
   std::optional<NodalMotion> motion_;
   std::optional<Lines> lines_;
   std::unique_ptr<Contact> contact_;
-  std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
+  std::optional<Debris> debris_; ///< with contact only
+  std::vector<int> bodyOfNode_;  ///< number of the body, the same on all ranks; contact only
   Clock clock_;
   TimeStep step_;
   SearchPlan searches_;

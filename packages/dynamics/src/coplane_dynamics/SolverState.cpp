@@ -98,6 +98,8 @@ void Solver::save(StateTables& out) const
     contact_->save(out);
   motion_->save(layout_.ids(), out);
   lines_->save(out);
+  if (debris_)
+    debris_->save(out);
   erosion_->save(out, *comm_);
   std::vector<Real> numbers;
   forEachNumber(*this, [&](const auto& value) { numbers.push_back(Real(value)); });
@@ -127,6 +129,11 @@ void Solver::restore(const StateSource& in)
   }
   motion_->restore(layout_.ids(), in);
   lines_->restore(in);
+  if (debris_)
+  {
+    renewDebris();
+    debris_->restore(in, mesh(), elements_, state_);
+  }
   findElementForces();
   restoreNumbers(in);
   if (contact_)
@@ -207,7 +214,8 @@ std::uint64_t Solver::stateHash() const
     Element = 100,
     PlaneField = 200,
     Time = 300,
-    LineField = 400
+    LineField = 400,
+    DebrisField = 500
   };
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
@@ -240,6 +248,8 @@ std::uint64_t Solver::stateHash() const
     hash.add(Time, clock_.cycle, 0, clock_.time);
     hash.add(Time, clock_.cycle, 1, clock_.nextStep);
     lines_->addTo(hash, LineField); // every rank has all lines
+    if (debris_)
+      debris_->addTo(hash, DebrisField); // and all debris
   }
   std::vector<std::uint64_t> total{hash.part()};
   comm_->sum(total);

@@ -156,6 +156,11 @@ Key contactKeys()
                      .means("bodies that lie in each other at the start, by more than a thousandth "
                             "of an element and not in a declared joint: an error, or left as they "
                             "are, without force until they press deeper"),
+                 text("debris", &ContactCard::debris)
+                     .oneOf({"none", "points"})
+                     .like("points")
+                     .means("nodes whose elements have all eroded: fly on through everything, or "
+                            "as mass points that faces stop, without friction"),
                  number("cos_opposed", &ContactCard::cosOpposed)
                      .in("-")
                      .atLeast(0)

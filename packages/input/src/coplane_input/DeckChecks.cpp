@@ -229,6 +229,24 @@ void checkForces(const Deck& deck, const DeckNode& root, Problems& problems)
                                  block.name));
 }
 
+/// Debris needs something to come from and something that stops it.
+void checkDebris(const Deck& deck, const DeckNode& root, Problems& problems)
+{
+  if (deck.contact.debris != "points")
+    return;
+  const DeckNode& node = nodeAt(root, {"contact", "debris"});
+  if (!deck.contact.enabled)
+    problems.add(node, "contact.debris = 'points' has no effect with contact.enabled: false; "
+                       "remove one of the two.");
+  if (std::none_of(deck.blocks.begin(), deck.blocks.end(),
+                   [](const auto& block) { return block.erosion.any(); }))
+    problems.add(node, "contact.debris = 'points' has no effect without blocks.<name>.erosion: no "
+                       "element dies. Add that or remove this.");
+  if (deck.geometry == "axisymmetric")
+    problems.add(node, "contact.debris = 'points' does not go with geometry = 'axisymmetric': a "
+                       "point would be a ring. Accepted: plane strain or three dimensions.");
+}
+
 bool allZero(const std::array<Real, 6>& values)
 {
   return std::all_of(values.begin(), values.end(), [](Real value) { return value == 0; });
@@ -533,6 +551,7 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkConditions(deck, root, problems);
   checkDamping(deck, root, problems);
   checkForces(deck, root, problems);
+  checkDebris(deck, root, problems);
   checkErosion(deck, root, problems);
   checkInitial(deck, root, problems);
   checkHistory(deck, root, joints, problems);

@@ -39,7 +39,8 @@ private:
   }
 };
 
-void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic, bool withLines)
+void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic, bool withLines,
+                 const Debris* debris)
 {
   line.add("kinetic[J]", energy.kinetic);
   line.add("internal[J]", energy.internal);
@@ -64,6 +65,13 @@ void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic
     line.add("line_rupture[J]", energy.lines.rupture);
     line.add("line_remainder[J]", energy.lines.remainder());
     line.add("line_pretension[J]", energy.lines.pretension);
+  }
+  if (debris)
+  {
+    line.add("debris_points", debris->count());
+    line.add("debris_touching", debris->touching());
+    line.add("debris_stored[J]", energy.debris.stored);
+    line.add("debris_remainder[J]", energy.debris.remainder());
   }
   line.add("mass_damping[J]", energy.massDamping);
   line.add("local_damping[J]", energy.localDamping);
@@ -328,7 +336,7 @@ void HistoryObserver::write(const Solver& solver)
   line.add("time[s]", solver.clock().time);
   line.add("cycle", solver.clock().cycle);
   line.add("dt[s]", solver.clock().step);
-  addEnergies(line, solver.energy(), initialKinetic_, !solver.lines().empty());
+  addEnergies(line, solver.energy(), initialKinetic_, !solver.lines().empty(), solver.debris());
   addMomenta(line, solver.momenta());
   addCounts(line, solver.hasContact() ? solver.contact().counts() : ContactCounts{},
             solver.searches());

@@ -167,6 +167,8 @@ Json energiesOf(const EnergyBalance& e)
           {"line_dowel", e.lines.dowel},
           {"line_rupture", e.lines.rupture},
           {"line_remainder", e.lines.remainder()},
+          {"debris_stored", e.debris.stored},
+          {"debris_remainder", e.debris.remainder()},
           {"mass_damping", e.massDamping},
           {"local_damping", e.localDamping},
           {"kinetic_damping", e.kineticDamping},

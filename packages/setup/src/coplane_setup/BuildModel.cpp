@@ -83,6 +83,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.absentBlocks = blocksNamed(mesh, absentAtStart(deck));
   model.mesh = std::move(part);
   addContactRules(deck, mesh, comm, model);
+  model.debris = deck.contact.debris == "points";
   model.skin = deck.contact.skin;
   model.searchEvery = deck.contact.searchEvery;
   model.time.end = deck.time.end;

@@ -1,0 +1,376 @@
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Debris.hpp>
+#include <coplane_dynamics/detail/NearestOnFace.hpp>
+#include <coplane_mesh/PointInElement.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+
+namespace coplane
+{
+namespace
+{
+/// Stiffness of a point's contact over that of the element behind the face, modulus times length,
+/// and less in proportion where the point is lighter than the element: so the step need not be
+/// smaller than for the elements. A point that comes at a tenth of the speed of waves is stopped
+/// within a seventh of the element [-].
+constexpr Real stiffnessOfElement = 0.5;
+
+/// Points sorted into cubes, so that those in a box are found without asking all.
+class PointGrid
+{
+public:
+  PointGrid(const std::vector<Vec3>& points, Real edge) : points_(&points), edge_(edge)
+  {
+    for (int i = 0; i < int(points.size()); ++i)
+      entries_.emplace_back(cubeOf(points[std::size_t(i)]), i);
+    std::sort(entries_.begin(), entries_.end());
+  }
+
+  /// Calls f(point) for all points in a box.
+  template <class F>
+  void forEachIn(const Vec3& low, const Vec3& high, const F& f) const
+  {
+    const Cube first = cubeOf(low), last = cubeOf(high);
+    for (std::int64_t i = first[0]; i <= last[0]; ++i)
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+      {
+        // Cubes along z stand together.
+        auto at = std::lower_bound(entries_.begin(), entries_.end(),
+                                   std::make_pair(Cube{i, j, first[2]}, 0));
+        for (; at != entries_.end() && at->first <= Cube{i, j, last[2]}; ++at)
+        {
+          const Vec3& x = (*points_)[std::size_t(at->second)];
+          bool within = true;
+          for (int c = 0; c < 3; ++c)
+            within = within && x[c] >= low[c] && x[c] <= high[c];
+          if (within)
+            f(at->second);
+        }
+      }
+  }
+
+private:
+  using Cube = std::array<std::int64_t, 3>;
+  Cube cubeOf(const Vec3& x) const
+  {
+    constexpr Real farthest = 1e15; // points that fly away for ever
+    Cube cube;
+    for (int c = 0; c < 3; ++c)
+      cube[std::size_t(c)] =
+          std::int64_t(std::clamp(std::floor(x[c] / edge_), -farthest, farthest));
+    return cube;
+  }
+
+  const std::vector<Vec3>* points_;
+  Real edge_;
+  std::vector<std::pair<Cube, int>> entries_;
+};
+
+struct Corners
+{
+  int count = 0;
+  std::array<Vec3, 8> x{};
+  Vec3 low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
+  Real longestSide() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
+};
+
+Corners cornersBehind(const ExteriorFace& face, const RankMesh& mesh, const NodeVectors& x)
+{
+  const RankMesh::Block& part = mesh.blocks[std::size_t(face.block)];
+  Corners corners;
+  corners.count = topology(part.type).nodes;
+  for (int k = 0; k < corners.count; ++k)
+  {
+    const Vec3 corner = at(x, part.connectivity[std::size_t(face.element * corners.count + k)]);
+    corners.x[std::size_t(k)] = corner;
+    for (int c = 0; c < 3; ++c)
+    {
+      corners.low[c] = std::min(corners.low[c], corner[c]);
+      corners.high[c] = std::max(corners.high[c], corner[c]);
+    }
+  }
+  return corners;
+}
+
+std::uint64_t bitsOf(Real value)
+{
+  std::uint64_t bits;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+} // namespace
+
+void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
+                   const std::vector<int>& bodyOfNode, const NodeLayout& layout)
+{
+  faces_ = std::move(exterior);
+  bodies_.clear();
+  for (const ExteriorFace& face : faces_)
+    bodies_.push_back(bodyOfNode[std::size_t(face.nodes[0])]);
+  std::vector<FreeNode> nodes = comm_->allGather(mine);
+  std::sort(nodes.begin(), nodes.end(),
+            [](const FreeNode& a, const FreeNode& b) { return a.id < b.id; });
+  const std::vector<Point> before = std::move(points_);
+  points_.clear();
+  for (const auto& [id, mass] : nodes)
+  {
+    Point point;
+    point.id = id;
+    point.mass = mass;
+    const int node = layout.localNode(id);
+    point.node = node < layout.owned() ? node : -1;
+    const auto known =
+        std::lower_bound(before.begin(), before.end(), id,
+                         [](const Point& p, GlobalId wanted) { return p.id < wanted; });
+    if (known != before.end() && known->id == id)
+      point.offset = known->offset;
+    points_.push_back(point);
+  }
+}
+
+/// One rank has a point, the others add zeros: whole numbers have no rounding.
+std::vector<Vec3> Debris::places(const NodalState& state) const
+{
+  std::vector<std::uint64_t> bits(3 * points_.size(), 0);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (points_[i].node >= 0)
+      for (int c = 0; c < 3; ++c)
+        bits[3 * i + std::size_t(c)] = bitsOf(state.x(points_[i].node, c));
+  comm_->sum(bits);
+  std::vector<Vec3> x(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    for (int c = 0; c < 3; ++c)
+      std::memcpy(&x[i][c], &bits[3 * i + std::size_t(c)], sizeof(Real));
+  return x;
+}
+
+/// Longest side of the boxes of the elements behind this rank's faces [m].
+Real Debris::longestElement(const RankMesh& mesh, const NodalState& state) const
+{
+  Real longest = 0;
+  for (const ExteriorFace& face : faces_)
+    longest = std::max(longest, cornersBehind(face, mesh, state.x).longestSide());
+  return longest;
+}
+
+/// Points in elements behind exterior faces, each once, with the body of the element of the lowest
+/// face there.
+std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
+                                               const NodalState& state) const
+{
+  struct Found
+  {
+    int point, body;
+    GlobalId face;
+  };
+  const Real edge = longestElement(mesh, state);
+  std::vector<Found> mine;
+  if (edge > 0 && std::isfinite(edge))
+  {
+    const PointGrid grid(x, edge);
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+    {
+      const ExteriorFace& face = faces_[f];
+      const Corners corners = cornersBehind(face, mesh, state.x);
+      grid.forEachIn(corners.low, corners.high,
+                     [&](int point)
+                     {
+                       const ElementType type = mesh.blocks[std::size_t(face.block)].type;
+                       if (pointInElement(type, corners.x.data(), x[std::size_t(point)]).outside <=
+                           0)
+                         mine.push_back({point, bodies_[f], face.id});
+                     });
+    }
+  }
+  std::vector<Found> all = comm_->allGather(mine);
+  std::sort(all.begin(), all.end(),
+            [](const Found& a, const Found& b)
+            { return std::tie(a.point, a.face) < std::tie(b.point, b.face); });
+  std::vector<Inside> inside;
+  for (const Found& found : all)
+    if (inside.empty() || inside.back().point != found.point)
+      inside.push_back({found.point, found.body});
+  return inside;
+}
+
+/// The nearest face of the body that each of these points is in; of equally near ones the lowest.
+std::vector<Debris::Near> Debris::findNearest(const std::vector<Inside>& inside,
+                                              const std::vector<Vec3>& x, const RankMesh& mesh,
+                                              const ElementForces& elements,
+                                              const NodalState& state) const
+{
+  if (inside.empty()) // on all ranks
+    return {};
+  const auto isNearer = [](const Near& a, const Near& b)
+  { return std::tie(a.point, a.distance, a.face) < std::tie(b.point, b.distance, b.face); };
+  std::vector<Near> best(inside.size());
+  std::vector<Vec3> places;
+  for (const Inside& one : inside)
+    places.push_back(x[std::size_t(one.point)]);
+  const Real edge = longestElement(mesh, state);
+  if (edge > 0 && std::isfinite(edge))
+  {
+    const PointGrid grid(places, edge);
+    for (std::size_t f = 0; f < faces_.size(); ++f)
+    {
+      const ExteriorFace& face = faces_[f];
+      const Corners corners = cornersBehind(face, mesh, state.x);
+      const Real reach = corners.longestSide();
+      const Vec3 margin{reach, reach, reach};
+      std::array<Vec3, 4> c{};
+      for (int k = 0; k < face.nodeCount; ++k)
+        c[std::size_t(k)] = at(state.x, face.nodes[std::size_t(k)]);
+      grid.forEachIn(
+          corners.low - margin, corners.high + margin,
+          [&](int i)
+          {
+            const Inside& one = inside[std::size_t(i)];
+            if (bodies_[f] != one.body)
+              return;
+            const NearestOnFace nearest =
+                nearestOnFace(face.nodeCount, c.data(), places[std::size_t(i)]);
+            Near here;
+            here.point = one.point;
+            here.count = face.nodeCount;
+            here.face = face.id;
+            here.distance = norm(nearest.way);
+            Near& least = best[std::size_t(i)];
+            if (!std::isfinite(here.distance) || (least.count > 0 && !isNearer(here, least)))
+              return;
+            here.outward = here.distance > 0 ? (1 / here.distance) * nearest.way : Vec3{};
+            here.weights = nearest.weights;
+            const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
+            const Real length =
+                mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
+            here.stiffness =
+                stiffnessOfElement * pWaveModulus(block.material()) * length *
+                std::min(Real(1), points_[std::size_t(one.point)].mass / block.mass(face.element));
+            least = here;
+          });
+    }
+  }
+  std::vector<Near> mine;
+  std::copy_if(best.begin(), best.end(), std::back_inserter(mine),
+               [](const Near& one) { return one.count > 0; });
+  std::vector<Near> all = comm_->allGather(mine);
+  std::sort(all.begin(), all.end(), isNearer);
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const Near& a, const Near& b) { return a.point == b.point; }),
+            all.end());
+  return all;
+}
+
+void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
+                        const NodalState& state)
+{
+  forces_.clear();
+  stiffness_.clear();
+  stored_ = 0;
+  touching_ = 0;
+  const std::vector<Vec3> x = places(state);
+  const std::vector<Near> nearest =
+      findNearest(findInside(x, mesh, state), x, mesh, elements, state);
+  std::vector<Real> offsets(points_.size(), 0); // of a point that is outside
+  for (const Near& one : nearest)
+  {
+    Point& point = points_[std::size_t(one.point)];
+    const Real offset = std::min(point.offset, one.distance);
+    offsets[std::size_t(one.point)] = offset;
+    const Real depth = one.distance - offset;
+    if (!(depth > 0))
+      continue;
+    ++touching_;
+    stored_ += 0.5 * one.stiffness * depth * depth;
+    const Vec3 force = (one.stiffness * depth) * one.outward;
+    // A bound by rows on what the contact adds: the point and its place on the face move apart.
+    const auto push = [&](int node, Real weight)
+    {
+      forces_.emplace_back(node, weight * force);
+      stiffness_.emplace_back(node, 2 * std::abs(weight) * one.stiffness);
+    };
+    if (point.node >= 0)
+      push(point.node, 1);
+    const auto face =
+        std::lower_bound(faces_.begin(), faces_.end(), one.face,
+                         [](const ExteriorFace& f, GlobalId id) { return f.id < id; });
+    if (face == faces_.end() || face->id != one.face)
+      continue; // none of its nodes is owned here
+    for (int k = 0; k < one.count; ++k)
+      if (const int node = face->nodes[std::size_t(k)]; node < mesh.ownedNodes)
+        push(node, -one.weights[std::size_t(k)]);
+  }
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].offset = offsets[i];
+}
+
+void Debris::bookHalfStep(const NodalState& state, Real dt)
+{
+  for (const auto& [node, force] : forces_)
+    work_.add(-0.5 * dt * dot(force, at(state.v, node)));
+}
+
+void Debris::addForces(const RankMesh& mesh, const ElementForces& elements, NodalState& state,
+                       Real dt)
+{
+  bookHalfStep(state, dt);
+  forces_.clear();
+  stored_ = 0;
+  touching_ = 0;
+  if (points_.empty()) // on all ranks
+    return;
+  TimedRegion region("coplane::dynamics::debris");
+  findForces(mesh, elements, state);
+  bookHalfStep(state, dt);
+  for (const auto& [node, force] : forces_)
+  {
+    set(state.force, node, at(state.force, node) + force);
+    set(state.contactForce, node, at(state.contactForce, node) + force);
+  }
+  for (const auto& [node, stiffness] : stiffness_)
+    state.contactStiffness(node) += stiffness;
+}
+
+DebrisEnergy Debris::energy() const
+{
+  std::vector<ExactSum> sums{work_};
+  return {ExactSum::overRanks(sums, *comm_)[0], stored_};
+}
+
+void Debris::save(StateTables& out) const
+{
+  std::vector<ExactSum> sums{work_};
+  std::vector<Real> numbers;
+  for (const Real digit : ExactSum::totals(sums, *comm_)[0].digits())
+    numbers.push_back(digit);
+  for (const Point& point : points_)
+    numbers.push_back(point.offset);
+  out.numbers("debris/state", numbers);
+}
+
+void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementForces& elements,
+                     const NodalState& state)
+{
+  const std::vector<Real> numbers = in.numbers("debris/state");
+  if (numbers.size() != ExactSum::digitCount + points_.size())
+    failOnAllRanks(ExitCode::Checkpoint,
+                   "{}: it has {} points of debris and should have {}. Restart with the program "
+                   "that wrote it ({}).",
+                   in.name(), std::int64_t(numbers.size()) - ExactSum::digitCount, points_.size(),
+                   in.program());
+  if (comm_->isRoot())
+    work_ = ExactSum::fromDigits(numbers.data());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    points_[i].offset = numbers[ExactSum::digitCount + i];
+  if (!points_.empty())
+    findForces(mesh, elements, state);
+}
+
+void Debris::addTo(StateHash& hash, std::uint64_t field) const
+{
+  for (const Point& point : points_)
+    hash.add(field, point.id, 0, point.offset);
+}
+} // namespace coplane

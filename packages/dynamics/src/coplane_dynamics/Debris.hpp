@@ -1,0 +1,107 @@
+#pragma once
+
+#include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/ExactSum.hpp>
+#include <coplane_core/StateHash.hpp>
+#include <coplane_dynamics/DebrisEnergy.hpp>
+#include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace coplane
+{
+/// Nodes that have lost all their elements go on as mass points that faces stop. A point in a
+/// living element that has an exterior face stores k d^2/2, with its distance d from the nearest
+/// point of the exterior faces of that body; d counts from what it was when the point was freed in
+/// there, as long as it has not come out. Force and counterforce are minus the gradient of that,
+/// on one line, so both momenta stay.
+///
+/// Every rank has all points with the same bits: the owner of a node tells where it is, the owners
+/// of faces tell which is the nearest, and every rank adds to the nodes that it owns, point after
+/// point.
+class Debris
+{
+public:
+  explicit Debris(const Comm& comm) : comm_(&comm) {}
+
+  /// An owned node that has become a point.
+  struct FreeNode
+  {
+    GlobalId id = 0;
+    Real mass = 0; ///< [kg]
+  };
+
+  /// After elements have died or come: which nodes are points now, and which faces stop them.
+  /// Collective.
+  /// @param bodyOfNode number of the body of each node of this rank's elements
+  void renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
+             const std::vector<int>& bodyOfNode, const NodeLayout& layout);
+
+  /// Forces at n + 1 and what they add to the stiffness of the owned nodes; books the work of the
+  /// step with the mean of the forces at its ends. Collective.
+  /// @param dt the step from n to n + 1 [s]
+  void addForces(const RankMesh& mesh, const ElementForces& elements, NodalState& state, Real dt);
+
+  std::int64_t count() const { return std::int64_t(points_.size()); }
+  std::int64_t touching() const { return touching_; } ///< points that faces push now
+  DebrisEnergy energy() const;                        ///< the same bits on all ranks; collective
+
+  // Part of a checkpoint, after renew(). Collective.
+  void save(StateTables& out) const;
+  void restore(const StateSource& in, const RankMesh& mesh, const ElementForces& elements,
+               const NodalState& state);
+  void addTo(StateHash& hash, std::uint64_t field) const;
+
+private:
+  struct Point
+  {
+    GlobalId id = 0;
+    Real mass = 0;          ///< [kg]
+    int node = -1;          ///< local number where it is owned
+    Real offset = infinity; ///< distance from the surface at which its force begins [m]
+  };
+  /// A point that lies in an element.
+  struct Inside
+  {
+    int point = 0, body = 0;
+  };
+  /// A face that may be the nearest one of a point.
+  struct Near
+  {
+    int point = 0, count = 0;
+    GlobalId face = 0;
+    Real distance = 0, stiffness = 0; ///< [m], [N/m]
+    Vec3 outward{};                   ///< from the point to the face, of length 1
+    std::array<Real, 4> weights{};    ///< shape functions of the face's nodes
+  };
+  using NodeForces = std::vector<std::pair<int, Vec3>>;
+
+  // Collective.
+  std::vector<Vec3> places(const NodalState& state) const;
+  std::vector<Inside> findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
+                                 const NodalState& state) const;
+  std::vector<Near> findNearest(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
+                                const RankMesh& mesh, const ElementForces& elements,
+                                const NodalState& state) const;
+  void findForces(const RankMesh& mesh, const ElementForces& elements, const NodalState& state);
+
+  void bookHalfStep(const NodalState& state, Real dt);
+  Real longestElement(const RankMesh& mesh, const NodalState& state) const;
+
+  const Comm* comm_;
+  std::vector<Point> points_;       ///< sorted by id, the same on all ranks
+  std::vector<ExteriorFace> faces_; ///< local ones
+  std::vector<int> bodies_;         ///< of these
+  NodeForces forces_;               ///< on owned nodes, of the last evaluation
+  std::vector<std::pair<int, Real>> stiffness_;
+  Real stored_ = 0; ///< [J]
+  std::int64_t touching_ = 0;
+  ExactSum work_; ///< of this rank's nodes, taken from them [J]
+};
+} // namespace coplane

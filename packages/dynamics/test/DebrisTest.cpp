@@ -1,0 +1,230 @@
+#include "Rig.hpp"
+
+#include <coplane_dynamics/detail/NearestOnFace.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace coplane
+{
+namespace
+{
+/// A cube of 1 m that dies at once (its ends part by 1e-4 in the first steps) above a block of
+/// 2 x 2 x 2 m, and falls on it: its corners go on as eight points.
+Model fallingCorners(const Comm& comm, const Vec3& velocity = {0, 0, -20})
+{
+  Mesh mesh;
+  addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
+  addBox(mesh, "cube", {1, 1, 1}, {0.37, 0.41, 2.05}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  model.blocks[1].velocity = velocity;
+  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.55}; };
+  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  return model;
+}
+
+/// Largest square of the distance that moving along an edge of the natural square can still gain.
+Real gainAround(int corners, const Vec3* c, const Vec3& x, const NearestOnFace& nearest)
+{
+  Real best = dot(nearest.way, nearest.way);
+  constexpr int samples = 60;
+  for (int i = 0; i <= samples; ++i)
+    for (int j = 0; j <= (corners == 2 ? 0 : samples); ++j)
+    {
+      const Real s = Real(i) / samples, t = Real(j) / samples;
+      std::array<Real, 4> w{};
+      if (corners == 2)
+        w = {1 - s, s, 0, 0};
+      else if (corners == 3)
+        w = {1 - s, s * (1 - t), s * t, 0};
+      else
+        w = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+      Vec3 way{};
+      for (int k = 0; k < corners; ++k)
+        way += w[std::size_t(k)] * (c[k] - x);
+      best = std::min(best, dot(way, way));
+    }
+  return dot(nearest.way, nearest.way) - best;
+}
+} // namespace
+
+TEST(NearestOnFace, isNoFartherThanAnyOtherPlace)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<Real> unit(-1, 1);
+  for (int trial = 0; trial < 300; ++trial)
+    for (const int corners : {2, 3, 4})
+    {
+      // Slightly twisted squares, far from the origin.
+      const Vec3 far{100, -50, 20};
+      Vec3 c[4] = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+      for (Vec3& corner : c)
+        corner += far + 0.15 * Vec3{unit(random), unit(random), unit(random)};
+      const Vec3 x = far + Vec3{2 * unit(random), 2 * unit(random), 0.5 * unit(random)};
+      const NearestOnFace nearest = nearestOnFace(corners, c, x);
+      Real sum = 0;
+      Vec3 place{};
+      for (int k = 0; k < corners; ++k)
+      {
+        const Real weight = nearest.weights[std::size_t(k)];
+        EXPECT_GE(weight, 0);
+        sum += weight;
+        place += weight * c[k];
+      }
+      EXPECT_NEAR(sum, 1, 1e-14);
+      EXPECT_LT(norm(place - x - nearest.way), 1e-13);
+      EXPECT_LT(gainAround(corners, c, x, nearest), 1e-12) << corners;
+    }
+}
+
+TEST(NearestOnFace, isTheFootOfAPointAboveIt)
+{
+  const Vec3 c[4] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  const NearestOnFace nearest = nearestOnFace(4, c, {0.5, 1.5, -0.25});
+  EXPECT_NEAR(nearest.way.z, 0.25, 1e-15);
+  EXPECT_NEAR(nearest.weights[3], 0.75 * 0.75, 1e-14);
+  const NearestOnFace edge = nearestOnFace(4, c, {2.5, 1, 0});
+  EXPECT_NEAR(edge.way.x, -0.5, 1e-14);
+}
+
+TEST(Debris, bouncesWithItsMomentaAndItsEnergy)
+{
+  const Comm comm;
+  Solver solver(fallingCorners(comm), comm);
+  solver.prepare();
+  std::int64_t mostTouching = 0;
+  Real mostStored = 0;
+  for (int n = 0; n < 400; ++n)
+  {
+    solver.advance();
+    mostTouching = std::max(mostTouching, solver.debris()->touching());
+    const EnergyBalance energy = solver.energy();
+    mostStored = std::max(mostStored, energy.debris.stored);
+    ASSERT_LT(std::abs(energy.error()), 2e-3 * energy.initial) << n;
+    ASSERT_LT(norm(solver.momenta().linearError()), 1e-12 * solver.momenta().magnitude);
+    ASSERT_LT(norm(solver.momenta().angularError()), 1e-12 * solver.momenta().magnitude);
+  }
+  ASSERT_EQ(solver.erosion().elements, 1);
+  EXPECT_EQ(solver.debris()->count(), 8);
+  EXPECT_GE(mostTouching, 4);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_GT(mostStored, 0.1 * energy.initial);
+  // A contact that begins or ends within a step: of second order in it, as below.
+  EXPECT_LT(std::abs(energy.debris.remainder()), 1.5e-2 * energy.initial);
+  // What hit the block flies up; a point of 125 kg on nodes of as much loses some of its speed.
+  Real lowest = 0, highest = 0;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    if (solver.layout().ids()[std::size_t(n)] > 125)
+    {
+      lowest = std::min(lowest, solver.state().v(n, 2));
+      highest = std::max(highest, solver.state().v(n, 2));
+    }
+  EXPECT_GT(comm.max(highest), 1);
+}
+
+TEST(Debris, itsRemainderVanishesWithTheStep)
+{
+  const Comm comm;
+  Model model = fallingCorners(comm);
+  model.time.fixedStep = 4e-5; // about a sixth of the usual one
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  std::int64_t touched = 0;
+  for (int n = 0; n < 400; ++n)
+  {
+    solver.advance();
+    touched += solver.debris()->touching();
+  }
+  EXPECT_GT(touched, 100);
+  EXPECT_EQ(solver.debris()->touching(), 0);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_LT(std::abs(energy.debris.remainder()), 1e-3 * energy.initial);
+}
+
+TEST(Debris, fliesThroughWithoutTheOption)
+{
+  const Comm comm;
+  Model model = fallingCorners(comm);
+  model.debris = false;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 400);
+  EXPECT_EQ(solver.debris(), nullptr);
+  Real fastest = -infinity;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    if (solver.layout().ids()[std::size_t(n)] > 125)
+      fastest = std::max(fastest, solver.state().v(n, 2));
+  EXPECT_LT(comm.max(fastest), -15);
+}
+
+TEST(Debris, carriesNothingWhereItIsFreedInside)
+{
+  // The lower corners lie in the block when the cube dies: no energy comes of that, and their
+  // contact begins where they go deeper.
+  const Comm comm;
+  Model model = fallingCorners(comm, {0, 0, 0});
+  for (Vec3& x : model.mesh.coordinates)
+    if (x.z > 2.01)
+      x.z -= 0.07;
+  model.contact.lookAhead = 0;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Real most = 0;
+  for (int n = 0; n < 50; ++n)
+  {
+    solver.advance();
+    const EnergyBalance energy = solver.energy();
+    most = std::max(most, energy.debris.stored);
+    EXPECT_LT(energy.error(), 1e-2 * std::max(energy.scale(), 1.0));
+  }
+  EXPECT_EQ(solver.debris()->count(), 8);
+  // The corners have no more than what they move with; the overlap would hold 200 kJ.
+  EXPECT_LT(most, solver.energy().initial);
+}
+
+TEST(Debris, hasTheSameBitsOnAnyRanks)
+{
+  const Comm world, alone(MPI_COMM_SELF);
+  Solver one(fallingCorners(alone, {3, -2, -20}), alone),
+      many(fallingCorners(world, {3, -2, -20}), world);
+  one.prepare();
+  many.prepare();
+  std::int64_t touched = 0;
+  for (int n = 0; n < 150; ++n)
+  {
+    one.advance();
+    many.advance();
+    touched += one.debris()->touching();
+    ASSERT_EQ(many.stateHash(), one.stateHash()) << n;
+    ASSERT_EQ(many.energy().debris.work, one.energy().debris.work) << n;
+    ASSERT_EQ(many.energy().debris.stored, one.energy().debris.stored) << n;
+  }
+  EXPECT_GT(touched, 20);
+}
+
+TEST(Debris, goesOnAfterARestartWithTheSameBits)
+{
+  const Comm comm;
+  Solver whole(fallingCorners(comm, {3, -2, -20}), comm);
+  whole.prepare();
+  int n = 0;
+  while (whole.debris()->touching() == 0 && n++ < 200)
+    whole.advance();
+  ASSERT_GT(whole.debris()->touching(), 0);
+  whole.advance();
+  StateTables state(comm);
+  whole.save(state);
+  Solver second(fallingCorners(comm, {3, -2, -20}), comm);
+  second.restore(state);
+  EXPECT_EQ(second.stateHash(), whole.stateHash());
+  EXPECT_EQ(second.energy().debris.work, whole.energy().debris.work);
+  EXPECT_EQ(second.energy().debris.stored, whole.energy().debris.stored);
+  cycles(whole, 60);
+  cycles(second, 60);
+  EXPECT_EQ(second.stateHash(), whole.stateHash());
+  EXPECT_EQ(second.energy().debris.work, whole.energy().debris.work);
+  EXPECT_EQ(second.energy().error(), whole.energy().error());
+}
+} // namespace coplane
