@@ -1,5 +1,4 @@
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_material/PseudoCap.hpp>
 #include <coplane_output/Fragments.hpp>
 
 #include <gtest/gtest.h>
