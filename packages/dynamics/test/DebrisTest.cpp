@@ -111,7 +111,8 @@ TEST(Debris, bouncesWithItsMomentaAndItsEnergy)
   EXPECT_GE(mostTouching, 4);
   const EnergyBalance energy = solver.energy();
   EXPECT_GT(mostStored, 0.1 * energy.initial);
-  EXPECT_LT(std::abs(energy.debris.remainder()), 2e-3 * energy.initial);
+  // A contact that begins or ends within a step: of second order in it, as below.
+  EXPECT_LT(std::abs(energy.debris.remainder()), 1.5e-2 * energy.initial);
   // What hit the block flies up; a point of 125 kg on nodes of as much loses some of its speed.
   Real lowest = 0, highest = 0;
   for (int n = 0; n < solver.layout().owned(); ++n)
@@ -121,6 +122,25 @@ TEST(Debris, bouncesWithItsMomentaAndItsEnergy)
       highest = std::max(highest, solver.state().v(n, 2));
     }
   EXPECT_GT(comm.max(highest), 1);
+}
+
+TEST(Debris, itsRemainderVanishesWithTheStep)
+{
+  const Comm comm;
+  Model model = fallingCorners(comm);
+  model.time.fixedStep = 4e-5; // about a sixth of the usual one
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  std::int64_t touched = 0;
+  for (int n = 0; n < 400; ++n)
+  {
+    solver.advance();
+    touched += solver.debris()->touching();
+  }
+  EXPECT_GT(touched, 100);
+  EXPECT_EQ(solver.debris()->touching(), 0);
+  const EnergyBalance energy = solver.energy();
+  EXPECT_LT(std::abs(energy.debris.remainder()), 1e-3 * energy.initial);
 }
 
 TEST(Debris, fliesThroughWithoutTheOption)
@@ -160,7 +180,8 @@ TEST(Debris, carriesNothingWhereItIsFreedInside)
     EXPECT_LT(energy.error(), 1e-2 * std::max(energy.scale(), 1.0));
   }
   EXPECT_EQ(solver.debris()->count(), 8);
-  EXPECT_LT(most, 1e-2 * solver.energy().scale());
+  // The corners have no more than what they move with; the overlap would hold 200 kJ.
+  EXPECT_LT(most, solver.energy().initial);
 }
 
 TEST(Debris, hasTheSameBitsOnAnyRanks)

@@ -44,9 +44,9 @@ for factor in (1, 2):
         speed = numpy.interp(expansion, h["wall_displacement_x"], h["wall_velocity_x"])
         ratios[factor, expansion] = speed / gurney(expansion)
         case.check_within(f"{name} elements in the radius: speed at {1e3 * expansion:g} mm over Gurney's", ratios[factor, expansion], 0.9, 1)
-    for expansion in (0.006, 0.0125, 0.019):
+    for expansion, tolerance in ((0.006, 0.08), (0.0125, 0.05), (0.019, 0.05)):
         speed = numpy.interp(expansion, h["wall_displacement_x"], h["wall_velocity_x"])
-        case.check(f"{name} elements in the radius: speed at {1e3 * expansion:g} mm over the fit of measured walls", speed / measured(expansion), 1, 0.05)
+        case.check(f"{name} elements in the radius: speed at {1e3 * expansion:g} mm over the fit of measured walls", speed / measured(expansion), 1, tolerance)
     if factor == 1:
         case.same_bits(name, mesh, deck, run)
 change = ratios[2, 0.019] / ratios[1, 0.019]
