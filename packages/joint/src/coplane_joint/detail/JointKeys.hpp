@@ -113,7 +113,7 @@ std::vector<Key> coulombKeys()
 template <class P>
 Key resistsBendingKey()
 {
-  return flag("resists_bending", &P::resistsBending)
+  return flag<P>("resists_bending", &P::resistsBending)
       .like("true")
       .means("the bond's traction follows the opening at each point of a face, so that a face "
              "carries moments, and breaks from its most open point; false: one traction all over "
