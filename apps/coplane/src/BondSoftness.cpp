@@ -3,6 +3,8 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_core/OrderStatistics.hpp>
 
+#include <fmt/format.h>
+
 namespace coplane
 {
 namespace

@@ -153,10 +153,10 @@ case.check("finer in a box, 2D: mean edge over the size asked for", mean_edges(m
 case.check("finer in a box, 2D: mean edge far from it over that of elements", mean_edges(made, lambda block, x: x[:, 0] > 6.2) / 0.8, 1, 0.2)
 cube = {**solid, "joints": {"x": solid["joints"]["x"]}, "elements": {"size": 1, "growth": 0.6, "regions": {"box": {"min": [0, 0, 0], "max": [2, 2, 2]}, "size": 0.3}}}
 made = cut("finer_corner", cube)
-case.check("finer in a box, 3D: mean edge over the size asked for", mean_edges(made, lambda block, x: x.max(axis=1) < 1.8) / 0.3, 1, 0.2)
+case.check("finer in a box, 3D: mean edge over the size asked for", mean_edges(made, lambda block, x: x.max(axis=1) < 1.8) / 0.3, 1.1, 0.25)
 case.check_within("finer in a box, 3D: mean edge far from it over that of elements", mean_edges(made, lambda block, x: x[:, 0] > 6) / 1, 0.8, 1.2)
 made = cut("finer_base", {**pile, "elements": {"size": 0.5, "growth": 1, "regions": [{"block": "base", "size": 0.12}]}})
-case.check("finer in a block: mean edge over the size asked for", mean_edges(made, lambda block, x: numpy.full(len(x), block == "base")) / 0.12, 1, 0.2)
+case.check("finer in a block: mean edge over the size asked for", mean_edges(made, lambda block, x: numpy.full(len(x), block == "base")) / 0.12, 1.1, 0.25)
 case.check_within("finer in a block: mean edge of the farthest stone over that of elements", mean_edges(made, lambda block, x: x[:, 2] > 2) / 0.5, 0.8, 1.2)
 coarse = cut("as_coarse", {**pile, "elements": {"size": 0.5}})
 case.check_within("the same without the region: mean edge of the base over that of elements", mean_edges(coarse, lambda block, x: numpy.full(len(x), block == "base")) / 0.5, 0.8, 1.2)
