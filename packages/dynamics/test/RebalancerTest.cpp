@@ -211,7 +211,8 @@ TEST(Rebalancer, looksEverySoManyCyclesAndTellsTheObserver)
                           [&](RankMesh part)
                           {
                             Model again = contactOnTheLeftModel(comm);
-                            again.time = {21.5e-5, 0.8, {}, 1e-5, 0.1};
+                            again.time.end = 21.5e-5;
+                            again.time.fixedStep = 1e-5;
                             again.mesh = std::move(part);
                             return again;
                           });
