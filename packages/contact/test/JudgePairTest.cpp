@@ -80,6 +80,45 @@ TEST(Step5CandidatePairs, onlyAPairThatWasACandidateBeforeWasMissed)
   EXPECT_FALSE(wasMissed(0.5, true, 0.05));           // neighbours
 }
 
+TEST(Step5CandidatePairs, aPairBesideEachOtherThatHasTurnedIntoTheDepthLimitWasNotMissed)
+{
+  // Two squares whose centres are 0.8 m apart along their plane and 0.53 m in each other, both
+  // turned together by so much [rad]. The deepest candidates lie 0.6 m in each other.
+  struct Pair
+  {
+    Scene scene;
+    CandidateRules rules;
+    FacePlane planeA, planeB;
+    NodeVectors x;
+    explicit Pair(Real turned, Real deeper = 0)
+    {
+      const Vec3 n{std::sin(turned), 0, std::cos(turned)};
+      scene.add(faceId(1, 0), {0, 0, 0}, n, 1, 1).local = true;
+      scene.add(faceId(2, 0), {.8, 0, -.53 - deeper}, -1.0 * n, 1, 1).local = true;
+      rules.skin = rules.reach = .1;
+      x = positions(scene);
+      planeA = facePlane(scene.faces[0], x, 3);
+      planeB = facePlane(scene.faces[1], x, 3);
+    }
+  };
+  // Just before, 0.05 m of motion and 0.05 of turning ago, it was too deep.
+  const Pair before(-.05, .05), now(0);
+  const auto box = [](const Pair& pair, int f) {
+    return contactBox(pair.scene.faces[f], f == 0 ? pair.planeA : pair.planeB, pair.x, pair.rules);
+  };
+  EXPECT_EQ(judgePair(before.scene.faces[0], before.scene.faces[1], box(before, 0), box(before, 1),
+                      before.planeA, before.planeB, before.x, before.rules),
+            Verdict::TooFarApart);
+  const auto wasMissed = [&](Real moved, Real turned)
+  {
+    return hadToBeFound(now.scene.faces[0], now.scene.faces[1], now.planeA, now.planeB, now.rules,
+                        moved, turned);
+  };
+  EXPECT_FALSE(wasMissed(.05, .05));
+  EXPECT_TRUE(wasMissed(.05, .02)); // too little turning to have been out of reach
+  EXPECT_FALSE(wasMissed(.08, 0));
+}
+
 TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)
 {
   EXPECT_EQ(judgeSquares(0.05, 1, [](Face& a, Face& b) { b.nodes[2] = a.nodes[0]; }),

@@ -221,10 +221,10 @@ public:
           (materialArea * opposednessSlope_ * energy) * face_[1 - f]->normal;
       const Vec3Of<T> inFace = slopes - dot(mine.normal, slopes) * mine.normal;
       const T area = 1.0 / mine.area;
-      byVectorArea(f,
-                   area * inFace - (opposedness * energy * area *
-                                    (0.5 * birth_[f] * area + materialArea * falling_ * sizes_[f])) *
-                                       mine.normal);
+      byVectorArea(f, area * inFace -
+                          (opposedness * energy * area *
+                           (0.5 * birth_[f] * area + materialArea * falling_ * sizes_[f])) *
+                              mine.normal);
       const Vec3Of<T> even = (scale * push * inverse / mine.count) * mine.normal;
       for (int i = 0; i < mine.count; ++i)
         gradient[f][i] += even + scale * spatial(rim[f][i]);

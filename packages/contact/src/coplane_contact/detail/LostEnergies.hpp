@@ -37,16 +37,28 @@ KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
   return low > 1e-12 * high ? high : 0;
 }
 
+/// What the stiffness k and the integral S of squares, both of the tangent at the largest closure,
+/// lose together while the pair stands still: k S / 2 before less after. The range of the
+/// opposition knows the closure and not the stiffness, so that the energy falls with S by less.
+/// @param rising PairPotential::rising() [-]
+KOKKOS_INLINE_FUNCTION Real lostOfTangent(Real oldStiffness, Real oldSquares, Real stiffness,
+                                          Real squares, Real rising)
+{
+  return 0.25 * ((oldStiffness - stiffness) * (oldSquares + squares) +
+                 rising * (oldStiffness + stiffness) * (oldSquares - squares));
+}
+
 /// What the closure curve's history loses when its maximum closure rises from `before` to now, with
-/// the area in contact as it is [J]: the energy before less that after. The moments are those of
-/// closures beyond the permanent closure of now.
+/// the area in contact as it is [J]. The moments are those of closures beyond the permanent closure
+/// of now.
 KOKKOS_INLINE_FUNCTION Real lostByLoading(const JointLaw& law, const JointFit& fit, Real before,
-                                          Real now, Real area, Real volume, Real squares)
+                                          Real now, Real area, Real volume, Real squares,
+                                          Real rising)
 {
   const ClosureCurve::Point old = law.curve.at(fit, before), point = law.curve.at(fit, now);
   const Real shift =
       (now - point.traction / point.stiffness) - (before - old.traction / old.stiffness);
-  return 0.5 * (old.stiffness * (squares + 2 * shift * volume + shift * shift * area) -
-                point.stiffness * squares);
+  return lostOfTangent(old.stiffness, squares + 2 * shift * volume + shift * shift * area,
+                       point.stiffness, squares, rising);
 }
 } // namespace coplane::detail

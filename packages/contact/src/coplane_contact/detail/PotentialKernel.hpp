@@ -238,15 +238,14 @@ private:
     const T loaded = 2.0 * density.square * m.volume + density.linear * m.area;
     pair_.growFrom(planes_.each([](const Plane& p) { return p.birthArea[0]; }),
                    planes_.each([](const Plane& p) { return p.birthArea[1]; }));
-    // The energy of the pair rises by this much for each that its closure stores more.
-    const T perStored = pair_.materialArea * pair_.opposedness * pair_.rising() * share;
+    const T energyShare = pair_.materialArea * pair_.opposedness * share;
     Response response;
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
       {
         Plane& plane = *planes_.plane[i];
         plane.gap = branchFree::lane(relative.apart, i);
-        stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(perStored, i),
+        stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(energyShare, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), response);
       }
@@ -321,10 +320,10 @@ private:
   }
 
   /// The law of one plane: shear, bonds, dilation; history of the closure curve.
-  /// @param area in contact; perStored: change of the energy of the pair over that of what its
-  ///        closure stores [-]; loaded: force [N] over opposedness
+  /// @param area in contact; energyShare: energy of the pair over what its closure stores [-];
+  ///        loaded: force [N] over opposedness
   /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
-  KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real perStored,
+  KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real energyShare,
                                              Real loaded, const Vec3& tau, const Vec3& increment,
                                              Response& out) const
   {
@@ -356,7 +355,7 @@ private:
       plane.maximumBefore = state.maximumClosure;
     }
     else if (!law.curve.straight())
-      loadCurve(plane, i, area, perStored, response, state);
+      loadCurve(plane, i, area, energyShare, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -377,19 +376,20 @@ private:
 
   /// The maximum closure of the next cycle; what it costs is booked half with the area of this
   /// cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real perStored,
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
                                              const JointResponse& response, JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
     const Real wholeArea = branchFree::lane(pair_.moments.area, i),
                volume = branchFree::lane(pair_.moments.volume, i),
-               squares = branchFree::lane(pair_.moments.squares, i);
+               squares = branchFree::lane(pair_.moments.squares, i),
+               rising = branchFree::lane(pair_.rising(), i);
     const Real before = plane.history.maximumClosure;
     if (plane.maximumBefore < before)
       plane.hysteresisWork +=
-          plane.halfHysteresis + 0.5 * perStored *
+          plane.halfHysteresis + 0.5 * energyShare *
                                      lostByLoading(law, plane.fit, plane.maximumBefore, before,
-                                                   wholeArea, volume, squares);
+                                                   wholeArea, volume, squares, rising);
     plane.maximumBefore = before;
     plane.halfHysteresis = 0;
     if (response.crushedByShear)
@@ -406,9 +406,10 @@ private:
     const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
     const Real shift = reached - next.traction / next.stiffness - permanents_[i];
     state.maximumClosure = reached;
-    plane.halfHysteresis = 0.5 * perStored * 0.5 *
-                           (slopes_[i] * squares - next.stiffness * (squares - 2 * shift * volume +
-                                                                     shift * shift * wholeArea));
+    plane.halfHysteresis =
+        0.5 * energyShare *
+        lostOfTangent(slopes_[i], squares, next.stiffness,
+                      squares - 2 * shift * volume + shift * shift * wholeArea, rising);
   }
 
   /// Forces at the corners: of the potential, of shear, whose moment is carried by the turning of
