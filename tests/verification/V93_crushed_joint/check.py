@@ -164,6 +164,7 @@ for dimension in (2, 3):
 for factor in (0.9, 1.2):
     name = f"initial_{factor}"
     deck = changed([(0, 0, 1e-4)])
+    deck["output"] = {"every": 1}
     deck["initial"] = [{"block": block, "stress": [0, -factor * f_m, 0, 0, 0, 0]} for block in deck["blocks"]]
     for ranks in (1, 2):
         run = case.attempt(f"{name}_{ranks}", meshes[2], deck, ranks=ranks)
