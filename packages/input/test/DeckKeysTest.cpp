@@ -191,6 +191,8 @@ std::string show(const Deck& d)
             b.hourglassViscosity, b.rigid);
     const auto& e = b.erosion;
     showAll(out, e.damage, e.plasticStrain, e.volumeRatio, e.stableStep);
+    const auto& d = b.damping;
+    showAll(out, d.ratio, d.low, d.high, d.elements, d.volumetric);
     for (const auto& v : e.variables)
       showAll(out, v.name, v.above, v.below);
   }

@@ -286,6 +286,8 @@ TEST_P(LawProperties, theAnswerIsAContinuousFunctionOfTheStrain)
   // halved again and again. What is left then is a jump: there round-off decides, and bodies that
   // are each other's mirror images part.
   constexpr int halvings = 44; // to 6e-14 of the strain
+  if (std::holds_alternative<MaxwellDamped>(law()))
+    GTEST_SKIP() << "linear beside its law; what the dashpots take is a small difference of works";
   std::mt19937 random(7);
   std::array<Real, maximumHistory> largest{};
   Real stress = 0;

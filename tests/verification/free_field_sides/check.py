@@ -91,7 +91,8 @@ case.check_equal("S: cycles of the wide model, as of the column", int(wide.histo
 for place in ("left", "middle"):
     case.check(f"S: {place} of the top against the column, over its peak",
                largest(wide.history[f"{place}_velocity_x"] - narrow.history["middle_velocity_x"]) / peak, 0, 1e-9)  # fmt: skip
-case.check("S: vertical velocity of the wide model over the peak", largest(wide.history["left_velocity_y"]) / peak, 0, 1e-9)
+# Shear turns the soil by v / c, so vertical motion is of second order: (v / c)^2 c over v.
+case.check("S: vertical velocity of the wide model over the peak", largest(wide.history["left_velocity_y"]) / peak, 0, peak / soil[1])
 case.check("S: unevenness of the wide model", uneven(wide), 0, 1e-9)
 case.same_bits("s_wide", None, wide_deck, wide, ranks=2, threads=2)
 case.same_bits("s_wide", None, wide_deck, wide, ranks=3)
@@ -99,12 +100,12 @@ quiet = case.run("s_absorbing", None, deck("wide.e", [base(wave), *({"type": "ab
 case.check_within("S: with absorbing sides instead, difference of the middle over the peak",
                   largest(quiet.history["middle_velocity_x"] - narrow.history["middle_velocity_x"]) / peak, 0.1, 2)  # fmt: skip
 
-# A base that is shaken as a whole: the column has the same.
+# A base that is shaken as a whole: the column has the same. It is held vertically, the wide model moves by the second order of the strain.
 shaken = {"type": "velocity", "node_set": "base", "value": [pulse(0.05, 2.5, 0.02), 0, 0]}
 rigid_narrow = case.run("rigid_narrow", None, deck("narrow.e", [{"type": "symmetry", "node_set": "all", "normal": [0, 1, 0]}, shaken], end), energy=1e-4)
 rigid_wide = case.run("rigid_wide", None, deck("wide.e", [shaken, *sides("left", "right")], end), energy=1e-4)
 case.check("S, rigid base: the middle of the top against the column, over its peak",
-           largest(rigid_wide.history["middle_velocity_x"] - rigid_narrow.history["middle_velocity_x"]) / largest(rigid_narrow.history["middle_velocity_x"]), 0, 1e-9)  # fmt: skip
+           largest(rigid_wide.history["middle_velocity_x"] - rigid_narrow.history["middle_velocity_x"]) / largest(rigid_narrow.history["middle_velocity_x"]), 0, 1e-7)  # fmt: skip
 
 # --- after the weight: P and S together, with a law that flows ---------------------------------------------------------------------------
 

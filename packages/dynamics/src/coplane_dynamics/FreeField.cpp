@@ -249,9 +249,11 @@ void FreeFieldColumn::sumForces()
                    cornerForce(element.element, c, 2)};
       (element.corners[c].outer ? outer : inner)[element.corners[c].end] += f;
     }
-    const Real thickness = layers_.heights[l + 1] - layers_.heights[l] +
-                           dot(displacement_[l + 1] - displacement_[l], layers_.up);
-    const Real face = 0.5 * thickness * layers_.layers[l].breadth;
+    // The face of the side leans as the layer does.
+    Vec3 rise = (layers_.heights[l + 1] - layers_.heights[l]) * layers_.up +
+                (displacement_[l + 1] - displacement_[l]);
+    rise -= dot(rise, layers_.along) * layers_.along;
+    const Real face = 0.5 * norm(rise) * layers_.layers[l].breadth;
     for (std::size_t end = 0; end < 2; ++end)
     {
       force_[l + end] += (1 / element.area) * (outer[end] + inner[end]);
