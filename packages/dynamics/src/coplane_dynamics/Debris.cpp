@@ -346,7 +346,7 @@ void Debris::save(StateTables& out) const
   for (const Real digit : ExactSum::totals(sums, *comm_)[0].digits())
     numbers.push_back(digit);
   for (const Point& point : points_)
-    numbers.push_back(point.offset);
+    numbers.insert(numbers.end(), {point.offset, point.mass});
   out.numbers("debris/state", numbers);
 }
 
@@ -354,16 +354,19 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
                      const NodalState& state)
 {
   const std::vector<Real> numbers = in.numbers("debris/state");
-  if (numbers.size() != ExactSum::digitCount + points_.size())
+  if (numbers.size() != ExactSum::digitCount + 2 * points_.size())
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: it has {} points of debris and should have {}. Restart with the program "
                    "that wrote it ({}).",
-                   in.name(), std::int64_t(numbers.size()) - ExactSum::digitCount, points_.size(),
+                   in.name(), (std::int64_t(numbers.size()) - ExactSum::digitCount) / 2, points_.size(),
                    in.program());
   if (comm_->isRoot())
     work_ = ExactSum::fromDigits(numbers.data());
   for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].offset = numbers[ExactSum::digitCount + i];
+  {
+    points_[i].offset = numbers[ExactSum::digitCount + 2 * i];
+    points_[i].mass = numbers[ExactSum::digitCount + 2 * i + 1];
+  }
   if (!points_.empty())
     findForces(mesh, elements, state);
 }
