@@ -125,8 +125,12 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
     const auto known =
         std::lower_bound(before.begin(), before.end(), id,
                          [](const Point& p, GlobalId wanted) { return p.id < wanted; });
-    if (known != before.end() && known->id == id)
+    // Of a point that was in no such element nobody knows how deep it lies in faces laid bare now.
+    if (known != before.end() && known->id == id && known->inside)
+    {
       point.offset = known->offset;
+      point.inside = true;
+    }
     points_.push_back(point);
   }
 }
@@ -274,9 +278,12 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
   const std::vector<Near> nearest =
       findNearest(findInside(x, mesh, state), x, mesh, elements, state);
   std::vector<Real> offsets(points_.size(), 0); // of a point that is outside
+  for (Point& point : points_)
+    point.inside = false;
   for (const Near& one : nearest)
   {
     Point& point = points_[std::size_t(one.point)];
+    point.inside = true;
     const Real offset = std::min(point.offset, one.distance);
     offsets[std::size_t(one.point)] = offset;
     const Real depth = one.distance - offset;
