@@ -175,8 +175,12 @@ std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension)
 {
   std::vector<std::string> history, problems;
   for (const BlockCard& card : deck.blocks)
+  {
     for (const std::string& name : historyNames(materialOf(materialCardOf(deck, card))))
       history.push_back(name);
+    if (card.damping.ratio > 0 && !card.rigid)
+      history.emplace_back("maxwell_dissipation");
+  }
   const auto demand = [&](const std::string& where, const std::string& path,
                           const std::vector<std::string>& wanted,
                           const std::vector<std::string>& choices, const char* of)

@@ -325,7 +325,8 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
   const std::string timeCard = "time: {end: 1}";
   withScaling.replace(withScaling.find(timeCard), timeCard.size(),
                       "time: {end: 1, mass_scaling: {step: 1e-6}}");
-  for (const char* type : {"absorbing, side_set: a", "acceleration, node_set: a, value: [0, 0, 0]"})
+  for (const char* type : {"absorbing, side_set: a", "free_field, side_set: a",
+                           "acceleration, node_set: a, value: [0, 0, 0]"})
   {
     const std::string wave = fmt::format("  - {{type: {}}}\n", type);
     withScaling.replace(withScaling.find(wave), wave.size(), "");

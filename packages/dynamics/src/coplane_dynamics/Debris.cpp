@@ -125,8 +125,12 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
     const auto known =
         std::lower_bound(before.begin(), before.end(), id,
                          [](const Point& p, GlobalId wanted) { return p.id < wanted; });
-    if (known != before.end() && known->id == id)
+    // Of a point that was in no such element nobody knows how deep it lies in faces laid bare now.
+    if (known != before.end() && known->id == id && known->inside)
+    {
       point.offset = known->offset;
+      point.inside = true;
+    }
     points_.push_back(point);
   }
 }
@@ -274,9 +278,12 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
   const std::vector<Near> nearest =
       findNearest(findInside(x, mesh, state), x, mesh, elements, state);
   std::vector<Real> offsets(points_.size(), 0); // of a point that is outside
+  for (Point& point : points_)
+    point.inside = false;
   for (const Near& one : nearest)
   {
     Point& point = points_[std::size_t(one.point)];
+    point.inside = true;
     const Real offset = std::min(point.offset, one.distance);
     offsets[std::size_t(one.point)] = offset;
     const Real depth = one.distance - offset;
@@ -346,7 +353,7 @@ void Debris::save(StateTables& out) const
   for (const Real digit : ExactSum::totals(sums, *comm_)[0].digits())
     numbers.push_back(digit);
   for (const Point& point : points_)
-    numbers.push_back(point.offset);
+    numbers.insert(numbers.end(), {point.offset, point.mass});
   out.numbers("debris/state", numbers);
 }
 
@@ -354,16 +361,19 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
                      const NodalState& state)
 {
   const std::vector<Real> numbers = in.numbers("debris/state");
-  if (numbers.size() != ExactSum::digitCount + points_.size())
+  if (numbers.size() != ExactSum::digitCount + 2 * points_.size())
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: it has {} points of debris and should have {}. Restart with the program "
                    "that wrote it ({}).",
-                   in.name(), std::int64_t(numbers.size()) - ExactSum::digitCount, points_.size(),
+                   in.name(), (std::int64_t(numbers.size()) - ExactSum::digitCount) / 2, points_.size(),
                    in.program());
   if (comm_->isRoot())
     work_ = ExactSum::fromDigits(numbers.data());
   for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].offset = numbers[ExactSum::digitCount + i];
+  {
+    points_[i].offset = numbers[ExactSum::digitCount + 2 * i];
+    points_[i].mass = numbers[ExactSum::digitCount + 2 * i + 1];
+  }
   if (!points_.empty())
     findForces(mesh, elements, state);
 }

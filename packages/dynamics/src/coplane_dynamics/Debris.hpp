@@ -62,9 +62,10 @@ private:
   struct Point
   {
     GlobalId id = 0;
-    Real mass = 0;          ///< [kg]
+    Real mass = 0;          ///< at the last renew(): mass scaling may have raised it since [kg]
     int node = -1;          ///< local number where it is owned
     Real offset = infinity; ///< distance from the surface at which its force begins [m]
+    bool inside = false;    ///< in an element with an exterior face, at the last evaluation
   };
   /// A point that lies in an element.
   struct Inside

@@ -55,7 +55,7 @@ bool begins(const std::string& text, const char* with)
 FreeFieldColumn::FreeFieldColumn(std::size_t boundary, const Model& model, const Comm& comm)
     : name_(model.conditions.freeFields[boundary].name),
       where_(model.conditions.freeFields[boundary].where), boundary_(boundary),
-      dimension_(model.mesh.dimension),
+      when_(model.conditions.freeFields[boundary].when), dimension_(model.mesh.dimension),
       layers_(freeFieldLayers(model.conditions.freeFields[boundary], model, comm))
 {
   const std::size_t count = layers_.heights.size();

@@ -108,6 +108,7 @@ private:
 
   std::string name_, where_;
   std::size_t boundary_; ///< position in Conditions::freeFields
+  Window when_;
   int dimension_;
   FreeFieldLayers layers_;
   std::vector<Holds> holds_;            ///< by level

@@ -25,7 +25,8 @@ void FreeFieldColumn::save(StateTables& out) const
 {
   if (!started_)
     return;
-  std::vector<Real> numbers;
+  // The window tells columns apart that stand beside one side one after the other.
+  std::vector<Real> numbers{when_.from, when_.until};
   forEachVector(*this,
                 [&](const Vec3& vector) {
                   numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
@@ -45,7 +46,9 @@ void FreeFieldColumn::restore(const StateSource& in)
   if (!in.has(tableName()))
     return; // begins later
   const std::vector<Real> numbers = in.numbers(tableName());
-  std::size_t expected = 0;
+  if (numbers.size() > 1 && !when_.overlaps({numbers[0], numbers[1]}))
+    return; // of another one beside this side
+  std::size_t expected = 2;
   forEachVector(*this, [&](const Vec3&) { expected += 3; });
   for (const LayerElement& element : elements_)
     expected += blocks_[std::size_t(element.block)].stateColumns().size();
@@ -54,7 +57,7 @@ void FreeFieldColumn::restore(const StateSource& in)
                    "{}: the column beside side set '{}' has {} numbers and should have {}. Restart "
                    "with the program that wrote it ({}).",
                    in.name(), name_, numbers.size(), expected, in.program());
-  const Real* next = numbers.data();
+  const Real* next = numbers.data() + 2;
   forEachVector(*this,
                 [&](Vec3& vector)
                 {

@@ -33,7 +33,8 @@ Real MassScaling::massPerSquaredStep(const Parts& parts, int node) const
 
 Real MassScaling::nodeStep(const Parts& parts, int node) const
 {
-  return std::sqrt(parts.state.mass(node) / massPerSquaredStep(parts, node));
+  const Real perSquaredStep = massPerSquaredStep(parts, node);
+  return perSquaredStep < infinity ? std::sqrt(parts.state.mass(node) / perSquaredStep) : 0;
 }
 
 bool MassScaling::raise(const Parts& parts, NodalState& state, bool atStart) const

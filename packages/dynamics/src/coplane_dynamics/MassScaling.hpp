@@ -40,7 +40,7 @@ public:
   /// is booked as an impulse and external work at n + 1/2, or not, at the start. Whether some were
   /// raised on this rank.
   bool raise(const Parts& parts, NodalState& state, bool atStart) const;
-  /// Stable step at an owned node, without safety factor [s].
+  /// Stable step at an owned node, without safety factor; 0 when a stiffness is no number [s].
   Real nodeStep(const Parts& parts, int node) const;
   /// Stable step of elements, planes and lines of this rank; no larger than what masses are raised
   /// for, unless elements allow that without [s].

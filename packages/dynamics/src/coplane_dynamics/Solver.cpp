@@ -363,8 +363,13 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
 void Solver::kick(Real step)
 {
   const WorkWatch watch(work_.nodes);
-  motion_->startFreeFields(kickTimes(step), model_.conditions, mesh(), state_, elements_, *comm_);
-  attempt([&] { motion_->kick(kickTimes(step), model_.conditions, state_); });
+  attempt(
+      [&]
+      {
+        motion_->startFreeFields(kickTimes(step), model_.conditions, mesh(), state_, elements_,
+                                 *comm_); // throws on all ranks or on none
+        motion_->kick(kickTimes(step), model_.conditions, state_);
+      });
   clock_.nextStep = step;
 }
 

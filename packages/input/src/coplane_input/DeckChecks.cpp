@@ -163,7 +163,8 @@ void checkMassScaling(const Deck& deck, const DeckNode& root, Problems& problems
   for (std::size_t i = 0; i < deck.conditions.size(); ++i)
   {
     const std::string& type = deck.conditions[i].type;
-    if (!deck.time.scalingWithWaves && (type == "absorbing" || type == "acceleration"))
+    if (!deck.time.scalingWithWaves &&
+        (type == "absorbing" || type == "free_field" || type == "acceleration"))
       problems.add(node,
                    fmt::format("time.mass_scaling with conditions.{} of type {}: added mass slows "
                                "waves down and sends them back, so what the condition is for comes "

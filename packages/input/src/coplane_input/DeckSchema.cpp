@@ -634,9 +634,9 @@ Key timeGroup()
                                           "is above this part of its own"),
                                flag("with_waves", &TimeCard::scalingWithWaves)
                                    .like("true")
-                                   .means("also with absorbing sides and accelerations of the "
-                                          "ground, where added mass slows waves down and "
-                                          "sends them back"),
+                                   .means("also with absorbing and free-field sides and "
+                                          "accelerations of the ground, where added mass slows "
+                                          "waves down and sends them back"),
                            })
                        .means("nodal masses are raised where the stable step is smaller than a "
                               "given one: for slow motions only"),
