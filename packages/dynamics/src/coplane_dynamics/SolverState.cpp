@@ -217,8 +217,8 @@ std::uint64_t Solver::stateHash() const
     PlaneField = 200,
     Time = 300,
     LineField = 400,
-      FreeFieldNumber = 500,
-      DebrisField = 600
+    FreeFieldNumber = 500,
+    DebrisField = 600
   };
   for (int n = 0; n < layout_.owned(); ++n)
     for (int c = 0; c < 3; ++c)
