@@ -75,8 +75,10 @@ TEST(LedgerOfThePotential, aCurveThatIsLoadedWhileItsFacesTurnAwayLosesWhatIsBoo
         const Real coarse = leftOverOf(angle, 400, growth), fine = leftOverOf(angle, 1600, growth);
         EXPECT_LT(std::abs(coarse), 1e-3);
         EXPECT_LT(std::abs(fine), 1e-4);
-        if (angle == 40) // of the second order in the step
+        if (angle == 40)
+        { // of the second order in the step
           EXPECT_LT(std::abs(fine), .1 * std::abs(coarse));
+        }
       }
     }
 }

@@ -1,6 +1,8 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_dynamics/ErosionRule.hpp>
 
+#include <cmath>
+
 namespace coplane
 {
 std::vector<std::string> ErosionCriteria::variableNames() const
@@ -43,7 +45,11 @@ bool ErosionRule::exceedsLimit(const ElementBlock& block, int e) const
     if (!(ratio >= (*criteria_.volumeRatio)[0] && ratio <= (*criteria_.volumeRatio)[1]))
       return true;
     // With full integration a corner may have turned inside out while the volume is still positive.
-    if (!(block.stableStep()(e) > 0))
+    // Stresses that are no numbers have no stable step either, and are no reason to go on.
+    bool finite = true;
+    for (int c = 0; c < 6; ++c)
+      finite = finite && std::isfinite(block.stress()(c, e));
+    if (finite && !(block.stableStep()(e) > 0))
       return true;
   }
   return criteria_.stableStep && !(block.stableStep()(e) >= *criteria_.stableStep);
