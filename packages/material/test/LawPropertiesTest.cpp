@@ -286,8 +286,8 @@ TEST_P(LawProperties, theAnswerIsAContinuousFunctionOfTheStrain)
   // halved again and again. What is left then is a jump: there round-off decides, and bodies that
   // are each other's mirror images part.
   constexpr int halvings = 44; // to 6e-14 of the strain
-  if (std::holds_alternative<MaxwellDamped>(law()))
-    GTEST_SKIP() << "linear beside its law; what the dashpots take is a small difference of works";
+  // What dashpots take is a small difference of works, so that round-off in it looks like a jump.
+  const bool damped = std::holds_alternative<MaxwellDamped>(law());
   std::mt19937 random(7);
   std::array<Real, maximumHistory> largest{};
   Real stress = 0;
@@ -331,7 +331,7 @@ TEST_P(LawProperties, theAnswerIsAContinuousFunctionOfTheStrain)
         change = std::max(change,
                           std::abs(componentsOf(a.stress)[k] - componentsOf(b.stress)[k]) / stress);
       for (int k = 0; k < histories(); ++k)
-        if (largest[k] > 0)
+        if (largest[k] > 0 && !damped)
           change = std::max(change, std::abs(a.history[k] - b.history[k]) / largest[k]);
       return change;
     };
