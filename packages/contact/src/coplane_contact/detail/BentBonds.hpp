@@ -18,7 +18,8 @@ struct BentBonds
   bool partly = false; ///< a bond that may wear is in part closed; T = Real only
 };
 
-/// Bound on how far two faces slide past each other in a step, but for the turning of their plane [m].
+/// Bound on how far two faces slide past each other in a step, but for the turning of their plane
+/// [m].
 template <class T>
 KOKKOS_INLINE_FUNCTION Real mostSliding(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
                                         int i, Real dt)
