@@ -539,6 +539,12 @@ void checkNames(const BlocksRecipe& recipe, Problems& problems)
                    fmt::format("openings.{} has the name of the domain's block, so that it could "
                                "not be dug out; name it otherwise.",
                                opening.name));
+  for (const OpeningCard& opening : recipe.openings)
+    if (opening.keep && !recipe.domain.file.empty() && opening.name == recipe.domain.supports)
+      problems.add(nodeAt(recipe.root, {"openings", opening.name}),
+                   fmt::format("openings.{} has the name of the block of supports, so that it "
+                               "could not be dug out; name it, or domain.supports, otherwise.",
+                               opening.name));
   if (!recipe.domain.joint.empty())
     joints.push_back(recipe.domain.joint);
   for (const SetCard& set : recipe.sideSets)

@@ -109,15 +109,18 @@ struct JointLaw
     return response;
   }
 
-  /// Whether a bond has worn, or may wear in this step: where it has half of its strength.
+  /// Whether a bond has worn, or may wear in this step: where it has half of its strength, or gets
+  /// all of it by sliding on.
   /// @param opened where it is most open [m]
-  KOKKOS_INLINE_FUNCTION bool mayWear(const JointFit& fit, const JointState& state,
-                                      Real opened) const
+  /// @param slid by how much the faces slide past each other in this step, at most [m]
+  KOKKOS_INLINE_FUNCTION bool mayWear(const JointFit& fit, const JointState& state, Real opened,
+                                      Real slid) const
   {
     const Real held = bond.softens() ? bond.cohesion : cohesion;
+    const Real shear = norm(state.shearTraction);
     return state.opening > 0 || state.shearing > 0 ||
-           fit.normalStiffness * opened > 0.5 * bond.tensileStrength ||
-           dot(state.shearTraction, state.shearTraction) > 0.25 * held * held;
+           fit.normalStiffness * opened > 0.5 * bond.tensileStrength || shear > 0.5 * held ||
+           shear + fit.shearStiffness * slid > held;
   }
 
   /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.

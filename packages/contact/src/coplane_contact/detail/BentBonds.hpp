@@ -3,6 +3,8 @@
 #include <coplane_contact/ContactPotential.hpp>
 #include <coplane_contact/FacePairKernel.hpp>
 
+#include <cmath>
+
 // Bonds that resist bending (docs/theory/contact-potential.md, "Laws"): the traction follows the
 // closure at each point, k c where it is closed, less where it is open and has worn.
 
@@ -16,6 +18,22 @@ struct BentBonds
   bool partly = false; ///< a bond that may wear is in part closed; T = Real only
 };
 
+/// Bound on how far two faces slide past each other in a step, but for the turning of their plane
+/// [m].
+template <class T>
+KOKKOS_INLINE_FUNCTION Real mostSliding(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
+                                        int i, Real dt)
+{
+  Real square = 0;
+  for (int j = 0; j < a.count; ++j)
+    for (int k = 0; k < b.count; ++k)
+    {
+      const Vec3 drift = branchFree::lane(b.v[k], i) - branchFree::lane(a.v[j], i);
+      square = std::fmax(square, dot(drift, drift));
+    }
+  return dt * std::sqrt(square);
+}
+
 /// Fills `bent`. What is closed of a bond that is partly open, and may wear, has to be cut off:
 /// that is left to T = Real.
 /// @param of the lanes with bonds that resist bending
@@ -23,7 +41,8 @@ struct BentBonds
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
 findBending(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& of,
-            const PairPotential<Dim, T>& pair, BentBonds<T>& bent)
+            const PairPotential<Dim, T>& pair, const HalfStepFaceOf<T>& a,
+            const HalfStepFaceOf<T>& b, Real dt, BentBonds<T>& bent)
 {
   const ContactMoments<T>& m = pair.moments;
   const T least = pair.leastClosure(), mean = m.volume / m.area, squares = m.squares / m.area;
@@ -40,7 +59,8 @@ findBending(const PlaneBatch<T>& planes, const branchFree::MaskOf<T>& of,
       bending.closedMean = bending.mean;
     else if (!(branchFree::lane(pair.mostClosure, i) > 0))
       bending.openSquares = branchFree::lane(squares, i);
-    else if (planes.law[i]->mayWear(plane.fit, plane.history, bending.opened))
+    else if (planes.law[i]->mayWear(plane.fit, plane.history, bending.opened,
+                                    mostSliding(a, b, i, dt)))
     {
       if constexpr (PlaneBatch<T>::width == 1)
       {

@@ -160,7 +160,7 @@ private:
     deepest_ = pair_.mostClosure + permanent;
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
-      done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, bent_);
+      done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
   }
 
   /// Steps E and F. @returns the lanes that carry
