@@ -504,7 +504,8 @@ TEST(DeckErrors, requiredKeysThatAreMissing)
 TEST(DeckErrors, aProbeOfNothingAndAProbeOfTwoThings)
 {
   EXPECT_EQ(errorWith("history: {probes: [{name: a}, {name: b, block: c, node_set: d}]}\n"),
-            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block, point.\n"
+            "wall.yaml:5:20: history.probes.0 needs one of the keys node_set, block, point, "
+            "plane, between.\n"
             "wall.yaml:5:48: history.probes.1.node_set and history.probes.1.block exclude each "
             "other; keep one of them.");
 }
@@ -763,7 +764,7 @@ TEST(DeckSetErrors, anUnknownKey)
 {
   EXPECT_EQ(errorOf(leastDeck, {"time.and=3"}),
             "--set time.and=3: time.and is not known. Did you mean 'end'? Accepted here: end, "
-            "end_at_rest, step_factor, maximum_step, fixed_step, energy_tolerance, "
+            "end_at_rest, step_factor, maximum_step, fixed_step, mass_scaling, energy_tolerance, "
             "contact_gain_tolerance.");
 }
 

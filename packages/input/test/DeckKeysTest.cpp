@@ -331,6 +331,9 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
     const std::string wave = fmt::format("  - {{type: {}}}\n", type);
     withScaling.replace(withScaling.find(wave), wave.size(), "");
   }
+  std::string withoutPlanes = deckOfAllModels; // a probe of planes demands that there are some
+  const std::string planeProbe = "{name: d, plane: [0, 0, 0]}, ";
+  withoutPlanes.replace(withoutPlanes.find(planeProbe), planeProbe.size(), "");
   const std::string withFragments = deckOfAllModels + std::string("output: {fragments: true}\n");
   for (const auto& [path, key] : leaves)
   {
@@ -365,6 +368,7 @@ TEST(DeckKeys, eachKeyActsOnTheDeck)
         place = to;
     const std::string assignment = place + "=" + key.example;
     const std::string& deck = path == "geometry"                        ? withoutRigid
+                              : path == "contact.enabled"               ? withoutPlanes
                               : path == "output.fragment_damage"        ? withFragments
                               : path.rfind("time.mass_scaling", 0) == 0 ? withScaling
                               : path.rfind("stages", 0) == 0            ? deckWithStages

@@ -121,7 +121,6 @@ Key historyKeys()
                               .like("mortar")
                               .means("of plane: only planes of this card in joints"),
                           points("between", &ProbeCard::between)
-                              .in("m")
                               .like("[[0, 0, 0], [4, 0, 0]]")
                               .means("points at equal distances on a line, from its one end to the "
                                      "other: a probe with a point for each, <name>_1, <name>_2, "
