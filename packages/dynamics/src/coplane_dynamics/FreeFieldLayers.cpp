@@ -125,8 +125,8 @@ FreeFieldLayers freeFieldLayers(const FreeFieldBoundary& boundary, const Model& 
     refuse(boundary,
            "side {} of element {} leans by {:.4g} degrees, with up along [{}, {}, {}]; {}. Up is "
            "the axis that gravity comes from (without gravity y, in three dimensions z).",
-           sideOfFace(faces[0].id) + 1, elementOfFace(faces[0].id), std::asin(slope) * 180 / pi,
-           layers.up.x, layers.up.y, layers.up.z, accepted);
+           sideOfFace(faces[0].id) + 1, elementOfFace(faces[0].id),
+           std::abs(std::asin(slope)) * 180 / pi, layers.up.x, layers.up.y, layers.up.z, accepted);
   layers.normal = normalised(layers.normal - dot(layers.normal, layers.up) * layers.up);
   layers.along = cross(layers.up, layers.normal);
   layers.offset = dot(layers.normal, faces[0].corners[0]);
