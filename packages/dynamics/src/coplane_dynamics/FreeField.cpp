@@ -309,8 +309,7 @@ void FreeFieldColumn::takeElements(const Conditions& conditions, const RankMesh&
   std::vector<Real> mine; // layer, then its row
   for (const FreeFieldSide& face : conditions.freeFields[boundary_].sides)
     for (std::size_t l = 0; l < elements_.size(); ++l)
-      if (layers_.layers[l].face.id == face.side.id &&
-          mesh.blocks[std::size_t(face.block)].owned[std::size_t(face.element)])
+      if (layers_.layers[l].face.id == face.side.id && isOfThisRank(face.side, mesh))
       {
         const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
         mine.push_back(Real(l));

@@ -31,7 +31,7 @@ Vec3 upOf(const Conditions& conditions, Real from, Real end, int dimension)
   return up;
 }
 
-/// Of the elements that are owned here, so that each face is there once.
+/// Of the faces of this rank, so that each is there once.
 std::vector<FreeFieldFaceRecord> recordsOf(const FreeFieldBoundary& boundary, const Model& model)
 {
   std::vector<FreeFieldFaceRecord> records;
@@ -39,7 +39,7 @@ std::vector<FreeFieldFaceRecord> recordsOf(const FreeFieldBoundary& boundary, co
   for (const FreeFieldSide& face : boundary.sides)
   {
     const RankMesh::Block& block = mesh.blocks[std::size_t(face.block)];
-    if (!block.owned[std::size_t(face.element)])
+    if (!isOfThisRank(face.side, mesh))
       continue;
     FreeFieldFaceRecord record;
     record.id = face.side.id;
@@ -104,6 +104,15 @@ int FreeFieldLayers::levelAt(Real height) const
   const int i = int(above - heights.begin());
   return above == heights.end() || height - heights[std::size_t(i - 1)] < *above - height ? i - 1
                                                                                           : i;
+}
+
+bool isOfThisRank(const LoadedSide& side, const RankMesh& mesh)
+{
+  int lowest = side.nodes[0];
+  for (int k = 1; k < side.count; ++k)
+    if (mesh.nodeIds[std::size_t(side.nodes[std::size_t(k)])] < mesh.nodeIds[std::size_t(lowest)])
+      lowest = side.nodes[std::size_t(k)];
+  return lowest < mesh.ownedNodes;
 }
 
 FreeFieldLayers freeFieldLayers(const FreeFieldBoundary& boundary, const Model& model,

@@ -45,6 +45,10 @@ struct FreeFieldLayers
   int levelAt(Real height) const; ///< the nearest
 };
 
+/// Whether this rank owns the node of a face that has the lowest id: so is each face on one rank,
+/// and one that has it; the rank that owns the element behind it may not.
+bool isOfThisRank(const LoadedSide& side, const RankMesh& mesh);
+
 /// Throws on all ranks where the side is not vertical and plane, where a face does not reach from
 /// one height of nodes to the next, where a layer has several blocks, where the side is not a
 /// rectangle, or where it is cut into parts that have nodes of their own. Collective.
