@@ -119,8 +119,9 @@ void setElementSizes(const BlocksRecipe& recipe, const std::string& recipeFile,
   if (!recipe.elements.regions.empty())
     gmsh::model::mesh::setSizeCallback(
         // Gmsh 4.9 and later tell the size without this, and take what this returns in its place.
-        [sizes](int dimension, int tag, double x, double y, double z, auto... without)
-        { return std::min({sizes(dimension, tag, {x, y, z}), without...}); });
+        [sizes](int dimension, int tag, double x, double y, double z, auto... without) {
+          return std::min({sizes(dimension, tag, {x, y, z}), without...});
+        });
   if (fields.empty())
     return;
   const int least = gmsh::model::mesh::field::add("Min");

@@ -71,7 +71,7 @@ TEST(Recipe, anUnknownShapeIsRefusedWithSuggestion)
       errorOf(head + "  - {shape: bax, block: b}\n"),
       "r.yaml:3:13: parts.0.shape = 'bax' is not known. Did you mean 'box'? Accepted: one of "
       "box, quadrilateral, hexahedron, wall, imbricate, rock, cylinder, sphere, projectile, ogive, "
-      "sector, dome, half_disc.");
+      "sector, dome, cross_vault, half_disc.");
 }
 
 TEST(Recipe, anotherDimensionIsRefused)

@@ -365,8 +365,8 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: it has {} points of debris and should have {}. Restart with the program "
                    "that wrote it ({}).",
-                   in.name(), (std::int64_t(numbers.size()) - ExactSum::digitCount) / 2, points_.size(),
-                   in.program());
+                   in.name(), (std::int64_t(numbers.size()) - ExactSum::digitCount) / 2,
+                   points_.size(), in.program());
   if (comm_->isRoot())
     work_ = ExactSum::fromDigits(numbers.data());
   for (std::size_t i = 0; i < points_.size(); ++i)

@@ -83,11 +83,14 @@ private:
     bool acts = false;
   };
 
+  /// Collective.
   void findConditions(const Model& model, const Comm& comm);
   LayerElement elementOf(const FreeFieldLayer& layer, int index, ElementType type) const;
   void makeElements(const Model& model);
+  /// Collective.
   void takeMotion(const Conditions& conditions, const RankMesh& mesh, const NodalState& state,
                   const Comm& comm);
+  /// Collective.
   void takeElements(const Conditions& conditions, const RankMesh& mesh,
                     const ElementForces& elements, const Comm& comm);
   void tellStart(Real t, const Conditions& conditions) const;

@@ -77,7 +77,8 @@ void Solver::demandPossible(const Stage& stage) const
   demandNoRigidNodes(stage.add);
   demandNoRigidNodes(stage.remove);
   motion_->demandPossible(stage.model.conditions);
-  static_cast<void>(FreeFields(stage.model, *comm_)); // refuses sides that are no end of level ground
+  static_cast<void>(
+      FreeFields(stage.model, *comm_)); // refuses sides that are no end of level ground
   for (std::size_t b = 0; b < blocks().size(); ++b)
     if (historyNames(stage.model.blocks[b].material) != blocks()[b].historyVariables())
       failOnAllRanks(ExitCode::Deck,
