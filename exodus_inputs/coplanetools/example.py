@@ -39,7 +39,7 @@ class Example(Checks):
         h = self.history
         return max(h["initial"][-1], *(numpy.abs(h[name]).max() for name in ("kinetic", "internal", "external_work")))
 
-    def balances(self, energy=0.02, hourglass=0.05, remainder=(-0.01, 0.05), momentum=1e-10, missed=0):
+    def balances(self, energy=0.02, hourglass=0.05, remainder=(-1e-3, 1e-3), momentum=1e-10, missed=0):
         """What must hold in every example, in every line of the history."""
         h, in_play = self.history, self.in_play()
         self.check_within("energy balance over energy in play", numpy.abs(h["error"]).max() / in_play, 0, energy)

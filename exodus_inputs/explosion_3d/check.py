@@ -6,7 +6,7 @@ from coplanetools import Example
 
 example = Example()
 h, results = example.history, example.results
-example.balances(hourglass=0.05, remainder=(-0.02, 0.05))
+example.balances()
 
 end = list(example.all_planes())[-1]
 big = end["overlap"] > 0.01

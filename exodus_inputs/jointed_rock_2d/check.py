@@ -18,7 +18,7 @@ impedance = density * speed
 normal, shear = 2e10, 1e10  # of the joints [Pa/m]
 
 # Prestressed joints hold nearly all of the energy in play, but none of it moves: the energy that came in counts too.
-example.balances(hourglass=0.05, remainder=(-0.02, 0.02))
+example.balances()
 if variant == "every4":
     example.check_within("searches over cycles", float(h["searches"][-1] / h["cycle"][-1]), 0.24, 0.26)
 else:  # where blocks move far, as at the chamber, a search is forced

@@ -17,7 +17,7 @@ h = example.history
 share = {"": 0.5, "dry": 0.0, "full": 1.0}[example.variant or ""]
 factor = safety.limit_equilibrium(share, math.tan(math.radians(38)), 30e3)
 print(f"factor of safety by limit equilibrium: {factor:.3f}")
-example.balances(remainder=(-1e-3, 1e-3), hourglass=0.2 if factor < 1 else 0.05)  # a wedge that slides has little else
+example.balances(hourglass=0.2 if factor < 1 else 0.05)  # a wedge that slides has little else
 late = h["time"] >= 1.0
 moved = numpy.hypot(*(h[f"brow_displacement_{axis}"][late] - h[f"brow_displacement_{axis}"][late][0] for axis in "xy")).max()
 if factor > 1:

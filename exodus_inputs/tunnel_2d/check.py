@@ -9,7 +9,7 @@ from coplanetools import Example
 
 example = Example()
 h, results = example.history, example.results
-example.balances(remainder=(-1e-3, 1e-3), hourglass=1e-9)  # triangles have no hourglass modes
+example.balances(hourglass=1e-9)  # triangles have no hourglass modes
 size = 1.0 if example.size == "coarse" else 0.5
 sides = max(6, math.ceil(math.pi * 4 / size))
 dug = 8 * 1 + 0.5 * sides * 16 * math.sin(math.pi / sides) + 20

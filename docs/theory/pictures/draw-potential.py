@@ -3,7 +3,7 @@
 
     docs/theory/pictures/draw-potential.py [FILE]
 
-The curves are the formulas of that page; forces at a seam are those of seam-force.csv beside this, which tests/measure/seam_force.py makes of runs. Needs the
+The curves are the formulas of that page; forces at a seam are those of seam-force.csv beside this, which tests/measure/seam_force.py makes of a run. Needs the
 Python standard library only. With a FILE: only the picture of that name, there.
 """
 import csv
@@ -168,20 +168,19 @@ def strip():
 def seam_force():
     with open(HERE / "seam-force.csv", newline="") as file:
         rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
-    place = "front_past_seam"
+    length, depth_limit = 0.2, 0.6 * 0.05  # of the block and of its elements, in tests/measure/seam_force.py [m]
+    ticks = [(v, str(v)) for v in (0, 50, 100, 150, 200, 250)]
     parts = []
-    for number, (kind, name) in enumerate((("along", "force along the way / load"), ("up", "force upwards / load"))):
-        values = [row[f"{when}_{kind}"] for row in rows for when in ("before", "after")]
-        low, high = min(values + [0.0]), max(values + [1.0] if kind == "up" else values + [0.0])
-        step = next(s for s in (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.25, 0.5, 1, 2, 5) if (high - low) / s <= 6)
-        limits = step * math.floor(low / step), step * math.ceil(high / step)
-        ticks = [(step * i, f"{step * i:g}".replace("-", "−")) for i in range(round(limits[0] / step), round(limits[1] / step) + 1)]
-        left = 80 + 430 * number
-        chart = Chart((left, 40, left + 340, 250), (-25, 265), limits, [(v, str(v)) for v in (0, 50, 100, 150, 200, 250)], ticks, "front past the seam [mm]", name)
-        for when, colour, dashes in (("before", OLD, "5 3"), ("after", SHARED, "none")):
-            chart.curve([(1e3 * row[place], row[f"{when}_{kind}"]) for row in rows], colour, stroke_dasharray=dashes)
-        if number == 0:
-            chart.legend(left + 150, 60, [(OLD, "5 3", "first release"), (SHARED, None, "from one potential")])
+    for left, kind, limits, marks, name in (
+        (80, "along", (-0.2, 0.2), (-0.2, -0.1, 0, 0.1, 0.2), "force along the way / load"),
+        (510, "up", (0, 1.25), (0, 0.25, 0.5, 0.75, 1, 1.25), "force upwards / load"),
+    ):
+        chart = Chart((left, 40, left + 340, 250), (-25, 265), limits, ticks, [(v, f"{v:g}".replace("-", "−")) for v in marks], "front past the seam [mm]", name)
+        if kind == "along":
+            ways = [-0.02, 0, depth_limit, 0.26]
+            chart.curve([(1e3 * way, -min(max(way, 0), depth_limit) / length) for way in ways], OLD, stroke_dasharray="5 3")
+            chart.legend(left + 105, 62, [(OLD, "5 3", "front as a pair by itself, χ = 1"), (SHARED, None, "computed")])
+        chart.curve([(1e3 * row["front_past_seam"], row[kind]) for row in rows], SHARED)
         parts += chart.parts
     return picture(880, 305, parts)
 

@@ -96,7 +96,7 @@ UNTOLD = {
     **dict.fromkeys(["cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
     **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "fast_blocks"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
-    **dict.fromkeys(["V11_brick_column", "V35_lamb", "V36_V37_shock_waves", "V39_gas_shocks", "V43_energy_order", "V44_punch",
+    **dict.fromkeys(["V11_brick_column", "V20_hertz_ball", "V35_lamb", "V36_V37_shock_waves", "V39_gas_shocks", "V43_energy_order", "V44_punch",
                      "V56_brick_wall", "V81_water_in_joints", "V84_factor_of_safety", "V85_compliant_base", "V92_opening_in_rock", "V94_bonded_blocks", "conditions_act", "debris", "joint_laws", "relaxation", "rigid_motion", "mass_scaling", "symmetry",
                      "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], TRIED),
 }  # fmt: skip
