@@ -60,14 +60,14 @@ CASES = {
                                ["cut:base:0:3", "refined:ball", "refined:base"],
                                bounds={"turned": WALL, "moved": WALL}),
     "V64_life_of_planes": Retold([], ["cut:slab:0:2", "cut:slab:0:4"], other={f"cut:slab:0:{n}": SUNK for n in (2, 4)}, base=False),
-    "V11_brick_column": Retold(["mirrored"]),
+    "V11_brick_column": Retold(["mirrored"], bounds=dict.fromkeys(["mirrored", "turned"], WALL)),  # at rest: what is left of the velocities is round-off of the largest
+    "V81_water_in_joints": Retold(["mirrored", "renumbered"], bounds={"turned": 5e-5}),  # its wedges slide at 0.98 of what holds them: friction decides each cycle anew
+    "V94_bonded_blocks": Retold(["mirrored"], bounds=dict.fromkeys(["mirrored", "renumbered", "turned"], WALL)),  # waves behind a joint that breaks
+    "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
+    "rigid_motion": Retold(["mirrored", "renumbered", "turned"]),
     "V39_gas_shocks": Retold(["mirrored"]),
     "V56_brick_wall": Retold(["mirrored"]),
-    "V81_water_in_joints": Retold(["mirrored"]),
-    "V94_bonded_blocks": Retold(["mirrored"]),
     "joint_laws": Retold(["mirrored"]),
-    "relaxation": Retold(["mirrored"]),
-    "rigid_motion": Retold(["mirrored"]),
     "rock_slope_2d": Retold(["mirrored"]),
     "shaken_stones_2d": Retold(["mirrored"]),
     "tunnel_2d": Retold(["mirrored"]),
