@@ -78,7 +78,7 @@ exact = least_multiplier(2, 6)
 run = bracket("bond_2x6", bond(2, 6), exact, 0.92, 1.06, friction=1.2, stiffness=2e10)
 case.picture(run, "--shares", "0", "0.67", "0.83", "1", "--strip", "4", "--planes", "none", "--window", "0.4", "0.95", "-0.05", "0.32", "--size", "330", "240")
 # Walls of Ferris and Tin-Loi, friction of 0.65: our limit analysis gives the one multiplier that could be read, and is a bound from above for stones that do not climb as they slide.
-climbing = {name: limit.multiplier(courses) for name, courses in limit.walls().items() if case.full or name in STANDS}
+climbing = {name: limit.multiplier(courses) for name, courses in limit.walls().items() if case.full and name != "wall 6" or name in STANDS}
 case.check("limit analysis of wall 1 against the published multiplier", climbing["wall 1"], 0.643, 1e-3, relative=True)
 for name, exact in climbing.items():
     for part in ((STANDS[name],) if name in STANDS else ()) + (1.04,):
@@ -88,7 +88,7 @@ for name, exact in climbing.items():
 if case.full:
     for name, exact in climbing.items():
         for stiffness in (1e10, 5e10) if name in STANDS else (5e10,):
-            for part in (0.95, 0.9, 0.85, 0.8, 0.75, 0.7):
+            for part in (0.9, 0.8, 0.7):
                 moved, _, spent = stand(f"{name.replace(' ', '_')}_search", published(name), part * exact, friction=limit.FRICTION, stiffness=stiffness)
                 if moved < 1.5e-3:
                     break
