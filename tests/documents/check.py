@@ -214,6 +214,13 @@ def check_tellings():
             count = numpy.bincount(there[weights == 1], minlength=len(back))
             assert numpy.allclose(back / count[:, None], mesh.points), f"{name}: nodes do not lead back"
             assert len(other.node_sets["left"]) >= len(mesh.node_sets["left"]), name
+    # A pressure that depends on the place is the same at the same point of the body, wherever the frame has that.
+    water = {"blocks": {}, "conditions": [{"type": "pressure", "side_set": "end", "value": "9810*(3 - y) + 7*x*z"}]}
+    for matrix, offset in ((rotation([17.3, -31.7, 23.9]), (1000.0, -1000.0, 1000.0)), (numpy.diag([-1.0, 1, 1]), (0.0, 0.0, 0.0))):
+        told = turned_deck(water, matrix, offset)["conditions"][0]["value"]
+        for x, y, z in places:
+            there = dict(zip("xyz", matrix @ numpy.array([x, y, z]) + offset))
+            assert abs(eval(told, {}, there) - (9810 * (3 - y) + 7 * x * z)) < 1e-6, f"a pressure at {x, y, z}: {told}"
     slice = meshes.extruded(flat)
     assert abs(sizes(slice)[0] - 2) < 1e-14 and numpy.allclose(sizes(slice)[1]["end"], [1, 0, 0]), "extruded"
 

@@ -44,7 +44,7 @@ cores that other work shared; a form's seconds are of all runs of the case toget
 Cases whose verdict is not "agrees" are meant to be read: there the program is wrong, does not converge, or the reference asks for something that it does not have. Each section says what of its source was read; curves that could not be read as
 numbers were computed again by a method of one's own, and the section says so.
 
-Not here, because no table could be read: measured brick walls in a blast or under a vehicle-like blow (the next best: [blast wall](#blast-wall), [boulder wall](#boulder-wall), which name what was looked for), the 42 tilted walls of Restrepo Velez et al. (the next best: [six walls of another paper](#tilting-wall) and closed forms), shear walls J5D to J7D (their loads and the guide of their beams),
+Not here, because no table could be read: measured brick walls in a blast or under a vehicle-like blow (the next best: [blast wall](#blast-wall), [boulder wall](#boulder-wall), which name what was looked for), the 42 tilted walls of Restrepo Velez et al. (the next best: [walls of another paper](#tilting-wall) and closed forms), shear walls J5D to J7D (their loads and the guide of their beams),
 overturning spectra of shaken blocks (Spanos and Koh; Zhang and Makris), the damage of brick walls that a boulder struck (Mavrouli et al. 2024: the set-up and the heights of release were read, not what became of each wall).
 
 """

@@ -60,18 +60,12 @@ CASES = {
                                ["cut:base:0:3", "refined:ball", "refined:base"],
                                bounds={"turned": WALL, "moved": WALL}),
     "V64_life_of_planes": Retold([], ["cut:slab:0:2", "cut:slab:0:4"], other={f"cut:slab:0:{n}": SUNK for n in (2, 4)}, base=False),
-    "V11_brick_column": Retold(["mirrored"]),
-    "V39_gas_shocks": Retold(["mirrored"]),
-    "V56_brick_wall": Retold(["mirrored"]),
-    "V81_water_in_joints": Retold(["mirrored"]),
-    "V94_bonded_blocks": Retold(["mirrored"]),
-    "joint_laws": Retold(["mirrored"]),
-    "relaxation": Retold(["mirrored"]),
-    "rigid_motion": Retold(["mirrored"]),
-    "rock_slope_2d": Retold(["mirrored"]),
-    "shaken_stones_2d": Retold(["mirrored"]),
-    "tunnel_2d": Retold(["mirrored"]),
-    "perforation_3d": Retold(["mirrored"]),
+    "V11_brick_column": Retold(["mirrored"], bounds=dict.fromkeys(["mirrored", "turned"], WALL)),  # at rest: what is left of the velocities is round-off of the largest
+    "V81_water_in_joints": Retold(["mirrored", "renumbered"], bounds={"turned": 5e-5}),  # its wedges slide at 0.98 of what holds them: friction decides each cycle anew
+    "V94_bonded_blocks": Retold(["mirrored"], bounds=dict.fromkeys(["mirrored", "renumbered", "turned"], WALL)),  # waves behind a joint that breaks
+    "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
+    "rigid_motion": Retold(["mirrored", "renumbered", "turned"]),
+    "V39_gas_shocks": Retold(["mirrored", "turned"]),
     "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], base=False),
     "column_3d": Retold(["turned"]),
     "cut_rock_2d": Retold(["mirrored", "renumbered"]),
@@ -85,18 +79,20 @@ AXIS = "bodies of revolution: the axis may not be turned, moved or cut"
 SAME = "its verification case is told: {}"
 NONE = "no contact"
 OWN = "compares runs with each other, or what is refused, and not with an answer"
-ITSELF = "turned or tilted by its own check"
-TRIED = "not tried"
+ITSELF = "turned, tilted or mirrored by its own check"
+ELSEWHERE = "its runs are made by coplane.capacity, which the tellings do not see"
+LONG = "minutes for one way of telling it: not told yet"
 
 # Verification cases and examples that are not told at all, and why.
 UNTOLD = {
-    **dict.fromkeys(["V40_bar_and_cantilever", "V42_simple_shear", "V46_concrete_point", "V47_crack_band", "V48_joint_paths", "V73_detonation", "V74_air_blast",
-                     "V76_spinning_block", "V83_soil_column", "fields", "free_field_sides", "maxwell_damping"], NONE),
+    **dict.fromkeys(["V35_lamb", "V36_V37_shock_waves", "V40_bar_and_cantilever", "V42_simple_shear", "V43_energy_order", "V44_punch", "V46_concrete_point", "V47_crack_band",
+                     "V48_joint_paths", "V73_detonation", "V74_air_blast", "V76_spinning_block", "V83_soil_column", "V85_compliant_base", "V92_opening_in_rock", "fields", "free_field_sides",
+                     "maxwell_damping"], NONE),
     **dict.fromkeys(["V49_taylor_anvil", "V50_spinning_ring", "V72_axisymmetric_contact", "V75_cylinder_test", "ring_forms", "penetration", "perforation"], AXIS),
-    **dict.fromkeys(["cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
-    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "fast_blocks"], ITSELF),
+    **dict.fromkeys(["conditions_act", "cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
+    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "fast_blocks", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
-    **dict.fromkeys(["V11_brick_column", "V20_hertz_ball", "V35_lamb", "V36_V37_shock_waves", "V39_gas_shocks", "V43_energy_order", "V44_punch",
-                     "V56_brick_wall", "V81_water_in_joints", "V84_factor_of_safety", "V85_compliant_base", "V92_opening_in_rock", "V94_bonded_blocks", "conditions_act", "debris", "joint_laws", "relaxation", "rigid_motion", "mass_scaling", "symmetry",
-                     "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], TRIED),
+    "V84_factor_of_safety": ELSEWHERE,
+    **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
+    **dict.fromkeys(["V20_hertz_ball", "mass_scaling"], TRIED),
 }  # fmt: skip
