@@ -124,6 +124,34 @@ TEST(Debris, bouncesWithItsMomentaAndItsEnergy)
   EXPECT_GT(comm.max(highest), 1);
 }
 
+TEST(Debris, aLightPointIsThrownBackWithItsSpeed)
+{
+  // 0.125 kg on nodes of 30 to 125 kg, at a hundredth of the speed of waves, without friction.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
+  addBox(mesh, "cube", {1, 1, 1}, {0.87, 0.91, 2.05}, {0.1, 0.1, 0.1});
+  Model model = rockModel(mesh, comm);
+  model.blocks[1].velocity = {0.5, 0.25, -10};
+  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.1}; };
+  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  while (solver.clock().time < 0.03)
+    solver.advance();
+  ASSERT_EQ(solver.debris()->count(), 8);
+  EXPECT_EQ(solver.debris()->touching(), 0);
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    if (solver.layout().ids()[std::size_t(n)] > 125)
+    {
+      const Real before = 10 - (solver.state().reference(n, 2) - 2.1);
+      EXPECT_NEAR(solver.state().v(n, 2), before, 0.03 * before);
+      EXPECT_NEAR(solver.state().v(n, 0), 0.5, 0.05);
+      EXPECT_NEAR(solver.state().v(n, 1), 0.25, 0.05);
+    }
+}
+
 TEST(Debris, itsRemainderVanishesWithTheStep)
 {
   const Comm comm;
