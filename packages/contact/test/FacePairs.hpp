@@ -192,6 +192,19 @@ inline RandomPair randomSegments(std::mt19937& random, Real speed = 1)
   return pair;
 }
 
+/// Area of a face, or the largest of the triangles of its corners [m^2].
+inline Real areaOrTriangle(const HalfStepFace& face)
+{
+  Real most = face.area;
+  for (int skip = 0; skip < 4 && face.count == 4; ++skip)
+  {
+    const Vec3 &p = face.x[(skip + 1) % 4], &q = face.x[(skip + 2) % 4],
+               &r = face.x[(skip + 3) % 4];
+    most = std::max(most, .5 * norm(cross(q - p, r - p)));
+  }
+  return most;
+}
+
 /// Sum of forces and of their moments about the origin.
 struct Resultant
 {

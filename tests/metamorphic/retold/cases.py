@@ -81,6 +81,7 @@ NONE = "no contact"
 OWN = "compares runs with each other, or what is refused, and not with an answer"
 ITSELF = "turned, tilted or mirrored by its own check"
 ELSEWHERE = "its runs are made by coplane.capacity, which the tellings do not see"
+TRIED = "not tried"
 LONG = "minutes for one way of telling it: not told yet"
 
 # Verification cases and examples that are not told at all, and why.
