@@ -74,7 +74,7 @@ for name, recipe in (("seam", case.load("mesh_seam.yaml")), ("seam_3d", case.loa
             remainder = numpy.max(numpy.abs(runs[every].history["contact_remainder"])) / friction
             case.check(f"{name}, {forces}, {every}: remainder over friction work", remainder, 0, 2e-5 if forces == "potential" else 2e-3)
 
-# --- what neighbours pass on changes: auto tells pairs every fourth cycle, as searches do ----------------------
+# --- what neighbours pass on changes: auto searches as every fourth cycle does ----------------------
 def changed(**joint):
     deck = copy.deepcopy(slide)
     deck["joints"]["rough"] = {"friction": 0.3, **joint}

@@ -90,9 +90,9 @@ Key contactKeys()
           .like("2")
           .defaultIs("auto")
           .means("largest number of cycles between searches; auto: when faces have moved so far "
-                 "that a contact might be missed (what pairs take over from others they learn "
-                 "every fourth cycle); once: the same with a larger skin and nothing in between, "
-                 "for contacts that stay what they are");
+                 "that a contact might be missed, or surfaces of contact have (every fourth "
+                 "cycle); once: only for the first reason and with a larger skin, for contacts "
+                 "that stay what they are");
   return group(
              "contact", &Deck::contact,
              {
