@@ -51,10 +51,6 @@ public:
   /// when the layout knows the ghosts' nodes, and x and v hold what they are there. Collective.
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
-  /// Tells pairs that have not touched anew what lies at their edges and what they take over from
-  /// others, from where faces and planes are now, as a search that finds the same pairs. Call when
-  /// x holds what ghosts' nodes are. Collective.
-  void renew(const ConstNodeVectors& x, const NodeLayout& layout);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive], less the pressure on their faces. What is
   /// pressed beyond its compressive strength carries the strength, out of equilibrium.
@@ -194,13 +190,7 @@ private:
   // Of a search.
   void findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v,
                   Real ahead); ///< Collective.
-  /// @param nodeIds, x of the nodes of the table of faces
-  std::vector<Donor> livingPlanes(const std::vector<GlobalId>& nodeIds,
-                                  const ConstNodeVectors& x) const;
-  void rememberGhosts();
-  /// Living planes of the ghosts here, from the ranks that own these. @param mine those here.
-  /// Collective.
-  std::vector<Donor> donorsOfGhosts(const std::vector<Donor>& mine);
+  std::vector<Donor> livingPlanes() const;
   /// Copies of faces far away to whom living planes hold on. Collective.
   void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
@@ -222,10 +212,7 @@ private:
   // ... what searches find ...
   SearchReach reach_;
   Searches searches_;
-  FirstHalf firstHalf_;                         ///< empty between searches
-  std::vector<std::vector<GlobalId>> ghostIds_; ///< copies here of faces of others, by their rank
-  std::vector<std::vector<GlobalId>> copies_;   ///< of faces here, by the rank that has the copy
-  bool copiesKnown_ = false;                    ///< copies_ is what ranks have now
+  FirstHalf firstHalf_; ///< empty between searches
   // ... and what cycles work on.
   PlaneTable planes_;
   PairedFaces pairedFaces_;

@@ -5,7 +5,6 @@
 #include <coplane_core/WorkWatch.hpp>
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace coplane
 {
@@ -135,9 +134,15 @@ private:
     const CandidatePair& pair = slots_.pairs[std::size_t(source)];
     const std::int64_t known = slotBefore(slot);
     const bool asleep = known >= 0 && before_.isAsleep(std::size_t(known));
+    const bool wasKnown = before != nullptr ? !before->isNew() : asleep;
+    Preparation::Todo todo = wasKnown ? Preparation::WasKnown : 0;
+    // While the faces lie in each other, edges stay what they are, and the energy does not jump.
+    if (before == nullptr || !(before->overlap > 0 && before->gap < before->offset))
+      todo |= Preparation::LookAtEdges;
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
-    const Preparation::Todo todo = Preparation::todoOf(
-        before, asleep, inherit_ && !faces_[pair.lower].young && !faces_[pair.higher].young);
+    if (inherit_ && !(before != nullptr && before->isBorn()) && !faces_[pair.lower].young &&
+        !faces_[pair.higher].young)
+      todo |= Preparation::TakeOver;
     next.faces(slot).face[0] = pair.lower;
     next.faces(slot).face[1] = pair.higher;
     next.todo(slot) = todo;
@@ -182,8 +187,7 @@ Donor donorWithFaces(const Plane& plane, const Array<Face>& faces,
 }
 } // namespace
 
-std::vector<Donor> Contact::livingPlanes(const std::vector<GlobalId>& nodeIds,
-                                         const ConstNodeVectors& x) const
+std::vector<Donor> Contact::livingPlanes() const
 {
   std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes().size(); ++p)
@@ -191,8 +195,10 @@ std::vector<Donor> Contact::livingPlanes(const std::vector<GlobalId>& nodeIds,
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),
-              [&](const int d) {
-                donors[d] = donorWithFaces(planes()[living[d]], faces_.forKernels(), nodeIds, x);
+              [&](const int d)
+              {
+                donors[d] = donorWithFaces(planes()[living[d]], faces_.forKernels(),
+                                           firstHalf_.nodeIds, firstHalf_.x);
               });
   return donors;
 }
@@ -235,8 +241,8 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   }
   {
     TimedRegion region("coplane::contact::step4_copyGhostFaces");
-    firstHalf_.ghosts = step4_copyGhostFaces(ranks, sorted, localFaces(), nodeIds,
-                                             livingPlanes(nodeIds, x), *comm_);
+    firstHalf_.ghosts =
+        step4_copyGhostFaces(ranks, sorted, localFaces(), nodeIds, livingPlanes(), *comm_);
   }
   addGhostsOfLivingPlanes(nodeIds);
   return firstHalf_.nodesOfGhosts();
@@ -280,12 +286,11 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   std::vector<Donor> donors;
   if (options_.inherit)
   {
-    donors = livingPlanes(firstHalf_.nodeIds, firstHalf_.x);
+    donors = livingPlanes();
     const std::vector<Donor>& theirs = firstHalf_.ghosts.donors;
     donors.insert(donors.end(), theirs.begin(), theirs.end());
   }
   firstHalf_.ghosts.donors = {};
-  rememberGhosts();
   faces_.list(firstHalf_.ghosts.faces, layout);
   reach_.takeVelocities(v);
   Slots slots = slotsOf(
@@ -305,69 +310,5 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   if (!again)
     ++searches_.count;
   searches_.sinceUpdate = true;
-}
-
-/// The ghosts that are listed now, by owner, for donorsOfGhosts().
-void Contact::rememberGhosts()
-{
-  ghostIds_.assign(std::size_t(comm_->size()), {});
-  for (const GhostFace& face : firstHalf_.ghosts.faces)
-    ghostIds_[std::size_t(face.owner)].push_back(face.id);
-  copiesKnown_ = false;
-}
-
-std::vector<Donor> Contact::donorsOfGhosts(const std::vector<Donor>& mine)
-{
-  if (comm_->size() == 1)
-    return {};
-  if (!copiesKnown_) // the same on all ranks
-  {
-    std::vector<int> counts;
-    const std::vector<GlobalId> ids = comm_->exchange(ghostIds_, &counts);
-    copies_.assign(counts.size(), {});
-    auto id = ids.begin();
-    for (std::size_t r = 0; r < counts.size(); id += counts[r], ++r)
-      copies_[r].assign(id, id + counts[r]);
-    copiesKnown_ = true;
-  }
-  std::unordered_map<GlobalId, std::vector<std::size_t>> ofFace;
-  for (std::size_t d = 0; d < mine.size(); ++d)
-    for (const GlobalId id : mine[d].faceId)
-      ofFace[id].push_back(d);
-  std::vector<std::vector<Donor>> donorsTo(copies_.size());
-  for (std::size_t r = 0; r < copies_.size(); ++r)
-    for (const GlobalId id : copies_[r])
-      if (const auto found = ofFace.find(id); found != ofFace.end())
-        for (const std::size_t d : found->second)
-          donorsTo[r].push_back(mine[d]);
-  return comm_->exchange(donorsTo);
-}
-
-void Contact::renew(const ConstNodeVectors& x, const NodeLayout& layout)
-{
-  TimedRegion region("coplane::contact::renew");
-  const WorkWatch watch(searches_.seconds);
-  std::vector<Donor> donors;
-  if (options_.inherit)
-  {
-    donors = livingPlanes(layout.ids(), x);
-    const std::vector<Donor> theirs = donorsOfGhosts(donors);
-    donors.insert(donors.end(), theirs.begin(), theirs.end());
-  }
-  const std::size_t count = planes_.count();
-  std::vector<CandidatePair> pairs;
-  std::vector<std::int64_t> pairOfSlot(count, -1);
-  for (std::size_t slot = 0; slot < count; ++slot)
-    if (const auto& face = planes_.slots().faces(slot).face; face[0] >= 0)
-    {
-      pairOfSlot[slot] = std::int64_t(pairs.size());
-      pairs.push_back({face[0], face[1]});
-    }
-  planes_.renew(
-      std::make_shared<const Preparation>(
-          Preparation::Search{std::move(pairs), std::move(pairOfSlot), faces_.forKernels(),
-                              localFaces().size(), x, dimension_, reach_.leastSkin()},
-          std::move(donors), layout),
-      options_.inherit);
 }
 } // namespace coplane

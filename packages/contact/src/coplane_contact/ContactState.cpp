@@ -178,11 +178,8 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
   const std::vector<WantedFace> mine = comm_->exchange(toOwner);
   std::vector<std::vector<GhostFace>> answer(comm_->size());
   for (const WantedFace& one : mine)
-  {
     answer[one.byRank].push_back(
         toGhostFace(*findFace(localFaces().begin(), localFaces().end(), one.face), nodeIds));
-    answer[one.byRank].back().owner = comm_->rank();
-  }
   std::vector<GhostFace> ghosts = comm_->exchange(answer);
   std::sort(ghosts.begin(), ghosts.end(),
             [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
@@ -231,7 +228,6 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
 void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
 {
   faces_.list(firstHalf_.ghosts.faces, layout);
-  rememberGhosts();
   const std::vector<Plane>& restored = firstHalf_.restored;
   const std::vector<BarePair>& bare = firstHalf_.bare;
   PlaneTable::Slots slots(restored.size() + bare.size(), restored.size());

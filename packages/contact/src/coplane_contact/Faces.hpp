@@ -42,7 +42,6 @@ struct GhostFace
   Real modulus = 0;
   Real pressure = 0;
   bool young = false;
-  int owner = 0; ///< rank that sends it
 };
 
 /// The face with this id among faces, or ghost faces, that are sorted by id; `last`: not there.

@@ -141,25 +141,6 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces,
   list();
 }
 
-void PlaneTable::renew(std::shared_ptr<const Preparation> preparation, bool inherit)
-{
-  preparation_ = std::move(preparation);
-  passedOnHasChanged_ = false;
-  parallelFor("coplane::contact::renew", int(count()),
-              [&](const int p)
-              {
-                if (slots_.faces(p).face[0] < 0)
-                  return;
-                Plane* const plane = slots_.plane[p];
-                const bool asleep = isAsleep(p);
-                slots_.todo(p) = Preparation::todoOf(plane, asleep, inherit);
-                if (plane == nullptr || asleep)
-                  return;
-                preparation_->prepare(p, slots_.todo(p), *plane);
-                slots_.todo(p) = 0;
-              });
-}
-
 void PlaneTable::forgetPreparation()
 {
   preparation_.reset();

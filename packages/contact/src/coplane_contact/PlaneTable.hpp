@@ -94,9 +94,6 @@ public:
   /// @param faces that slots refer to; preparation: tells planes the rest when they come near, null
   ///        where they know everything already
   void take(Slots slots, const Array<Face>& faces, std::shared_ptr<const Preparation> preparation);
-  /// Pairs that have not touched, and those that have parted, know from now on what `preparation`
-  /// tells, as after a search that finds the same pairs. @param inherit pairs take over from others
-  void renew(std::shared_ptr<const Preparation> preparation, bool inherit);
   /// Without what the last search had left to tell: for the time of the next one.
   void forgetPreparation();
   /// Takes the planes of these slots away; a search has to follow, which does not find the pairs.

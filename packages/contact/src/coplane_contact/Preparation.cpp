@@ -44,18 +44,6 @@ Preparation::Preparation(Search search, std::vector<Donor> donors, const NodeLay
 {
 }
 
-Preparation::Todo Preparation::todoOf(const Plane* before, bool asleep, bool inherits)
-{
-  const bool wasKnown = before != nullptr ? !before->isNew() : asleep;
-  Todo todo = wasKnown ? WasKnown : 0;
-  // While the faces lie in each other, edges stay what they are, and the energy does not jump.
-  if (before == nullptr || !(before->overlap > 0 && before->gap < before->offset))
-    todo |= LookAtEdges;
-  if (inherits && !(before != nullptr && before->isBorn()))
-    todo |= TakeOver;
-  return todo;
-}
-
 Array<FacePlane> Preparation::facePlanes() const
 {
   const Array<FacePlane> planes(

@@ -275,7 +275,6 @@ Ghosts step4_copyGhostFaces(const std::vector<InteractingRank>& ranks, const Sor
     {
       chosen[f] = 0;
       facesTo[other.rank].push_back(toGhostFace(localFaces[f], nodeIds));
-      facesTo[other.rank].back().owner = comm.rank();
       const auto found = planesOfFace.find(localFaces[f].id);
       if (found != planesOfFace.end())
         for (const int p : found->second)

@@ -67,9 +67,9 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   relativeSpeed_ = diagonal(&range[6]);
   const Real skin = parts.contact->skin();
   passedOnHasChanged_ = passedOnHasChanged_ || range[12] > 0;
-  const auto isEvery = [&](int cycles) { return cycles > 0 && (clock.cycle + 1) % cycles == 0; };
-  isDue_ = isEvery(every_);
-  isRenewalDue_ = every_ == automatic && isEvery(mostOften) && passedOnHasChanged_;
+  const int every = every_ == automatic ? mostOften : every_;
+  isDue_ =
+      every > 0 && (clock.cycle + 1) % every == 0 && (every_ != automatic || passedOnHasChanged_);
   for (int axis = 0; axis < 3; ++axis)
   {
     const Real moved = range[axis] + range[3 + axis];

@@ -164,8 +164,6 @@ void Solver::findForces(Real dt)
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searches_.isDue() || someDied))
     search();
-  else if (contact_ && searches_.isRenewalDue())
-    renewPairs();
   if (contact_)
     updatePlanes(dt);
   {
@@ -245,13 +243,6 @@ void Solver::search(bool again)
   parallelFor(
       "coplane::dynamics::rememberPositions", layout_.owned(),
       KOKKOS_LAMBDA(const int n) { set(atSearch, n, at(x, n)); });
-}
-
-void Solver::renewPairs()
-{
-  TimedRegion region("coplane::dynamics::renewPairs");
-  contact_->renew(state_.x, layout_);
-  searches_.renewed();
 }
 
 /// First search, and declared joints closed.

@@ -170,7 +170,6 @@ private:
   // Of findForces. Collective.
   bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
   void search(bool again = false);
-  void renewPairs();
   void updatePlanes(Real dt);
   void addContactForces();
 

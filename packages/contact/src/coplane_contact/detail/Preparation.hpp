@@ -25,10 +25,6 @@ public:
   static constexpr Todo LookAtEdges = 1, TakeOver = 2;
   static constexpr Todo WasKnown = 4; ///< the pair had been evaluated before the search
 
-  /// What a search has to tell a pair. @param before its plane from before the search, or null;
-  /// asleep: it was; inherits: it may take something over
-  static Todo todoOf(const Plane* before, bool asleep, bool inherits);
-
   /// A search that has been made.
   struct Search
   {
