@@ -99,8 +99,6 @@ Plane PlaneTable::prepared(std::size_t slot) const
 
 bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
 {
-  if (slots_.plane[slot] != nullptr)
-    return false;
   Plane bare = freshPlane(slot);
   putEdges({prepared.exits, prepared.turns, prepared.covered}, bare);
   return sameNumbers(prepared, bare);
