@@ -17,6 +17,7 @@ endif()
 
 # coplane_install_programs(<target> ...): where they find their libraries.
 function(coplane_install_programs)
+  coplane_precompile(${ARGN})
   if(COPLANE_OWN_TRILINOS)
     file(RELATIVE_PATH _to_libraries "/${COPLANE_PROGRAMS}" "/${COPLANE_PRIVATE_LIBRARIES}")
     set_target_properties(${ARGN} PROPERTIES INSTALL_RPATH "$ORIGIN/${_to_libraries}")

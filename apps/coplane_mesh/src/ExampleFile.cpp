@@ -33,7 +33,7 @@ struct PictureCard
 {
   std::string name, where;
   std::vector<Real> times, shares, range, window, direction, size{1200, 800};
-  std::string color = "block", title, palette = "green_blue", camera, up, planes = "dots";
+  std::string color = "block", title, palette = "green_blue", camera, up, planes = "dots", lines = "force";
   std::vector<std::string> blocks, plain;
   int steps = 2, dotSize = 4, columns = 0;
   Real opacity = 1;
@@ -146,6 +146,10 @@ std::vector<Key> pictureKeys()
       text("planes", &Card::planes)
           .like("slip")
           .means("dots, all, arrows, none, or a variable of the planes: dots in its colours"),
+      text("lines", &Card::lines)
+          .oneOf({"force", "stress", "strain", "plastic_strain", "broken", "slip", "bond", "none"})
+          .like("slip")
+          .means("segments of lines in the colours of this, where the run has output.lines"),
       integer("dot_size", &Card::dotSize)
           .in("points of the screen")
           .atLeast(1)

@@ -55,7 +55,7 @@ public:
   /// at the point of contact [Pa, tension positive], less the pressure on their faces. What is
   /// pressed beyond its compressive strength carries the strength, out of equilibrium.
   using StressOfBlock = std::function<SymTensor(int block, const Vec3& x)>;
-  /// Planes of all ranks of which that is so, and that which is furthest beyond. Collective.
+  /// Planes of all ranks of which that is so, and that which is furthest beyond.
   struct Overpressed
   {
     std::int64_t planes = 0;
@@ -64,6 +64,7 @@ public:
     Vec3 pointOfContact{}; ///< [m]
     GlobalId faceId[2] = {0, 0};
   };
+  /// Collective: the planes of all ranks are summed.
   Overpressed closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
   /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy

@@ -1,0 +1,38 @@
+# coplane_precompile(<target> ... [TESTS]): compiles these with one precompiled header of what nearly every source includes: Kokkos, fmt,
+# MPI and the standard library; with TESTS also GoogleTest. Reading those took longer than compiling what is ours. Sources still include
+# what they use: the header of a package that leaves out another header of ours does not compile alone. -DCOPLANE_PRECOMPILED=OFF: without.
+option(COPLANE_PRECOMPILED "Compile with precompiled headers of Kokkos, fmt, MPI and the standard library" ON)
+
+function(_coplane_precompiled target)
+  file(CONFIGURE OUTPUT "${PROJECT_BINARY_DIR}/precompiled.cpp" CONTENT "")
+  add_library(${target} OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
+  target_link_libraries(${target} PRIVATE coplane::flags coplane::kokkos fmt::fmt MPI::MPI_CXX)
+  target_precompile_headers(${target} PRIVATE <Kokkos_Core.hpp> <fmt/format.h> <mpi.h>
+    <algorithm> <array> <cmath> <cstdint> <experimental/simd> <filesystem> <fstream> <functional> <iostream> <limits> <map> <memory>
+    <numeric> <optional> <set> <sstream> <string> <string_view> <tuple> <type_traits> <unordered_map> <utility> <variant> <vector>)
+endfunction()
+
+if(COPLANE_PRECOMPILED)
+  # Position-independent code of one kind for libraries and programs: a precompiled header is for one set of options.
+  set(CMAKE_CXX_COMPILE_OPTIONS_PIE ${CMAKE_CXX_COMPILE_OPTIONS_PIC})
+  _coplane_precompiled(coplane_precompiled)
+  if(COPLANE_TESTS)
+    _coplane_precompiled(coplane_precompiled_tests)
+    target_link_libraries(coplane_precompiled_tests PRIVATE GTest::gtest)
+    target_precompile_headers(coplane_precompiled_tests PRIVATE <gtest/gtest.h>)
+  endif()
+endif()
+
+function(coplane_precompile)
+  cmake_parse_arguments(P "TESTS" "" "" ${ARGN})
+  set(_suffix "")
+  if(P_TESTS)
+    set(_suffix _tests)
+  endif()
+  if(COPLANE_PRECOMPILED)
+    foreach(_target IN LISTS P_UNPARSED_ARGUMENTS)
+      target_compile_options(${_target} PRIVATE -fopenmp) # Kokkos wants it
+      target_precompile_headers(${_target} REUSE_FROM coplane_precompiled${_suffix})
+    endforeach()
+  endif()
+endfunction()
