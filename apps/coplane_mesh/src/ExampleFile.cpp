@@ -33,7 +33,8 @@ struct PictureCard
 {
   std::string name, where;
   std::vector<Real> times, shares, range, window, direction, size{1200, 800};
-  std::string color = "block", title, palette = "green_blue", camera, up, planes = "dots", lines = "force";
+  std::string color = "block", title, palette = "green_blue", camera, up, planes = "dots",
+              lines = "force";
   std::vector<std::string> blocks, plain;
   int steps = 2, dotSize = 4, columns = 0;
   Real opacity = 1;
