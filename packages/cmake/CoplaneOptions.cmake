@@ -24,11 +24,12 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 # compiler may not fuse a multiplication with an addition in one place and not in another. Never -ffast-math.
 # -fno-tree-slp-vectorize: GCC 12 fuses c x - d y beside d x + c y (a rotation) into one vfmaddsub when it vectorises
 # straight-line code, in spite of -ffp-contract=off. Loops and lane types are not concerned.
+# -fno-math-errno -fno-trapping-math: square roots and comparisons set no error flags; results are the same.
 add_library(coplane_flags INTERFACE)
 add_library(coplane::flags ALIAS coplane_flags)
 set_target_properties(coplane_flags PROPERTIES EXPORT_NAME flags)
 target_compile_features(coplane_flags INTERFACE cxx_std_17)
-target_compile_options(coplane_flags INTERFACE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
+target_compile_options(coplane_flags INTERFACE -ffp-contract=off -fno-math-errno -fno-trapping-math $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>
   $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wno-psabi>)
 if(COPLANE_ARCH)
   target_compile_options(coplane_flags INTERFACE $<BUILD_INTERFACE:-march=${COPLANE_ARCH}>)
