@@ -16,6 +16,7 @@ import coplane
 from coplane import pictures
 
 case = Case("pictures", __file__)
+whole = "all" in sys.argv[1:]  # ParaView starts for nearly every picture
 missing = program.missing_for_pictures() + [name for name in ("ffmpeg", "ffprobe") if not shutil.which(name)]
 if missing:
     sys.exit(f"this test needs {', '.join(missing)}: packages/cmake/dependencies.sh --with-paraview")
@@ -80,7 +81,8 @@ case.check_within("states: colours on the bodies", len(colors), 10, 10000)
 
 again = [str(path) for path in pictures.draw(coplane.open(flat.folder), "drawn", times=[0], size=(300, 200))]
 case.check_equal("states again, into the same folder: files", [pathlib.Path(name).name for name in again], ["state_0000_000000us.png"])
-pictures.draw(coplane.open(flat.folder), "drawn", times=[0], size=(300, 200))
+if whole:
+    pictures.draw(coplane.open(flat.folder), "drawn", times=[0], size=(300, 200))
 
 # --- strip, comparison, film ---------------------------------------------------------------------------------------------
 (strip,) = drawn("strip", flat.folder, "-o", "drawn", "--steps", "3", "--strip", "2", "--size", "300", "200")
@@ -88,7 +90,7 @@ image = seen(strip)
 case.check_equal("strip: two columns, two rows, in the last place only names", (image.shape, bool((image[200:260, 300:] < 160).any()), bool((image[260:, 300:] == 255).all())),
                  ((400, 600, 3), True, True))
 # Of a body that is as wide as the picture nothing is hidden: the bar stands beside it, in each picture within its size, in a strip beside the last.
-for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide body, strip", ["--strip", "2"], 585)):
+for what, words, width in (("wide body, colour bar beside it", [], 480), ("wide body, strip", ["--strip", "2"], 585))[: 2 if whole else 1]:
     (file,) = drawn(what, flat.folder, "-o", "drawn", "--times", "2e-4", "--color", "velocity", "--size", "480", "160", "--window", "0", "1", "-0.1", "0.2", "--no-edges",
                     "--planes", "none", "--name", "wide", *words)  # fmt: skip
     image = seen(file)
@@ -111,7 +113,7 @@ middle = (body[0] + body[-1]) / 2
 case.check_equal("planes, mirrored: dots on both sides", [bool((dots < middle).any()), bool((dots > middle).any())], [True, True])
 if len(dots):
     case.check("planes, mirrored: both are as far from the middle", float(dots.min() + dots.max()) / 2, float(middle), 3)
-for color in ("block", "von_mises"):  # blocks of other names are drawn, too
+for color in ("block", "von_mises")[: 2 if whole else 1]:  # blocks of other names are drawn, too
     (pair,) = drawn(f"blocks of other names by {color}", flat.folder, "--compare", renamed.folder, "-o", "drawn", "--times", "8e-5", "--color", color, "--size", "400", "300",
                     "--planes", "none")  # fmt: skip
     image = seen(pair)
@@ -185,7 +187,7 @@ iso = middles(seen("drawn/iso_000000us.png"))
 case.check_equal("camera iso: three sides are seen", sorted(COLORS.keys() - iso.keys() - {"middle"}), [])
 LOOKS = ["-o", "drawn", "--shares", "0", "--size", "400", "300", "--planes", "none", "--no-edges"]
 for what, words, reference in (("--camera left", ["--camera", "left"], "left"), ("--direction of iso", ["--direction", "1", "-1.6", "0.8"], "iso"),
-                               ("--up y", ["--camera", "front", "--up", "y"], "up_y")):  # fmt: skip
+                               ("--up y", ["--camera", "front", "--up", "y"], "up_y"))[: 3 if whole else 1]:  # fmt: skip
     (file,) = drawn(what, corner.folder, *LOOKS, *words, "--name", "by")
     places, references = middles(seen(file)), middles(seen(f"drawn/{reference}_000000us.png"))
     case.check_equal(f"{what}: sees the blocks of {reference}", sorted(places), sorted(references))
