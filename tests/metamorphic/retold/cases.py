@@ -33,25 +33,25 @@ SUNK = "its block lies 2e-5 m deep in the slab, and runs against the end of the 
 
 CASES = {
     "V04_corner_two_methods": Retold(["mirrored", "renumbered"], base=False),
-    "V10_dynamic_patch": Retold(["renumbered"], base=False),
+    "V10_dynamic_patch": Retold([], base=False),
     "V12_V13_one_joint": Retold(["quarter", "millimetres"], ["refined:lower", "refined:upper"]),
-    "V14_incline": Retold(["drifting", "sliced", "cut:slab:0:3"], ["cut:slab:0:2", "cut:slab:0:3", "refined:slab"],
+    "V14_incline": Retold(["sliced", "cut:slab:0:3"], ["cut:slab:0:2", "cut:slab:0:3", "refined:slab"],
                            other={"split": "a block that sticks walks: docs/user/contact.md, friction feeds vibrations"},
                            apart={"seed": "closures that are summed up from velocities hang on the cycle in which a pair is found; searches come in other cycles in another frame"}),
-    "V15_stick_slip": Retold(["mirrored"], ["cut:slab:0:3", "refined:slab"], bounds=dict.fromkeys(["mirrored", "turned", "quarter", "renumbered", "millimetres"], WALL), base=False),
+    "V15_stick_slip": Retold([], ["cut:slab:0:3", "refined:slab"], bounds=dict.fromkeys(["mirrored", "turned", "quarter", "renumbered", "millimetres"], WALL), base=False),
     "V19_hertz_line": Retold([], ["cut:flat:0:3"], base=False),
     "V21_equal_bars": Retold([], ["cut:right:1:2", "refined:left"], bounds=dict.fromkeys(["turned", "quarter", "mirrored", "renumbered", "millimetres", "moved", "drifting"], 2e-6),
                              other={"cut:right:1:2": "counts planes in contact, and those between the strips are"}, base=False),
-    "V23_unequal_bars": Retold(["powers_of_two", "split", "refined:left"], ["cut:left:1:3", "refined:left", "refined:right"], bounds={"moved": 2e-6},
-                                other={"millimetres": SAMPLES, "refined:right": SAMPLES, "cut:left:1:3": "counts planes that open, and those between the strips do"}),
-    "V24_rebound": Retold(["turned", "moved", "drifting", "restarted", "sliced", "declared", "cut:slab:0:3"], ["cut:slab:0:3", "refined:slab", "refined:block"],
+    "V23_unequal_bars": Retold(["split", "refined:left"], ["cut:left:1:3", "refined:left", "refined:right"], bounds={"moved": 2e-6},
+                                other={"millimetres": SAMPLES, "refined:right": SAMPLES, "cut:left:1:3": "counts planes that open, and those between the strips do"}, base=False),
+    "V24_rebound": Retold(["turned", "quarter", "moved", "drifting", "powers_of_two", "restarted", "sliced", "declared", "cut:slab:0:3"], ["cut:slab:0:3", "refined:slab", "refined:block"],
                           other={"split": DASHPOTS, "refined:slab": DASHPOTS, "refined:block": DASHPOTS}),
     "V25_joint_wave": Retold([], base=False),
-    "V26_joint_set": Retold(["quarter"], base=False),
+    "V26_joint_set": Retold([], base=False),
     "V28_frictional_slip": Retold(["moved"], ["refined:left"], bounds={"drifting": 1e-7}),
     "V30_eccentric_collision": Retold(["turned"], ["refined:second"], base=False),
     "V32_spinning_pair": Retold([], ["refined:left"], bounds={"moved": TURNS, "drifting": TURNS}),
-    "V33_absorbing_ends": Retold(["mirrored", "millimetres"], base=False),
+    "V33_absorbing_ends": Retold(["millimetres"], base=False),
     "V48_cohesive_joint": Retold([], base=False),
     "V51_rocking_block": Retold([], ["cut:floor:0:3"], base=False),
     "V52_topple_or_slide": Retold(["split"], ["cut:slab:0:2", "cut:slab:0:7", "refined:slab"], base=False),
@@ -60,7 +60,7 @@ CASES = {
                                ["cut:base:0:3", "refined:ball", "refined:base"],
                                bounds={"turned": WALL, "moved": WALL}),
     "V64_life_of_planes": Retold([], ["cut:slab:0:2", "cut:slab:0:4"], other={f"cut:slab:0:{n}": SUNK for n in (2, 4)}, base=False),
-    "V11_brick_column": Retold(["mirrored"], bounds=dict.fromkeys(["mirrored", "turned"], WALL)),  # at rest: what is left of the velocities is round-off of the largest
+    "V11_brick_column": Retold([], bounds=dict.fromkeys(["mirrored", "turned"], WALL)),  # at rest: what is left of the velocities is round-off of the largest
     "V81_water_in_joints": Retold(["mirrored"], bounds={"turned": 5e-5}),  # its wedges slide at 0.98 of what holds them: friction decides each cycle anew
     # Waves behind a joint that breaks. While the sheared plane loses its last strength, what differs grows from 1e-11 to 4e-5 of the kinetic energy within 5 ms, and fades.
     "V94_bonded_blocks": Retold([], bounds=dict.fromkeys(["mirrored", "renumbered", "turned"], WALL),
