@@ -135,7 +135,7 @@ def bars(dimension):
     deck = deck_of("two bars meet", 1e9, 2e10, 5e-3, 1e-5, ["left", "right"], poisson=0.0, fixed=None, gravity=False,
                    initial=[{"block": "left", "velocity": [1.0, 0.0, 0.0]}, {"block": "right", "velocity": [-1.0, 0.0, 0.0]}])
     # Bulk viscosity and the front, which is some elements long, take a share of the motion that halves with the elements.
-    return Scene(recipe, deck, ["left", "right"], 0, 1, along=1, mesh=2e-2, finer=2e-2)
+    return Scene(recipe, deck, ["left", "right"], 0, 1, along=1, mesh=2e-2, finer=2e-2, thorough=dimension == 3)
 
 
 def spin(dimension, friction, gap=1e-6):

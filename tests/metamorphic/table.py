@@ -75,7 +75,7 @@ def not_covered(cases, untold, words_of_every_case):
     lines = []
     for name, case in cases.items():
         rest = [word for word in case.words(True) if word not in case.often]
-        why = "takes minutes: with `all` alone" if not case.often else "with `all` alone: the covering set has these words with other cases"
+        why = "takes long, and others of its kind are told: with `all` alone" if not case.often else "with `all` alone: the covering set has these words with other cases"
         lines.append(f"| {name} | {', '.join(rest)} | {why} |")
         lines += [f"| {name} | {word}: its answers are only reported | {reason} |" for word, reason in case.other.items()]
         lines += [f"| {name} | run {run}: motion not compared | {reason} |" for run, reason in case.apart.items()]

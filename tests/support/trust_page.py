@@ -20,14 +20,13 @@ PAGE = SOURCE / "docs/trust.md"
 DATA = SOURCE / "tests/support/trust.json"
 MARK = "<!-- made by tests/support/trust_page.py -->\n"
 
-# Against measurements: these decks are of experiments that were published, or of the charts that stand for them.
-EXPERIMENTS = ("verification.V49_taylor_anvil", "verification.V75_cylinder_test", "verification.V74_air_blast", "gallery.perforation", "gallery.penetration")
-# Cases of tests/validation whose reference is a closed form or a solution of the equations, not a measurement.
-SOLUTIONS = ("validation.blast_wall", "validation.boulder_wall", "validation.bouncing_bar", "validation.brazilian_disc", "validation.shaken_block")
+# Against measurements: these decks are of experiments that were published, or of the charts and fits that stand for them. The other cases of tests/validation have a closed form or a solution of the equations for reference.
+EXPERIMENTS = ("verification.V49_taylor_anvil", "verification.V75_cylinder_test", "verification.V74_air_blast", "gallery.perforation", "gallery.penetration",
+               "validation.hypervelocity", "validation.penetration", "validation.perforation", "validation.shear_wall", "validation.spall", "validation.taylor_rods")  # fmt: skip
 # A letter for each kind of evidence, the strongest first.
 EVIDENCE = {
-    "X": "against an exact answer, a published solution or a balance that must hold (`tests/verification`)",
-    "M": "against measurements",
+    "X": "against an exact answer, a published solution or a balance that must hold (`tests/verification`, `tests/validation`)",
+    "M": "against measurements (`tests/validation`, examples; whether we agree stands in [validation](validation.md))",
     "W": "the same problem in other words has the same answer (`tests/metamorphic`)",
     "B": "the same bits on other ranks, threads and back ends, and after restarts (`tests/parallel`)",
     "R": "runs, its balances hold, its files say what was computed (examples, `tests/outputs`, `tests/robustness` and others)",
@@ -37,9 +36,7 @@ EVIDENCE = {
 def evidence(test):
     if test.startswith(EXPERIMENTS):
         return "M"
-    if test.startswith(SOLUTIONS):
-        return "X"
-    return {"verification": "X", "validation": "M", "metamorphic": "W", "parallel": "B"}.get(test.split(".")[0], "R")
+    return {"verification": "X", "validation": "X", "metamorphic": "W", "parallel": "B"}.get(test.split(".")[0], "R")
 
 
 def words_of(schema):

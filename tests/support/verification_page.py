@@ -6,7 +6,8 @@ Reads the checks.jsonl of the tests of a suite below the build folder and the RE
 there keeps the section it has on the page, so one case can be run again alone: ctest -R V25, then this program.
 
 A section of docs/validation.md is the README of the case, its picture (docs/validation/<case>.png), and tables of the checks, of other codes, and of the mesh
-study; the table before them has the line **Verdict.** of each README.
+study; the table before them has the line **Verdict.** of each README. Numbers are those of the long form: where only the coarse one has run, the tables stay as they
+are on the page, and the text is made anew.
 
 The page of verification begins with a table of all V numbers, from the titles of the READMEs in tests/verification and tests/parallel. A title has each number in
 brackets behind the words that say what it shows:
@@ -189,11 +190,14 @@ def seconds(lines):
     return {record["quantity"]: record["value"] for record in lines if record.get("kind") == "seconds"}
 
 
-def validation_section(folder, lines):
+def validation_section(folder, lines, before=""):
     title, _, readme = validation_parts(folder)
     text = [heading(folder), "", f"*{title}.* [Deck, recipe, check](../tests/validation/{folder.name}/README.md)", "", readme, ""]
     if (SOURCE / f"docs/validation/{folder.name}.png").exists():
         text += [f"![{title}](validation/{folder.name}.png)", ""]
+    first = before.find("| quantity | reference | ours |")
+    if first >= 0 and "long form" not in seconds(lines) and (not lines or "long form" in before[first:]):
+        return "\n".join(text) + "\n" + before[first:].rstrip("\n") + "\n"
     if not lines:
         return "\n".join(text + ["No results yet.", ""])
     checks = [record for record in lines if "kind" not in record]
@@ -234,12 +238,13 @@ def page(build, old="", suite="verification"):
     """The page's text; sections of `old` stay where the build has no results."""
     before = {match.split("\n", 1)[0]: match for match in re.findall(r"^## .*?(?=^## |\Z)", old, flags=re.S | re.M)}
     found = records(build, suite)
-    made = section if suite == "verification" else validation_section
     sections = []
     for folder in cases(suite):
         lines = list(found.get(folder.name, {}).values())
-        if lines or heading(folder) not in before:
-            sections.append(made(folder, lines))
+        if suite == "validation":
+            sections.append(validation_section(folder, lines, before.get(heading(folder), "")))
+        elif lines or heading(folder) not in before:
+            sections.append(section(folder, lines))
         else:
             sections.append(before[heading(folder)].rstrip("\n") + "\n")
     head = HEAD + index() if suite == "verification" else VALIDATION_HEAD + validation_index()

@@ -94,7 +94,7 @@ def _walk(value, schema, factors):
             inner = known.get(key, other if isinstance(other, dict) else {})
             told[key] = _walk(item, inner, factors)
         return told
-    if isinstance(value, list) and value and isinstance(value[0], dict) and "items" in schema:
+    if isinstance(value, list) and value and isinstance(value[0], dict) and "times" not in value[0] and "items" in schema:
         return [_walk(item, schema["items"], factors) for item in value]
     unit = _unit(schema)
     if unit is None or isinstance(value, str) and not re.search(r"\d|\bt\b", value):

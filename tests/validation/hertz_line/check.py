@@ -91,10 +91,11 @@ def theirs(name, run, cell):
     return dict(load=load, width=0.5 * (x.max() - x.min() + cell), peak=stresses[:, 2].max()), spent, len(deck.own)
 
 
-found, run, spent, lines = press("pressed")
+CELL = 67e-6 if case.full else 134e-6
+found, run, spent, lines = press("pressed", CELL)
 width, peak = hertz(found["load"])
 case.check("largest pressure over Hertz'", found["peak"] / peak, 1, 0.05)
-case.check("half width less Hertz' [m]", found["width"] - width, 0, 67e-6)
+case.check("half width less Hertz' [m]", found["width"] - width, 0, CELL)
 case.check_within("load that the planes carry [N/m]", found["load"], 0.9e6, 1.1e6)
 case.picture(run, "--color", "von_mises", "--shares", "1", "--window", "-0.003", "0.003", "-0.0003", "0.004", "--blocks", "cylinder", "--size", "800", "620")
 
@@ -106,7 +107,8 @@ def tell(code, found, spent, lines):
     case.other("load per length for the same way of the top [N/m]", code, found["load"], None, spent, lines)
 
 
-tell("Coplane, cells of 67 um, dynamic with damping", found, spent, lines)
+if case.full:
+    tell("Coplane, cells of 67 um, dynamic with damping", found, spent, lines)
 if not calculix.found():
     print("CalculiX was not tried: ccx is not installed (apt-get install calculix-ccx)", file=sys.stderr)
 elif case.full:

@@ -49,9 +49,9 @@ free, sunk, _, free_seconds = wall("constant_load", None, until=WAY if case.full
 weight = PRESSURE * LENGTH * THICKNESS / 1e3
 case.check("constant load: vertical load that the wall bears [kN]", numpy.mean(free["vertical"]), weight, 0.02, relative=True)
 case.check_within("constant load: largest shear, between friction alone and friction and cohesion everywhere [kN]", free["shear"].max(), FRICTION * weight, FRICTION * weight + COHESION * LENGTH * THICKNESS / 1e3)
-curve, _, run, spent = wall("held", sunk, until=WAY if case.full else 1.9e-3)
+curve, _, run, spent = wall("held", sunk, until=WAY if case.full else 1.1e-3)
 case.check("held: vertical load before it is sheared [kN]", curve["vertical"][0], weight, 0.03, relative=True)
-for way, load in MEASURED if case.full else MEASURED[:6]:
+for way, load in MEASURED if case.full else MEASURED[:4]:
     words = f"held: shear at {way:g} mm against J4D, read off a plot within 8 kN [kN]"
     case.check(words + ("" if way < 0.7 else " (reported: we differ)"), at(curve, way), load, 8, report=bool(way >= 0.7))
 case.picture(run, "--color", "von_mises", "--times", "0.03", "0.075", "0.2", "--strip", "3", "--planes", "dots", "--dot-size", "3", "--no-edges", "--range", "0", "6e6", "--size", "330", "360")
