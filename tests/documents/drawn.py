@@ -45,3 +45,21 @@ def check_potential():
         assert re.search(rf"\b{words[0]}{''.join(word.title() for word in words[1:])} = {value}\b", code), f"{maker}: {name} is not that of ContactEnergy.hpp"
     for picture in ("potential-pair", "potential-strip", "seam-force", "plane-life"):
         same_picture(f"docs/theory/pictures/{picture}.svg", maker)
+    same_strip()
+
+
+def same_strip():
+    """What the page of the potential says of a strip follows from its formulas."""
+    maker = SOURCE / "docs/theory/pictures/draw-potential.py"
+    page = (SOURCE / "docs/theory/contact-potential.md").read_text()
+    done = run([sys.executable, str(maker), "--numbers"])
+    assert done.returncode == 0, done.stdout
+    told = {name: values for name, *values in re.findall(r"^(.+): (\S+) k c\^([23]) at w = (\S+) c$", done.stdout, re.MULTILINE)}
+    assert len(told) == 7, done.stdout
+    for name, wanted in (("front where it begins to fall", "0.125"), ("front after its end", "0.000"), ("over a seam, largest rise", "0.000")):
+        assert told.pop(name)[0] == wanted, done.stdout
+    for name, (value, power, width) in told.items():
+        told_there = rf"\${re.escape(value)}\\,kc_0\^{power}\$[^$]*" + ("at first" if width == "0.00" else rf"\$w={re.escape(width)}\\,c_0\$")
+        assert re.search(told_there, page), f"{name}: {value} k c^{power} at {width} c is not what the page says"
+    (value, _, width), = [values for name, values in told.items() if name == "front, largest"]
+    assert f"at most ${value}\\,kc^3$ per length, at $w={width}\\,c$" in page

@@ -2,9 +2,10 @@
 """Draws the pictures of docs/theory/contact-potential.md: potential-pair.svg, potential-strip.svg, seam-force.svg and plane-life.svg.
 
     docs/theory/pictures/draw-potential.py [FILE]
+    docs/theory/pictures/draw-potential.py --numbers
 
 The curves are the formulas of that page; forces at a seam are those of seam-force.csv beside this, which tests/measure/seam_force.py makes of a run. Needs the
-Python standard library only. With a FILE: only the picture of that name, there.
+Python standard library only. With a FILE: only the picture of that name, there. With --numbers: what the page says of a strip, as the formulas give it; draws nothing.
 """
 import csv
 import math
@@ -110,6 +111,38 @@ def hardened(z):
     return z * (1 + PART * rest) + 0.5 * z * z * PART * 4 * z**3 / (1 + z**4) ** 2
 
 
+def bottom(width):
+    """Energy over k c^3 and length of a bottom of closure c that is so many c wide, between two edges."""
+    return 0.5 * width * way_out(width / 2)
+
+
+def front(width):
+    """The same of the front of that bottom: its closure is that width, it is as high as c."""
+    return 0.5 * width * width * way_out(1 / (2 * width))
+
+
+def seam(width):
+    """Of a block that slides over a seam: what both have there less what its bottom gives up on the first slab."""
+    return bottom(width) + front(width) - 0.5 * width
+
+
+def strip_numbers():
+    """Extremes of the strip by its width in c: [(name, unit of the value, value, width)]."""
+    step = 1e-4
+    widths = [i * step for i in range(1, round(3 / step))]
+
+    def largest(f):
+        return max((f(w), w) for w in widths)
+
+    def slope(w):
+        return (seam(w + step / 2) - seam(w - step / 2)) / step
+
+    deepest, where = largest(lambda w: -seam(w))
+    return [("front where it begins to fall", "k c^3", front(0.5), 0.5), ("front, largest", "k c^3", *largest(front)), ("front after its end", "k c^3", front(2), 2),
+            ("over a seam, largest rise", "k c^3", *largest(seam)), ("over a seam, depth of the trough", "k c^3", deepest, where),
+            ("over a seam, largest pull", "k c^2", *largest(lambda w: -slope(w))), ("over a seam, largest brake", "k c^2", *largest(slope))]  # fmt: skip
+
+
 # --- pictures ----------------------------------------------------------------------------------------------------------------------
 def pair():
     """Two edges that lie in each other, tilted by the same angle against their common plane."""
@@ -155,9 +188,9 @@ def strip():
              arrow(95, 40, 175, 40), text(105, 32, "way"), text(30, 228, "first slab"), text(205, 228, "second slab")]  # fmt: skip
     chart = Chart((430, 40, 820, 230), (0, 4), (0, 4), [(v, str(v)) for v in range(5)], [(v, str(v)) for v in range(5)], "w / c", "energy / (½ k c³)")
     ratios = [i / 100 for i in range(1, 401)]
-    chart.curve([(w, w * way_out(w / 2)) for w in ratios], FIRST, stroke_dasharray="6 3")
-    chart.curve([(w, w * w * way_out(1 / (2 * w))) for w in ratios], SECOND, stroke_dasharray="6 3")
-    chart.curve([(w, w * way_out(w / 2) + w * w * way_out(1 / (2 * w))) for w in ratios], SHARED)
+    chart.curve([(w, 2 * bottom(w)) for w in ratios], FIRST, stroke_dasharray="6 3")
+    chart.curve([(w, 2 * front(w)) for w in ratios], SECOND, stroke_dasharray="6 3")
+    chart.curve([(w, 2 * (bottom(w) + front(w))) for w in ratios], SHARED)
     chart.curve([(w, w + w * w) for w in ratios if w + w * w <= 4], OLD, stroke_dasharray="2 3")
     chart.curve([(0, 0), (4, 4)], GREY, stroke_dasharray="2 3")
     chart.legend(850, 80, [(OLD, "2 3", "both count: no way out (χ = 1)"), (SHARED, None, "both, with χ"), (FIRST, "6 3", "of it the bottom"), (SECOND, "6 3", "of it the front"),
@@ -215,6 +248,10 @@ def life():
 
 PICTURES = {"potential-pair.svg": pair, "potential-strip.svg": strip, "seam-force.svg": seam_force, "plane-life.svg": life}
 if __name__ == "__main__":
+    if sys.argv[1:] == ["--numbers"]:
+        for name, unit, value, width in strip_numbers():
+            print(f"{name}: {value:.3f} {unit} at w = {width:.2f} c")
+        sys.exit()
     for name, draw in PICTURES.items():
         if len(sys.argv) < 2 or Path(sys.argv[1]).name == name:
             Path(sys.argv[1] if len(sys.argv) > 1 else HERE / name).write_text(draw())
