@@ -180,6 +180,17 @@ private:
 
     std::vector<GlobalId> nodesOfGhosts() const;
   };
+  /// A face on which another one lies, corner by corner.
+  struct Coinciding
+  {
+    GlobalId face, other;
+
+    bool operator<(const Coinciding& o) const
+    {
+      return face != o.face ? face < o.face : other < o.other;
+    }
+    bool operator==(const Coinciding& o) const { return face == o.face && other == o.other; }
+  };
   struct Searches
   {
     std::int64_t count = 0;
@@ -197,6 +208,10 @@ private:
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
+  /// Of the faces that a declared joint may close, those that coincide with another one, sorted:
+  /// all that this rank has pairs of. Only the owner of a ghost may have the face on which it lies.
+  /// Collective.
+  std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x) const;
   void listSlotsOfFaces(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   /// Slots of a checkpoint that have a face here; members of planes that only mean something on one

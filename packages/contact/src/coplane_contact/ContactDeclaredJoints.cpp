@@ -2,8 +2,11 @@
 #include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
+#include <limits>
+#include <vector>
 
 namespace coplane
 {
@@ -131,7 +134,59 @@ void declare(const DeclaredPlane& found, Plane& plane)
   plane.pointOfContact = found.pointOfContact;
   plane.gap = found.overlap.gap;
 }
+
+/// Whether two faces lie on each other corner by corner, as the two sides of a cut do.
+bool coincide(const FaceNodes& a, const FaceNodes& b, int dimension)
+{
+  constexpr Real roundOff = 1e-6; // of the size of a face
+  if (a.count != b.count)
+    return false;
+  FaceCorners corners;
+  corners.count = a.count;
+  std::copy(a.x, a.x + a.count, corners.x);
+  const Vec3 area = corners.area(dimension);
+  if (!(dot(area, vectorArea(b.x, b.count, dimension)) < 0))
+    return false;
+  const Real near = roundOff * faceSize(norm(area), dimension);
+  return std::all_of(a.x, a.x + a.count,
+                     [&](const Vec3& corner)
+                     {
+                       return std::any_of(b.x, b.x + b.count,
+                                          [&](const Vec3& its)
+                                          { return norm(its - corner) <= near; });
+                     });
+}
 } // namespace
+
+std::vector<Contact::Coinciding> Contact::coincidingFaces(const ConstNodeVectors& x) const
+{
+  std::vector<Coinciding> found;
+  std::vector<GlobalId> shared; // faces of pairs that other ranks have, too
+  for (std::size_t slot = 0; slot < planes_.count(); ++slot)
+  {
+    const SlotFaces& pair = planes_.slots().faces(slot);
+    if (pair.face[0] < 0)
+      continue;
+    const Face& a = faces()[pair.face[0]];
+    const Face& b = faces()[pair.face[1]];
+    if (!rules_.between(a.group, b.group).declared)
+      continue;
+    if (!a.ownedHere || !b.ownedHere)
+      shared.insert(shared.end(), {a.id, b.id});
+    if (coincide(nodesOf(a, x), nodesOf(b, x), dimension_))
+      found.insert(found.end(), {{a.id, b.id}, {b.id, a.id}});
+  }
+  std::sort(shared.begin(), shared.end());
+  std::vector<Coinciding> told;
+  for (const Coinciding& one : found)
+    if (std::binary_search(shared.begin(), shared.end(), one.face))
+      told.push_back(one);
+  told = comm_->allGather(told);
+  found.insert(found.end(), told.begin(), told.end());
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
 
 Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                                                   const StressOfBlock& stressOfBlock)
@@ -148,6 +203,16 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                ? beyond > other
                : std::pair(a.faceId[0], a.faceId[1]) < std::pair(b.faceId[0], b.faceId[1]);
   };
+  // A face that coincides with another one is covered by it: what else is opposed and near, such as
+  // the next side of a slender triangle, lies beside it.
+  const std::vector<Coinciding> coinciding = coincidingFaces(x);
+  const auto isCoveredByOther = [&](GlobalId face, GlobalId other)
+  {
+    const auto first = std::lower_bound(coinciding.begin(), coinciding.end(),
+                                        Coinciding{face, std::numeric_limits<GlobalId>::min()});
+    return first != coinciding.end() && first->face == face &&
+           !std::binary_search(first, coinciding.end(), Coinciding{face, other});
+  };
   for (std::size_t slot = 0; slot < planes_.count(); ++slot)
   {
     const SlotFaces& pair = planes_.slots().faces(slot);
@@ -155,7 +220,8 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
       continue;
     const Face& faceA = faces()[pair.face[0]];
     const Face& faceB = faces()[pair.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared)
+    if (!rules_.between(faceA.group, faceB.group).declared ||
+        isCoveredByOther(faceA.id, faceB.id) || isCoveredByOther(faceB.id, faceA.id))
       continue;
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
     const DeclaredPlane found =

@@ -283,6 +283,20 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
   return response;
 }
 
+/// Coefficients of friction under the normal tractions as they are now.
+template <class T>
+KOKKOS_INLINE_FUNCTION T mostFriction(const PlaneBatch<T>& planes)
+{
+  return branchFree::gathered<T>(
+      [&](int i) -> Real
+      {
+        const Plane& plane = *planes.plane[i];
+        return plane.normalTraction > 0
+                   ? planes.law[i]->frictionAt(plane.normalTraction, plane.history.slip, 0)
+                   : 0.0;
+      });
+}
+
 /// Dashpots at the point of contact [N].
 /// @param elastic force along the normal [N]; normalStiffness: of the law [Pa/m]
 template <class T>
@@ -304,10 +318,16 @@ stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& ela
   const auto sticks =
       planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
   const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
-  const T shearing = choose(
-      sticks, -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
-      T(0.0));
-  return normalForce * n + shearing * motion.tangential;
+  Vec3Of<T> shearing =
+      choose(sticks,
+             -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
+             T(0.0)) *
+      motion.tangential;
+  // What is not bonded holds no more than friction does.
+  const T most = mostFriction(planes) * choose(elastic > 0.0, elastic, T(0.0)),
+          size = norm(shearing);
+  shearing = choose(!bonded && size > most, most / size, T(1.0)) * shearing;
+  return normalForce * n + shearing;
 }
 
 /// The force at the corners of both faces; half of the moment of both forces, at the end of the

@@ -175,6 +175,16 @@ struct JointLaw
     return std::fmax(curve.slopeAhead(fit, state.maximumClosure), fit.shearStiffness);
   }
 
+  /// Shear strength by friction over normal traction.
+  KOKKOS_INLINE_FUNCTION Real frictionAt(Real sigma, Real slipPath, Real speed) const
+  {
+    if (strength == Strength::BartonBandis)
+      return rough.friction(sigma, slipPath);
+    if (dynamicFriction < 0)
+      return friction;
+    return dynamicFriction + (friction - dynamicFriction) * std::exp(-speed / slipSpeed);
+  }
+
 private:
   /// Compression at closure c; raises the maximum closure. Returns how far a joint is open beyond
   /// the closure at which it carries nothing [m]; negative: it is pressed.
@@ -257,16 +267,6 @@ private:
       return 0;
     const Real work = 0.5 * (dot(before, before) / fit.shearStiffness - dot(before, increment));
     return work > 0 ? work : 0;
-  }
-
-  /// Shear strength by friction over normal traction.
-  KOKKOS_INLINE_FUNCTION Real frictionAt(Real sigma, Real slipPath, Real speed) const
-  {
-    if (strength == Strength::BartonBandis)
-      return rough.friction(sigma, slipPath);
-    if (dynamicFriction < 0)
-      return friction;
-    return dynamicFriction + (friction - dynamicFriction) * std::exp(-speed / slipSpeed);
   }
 
   /// Tension of a bonded joint that is open by `opened`; it may break.
