@@ -183,6 +183,8 @@ def validation_parts(folder):
     """Title, verdict, and the text of the README without them."""
     title, text = (folder / "README.md").read_text().split("\n", 1)
     verdict = re.search(r"^\*\*Verdict\.\*\* (.*)$", text, flags=re.M)
+    # Links of a README, to other cases and to documents, are those of the page.
+    text = re.sub(r"\]\(\.\./(\w+)/README\.md\)", lambda found: f"](#{found[1].replace('_', '-')})", text).replace("](../../../docs/", "](")
     return title.removeprefix("# "), verdict.group(1).strip(), re.sub(r"^\*\*Verdict\.\*\* ", "**Verdict.** ", text.strip(), flags=re.M)
 
 

@@ -6,30 +6,31 @@ import math
 import numpy
 
 
-def arch(stones, thickness, radius=10.0):
-    """Weights and centres of the stones of a semicircle, and its joints as pairs of points (intrados, extrados), from the right springing."""
+def arch(stones, thickness, radius=10.0, fixed=0):
+    """Weights and centres of the stones of a semicircle, and its joints as pairs of points (intrados, extrados), from the right springing; fixed: stones at each end that cannot move, and are left out."""
     inner, outer, step = radius * (1 - thickness / 2), radius * (1 + thickness / 2), math.pi / stones
     middle = 2 / 3 * (outer**3 - inner**3) / (outer**2 - inner**2) * math.sin(step / 2) / (step / 2)
     angles = step * numpy.arange(stones + 1)
     ends = numpy.stack([numpy.cos(angles), numpy.sin(angles)], axis=1)
     between = step * (numpy.arange(stones) + 0.5)
     centres = middle * numpy.stack([numpy.cos(between), numpy.sin(between)], axis=1)
-    return numpy.ones(stones), centres, numpy.stack([inner * ends, outer * ends], axis=1)
+    free = slice(fixed, stones - fixed)
+    return numpy.ones(stones - 2 * fixed), centres[free], numpy.stack([inner * ends, outer * ends], axis=1)[fixed : stones + 1 - fixed]
 
 
-def multiplier(stones, thickness):
+def multiplier(stones, thickness, fixed=0):
     """Least share of the weight that acts along +x and makes the arch fall, and the hinges: [(joint, "intrados" or "extrados")].
 
     Hinges at joints a < b < c < d, in turns at intrados and extrados; the parts between them turn about instantaneous centres. A mechanism counts if each joint
     opens on the side that has no hinge.
     """
-    weights, centres, joints = arch(stones, thickness)
+    weights, centres, joints = arch(stones, thickness, fixed=fixed)
     sums = numpy.concatenate([[0], numpy.cumsum(weights)])
     moments = numpy.concatenate([numpy.zeros((1, 2)), numpy.cumsum(weights[:, None] * centres, axis=0)])
     best = (math.inf, None)
     for first in (0, 1):
         sides = [first, 1 - first, first, 1 - first]
-        for where in itertools.combinations(range(stones + 1), 4):
+        for where in itertools.combinations(range(len(joints)), 4):
             p = [joints[joint, side] for joint, side in zip(where, sides)]
             # Spins w1, w2, w3 of the parts a-b, b-c, c-d: velocities agree at b and c, d rests. Two equations in w2/w1, w3/w1.
             ab, bc, cd = p[1] - p[0], p[2] - p[1], p[3] - p[2]

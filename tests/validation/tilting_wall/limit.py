@@ -1,8 +1,14 @@
 """Load multipliers of walls of rigid dry stones by limit analysis: linear programs over the forces in the joints, without a finite element."""
 
+import math
+
 import numpy
 
-LENGTH, COURSE, FRICTION = 0.4, 0.175, 0.65  # [m], [m], [-]: stones of Ferris and Tin-Loi's walls
+FRICTION = 0.65  # of the walls of Ferris and Tin-Loi [-]
+STONE = (0.4, 0.175)  # of their walls: length and height [m]
+PIERS_FRICTION, PIERS_STONE = math.tan(math.radians(26)), (0.25, 1.5 / 27)  # of the wall of piers
+
+
 
 
 def _courses(*rows):
@@ -30,30 +36,36 @@ def walls():
     }
 
 
-def stones(courses):
-    """(x, y, length) of each stone [m]."""
+def piers():
+    """The wall of the tests of LACT3 (Y. Hua and others, 2025): a slender and a broad pier, a lintel of three stones' length over the door between, and a slit beside the slender one."""
+    odd, even = [1, -1, 1, 0.5, -2, 0.5, 1, 1], [0.5, 0.5, -1, 0.5, 1, -2, 1, 1, 0.5]
+    return [[1.0] * 8, [0.5, 0.5, -1, 0.5, *[1.0] * 5, 0.5], *[odd, even] * 11, [1, -1, 1, 3, 1, 1], [0.5, *[1.0] * 7, 0.5], [1.0] * 8]
+
+
+def stones(courses, stone=STONE):
+    """(x, y, length) of each stone [m]; stone: length and height of a whole one [m]."""
     found = []
     for row, lengths in enumerate(courses):
         x = 0.0
         for length in lengths:
             if length > 0:
-                found.append((x * LENGTH, row * COURSE, length * LENGTH))
+                found.append((x * stone[0], row * stone[1], length * stone[0]))
             x += abs(length)
     return found
 
 
-def joints(found):
-    """Rows (stone that is pushed along the normal, the other or -1 for the table, two ends of the joint, normal) [m]."""
+def joints(found, height):
+    """Rows (stone that is pushed along the normal, the other or -1 for the table, two ends of the joint, normal) [m]; height: of a course [m]."""
     rows = []
     for i, (x, y, length) in enumerate(found):
         if y == 0:
             rows.append((i, -1, (x, 0.0), (x + length, 0.0), (0.0, 1.0)))
         for j, (u, v, width) in enumerate(found):
             low, high = max(x, u), min(x + length, u + width)
-            if abs(v + COURSE - y) < 1e-9 and high - low > 1e-9:
+            if abs(v + height - y) < 1e-9 and high - low > 1e-9:
                 rows.append((i, j, (low, y), (high, y), (0.0, 1.0)))
-            if v == y and abs(u + width - x) < 1e-9:
-                rows.append((i, j, (x, y), (x, y + COURSE), (1.0, 0.0)))
+            if abs(v - y) < 1e-9 and abs(u + width - x) < 1e-9:
+                rows.append((i, j, (x, y), (x, y + height), (1.0, 0.0)))
     return rows
 
 
@@ -89,26 +101,26 @@ def least(cost, equations, right, steps=80):
     raise ArithmeticError("the linear program did not converge")
 
 
-def multiplier(courses, friction=FRICTION):
+def multiplier(courses, friction=FRICTION, stone=STONE):
     """The largest part of its weight that a wall bears to the side.
 
     Equilibrium of every stone under its weight and that part of it to the side; in every joint forces at its two ends that push and lie within the cone of friction. The multiplier is that of stones
     that climb as they slide (the associated rule of flow); by the static theorem stones that do not climb, as Coulomb's, bear no more.
     """
-    found = stones(courses)
-    rows = joints(found)
+    found = stones(courses, stone)
+    rows = joints(found, stone[1])
     matrix = numpy.zeros((3 * len(found), 4 * len(rows) + 1))
     for k, (one, other, first, second, normal) in enumerate(rows):
         along = numpy.array([normal[1], -normal[0]])
         for i, (at, side) in enumerate([(first, 1), (first, -1), (second, 1), (second, -1)]):
             force = numpy.array(normal) + side * friction * along
-            for stone, sign in ((one, 1), (other, -1)):
-                if stone < 0:
+            for which, sign in ((one, 1), (other, -1)):
+                if which < 0:
                     continue
-                x, y, length = found[stone]
-                arm = numpy.array(at) - (x + length / 2, y + COURSE / 2)
-                matrix[3 * stone : 3 * stone + 3, 4 * k + i] += sign * numpy.array([*force, (arm[0] * force[1] - arm[1] * force[0]) / LENGTH])
-    weights = numpy.array([length / LENGTH for _, _, length in found])  # of a stone
+                x, y, length = found[which]
+                arm = numpy.array(at) - (x + length / 2, y + stone[1] / 2)
+                matrix[3 * which : 3 * which + 3, 4 * k + i] += sign * numpy.array([*force, (arm[0] * force[1] - arm[1] * force[0]) / stone[0]])
+    weights = numpy.array([length / stone[0] for _, _, length in found])  # of a stone
     matrix[0::3, -1] = weights
     right = numpy.zeros(len(matrix))
     right[1::3] = weights
