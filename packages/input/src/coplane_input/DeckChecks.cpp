@@ -734,6 +734,21 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
     demand(card.angularVelocity.x == 0 && card.angularVelocity.y == 0, card.where,
            "an initial angular_velocity about x or y");
   }
+  if (deck.geometry == "axisymmetric")
+  {
+    const auto refuse = [&](bool bad, const std::string& where, const std::string& what)
+    {
+      if (bad)
+        messages.push_back(fmt::format("{}: {} does not go with geometry = 'axisymmetric': x is "
+                                       "the distance from the axis, and y runs along it. "
+                                       "Accepted: 0.",
+                                       where, what));
+    };
+    refuse(!nothing(deck.gravity[0]),
+           deck.gravity[0].where.empty() ? deck.file : deck.gravity[0].where, "gravity along x");
+    for (const InitialCard& card : deck.initial)
+      refuse(card.angularVelocity.z != 0, card.where, "an initial angular_velocity about z");
+  }
   for (const ConditionCard& card : deck.conditions)
   {
     demand(card.normal.z == 0, card.where, "the normal of a symmetry along z");

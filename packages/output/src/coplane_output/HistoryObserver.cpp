@@ -29,11 +29,23 @@ public:
       add(fmt::format("{}_{}{}", name, axes[c], unit), value[c]);
   }
 
+  /// The first name that stands twice; empty: none.
+  std::string repeated() const
+  {
+    std::vector<std::string> sorted = each_;
+    std::sort(sorted.begin(), sorted.end());
+    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
+    return twice == sorted.end() ? "" : *twice;
+  }
+
   std::string names, values;
 
 private:
+  std::vector<std::string> each_;
+
   void put(const std::string& name, const std::string& text)
   {
+    each_.push_back(name);
     const char* comma = names.empty() ? "" : ",";
     names += comma + csvField(name);
     values += comma + csvField(text);
@@ -426,6 +438,11 @@ void HistoryObserver::write(const Solver& solver)
       {
         if (!solver.comm().isRoot())
           return;
+        if (const std::string name = hasHeader_ ? "" : line.repeated(); !name.empty())
+          fail(ExitCode::Deck,
+               "history: two columns would be called '{}'. Give the probe, or the joint card of "
+               "history.joints, another name, or leave one of them out.",
+               name);
         table_.add((hasHeader_ ? "" : line.names + "\n") + line.values + "\n");
         hasHeader_ = true;
       });
