@@ -97,5 +97,5 @@ UNTOLD = {
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
     **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
-    **dict.fromkeys(["V20_hertz_ball", "mass_scaling"], TRIED),
+    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "mass_scaling"], TRIED),
 }  # fmt: skip

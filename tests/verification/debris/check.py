@@ -1,0 +1,87 @@
+"""Debris: corners of a cube that dies bounce off a rigid floor in closed form, and off a free elastic block with all momenta."""
+
+import json
+import pathlib
+
+import numpy
+from coplanetest import Case, program
+
+case = Case("debris", __file__)
+deck = case.load()
+rock = deck["materials"]["rock"]
+nu = rock["poisson_ratio"]
+modulus = rock["youngs_modulus"] * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
+size, height, floor = 0.1, 0.05, 0.5
+
+
+def scene(dimension):
+    """A cube above a floor; what it flies with along the floor, and down as its corners part."""
+    flat = dimension == 2
+    recipe = {"dimension": dimension, "parts": [
+        {"shape": "box", "block": "floor", "min": [0, 0, -floor][-dimension:], "size": [2 * floor, 2 * floor, floor][-dimension:], "divisions": [2, 2, 1][-dimension:]},
+        {"shape": "box", "block": "dust", "min": [0.33, 0.37, height][-dimension:], "size": [size] * dimension, "divisions": [1] * dimension},
+    ]}  # fmt: skip
+    one = case.load()
+    down = f"-10 + ({'y' if flat else 'z'} - {height + size / 2})"
+    one["initial"][0]["velocity_field"] = [3, down, 0] if flat else [3, -2, down]
+    return recipe, one
+
+
+def corners(run, step):
+    """Heights at the start and velocities of what was the cube."""
+    r = run.results
+    dust = numpy.unique(r.connectivity("dust"))
+    return r.coordinates[dust, r.dimension - 1], r.nodal("velocity", step)[dust, : r.dimension]
+
+
+def restarted(name, recipe, one, run):
+    """State hash of a run that is stopped while points touch the floor, in a cycle that `run` has recorded, and goes on on two ranks."""
+    touched = run.history["time"][run.history["debris_touching"] > 0]
+    options = ["--set", f"time.end={float(touched[20])!r}", "--set", "checkpoint.at_end=true"]
+    first = case.attempt(name, recipe, one, options=options)
+    program.run_program(["run.yaml", "--restart"], first.folder, 2)
+    return json.loads(pathlib.Path(first.path("run.run-s0002.json")).read_text())["state_hash"]
+
+
+# --- a rigid floor that does not move: half a period of a mass on a spring ------------------------------------------------
+for dimension in (2, 3):
+    name = f"rigid_{dimension}d"
+    recipe, one = scene(dimension)
+    mass = rock["density"] * size**dimension / 2**dimension
+    behind = rock["density"] * floor**dimension  # of the element, which is lighter than none of the points
+    stiffness = 0.5 * modulus * (floor if dimension == 3 else 1) * min(1, mass / behind)
+    run = case.run(name, recipe, one)
+    h = run.history
+    case.check_equal(f"{name}: points", int(h["debris_points"][-1]), 2**dimension)
+    low, high = 10 + size / 2, 10 - size / 2  # speeds of the lower and upper corners
+    z, v = corners(run, -1)
+    lower = z < height + size / 2
+    case.check(f"{name}: speed of the lower corners after the bounce [m/s]", v[lower, -1].mean(), low, 1e-3, relative=True)
+    case.check(f"{name}: speed of the upper ones [m/s]", v[~lower, -1].mean(), high, 1e-3, relative=True)
+    case.check(f"{name}: largest difference within each", max(numpy.ptp(v[lower, -1]), numpy.ptp(v[~lower, -1])) / low, 0, 1e-12)
+    along = [3.0] if dimension == 2 else [3.0, -2.0]
+    case.check(f"{name}: speed along the floor, largest change over the speed", numpy.abs(v[:, :-1] - along).max() / 3, 0, 1e-12)
+    most = 2 ** (dimension - 1) * mass * low**2 / 2
+    case.check(f"{name}: largest energy stored [J]", h["debris_stored"].max(), most, 2e-3, relative=True)
+    first = h["time"][(h["debris_touching"] > 0) & (h["time"] < height / low + 3e-3)]
+    case.check(f"{name}: time in contact [s]", first[-1] - first[0], numpy.pi * numpy.sqrt(mass / stiffness), 0.02, relative=True)
+    case.check(f"{name}: what is not stored, over that", numpy.abs(h["debris_remainder"]).max() / most, 0, 1e-3)
+    if dimension == 3:
+        case.same_bits(name, recipe, one, run)
+        case.same_bits(f"{name}_three", recipe, one, run, ranks=3, backend="serial")
+        case.check_equal(f"{name}: state hash after a restart in contact, on 2 ranks", restarted(f"{name}_restarted", recipe, one, run), run.state_hash)
+
+# --- an elastic block that nothing holds: all momenta, and the energy that goes into waves --------------------------------
+recipe, one = scene(3)
+recipe["parts"][0]["divisions"] = [4, 4, 2]
+one["conditions"] = []
+del one["blocks"]["floor"]["rigid"], one["history"]["rigid"]
+run = case.run("elastic", recipe, one)
+h = run.history
+touched = h["debris_touching"] > 0
+case.check_within("elastic: recorded cycles in contact", int(touched.sum()), 100, 1000)
+case.check("elastic: what is not stored, over the energy at the start", numpy.abs(h["debris_remainder"]).max() / h["initial"][0], 0, 2e-3)
+z, v = corners(run, -1)
+case.check("elastic: speed of the corners after the bounce over that before, mean", (v[:, 2] / numpy.where(z < height + size / 2, 10 + size / 2, 10 - size / 2)).mean(), 1, 0.03)
+case.same_bits("elastic", recipe, one, run, ranks=3)
+case.finish()
