@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace coplane
 {
 namespace
@@ -106,6 +108,53 @@ TEST(EnergyTolerance, contactThatMakesEnergyEndsTheRun)
     expectContains(text, "plane between side 6 of element ");
   }
   EXPECT_GT(ended, 0);
+}
+
+namespace
+{
+/// What contact has gained by each cycle, over the energy in play by which the watch judges it.
+struct Gains : Recorder
+{
+  std::vector<Real> byCycle{0};
+  Real inPlay = 0;
+  void start(const Solver& solver) override { inPlay = solver.energy().scale(); }
+  void endOfCycle(const Solver& solver) override
+  {
+    const EnergyBalance balance = solver.energy();
+    if (solver.clock().cycle % 100 == 0)
+      inPlay = balance.scale();
+    byCycle.push_back(-balance.contact.remainder() / std::max(inPlay, balance.scale()));
+  }
+};
+} // namespace
+
+TEST(EnergyTolerance, aGainBetweenTwoLooksEndsTheRunInItsCycle)
+{
+  // Cubes that meet at the start of a step gain in their collision, of some 15 cycles.
+  const Comm comm;
+  const auto collision = [&]
+  {
+    Model model = slidingCubes(comm);
+    model.time.end = 0.02;
+    return model;
+  };
+  Gains gains;
+  Solver whole(collision(), comm);
+  whole.prepare();
+  whole.run(gains);
+  Model model = collision();
+  model.time.contactGainTolerance =
+      0.5 * *std::max_element(gains.byCycle.begin(), gains.byCycle.end());
+  ASSERT_GT(model.time.contactGainTolerance, 0);
+  const auto first =
+      std::find_if(gains.byCycle.begin(), gains.byCycle.end(),
+                   [&](Real gain) { return gain > model.time.contactGainTolerance; });
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Recorder observer;
+  expectContains(failureOf(solver, observer), "contact has made");
+  EXPECT_EQ(solver.clock().cycle, first - gains.byCycle.begin());
+  EXPECT_LT(solver.clock().cycle, 100);
 }
 
 TEST(EnergyTolerance, errorNamesTheWorstPlanesAndElements)

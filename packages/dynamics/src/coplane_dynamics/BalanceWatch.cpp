@@ -1,8 +1,10 @@
+#include <coplane_core/Backend.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace coplane
@@ -18,6 +20,62 @@ std::string now(const Clock& clock)
   return fmt::format("cycle {}, t = {:.6e} s", clock.cycle, clock.time);
 }
 } // namespace
+
+/// Least gain that ends the run, or that warn() has to tell of.
+Real BalanceWatch::leastNews(Real inPlay, const Parts& parts) const
+{
+  return inPlay * std::min(parts.model.time.contactGainTolerance,
+                           gainToWarn * std::max(1.0, 2 * warned_.remainder));
+}
+
+/// Minus the remainder of the planes of this rank, at a fraction of the cost of the exact sum. The
+/// bits depend on ranks and threads [J].
+Real BalanceWatch::gainHere(const Contact& contact)
+{
+  if (ended_.atSearch != contact.searches())
+  {
+    ended_ = {contact.searches(), 0};
+    for (const auto& [kind, energies] : contact.ended().byKind())
+    {
+      std::array<Real, PlaneEnergySums::Terms> totals;
+      for (std::size_t term = 0; term < totals.size(); ++term)
+        totals[term] = energies.sums[term].value();
+      ended_.gain -= PlaneEnergySums::energyOf(totals.data()).remainder();
+    }
+  }
+  const PlaneList& planes = contact.planes();
+  const auto add = [&planes](const int p, Real& sum)
+  {
+    const Plane& plane = planes[std::size_t(p)];
+    if (plane.countedHere && plane.isBorn())
+      sum -= plane.remainder();
+  };
+  const int count = int(planes.size());
+  const char* const label = "coplane::dynamics::gainHere";
+  Real gain = 0; // rounded in an order that the back end chooses
+  if (currentBackend() == Backend::Serial)
+    Kokkos::parallel_reduce(label, Kokkos::RangePolicy<Kokkos::Serial>(0, count), add, gain);
+  else
+    Kokkos::parallel_reduce(label, Kokkos::RangePolicy<HostParallel>(0, count), add, gain);
+  return gain + ended_.gain;
+}
+
+bool BalanceWatch::mayHaveGained(const Parts& parts)
+{
+  if (!parts.contact)
+    return false;
+  constexpr Real rounding = 1e-9; // of the energy in play: what sums of ranks differ by
+  const Real left = leastNews(inPlay_, parts) - summed_.all - rounding * inPlay_;
+  return !(gainHere(*parts.contact) - summed_.here <= left / parts.comm.size());
+}
+
+bool BalanceWatch::hasGained(const EnergyBalance& balance, const Parts& parts)
+{
+  const Real gain = -balance.contact.remainder();
+  summed_ = {gain, gainHere(*parts.contact)};
+  // Never less than at the last look: the bound could not tell whether it is news.
+  return !(gain <= leastNews(std::max(inPlay_, balance.scale()), parts));
+}
 
 std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& parts) const
 {
@@ -54,6 +112,7 @@ bool isWorse(Real value, Real first, Real& warned)
 
 void BalanceWatch::warn(const EnergyBalance& balance, const Parts& parts)
 {
+  inPlay_ = balance.scale();
   if (balance.scale() > 0)
     warnOfBalance(balance, parts);
   if (parts.contact)

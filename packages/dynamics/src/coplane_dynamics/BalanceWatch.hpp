@@ -7,14 +7,33 @@
 
 namespace coplane
 {
-/// Looks at the energy balance now and then: says when a run cannot go on, and warns before.
+/// Looks at the energy balance now and then: says when a run cannot go on, and warns before. What
+/// contact makes out of nothing it looks at in every cycle, by a bound that costs next to nothing.
+///
+/// A gain is news when it is beyond `least`, a fraction of the energy in play at the last look.
+/// With G the gain of all ranks when it was last summed, one of R ranks has gained at least (least
+/// - G) / R since then before it can be news. So the sum over all ranks is made in the cycle in
+/// which one has. A rank that gains what another loses causes sums that tell nothing; what is told,
+/// and when, does not depend on the ranks.
 class BalanceWatch
 {
 public:
+  void open(const EnergyBalance& initial) { inPlay_ = initial.scale(); }
+  /// Whether what contact has gained may be news in this cycle, as far as this rank knows.
+  bool mayHaveGained(const Parts& parts);
+  /// Whether it is. Sums of all ranks are known anew then.
+  bool hasGained(const EnergyBalance& balance, const Parts& parts);
+  /// The planes of this rank are others now.
+  void forgetPlanes()
+  {
+    summed_.here = -infinity;
+    ended_ = {};
+  }
+
   /// Why the run cannot go on; empty: it can. Collective.
   std::string broken(const EnergyBalance& balance, const Parts& parts) const;
-  /// Warns of errors, of what contact makes or loses, of planes that are capped or too deep; again
-  /// when things are twice as bad as at the last warning of the kind. Collective.
+  /// The look itself: warns of errors, of what contact makes or loses, of planes that are capped or
+  /// too deep; again when things are twice as bad as at the last warning of the kind. Collective.
   void warn(const EnergyBalance& balance, const Parts& parts);
 
   /// Calls f(number) for all that a restart needs, in the order of checkpoints.
@@ -25,9 +44,12 @@ public:
     number(self.warned_.remainder);
     number(self.warned_.tooDeep);
     number(self.warned_.capped);
+    number(self.inPlay_);
   }
 
 private:
+  Real leastNews(Real inPlay, const Parts& parts) const; ///< of gains [J]
+  Real gainHere(const Contact& contact);
   void warnOfBalance(const EnergyBalance& balance, const Parts& parts);
   void warnOfPlanes(const Parts& parts);
 
@@ -37,5 +59,22 @@ private:
     Real error = 0, remainder = 0, tooDeep = 0, capped = 0;
   };
   Warned warned_;
+  Real inPlay_ = 0; ///< energy in play at the last look [J]
+
+  /// What contact had gained when that was summed last [J].
+  struct Summed
+  {
+    Real all = 0, here = -infinity; ///< on all ranks; on this one, -infinity: not known
+  };
+  Summed summed_;
+
+  /// What planes that have ended had gained on this rank. Planes end in searches, and in cycles
+  /// that have one.
+  struct Ended
+  {
+    std::int64_t atSearch = -1;
+    Real gain = 0; ///< [J]
+  };
+  Ended ended_;
 };
 } // namespace coplane

@@ -13,7 +13,7 @@ namespace coplane
 {
 namespace
 {
-constexpr std::int64_t energyCheckEvery = 100; // cycles
+constexpr std::int64_t energyCheckEvery = 100; // cycles; what contact gains in every one
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
 constexpr Real fasterThanWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
@@ -124,6 +124,7 @@ void Solver::prepare()
   if (failed_)
     failTogether("before the first cycle");
   ledger_.open(parts(), relaxation_.state());
+  watch_.open(ledger_.initialEnergy());
 }
 
 void Solver::advance()
@@ -327,10 +328,12 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
                              Real(mine.checkpoint),
                              Real(mine.stop),
                              contact_ ? -contact_->thinnestElement() : -infinity,
-                             Real(massesRaised_)};
+                             Real(massesRaised_),
+                             Real(watch_.mayHaveGained(parts()))};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
+  contactMayHaveGained_ = extremes[6] > 0;
   if (extremes[5] > 0 && !failed_)
     agreeOnMasses();
   if (failed_)
@@ -480,9 +483,13 @@ void Solver::judge(Observer& observer)
                   "them. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
                   "under pressure. {}",
                   clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities())));
-  if (clock_.cycle % energyCheckEvery != 0 && !isOver())
+  const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
+  if (!due && !contactMayHaveGained_)
     return;
   const EnergyBalance balance = energy();
+  const bool gained = contact_ && watch_.hasGained(balance, parts());
+  if (!due && !gained)
+    return;
   const std::string broken = watch_.broken(balance, parts());
   if (!broken.empty())
     failAfter(observer, computationFailed(broken));

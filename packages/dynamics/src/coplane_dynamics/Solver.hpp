@@ -246,9 +246,10 @@ private:
   Relaxation relaxation_;
   Ledger ledger_;
   BalanceWatch watch_;
-  bool massesRaised_ = false;    ///< on this rank, since ranks agreed on a step
-  bool failed_ = false;          ///< the same on all ranks
-  std::optional<Error> trouble_; ///< of this rank
+  bool massesRaised_ = false;         ///< on this rank, since ranks agreed on a step
+  bool contactMayHaveGained_ = false; ///< in this cycle, on some rank: the same on all
+  bool failed_ = false;               ///< the same on all ranks
+  std::optional<Error> trouble_;      ///< of this rank
   Requests requests_;
   Repartitions repartitions_;
   WorkTimes work_;

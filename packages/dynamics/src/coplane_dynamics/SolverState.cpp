@@ -138,6 +138,7 @@ void Solver::restore(const StateSource& in)
   }
   findElementForces();
   restoreNumbers(in);
+  watch_.forgetPlanes();
   if (contact_)
   {
     contact_->setSkin(searches_.skin());
