@@ -1,4 +1,5 @@
 #include <coplane_core/Backend.hpp>
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
@@ -20,6 +21,24 @@ std::string now(const Clock& clock)
   return fmt::format("cycle {}, t = {:.6e} s", clock.cycle, clock.time);
 }
 } // namespace
+
+void BalanceWatch::open(const EnergyBalance& initial, const Parts& parts)
+{
+  constexpr Real roundOff = 1e-12; // thousands of units in the last place of a coordinate
+  const NodalState& state = parts.state;
+  std::vector<ExactSum> mass(1);
+  std::vector<Real> farthest{0};
+  for (int n = 0; n < parts.layout.owned(); ++n)
+  {
+    mass[0].add(state.mass(n));
+    for (int c = 0; c < 3; ++c)
+      farthest[0] = std::max(farthest[0], std::abs(state.x(n, c)));
+  }
+  parts.comm.max(farthest);
+  const Real speed = roundOff * farthest[0] / parts.clock.nextStep;
+  roundOff_ = ExactSum::overRanks(mass, parts.comm)[0] * speed * speed;
+  inPlay_ = inPlayOf(initial);
+}
 
 /// Least gain that ends the run, or that warn() has to tell of.
 Real BalanceWatch::leastNews(Real inPlay, const Parts& parts) const
@@ -74,12 +93,12 @@ bool BalanceWatch::hasGained(const EnergyBalance& balance, const Parts& parts)
   const Real gain = -balance.contact.remainder();
   summed_ = {gain, gainHere(*parts.contact)};
   // Never less than at the last look: the bound could not tell whether it is news.
-  return !(gain <= leastNews(std::max(inPlay_, balance.scale()), parts));
+  return !(gain <= leastNews(std::max(inPlay_, inPlayOf(balance)), parts));
 }
 
 std::string BalanceWatch::broken(const EnergyBalance& balance, const Parts& parts) const
 {
-  const Real scale = balance.scale();
+  const Real scale = inPlayOf(balance);
   if (!(std::abs(balance.error()) <= parts.model.time.energyTolerance * scale))
     return fmt::format(
         "{}: the energy balance is off by {:.3e} J of {:.3e} J in play (accepted: {} of it, "
@@ -112,8 +131,8 @@ bool isWorse(Real value, Real first, Real& warned)
 
 void BalanceWatch::warn(const EnergyBalance& balance, const Parts& parts)
 {
-  inPlay_ = balance.scale();
-  if (balance.scale() > 0)
+  inPlay_ = inPlayOf(balance);
+  if (inPlay_ > 0)
     warnOfBalance(balance, parts);
   if (parts.contact)
     warnOfPlanes(parts);
@@ -121,7 +140,7 @@ void BalanceWatch::warn(const EnergyBalance& balance, const Parts& parts)
 
 void BalanceWatch::warnOfBalance(const EnergyBalance& balance, const Parts& parts)
 {
-  const Real scale = balance.scale();
+  const Real scale = inPlayOf(balance);
   const Real tolerance = parts.model.time.energyTolerance;
   const Real error = std::abs(balance.error()) / scale;
   if (isWorse(error, errorToWarn * tolerance, warned_.error))

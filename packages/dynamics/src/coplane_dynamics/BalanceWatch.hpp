@@ -3,6 +3,7 @@
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Parts.hpp>
 
+#include <algorithm>
 #include <string>
 
 namespace coplane
@@ -18,7 +19,8 @@ namespace coplane
 class BalanceWatch
 {
 public:
-  void open(const EnergyBalance& initial) { inPlay_ = initial.scale(); }
+  /// Collective.
+  void open(const EnergyBalance& initial, const Parts& parts);
   /// Whether what contact has gained may be news in this cycle, as far as this rank knows.
   bool mayHaveGained(const Parts& parts);
   /// Whether it is. Sums of all ranks are known anew then.
@@ -45,9 +47,12 @@ public:
     number(self.warned_.tooDeep);
     number(self.warned_.capped);
     number(self.inPlay_);
+    number(self.roundOff_);
   }
 
 private:
+  /// Energy by which gains and errors are judged [J]: at rest what is in play is round-off.
+  Real inPlayOf(const EnergyBalance& balance) const { return std::max(balance.scale(), roundOff_); }
   Real leastNews(Real inPlay, const Parts& parts) const; ///< of gains [J]
   Real gainHere(const Contact& contact);
   void warnOfBalance(const EnergyBalance& balance, const Parts& parts);
@@ -60,6 +65,8 @@ private:
   };
   Warned warned_;
   Real inPlay_ = 0; ///< energy in play at the last look [J]
+  /// Kinetic energy of velocities that come of the round-off of coordinates in one step [J].
+  Real roundOff_ = 0;
 
   /// What contact had gained when that was summed last [J].
   struct Summed

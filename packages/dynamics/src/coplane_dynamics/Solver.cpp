@@ -124,7 +124,7 @@ void Solver::prepare()
   if (failed_)
     failTogether("before the first cycle");
   ledger_.open(parts(), relaxation_.state());
-  watch_.open(ledger_.initialEnergy());
+  watch_.open(ledger_.initialEnergy(), parts());
 }
 
 void Solver::advance()
