@@ -125,7 +125,7 @@ struct HourglassControl
       for (int k = 0; k < 2; ++k)
         store(force.hoop[k], &data.hourglassForce(dim + k, first));
     if (data.hourglass.viscosity > 0)
-      work += half * advanceViscosity(first, motion, point.stiffening, step.increment);
+      work += half * advanceViscosity(first, motion, step.increment);
     addTo(data, ElementEnergy::Hourglass, first, work);
   }
 
@@ -285,14 +285,11 @@ private:
   }
 
   /// Viscous forces of the step, and twice their work [J].
-  /// @param stiffening tangent of the material over the elastic one: of a gas that has expanded the
-  /// speed of waves falls, while that of the elastic modulus would grow with 1 / sqrt(density) [-]
-  Lanes advanceViscosity(int first, const Motion& motion, const Lanes& stiffening,
-                         const Vectors& increment) const
+  Lanes advanceViscosity(int first, const Motion& motion, const Vectors& increment) const
   {
     const Lanes mass = load(&data.mass(first));
-    const Lanes omega = stdx::sqrt(stiffening * Lanes(nodes * data.pWaveModulus) * motion.volume /
-                                   mass * motion.traceG);
+    const Lanes omega =
+        stdx::sqrt(Lanes(nodes * data.pWaveModulus) * motion.volume / mass * motion.traceG);
     const Lanes coefficient =
         Lanes(2.0 * data.hourglass.viscosity / data.dt) * mass * omega; // per q dt
     Lanes work(0.0);

@@ -62,7 +62,7 @@ private:
     Lanes damping = rho * viscosity * volumetric;
     Lanes hourglass(0.0);
     if constexpr (hasHourglass)
-      hourglass = hourglassOfRing(x, corners, traceG, rho, stiffening, damping);
+      hourglass = hourglassOfRing(x, corners, traceG, rho, damping);
     return stableStep(strain + hourglass, damping);
   }
 
@@ -91,7 +91,7 @@ private:
   /// Squared frequency of the hourglass mode [1/s^2]; adds what its viscosity damps.
   KOKKOS_FORCEINLINE_FUNCTION Lanes hourglassOfRing(const Field& x, const RingCorners& corners,
                                                     const Lanes& traceG, const Lanes& rho,
-                                                    const Lanes& stiffening, Lanes& damping) const
+                                                    Lanes& damping) const
   {
     // gamma_I = h_I / n - (h.x_j / n) b_jI
     Lanes hourglass(0.0);
@@ -103,8 +103,7 @@ private:
     }
     if (data.hourglass.viscosity > 0)
       damping += Lanes(2.0 * data.hourglass.viscosity) * rho *
-                 stdx::sqrt(stiffening * Lanes(nodes * data.pWaveModulus) * traceG / rho) *
-                 hourglass;
+                 stdx::sqrt(Lanes(nodes * data.pWaveModulus) * traceG / rho) * hourglass;
     if (data.options.form != ElementForm::AssumedStrain)
       return hourglass * (Lanes(nodes * data.hourglass.stiffness * data.pWaveModulus) * traceG);
     const AssumedStrainModuli moduli(data.lambda, data.shearModulus);
@@ -170,8 +169,7 @@ private:
                            perGamma * gammas.products;
     if (data.hourglass.viscosity > 0)
       damping += Lanes(2.0 * nodes * data.hourglass.viscosity) *
-                 stdx::sqrt(stiffening * perMass * Lanes(data.pWaveModulus) * trace) *
-                 gammas.lengths;
+                 stdx::sqrt(perMass * Lanes(data.pWaveModulus) * trace) * gammas.lengths;
     return stableStep(largestOfSum(strain, perGamma * gammas.lengths, coupling), damping);
   }
 
