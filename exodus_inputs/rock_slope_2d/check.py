@@ -15,7 +15,7 @@ spec.loader.exec_module(safety)
 example = Example()
 h = example.history
 share = {"": 0.5, "dry": 0.0, "full": 1.0}[example.variant or ""]
-factor = safety.limit_equilibrium(share, math.tan(math.radians(38)), 30e3)
+factor = safety.limit_equilibrium(share, safety.FRICTION, safety.COHESION)
 print(f"factor of safety by limit equilibrium: {factor:.3f}")
 example.balances(hourglass=0.2 if factor < 1 else 0.05)  # a wedge that slides has little else
 late = h["time"] >= 1.0
@@ -27,6 +27,6 @@ if factor > 1:
     example.check("normal force on the plane at the end, by equilibrium of the wedge [N]", float(h["plane_normal_force"][-1]), normal, 1e-3, relative=True)
 else:
     # Water in the crack also tips it: the plane opens from behind and loses its cohesion there.
-    free = 0.5 * safety.acceleration(share, math.tan(math.radians(38))) * 0.6**2
+    free = 0.5 * safety.acceleration(share, safety.FRICTION) * 0.6**2
     example.check_within("way in the last 0.6 s over that of a rigid wedge without cohesion", float(moved) / free, 0.2, 1)
 example.finish()

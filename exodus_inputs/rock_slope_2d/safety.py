@@ -4,7 +4,7 @@ equilibrium of the wedge as a rigid body (Hoek and Bray's plane failure).
 
     safety.py [FOLDER] [SHARE ...]
 
-FOLDER: where the runs go (default: rock_slope). SHARE: of the crack's depth that is full of water (default: 0, 0.5, 0.75). Takes about a minute
+FOLDER: where the runs go (default: rock_slope in the working folder). SHARE: of the crack's depth that is full of water (default: 0, 0.5, 0.75). Takes about a minute
 for each on one core.
 """
 
@@ -22,6 +22,7 @@ HEIGHT, FACE, DIP = 20.0, math.radians(60), math.radians(35)
 CRACK = HEIGHT / math.tan(FACE) + 6
 DEPTH = HEIGHT - CRACK * math.tan(DIP)
 LENGTH = (HEIGHT - DEPTH) / math.sin(DIP)  # of the plane
+FRICTION, COHESION = math.tan(math.radians(38)), 30e3  # of the plane [-, Pa]: those of deck.yaml, change them together
 
 
 def loads(share, unit_weight=2600 * 9.81, water=9810.0):
@@ -59,7 +60,7 @@ def strength_reduction(share, folder):
     deck["mesh"] = str(mesh.resolve())
     deck["define.filled"] = share
     slides = capacity.Moves("brow", limit=2e-3, since=1.0)
-    low = 0.9 * limit_equilibrium(share, math.tan(math.radians(38)), 30e3)
+    low = 0.9 * limit_equilibrium(share, FRICTION, COHESION)
     return capacity.factor_of_safety(deck, slides, joints=["plane"], low=low, high=low * 1.25, tolerance=0.01, folder=folder / f"filled_{share:g}")
 
 
@@ -68,7 +69,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     print("| share of the crack that is full | strength reduction | limit equilibrium | difference |\n|---|---|---|---|")
     for share in [float(text) for text in sys.argv[2:]] or [0.0, 0.5, 0.75]:
-        found, exact = strength_reduction(share, folder), limit_equilibrium(share, math.tan(math.radians(38)), 30e3)
+        found, exact = strength_reduction(share, folder), limit_equilibrium(share, FRICTION, COHESION)
         print(f"| {share:g} | {found.low:.3f} to {found.high:.3f} | {exact:.3f} | {100 * (found.value / exact - 1):+.1f} % |", flush=True)
 
 
