@@ -4,7 +4,7 @@
 #   packages/cmake/run-tests.sh [--slow] [--no-sanitizers]
 #
 # --slow            also the tests labelled slow: the full product of ranks x threads x back ends
-# --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers
+# --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers (with --slow of all packages)
 # What is installed and built already is not done again.
 set -uo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -59,16 +59,24 @@ finish() {
 get_dependencies() {
   COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview --with-browser | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
 }
+# What keeps memory of its own and what reads files; --slow: the programs of all packages.
+sanitized_packages=(core checkpoint geometry joint material mesh exodus partition element contact dynamics)
 build_sanitized() {
+  local targets=(coplane_fuzz)
+  for package in "${sanitized_packages[@]}"; do targets+=("coplane_${package}_test"); done
+  [ $slow = no ] || targets=(unit_tests)
   { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_BENCHMARKS=OFF \
-      -DCOPLANE_TRILINOS="$COPLANE_TRILINOS" && ninja -C "$top/build-sanitize" unit_tests; } >"$top/build/sanitize.log" 2>&1 ||
+      -DCOPLANE_TRILINOS="$COPLANE_TRILINOS" && ninja -C "$top/build-sanitize" "${targets[@]}"; } >"$top/build/sanitize.log" 2>&1 ||
     { grep -E 'error|FAILED' -A 8 "$top/build/sanitize.log" | head -n 40 >&2; return 1; }
 }
 sanitized_tests() {
+  local packages
+  packages=$(IFS='|'; echo "${sanitized_packages[*]}")
+  [ $slow = no ] || packages='.*'
   build_sanitized &&
     # Open MPI keeps memory until exit, and Trilinos is not instrumented. Two ranks of threads run what one rank, or more of them, do.
     ASAN_OPTIONS=detect_leaks=0:detect_container_overflow=0 tests "$top/build-sanitize" unit \
-      -R '^unit[.](.*[.]1ranks[.]serial|.*[.]2ranks[.]threads|fuzz[.].*|coplane_mesh)$' -E '^unit[.](contact|dynamics)[.]1ranks'
+      -R "^unit[.](($packages)[.](1ranks[.]serial|2ranks[.]threads)|fuzz[.].*)\$" -E '^unit[.](contact|dynamics)[.]1ranks'
 }
 
 stage dependencies get_dependencies || { failed=1; finish; exit 1; }
