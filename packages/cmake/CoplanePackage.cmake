@@ -55,7 +55,8 @@ function(coplane_package name)
   endif()
 endfunction()
 
-# Every header compiles alone: one generated source per header, compiled with what the package declares and nothing else.
+# Every header compiles alone: one generated source per header, compiled with what the package declares and the precompiled
+# header, which has none of ours.
 function(_coplane_headers_stand_alone name)
   file(GLOB_RECURSE _headers CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/src/*.hpp")
   set(_sources "")

@@ -3,8 +3,8 @@
 #
 #   packages/cmake/run-tests.sh [--slow] [--no-sanitizers]
 #
-# --slow            also the tests labelled slow: the full product of ranks x threads x back ends
-# --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers (with --slow of all packages)
+# --slow            also the tests labelled slow: the full product of ranks x threads x back ends; sanitizers on all packages
+# --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers
 # What is installed and built already is not done again.
 set -uo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)

@@ -157,6 +157,26 @@ TEST(EnergyTolerance, aGainBetweenTwoLooksEndsTheRunInItsCycle)
   EXPECT_LT(solver.clock().cycle, 100);
 }
 
+TEST(EnergyTolerance, roundOffOfBodiesAtRestEndsNoRun)
+{
+  // The same collisions, so slow that all energies are those of round-off of coordinates.
+  const Comm comm;
+  for (const Real direction : {1.0, -1.0})
+  {
+    Model model = slidingCubes(comm);
+    for (auto& block : model.blocks)
+      block.velocity = 1e-13 * block.velocity;
+    model.blocks[1].velocity.x *= direction;
+    model.time.end = 1;
+    model.time.contactGainTolerance = 1e-12;
+    model.time.energyTolerance = 1e-12;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    Recorder observer;
+    EXPECT_NO_THROW(solver.run(observer));
+  }
+}
+
 TEST(EnergyTolerance, errorNamesTheWorstPlanesAndElements)
 {
   // No balance closes to 1e-15: the check after 100 cycles must fail.

@@ -119,6 +119,20 @@ expect(
 )
 
 
+def beside_axis(file):
+    file["coordx"][:] += 1
+
+
+ring = changed(["geometry"], "axisymmetric")
+expect("gravity away from the axis", DECK, ["gravity along x does not go with geometry = 'axisymmetric'"], {**ring, "gravity": [9.81, 0, 0]}, spoil=edit(beside_axis))
+expect("spin out of the section", DECK, ["angular_velocity about z does not go with geometry = 'axisymmetric'"],
+       {**ring, "initial": [{"block": "left", "angular_velocity": [0, 0, 1], "center": [1, 0, 0]}]}, spoil=edit(beside_axis))  # fmt: skip
+for what, history, column in (("joint card called contact", {"joints": ["*"]}, "contact_stored[J]"), ("probe called as a rigid block", {"rigid": ["left"], "probes": [{"name": "left", "block": "right"}]}, "left_displacement_x[m]")):
+    deck = {**good, "joints": {"contact": {"model": "linear", "normal_stiffness": 1e9}}, "contact": {"default_joint": "contact"}, "history": history,
+            "blocks": {block: {**card, "rigid": block == "left"} for block, card in good["blocks"].items()}}  # fmt: skip
+    expect(what, DECK, [f"history: two columns would be called '{column}'"], deck)
+
+
 def other_mesh(name, texts, path, value, dimension=2, split=None):
     """The good deck with one value changed, on a mesh of other elements."""
     parts = []

@@ -9,8 +9,6 @@ STONE = (0.4, 0.175)  # of their walls: length and height [m]
 PIERS_FRICTION, PIERS_STONE = math.tan(math.radians(26)), (0.25, 1.5 / 27)  # of the wall of piers
 
 
-
-
 def _courses(*rows):
     return [row for count, row in rows for _ in range(count)]
 

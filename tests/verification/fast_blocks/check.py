@@ -1,6 +1,6 @@
 """Blocks that collide at the speed of waves, flat with an offset and turned: contact makes next to no energy, and nothing passes through.
 
-Usage: check.py [all | odd]   all: a third mesh; odd: only other places of the blocks, with meshes that differ
+Usage: check.py [all | odd | through]   all: a third mesh; odd: only other places of the blocks, with meshes that differ; through: only bars end on into a free plate, which come through it
 """
 
 import itertools
@@ -100,6 +100,37 @@ def odd_places():
         case.check(f"other places, {words}: contact remainder over the energy, mean", sum(found.values()) / len(found), 0, mean)
 
 
+def through():
+    """Bars end on into a free plate as thick as they are, both whole whatever happens: where they begin to come through (docs/user/contact.md, limits)."""
+    for speed, n in itertools.product((0.3, 0.5, 0.7, 1.0), (1, 2, 3)):
+        parts = [{"shape": "box", "block": "plate", "min": [0, -0.5], "size": [0.1, 1], "divisions": [2 * n, 10 * n]},
+                 {"shape": "box", "block": "bar", "min": [-0.32, -0.037], "size": [0.3, 0.1], "divisions": [6 * n, 2 * n]}]  # fmt: skip
+        deck = {"materials": {"soft": {"model": "neo_hookean", "density": density, "youngs_modulus": modulus, "poisson_ratio": ratio}},
+                "blocks": dict.fromkeys(("plate", "bar"), {"material": "soft", "element": "full_integration"}),
+                "initial": [{"block": "bar", "velocity": [speed * wave, 0, 0]}], "time": {"end": 1.6 / (speed * wave)}}  # fmt: skip
+        run = case.attempt(f"bar_{speed}_{n}", {"dimension": 2, "parts": parts}, deck)
+        words = f"bar at {speed}, {2 * n} elements across"
+        if run.code == 6 and speed > 0.5:
+            print(f"{words}: refused with code 6")
+            continue
+        if not case.check_equal(f"{words}: exit code", run.code, 0):
+            continue
+        results = run.results
+        x = results.coordinates + results.nodal("displacement")
+        plate, bar = (x[results.nodes_of(block)] for block in ("plate", "bar"))
+        # The far side of the plate, between its nodes that were there.
+        far = plate[results.coordinates[results.nodes_of("plate"), 0] > 0.1 - 1e-9]
+        far = far[numpy.argsort(far[:, 1])]
+        behind = int((bar[:, 0] > numpy.interp(bar[:, 1], far[:, 1], far[:, 0])).sum())
+        print(f"{words}: {behind} of {len(bar)} nodes behind the plate; missed {int(run.history['missed'][-1])}, released {int(run.history['released'][-1])}")
+        if speed <= 0.5:
+            case.check_equal(f"{words}: nodes behind the plate", behind, 0)
+
+
+if "through" in sys.argv:
+    through()
+    case.finish()
+    sys.exit()
 if "odd" in sys.argv:
     odd_places()
     case.finish()

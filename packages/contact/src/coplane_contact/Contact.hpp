@@ -208,10 +208,12 @@ private:
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
-  /// Of the faces that a declared joint may close, those that coincide with another one, sorted:
-  /// all that this rank has pairs of. Only the owner of a ghost may have the face on which it lies.
-  /// Collective.
-  std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x) const;
+  /// Candidates that an item of contact.pairs declares.
+  std::vector<std::size_t> declaredSlots() const;
+  /// Of the faces of these slots those that coincide with another one, sorted: all that this rank
+  /// has pairs of. Only the owner of a ghost may have the face on which it lies. Collective.
+  std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
+                                          const std::vector<std::size_t>& slots) const;
   void listSlotsOfFaces(int ownedNodes);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   /// Slots of a checkpoint that have a face here; members of planes that only mean something on one

@@ -158,19 +158,29 @@ bool coincide(const FaceNodes& a, const FaceNodes& b, int dimension)
 }
 } // namespace
 
-std::vector<Contact::Coinciding> Contact::coincidingFaces(const ConstNodeVectors& x) const
+std::vector<std::size_t> Contact::declaredSlots() const
 {
-  std::vector<Coinciding> found;
-  std::vector<GlobalId> shared; // faces of pairs that other ranks have, too
+  std::vector<std::size_t> declared;
   for (std::size_t slot = 0; slot < planes_.count(); ++slot)
   {
     const SlotFaces& pair = planes_.slots().faces(slot);
-    if (pair.face[0] < 0)
-      continue;
+    if (pair.face[0] >= 0 &&
+        rules_.between(faces()[pair.face[0]].group, faces()[pair.face[1]].group).declared)
+      declared.push_back(slot);
+  }
+  return declared;
+}
+
+std::vector<Contact::Coinciding>
+Contact::coincidingFaces(const ConstNodeVectors& x, const std::vector<std::size_t>& slots) const
+{
+  std::vector<Coinciding> found;
+  std::vector<GlobalId> shared; // faces of pairs that other ranks have, too
+  for (const std::size_t slot : slots)
+  {
+    const SlotFaces& pair = planes_.slots().faces(slot);
     const Face& a = faces()[pair.face[0]];
     const Face& b = faces()[pair.face[1]];
-    if (!rules_.between(a.group, b.group).declared)
-      continue;
     if (!a.ownedHere || !b.ownedHere)
       shared.insert(shared.end(), {a.id, b.id});
     if (coincide(nodesOf(a, x), nodesOf(b, x), dimension_))
@@ -203,9 +213,10 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
                ? beyond > other
                : std::pair(a.faceId[0], a.faceId[1]) < std::pair(b.faceId[0], b.faceId[1]);
   };
+  const std::vector<std::size_t> slots = declaredSlots();
   // A face that coincides with another one is covered by it: what else is opposed and near, such as
   // the next side of a slender triangle, lies beside it.
-  const std::vector<Coinciding> coinciding = coincidingFaces(x);
+  const std::vector<Coinciding> coinciding = coincidingFaces(x, slots);
   const auto isCoveredByOther = [&](GlobalId face, GlobalId other)
   {
     const auto first = std::lower_bound(coinciding.begin(), coinciding.end(),
@@ -213,15 +224,12 @@ Contact::Overpressed Contact::closeDeclaredJoints(const ConstNodeVectors& x,
     return first != coinciding.end() && first->face == face &&
            !std::binary_search(first, coinciding.end(), Coinciding{face, other});
   };
-  for (std::size_t slot = 0; slot < planes_.count(); ++slot)
+  for (const std::size_t slot : slots)
   {
     const SlotFaces& pair = planes_.slots().faces(slot);
-    if (pair.face[0] < 0)
-      continue;
     const Face& faceA = faces()[pair.face[0]];
     const Face& faceB = faces()[pair.face[1]];
-    if (!rules_.between(faceA.group, faceB.group).declared ||
-        isCoveredByOther(faceA.id, faceB.id) || isCoveredByOther(faceB.id, faceA.id))
+    if (isCoveredByOther(faceA.id, faceB.id) || isCoveredByOther(faceB.id, faceA.id))
       continue;
     const FaceNodes a = nodesOf(faceA, x), b = nodesOf(faceB, x);
     const DeclaredPlane found =

@@ -283,11 +283,17 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
   return response;
 }
 
-/// Coefficients of friction under the normal tractions as they are now.
+/// A dashpot along planes, limited where they are not bonded to what friction at rest holds: in the
+/// step in which faces meet, or on a joint that carries nothing, round-off decides whether they
+/// stick.
+/// @param normalForce compression [N]; damping [N]
 template <class T>
-KOKKOS_INLINE_FUNCTION T mostFriction(const PlaneBatch<T>& planes)
+KOKKOS_INLINE_FUNCTION Vec3Of<T> heldByFriction(const PlaneBatch<T>& planes, const T& normalForce,
+                                                const Vec3Of<T>& damping)
 {
-  return branchFree::gathered<T>(
+  using branchFree::choose;
+  const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
+  const T friction = branchFree::gathered<T>(
       [&](int i) -> Real
       {
         const Plane& plane = *planes.plane[i];
@@ -295,6 +301,8 @@ KOKKOS_INLINE_FUNCTION T mostFriction(const PlaneBatch<T>& planes)
                    ? planes.law[i]->frictionAt(plane.normalTraction, plane.history.slip, 0)
                    : 0.0;
       });
+  const T most = friction * choose(normalForce > 0.0, normalForce, T(0.0)), size = norm(damping);
+  return choose(!bonded && size > most, most / size, T(1.0)) * damping;
 }
 
 /// Dashpots at the point of contact [N].
@@ -318,16 +326,12 @@ stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& ela
   const auto sticks =
       planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
   const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
-  Vec3Of<T> shearing =
+  const Vec3Of<T> shearing =
       choose(sticks,
              -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
              T(0.0)) *
       motion.tangential;
-  // What is not bonded holds no more than friction does.
-  const T most = mostFriction(planes) * choose(elastic > 0.0, elastic, T(0.0)),
-          size = norm(shearing);
-  shearing = choose(!bonded && size > most, most / size, T(1.0)) * shearing;
-  return normalForce * n + shearing;
+  return normalForce * n + heldByFriction(planes, elastic, shearing);
 }
 
 /// The force at the corners of both faces; half of the moment of both forces, at the end of the

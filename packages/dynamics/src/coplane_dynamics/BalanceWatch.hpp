@@ -19,6 +19,7 @@ namespace coplane
 class BalanceWatch
 {
 public:
+  /// At t = 0, when the first step is known: what is in play, and what of it is round-off.
   /// Collective.
   void open(const EnergyBalance& initial, const Parts& parts);
   /// Whether what contact has gained may be news in this cycle, as far as this rank knows.

@@ -8,6 +8,7 @@
 #include <coplane_output/detail/ProbedPlanes.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace coplane
 {
@@ -32,10 +33,11 @@ public:
   /// The first name that stands twice; empty: none.
   std::string repeated() const
   {
-    std::vector<std::string> sorted = each_;
-    std::sort(sorted.begin(), sorted.end());
-    const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
-    return twice == sorted.end() ? "" : *twice;
+    std::set<std::string> seen;
+    for (const std::string& name : each_)
+      if (!seen.insert(name).second)
+        return name;
+    return "";
   }
 
   std::string names, values;

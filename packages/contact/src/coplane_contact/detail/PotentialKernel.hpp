@@ -455,15 +455,13 @@ private:
     const auto sticks =
         planes_.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
     const T shearStiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
-    Vec3Of<T> damping = choose(sticks,
-                               -2.0 * options_.dampShear *
-                                   branchFree::squareRoot(area * shearStiffness / inverseMass),
-                               T(0.0)) *
-                        relative.sliding;
-    // What is not bonded holds no more than friction does.
-    const T most = mostFriction(planes_) * choose(normalForce > 0.0, normalForce, T(0.0)),
-            size = norm(damping);
-    damping = choose(!bonded_ && size > most, most / size, T(1.0)) * damping;
+    const Vec3Of<T> damping =
+        heldByFriction(planes_, normalForce,
+                       choose(sticks,
+                              -2.0 * options_.dampShear *
+                                  branchFree::squareRoot(area * shearStiffness / inverseMass),
+                              T(0.0)) *
+                           relative.sliding);
     const T work = dt_ * (dot(damping, relative.sliding) - normalDamping * relative.closing);
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
