@@ -13,7 +13,21 @@ namespace coplane
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
   const HalfStepFace now = stepA_halfStepFace(nodesOf(face, x), 0, dimension);
-  return {now.center, now.normal};
+  return {now.center, now.normal, 0};
+}
+
+FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const
+{
+  constexpr Real most = 0.2; // what tumbles by more would oppose everything
+  FacePlane plane = facePlane(face, x, dimension);
+  if (!(turning > 0 && motion.ahead > 0))
+    return plane;
+  FaceNodes ahead = nodesOf(face, x);
+  for (int k = 0; k < face.count; ++k)
+    ahead.x[k] += way(face.nodes[k], infinity);
+  const Vec3 normal = stepA_halfStepFace(ahead, 0, dimension).normal;
+  plane.turning = std::min(most, norm(normal - plane.normal));
+  return plane;
 }
 
 namespace
@@ -102,7 +116,7 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
 {
   if (!a.local && !b.local)
     return Verdict::BothGhost;
-  if (!(dot(planeA.normal, planeB.normal) < rules.mostCosine()))
+  if (!(dot(planeA.normal, planeB.normal) < rules.mostCosine(planeA, planeB)))
     return Verdict::NotOpposed;
   if (!boxA.overlaps(boxB))
     return Verdict::TooFarApart;
@@ -157,6 +171,7 @@ struct BinSearch
   {
     Box box;
     Vec3 normal;
+    Real turning;
     std::int32_t face;
     std::uint8_t corner;
   };
@@ -171,7 +186,7 @@ struct BinSearch
       return false;
     if (shareNode(a, b) && !mayShareNode(a, b, planes(p), planes(q), rules))
       return false;
-    if (dot(planes(p).normal, planes(q).normal) < rules.mostCosine())
+    if (dot(planes(p).normal, planes(q).normal) < rules.mostCosine(planes(p), planes(q)))
     {
       const Vec3 n = normalised(planes(p).normal - planes(q).normal);
       const Real gap = dot(n, planes(q).center - planes(p).center);
@@ -194,13 +209,14 @@ struct BinSearch
     {
       for (const BinEntry* e = begin; e != end; ++e)
         if (e->resident == resident)
-          inBin.push_back({boxes[e->face], planes(e->face).normal, e->face, e->corner});
+          inBin.push_back({boxes[e->face], planes(e->face).normal, planes(e->face).turning, e->face,
+                           e->corner});
       return inBin.size();
     };
     const std::size_t residents = take(true);
     if (residents == 0)
       return;
-    const Real most = rules.mostCosine();
+    const Real most = rules.mostCosine({}, {});
     const std::size_t all = residents == std::size_t(end - begin) ? residents : take(false);
     for (std::size_t i = 0; i < residents; ++i)
       for (std::size_t j = i + 1; j < all; ++j)
@@ -208,7 +224,7 @@ struct BinSearch
         const BinFace& p = inBin[i];
         const BinFace& q = inBin[j];
         if (!(((p.corner | q.corner) == 7) & p.box.overlaps(q.box) &
-              (dot(p.normal, q.normal) < most)))
+              (dot(p.normal, q.normal) < most + p.turning + q.turning)))
           continue;
         if (faces[p.face].id < faces[q.face].id ? isCandidate(p.face, q.face)
                                                 : isCandidate(q.face, p.face))

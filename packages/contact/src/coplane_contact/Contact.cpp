@@ -184,7 +184,7 @@ bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const
   const Face &a = faces()[plane.face[0]], &b = faces()[plane.face[1]];
   return !a.young && !b.young &&
          hadToBeFound(a, b, facePlane(a, x, dimension_), facePlane(b, x, dimension_),
-                      reach_.rulesWith(rules_), reach_.leastSkin(), reach_.turningWithinSkin());
+                      reach_.rulesWith(rules_), reach_.movedBetween(), reach_.turningWithinSkin());
 }
 
 ContactEnergy Contact::energy() const

@@ -51,6 +51,9 @@ public:
   /// when the layout knows the ghosts' nodes, and x and v hold what they are there. Collective.
   void pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again = false,
               const ConstNodeVectors& v = {});
+  /// Between searches: pairs that have not touched yet learn what living planes have to give now.
+  /// Collective.
+  void passOnAnew(const ConstNodeVectors& x, const NodeLayout& layout);
   /// Declared joints become planes that are closed and carry the initial stress of their blocks
   /// at the point of contact [Pa, tension positive], less the pressure on their faces. What is
   /// pressed beyond its compressive strength carries the strength, out of equilibrium.
@@ -117,13 +120,15 @@ public:
   /// For the searches from now on: at least the given skin, more where faces move by more than a
   /// fraction of it in one step. `motion` as a step may carry faces relative to each other [m].
   void coverMotion(Real motion) { reach_.coverMotion(motion); }
+  /// How far ahead a search looks well [s]. @param motion as for coverMotion(); step [s]
+  Real timeAhead(Real motion, Real step) const { return reach_.timeAhead(motion, step); }
   void setSkin(Real skin) { reach_.setSkin(skin); } ///< [m]
   /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
   Real thinnestElement() const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
-  /// Whether since the last search planes of this rank have changed what they pass on, as far as
-  /// pairs that take over from them may not have it from that search (detail/PassedOn.hpp).
+  /// Whether since pairs last learned what planes have to give, planes of this rank have changed
+  /// it, as far as it matters (detail/PassedOn.hpp).
   bool passedOnHasChanged() const { return planes_.passedOnHasChanged(); }
   std::int64_t searches() const { return searches_.count; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
@@ -191,6 +196,22 @@ private:
     }
     bool operator==(const Coinciding& o) const { return face == o.face && other == o.other; }
   };
+  /// A face of this rank that another one has a copy of.
+  struct WantedFace
+  {
+    GlobalId face;
+    int byRank;
+
+    bool operator<(const WantedFace& o) const
+    {
+      return face != o.face ? face < o.face : byRank < o.byRank;
+    }
+  };
+  struct GhostsElsewhere
+  {
+    bool known = false;            ///< else they are found when somebody asks
+    std::vector<WantedFace> faces; ///< sorted
+  };
   struct Searches
   {
     std::int64_t count = 0;
@@ -202,9 +223,16 @@ private:
   // Of a search.
   void findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v,
                   Real ahead); ///< Collective.
-  std::vector<Donor> livingPlanes() const;
+  /// @param nodeIds, x of the nodes of the table of faces
+  std::vector<Donor> livingPlanes(const std::vector<GlobalId>& nodeIds,
+                                  const ConstNodeVectors& x) const;
+  Heritage::Place placeOfFaces(const ConstNodeVectors& x, const NodeLayout& layout) const;
+  /// Living planes of the faces of other ranks, of those that are this rank's. Collective.
+  std::vector<Donor> donorsOfGhosts(const std::vector<Donor>& mine);
   /// Copies of faces far away to whom living planes hold on. Collective.
   void addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds);
+  /// Tells the owners of faces who wants them: what this rank is asked for. Collective.
+  std::vector<WantedFace> askOwners(const std::vector<GlobalId>& wanted) const;
   /// The faces with these ids, from their owners; those that nobody has are left out. Collective.
   std::vector<GhostFace> fetchGhosts(const std::vector<GlobalId>& wanted,
                                      const std::vector<GlobalId>& nodeIds) const;
@@ -231,6 +259,7 @@ private:
   SearchReach reach_;
   Searches searches_;
   FirstHalf firstHalf_; ///< empty between searches
+  GhostsElsewhere ghostsElsewhere_;
   // ... and what cycles work on.
   PlaneTable planes_;
   PairedFaces pairedFaces_;

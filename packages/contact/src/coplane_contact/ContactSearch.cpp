@@ -155,7 +155,7 @@ private:
       plane->sighting = Sighting::Woken;
     if (asleep)
       return;
-    preparation_.prepare(slot, todo, *plane);
+    preparation_.prepare(std::size_t(slot), todo, *plane);
     next.todo(slot) = 0;
   }
 
@@ -187,7 +187,8 @@ Donor donorWithFaces(const Plane& plane, const Array<Face>& faces,
 }
 } // namespace
 
-std::vector<Donor> Contact::livingPlanes() const
+std::vector<Donor> Contact::livingPlanes(const std::vector<GlobalId>& nodeIds,
+                                         const ConstNodeVectors& x) const
 {
   std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes().size(); ++p)
@@ -195,10 +196,8 @@ std::vector<Donor> Contact::livingPlanes() const
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),
-              [&](const int d)
-              {
-                donors[d] = donorWithFaces(planes()[living[d]], faces_.forKernels(),
-                                           firstHalf_.nodeIds, firstHalf_.x);
+              [&](const int d) {
+                donors[d] = donorWithFaces(planes()[living[d]], faces_.forKernels(), nodeIds, x);
               });
   return donors;
 }
@@ -242,7 +241,8 @@ std::vector<GlobalId> Contact::findGhosts(const ConstNodeVectors& x,
   {
     TimedRegion region("coplane::contact::step4_copyGhostFaces");
     firstHalf_.ghosts =
-        step4_copyGhostFaces(ranks, sorted, localFaces(), nodeIds, livingPlanes(), *comm_);
+        step4_copyGhostFaces(ranks, sorted, localFaces(), nodeIds,
+                             livingPlanes(firstHalf_.nodeIds, firstHalf_.x), *comm_);
   }
   addGhostsOfLivingPlanes(nodeIds);
   return firstHalf_.nodesOfGhosts();
@@ -277,6 +277,46 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
                      [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
 }
 
+Heritage::Place Contact::placeOfFaces(const ConstNodeVectors& x, const NodeLayout& layout) const
+{
+  const Array<Face>& faces = faces_.forKernels();
+  const ConstNodeVectors copy = copyOf(x);
+  return {faces,        copy,       facePlanes(faces, copy, dimension_),
+          layout.ids(), dimension_, reach_.leastSkin()};
+}
+
+void Contact::passOnAnew(const ConstNodeVectors& x, const NodeLayout& layout)
+{
+  TimedRegion region("coplane::contact::passOnAnew");
+  const WorkWatch watch(searches_.seconds);
+  std::vector<Donor> donors = livingPlanes(layout.ids(), x);
+  const std::vector<Donor> theirs = donorsOfGhosts(donors);
+  donors.insert(donors.end(), theirs.begin(), theirs.end());
+  planes_.renew(std::make_shared<const Heritage>(placeOfFaces(x, layout), std::move(donors)));
+}
+
+std::vector<Donor> Contact::donorsOfGhosts(const std::vector<Donor>& mine)
+{
+  if (comm_->size() == 1)
+    return {};
+  if (!ghostsElsewhere_.known)
+  {
+    std::vector<GlobalId> ghosts;
+    for (std::size_t f = localFaces().size(); f < faces().size(); ++f)
+      ghosts.push_back(faces()[f].id);
+    ghostsElsewhere_ = {true, askOwners(ghosts)};
+    std::sort(ghostsElsewhere_.faces.begin(), ghostsElsewhere_.faces.end());
+  }
+  std::vector<std::vector<Donor>> send(comm_->size());
+  for (const Donor& donor : mine)
+    for (const GlobalId id : donor.faceId)
+      for (auto wanted = std::lower_bound(ghostsElsewhere_.faces.begin(),
+                                          ghostsElsewhere_.faces.end(), WantedFace{id, 0});
+           wanted != ghostsElsewhere_.faces.end() && wanted->face == id; ++wanted)
+        send[wanted->byRank].push_back(donor);
+  return comm_->exchange(send);
+}
+
 void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool again,
                      const ConstNodeVectors& v)
 {
@@ -286,7 +326,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   std::vector<Donor> donors;
   if (options_.inherit)
   {
-    donors = livingPlanes();
+    donors = livingPlanes(firstHalf_.nodeIds, firstHalf_.x);
     const std::vector<Donor>& theirs = firstHalf_.ghosts.donors;
     donors.insert(donors.end(), theirs.begin(), theirs.end());
   }
@@ -296,13 +336,14 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   Slots slots = slotsOf(
       step5_candidatePairs(firstHalf_.bins, faces(), x, dimension_, reach_.rulesWith(rules_)),
       planes_, faces_, ended_);
-  const auto preparation = std::make_shared<const Preparation>(
-      Preparation::Search{slots.pairs, slots.source, faces_.forKernels(), localFaces().size(), x,
-                          dimension_, reach_.leastSkin()},
-      std::move(donors), layout);
-  planes_.take(SlotFiller(options_.inherit, faces(), planes_, slots, *preparation).made(),
-               faces_.forKernels(), preparation);
+  const Heritage::Place place = placeOfFaces(x, layout);
+  Preparation preparation({slots.pairs, slots.source, localFaces().size()}, place,
+                          std::make_shared<const Heritage>(place, std::move(donors)), layout);
+  PlaneTable::Slots made =
+      SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
+  planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
   firstHalf_ = {};
+  ghostsElsewhere_ = {};
   reach_.end();
   listSlotsOfFaces(layout.owned());
   for (Face& face : faces_.local())

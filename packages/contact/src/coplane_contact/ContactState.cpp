@@ -38,12 +38,6 @@ struct Sent
   Record record;
 };
 
-struct WantedFace
-{
-  GlobalId face;
-  int byRank;
-};
-
 /// Those who have a face of which this rank looks after, sorted by face.
 std::vector<Holder> holders(const std::vector<Face>& localFaces, const Comm& comm)
 {
@@ -160,8 +154,7 @@ void Contact::readSlots(const StateSource& in)
   firstHalf_.bare = withAFaceHere(pairs, all, *comm_);
 }
 
-std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
-                                            const std::vector<GlobalId>& nodeIds) const
+std::vector<Contact::WantedFace> Contact::askOwners(const std::vector<GlobalId>& wanted) const
 {
   std::vector<std::vector<WantedFace>> ask(comm_->size()), toOwner(comm_->size());
   for (const GlobalId face : wanted)
@@ -175,7 +168,13 @@ std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
                     if (holder.owns)
                       toOwner[holder.rank].push_back(one);
                   });
-  const std::vector<WantedFace> mine = comm_->exchange(toOwner);
+  return comm_->exchange(toOwner);
+}
+
+std::vector<GhostFace> Contact::fetchGhosts(const std::vector<GlobalId>& wanted,
+                                            const std::vector<GlobalId>& nodeIds) const
+{
+  const std::vector<WantedFace> mine = askOwners(wanted);
   std::vector<std::vector<GhostFace>> answer(comm_->size());
   for (const WantedFace& one : mine)
     answer[one.byRank].push_back(
@@ -256,7 +255,8 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
     }
   }
   firstHalf_ = {};
-  planes_.take(std::move(slots), faces_.forKernels(), nullptr);
+  ghostsElsewhere_ = {};
+  planes_.take(std::move(slots), faces_.forKernels(), {});
   forceSums_.forgetFaces();
   listSlotsOfFaces(layout.owned());
   ended_ = {};

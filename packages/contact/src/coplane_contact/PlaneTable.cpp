@@ -93,7 +93,7 @@ Plane PlaneTable::prepared(std::size_t slot) const
 {
   Plane plane = planeOf(slot);
   if (slots_.todo(slot) != 0)
-    preparation_->prepare(int(slot), slots_.todo(slot), plane);
+    preparation_.prepare(slot, slots_.todo(slot), plane);
   return plane;
 }
 
@@ -110,8 +110,7 @@ PairTables PlaneTable::forKernels(bool incremental)
           laws_.data(), incremental,         &passedOnHasChanged_};
 }
 
-void PlaneTable::take(Slots slots, const Array<Face>& faces,
-                      std::shared_ptr<const Preparation> preparation)
+void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation preparation)
 {
   slots_ = std::move(slots);
   faces_ = faces;
@@ -141,7 +140,28 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces,
 
 void PlaneTable::forgetPreparation()
 {
-  preparation_.reset();
+  preparation_ = {};
+}
+
+void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
+{
+  preparation_.renew(std::move(heritage));
+  passedOnHasChanged_ = false;
+  parallelFor("coplane::contact::renew", int(count()),
+              [&](const int slot)
+              {
+                Plane* const plane = slots_.plane[slot];
+                if (slots_.faces(slot).face[0] < 0 || (plane != nullptr && plane->isBorn()))
+                  return;
+                const bool wasKnown = plane != nullptr ? !plane->isNew() : isAsleep(slot);
+                Preparation::Todo& todo = slots_.todo(slot);
+                todo = Preparation::Todo((todo & Preparation::LookAtEdges) | Preparation::TakeOver |
+                                         (wasKnown ? Preparation::WasKnown : 0));
+                if (plane == nullptr || isAsleep(slot))
+                  return;
+                preparation_.prepare(slot, todo, *plane);
+                todo = 0;
+              });
 }
 
 void PlaneTable::drop(const std::vector<std::size_t>& slots)
@@ -174,7 +194,7 @@ Plane& PlaneTable::wake(std::size_t slot)
   }
   if (std::uint8_t& todo = slots_.todo(slot); todo != 0)
   {
-    preparation_->prepare(int(slot), todo, *plane);
+    preparation_.prepare(slot, todo, *plane);
     todo = 0;
   }
   return *plane;

@@ -3,6 +3,7 @@
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
+#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
 #include <atomic>
@@ -15,7 +16,6 @@
 namespace coplane
 {
 struct PairTables;
-class Preparation;
 
 /// The planes of those slots that have one, in the order of slots, which is that of their keys.
 class PlaneList
@@ -72,7 +72,7 @@ public:
   const PlaneList& planes() const { return planes_; }
   std::int64_t countedHere() const { return countedHere_; } ///< slots
   bool isAsleep(std::size_t slot) const { return slots_.activity(slot) == Activity::Asleep; }
-  /// Whether planes have changed what they pass on since the last search.
+  /// Whether planes have changed what they pass on since pairs last learned it.
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
 
   /// Ids of the faces of a slot; before all others for one whose plane has been taken away while
@@ -91,9 +91,10 @@ public:
   PairTables forKernels(bool incremental);
 
   /// What a search has found, with planes where there are some and what is known of the others.
-  /// @param faces that slots refer to; preparation: tells planes the rest when they come near, null
-  ///        where they know everything already
-  void take(Slots slots, const Array<Face>& faces, std::shared_ptr<const Preparation> preparation);
+  /// @param faces that slots refer to; preparation: tells planes the rest when they come near
+  void take(Slots slots, const Array<Face>& faces, Preparation preparation);
+  /// Pairs that have not touched yet take over what living planes have to give now.
+  void renew(std::shared_ptr<const Heritage> heritage);
   /// Without what the last search had left to tell: for the time of the next one.
   void forgetPreparation();
   /// Takes the planes of these slots away; a search has to follow, which does not find the pairs.
@@ -116,8 +117,8 @@ private:
   Array<Face> faces_;
   PlaneList planes_;
   std::int64_t countedHere_ = 0;
-  std::shared_ptr<const Preparation> preparation_; ///< of the last search
-  Array<JointLaw> laws_;                           ///< by joint card
+  Preparation preparation_; ///< of the last search
+  Array<JointLaw> laws_;    ///< by joint card
   // Planes made since the last search.
   std::mutex waking_;
   std::vector<std::unique_ptr<Plane[]>> woken_;

@@ -72,7 +72,7 @@ Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors&
     for (int k = 0; k < face.count; ++k)
       box.include(at(x, face.nodes[k]) + rules.way(face.nodes[k], longest));
   }
-  const Vec3 inside = -rules.depthInto(face) * plane.normal;
+  const Vec3 inside = -rules.depthInto(face, plane) * plane.normal;
   for (int c = 0; c < 3; ++c)
     (inside[c] < 0 ? box.low : box.high)[c] += inside[c];
   box.grow(0.5 * rules.reach);
@@ -113,7 +113,7 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
                    const Box box = boxOf(faces[f], x);
                    all.include(box);
                    if (faces[f].ownedHere)
-                     histogram.add(box.longestSide() + rules.depthInto(faces[f]));
+                     histogram.add(box.longestSide() + rules.depthInto(faces[f], {}));
                  }
                  boxes[chunk] = all;
                });
@@ -156,9 +156,9 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                  Box together;
                  for (std::size_t f = begin; f < end; ++f)
                  {
-                   levelOf[f] = std::uint8_t(
-                       bins.levelOf(boxOf(faces[f], x).longestSide() + rules.depthInto(faces[f])));
-                   const FacePlane plane = facePlane(faces[f], x, dimension);
+                   levelOf[f] = std::uint8_t(bins.levelOf(boxOf(faces[f], x).longestSide() +
+                                                          rules.depthInto(faces[f], {})));
+                   const FacePlane plane = rules.planeOf(faces[f], x, dimension);
                    sorted.planes(f) = plane;
                    const Box box = contactBox(faces[f], plane, x, rules);
                    sorted.boxes[f] = box;

@@ -21,6 +21,7 @@ namespace coplane
 struct FacePlane
 {
   Vec3 center{}, normal{};
+  Real turning = 0; ///< by which a product with the normal may change as the face goes on [-]
 };
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
 
@@ -46,10 +47,14 @@ struct CandidateRules
   Motion motion;
 
   /// Candidates have n0.n1 below this.
-  Real mostCosine() const { return turning - cosOpposed; }
+  Real mostCosine(const FacePlane& a, const FacePlane& b) const
+  {
+    return turning - cosOpposed + a.turning + b.turning;
+  }
 
   /// Way of a node of a face ahead. Steps are bound so that no face moves by a body's thickness:
   /// what is far beyond is none of this face's business, and would only fill the bins.
+  /// @param longest way [m]
   Vec3 way(int node, Real longest) const
   {
     const Vec3 way = motion.ahead * (at(motion.v, node) - motion.frame);
@@ -59,11 +64,14 @@ struct CandidateRules
   /// How far the box of a face goes on into the body [m]. Points of two faces that lie at depth d
   /// in each other are apart by d (n0 - n1) / |n0 - n1|: moved inwards by d / |n0 - n1| the faces
   /// meet.
-  Real depthInto(const Face& face) const
+  Real depthInto(const Face& face, const FacePlane& plane) const
   {
-    const Real square = 2 - 2 * std::max(0.0, mostCosine()); // least of |n0 - n1|
+    // Least of |n0 - n1|, with another face that turns as much as this one.
+    const Real square = 2 - 2 * std::max(0.0, mostCosine(plane, plane));
     return depthMax * face.thickness / std::sqrt(square);
   }
+  /// The plane of a face, with what motion makes of its normal.
+  FacePlane planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const;
 };
 
 /// Where the face may be in contact before the next search: the face, the same at the largest depth

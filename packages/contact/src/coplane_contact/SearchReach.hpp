@@ -22,6 +22,15 @@ public:
   /// At least the least skin, more where faces move by more than a fraction of it in one step.
   /// @param motion as a step may carry faces relative to each other [m]
   void coverMotion(Real motion) { setSkin(std::max(leastSkin_, skinOverMotion * motion)); }
+  /// For how long a search looks ahead along the velocities that nodes have: many steps, as long as
+  /// that brings no two faces together that are far from each other, and at least one [s].
+  /// @param motion as a step may carry faces relative to each other [m]; step [s]
+  Real timeAhead(Real motion, Real step) const
+  {
+    return std::max(1.0, std::min(mostSteps, farthestAhead * smallestFace_ / motion)) * step;
+  }
+  /// By how much nodes may move relative to each other from a search to the next [m].
+  Real movedBetween() const { return leastSkin_ + farthestAhead * smallestFace_; }
   /// By how much faces turn at most while nodes move by the least skin against each other [rad].
   Real turningWithinSkin() const { return 2 * leastSkin_ / smallestFace_; }
 
@@ -45,6 +54,9 @@ private:
   /// By which faces are taken to turn until the next search, at most [rad]: with large skins
   /// 2 skin / size bounds nothing.
   static constexpr Real mostTurning = 0.2;
+  /// Steps that a search looks ahead at most, and relative motion in that time over the smallest
+  /// face [-]: the boxes of faces that are on their way fill more bins.
+  static constexpr Real mostSteps = 32, farthestAhead = 0.25;
 
   Real leastSkin_, smallestFace_;
   bool turns_; ///< candidates are told by normals that may have turned until the next search

@@ -9,7 +9,9 @@ NodalState::NodalState(const RankMesh& mesh)
       external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
       localDamping("localDamping", mesh.ownedNodes), impulse("impulse", mesh.ownedNodes),
       angularImpulse("angularImpulse", mesh.ownedNodes), atSearch("atSearch", mesh.ownedNodes),
-      externalWork("externalWork", mesh.ownedNodes), dampingWork("dampingWork", mesh.ownedNodes),
+      velocityAtSearch("velocityAtSearch", mesh.ownedNodes),
+      atPassing("atPassing", mesh.ownedNodes), externalWork("externalWork", mesh.ownedNodes),
+      dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes),
       totalWork("totalWork", mesh.ownedNodes),
       contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes)

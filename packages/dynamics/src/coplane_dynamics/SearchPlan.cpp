@@ -23,10 +23,25 @@ struct Extent
   }
 };
 
+/// From the least to the largest along an axis.
+Real width(const Real* bounds, int axis)
+{
+  return bounds[axis] + bounds[3 + axis];
+}
+
+/// Whether nothing is as wide as that along any axis; what is not finite is not.
+bool isWithin(Real most, const Real* bounds)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    if (width(bounds, axis) > most)
+      return false;
+  return true;
+}
+
 /// Length of the diagonal of an extent over all ranks; 0 when it is not finite.
 Real diagonal(const Real* bounds)
 {
-  const Vec3 range{bounds[0] + bounds[3], bounds[1] + bounds[4], bounds[2] + bounds[5]};
+  const Vec3 range{width(bounds, 0), width(bounds, 1), width(bounds, 2)};
   return std::isfinite(dot(range, range)) ? norm(range) : 0;
 }
 } // namespace
@@ -44,19 +59,26 @@ void SearchPlan::start(const Parts& parts)
 
 bool SearchPlan::look(const Parts& parts, bool trouble)
 {
-  // The next positions are known now: a search falls due when one may be needed by then, from an
-  // exact bound on the relative displacement of any two nodes since the last search.
+  // The next positions are known now: a search falls due when one may be needed by then, from exact
+  // bounds on the relative displacement of any two nodes since the last search, and on what that
+  // search did not foresee of it.
   const NodalState& state = parts.state;
   const Clock& clock = parts.clock;
-  Extent way, velocity;
+  const Real foreseen = std::min(clock.time + clock.nextStep - madeAt_, ahead_);
+  Extent way, unforeseen, sincePassing, velocity;
   for (int n = 0; n < parts.layout.owned() && parts.contact; ++n)
     for (int c = 0; c < 3 && !parts.erosion.isFree(n); ++c)
     {
-      way.take(c, state.x(n, c) + clock.nextStep * state.v(n, c) - state.atSearch(n, c));
+      const Real next = state.x(n, c) + clock.nextStep * state.v(n, c);
+      const Real gone = next - state.atSearch(n, c);
+      way.take(c, gone);
+      unforeseen.take(c, gone - foreseen * state.velocityAtSearch(n, c));
+      sincePassing.take(c, next - state.atPassing(n, c));
       velocity.take(c, state.v(n, c));
     }
-  std::vector<Real> range(way.bounds.begin(), way.bounds.end());
-  range.insert(range.end(), velocity.bounds.begin(), velocity.bounds.end());
+  std::vector<Real> range;
+  for (const Extent* extent : {&way, &unforeseen, &sincePassing, &velocity})
+    range.insert(range.end(), extent->bounds.begin(), extent->bounds.end());
   range.push_back(parts.contact && parts.contact->passedOnHasChanged());
   range.push_back(trouble);
   parts.comm.max(range);
@@ -64,23 +86,26 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
     return true;
   if (!parts.contact)
     return false;
-  relativeSpeed_ = diagonal(&range[6]);
+  relativeSpeed_ = diagonal(&range[18]);
+  const Real *const moved = &range[0], *const strayed = &range[6];
   const Real skin = parts.contact->skin();
-  passedOnHasChanged_ = passedOnHasChanged_ || range[12] > 0;
-  const int every = every_ == automatic ? mostOften : every_;
-  isDue_ =
-      every > 0 && (clock.cycle + 1) % every == 0 && (every_ != automatic || passedOnHasChanged_);
+  passedOnHasChanged_ = passedOnHasChanged_ || range[24] > 0;
+  const auto comes = [&](int every) { return every > 0 && (clock.cycle + 1) % every == 0; };
+  isDue_ = comes(every_);
+  isPassingDue_ = every_ == automatic &&
+                  ((comes(mostOften) && passedOnHasChanged_) || !isWithin(0.5 * skin, &range[12]));
+  // What lies on the way that the search foresaw is covered, and so is what has stayed where it
+  // was.
+  if (!isWithin(0.5 * skin, moved) && !isWithin(0.5 * skin, strayed))
+    isDue_ = true;
   for (int axis = 0; axis < 3; ++axis)
-  {
-    const Real moved = range[axis] + range[3 + axis];
-    if (moved > -infinity && !(moved < mostSkins * skin))
+    if (const Real least = std::min(width(moved, axis), width(strayed, axis));
+        least > -infinity && !(least < mostSkins * skin))
       failOnAllRanks(ExitCode::Computation,
                      "cycle {}, t = {:.6e} s: nodes move {:.3e} m against each other along {} in "
                      "one step of {:.3e} s; the skin of contact is {:.3e} m. Look for a velocity, "
                      "a load or a gravity that is far too large.",
-                     clock.cycle, clock.time, moved, "xyz"[axis], clock.nextStep, skin);
-    isDue_ = isDue_ || moved > 0.5 * skin;
-  }
+                     clock.cycle, clock.time, least, "xyz"[axis], clock.nextStep, skin);
   return false;
 }
 } // namespace coplane

@@ -5,9 +5,10 @@
 namespace coplane
 {
 /// Decides in which cycles contact searches: when the next positions might bring faces nearer than
-/// the skin of the last search covers, and every so many cycles. Pairs learn what they take over
-/// from others at searches: of those that come every few cycles, `auto` leaves out those before
-/// which no surface of a plane has moved and no bond has broken.
+/// the skin of the last search covers beside the way that it foresaw, and every so many cycles, if
+/// that is a number. With `auto` pairs learn between searches what they take over from others: when
+/// bodies have moved by half a skin, and every few cycles in which a surface of a plane has moved
+/// or a bond has broken.
 class SearchPlan
 {
 public:
@@ -16,18 +17,25 @@ public:
 
   /// From the velocities at the start. Collective.
   void start(const Parts& parts);
-  /// A search has been made with this skin [m].
-  void booked(Real skin)
+  /// A search has been made at this time [s], with this skin [m], that looked ahead for so long
+  /// [s].
+  void booked(Real skin, Real time, Real ahead)
   {
     skin_ = skin;
+    madeAt_ = time;
+    ahead_ = ahead;
     passedOnHasChanged_ = false;
   }
+  /// Pairs have learned what others pass on.
+  void passedOn() { passedOnHasChanged_ = false; }
 
   /// Whether a search is needed before the forces of the next cycle. The same reduction tells all
   /// ranks whether one is in trouble, and so does what it returns. Collective.
   bool look(const Parts& parts, bool trouble);
 
   bool isDue() const { return isDue_; }
+  /// Whether pairs are to learn what others pass on, if there is no search.
+  bool isPassingDue() const { return isPassingDue_; }
   Real skin() const { return skin_; } ///< of the last search [m]
   /// Bound on the speed of any two nodes relative to each other, at the last half step [m/s].
   Real relativeSpeed() const { return relativeSpeed_; }
@@ -38,17 +46,21 @@ public:
   {
     number(self.relativeSpeed_);
     number(self.skin_);
+    number(self.madeAt_);
+    number(self.ahead_);
     number(self.isDue_);
+    number(self.isPassingDue_);
     number(self.passedOnHasChanged_);
   }
 
 private:
   static constexpr int automatic = -1;
-  static constexpr int mostOften = 4; ///< cycles between searches for the sake of what is passed on
+  static constexpr int mostOften = 4; ///< cycles after which pairs learn what is passed on
 
   int every_;
   Real relativeSpeed_ = 0, skin_ = 0;
-  bool isDue_ = false;
-  bool passedOnHasChanged_ = false; ///< since the last search
+  Real madeAt_ = 0, ahead_ = 0; ///< of the last search [s]
+  bool isDue_ = false, isPassingDue_ = false;
+  bool passedOnHasChanged_ = false; ///< since pairs last learned it
 };
 } // namespace coplane

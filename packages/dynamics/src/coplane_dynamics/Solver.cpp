@@ -164,7 +164,9 @@ void Solver::findForces(Real dt)
   elements_.update(state_, layout_, dt, work_);
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searches_.isDue() || someDied))
-    search();
+    search(clock_.time + dt);
+  else if (contact_ && model_.contact.inherit && searches_.isPassingDue())
+    passOn();
   if (contact_)
     updatePlanes(dt);
   {
@@ -232,18 +234,31 @@ void Solver::takeGhostNodes(const std::vector<GlobalId>& ghostNodes)
   layout_.refresh(state_.mass);
 }
 
-void Solver::search(bool again)
+NodeVectors Solver::ownedOf(const NodeVectors& all) const
+{
+  return Kokkos::subview(all, std::make_pair(0, layout_.owned()), Kokkos::ALL());
+}
+
+void Solver::search(Real time, bool again)
 {
   TimedRegion region("coplane::dynamics::search");
-  contact_->coverMotion(searches_.relativeSpeed() * step_.largestNext());
-  searches_.booked(contact_->skin());
-  takeGhostNodes(contact_->findGhosts(state_.x, layout_.ids(), state_.v, step_.largestNext()));
+  const Real motion = searches_.relativeSpeed() * step_.largestNext();
+  contact_->coverMotion(motion);
+  const Real ahead = contact_->timeAhead(motion, step_.largestNext());
+  searches_.booked(contact_->skin(), time, ahead);
+  takeGhostNodes(contact_->findGhosts(state_.x, layout_.ids(), state_.v, ahead));
   contact_->pairUp(state_.x, layout_, again, state_.v);
-  const auto x = state_.x;
-  const auto atSearch = state_.atSearch;
-  parallelFor(
-      "coplane::dynamics::rememberPositions", layout_.owned(),
-      KOKKOS_LAMBDA(const int n) { set(atSearch, n, at(x, n)); });
+  Kokkos::deep_copy(state_.atSearch, ownedOf(state_.x));
+  Kokkos::deep_copy(state_.velocityAtSearch, ownedOf(state_.v));
+  Kokkos::deep_copy(state_.atPassing, state_.atSearch);
+}
+
+void Solver::passOn()
+{
+  TimedRegion region("coplane::dynamics::search");
+  contact_->passOnAnew(state_.x, layout_);
+  searches_.passedOn();
+  Kokkos::deep_copy(state_.atPassing, ownedOf(state_.x));
 }
 
 /// First search, and declared joints closed.
@@ -253,7 +268,7 @@ void Solver::openContact()
   findElementForces();
   step_.boundFirst(comm_->min(elements_.smallestStep()), comm_->min(contact_->thinnestElement()),
                    searches_.relativeSpeed());
-  search();
+  search(0);
   const Contact::Overpressed pressed = contact_->closeDeclaredJoints(
       state_.x, [this](int block, const Vec3& x) { return model_.blocks[block].stressAt(x); });
   if (pressed.planes > 0)
@@ -273,7 +288,7 @@ void Solver::openContact()
   // Once more, so that their neighbours know the offsets of joints that are closed now.
   if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
                   [](const ContactRule& rule) { return rule.declared; }))
-    search(true);
+    search(0, true);
 }
 
 void Solver::updatePlanes(Real dt)

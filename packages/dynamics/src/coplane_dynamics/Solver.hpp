@@ -169,7 +169,10 @@ private:
   void planSearch();
   // Of findForces. Collective.
   bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
-  void search(bool again = false);
+  void search(Real time, bool again = false);
+  void passOn(); ///< between searches
+  /// The rows of owned nodes.
+  NodeVectors ownedOf(const NodeVectors& all) const;
   void updatePlanes(Real dt);
   void addContactForces();
 

@@ -39,6 +39,8 @@ NodeColumns nodeColumns(const NodalState& state)
   vector("impulse", state.impulse);
   vector("angular_impulse", state.angularImpulse);
   vector("at_search", state.atSearch);
+  vector("velocity_at_search", state.velocityAtSearch);
+  vector("at_passing", state.atPassing);
   const auto scalar = [&](const char* name, const Array<Real>& values)
   {
     columns.names.push_back(name);
