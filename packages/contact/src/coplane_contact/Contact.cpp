@@ -125,7 +125,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
           const SlotFaces& faces = pairs.slots[p];
-          if (faces.face[0] < 0)
+          if (faces.face[0] < 0 || pairs.leaveOut(p))
             return;
           const HalfStepFace& a = halfStep[faces.face[0]];
           const HalfStepFace& b = halfStep[faces.face[1]];
@@ -134,6 +134,8 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
             pairs.passBy(p, a, b, dt);
             return;
           }
+          if (!pairs.carries(p) && pairs.leaveOut(p, a, b, options.lookAhead))
+            return;
           pairs.prepare(p);
           Plane& plane = *pairs.planes[p];
           const auto before = pairs.passedBy(p);
@@ -153,6 +155,21 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 }
 } // namespace
 
+namespace
+{
+/// The gap and the overlap of a plane that is open.
+template <int Dim>
+void lookAgain(Plane& plane, const HalfStepFace& a, const HalfStepFace& b, const JointLaw& law,
+               const ContactOptions& options)
+{
+  constexpr Real noTime = 0;
+  if (mayMeet<Dim>(a, b, leastOpposed(options)))
+    updateByForces<Dim>(plane, a, b, law, options, noTime);
+  else
+    passBy(plane, a, b, noTime);
+}
+} // namespace
+
 void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
                         const ConstArray<Real>& mass) const
 {
@@ -160,23 +177,71 @@ void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                       const ConstArray<Real>& mass, Real dt, Real lookAhead)
+                                       const ConstArray<Real>& mass, Real dt, Real lookAhead,
+                                       Real sinceSearch)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, dt);
+  distances_.follow(x, v, sinceSearch, lookAhead);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
-  const bool incremental = options_.closure == ContactOptions::Closure::Incremental;
-  PairTables pairs = planes_.forKernels(incremental);
+  PairTables pairs = pairTables();
   pairs.changedFaces = forceSums_.changed().data();
   stepsBtoH(pairs, int(planes_.count()), pairedFaces_.data(), dimension_, options, dt);
   planes_.listWoken();
+  shown_ = {};
   if (searches_.sinceUpdate && searches_.count > 1)
     for (std::size_t p = 0; p < planes().size(); ++p)
       if (const Plane& plane = planes()[p];
           plane.sighting == Sighting::FoundLate && plane.countedHere && plane.face[0] >= 0)
         searches_.missed += wasMissed(plane, x);
   searches_.sinceUpdate = false;
+}
+
+PairTables Contact::pairTables()
+{
+  PairTables pairs = planes_.forKernels(options_.closure == ContactOptions::Closure::Incremental);
+  pairs.distances = &distances_;
+  return pairs;
+}
+
+bool Contact::wasPassedOver(std::size_t slot) const
+{
+  return planes_.slots().activity(slot) == Activity::Apart;
+}
+
+const PlaneList& Contact::planesNow() const
+{
+  if (shown_.made)
+    return shown_.list;
+  const PlaneList& all = planes();
+  std::vector<std::size_t> passedOver;
+  for (std::size_t p = 0; p < all.size(); ++p)
+    if (all[p].isBorn() && wasPassedOver(all.slotOf(p)))
+      passedOver.push_back(p);
+  shown_.copies = Kokkos::View<Plane*, Kokkos::HostSpace>(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::shown"), passedOver.size());
+  parallelFor("coplane::contact::planesNow", int(passedOver.size()),
+              [&](const int i)
+              {
+                Plane& plane = *new (&shown_.copies(i)) Plane(all[passedOver[i]]);
+                const HalfStepFace &a = pairedFaces_.data()[plane.face[0]],
+                                   &b = pairedFaces_.data()[plane.face[1]];
+                if (dimension_ == 2)
+                  lookAgain<2>(plane, a, b, lawOf(plane), options_);
+                else
+                  lookAgain<3>(plane, a, b, lawOf(plane), options_);
+              });
+  std::size_t next = 0;
+  shown_.list.clear();
+  for (std::size_t p = 0; p < all.size(); ++p)
+  {
+    const bool copied = next < passedOver.size() && passedOver[next] == p;
+    shown_.list.add(all.slotOf(p), copied ? &shown_.copies(next) : &all[p]);
+    next += copied;
+  }
+  shown_.made = true;
+  return shown_.list;
 }
 
 bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const

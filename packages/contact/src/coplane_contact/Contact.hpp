@@ -7,6 +7,7 @@
 #include <coplane_contact/FaceTable.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/ForceSums.hpp>
+#include <coplane_contact/PairDistances.hpp>
 #include <coplane_contact/PairedFaces.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/PlaneTable.hpp>
@@ -87,14 +88,18 @@ public:
   std::vector<GlobalId> restoreFaces(const StateSource& in, const std::vector<GlobalId>& nodeIds);
   /// Call when the layout knows the ghosts' nodes.
   void restorePlanes(const StateSource& in, const NodeLayout& layout);
+  /// What cycles know from the last search, at whose time nodes were at x and had v; it looked so
+  /// far ahead [s]. Collective.
+  void restoreDistances(const ConstNodeVectors& x, const ConstNodeVectors& v, Real ahead);
   /// Step A where faces stand still: for those who look at them before the next update.
   void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
                  const ConstArray<Real>& mass) const;
 
   /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
-  /// stable step; at least the two largest steps that may follow [s]
+  /// stable step; at least the two largest steps that may follow; sinceSearch: time since then [s]
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                const ConstArray<Real>& mass, Real dt, Real lookAhead);
+                                const ConstArray<Real>& mass, Real dt, Real lookAhead,
+                                Real sinceSearch);
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
@@ -108,6 +113,9 @@ public:
   /// Those that nothing has come near since the last search do not know yet what it found beside
   /// their faces; prepared() tells what they are when they do, which checkpoints and hashes have.
   const PlaneList& planes() const { return planes_.planes(); }
+  /// The same with the gaps and overlaps of this cycle, for those who show them: cycles do not look
+  /// at open planes whose faces are far from each other. Until the next update or search.
+  const PlaneList& planesNow() const;
   /// All pairs of the last search, most of which have no plane: how many, the plane that each has
   /// or would get, and the same prepared.
   std::size_t slots() const { return planes_.count(); }
@@ -168,7 +176,7 @@ private:
   struct BarePair
   {
     GlobalId faceId[2];
-    bool lookedAt;
+    Activity activity;
     EdgesOfPair edges;
   };
   /// What the first half of a search leaves to the second.
@@ -222,7 +230,8 @@ private:
 
   // Of a search.
   void findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                  Real ahead); ///< Collective.
+                  Real ahead);                                     ///< Collective.
+  Motion motionAhead(const ConstNodeVectors& v, Real ahead) const; ///< Collective.
   /// @param nodeIds, x of the nodes of the table of faces
   std::vector<Donor> livingPlanes(const std::vector<GlobalId>& nodeIds,
                                   const ConstNodeVectors& x) const;
@@ -243,6 +252,11 @@ private:
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
   void listSlotsOfFaces(int ownedNodes);
+  PairTables pairTables();
+  /// Whether the last update left out an open plane.
+  bool wasPassedOver(std::size_t slot) const;
+  /// How far the pairs of a search are from each other. @param planes of the faces at that time
+  void measureDistances(const Array<FacePlane>& planes, const PairDistances::Seen& seen);
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   /// Slots of a checkpoint that have a face here; members of planes that only mean something on one
   /// rank are left as they are in a new plane, but face[0] is 0 where the pair is a candidate.
@@ -263,7 +277,15 @@ private:
   // ... and what cycles work on.
   PlaneTable planes_;
   PairedFaces pairedFaces_;
+  PairDistances distances_;
   ForceSums forceSums_;
   EndedPlanes ended_;
+  struct Shown
+  {
+    bool made = false;
+    PlaneList list;
+    Kokkos::View<Plane*, Kokkos::HostSpace> copies; ///< of those that cycles have not looked at
+  };
+  mutable Shown shown_; ///< planesNow()
 };
 } // namespace coplane

@@ -133,27 +133,26 @@ private:
     }
     const CandidatePair& pair = slots_.pairs[std::size_t(source)];
     const std::int64_t known = slotBefore(slot);
-    const bool asleep = known >= 0 && before_.isAsleep(std::size_t(known));
-    const bool wasKnown = before != nullptr ? !before->isNew() : asleep;
-    Preparation::Todo todo = wasKnown ? Preparation::WasKnown : 0;
+    Preparation::Todo todo = 0;
     // While the faces lie in each other, edges stay what they are, and the energy does not jump.
     if (before == nullptr || !(before->overlap > 0 && before->gap < before->offset))
       todo |= Preparation::LookAtEdges;
     // The neighbours of a face that erosion has just laid bare lie on the old surface.
     if (inherit_ && !(before != nullptr && before->isBorn()) && !faces_[pair.lower].young &&
         !faces_[pair.higher].young)
-      todo |= Preparation::TakeOver;
+      todo |= known >= 0 ? before_.takeOver(std::size_t(known)) : Preparation::TakeOver;
     next.faces(slot).face[0] = pair.lower;
     next.faces(slot).face[1] = pair.higher;
     next.todo(slot) = todo;
-    next.activity(slot) = asleep ? Activity::Asleep : Activity::Awake;
+    next.activity(slot) =
+        known >= 0 && before == nullptr ? before_.slots().activity(known) : Activity::Awake;
     if (plane == nullptr)
       return;
     plane->face[0] = pair.lower;
     plane->face[1] = pair.higher;
     if (plane->sighting == Sighting::Missed)
       plane->sighting = Sighting::Woken;
-    if (asleep)
+    if (!(plane->area > 0)) // told when it comes near
       return;
     preparation_.prepare(std::size_t(slot), todo, *plane);
     next.todo(slot) = 0;
@@ -192,7 +191,7 @@ std::vector<Donor> Contact::livingPlanes(const std::vector<GlobalId>& nodeIds,
 {
   std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes().size(); ++p)
-    if (!planes_.isAsleep(planes().slotOf(p)) && isDonor(planes()[p]))
+    if (!planes_.carriesNothing(planes().slotOf(p)) && isDonor(planes()[p]))
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),
@@ -210,10 +209,7 @@ void Contact::findLimits(const ConstNodeVectors& x, const ConstNodeVectors& v, R
     if (const Plane& plane = planes()[p]; plane.isBorn())
       offset[0] = std::max(offset[0], plane.offset);
   comm_->max(offset);
-  Motion motion;
-  if (ahead > 0)
-    motion = {v, ahead, commonVelocity(localFaces(), v, *comm_)};
-  reach_.begin(offset[0], motion);
+  reach_.begin(offset[0], motionAhead(v, ahead));
   firstHalf_.bins = step1_globalSpaceLimits(localFaces(), x, reach_.rules(), *comm_);
 }
 
@@ -277,11 +273,47 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
                      [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
 }
 
+void Contact::measureDistances(const Array<FacePlane>& planes, const PairDistances::Seen& seen)
+{
+  const auto& slots = planes_.slots().faces;
+  const Array<std::uint8_t> mayReach("coplane::contact::mayReach", slots.extent(0));
+  parallelFor("coplane::contact::mayReach", int(slots.extent(0)),
+              [&](const int slot)
+              {
+                const SlotFaces& pair = slots(slot);
+                if (pair.face[0] < 0)
+                  return;
+                const int joint =
+                    rules_.between(faces()[pair.face[0]].group, faces()[pair.face[1]].group).joint;
+                mayReach(slot) = rules_.joints[joint].law.mayReachOut();
+              });
+  distances_.take(slots, faces_.forKernels(), planes, mayReach, seen);
+}
+
+void Contact::restoreDistances(const ConstNodeVectors& x, const ConstNodeVectors& v, Real ahead)
+{
+  if (options_.forces != ContactOptions::Forces::Potential)
+    return;
+  reach_.begin(reach_.offset(), motionAhead(v, ahead));
+  const ConstNodeVectors copy = copyOf(x);
+  measureDistances(
+      facePlanes(faces_.forKernels(), copy, reach_.rules(), dimension_),
+      {copy, copyOf(v), reach_.rules().motion.ahead, reach_.rules().motion.frame, reach_.offset()});
+  reach_.end();
+}
+
+Motion Contact::motionAhead(const ConstNodeVectors& v, Real ahead) const
+{
+  if (!(ahead > 0))
+    return {};
+  return {v, ahead, commonVelocity(localFaces(), v, *comm_)};
+}
+
 Heritage::Place Contact::placeOfFaces(const ConstNodeVectors& x, const NodeLayout& layout) const
 {
   const Array<Face>& faces = faces_.forKernels();
   const ConstNodeVectors copy = copyOf(x);
-  return {faces,        copy,       facePlanes(faces, copy, dimension_),
+  return {faces,        copy,       facePlanes(faces, copy, reach_.rules(), dimension_),
           layout.ids(), dimension_, reach_.leastSkin()};
 }
 
@@ -342,6 +374,13 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   PlaneTable::Slots made =
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
+  if (options_.forces == ContactOptions::Forces::Potential)
+  {
+    const Motion& motion = reach_.rules().motion;
+    measureDistances(place.planes, {place.x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(),
+                                    motion.ahead, motion.frame, reach_.offset()});
+  }
+  shown_ = {};
   firstHalf_ = {};
   ghostsElsewhere_ = {};
   reach_.end();

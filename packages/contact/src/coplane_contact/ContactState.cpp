@@ -14,7 +14,7 @@ namespace coplane
 namespace
 {
 const std::vector<std::string> faceColumns{"thickness", "modulus"};
-const std::vector<std::string> pairColumns{"looked_at", "exits", "turns", "covered"};
+const std::vector<std::string> pairColumns{"activity", "exits", "turns", "covered"};
 
 /// A rank that looks after what belongs to a face while data find their way.
 int rankFor(GlobalId face, const Comm& comm)
@@ -112,8 +112,8 @@ void Contact::save(StateTables& out) const
       continue;
     if (planes_.isBare(p, plane))
     {
-      const std::array<Real, 4> numbers{Real(!plane.isNew()), Real(plane.exits), Real(plane.turns),
-                                        Real(plane.covered)};
+      const std::array<Real, 4> numbers{Real(planes_.slots().activity(p)), Real(plane.exits),
+                                        Real(plane.turns), Real(plane.covered)};
       std::copy(numbers.begin(), numbers.end(), pairs.add({plane.faceId[0], plane.faceId[1]}));
       continue;
     }
@@ -123,7 +123,8 @@ void Contact::save(StateTables& out) const
   out.rows("contact/planes", planes);
   out.rows("contact/pairs", pairs);
   out.numbers("contact/ended", ended_.numbers(*comm_));
-  out.numbers("contact/counts", {Real(searches_.count), Real(comm_->sum(searches_.missed))});
+  out.numbers("contact/counts",
+              {Real(searches_.count), Real(comm_->sum(searches_.missed)), reach_.offset()});
 }
 
 void Contact::readSlots(const StateSource& in)
@@ -146,7 +147,7 @@ void Contact::readSlots(const StateSource& in)
   {
     const Real* row = bare.row(i);
     pairs.push_back({{bare.key(i)[0], bare.key(i)[1]},
-                     row[0] != 0,
+                     Activity(int(row[0])),
                      {std::uint8_t(row[1]), std::uint8_t(row[2]), std::uint8_t(row[3])}});
   }
   const std::vector<Holder> all = holders(localFaces(), *comm_);
@@ -239,7 +240,7 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
       const BarePair& pair = bare[b++];
       for (int side = 0; side < 2; ++side)
         slots.faces(slot).face[side] = faces_.place(pair.faceId[side]);
-      slots.activity(slot) = pair.lookedAt ? Activity::Asleep : Activity::Awake;
+      slots.activity(slot) = pair.activity;
       slots.edges[slot] = pair.edges;
       continue;
     }
@@ -264,6 +265,9 @@ void Contact::restorePlanes(const StateSource& in, const NodeLayout& layout)
   searches_.count = std::int64_t(counts.at(0));
   searches_.missed = comm_->isRoot() ? std::int64_t(counts.at(1)) : 0;
   searches_.sinceUpdate = false;
+  reach_.setOffset(counts.at(2));
+  distances_.forget();
+  shown_ = {};
   if (comm_->isRoot())
     ended_.addNumbers(in.numbers("contact/ended"));
   else

@@ -46,9 +46,9 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   std::vector<PlaneEnergySums> energies(joints);
   for (const auto& [kind, ended] : contact.ended().byKind())
     energies[kind.joint].add(ended);
-  for (std::size_t p = 0; p < contact.planes().size(); ++p)
+  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planes()[p];
+    const Plane& plane = contact.planesNow()[p];
     if (!plane.countedHere || !plane.isBorn())
       continue;
     energies[plane.joint].add(plane, plane.stored);
@@ -98,9 +98,9 @@ std::vector<ContactTableRow> contactTable(const Contact& contact)
   std::map<PlaneKind, Row> mine;
   for (const auto& [kind, ended] : contact.ended().byKind())
     mine[kind].energies.add(ended);
-  for (std::size_t p = 0; p < contact.planes().size(); ++p)
+  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planes()[p];
+    const Plane& plane = contact.planesNow()[p];
     if (!plane.countedHere || !plane.isBorn())
       continue;
     Row& row = mine[PlaneKind(plane)];

@@ -13,9 +13,9 @@ std::vector<FaceContact> faceContact(const Contact& contact, const ConstNodeVect
       faces.begin();
   std::vector<FaceContact> list(local);
   std::vector<Real> area(local, 0); // of contact [m^2]
-  for (std::size_t p = 0; p < contact.planes().size(); ++p)
+  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planes()[p];
+    const Plane& plane = contact.planesNow()[p];
     if (!plane.isBorn() || plane.face[0] < 0 || !(plane.overlap > 0))
       continue;
     for (int side = 0; side < 2; ++side)

@@ -451,6 +451,29 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
   return near && !edgesPart(shadowA, shadowB);
 }
 
+/// By how much the mean plane of a face may lie beyond its nodes [m].
+KOKKOS_INLINE_FUNCTION Real beyondNodes(const HalfStepFace& face)
+{
+  const Vec3* const x = face.x;
+  return face.count < 4 ? 0 : 0.25 * std::fabs(dot(face.normal, x[0] - x[1] + x[2] - x[3]));
+}
+
+/// Whether faces are apart along the normal of their plane, and stay so for the time `ahead` [s].
+/// @param reach gap from which they would act on each other [m]
+KOKKOS_INLINE_FUNCTION bool areApart(const HalfStepFace& a, const HalfStepFace& b, Real reach,
+                                     Real ahead)
+{
+  constexpr Real roundOff = 1e-7; // of the size of a face
+  const Vec3 n = normalised(a.normal - b.normal);
+  Real lowest = infinity, highest = -infinity;
+  for (int i = 0; i < a.count; ++i)
+    highest = branchFree::larger(dot(n, a.x[i] - a.center), highest);
+  for (int i = 0; i < b.count; ++i)
+    lowest = branchFree::smaller(dot(n, b.x[i] - a.center), lowest);
+  const Real gap = lowest - highest - beyondNodes(a) - beyondNodes(b) - reach;
+  return gap > ahead * approachSpeed(n, a, b) + roundOff * norm(a.x[1] - a.x[0]);
+}
+
 /// Before steps E and F of a pair: whether it penetrates when it is looked at for the first time.
 KOKKOS_INLINE_FUNCTION bool wasFoundLate(const Plane& plane, bool inContact)
 {
@@ -566,6 +589,7 @@ KOKKOS_INLINE_FUNCTION void passBy(Plane& plane, const HalfStepFace& a, const Ha
 {
   openUp(plane, a, b, dt);
   plane.overlap = 0;
+  plane.unseen = false;
   plane.nodeStiffness = 0;
   plane.sighting = Sighting::Known;
   plane.refusal = Refusal::None;
@@ -576,9 +600,9 @@ KOKKOS_INLINE_FUNCTION Activity activityOf(const Plane& plane)
 {
   if (plane.area > 0 || plane.nodeStiffness > 0)
     return Activity::Loaded;
-  return !(plane.overlap > 0) && plane.sighting == Sighting::Known && !plane.isRefused()
-             ? Activity::Asleep
-             : Activity::Awake;
+  if (plane.sighting != Sighting::Known || plane.isRefused())
+    return Activity::Awake;
+  return plane.overlap > 0 || plane.unseen ? Activity::Apart : Activity::Asleep;
 }
 
 /// Round-off of a gap, as a fraction of the size of the overlap [-]: faces that lie on each other
@@ -647,6 +671,7 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
                                 return 0;
                               Plane& plane = *planes.plane[i];
                               plane.overlap = lane(patch.overlap, i);
+                              plane.unseen = false;
                               const bool isLarge = lane(large, i);
                               late[i] = wasFoundLate(plane, isLarge);
                               const bool inContact =

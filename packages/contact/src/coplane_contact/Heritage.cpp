@@ -20,12 +20,14 @@ std::vector<std::pair<GlobalId, std::size_t>> byFace(const std::vector<Donor>& d
 }
 } // namespace
 
-Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x, int dimension)
+Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x,
+                            const CandidateRules& rules, int dimension)
 {
   const Array<FacePlane> planes(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.extent(0));
   parallelFor("coplane::contact::facePlanes", int(planes.extent(0)),
-              [&](const int f) { new (&planes(f)) FacePlane(facePlane(faces(f), x, dimension)); });
+              [&](const int f)
+              { new (&planes(f)) FacePlane(rules.planeOf(faces(f), x, dimension)); });
   return planes;
 }
 

@@ -123,6 +123,7 @@ struct alignas(64) Plane
   bool declared = false;    ///< a joint that was closed at the start
   bool tooDeep = false;     ///< deeper than the limit
   bool stiff = false;       ///< stiffer than the elements behind its faces: they chatter on it
+  bool unseen = false;      ///< while its faces are apart nobody looks whether they share area
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
@@ -204,6 +205,7 @@ enum class Activity : std::uint8_t
 {
   Awake,  ///< looked at in full
   Asleep, ///< only its faces are looked at until their shadows meet
+  Apart,  ///< its faces are apart: looked at while they are near each other
   Loaded  ///< awake, and adds to nodes
 };
 

@@ -109,6 +109,8 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "stiff", "-", [](auto& p) -> auto& { return p.stiff; }),
     planeMember(
+        "unseen", "-", [](auto& p) -> auto& { return p.unseen; }),
+    planeMember(
         "exits", "-", [](auto& p) -> auto& { return p.exits; }),
     planeMember(
         "turns", "-", [](auto& p) -> auto& { return p.turns; }),

@@ -72,7 +72,8 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   plane.block[0] = std::uint16_t(a.block);
   plane.block[1] = std::uint16_t(b.block);
   plane.countedHere = a.ownedHere;
-  plane.sighting = isAsleep(slot) ? Sighting::Known : Sighting::New;
+  plane.sighting = carriesNothing(slot) ? Sighting::Known : Sighting::New;
+  plane.unseen = slots_.activity(slot) == Activity::Apart;
   plane.fit =
       rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
   plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
@@ -143,6 +144,14 @@ void PlaneTable::forgetPreparation()
   preparation_ = {};
 }
 
+Preparation::Todo PlaneTable::takeOver(std::size_t slot) const
+{
+  const Plane* const plane = slots_.plane[slot];
+  const bool known = plane != nullptr ? !plane->isNew() : carriesNothing(slot);
+  return Preparation::TakeOver |
+         (known && slots_.activity(slot) != Activity::Apart ? Preparation::WasSeen : 0);
+}
+
 void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
 {
   preparation_.renew(std::move(heritage));
@@ -150,17 +159,11 @@ void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
   parallelFor("coplane::contact::renew", int(count()),
               [&](const int slot)
               {
-                Plane* const plane = slots_.plane[slot];
+                const Plane* const plane = slots_.plane[slot];
                 if (slots_.faces(slot).face[0] < 0 || (plane != nullptr && plane->isBorn()))
                   return;
-                const bool wasKnown = plane != nullptr ? !plane->isNew() : isAsleep(slot);
                 Preparation::Todo& todo = slots_.todo(slot);
-                todo = Preparation::Todo((todo & Preparation::LookAtEdges) | Preparation::TakeOver |
-                                         (wasKnown ? Preparation::WasKnown : 0));
-                if (plane == nullptr || isAsleep(slot))
-                  return;
-                preparation_.prepare(slot, todo, *plane);
-                todo = 0;
+                todo = Preparation::Todo((todo & Preparation::LookAtEdges) | takeOver(slot));
               });
 }
 

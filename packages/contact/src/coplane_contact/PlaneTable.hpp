@@ -57,7 +57,7 @@ public:
 
     SlotTable faces;           ///< as in the plane
     std::vector<Plane*> plane; ///< null: none yet
-    Array<Activity> activity;  ///< without a plane: Asleep once it has been looked at
+    Array<Activity> activity;  ///< without a plane: not Awake once it has been looked at
     Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
     Kokkos::View<Plane*, Kokkos::HostSpace> stored; ///< those that there are at once; to be made
     /// Of a checkpoint, for slots without a plane; empty: the preparation tells.
@@ -71,7 +71,13 @@ public:
   const Slots& slots() const { return slots_; }
   const PlaneList& planes() const { return planes_; }
   std::int64_t countedHere() const { return countedHere_; } ///< slots
-  bool isAsleep(std::size_t slot) const { return slots_.activity(slot) == Activity::Asleep; }
+  /// Whether the pair of a slot has been looked at, and carries nothing.
+  bool carriesNothing(std::size_t slot) const
+  {
+    return slots_.activity(slot) == Activity::Asleep || slots_.activity(slot) == Activity::Apart;
+  }
+  /// What a pair that has not touched yet has to be told of what others pass on.
+  Preparation::Todo takeOver(std::size_t slot) const;
   /// Whether planes have changed what they pass on since pairs last learned it.
   bool passedOnHasChanged() const { return passedOnHasChanged_; }
 

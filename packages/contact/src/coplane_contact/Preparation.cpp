@@ -25,7 +25,7 @@ Preparation::Preparation(Search search, const Heritage::Place& place,
 
 void Preparation::prepare(std::size_t slot, Todo todo, Plane& plane) const
 {
-  const Real sharedBefore = (todo & WasKnown) != 0 ? plane.overlap : -1;
+  const Real sharedBefore = (todo & WasSeen) != 0 ? plane.overlap : -1;
   if ((todo & LookAtEdges) != 0)
     edges_->ofSurfaces.look(std::size_t(edges_->search.pairOfSlot[slot]), plane);
   if ((todo & TakeOver) != 0)

@@ -40,6 +40,9 @@ public:
   void takeVelocities(const ConstNodeVectors& v) { rules_.motion.v = v; }
   void end() { rules_.motion = {}; }
 
+  Real offset() const { return rules_.offset; } ///< of the last search [m]
+  void setOffset(Real offset) { rules_.offset = offset; }
+
   /// What does not hang on groups of faces; and with what does, while `rules` live.
   const CandidateRules& rules() const { return rules_; }
   CandidateRules rulesWith(const ContactRules& rules) const;

@@ -36,7 +36,10 @@ public:
   bool isDue() const { return isDue_; }
   /// Whether pairs are to learn what others pass on, if there is no search.
   bool isPassingDue() const { return isPassingDue_; }
-  Real skin() const { return skin_; } ///< of the last search [m]
+  Real skin() const { return skin_; }   ///< of the last search [m]
+  Real ahead() const { return ahead_; } ///< of the last search [s]
+  /// From the last search until then [s].
+  Real timeSince(Real time) const { return time - madeAt_; }
   /// Bound on the speed of any two nodes relative to each other, at the last half step [m/s].
   Real relativeSpeed() const { return relativeSpeed_; }
 

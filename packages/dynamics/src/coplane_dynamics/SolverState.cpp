@@ -144,6 +144,11 @@ void Solver::restore(const StateSource& in)
   if (contact_)
   {
     contact_->setSkin(searches_.skin());
+    NodeVectors atSearch("atSearch", layout_.size()), velocity("velocity", layout_.size());
+    Kokkos::deep_copy(ownedOf(atSearch), state_.atSearch);
+    Kokkos::deep_copy(ownedOf(velocity), state_.velocityAtSearch);
+    layout_.refresh(atSearch, velocity);
+    contact_->restoreDistances(atSearch, velocity, searches_.ahead());
     contact_->findFaces(state_.x, state_.v, state_.mass);
   }
   Ledger::forEachStruct(ledger_,

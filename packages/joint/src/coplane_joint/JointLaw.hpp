@@ -67,6 +67,9 @@ struct JointLaw
 
   /// Whether a declared joint with this law starts bonded.
   KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
+  /// Whether faces may come to act on each other that are farther apart than any were when the
+  /// joint was closed: bonds hold while they open, and dilation moves the place where faces touch.
+  bool mayReachOut() const { return cohesive() || remembersSlip(); }
   /// Whether what the joint does hangs on how far it has slipped.
   KOKKOS_INLINE_FUNCTION bool remembersSlip() const
   {

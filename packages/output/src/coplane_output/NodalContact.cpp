@@ -20,9 +20,9 @@ NodalContact nodalContact(const Solver& solver)
   const Contact& contact = solver.contact();
   std::vector<Real> area(owned, 0);   // of the planes around a node [m^2]
   std::vector<Real> closed(owned, 0); // part of it that carries traction
-  for (std::size_t p = 0; p < contact.planes().size(); ++p)
+  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planes()[p];
+    const Plane& plane = contact.planesNow()[p];
     // Without overlap the gap belongs to a moment long ago.
     if (!plane.isBorn() || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
       continue;

@@ -24,9 +24,9 @@ std::vector<Record> gatherRecords(const Solver& solver)
   {
     const Contact& contact = solver.contact();
     const auto& blocks = solver.mesh().blocks;
-    for (std::size_t p = 0; p < contact.planes().size(); ++p)
+    for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
     {
-      const Plane& plane = contact.planes()[p];
+      const Plane& plane = contact.planesNow()[p];
       if (!contact.isWrittenHere(plane) || !(plane.overlap > 0))
         continue;
       const JointLaw& law = contact.lawOf(plane);

@@ -49,9 +49,9 @@ std::vector<PlaneValues> nearestPlanes(const Solver& solver, const std::vector<W
     const Contact& contact = solver.contact();
     const auto& joints = contact.rules().joints;
     std::vector<std::optional<Candidate>> mine(wanted.size());
-    for (std::size_t p = 0; p < contact.planes().size(); ++p)
+    for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
     {
-      const Plane& plane = contact.planes()[p];
+      const Plane& plane = contact.planesNow()[p];
       if (!contact.isWrittenHere(plane) || !(plane.overlap > 0))
         continue;
       for (std::size_t w = 0; w < wanted.size(); ++w)

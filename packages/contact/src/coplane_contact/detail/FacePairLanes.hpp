@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/PairDistances.hpp>
 #include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/detail/PassedOn.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
@@ -80,6 +81,7 @@ struct PairTables
   std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;
+  const PairDistances* distances = nullptr; ///< null: all pairs are looked at
 
   PassedOn passedBy(int p) const { return {*planes[p], laws[planes[p]->joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
@@ -90,6 +92,36 @@ struct PairTables
       passed->store(true, std::memory_order_relaxed);
   }
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
+  /// Leaves out a pair whose faces are so far from each other that they will not touch.
+  /// @returns whether it did
+  bool leaveOut(int p) const
+  {
+    if (!carriesNothing(p) || distances == nullptr || !distances->isFar(p))
+      return false;
+    putApart(p);
+    return true;
+  }
+  /// The same for one whose shadows meet. Its plane is not told yet, nor made if there is none.
+  bool leaveOut(int p, const HalfStepFace& a, const HalfStepFace& b, Real lookAhead) const
+  {
+    if (!(carriesNothing(p) || planes[p] == nullptr) || distances == nullptr ||
+        !distances->mayBeLeftOut(p) || !areApart(a, b, distances->reach(), lookAhead))
+      return false;
+    putApart(p);
+    return true;
+  }
+  bool carriesNothing(int p) const
+  {
+    return activity[p] == Activity::Asleep || activity[p] == Activity::Apart;
+  }
+  void putApart(int p) const
+  {
+    if (activity[p] == Activity::Apart)
+      return;
+    if (planes[p] != nullptr)
+      planes[p]->unseen = true;
+    setActivity(p, Activity::Apart);
+  }
   bool carries(int p) const { return planes[p] != nullptr && planes[p]->area > 0; }
   /// For a pair that carries nothing and whose shadows share nothing.
   void passBy(int p, const HalfStepFace& a, const HalfStepFace& b, Real dt) const
@@ -134,7 +166,7 @@ public:
     for (int p = first; p < last; ++p)
     {
       prefetchAhead(p, last);
-      if (slots_[p].face[0] < 0)
+      if (slots_[p].face[0] < 0 || pairs_.leaveOut(p))
         continue;
       const HalfStepFace &a = face(p, 0), &b = face(p, 1);
       // Edge neighbours at a right angle, say.
@@ -212,13 +244,13 @@ private:
     for (int i = 0; i < queue.count; ++i)
     {
       const int p = queue.plane[i];
-      if (meet[i])
+      if (!meet[i])
+        pairs_.passBy(p, face(p, 0), face(p, 1), dt_);
+      else if (!pairs_.leaveOut(p, face(p, 0), face(p, 1), options_.lookAhead))
       {
         pairs_.prepare(p);
         put(p, kind);
       }
-      else
-        pairs_.passBy(p, face(p, 0), face(p, 1), dt_);
     }
     queue.count = 0;
   }

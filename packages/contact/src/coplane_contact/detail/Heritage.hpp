@@ -47,7 +47,8 @@ private:
 };
 
 /// The planes of faces at x.
-Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x, int dimension);
+Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x,
+                            const CandidateRules& rules, int dimension);
 
 /// The positions now: those of the run go on.
 ConstNodeVectors copyOf(const ConstNodeVectors& x);

@@ -176,6 +176,7 @@ private:
                  Plane& plane = *planes_.plane[i];
                  const bool inside = branchFree::lane(inContact, i);
                  plane.overlap = branchFree::lane(overlap_, i);
+                 plane.unseen = false;
                  leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
                  late_[i] = wasFoundLate(plane, inside);
                  if (!inside)

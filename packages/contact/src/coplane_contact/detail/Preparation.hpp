@@ -20,7 +20,7 @@ public:
   /// What is left to do for a pair: a sum of these.
   using Todo = std::uint8_t;
   static constexpr Todo LookAtEdges = 1, TakeOver = 2;
-  static constexpr Todo WasKnown = 4; ///< the pair had been evaluated before
+  static constexpr Todo WasSeen = 4; ///< the last cycle before has seen what its faces share
 
   /// A search that has been made.
   struct Search

@@ -1,0 +1,132 @@
+#include <coplane_contact/PairDistances.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+/// More than rounding to float changes.
+constexpr Real up = 1 + 1e-6, down = 1 - 1e-6;
+/// Of the size of a face: gaps below that are round-off.
+constexpr Real roundOffOfGap = 1e-7;
+/// Heights of the mean plane of a warped face change with those of its nodes and, as much again
+/// each, with its warp and with its normal.
+constexpr Real perNode = 3;
+
+/// The nodes of a face at one time.
+struct Corners
+{
+  int count;
+  Vec3 x[4];
+
+  Corners(const Face& face, const ConstNodeVectors& at0, const ConstNodeVectors& v, Real time)
+      : count(face.count)
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      x[k] = at(at0, face.nodes[k]);
+      if (time > 0)
+        x[k] += time * at(v, face.nodes[k]);
+    }
+  }
+  /// Half the distance between the diagonals of a quadrilateral.
+  Vec3 warp() const { return count == 4 ? 0.25 * (x[0] - x[1] + x[2] - x[3]) : Vec3{}; }
+  Real least(const Vec3& n) const
+  {
+    Real height = infinity;
+    for (int k = 0; k < count; ++k)
+      height = std::min(height, dot(n, x[k]));
+    return height;
+  }
+};
+
+/// By how much the mean plane of a face may lie beyond its nodes, on its way.
+Real beyondNodes(const FacePlane& plane, const Corners& first, const Corners& last)
+{
+  const Vec3 a = first.warp(), b = last.warp();
+  return std::max(std::abs(dot(plane.normal, a)), std::abs(dot(plane.normal, b))) +
+         plane.turning * std::max(norm(a), norm(b));
+}
+} // namespace
+
+void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
+                         const Array<FacePlane>& planes, const Array<std::uint8_t>& mayReach,
+                         const Seen& seen)
+{
+  slots_ = slots;
+  faces_ = faces;
+  seen_ = seen;
+  mayReach_ = mayReach;
+  if (seen_.v.extent(0) == 0)
+    seen_.ahead = 0;
+  const auto uninitialised = [](const char* name, std::size_t size)
+  { return Array<float>(Kokkos::ViewAllocateWithoutInitializing(name), size); };
+  gap_ = uninitialised("coplane::contact::gap", slots.extent(0));
+  closing_ = uninitialised("coplane::contact::closing", slots.extent(0));
+  strayed_ = uninitialised("coplane::contact::strayed", faces.extent(0));
+  strayedNodes_ = uninitialised("coplane::contact::strayedNodes", seen.x.extent(0));
+  const Real ahead = seen_.ahead;
+  parallelFor("coplane::contact::distances", int(slots.extent(0)),
+              [&](const int slot)
+              {
+                gap_(slot) = -1;
+                closing_(slot) = 0;
+                const SlotFaces& pair = slots(slot);
+                if (pair.face[0] < 0 || mayReach(slot) != 0)
+                  return;
+                const Face &a = faces(pair.face[0]), &b = faces(pair.face[1]);
+                const FacePlane &planeA = planes(pair.face[0]), &planeB = planes(pair.face[1]);
+                const Vec3 n = normalised(planeA.normal - planeB.normal);
+                const Corners firstA(a, seen_.x, seen_.v, 0), firstB(b, seen_.x, seen_.v, 0);
+                const Corners lastA(a, seen_.x, seen_.v, ahead), lastB(b, seen_.x, seen_.v, ahead);
+                const Real less = seen_.offset + beyondNodes(planeA, firstA, lastA) +
+                                  beyondNodes(planeB, firstB, lastB);
+                const Real first = firstB.least(n) + firstA.least(-1.0 * n) - less;
+                const Real last = lastB.least(n) + lastA.least(-1.0 * n) - less;
+                const Real size = norm(firstA.x[1] - firstA.x[0]);
+                const Real gap = down * first - roundOffOfGap * size;
+                if (!(gap > 0))
+                  return;
+                gap_(slot) = float(gap);
+                closing_(slot) = ahead > 0 ? float(up * std::min(0.0, (last - first) / ahead)) : 0;
+              });
+}
+
+void PairDistances::forget()
+{
+  gap_ = {};
+}
+
+void PairDistances::follow(const ConstNodeVectors& x, const ConstNodeVectors& v, Real since,
+                           Real lookAhead)
+{
+  if (!known())
+    return;
+  const Real now = std::min(since, seen_.ahead), later = std::min(since + lookAhead, seen_.ahead);
+  later_ = float(up * later);
+  const bool foresaw = seen_.ahead > 0;
+  parallelFor("coplane::contact::strayedNodes", int(strayedNodes_.extent(0)),
+              [&](const int n)
+              {
+                // Beside the motion that all share.
+                const Vec3 way = at(x, n) - at(seen_.x, n) - since * seen_.frame;
+                const Vec3 speed = at(v, n) - seen_.frame;
+                const Vec3 foreseen = foresaw ? at(seen_.v, n) - seen_.frame : Vec3{};
+                const Vec3 off = way - now * foreseen;
+                const Vec3 then = way + lookAhead * speed - later * foreseen;
+                strayedNodes_(n) =
+                    float(perNode * up * std::sqrt(std::max(dot(off, off), dot(then, then))));
+              });
+  parallelFor("coplane::contact::strayed", int(faces_.extent(0)),
+              [&](const int f)
+              {
+                const Face& face = faces_(f);
+                float most = 0;
+                for (int k = 0; k < face.count; ++k)
+                  most = std::max(most, strayedNodes_(face.nodes[k]));
+                strayed_(f) = most;
+              });
+}
+} // namespace coplane
