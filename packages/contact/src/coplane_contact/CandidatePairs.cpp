@@ -18,7 +18,6 @@ FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 
 FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const
 {
-  constexpr Real most = 0.2; // what tumbles by more would oppose everything
   FacePlane plane = facePlane(face, x, dimension);
   if (!(turning > 0 && motion.ahead > 0))
     return plane;
@@ -26,7 +25,7 @@ FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, i
   for (int k = 0; k < face.count; ++k)
     ahead.x[k] += way(face.nodes[k], infinity);
   const Vec3 normal = stepA_halfStepFace(ahead, 0, dimension).normal;
-  plane.turning = std::min(most, norm(normal - plane.normal));
+  plane.turning = std::min(mostTurningAhead, norm(normal - plane.normal));
   return plane;
 }
 

@@ -255,8 +255,17 @@ private:
   PairTables pairTables();
   /// Whether the last update left out an open plane.
   bool wasPassedOver(std::size_t slot) const;
-  /// How far the pairs of a search are from each other. @param planes of the faces at that time
-  void measureDistances(const Array<FacePlane>& planes, const PairDistances::Seen& seen);
+  /// How far the pairs of a search are from each other. @param planes of the faces, x (a copy) and
+  /// v of the nodes at that time
+  void measureDistances(const Array<FacePlane>& planes, const ConstNodeVectors& x,
+                        const ConstNodeVectors& v);
+  /// Law of a pair of faces.
+  const JointLaw& lawOf(const SlotFaces& pair) const
+  {
+    return rules_
+        .joints[rules_.between(faces()[pair.face[0]].group, faces()[pair.face[1]].group).joint]
+        .law;
+  }
   bool wasMissed(const Plane& plane, const ConstNodeVectors& x) const;
   /// Slots of a checkpoint that have a face here; members of planes that only mean something on one
   /// rank are left as they are in a new plane, but face[0] is 0 where the pair is a candidate.

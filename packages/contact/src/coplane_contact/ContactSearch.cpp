@@ -273,32 +273,32 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
                      [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
 }
 
-void Contact::measureDistances(const Array<FacePlane>& planes, const PairDistances::Seen& seen)
+void Contact::measureDistances(const Array<FacePlane>& planes, const ConstNodeVectors& x,
+                               const ConstNodeVectors& v)
 {
+  distances_.forget();
+  if (options_.forces != ContactOptions::Forces::Potential)
+    return;
   const auto& slots = planes_.slots().faces;
   const Array<std::uint8_t> mayReach("coplane::contact::mayReach", slots.extent(0));
   parallelFor("coplane::contact::mayReach", int(slots.extent(0)),
               [&](const int slot)
               {
                 const SlotFaces& pair = slots(slot);
-                if (pair.face[0] < 0)
-                  return;
-                const int joint =
-                    rules_.between(faces()[pair.face[0]].group, faces()[pair.face[1]].group).joint;
-                mayReach(slot) = rules_.joints[joint].law.mayReachOut();
+                if (pair.face[0] >= 0)
+                  mayReach(slot) = lawOf(pair).mayReachOut();
               });
-  distances_.take(slots, faces_.forKernels(), planes, mayReach, seen);
+  const Motion& motion = reach_.rules().motion;
+  distances_.take(slots, faces_.forKernels(), planes, mayReach,
+                  {x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(), motion.ahead, motion.frame,
+                   reach_.offset(), leastOpposed(options_)});
 }
 
 void Contact::restoreDistances(const ConstNodeVectors& x, const ConstNodeVectors& v, Real ahead)
 {
-  if (options_.forces != ContactOptions::Forces::Potential)
-    return;
   reach_.begin(reach_.offset(), motionAhead(v, ahead));
   const ConstNodeVectors copy = copyOf(x);
-  measureDistances(
-      facePlanes(faces_.forKernels(), copy, reach_.rules(), dimension_),
-      {copy, copyOf(v), reach_.rules().motion.ahead, reach_.rules().motion.frame, reach_.offset()});
+  measureDistances(facePlanes(faces_.forKernels(), copy, reach_.rules(), dimension_), copy, v);
   reach_.end();
 }
 
@@ -374,12 +374,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   PlaneTable::Slots made =
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
-  if (options_.forces == ContactOptions::Forces::Potential)
-  {
-    const Motion& motion = reach_.rules().motion;
-    measureDistances(place.planes, {place.x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(),
-                                    motion.ahead, motion.frame, reach_.offset()});
-  }
+  measureDistances(place.planes, place.x, v);
   shown_ = {};
   firstHalf_ = {};
   ghostsElsewhere_ = {};

@@ -9,8 +9,10 @@ namespace
 {
 /// More than rounding to float changes.
 constexpr Real up = 1 + 1e-6, down = 1 - 1e-6;
-/// Of the size of a face: gaps below that are round-off.
-constexpr Real roundOffOfGap = 1e-7;
+/// Gaps over the size of a face, and cosines, below that are round-off.
+constexpr Real roundOff = 1e-7;
+/// A normal turns evenly on its way, or nearly so.
+constexpr Real onTheWay = 1.5;
 /// Heights of the mean plane of a warped face change with those of its nodes and, as much again
 /// each, with its warp and with its normal.
 constexpr Real perNode = 3;
@@ -33,6 +35,15 @@ struct Corners
   }
   /// Half the distance between the diagonals of a quadrilateral.
   Vec3 warp() const { return count == 4 ? 0.25 * (x[0] - x[1] + x[2] - x[3]) : Vec3{}; }
+  /// By how much the unit normal changes at most for each metre that nodes stray, over perNode
+  /// [1/m].
+  Real turningPerMetre() const
+  {
+    if (count == 2)
+      return 2 / (perNode * norm(x[1] - x[0]));
+    const Vec3 a = x[2] - x[0], b = (count == 4 ? x[3] : x[0]) - x[1];
+    return 2 * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
+  }
   Real least(const Vec3& n) const
   {
     Real height = infinity;
@@ -74,19 +85,31 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
                 gap_(slot) = -1;
                 closing_(slot) = 0;
                 const SlotFaces& pair = slots(slot);
-                if (pair.face[0] < 0 || mayReach(slot) != 0)
+                if (pair.face[0] < 0)
                   return;
                 const Face &a = faces(pair.face[0]), &b = faces(pair.face[1]);
                 const FacePlane &planeA = planes(pair.face[0]), &planeB = planes(pair.face[1]);
-                const Vec3 n = normalised(planeA.normal - planeB.normal);
                 const Corners firstA(a, seen_.x, seen_.v, 0), firstB(b, seen_.x, seen_.v, 0);
+                const Real turning = std::max(planeA.turning, planeB.turning);
+                if (turning >= CandidateRules::mostTurningAhead)
+                  return;
+                const Real unopposed = dot(planeA.normal, planeB.normal) + seen_.leastOpposed -
+                                       onTheWay * (planeA.turning + planeB.turning);
+                if (unopposed > roundOff)
+                {
+                  gap_(slot) = float(down * unopposed /
+                                     std::max(firstA.turningPerMetre(), firstB.turningPerMetre()));
+                  return;
+                }
+                if (mayReach(slot) != 0)
+                  return;
+                const Vec3 n = normalised(planeA.normal - planeB.normal);
                 const Corners lastA(a, seen_.x, seen_.v, ahead), lastB(b, seen_.x, seen_.v, ahead);
                 const Real less = seen_.offset + beyondNodes(planeA, firstA, lastA) +
                                   beyondNodes(planeB, firstB, lastB);
                 const Real first = firstB.least(n) + firstA.least(-1.0 * n) - less;
                 const Real last = lastB.least(n) + lastA.least(-1.0 * n) - less;
-                const Real size = norm(firstA.x[1] - firstA.x[0]);
-                const Real gap = down * first - roundOffOfGap * size;
+                const Real gap = down * first - roundOff * norm(firstA.x[1] - firstA.x[0]);
                 if (!(gap > 0))
                   return;
                 gap_(slot) = float(gap);

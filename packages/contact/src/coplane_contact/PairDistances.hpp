@@ -30,6 +30,7 @@ public:
     Real ahead = 0;        ///< for how long it looked ahead [s]
     Vec3 frame{};          ///< velocity that all have [m/s]
     Real offset = 0;       ///< largest gap at which a plane touches [m]
+    Real leastOpposed = 0; ///< faces with -n0.n1 not above this do not act on each other [-]
   };
 
   /// A search has been made. @param planes of the faces at the search; mayReach: by slot, 1 where
@@ -43,7 +44,8 @@ public:
   /// the velocities that they have is not far.
   void follow(const ConstNodeVectors& x, const ConstNodeVectors& v, Real since, Real lookAhead);
 
-  /// Whether the faces of a pair are apart, and stay so within the look-ahead.
+  /// Whether the faces of a pair are apart, or do not oppose each other, and stay so within the
+  /// look-ahead.
   bool isFar(int slot) const
   {
     if (!known())

@@ -45,6 +45,8 @@ struct CandidateRules
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
   Motion motion;
+  /// FacePlane::turning at most: what tumbles by more would oppose everything.
+  static constexpr Real mostTurningAhead = 0.2;
 
   /// Candidates have n0.n1 below this.
   Real mostCosine(const FacePlane& a, const FacePlane& b) const
