@@ -121,7 +121,6 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 {
   if (dimension == 2)
   {
-    const Real opposed = leastOpposed(options);
     parallelFor(
         "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
           const SlotFaces& faces = pairs.slots[p];
@@ -129,7 +128,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
             return;
           const HalfStepFace& a = halfStep[faces.face[0]];
           const HalfStepFace& b = halfStep[faces.face[1]];
-          if ((pairs.isAsleep(p) || !pairs.carries(p)) && !mayMeet<2>(a, b, opposed))
+          if ((pairs.isAsleep(p) || !pairs.carries(p)) && !mayMeet<2>(a, b, options))
           {
             pairs.passBy(p, a, b, dt);
             return;
@@ -144,7 +143,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
         });
     return;
   }
-  constexpr int stretch = 512; // long enough that few lanes stay empty at its end
+  constexpr int stretch = PairLanes::stretch;
   parallelFor(
       "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
       KOKKOS_LAMBDA(const int s) {
@@ -163,7 +162,7 @@ void lookAgain(Plane& plane, const HalfStepFace& a, const HalfStepFace& b, const
                const ContactOptions& options)
 {
   constexpr Real noTime = 0;
-  if (mayMeet<Dim>(a, b, leastOpposed(options)))
+  if (mayMeet<Dim>(a, b, options))
     updateByForces<Dim>(plane, a, b, law, options, noTime);
   else
     passBy(plane, a, b, noTime);

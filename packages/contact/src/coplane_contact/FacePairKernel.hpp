@@ -434,18 +434,25 @@ KOKKOS_INLINE_FUNCTION Real leastOpposed(const ContactOptions& options)
              : 0;
 }
 
-/// Steps B and C, for the question whether the shadows of a pair can share area at all.
+/// Area below which what a pair shares counts as none, over that of the smaller face [-].
+KOKKOS_INLINE_FUNCTION Real leastShared(const ContactOptions& options)
+{
+  return options.forces == ContactOptions::Forces::Potential ? options.areaMin : 0;
+}
+
+/// Steps B and C, for the question whether the shadows of a pair can share area that counts.
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> mayMeet(const HalfStepFaceOf<T>& a,
-                                                     const HalfStepFaceOf<T>& b, Real leastOpposed)
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
+mayMeet(const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options)
 {
   TrialPlaneOf<T> trial = stepB_trialPointOfContact<Dim>(a, b);
-  trial.opposed = trial.opposed && -dot(a.normal, b.normal) > leastOpposed;
+  trial.opposed = trial.opposed && -dot(a.normal, b.normal) > leastOpposed(options);
   if (!branchFree::anyOf(trial.opposed))
     return trial.opposed;
   const ShadowOf<T> shadowA = stepC_projectOntoPlane<Dim>(trial, a, 0),
                     shadowB = stepC_projectOntoPlane<Dim>(trial, b, 0);
-  const auto near = trial.opposed && !shadowsApart(shadowA, shadowB);
+  const auto near = trial.opposed && sharedByBoxes(shadowA, shadowB) >
+                                         leastShared(options) * branchFree::smaller(a.area, b.area);
   if (Dim == 2 || !branchFree::anyOf(near))
     return near;
   return near && !edgesPart(shadowA, shadowB);

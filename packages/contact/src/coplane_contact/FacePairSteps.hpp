@@ -96,11 +96,10 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> edgesPart(const ShadowOf<T>& a, con
   return edgeParts(a, b, 1) || edgeParts(b, a, -1);
 }
 
-/// Whether the bounding boxes of two shadows share no area: most candidates are neighbours that
-/// only touch along an edge.
+/// Area that the bounding boxes of two shadows share, in two dimensions length: the shadows do not
+/// share more. Not positive where the boxes are apart [m^2].
 template <class T>
-KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
-                                                          const ShadowOf<T>& b)
+KOKKOS_INLINE_FUNCTION T sharedByBoxes(const ShadowOf<T>& a, const ShadowOf<T>& b)
 {
   using namespace branchFree;
   Vec2Of<T> low[2], high[2];
@@ -115,8 +114,19 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
       high[f] = {larger(p.x, high[f].x), larger(p.y, high[f].y)};
     }
   }
-  const auto alongX = low[0].x >= high[1].x || low[1].x >= high[0].x;
-  return a.count > 2 ? alongX || low[0].y >= high[1].y || low[1].y >= high[0].y : alongX;
+  const T x = smaller(high[0].x, high[1].x) - larger(low[0].x, low[1].x);
+  if (a.count == 2)
+    return x;
+  const T y = smaller(high[0].y, high[1].y) - larger(low[0].y, low[1].y);
+  return choose(x > 0.0 && y > 0.0, x * y, smaller(x, y));
+}
+
+/// Whether they share none: most candidates are neighbours that only touch along an edge.
+template <class T>
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> shadowsApart(const ShadowOf<T>& a,
+                                                          const ShadowOf<T>& b)
+{
+  return !(sharedByBoxes(a, b) > 0.0);
 }
 
 /// Step E: whether the pair has its plane already. Every candidate pair has a slot, so this is

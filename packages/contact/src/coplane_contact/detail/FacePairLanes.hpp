@@ -31,11 +31,11 @@ inline void putSideBySide(const HalfStepFace* const (&faces)[laneCount],
   face.count = faces[0]->count;
   face.center = vector([](const HalfStepFace& f) { return f.center; });
   face.normal = vector([](const HalfStepFace& f) { return f.normal; });
+  face.area = each([](const HalfStepFace& f) { return f.area; });
   for (int k = 0; k < face.count; ++k)
     face.x[k] = vector([&](const HalfStepFace& f) { return f.x[k]; });
   if constexpr (WithMotion)
   {
-    face.area = each([](const HalfStepFace& f) { return f.area; });
     for (int k = 0; k < face.count; ++k)
       face.v[k] = vector([&](const HalfStepFace& f) { return f.v[k]; });
     face.spin = vector([](const HalfStepFace& f) { return f.spin; });
@@ -147,7 +147,7 @@ struct PairTables
   }
 };
 
-/// Steps B to H for a stretch of the table of planes. Pairs wait until as many of a kind, by the
+/// Steps B to H for a stretch of the table of slots. Pairs wait until as many of a kind, by the
 /// numbers of nodes of their faces, are there as fit side by side: those without traction first for
 /// the question whether their shadows can meet at all. Of those that sleep nothing but their faces
 /// is read.
@@ -163,17 +163,17 @@ public:
 
   void update(int first, int last)
   {
-    for (int p = first; p < last; ++p)
+    const int count = listNear(first, last);
+    for (int i = 0; i < count; ++i)
     {
-      prefetchAhead(p, last);
-      if (slots_[p].face[0] < 0 || pairs_.leaveOut(p))
-        continue;
+      prefetchAhead(i, count);
+      const int p = near_[i];
       const HalfStepFace &a = face(p, 0), &b = face(p, 1);
       // Edge neighbours at a right angle, say.
       if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
         continue;
       const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
-      if (!pairs_.isAsleep(p) && pairs_.carries(p)) // it met in the last cycle
+      if (!pairs_.carriesNothing(p) && pairs_.carries(p)) // it met in the last cycle
         put(p, kind);
       else if (toJudge_[kind].add(p))
         judge(kind);
@@ -183,6 +183,8 @@ public:
     for (Queue& queue : toUpdate_)
       updateMet(queue);
   }
+
+  static constexpr int stretch = 512; ///< slots: long enough that few lanes stay empty at its end
 
 private:
   static constexpr int kinds = 4;
@@ -201,15 +203,26 @@ private:
     int at(int i) const { return plane[i < count ? i : 0]; }
   };
 
+  /// Those of a stretch of slots that have to be looked at. @returns how many
+  int listNear(int first, int last)
+  {
+    int count = 0;
+    for (int p = first; p < last; ++p)
+      if (slots_[p].face[0] >= 0 && !pairs_.leaveOut(p))
+        near_[count++] = p;
+    return count;
+  }
+
   /// Planes lie in a row, and so do their lower faces nearly; the higher ones lie anywhere.
-  void prefetchAhead(int p, int last) const
+  void prefetchAhead(int i, int count) const
   {
     constexpr int planesAhead = 16, facesAhead = 8;
-    if (p + planesAhead < last && !pairs_.isAsleep(p + planesAhead) &&
-        pairs_.planes[p + planesAhead] != nullptr)
-      prefetch(*pairs_.planes[p + planesAhead]);
-    if (p + facesAhead < last && slots_[p + facesAhead].face[1] >= 0)
-      prefetch(face(p + facesAhead, 1));
+    if (i + planesAhead < count)
+      if (const int p = near_[i + planesAhead];
+          !pairs_.carriesNothing(p) && pairs_.planes[p] != nullptr)
+        prefetch(*pairs_.planes[p]);
+    if (i + facesAhead < count)
+      prefetch(face(near_[i + facesAhead], 1));
   }
   template <class Record>
   static void prefetch(const Record& record)
@@ -240,7 +253,7 @@ private:
     if (queue.count == 0)
       return;
     gatherFaces<false>(queue);
-    const LaneMask meet = mayMeet<3>(a_, b_, leastOpposed_);
+    const LaneMask meet = mayMeet<3>(a_, b_, options_);
     for (int i = 0; i < queue.count; ++i)
     {
       const int p = queue.plane[i];
@@ -295,6 +308,7 @@ private:
   const ContactOptions& options_;
   const Real leastOpposed_;
   Real dt_;
+  int near_[stretch];
   Queue toJudge_[kinds], toUpdate_[2 * kinds];
   HalfStepFaceOf<Lanes> a_, b_; // of the pairs in work
 };
