@@ -95,13 +95,13 @@ void update(benchmark::State& state, Backend backend, ContactOptions::Forces for
   contact.findGhosts(x, layout.ids());
   contact.pairUp(x, layout);
   const Real dt = 1e-9; // the positions stay: only the rates matter for the time
-  contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt); // apart
+  contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt, dt); // apart
   for (int node = (n + 1) * (n + 1); node < nodes; ++node)
     x(node, 2) -= 0.02 * side;
-  contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt);
+  contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt, dt);
   for (auto _ : state)
   {
-    contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt);
+    contact.step6_updateCommonPlanes(x, v, mass, dt, 2 * dt, dt);
     contact.addForces(f, stiffness);
     benchmark::DoNotOptimize(f.data());
   }

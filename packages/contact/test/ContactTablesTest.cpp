@@ -113,7 +113,7 @@ protected:
     SymTensor stress{};
     stress.yy = -pressure;
     contact_->closeDeclaredJoints(x_, [&](int, const Vec3&) { return stress; });
-    contact_->step6_updateCommonPlanes(x_, v_, mass_, 0, 0);
+    contact_->step6_updateCommonPlanes(x_, v_, mass_, 0, 0, 0);
   }
 
   /// Moves the blocks on top by u in one step.
@@ -125,7 +125,7 @@ protected:
       set(x_, n, at(x_, n) + u);
       set(v_, n, (1 / dt) * u);
     }
-    contact_->step6_updateCommonPlanes(x_, v_, mass_, dt, 2 * dt);
+    contact_->step6_updateCommonPlanes(x_, v_, mass_, dt, 2 * dt, dt);
   }
 
   Comm comm_;

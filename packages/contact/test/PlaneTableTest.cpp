@@ -54,7 +54,7 @@ TEST(PlaneTable, keysStayInOrderWhenADormantPlaneEnds)
   const ContactRules rules = oneJoint();
   PlaneTable table(rules, 0.5);
   const Array<Face> known = faces(4);
-  table.take(slotsWithADormantPlane(known), known, nullptr);
+  table.take(slotsWithADormantPlane(known), known, {});
   EXPECT_EQ(table.keyOf(0), Key(8, 16));
   ASSERT_EQ(table.planes().size(), 1U);
 
@@ -70,7 +70,7 @@ TEST(PlaneTable, slotsGetTheirPlanesWhenTheyWake)
   const ContactRules rules = oneJoint();
   PlaneTable table(rules, 0.5);
   const Array<Face> known = faces(400);
-  table.take(slotsWithADormantPlane(known), known, nullptr);
+  table.take(slotsWithADormantPlane(known), known, {});
   const auto last = table.count() - 1;
   std::vector<Plane*> woken;
   for (std::size_t slot = last; slot > 0; --slot)

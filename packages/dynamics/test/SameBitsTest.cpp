@@ -176,7 +176,8 @@ TEST_P(SearchInterval, doesNotChangeNodesWithoutInheritance)
 
 TEST_P(SearchInterval, isShortenedByMotionBeyondHalfTheSkin)
 {
-  // The skin is 5 cm; at 1 m/s in steps of 0.1 ms half of it is passed in cycle 251.
+  // The skin is 5 cm. At 1 m/s in steps of 0.1 ms half of it is passed in 250 cycles, after those
+  // that the first search foresees.
   const Comm comm;
   Model model = rockModel(twoCubes(3), comm);
   model.blocks[1].velocity = {0, 0, 1};
@@ -185,7 +186,28 @@ TEST_P(SearchInterval, isShortenedByMotionBeyondHalfTheSkin)
   model.time.fixedStep = 1e-4;
   Solver solver(std::move(model), comm);
   solver.prepare();
-  cycles(solver, 249);
+  cycles(solver, 250 + 31);
+  EXPECT_EQ(solver.searches(), 1);
+  cycles(solver, 3);
+  EXPECT_EQ(solver.searches(), 2);
+}
+
+TEST_P(SearchInterval, isShortenedByMotionThatNoSearchForesaw)
+{
+  // Two cubes at rest, apart, one of them fixed; gravity takes the other one 25 mm away in 71
+  // cycles.
+  const Comm comm;
+  Model model = rockModel(twoCubes(3), comm);
+  model.skin = 0.05;
+  model.searchEvery = 0;
+  model.time.fixedStep = 1e-4;
+  model.conditions.gravity = {0, 0, 1000};
+  PrescribedVelocity fixed;
+  fixed.nodes = ownedNodesWhere(model.mesh, [](const Vec3& x) { return x.z < 2; });
+  model.conditions.velocities = {fixed};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  cycles(solver, 69);
   EXPECT_EQ(solver.searches(), 1);
   cycles(solver, 3);
   EXPECT_EQ(solver.searches(), 2);

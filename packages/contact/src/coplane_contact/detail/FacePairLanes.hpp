@@ -7,6 +7,7 @@
 #include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
+#include <algorithm>
 #include <atomic>
 
 // Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
@@ -163,21 +164,8 @@ public:
 
   void update(int first, int last)
   {
-    const int count = listNear(first, last);
-    for (int i = 0; i < count; ++i)
-    {
-      prefetchAhead(i, count);
-      const int p = near_[i];
-      const HalfStepFace &a = face(p, 0), &b = face(p, 1);
-      // Edge neighbours at a right angle, say.
-      if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
-        continue;
-      const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
-      if (!pairs_.carriesNothing(p) && pairs_.carries(p)) // it met in the last cycle
-        put(p, kind);
-      else if (toJudge_[kind].add(p))
-        judge(kind);
-    }
+    for (int from = first; from < last; from += stretch)
+      sort(from, std::min(last, from + stretch));
     for (int kind = 0; kind < kinds; ++kind)
       judge(kind);
     for (Queue& queue : toUpdate_)
@@ -202,6 +190,26 @@ private:
     /// Lanes without a plane of their own repeat the first.
     int at(int i) const { return plane[i < count ? i : 0]; }
   };
+
+  /// Puts the pairs of a stretch to their kinds.
+  void sort(int first, int last)
+  {
+    const int count = listNear(first, last);
+    for (int i = 0; i < count; ++i)
+    {
+      prefetchAhead(i, count);
+      const int p = near_[i];
+      const HalfStepFace &a = face(p, 0), &b = face(p, 1);
+      // Edge neighbours at a right angle, say.
+      if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
+        continue;
+      const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
+      if (!pairs_.carriesNothing(p) && pairs_.carries(p)) // it met in the last cycle
+        put(p, kind);
+      else if (toJudge_[kind].add(p))
+        judge(kind);
+    }
+  }
 
   /// Those of a stretch of slots that have to be looked at. @returns how many
   int listNear(int first, int last)
