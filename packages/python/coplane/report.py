@@ -265,7 +265,7 @@ class Report:
     def searches(self):
         for run in self.runs:
             has(run, "time", *COUNTS, *TROUBLE, "searches")
-        self.page.grid(self.curves("Slots and planes", COUNTS, "count", lambda name: {"pairs": "slots"}.get(name, name)),
+        self.page.grid(self.curves("Slots and planes", [*COUNTS, "looked_at"], "count", lambda name: {"pairs": "slots", "looked_at": "slots looked at"}.get(name, name)),
                        self.curves("Searches", ["searches"], "count"), self.curves("Missed, too deep, released", TROUBLE, "count"),
                        self.curves("Eroded elements", ["eroded_elements"], "count", optional=True))  # fmt: skip
 

@@ -265,22 +265,37 @@ ContactEnergy Contact::energy() const
 
 ContactCounts Contact::counts() const
 {
-  std::vector<std::int64_t> n(8, 0);
-  n[0] = planes_.countedHere();
+  ContactCounts counts;
+  counts.slots = planes_.countedHere();
+  counts.missed = searches_.missed;
+  for (std::size_t slot = 0; slot < planes_.count(); ++slot)
+  {
+    const int lower = planes_.slots().faces(slot).face[0];
+    counts.lookedAt += lower >= 0 && faces()[lower].ownedHere &&
+                       !(planes_.carriesNothing(slot) && distances_.isFar(int(slot)));
+  }
   for (std::size_t p = 0; p < planes().size(); ++p)
   {
     const Plane& plane = planes()[p];
     if (!plane.countedHere)
       continue;
-    n[1] += plane.isBorn();
-    n[2] += plane.state == PlaneState::Open;
-    n[3] += plane.state == PlaneState::Stick;
-    n[4] += plane.state == PlaneState::Slip;
-    n[5] += plane.tooDeep;
-    n[6] += plane.refusal == Refusal::Deep;
+    counts.carrying += plane.area > 0;
+    counts.planes += plane.isBorn();
+    counts.open += plane.state == PlaneState::Open;
+    counts.stick += plane.state == PlaneState::Stick;
+    counts.slip += plane.state == PlaneState::Slip;
+    counts.tooDeep += plane.tooDeep;
+    counts.released += plane.refusal == Refusal::Deep;
   }
-  n[7] = searches_.missed;
-  comm_->sum(n);
-  return {n[0], n[1], n[2], n[3], n[4], n[5], n[6], n[7]};
+  std::int64_t* const all[] = {&counts.slots, &counts.lookedAt, &counts.carrying, &counts.planes,
+                               &counts.open,  &counts.stick,    &counts.slip,     &counts.tooDeep,
+                               &counts.released, &counts.missed};
+  std::vector<std::int64_t> sums;
+  for (const std::int64_t* number : all)
+    sums.push_back(*number);
+  comm_->sum(sums);
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    *all[i] = sums[i];
+  return counts;
 }
 } // namespace coplane

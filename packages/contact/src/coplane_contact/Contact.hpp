@@ -27,8 +27,10 @@ namespace coplane
 /// Numbers of planes over all ranks.
 struct ContactCounts
 {
-  std::int64_t slots = 0, planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, released = 0,
-               missed = 0;
+  std::int64_t slots = 0;
+  std::int64_t lookedAt = 0; ///< slots that are not left out because their faces are far apart
+  std::int64_t carrying = 0; ///< planes with traction
+  std::int64_t planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, released = 0, missed = 0;
 };
 
 /// Simple Common Plane contact between all exterior faces of this rank and their neighbours

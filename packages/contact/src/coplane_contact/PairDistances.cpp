@@ -39,10 +39,11 @@ struct Corners
   /// [1/m].
   Real turningPerMetre() const
   {
+    constexpr Real most = 2.6; // 2 to first order, for a face that does not shrink on its way
     if (count == 2)
-      return 2 / (perNode * norm(x[1] - x[0]));
+      return most / (perNode * norm(x[1] - x[0]));
     const Vec3 a = x[2] - x[0], b = (count == 4 ? x[3] : x[0]) - x[1];
-    return 2 * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
+    return most * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
   }
   Real least(const Vec3& n) const
   {

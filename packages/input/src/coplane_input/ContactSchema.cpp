@@ -89,10 +89,10 @@ Key contactKeys()
           .in("cycles")
           .like("2")
           .defaultIs("auto")
-          .means("largest number of cycles between searches; auto: when faces have moved so far "
-                 "that a contact might be missed, or surfaces of contact have (every fourth "
-                 "cycle); once: only for the first reason and with a larger skin, for contacts "
-                 "that stay what they are");
+          .means("largest number of cycles between searches; auto: when faces have strayed so far "
+                 "from what the last search foresaw that a contact might be missed; once: the same "
+                 "with a larger skin, and pairs take over from others at searches only, for "
+                 "contacts that stay what they are");
   return group(
              "contact", &Deck::contact,
              {

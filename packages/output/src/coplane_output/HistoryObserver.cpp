@@ -135,6 +135,8 @@ void addBody(Columns& line, const std::string& name, const RigidBodies::BodyMoti
 void addCounts(Columns& line, const ContactCounts& counts, std::int64_t searches)
 {
   line.add("pairs", counts.slots);
+  line.add("looked_at", counts.lookedAt);
+  line.add("carrying", counts.carrying);
   line.add("planes", counts.planes);
   line.add("open", counts.open);
   line.add("stick", counts.stick);
