@@ -127,11 +127,11 @@ public:
   const ContactRules& rules() const { return rules_; }
   /// Largest gap of the pairs that the last search took [m].
   Real skin() const { return reach_.skin(); }
-  /// For the searches from now on: at least the given skin, more where faces move by more than a
-  /// fraction of it in one step. `motion` as a step may carry faces relative to each other [m].
-  void coverMotion(Real motion) { reach_.coverMotion(motion); }
-  /// How far ahead a search looks well [s]. @param motion as for coverMotion(); step [s]
-  Real timeAhead(Real motion, Real step) const { return reach_.timeAhead(motion, step); }
+  /// How the next search looks for what moves by `motion` in a step [m] (SearchReach::coverMotion).
+  /// @returns for how long ahead [s]
+  Real coverMotion(Real motion, Real step) { return reach_.coverMotion(motion, step); }
+  /// Whether the last search foresees the motion in all of that time.
+  bool foresees() const { return reach_.foresees(); }
   void setSkin(Real skin) { reach_.setSkin(skin); } ///< [m]
   /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
   Real thinnestElement() const;

@@ -19,16 +19,21 @@ public:
   Real skin() const { return rules_.skin; }
   Real leastSkin() const { return leastSkin_; }
   void setSkin(Real skin); ///< [m]
-  /// At least the least skin, more where faces move by more than a fraction of it in one step.
-  /// @param motion as a step may carry faces relative to each other [m]
-  void coverMotion(Real motion) { setSkin(std::max(leastSkin_, skinOverMotion * motion)); }
-  /// For how long a search looks ahead along the velocities that nodes have: many steps, as long as
-  /// that brings no two faces together that are far from each other, and at least one [s].
-  /// @param motion as a step may carry faces relative to each other [m]; step [s]
-  Real timeAhead(Real motion, Real step) const
+  /// For a search of bodies of which a step may carry faces by `motion` relative to each other [m].
+  /// Where that is little, the search foresees many steps along the velocities that nodes have, as
+  /// long as they bring no two faces together that are far from each other; the least skin covers
+  /// what it does not foresee. Where it is much, the search foresees nothing, and the skin covers
+  /// some steps.
+  /// @param step [s]
+  /// @returns for how long it looks ahead, at least one step [s]
+  Real coverMotion(Real motion, Real step)
   {
-    return std::max(1.0, std::min(mostSteps, farthestAhead * smallestFace_ / motion)) * step;
+    const Real steps = farthestAhead * smallestFace_ / motion;
+    foresees_ = steps >= skinOverMotion;
+    setSkin(foresees_ ? leastSkin_ : std::max(leastSkin_, skinOverMotion * motion));
+    return foresees_ ? std::min(mostSteps, steps) * step : step;
   }
+  bool foresees() const { return foresees_; } ///< the last search
   /// By how much nodes may move relative to each other from a search to the next [m].
   Real movedBetween() const { return leastSkin_ + farthestAhead * smallestFace_; }
   /// By how much faces turn at most while nodes move by the least skin against each other [rad].
@@ -62,6 +67,7 @@ private:
   static constexpr Real mostSteps = 32, farthestAhead = 0.25;
 
   Real leastSkin_, smallestFace_;
+  bool foresees_ = false;
   bool turns_; ///< candidates are told by normals that may have turned until the next search
   CandidateRules rules_;
 };

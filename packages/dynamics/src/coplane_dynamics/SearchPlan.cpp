@@ -64,7 +64,7 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   // search did not foresee of it.
   const NodalState& state = parts.state;
   const Clock& clock = parts.clock;
-  const Real foreseen = std::min(clock.time + clock.nextStep - madeAt_, ahead_);
+  const Real foreseen = foresees_ ? std::min(timeSince(clock.time + clock.nextStep), ahead_) : 0;
   Extent way, unforeseen, sincePassing, velocity;
   for (int n = 0; n < parts.layout.owned() && parts.contact; ++n)
     for (int c = 0; c < 3 && !parts.erosion.isFree(n); ++c)

@@ -19,8 +19,10 @@ public:
   void start(const Parts& parts);
   /// A search has been made at this time [s], with this skin [m], that looked ahead for so long
   /// [s].
-  void booked(Real skin, Real time, Real ahead)
+  /// @param foresees the motion in that time needs no skin
+  void booked(Real skin, Real time, Real ahead, bool foresees)
   {
+    foresees_ = foresees;
     skin_ = skin;
     madeAt_ = time;
     ahead_ = ahead;
@@ -51,6 +53,7 @@ public:
     number(self.skin_);
     number(self.madeAt_);
     number(self.ahead_);
+    number(self.foresees_);
     number(self.isDue_);
     number(self.isPassingDue_);
     number(self.passedOnHasChanged_);
@@ -63,6 +66,7 @@ private:
   int every_;
   Real relativeSpeed_ = 0, skin_ = 0;
   Real madeAt_ = 0, ahead_ = 0; ///< of the last search [s]
+  bool foresees_ = false;
   bool isDue_ = false, isPassingDue_ = false;
   bool passedOnHasChanged_ = false; ///< since pairs last learned it
 };

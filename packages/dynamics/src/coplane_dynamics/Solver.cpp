@@ -242,10 +242,9 @@ NodeVectors Solver::ownedOf(const NodeVectors& all) const
 void Solver::search(Real time, bool again)
 {
   TimedRegion region("coplane::dynamics::search");
-  const Real motion = searches_.relativeSpeed() * step_.largestNext();
-  contact_->coverMotion(motion);
-  const Real ahead = contact_->timeAhead(motion, step_.largestNext());
-  searches_.booked(contact_->skin(), time, ahead);
+  const Real step = step_.largestNext();
+  const Real ahead = contact_->coverMotion(searches_.relativeSpeed() * step, step);
+  searches_.booked(contact_->skin(), time, ahead, contact_->foresees());
   takeGhostNodes(contact_->findGhosts(state_.x, layout_.ids(), state_.v, ahead));
   contact_->pairUp(state_.x, layout_, again, state_.v);
   Kokkos::deep_copy(state_.atSearch, ownedOf(state_.x));
