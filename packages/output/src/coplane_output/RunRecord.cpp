@@ -102,15 +102,11 @@ Json lengthsOf(const CensusLengths& lengths)
 Json censusOf(const Contact& contact)
 {
   const ContactCensus c = census(contact);
-  Json json{{"skin_m", contact.skin()},
-            {"pairs", c.pairs},
-            {"open", c.open},
-            {"stick", c.stick},
-            {"slip", c.slip},
-            {"declared_closed", c.declaredClosed},
-            {"bonded", c.bonded},
-            {"declared_without_overlap", c.declaredWithoutOverlap},
-            {"overlapping", c.overlapping},
+  Json json{{"skin_m", contact.skin()}, {"pairs", c.pairs},
+            {"open", c.open},           {"stick", c.stick},
+            {"slip", c.slip},           {"declared_closed", c.declaredClosed},
+            {"bonded", c.bonded},       {"declared_without_overlap", c.declaredWithoutOverlap},
+            {"touching", c.touching},   {"overlapping", c.overlapping},
             {"apart", c.apart}};
   json["joint_gaps"] = lengthsOf(c.joints);
   json["overlaps"] = lengthsOf(c.overlaps);
