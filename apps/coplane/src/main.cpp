@@ -408,6 +408,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     settings.maxWall = line.maxWall;
   const std::vector<Deck> decks = decksOf(line, comm);
   const Deck& deck = decks[0];
+  settings.end = decks.back().time.end;
   for (const Deck& ofStage : decks)
     warnOfUnusualValues(ofStage);
   std::vector<FileLock> locks;
@@ -460,7 +461,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       solver.prepare();
     for (std::size_t later = stage + 1; later < decks.size(); ++later)
       demandPossibleStage(solver, decks[later], int(later), mesh, comm);
-    reportModel(solver, mesh, deck);
+    reportModel(solver, mesh, decks.back());
     reportSoftening(deck, mesh, solver, comm);
     reportDamping(deck);
     if (line.check)

@@ -303,7 +303,7 @@ void RunRecord::start(const Solver& solver)
   if (solver.hasContact() && options_.restartedFrom.empty())
     json["census"] = censusOf(solver.contact());
   json["started"] = startDate_;
-  json["end_s"] = solver.model().time.end;
+  json["end_s"] = options_.end > 0 ? options_.end : solver.model().time.end;
   atStart_ = text(json);
   solver.comm().together(
       [&]
