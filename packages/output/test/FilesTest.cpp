@@ -466,8 +466,9 @@ TEST_F(Files, runRecordTellsHowTheRunEnded)
   EXPECT_EQ(json["census"], one["census"]);
   // 4 faces below; the cubes are shifted, so that every one of 4 above meets 1, 2 or 4 of them: 3 x
   // 3 pairs share area, and they touch without a gap.
-  EXPECT_EQ(json["census"]["gaps"]["count"], 9);
-  EXPECT_EQ(json["census"]["gaps"]["quantiles_m"][6], 0.0);
+  EXPECT_EQ(json["census"]["touching"], 9);
+  EXPECT_EQ(json["census"]["overlapping"], 0);
+  EXPECT_EQ(json["census"]["gaps"]["count"], 0);
 }
 
 TEST_F(Files, runRecordIsRenewedWhileTheRunGoesOn)
