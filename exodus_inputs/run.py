@@ -63,7 +63,8 @@ def arguments():
     parser.add_argument("--list", action="store_true", help="print the examples with their sizes and variants")
     parser.add_argument("--size", help="one of the example's sizes; default: its `default`")
     parser.add_argument("--variant", nargs="+", default=[""], help="one or more of its variants; base: none; a+b: both together")
-    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="one more change of the deck")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE",
+                        help="one more change of the deck; results of the deck without it are replaced in its folder (-o: another folder)")
     parser.add_argument("--ranks", type=int, help="MPI ranks; default: as the example says, else 2")
     parser.add_argument("-o", "--output", type=pathlib.Path, help="folder of the run; of several runs: a folder in it for each")
     parser.add_argument("--overwrite", action="store_true",

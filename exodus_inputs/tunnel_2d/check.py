@@ -1,4 +1,5 @@
-"""What was dug is gone, the rock around it comes to rest but for a wedge at the shoulder, which the wave shakes loose, and which bolts hold."""
+"""What was dug is gone, the rock around it comes to rest but for a wedge at the shoulder, which falls with the wave as without it, and which
+bolts hold."""
 
 import json
 import math
@@ -25,11 +26,15 @@ def moves(time):
 still = numpy.quantile(moves(wave), 0.99)
 example.check_within("99 of 100 nodes have moved less than, when both parts are dug [m]", float(still), 5e-4, 1e-2)
 example.check_within("the roof has come down by then [m]", float(-numpy.interp(wave, h["time"], h["roof_displacement_y"])), 1e-3, 1e-2)
-bolted = example.variant == "bolted"
+bolted, still = example.variant == "bolted", example.variant == "still"
 if example.size != "coarse":
     after, before = moves(h["time"][-1]), moves(wave)
-    example.check_within("the loosest node moves in the wave [m]", float((after - before).max()), *((1e-3, 0.01) if bolted else (0.01, 0.1)))
-    example.check_within("99 of 100 nodes move less than, in the wave [m]", float(numpy.quantile(after - before, 0.99)), 1e-3, 0.01)
+    loosest = float((after - before).max())
+    if bolted:
+        example.check_within("the loosest node moves in the wave [m]", loosest, 1e-3, 0.01)
+    else:
+        example.check("the loosest node moves in the time of the wave, with the wave (17.7 mm) or without it (17.5 mm) [m]", loosest, 0.0176, 1e-3)
+    example.check_within("99 of 100 nodes move less than, in the time of the wave [m]", float(numpy.quantile(after - before, 0.99)), *((0, 1e-4) if still else (1e-3, 0.01)))
 if bolted and example.size != "coarse":
     forces = {line["name"]: line["greatest_force_N"] for line in json.loads((example.folder / "run.run.json").read_text())["lines"]}
     most = max(forces, key=forces.get)

@@ -39,6 +39,16 @@ def told(what, error, call, *words):
     case.check_equal(f"{what}: told of", [word for word in words if word not in text], [])
 
 
+# Names with dots, as the program's --set takes them.
+dotted = {"joints": {"set.1": {"friction": 0.6, "cohesion": 1e5}, "set": {"friction": 0.7}}}
+documents.demand_card(dotted, "joints.set.1.friction")
+documents.change(dotted, "joints.set.1.friction", 0.3)
+documents.change(dotted, "joints.set.1.cohesion", None)
+documents.change(dotted, "joints.set.friction", 0.4)
+case.check_equal("names with dots: changed", dotted, {"joints": {"set.1": {"friction": 0.3}, "set": {"friction": 0.4}}})
+case.check_equal("names with dots: read", documents.value_at(dotted, "joints.set.1.friction"), 0.3)
+told("names with dots: a card that is not there", KeyError, lambda: documents.demand_card(dotted, "joints.det.1.friction"), "the deck has no joints.det; it has set.1, set")
+
 recipe = case.load("exodus_inputs/jointed_rock_2d/mesh.yaml")
 documents.change(recipe, "parts.0.blocks", [6, 2])
 for group in ("node_sets", "side_sets"):

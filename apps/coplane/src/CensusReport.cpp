@@ -16,15 +16,12 @@ namespace coplane
 {
 namespace
 {
-/// Lengths below this fraction of the skin are rounding of the mesh's coordinates.
-constexpr Real nothing = 1e-8;
-
 void printLengths(const CensusLengths& lengths, const char* what, const char* extreme, Real skin)
 {
   if (lengths.count == 0)
     return;
   const auto& q = lengths.quantiles;
-  if (std::max(std::abs(q[0]), std::abs(q[6])) <= nothing * skin)
+  if (std::max(std::abs(q[0]), std::abs(q[6])) <= ContactCensus::roundOff * skin)
   {
     logInfo("    {}: all zero", what);
     return;
@@ -65,7 +62,8 @@ void reportCensus(const Contact& contact)
     logInfo("    {} faces of declared joints share no area with any other: {}{}", c.lonelyFaces,
             fmt::join(names, ", "), c.lonelyFaces > std::int64_t(names.size()) ? ", ..." : "");
   }
-  logInfo("  other pairs: {} apart, {} overlapping", c.apart, c.overlapping);
+  logInfo("  other pairs: {} apart, {} touching, {} overlapping", c.apart, c.touching,
+          c.overlapping);
   printLengths(c.overlaps, "depths of overlaps, which carry no force at the start", "overlap",
                contact.skin());
   printLengths(c.gaps, "gaps of pairs that face each other", "gap", contact.skin());

@@ -44,6 +44,7 @@ RunRecordOptions recordOptions(const Deck& deck, const std::string& run,
                                const RunSettings& settings)
 {
   RunRecordOptions record;
+  record.end = settings.end;
   record.run = run;
   record.file = recordFile(deck, settings.part);
   record.restartedFrom = settings.restartedFrom;
@@ -230,7 +231,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
                         deck.output.planesFormat == "vtkhdf" ? PlanesFormat::VtkHdf
                                                              : PlanesFormat::Vtp}));
   }
-  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{}, ofRun));
+  observers.add(std::make_unique<ProgressObserver>(ProgressOptions{5, settings.end}, ofRun));
   // The last: it asks the others where they stand.
   observers.add(std::make_unique<CheckpointObserver>(
       comm, checkpointOptions(deck, mesh, comm, run, settings), observers));

@@ -19,6 +19,7 @@ struct RunSettings
   std::string restartedFrom;                    ///< checkpoint; empty: a new run
   std::map<std::string, std::string> positions; ///< of the outputs in that checkpoint
   std::string identity;        ///< that of the run in that checkpoint; empty: a new run
+  Real end = 0;                ///< time.end of the last stage [s]
   int part = 1;                ///< of the series of results
   std::optional<Real> maxWall; ///< [s], from `begin` on
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();

@@ -299,6 +299,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
   const std::vector<std::string> ofRigidBlocks = problemsOfRigidBlocks(deck, mesh, comm);
   const Mesh& known = mesh.mine;
   const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(deck, known, home, comm);
+  const std::vector<std::string> ofDashpots = problemsOfDashpots(deck, known, home, comm);
   const std::vector<std::string> ofReactions = problemsOfReactions(deck, known, home, comm);
   comm.together(
       [&]
@@ -307,7 +308,8 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
                                               namesOf(known.sideSets));
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
-              problemsOfOutputs(deck, known.dimension), ofRigidBlocks, ofAirBlasts, ofReactions})
+              problemsOfOutputs(deck, known.dimension), ofRigidBlocks, ofAirBlasts, ofDashpots,
+              ofReactions})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
@@ -326,6 +328,7 @@ void checkStages(const std::vector<Deck>& decks, const MeshSlice& mesh, const Ra
   for (std::size_t i = 1; i < decks.size(); ++i)
   {
     const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(decks[i], known, home, comm);
+    const std::vector<std::string> ofDashpots = problemsOfDashpots(decks[i], known, home, comm);
     comm.together(
         [&]
         {
@@ -333,7 +336,7 @@ void checkStages(const std::vector<Deck>& decks, const MeshSlice& mesh, const Ra
                                                 namesOf(known.nodeSets), namesOf(known.sideSets));
           for (const std::vector<std::string>& more :
                {problemsOfDimension(decks[i], known.dimension),
-                problemsOfLaws(decks[i], known.dimension), ofAirBlasts})
+                problemsOfLaws(decks[i], known.dimension), ofAirBlasts, ofDashpots})
             problems.insert(problems.end(), more.begin(), more.end());
           if (!problems.empty())
             fail(ExitCode::Deck, "stages.{} ('{}'): {}", i, decks[i].stages[i].name,
@@ -405,6 +408,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     settings.maxWall = line.maxWall;
   const std::vector<Deck> decks = decksOf(line, comm);
   const Deck& deck = decks[0];
+  settings.end = decks.back().time.end;
   for (const Deck& ofStage : decks)
     warnOfUnusualValues(ofStage);
   std::vector<FileLock> locks;
@@ -457,7 +461,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       solver.prepare();
     for (std::size_t later = stage + 1; later < decks.size(); ++later)
       demandPossibleStage(solver, decks[later], int(later), mesh, comm);
-    reportModel(solver, mesh, deck);
+    reportModel(solver, mesh, decks.back());
     reportSoftening(deck, mesh, solver, comm);
     reportDamping(deck);
     if (line.check)

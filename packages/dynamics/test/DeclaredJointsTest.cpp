@@ -258,6 +258,17 @@ TEST_P(DeclaredJoint, closesFacesThatLieOnEachOtherAndNoOthers)
     }
 }
 
+TEST_P(UndeclaredContact, facesThatTouchDoNotOverlap)
+{
+  const Comm comm;
+  Solver solver(rockModel(stack(0), comm, 0.5), comm);
+  solver.prepare();
+  const ContactCensus found = census(solver.contact());
+  EXPECT_GT(found.touching, 0);
+  EXPECT_EQ(found.overlapping, 0);
+  EXPECT_EQ(found.overlaps.count, 0);
+}
+
 TEST_P(UndeclaredContact, doesNotPushOverlapsOfTheMeshApart)
 {
   const Comm comm;

@@ -101,6 +101,28 @@ Real unevenness(const Solver& solver)
   return uneven;
 }
 
+/// A state whose column "left" has another stress in its last layer.
+class OtherStress : public StateTables
+{
+public:
+  OtherStress(const Comm& comm, std::vector<std::string> columns)
+      : StateTables(comm), columns_(std::move(columns))
+  {
+  }
+  using StateTables::numbers;
+  std::vector<Real> numbers(const std::string& name) const override
+  {
+    std::vector<Real> numbers = StateTables::numbers(name);
+    const auto stress = std::find(columns_.begin(), columns_.end(), "stress.0");
+    if (name == "free_field/left" && stress != columns_.end())
+      *(numbers.end() - (columns_.end() - stress)) += 1;
+    return numbers;
+  }
+
+private:
+  std::vector<std::string> columns_;
+};
+
 /// The text by which a model is refused.
 std::string refusal(const Comm& comm, const std::function<void(Model&)>& change,
                     const std::function<void(Mesh&)>& changeMesh = {})
@@ -204,6 +226,44 @@ TEST(FreeField, takesOverTheReactionOfWhatHeldTheSide)
   while (solver.clock().time < 0.05)
     solver.advance();
   EXPECT_LT(largest(solver.state().v, solver.layout().owned(), comm), 1e-12);
+}
+
+TEST(FreeField, theHashKnowsTheElementsOfColumns)
+{
+  const Comm comm;
+  Solver solver(ground(comm), comm);
+  solver.prepare();
+  cycles(solver, 20);
+  StateTables same(comm);
+  OtherStress other(comm, solver.blocks()[0].stateColumns());
+  for (StateTables* state : {&same, static_cast<StateTables*>(&other)})
+  {
+    solver.save(*state);
+    Solver restored(ground(comm), comm);
+    restored.restore(*state);
+    EXPECT_EQ(restored.stateHash() == solver.stateHash(), state == &same);
+  }
+}
+
+TEST(FreeField, aColumnThatLimitsTheStepIsNamed)
+{
+  // Masses of the model are raised for a step that its columns do not allow.
+  const Comm comm;
+  Model model = ground(comm);
+  {
+    Model plain = ground(comm);
+    Solver solver(std::move(plain), comm);
+    solver.prepare();
+    EXPECT_EQ(solver.stepControl().freeField, "");
+    model.time.massScaling = MassScalingOptions{3 * solver.clock().nextStep, 99};
+  }
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  solver.advance(); // columns begin with the first step
+  const StepControl control = solver.stepControl();
+  EXPECT_EQ(control.text(), "the free-field column beside side set 'left'");
+  EXPECT_NEAR(solver.clock().nextStep, solver.model().time.stepFactor * control.stableStep,
+              1e-12 * control.stableStep);
 }
 
 TEST(FreeField, anotherPartitionHasTheSameBits)

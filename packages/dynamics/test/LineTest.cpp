@@ -196,12 +196,45 @@ TEST(Line, isPretensionedOverATime)
   for (int i = 1; i <= 10; ++i)
   {
     line.advance(hosts, i, 1, 0);
-    const Real since = i < 2 ? 0 : std::min(4.0, i - 1.0); // the step to t = 2 begins at 1
+    const Real since = i < 2 ? 0 : std::min(4.0, i - 2.0);
     EXPECT_NEAR(line.segments()[0].force, 5e4 * since / 4, 1e-6);
   }
   // All work is that of the jack: T^2 L / (2 E A).
   EXPECT_NEAR(line.energy().pretension, 5e4 * 5e4 * 2 / (2 * 2e7), 1e-6);
   EXPECT_NEAR(line.energy().remainder(), 0, 1e-9);
+}
+
+TEST(Line, isThereFromItsTimeOnAndFromTheBeginningOfItsStage)
+{
+  LineSetup setup;
+  setup.section = {1e-4, 200e9, infinity, 0, infinity, true};
+  setup.points = {{{0, 0, 0}, true, 0}, {{2, 0, 0}, true, 0}};
+  const Real stiffness = 1e-4 * 200e9 / 2;
+  // Hosts move by 1 mm in each step of 1 s; the stage 1 begins at t = 2, with the step to t = 3.
+  const auto forces = [&](Real from, int ofStage)
+  {
+    setup.from = from;
+    setup.stage = ofStage;
+    LineHosts hosts = hostsOf(setup);
+    Line line = installed(setup, hosts);
+    std::vector<Real> stretches;
+    for (int i = 1; i <= 4; ++i)
+    {
+      hosts.x[1].x = 2 + 1e-3 * i;
+      line.advance(hosts, i, 1, i > 2 ? 1 : 0);
+      stretches.push_back(std::round(1e3 * line.segments()[0].force / stiffness));
+      EXPECT_NEAR(line.energy().remainder(), 0, 1e-9);
+    }
+    return stretches;
+  };
+  using Stretches = std::vector<Real>; // [mm]
+  EXPECT_EQ(forces(0, 0), (Stretches{1, 2, 3, 4}));
+  EXPECT_EQ(forces(2, 0), (Stretches{0, 0, 1, 2})); // free of stress at t = 2
+  EXPECT_EQ(forces(2 + 1e-12, 0), (Stretches{0, 0, 1, 2}));
+  EXPECT_EQ(forces(1.5, 0), (Stretches{0, 0, 1, 2})); // at the next end of a step
+  EXPECT_EQ(forces(0, 1), (Stretches{0, 0, 1, 2}));
+  EXPECT_EQ(forces(2, 1), (Stretches{0, 0, 1, 2}));
+  EXPECT_EQ(forces(3, 1), (Stretches{0, 0, 0, 1}));
 }
 
 TEST(Line, hasNoResultantAndNoMomentAndTurnsWithItsHosts)

@@ -707,6 +707,30 @@ TEST(DeckErrors, windowsOfDampingNeedADamping)
             "later time.");
 }
 
+TEST(DeckErrors, variablesAreThoseOfResults)
+{
+  EXPECT_EQ(errorWith("output: {variables: [stress]}\n"), "no error");
+  EXPECT_EQ(errorWith("output: {results: none, variables: [stress]}\n"),
+            "wall.yaml:5:36: output.variables has no effect without results, which output.results "
+            "switches off; remove one of the two.");
+}
+
+TEST(DeckErrors, pointsOfProbesHaveNamesOfTheirOwn)
+{
+  const auto probes = [](const std::string& a, const std::string& b)
+  {
+    const std::string line = ", between: [[0, 0, 0], [1, 0, 0]], count: 3}";
+    return errorWith("history: {probes: [{name: " + a + line + ", {name: " + b + line + "]}\n");
+  };
+  EXPECT_EQ(probes("roof", "floor"), "no error");
+  EXPECT_NE(probes("roof", "roof").find("history.probes.1.name = 'roof' is taken"),
+            std::string::npos);
+  EXPECT_NE(errorWith("history: {probes: [{name: roof, between: [[0, 0, 0], [1, 0, 0]], count: 3}, "
+                      "{name: roof_2, point: [0, 0, 0]}]}\n")
+                .find("point 2 would be called 'roof_2', as another probe is"),
+            std::string::npos);
+}
+
 TEST(DeckErrors, fragmentsGoWithResults)
 {
   EXPECT_EQ(errorWith("output: {fragments: true, fragment_damage: 0.5}\n"), "no error");

@@ -78,6 +78,42 @@ TEST(Stages, areDecksWithTheChangesOfThoseBefore)
             "2*100000*t");
 }
 
+TEST(Stages, changeCardsWhoseNamesHaveDots)
+{
+  const std::string dotted =
+      "mesh: a.e\n"
+      "materials: {rock.1: {model: mohr_coulomb, density: 2600, youngs_modulus: 1e10, "
+      "poisson_ratio: 0.2, cohesion: 1e6, friction: 0.6}}\n"
+      "blocks: {b.1: {material: rock.1, erosion: {plastic_strain: 0.5}}}\n"
+      "joints: {set.1: {friction: 0.6, cohesion: 1e5}, glue.v1: {model: mortar, normal_stiffness: "
+      "1e10, cohesion: 1e5, tensile_strength: 1e5, tension_energy: 10, shear_energy: 10}}\n"
+      "time: {end: 2}\n"
+      "stages:\n"
+      "  - {name: a, until: 1}\n"
+      "  - {name: b, set: {";
+  const auto decks =
+      parseStages(dotted + "joints.set.1.friction: 0.3, joints.set.1.cohesion: null, "
+                           "materials.rock.1.cohesion: 1e5, blocks.b.1.erosion: null}}\n",
+                  "a.yaml");
+  EXPECT_EQ(decks[1].joints[0].name, "set.1");
+  EXPECT_EQ(decks[1].joints.size(), 2u);
+  EXPECT_FALSE(decks[1].blocks[0].erosion.any());
+  EXPECT_NE(decks[1].text.find("set.1: {friction: 0.3}"), std::string::npos) << decks[1].text;
+  EXPECT_NE(decks[1].text.find("cohesion: 1e5, friction: 0.6}"), std::string::npos);
+  try
+  {
+    parseStages(dotted + "joints.glue.v1.cohesion: 2e5}}\n", "a.yaml");
+    FAIL() << "not refused";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what())
+                  .find("joints.glue.v1.cohesion was 100000 and is 200000 now; a stage cannot"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Stages, aDeckWithoutThemHasOne)
 {
   const auto decks = decksOf("");

@@ -52,40 +52,55 @@ def plain(value):
     return [plain(entry) for entry in value] if type(value) in (list, tuple) else value
 
 
+def _step(container, path):
+    """The first key of a path in a map or list, and what is left of the path, as the program takes them: of the keys that are there the
+    longest that fits, so that names may have dots."""
+    word = path.split(".", 1)[0]
+    if isinstance(container, dict):
+        there = [key for key in container if path == str(key) or path.startswith(f"{key}.")]
+        if there:
+            key = max(there, key=lambda key: len(str(key)))
+            return key, path[len(str(key)) + 1 :]
+    return int(word) if word.isdigit() else word, path[len(word) + 1 :]
+
+
 def change(document, path, value):
     """document.a.1.b = value; None takes the key out. KeyError when the path leads nowhere."""
-    *parents, last = [int(key) if key.isdigit() else key for key in path.split(".")]
-    for key in parents:
+    key, rest = _step(document, path)
+    while rest:
         try:
             document = document.setdefault(key, {}) if isinstance(document, dict) else document[key]
         except (IndexError, TypeError):
             raise KeyError(f"{path} leads nowhere: there is no '{key}'.") from None
+        key, rest = _step(document, rest)
     if value is None and isinstance(document, dict):
-        document.pop(last, None)
-    elif isinstance(document, list) and last == len(document):
+        document.pop(key, None)
+    elif isinstance(document, list) and key == len(document):
         document.append(value)
     else:
-        document[last] = value
+        document[key] = value
 
 
 def demand_card(deck, path):
     """KeyError when a path leads into a joint, material or block that a deck has not: it would make one that nothing uses, and change nothing."""
     group, _, rest = path.partition(".")
-    card, _, key = rest.partition(".")
-    if group not in ("joints", "materials", "blocks") or not key:
+    if group not in ("joints", "materials", "blocks"):
         return
-    cards = list(deck.get(group) or {})
+    cards = dict.fromkeys(deck.get(group) or {})
     if group == "materials":  # also sets of the library that a block names
-        cards += {block.get("material"): None for block in (deck.get("blocks") or {}).values() if block.get("material") not in cards}
-    if card not in cards:
+        cards.update((block.get("material"), None) for block in (deck.get("blocks") or {}).values())
+    card, key = _step(cards, rest)
+    if key and card not in cards:
         raise KeyError(f"{path}: the deck has no {group}.{card}; it has {', '.join(map(str, cards)) or 'none'}.")
 
 
 def value_at(document, path):
     """document.a.1.b; KeyError when there is none."""
-    for key in path.split("."):
+    rest = path
+    while rest:
+        key, rest = _step(document, rest)
         try:
-            document = document[int(key) if isinstance(document, list) else key]
-        except (IndexError, KeyError, TypeError, ValueError):
+            document = document[key]
+        except (IndexError, KeyError, TypeError):
             raise KeyError(f"{path} leads nowhere: there is no '{key}'.") from None
     return document

@@ -157,6 +157,33 @@ TEST(ConditionsOfDeck, reactionsThatNothingCanTellAreProblems)
       << rigid[0];
 }
 
+TEST(ConditionsOfDeck, dashpotsOfTwoConditionsOnOneFaceAreProblems)
+{
+  const Comm comm;
+  Mesh mesh = wallOfTwo();
+  mesh.sideSets.push_back({4, "half", {1}, {0}}); // of `floor`
+  const auto problemsOf = [&](const std::string& first, const std::string& second)
+  {
+    const Deck deck = parseDeck(deckOfTwo + blocksOfTwo + "conditions:\n  - {" + first +
+                                    "}\n  - {" + second + "}\n",
+                                "wall.yaml");
+    return problemsOfDashpots(
+        deck, mesh, distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank()), comm);
+  };
+  const std::string floor = "type: absorbing, side_set: floor";
+  EXPECT_TRUE(problemsOf(floor, "type: free_field, side_set: load").empty());
+  EXPECT_TRUE(problemsOf(floor, "type: pressure, side_set: floor, value: 1").empty());
+  EXPECT_TRUE(problemsOf(floor + ", until: 0.5", floor + ", from: 0.5").empty());
+  const auto found = problemsOf(floor, "type: free_field, side_set: half, from: 0.5");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].find("wall.yaml:7:5: free_field side set 'half' has 1 faces that the "
+                          "absorbing side set 'floor' of wall.yaml:6:5 has, too, side 1 of element "
+                          "2 the first"),
+            std::string::npos)
+      << found[0];
+  EXPECT_EQ(problemsOf(floor, floor).size(), 1u);
+}
+
 TEST(ConditionsOfDeck, bodiesOfRevolutionStayOnTheirAxis)
 {
   const Model model = modelOf("geometry: axisymmetric\n" + blocksOfTwo);

@@ -180,6 +180,10 @@ refused("damping by a number", {"gravity:": "damping: 0.1\ngravity:"}, "damping 
 refused("static and dynamic friction in one", {"friction: 0.6": "friction: [0.6, 0.4]"}, "joints.dry.friction = a list of 2", "a number >= 0")
 refused("two probes of one name", {"gravity:": "history: {probes: [{name: a, block: lower}, {name: a, block: upper}]}\ngravity:", "history: {every": "partition: {every"},
         "history.probes.1.name = 'a' is taken", "each name once")  # fmt: skip
+refused("an absorbing side in a free field", {"gravity:": "  - {type: absorbing, side_set: roof}\n  - {type: free_field, side_set: roof}\ngravity:"},
+        "run.yaml:15:5: free_field side set 'roof' has", "faces that the absorbing side set 'roof' of run.yaml:14:5 has, too", "one of the two on a face at a time",
+        two_ranks=True)  # fmt: skip
+refused("variables of no results", {"{every: 2e-4}": "{results: none, variables: [stress]}"}, "output.variables has no effect without results")
 typed("a colon in --set", "run.yaml --set time.end:0.1", "is not an assignment", "path=value, such as time.end=0.1", code=DECK)
 
 # --- two dimensions ------------------------------------------------------------------------------------------------

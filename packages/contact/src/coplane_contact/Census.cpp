@@ -100,6 +100,7 @@ struct Survey
     Closed,
     Bonded,
     Neighbours,
+    Touching,
     Overlapping,
     Apart,
     Open,
@@ -111,9 +112,11 @@ struct Survey
   std::vector<Real> stiffness{-infinity, 0}; ///< -least, largest
   std::vector<Entry> joints, overlaps, gaps;
   std::vector<char> declared, closed; ///< faces: of declared joints, of closed planes
+  Real roundOff;                      ///< of gaps [m]
 
   explicit Survey(const Contact& contact)
-      : n(Counts, 0), declared(contact.faces().size(), 0), closed(contact.faces().size(), 0)
+      : n(Counts, 0), declared(contact.faces().size(), 0), closed(contact.faces().size(), 0),
+        roundOff(ContactCensus::roundOff * contact.skin())
   {
     for (std::size_t slot = 0; slot < contact.slots(); ++slot)
       if (const Plane plane = contact.planeOf(slot); plane.face[0] >= 0)
@@ -150,6 +153,9 @@ private:
     }
     else if (joint)
       ++n[Neighbours];
+    else if (std::abs(plane.gap) <= roundOff &&
+             (plane.overlap > 0 || plane.sighting == Sighting::FoundLate))
+      ++n[Touching];
     else if (plane.sighting == Sighting::FoundLate)
     {
       ++n[Overlapping];
@@ -203,6 +209,7 @@ ContactCensus census(const Contact& contact)
   census.declaredClosed = n[Survey::Closed];
   census.bonded = n[Survey::Bonded];
   census.declaredWithoutOverlap = n[Survey::Neighbours];
+  census.touching = n[Survey::Touching];
   census.overlapping = n[Survey::Overlapping];
   census.apart = n[Survey::Apart];
   census.open = n[Survey::Open];

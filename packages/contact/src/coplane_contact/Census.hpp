@@ -28,10 +28,14 @@ struct CensusLengths
 /// What is known of contact before the first step, over all ranks.
 struct ContactCensus
 {
+  /// Lengths below this fraction of the skin are rounding of the mesh's coordinates.
+  static constexpr Real roundOff = 1e-8;
+
   std::int64_t pairs = 0;                  ///< candidates
   std::int64_t declaredClosed = 0;         ///< planes of declared joints
   std::int64_t bonded = 0;                 ///< of them
   std::int64_t declaredWithoutOverlap = 0; ///< pairs of such joints that only neighbour each other
+  std::int64_t touching = 0;               ///< other pairs whose faces meet, but for round-off
   std::int64_t overlapping = 0;            ///< other pairs whose faces overlap
   std::int64_t apart = 0;                  ///< other pairs that are apart
   std::int64_t open = 0, stick = 0, slip = 0; ///< planes by state, declared or not

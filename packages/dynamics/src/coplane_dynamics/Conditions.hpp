@@ -257,7 +257,7 @@ struct Conditions
   void applyLoads(int dimension, int ownedNodes, Real t, Real dt, NodalState& state) const;
 
   bool hasDamping() const { return massDamping || localDamping > 0 || relaxation.kinetic; }
-  bool dampsAt(Real t) const { return t >= dampingFrom && t < dampingUntil; }
+  bool dampsAt(Real t) const { return Window{dampingFrom, dampingUntil}.holds(t); }
   Real massDampingAt(Real t) const { return massDamping && dampsAt(t) ? massDamping(t) : 0; }
   Real localDampingAt(Real t) const { return dampsAt(t) ? localDamping : 0; }
 

@@ -32,6 +32,7 @@ public:
   /// the side is not vertical, plane and layered. Collective.
   FreeFieldColumn(std::size_t boundary, const Model& model, const Comm& comm);
 
+  const std::string& name() const { return name_; } ///< of the side set
   bool hasStarted() const { return started_; }
   /// From the state of the side: the stress and the history of the elements behind it, the motion
   /// of its nodes. What is out of balance then stays as a constant force. Collective.
@@ -106,6 +107,7 @@ private:
   std::size_t cornersPerElement() const { return dimension_ == 2 ? 4 : 8; }
   std::pair<std::size_t, std::size_t> layerOf(const LoadedSide& side, int corner) const;
   std::string tableName() const;
+  std::vector<Real> numbers() const;
   template <class Self, class F>
   static void forEachVector(Self& self, F&& f);
 
@@ -146,6 +148,8 @@ public:
             Real localDamping);
   void stop(const KickTimes& times, const Conditions& conditions);
   Real stableStep() const; ///< [s]
+  /// The first of those that have it; nullptr: there are none.
+  const FreeFieldColumn* columnWithLeastStep() const;
   /// In the order of Conditions::freeFields.
   const FreeFieldColumn& column(std::size_t boundary) const { return columns_[boundary]; }
 

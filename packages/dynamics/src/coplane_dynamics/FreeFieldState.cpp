@@ -21,12 +21,10 @@ void FreeFieldColumn::forEachVector(Self& self, F&& f)
       f(vector);
 }
 
-void FreeFieldColumn::save(StateTables& out) const
+/// What changes of a column, with the state of its elements.
+std::vector<Real> FreeFieldColumn::numbers() const
 {
-  if (!started_)
-    return;
-  // The window tells columns apart that stand beside one side one after the other.
-  std::vector<Real> numbers{when_.from, when_.until};
+  std::vector<Real> numbers;
   forEachVector(*this,
                 [&](const Vec3& vector) {
                   numbers.insert(numbers.end(), {vector.x, vector.y, vector.z});
@@ -38,6 +36,17 @@ void FreeFieldColumn::save(StateTables& out) const
     numbers.resize(first + block.stateColumns().size());
     block.saveState(element.element, numbers.data() + first);
   }
+  return numbers;
+}
+
+void FreeFieldColumn::save(StateTables& out) const
+{
+  if (!started_)
+    return;
+  // The window tells columns apart that stand beside one side one after the other.
+  std::vector<Real> numbers{when_.from, when_.until};
+  const std::vector<Real> changing = this->numbers();
+  numbers.insert(numbers.end(), changing.begin(), changing.end());
   out.numbers(tableName(), numbers);
 }
 
@@ -80,13 +89,8 @@ void FreeFieldColumn::restore(const StateSource& in)
 void FreeFieldColumn::addTo(StateHash& hash, std::uint64_t field, GlobalId id) const
 {
   std::uint64_t component = 0;
-  if (started_)
-    forEachVector(*this,
-                  [&](const Vec3& vector)
-                  {
-                    for (int c = 0; c < 3; ++c)
-                      hash.add(field, id, component++, vector[c]);
-                  });
+  for (const Real number : started_ ? numbers() : std::vector<Real>())
+    hash.add(field, id, component++, number);
 }
 
 FreeFields::FreeFields(const Model& model, const Comm& comm)
@@ -133,10 +137,16 @@ void FreeFields::stop(const KickTimes& times, const Conditions& conditions)
 
 Real FreeFields::stableStep() const
 {
-  Real least = infinity;
-  for (const FreeFieldColumn& column : columns_)
-    least = std::min(least, column.stableStep());
-  return least;
+  const FreeFieldColumn* const column = columnWithLeastStep();
+  return column ? column->stableStep() : infinity;
+}
+
+const FreeFieldColumn* FreeFields::columnWithLeastStep() const
+{
+  const auto least = std::min_element(columns_.begin(), columns_.end(),
+                                      [](const FreeFieldColumn& a, const FreeFieldColumn& b)
+                                      { return a.stableStep() < b.stableStep(); });
+  return least == columns_.end() ? nullptr : &*least;
 }
 
 void FreeFields::save(StateTables& out) const

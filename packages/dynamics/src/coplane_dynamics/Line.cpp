@@ -71,7 +71,7 @@ Real Line::prestrainAt(Real t) const
   return part * pretension_ / axialStiffness();
 }
 
-/// With the hosts as they were at the end of the step before: there is no force yet.
+/// With the hosts as they are in x_: there is no force yet.
 void Line::install(const LineHosts& hosts, Real time)
 {
   installed_ = true;
@@ -342,12 +342,14 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
     x_ = hosts.x;
   if (!installed_)
   {
-    if (!Window::isReached(from_, t) || stage < stage_)
-    {
+    const bool isBefore = !Window::isReached(from_, t) || stage < stage_;
+    // A time is that of the end of a step; a stage begins with the step that is over now.
+    const bool isNow = !Window::isReached(from_, t - dt);
+    if (isBefore || isNow)
       x_ = hosts.x;
+    if (isBefore)
       return;
-    }
-    install(hosts, t - dt);
+    install(hosts, isNow ? t : t - dt);
   }
   if (removed_)
     return;

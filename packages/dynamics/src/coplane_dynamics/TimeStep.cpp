@@ -19,6 +19,8 @@ std::string StepControl::text() const
         "more than a fraction of the thinnest element behind one, {:.4g} m, in a "
         "step",
         relativeSpeed, thinnest);
+  if (!freeField.empty())
+    return fmt::format("the free-field column beside side set '{}'", freeField);
   if (scaledMass)
     return "time.mass_scaling.step, for which masses are raised";
   if (rigid)
@@ -194,6 +196,13 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
     const Real cap = std::max(scaling_.target(), parts.comm.min(parts.elements.smallestStep()));
     control.scaledMass = cap <= control.stableStep && cap == scaling_.target();
     control.stableStep = std::min(control.stableStep, cap);
+  }
+  if (const FreeFieldColumn* const column = parts.motion.freeFields().columnWithLeastStep();
+      column && column->stableStep() < control.stableStep)
+  {
+    control.stableStep = column->stableStep();
+    control.freeField = column->name();
+    control.scaledMass = false;
   }
   if (parts.contact)
   {

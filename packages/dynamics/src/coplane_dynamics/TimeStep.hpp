@@ -19,6 +19,7 @@ struct StepControl
   bool rigid = false;                   ///< a rigid body, which has the node, is what limits it
   bool contact = false;        ///< whether contact adds more than elements to its frequency
   bool line = false;           ///< with contact: most of that by a line
+  std::string freeField;       ///< side set whose free-field column limits it; empty: none does
   GlobalId element = 0;        ///< of those around the node the one with the smallest step
   GlobalId faceId[2] = {0, 0}; ///< the plane that adds most to the node's contact stiffness, if any
   /// "element 12 at node 7", or "contact at node 7, most by side 1 of element 3 against side ..."

@@ -567,7 +567,7 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
   }
 }
 
-/// Lines and fragments go beside the results.
+/// What results hold; lines and fragments go beside them.
 void checkBesideResults(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   const DeckNode& output = nodeAt(root, {"output"});
@@ -578,6 +578,10 @@ void checkBesideResults(const Deck& deck, const DeckNode& root, Problems& proble
             ? "output.lines has no effect without the section lines; remove it or add that."
             : "output.lines has no effect without results, which output.results switches "
               "off; remove one of the two.");
+  if (!deck.output.variables.empty() && deck.output.results.empty())
+    problems.add(nodeAt(output, {"variables"}),
+                 "output.variables has no effect without results, which output.results switches "
+                 "off; remove one of the two.");
   if (deck.output.fragments && deck.output.results.empty())
     problems.add(nodeAt(output, {"fragments"}),
                  "output.fragments has no effect without results, which output.results switches "

@@ -50,6 +50,22 @@ std::string valueOf(const DeckNode& node)
   return line;
 }
 
+/// In the paths of fingerprints for a dot that belongs to a name.
+constexpr char dotOfName = '\x1f';
+
+std::string wordOfKey(std::string key)
+{
+  std::replace(key.begin(), key.end(), '.', dotOfName);
+  return key;
+}
+
+/// A path as decks and --set have it.
+std::string shown(std::string path)
+{
+  std::replace(path.begin(), path.end(), dotOfName, '.');
+  return path;
+}
+
 void collect(const DeckNode& node, const std::string& path, std::vector<std::string>& lines)
 {
   if (isFree(path))
@@ -59,7 +75,7 @@ void collect(const DeckNode& node, const std::string& path, std::vector<std::str
   {
   case DeckNode::Kind::Map:
     for (const auto& [key, value] : node.entries)
-      collect(value, prefix + key.text, lines);
+      collect(value, prefix + wordOfKey(key.text), lines);
     break;
   case DeckNode::Kind::List:
     for (std::size_t i = 0; i < node.items.size(); ++i)
@@ -107,13 +123,14 @@ std::vector<DeckChange> changesBetween(const std::map<std::string, std::string>&
   {
     const auto found = present.find(path);
     if (found == present.end())
-      changes.push_back({path, fmt::format("{} was {} and is not there now", path, value)});
+      changes.push_back({path, fmt::format("{} was {} and is not there now", shown(path), value)});
     else if (found->second != value)
-      changes.push_back({path, fmt::format("{} was {} and is {} now", path, value, found->second)});
+      changes.push_back(
+          {path, fmt::format("{} was {} and is {} now", shown(path), value, found->second)});
   }
   for (const auto& [path, value] : present)
     if (old.find(path) == old.end())
-      changes.push_back({path, fmt::format("{} is {} now and was not there", path, value)});
+      changes.push_back({path, fmt::format("{} is {} now and was not there", shown(path), value)});
   return changes;
 }
 

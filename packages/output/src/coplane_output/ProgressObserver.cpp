@@ -76,10 +76,15 @@ void ProgressObserver::endOfCycle(const Solver& solver)
   lineTime_ = solver.clock().time;
 }
 
+double ProgressObserver::endOf(const Solver& solver) const
+{
+  return options_.end > 0 ? options_.end : solver.model().time.end;
+}
+
 double ProgressObserver::secondsLeft(const Solver& solver, double secondsSinceLine) const
 {
   const Clock& clock = solver.clock();
-  return secondsSinceLine * (solver.model().time.end - clock.time) / (clock.time - lineTime_);
+  return secondsSinceLine * (endOf(solver) - clock.time) / (clock.time - lineTime_);
 }
 
 void ProgressObserver::print(const Solver& solver, const std::string& limit,
@@ -89,11 +94,10 @@ void ProgressObserver::print(const Solver& solver, const std::string& limit,
   const EnergyBalance energy = solver.energy();
   const std::int64_t planes = solver.hasContact() ? solver.contact().counts().planes : 0;
   const double rate = double(clock.cycle - lineCycle_) / secondsSinceLine;
-  const double end = solver.model().time.end;
   logInfo("cycle {}, t = {:.5e} s ({:.1f} %), dt = {:.3e} s ({}), kinetic energy {:.4e} "
           "J, balance error {:.1e}, {} planes, {:.3g} cycles/s, {:.3g} element-cycles/s, {} left",
-          clock.cycle, clock.time, 100 * clock.time / end, clock.nextStep, limit, energy.kinetic,
-          energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
+          clock.cycle, clock.time, 100 * clock.time / endOf(solver), clock.nextStep, limit,
+          energy.kinetic, energy.scale() > 0 ? energy.error() / energy.scale() : 0.0, planes, rate,
           rate * double(elements_), durationText(secondsLeft(solver, secondsSinceLine)));
 }
 

@@ -15,6 +15,7 @@ std::string durationText(double seconds);
 struct ProgressOptions
 {
   double seconds = 5; ///< wall-clock time between lines
+  double end = 0;     ///< of the whole run, where the model is that of a stage [s]; 0: of the model
 };
 
 /// Prints a line about every few seconds: cycle, time, step and what limits it, energy and its
@@ -36,6 +37,7 @@ private:
   using WallClock = std::chrono::steady_clock;
   /// Of the wall's clock, by what was done since the last line; not finite when time stood still.
   double secondsLeft(const Solver& solver, double secondsSinceLine) const;
+  double endOf(const Solver& solver) const; ///< [s]
   void print(const Solver& solver, const std::string& limit, double secondsSinceLine) const;
 
   ProgressOptions options_;

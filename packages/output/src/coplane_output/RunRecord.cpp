@@ -102,15 +102,11 @@ Json lengthsOf(const CensusLengths& lengths)
 Json censusOf(const Contact& contact)
 {
   const ContactCensus c = census(contact);
-  Json json{{"skin_m", contact.skin()},
-            {"pairs", c.pairs},
-            {"open", c.open},
-            {"stick", c.stick},
-            {"slip", c.slip},
-            {"declared_closed", c.declaredClosed},
-            {"bonded", c.bonded},
-            {"declared_without_overlap", c.declaredWithoutOverlap},
-            {"overlapping", c.overlapping},
+  Json json{{"skin_m", contact.skin()}, {"pairs", c.pairs},
+            {"open", c.open},           {"stick", c.stick},
+            {"slip", c.slip},           {"declared_closed", c.declaredClosed},
+            {"bonded", c.bonded},       {"declared_without_overlap", c.declaredWithoutOverlap},
+            {"touching", c.touching},   {"overlapping", c.overlapping},
             {"apart", c.apart}};
   json["joint_gaps"] = lengthsOf(c.joints);
   json["overlaps"] = lengthsOf(c.overlaps);
@@ -307,7 +303,7 @@ void RunRecord::start(const Solver& solver)
   if (solver.hasContact() && options_.restartedFrom.empty())
     json["census"] = censusOf(solver.contact());
   json["started"] = startDate_;
-  json["end_s"] = solver.model().time.end;
+  json["end_s"] = options_.end > 0 ? options_.end : solver.model().time.end;
   atStart_ = text(json);
   solver.comm().together(
       [&]

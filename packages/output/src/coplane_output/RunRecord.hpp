@@ -19,7 +19,8 @@ struct RunRecordOptions
   std::string deckText; ///< as it was used, with overrides
   std::string meshFile;
   std::string restartedFrom = {}; ///< checkpoint; empty: a new run
-  std::string run = {};           ///< identity, by which restarts know what they may replace
+  double end = 0; ///< of the whole run, where the model is that of a stage [s]; 0: of the model
+  std::string run = {}; ///< identity, by which restarts know what they may replace
 };
 
 /// Writes down in JSON what is needed to repeat or judge a run: versions, build, ranks x threads,

@@ -152,15 +152,23 @@ DeckNode* valueInMap(DeckNode& map, const std::string& rest, std::string& word,
   return map.find(word);
 }
 
-/// The value at a path "a.b.0.c", new if it is not there; nullptr and a problem: it cannot be.
-DeckNode* nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place,
-                     Problems& problems)
+/// The value at a path, the map or list that has it, and its name there.
+struct Found
 {
-  DeckNode* node = &root;
-  std::string done;
+  DeckNode* node = nullptr; ///< nullptr and a problem: it cannot be
+  DeckNode* parent = nullptr;
+  std::string key;
+};
+
+/// The value at a path "a.b.0.c", new if it is not there.
+Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place, Problems& problems)
+{
+  DeckNode *node = &root, *parent = nullptr;
+  std::string done, word;
   for (std::string rest = path; !rest.empty();)
   {
-    std::string word = rest.substr(0, rest.find('.'));
+    word = rest.substr(0, rest.find('.'));
+    parent = node;
     if (node->kind == DeckNode::Kind::List)
     {
       const auto index = listIndex(word);
@@ -169,7 +177,7 @@ DeckNode* nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& pl
         problems.add(place, fmt::format("'{}' is no item of {}, which has {}; accepted: a whole "
                                         "number, the first item is 0.",
                                         shortened(word), done, node->items.size()));
-        return nullptr;
+        return {};
       }
       node = &node->items[*index];
     }
@@ -177,14 +185,14 @@ DeckNode* nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& pl
     {
       problems.add(place, fmt::format("{} is the value '{}' and has no key '{}'.", done,
                                       shortened(node->text), shortened(word)));
-      return nullptr;
+      return {};
     }
     else
       node = valueInMap(*node, rest, word, place);
     done += (done.empty() ? "" : ".") + word;
     rest = rest.size() > word.size() ? rest.substr(word.size() + 1) : "";
   }
-  return node;
+  return {node, parent, word};
 }
 } // namespace
 
@@ -359,23 +367,20 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
   {
     return problems.add(place, fmt::format("the value is not YAML: {}.", e.msg));
   }
-  if (DeckNode* const node = nodeOfPath(root, path, place, problems))
+  if (DeckNode* const node = nodeOfPath(root, path, place, problems).node)
     *node = value;
 }
 
 void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems)
 {
-  DeckNode* const node = nodeOfPath(root, path.text, path, problems);
-  if (!node)
+  const Found found = nodeOfPath(root, path.text, path, problems);
+  if (!found.node)
     return;
-  *node = value;
-  const auto dot = path.text.rfind('.');
-  if (value.kind != DeckNode::Kind::Nothing)
+  *found.node = value;
+  if (value.kind != DeckNode::Kind::Nothing || !found.parent)
     return;
-  DeckNode* const parent =
-      dot == std::string::npos ? &root : nodeOfPath(root, path.text.substr(0, dot), path, problems);
-  auto& entries = parent->entries;
-  const std::string key = dot == std::string::npos ? path.text : path.text.substr(dot + 1);
+  auto& entries = found.parent->entries;
+  const std::string& key = found.key;
   entries.erase(std::remove_if(entries.begin(), entries.end(),
                                [&](const auto& entry) { return entry.first.text == key; }),
                 entries.end());

@@ -1,11 +1,13 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Log.hpp>
+#include <coplane_mesh/FaceName.hpp>
 #include <coplane_schema/TimeFunctionEvaluator.hpp>
 #include <coplane_setup/ConditionsOfDeck.hpp>
 #include <coplane_setup/Lookups.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 
 namespace coplane
@@ -423,6 +425,55 @@ std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
           card.where, card.set, least, largest, least / size, largest / size, card.burst,
           range.least, range.largest, range.least * size, range.largest * size));
   }
+  return problems;
+}
+
+namespace
+{
+bool hasDashpots(const ConditionCard& card)
+{
+  return card.type == "absorbing" || card.type == "free_field";
+}
+
+/// The faces of a set of this rank's own elements, sorted by id.
+std::vector<GlobalId> ownFacesOf(const RankMesh& part, const std::vector<RankMesh::Side>& set)
+{
+  std::vector<GlobalId> faces;
+  for (const RankMesh::Side& side : set)
+    if (part.blocks[std::size_t(side.block)].owned[std::size_t(side.element)])
+      faces.push_back(loadedSide(part, side).id);
+  std::sort(faces.begin(), faces.end());
+  return faces;
+}
+} // namespace
+
+std::vector<std::string> problemsOfDashpots(const Deck& deck, const Mesh& mesh,
+                                            const RankMesh& part, const Comm& comm)
+{
+  std::vector<std::string> problems;
+  const auto& cards = deck.conditions;
+  const auto setOf = [&](const ConditionCard& card)
+  { return hasDashpots(card) ? indexOf(mesh.sideSets, card.set) : -1; };
+  for (std::size_t i = 0; i < cards.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+    {
+      const int mine = setOf(cards[i]), other = setOf(cards[k]);
+      if (mine < 0 || other < 0 || !windowOf(cards[i]).overlaps(windowOf(cards[k])))
+        continue;
+      const std::vector<GlobalId> a = ownFacesOf(part, part.sideSets[std::size_t(mine)]),
+                                  b = ownFacesOf(part, part.sideSets[std::size_t(other)]);
+      std::vector<GlobalId> both;
+      std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+      const std::int64_t count = comm.sum(std::int64_t(both.size()));
+      const GlobalId first = comm.min(both.empty() ? INT64_MAX : both.front());
+      if (count > 0)
+        problems.push_back(fmt::format(
+            "{}: {} side set '{}' has {} faces that the {} side set '{}' of {} has, too, {} the "
+            "first: dashpots of both would act there at once. Accepted: one of the two on a face "
+            "at a time; take one out, or give them other times.",
+            cards[i].where, cards[i].type, cards[i].set, count, cards[k].type, cards[k].set,
+            cards[k].where, faceName(first)));
+    }
   return problems;
 }
 

@@ -26,6 +26,12 @@ void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Condition
 std::vector<std::string> problemsOfAirBlasts(const Deck& deck, const Mesh& mesh,
                                              const RankMesh& part, const Comm& comm);
 
+/// Faces on which two absorbing or free-field conditions would act at once; the same on all ranks.
+/// Names may be unknown. Collective.
+/// @param part with every node of this rank
+std::vector<std::string> problemsOfDashpots(const Deck& deck, const Mesh& mesh,
+                                            const RankMesh& part, const Comm& comm);
+
 /// Probes whose reactions cannot be told: no condition holds a node of the set, or rigid bodies do,
 /// which move as a whole; the same on all ranks. Names may be unknown. Collective.
 /// @param part with every node of this rank
