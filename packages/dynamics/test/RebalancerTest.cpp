@@ -39,7 +39,8 @@ void expectSameBits(const Maker& make, int total, int every)
   EXPECT_EQ(moved.erosion().elements, straight.erosion().elements);
   EXPECT_EQ(moved.erosion().mass, straight.erosion().mass);
   EXPECT_EQ(moved.stepControl().text(), straight.stepControl().text());
-  const ContactCounts m = moved.contact().counts(), s = straight.contact().counts();
+  ContactCounts m = moved.contact().counts(), s = straight.contact().counts();
+  m.lookedAt = s.lookedAt = 0; // known from the next cycle on: velocities have changed
   EXPECT_EQ(std::memcmp(&m, &s, sizeof m), 0);
 }
 

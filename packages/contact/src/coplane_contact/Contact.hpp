@@ -93,6 +93,12 @@ public:
   /// What cycles know from the last search, at whose time nodes were at x and had v; it looked so
   /// far ahead [s]. Collective.
   void restoreDistances(const ConstNodeVectors& x, const ConstNodeVectors& v, Real ahead);
+  /// Where faces are between updates. @param sinceSearch, lookAhead as in step 6 [s]
+  void followFaces(const ConstNodeVectors& x, const ConstNodeVectors& v, Real sinceSearch,
+                   Real lookAhead)
+  {
+    distances_.follow(x, v, sinceSearch, lookAhead);
+  }
   /// Step A where faces stand still: for those who look at them before the next update.
   void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
                  const ConstArray<Real>& mass) const;

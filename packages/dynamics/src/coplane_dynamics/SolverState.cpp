@@ -149,6 +149,8 @@ void Solver::restore(const StateSource& in)
     Kokkos::deep_copy(ownedOf(velocity), state_.velocityAtSearch);
     layout_.refresh(atSearch, velocity);
     contact_->restoreDistances(atSearch, velocity, searches_.ahead());
+    contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time),
+                          2 * step_.largestNext());
     contact_->findFaces(state_.x, state_.v, state_.mass);
   }
   Ledger::forEachStruct(ledger_,

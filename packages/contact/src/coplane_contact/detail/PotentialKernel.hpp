@@ -249,6 +249,8 @@ private:
         stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(energyShare, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
                   branchFree::lane(increment, i), response);
+        // What can leave sideways is not deep.
+        plane.tooDeep = plane.tooDeep && branchFree::lane(share, i) > alongThePlane;
       }
 
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
