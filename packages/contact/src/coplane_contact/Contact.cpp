@@ -206,7 +206,7 @@ PairTables Contact::pairTables()
 
 bool Contact::wasPassedOver(std::size_t slot) const
 {
-  return planes_.slots().activity(slot) == Activity::Apart;
+  return distances_.known() && planes_.slots().activity(slot) == Activity::Apart;
 }
 
 const PlaneList& Contact::planesNow() const
@@ -287,9 +287,9 @@ ContactCounts Contact::counts() const
     counts.tooDeep += plane.tooDeep;
     counts.released += plane.refusal == Refusal::Deep;
   }
-  std::int64_t* const all[] = {&counts.slots, &counts.lookedAt, &counts.carrying, &counts.planes,
-                               &counts.open,  &counts.stick,    &counts.slip,     &counts.tooDeep,
-                               &counts.released, &counts.missed};
+  std::int64_t* const all[] = {
+      &counts.slots, &counts.lookedAt, &counts.carrying, &counts.planes,   &counts.open,
+      &counts.stick, &counts.slip,     &counts.tooDeep,  &counts.released, &counts.missed};
   std::vector<std::int64_t> sums;
   for (const std::int64_t* number : all)
     sums.push_back(*number);

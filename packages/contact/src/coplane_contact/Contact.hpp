@@ -261,7 +261,7 @@ private:
                                           const std::vector<std::size_t>& slots) const;
   void listSlotsOfFaces(int ownedNodes);
   PairTables pairTables();
-  /// Whether the last update left out an open plane.
+  /// Whether the last update may have left out an open plane.
   bool wasPassedOver(std::size_t slot) const;
   /// How far the pairs of a search are from each other. @param planes of the faces, x (a copy) and
   /// v of the nodes at that time

@@ -22,14 +22,14 @@ public:
   /// For a search of bodies of which a step may carry faces by `motion` relative to each other [m].
   /// Where that is little, the search foresees many steps along the velocities that nodes have, as
   /// long as they bring no two faces together that are far from each other; the least skin covers
-  /// what it does not foresee. Where it is much, the search foresees nothing, and the skin covers
-  /// some steps.
+  /// what it does not foresee. Where it is much, or candidates are told by their present normals,
+  /// the search foresees nothing, and the skin covers some steps.
   /// @param step [s]
   /// @returns for how long it looks ahead, at least one step [s]
   Real coverMotion(Real motion, Real step)
   {
     const Real steps = farthestAhead * smallestFace_ / motion;
-    foresees_ = steps >= skinOverMotion;
+    foresees_ = turns_ && steps >= skinOverMotion;
     setSkin(foresees_ ? leastSkin_ : std::max(leastSkin_, skinOverMotion * motion));
     return foresees_ ? std::min(mostSteps, steps) * step : step;
   }
