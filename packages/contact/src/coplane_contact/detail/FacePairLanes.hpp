@@ -102,11 +102,12 @@ struct PairTables
     putApart(p);
     return true;
   }
-  /// The same for one whose shadows meet. Its plane is not told yet, nor made if there is none.
+  /// The same for one whose shadows meet, and that has been looked at in full once. Its plane is
+  /// not told yet, nor made if there is none.
   bool leaveOut(int p, const HalfStepFace& a, const HalfStepFace& b, Real lookAhead) const
   {
-    if (!(carriesNothing(p) || planes[p] == nullptr) || distances == nullptr ||
-        !distances->mayBeLeftOut(p) || !areApart(a, b, distances->reach(), lookAhead))
+    if (!carriesNothing(p) || distances == nullptr || !distances->mayBeLeftOut(p) ||
+        !areApart(a, b, distances->reach(), lookAhead))
       return false;
     putApart(p);
     return true;
