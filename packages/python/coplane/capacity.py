@@ -160,30 +160,63 @@ def _over(value, factor):
 def weakened(deck, factor, joints=(), materials=()):
     """A copy of a deck with the strengths of these cards divided by a factor: friction, which is the tangent of the angle, and cohesion; in
     materials also their tables, and those of ubiquitous joints. Dilation is at most the friction that is left. Stiffnesses, and
-    tensile strengths, which cohesion over friction bounds, stay.
+    tensile strengths, which cohesion over friction bounds, stay. Strengths that stages set are divided, too; dilation is bounded by the least
+    friction of all stages. Cards from the library (`set`, or a name alone) are refused: their strengths do not stand in the deck.
     """
     changed = deck.copy()
     cards = [f"joints.{name}" for name in joints] + [f"materials.{name}" for name in materials]
     if not cards:
         raise ValueError("weakened: name the joint cards or the materials that are to be weakened: joints=['plane'].")
     for card in cards:
+        _written_out(changed[card], card)
         keys = [key for key in STRENGTHS if changed[card].get(key)]
-        if not keys:
+        later = [entry for entry in _set_by_stages(changed, card) if entry[2] in STRENGTHS and entry[0][entry[1]]]
+        if not keys and not later:
             raise ValueError(f"{card} ({changed[card].get('model')}) has no strength that can be divided: none of {', '.join(STRENGTHS)}.")
         for key in keys:
             changed[f"{card}.{key}"] = _over(changed[f"{card}.{key}"], factor)
+        for values, key, _ in later:
+            values[key] = _over(values[key], factor)
         for dilation, frictions in _DILATIONS.items():
-            if dilation in changed[card]:
-                changed[f"{card}.{dilation}"] = _least(changed, card, dilation, frictions)
+            if changed[card].get(dilation) is not None:
+                changed[f"{card}.{dilation}"] = _least(changed, card, changed[card][dilation], frictions)
+            for values, key, name in _set_by_stages(changed, card):
+                if name == dilation and values[key] is not None:
+                    values[key] = _least(changed, card, values[key], frictions)
     return changed
 
 
+def _written_out(card, name):
+    """Raises ValueError for a card whose values stand in the library."""
+    if isinstance(card, str) or "set" in card:
+        taken = card if isinstance(card, str) else card["set"]
+        raise ValueError(
+            f"{name}: its values come from the library ('{taken}'), and are not in the deck to be divided. Write the model and its strengths on the card."
+        )
+
+
+def _set_by_stages(deck, card):
+    """What stages set on a card: (mapping, its key, key of the card) of each value."""
+    group, name = card.split(".", 1)
+    found = []
+    for number, stage in enumerate(deck.get("stages") or []):
+        settings = stage.get("set") or {}
+        for path, value in settings.items():
+            if path.startswith(f"{card}."):
+                found.append((settings, path, path[len(card) + 1 :].split(".")[0]))
+            whole = value if path == card else value.get(name) if path == group and isinstance(value, dict) else None
+            if whole is not None:
+                _written_out(whole, f"stages.{number}.set.{card}")
+                found += [(whole, key, key) for key in whole]
+    return found
+
+
 def _least(deck, card, dilation, frictions):
-    """The dilation, or the least friction of the card where that is less."""
-    values = [deck[f"{card}.{dilation}"]]
-    for key in frictions:
-        if key in deck[card]:
-            values += deck[f"{card}.{key}"] if isinstance(deck[f"{card}.{key}"], list) else [deck[f"{card}.{key}"]]
+    """The dilation, or the least friction of the card, at the start or set by a stage, where that is less."""
+    values = [dilation]
+    for value in [deck[card].get(key) for key in frictions] + [at[key] for at, key, name in _set_by_stages(deck, card) if name in frictions]:
+        if value is not None:
+            values += value if isinstance(value, list) else [value]
     if any(isinstance(value, str) for value in values):
         return f"min({', '.join(map(str, values))})"
     return min(values)
@@ -208,15 +241,26 @@ def load_multiplier(deck, criterion, name="multiplier", low=0.1, high=1.0, toler
     return bracket(deck_of, criterion, low, high, tolerance, folder, ranks, threads, f"multiplier '{name}'")
 
 
-def tilted(deck, rate, down=(0, -1, 0), towards=(1, 0, 0), start=0.0):
+def tilted(deck, rate, down=None, towards=(1, 0, 0), start=0.0):
     """A copy of a deck on a table that tilts: its gravity, whose size stays, turns from `down` towards another direction by `rate` [degrees/s]
-    from `start` [s] on. The angle at the time t is rate (t - start).
+    from `start` [s] on. The angle at the time t is rate (t - start). down: by default the direction of the deck's gravity.
     """
-    gravity = [float(value) for value in deck["gravity"]]
+    try:
+        gravity = [float(value) for value in deck["gravity"]]
+    except (TypeError, ValueError):
+        raise ValueError(f"tilted: gravity: {deck['gravity']} is not a list of numbers. Give its final components as numbers, such as [0, -9.81, 0].") from None
+    gravity += [0.0] * (3 - len(gravity))
     size = math.sqrt(sum(value**2 for value in gravity))
+    if size == 0:
+        raise ValueError("tilted: gravity: it is zero, and has no direction. Give its components, such as [0, -9.81, 0].")
+    for number, stage in enumerate(deck.get("stages") or []):
+        for path in stage.get("set") or {}:
+            if path.split(".")[0] == "gravity":
+                raise ValueError(f"tilted: stages.{number}.set.{path}: it would undo the tilt. Take it out, and give gravity to the deck.")
+    down = gravity if down is None else down
     down, towards = (numpy.array(v, float) / numpy.linalg.norm(v) for v in (down, towards))
     if abs(numpy.dot(down, towards)) > 1e-9:
-        raise ValueError(f"tilted: down {down.tolist()} and towards {towards.tolist()} are not at right angles.")
+        raise ValueError(f"tilted: down {down.tolist()} and towards {towards.tolist()} are not at right angles; give towards=(x, y, z).")
     angle = f"({math.radians(rate)!r}*max(0, t - {start!r}))"
     changed = deck.copy()
     changed["gravity"] = [f"{size * d!r}*cos{angle} + {size * s!r}*sin{angle}" if d or s else 0.0 for d, s in zip(down.tolist(), towards.tolist())]
@@ -239,8 +283,8 @@ class Curve:
 
     @property
     def capacity(self):
-        """Largest load before the control probe had moved by `limit`."""
-        return float(self.load.max())
+        """Load that is largest in size before the control probe had moved by `limit`, with its sign."""
+        return float(self.load[numpy.argmax(abs(self.load))])
 
     @property
     def table(self):

@@ -15,6 +15,7 @@ from .needs import needs
 
 G = 9.80665  # standard gravity [m/s^2]
 UNITS = {"m/s^2": 1.0, "m/s2": 1.0, "m/s/s": 1.0, "g": G, "cm/s^2": 0.01, "cm/s2": 0.01, "cm/s/s": 0.01, "gal": 0.01, "mm/s^2": 1e-3}
+TIMES = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0}
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 
 
@@ -266,6 +267,15 @@ def _find(path, column, names, count):
     return known[column]
 
 
+def _seconds(name, path):
+    """Of the unit in the header of a column of times; without one they are seconds."""
+    bracket = re.search(r"[\[(]([^\])]*)[\])]", name)
+    unit = bracket.group(1).strip().lower() if bracket else "s"
+    if unit not in TIMES:
+        raise ValueError(f"{path}: the header of the times says {name}; accepted units: {', '.join(TIMES)}.")
+    return TIMES[unit]
+
+
 def _read_table(path, lines, unit, step, column):
     one_after_the_other = step is not None and column is None
     names, rows = _rows(path, lines, ragged=one_after_the_other)
@@ -276,7 +286,8 @@ def _read_table(path, lines, unit, step, column):
         place = _find(path, column, names, numbers.shape[1])
         if step is None and place == 0:
             raise ValueError(f"{path}: the first column is the acceleration, so there are no times; give the time between its values: step=0.01.")
-        values, times, name = numbers[:, place], numbers[:, 0] - numbers[0, 0], names[place] if names else None
+        seconds = _seconds(names[0], path) if names and step is None else 1.0
+        values, times, name = numbers[:, place], seconds * (numbers[:, 0] - numbers[0, 0]), names[place] if names else None
     bracket = re.search(r"[\[(]([^\])]*)[\])]", name or "")
     if bracket:
         if unit is not None and _unit(unit, path) != _unit(bracket.group(1), path):
@@ -296,7 +307,7 @@ def read(path, unit=None, step=None, column=None):
     Anything else is a table of text or CSV, with commas, semicolons, tabs or blanks between columns, `#` before comments: the first column is
     the time [s] and the second the acceleration, or `column` (name, or number from 0). With `step` [s] there are no times: the values of the
     column, or, without `column`, all numbers of the file, row by row, stand `step` apart.
-    unit: of the acceleration: g, m/s^2, cm/s^2, gal or mm/s^2; a header such as "a[g]" gives it, too.
+    unit: of the acceleration: g, m/s^2, cm/s^2, gal or mm/s^2; a header such as "a[g]" gives it, too; times with "t[ms]" (s, ms, us, min) become seconds.
     Raises ValueError where a file, with its line, is not as it has to be.
     """
     path = pathlib.Path(path)
