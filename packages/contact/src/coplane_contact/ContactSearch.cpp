@@ -1,6 +1,6 @@
 #include <coplane_contact/Contact.hpp>
+#include <coplane_contact/Preparation.hpp>
 #include <coplane_contact/detail/Inheritance.hpp>
-#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_core/WorkWatch.hpp>
 

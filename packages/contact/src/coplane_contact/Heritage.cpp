@@ -1,4 +1,4 @@
-#include <coplane_contact/detail/Heritage.hpp>
+#include <coplane_contact/Heritage.hpp>
 #include <coplane_contact/detail/Inheritance.hpp>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <coplane_contact/ContactRules.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/Plane.hpp>
-#include <coplane_contact/detail/Preparation.hpp>
+#include <coplane_contact/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
 #include <atomic>

@@ -1,4 +1,5 @@
-#include <coplane_contact/detail/Preparation.hpp>
+#include <coplane_contact/Preparation.hpp>
+#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
 namespace coplane

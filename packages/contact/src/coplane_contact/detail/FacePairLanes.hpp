@@ -2,9 +2,9 @@
 
 #include <coplane_contact/PairDistances.hpp>
 #include <coplane_contact/PlaneTable.hpp>
+#include <coplane_contact/Preparation.hpp>
 #include <coplane_contact/detail/PassedOn.hpp>
 #include <coplane_contact/detail/PotentialKernel.hpp>
-#include <coplane_contact/detail/Preparation.hpp>
 #include <coplane_core/Backend.hpp>
 
 #include <algorithm>

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <coplane_contact/Heritage.hpp>
 #include <coplane_contact/Plane.hpp>
-#include <coplane_contact/detail/EdgesOfSurfaces.hpp>
-#include <coplane_contact/detail/Heritage.hpp>
+#include <coplane_contact/Search.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
 
 #include <cstdint>
 #include <memory>
