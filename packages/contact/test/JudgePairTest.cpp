@@ -1,4 +1,5 @@
 #include "FaceClouds.hpp"
+#include "MovingPairs.hpp"
 
 // Step 5: reasons to refuse a pair.
 
@@ -117,6 +118,55 @@ TEST(Step5CandidatePairs, aPairBesideEachOtherThatHasTurnedIntoTheDepthLimitWasN
   EXPECT_FALSE(wasMissed(.05, .05));
   EXPECT_TRUE(wasMissed(.05, .02)); // too little turning to have been out of reach
   EXPECT_FALSE(wasMissed(.08, 0));
+}
+
+// Warped faces too, whose planes meet where their nodes are apart.
+TEST(Step5CandidatePairs, whatActsUntilTheNextSearchIsACandidate)
+{
+  constexpr int count = 300000;
+  constexpr Real stray = 1e-3; // [m]
+  for (const Real swiftness : {0.0, 0.3})
+  {
+    movingpairs::MovingPairs pairs(count, 11, swiftness, stray);
+    CandidateRules rules = pairs.rules;
+    rules.skin = rules.reach = 2 * std::sqrt(3.0) * stray;
+    for (int f = 0; f < 2 * count; ++f)
+    {
+      Face& face = pairs.faces(f);
+      face.id = faceId(f, 0);
+      face.local = true;
+      face.thickness = 0.1;
+    }
+    const auto verdict = [&](int p)
+    {
+      const int a = 2 * p, b = a + 1;
+      const auto box = [&](int f)
+      { return contactBox(pairs.faces(f), pairs.planes(f), pairs.x, rules); };
+      return judgePair(pairs.faces(a), pairs.faces(b), box(a), box(b), pairs.planes(a),
+                       pairs.planes(b), pairs.x, rules);
+    };
+    const auto centersGap = [&](int p)
+    {
+      const FacePlane &a = pairs.planes(2 * p), &b = pairs.planes(2 * p + 1);
+      return dot(normalised(a.normal - b.normal), b.center - a.center);
+    };
+    for (const Real since : {0.0, movingpairs::ahead})
+    {
+      pairs.goOn(since);
+      int acting = 0;
+      for (int p = 0; p < count; ++p)
+      {
+        const Plane plane = movingpairs::looked(pairs.faceNow(2 * p), pairs.faceNow(2 * p + 1));
+        const Real deepest = -rules.depthMax * pairs.faces(2 * p).thickness;
+        if (!(plane.area > 0) || plane.gap < deepest || centersGap(p) < deepest)
+          continue;
+        ++acting;
+        EXPECT_EQ(verdict(p), Verdict::Candidate)
+            << "pair " << p << " at " << swiftness << " m/s after " << since << " s";
+      }
+      EXPECT_GT(acting, count / 100);
+    }
+  }
 }
 
 TEST(Step5CandidatePairs, facesThatShareANodeAreNeighboursOfOneBody)

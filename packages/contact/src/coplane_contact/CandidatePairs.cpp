@@ -10,10 +10,21 @@
 
 namespace coplane
 {
+namespace
+{
+FacePlane planeOf(const FaceNodes& nodes, int dimension)
+{
+  const HalfStepFace face = stepA_halfStepFace(nodes, 0, dimension);
+  Real warp = 0;
+  if (nodes.count == 4)
+    warp = 0.25 * std::abs(dot(face.normal, face.x[0] - face.x[1] + face.x[2] - face.x[3]));
+  return {face.center, face.normal, 0, warp};
+}
+} // namespace
+
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
-  const HalfStepFace now = stepA_halfStepFace(nodesOf(face, x), 0, dimension);
-  return {now.center, now.normal, 0};
+  return coplane::planeOf(nodesOf(face, x), dimension);
 }
 
 FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const
@@ -24,8 +35,9 @@ FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, i
   FaceNodes ahead = nodesOf(face, x);
   for (int k = 0; k < face.count; ++k)
     ahead.x[k] += way(face.nodes[k], infinity);
-  const Vec3 normal = stepA_halfStepFace(ahead, 0, dimension).normal;
-  plane.turning = std::min(mostTurningAhead, norm(normal - plane.normal));
+  const FacePlane then = coplane::planeOf(ahead, dimension);
+  plane.turning = std::min(mostTurningAhead, norm(then.normal - plane.normal));
+  plane.warp = std::max(plane.warp, then.warp);
   return plane;
 }
 
@@ -134,7 +146,8 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
     return extent;
   };
   const Real gap = dot(n, planeB.center - planeA.center);
-  const Real extents = halfExtent(a, planeA.center) + halfExtent(b, planeB.center);
+  const Real extents = halfExtent(a, planeA.center) + rules.beyondNodes(planeA) +
+                       halfExtent(b, planeB.center) + rules.beyondNodes(planeB);
   if (gap > rules.skin + rules.offset + extents + approach(a, b, n, rules) ||
       gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
     return Verdict::TooFarApart;

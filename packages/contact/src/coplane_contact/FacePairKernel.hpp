@@ -166,6 +166,7 @@ KOKKOS_INLINE_FUNCTION void putForces(const PlaneBatch<T>& planes,
 KOKKOS_INLINE_FUNCTION void carryNothing(Plane& plane)
 {
   plane.dropForces();
+  plane.normalDamping = 0;
   plane.area = 0;
   plane.stored = 0;
   plane.normalTraction = 0;
@@ -307,11 +308,13 @@ KOKKOS_INLINE_FUNCTION Vec3Of<T> heldByFriction(const PlaneBatch<T>& planes, con
 
 /// Dashpots at the point of contact [N].
 /// @param elastic force along the normal [N]; normalStiffness: of the law [Pa/m]
+/// @param alongNormal gets the part along the normal [N]
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION Vec3Of<T>
 stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& elastic,
               const T& normalStiffness, const Vec3Of<T>& n, const PointMotionOf<T>& motion,
-              const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options)
+              const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b, const ContactOptions& options,
+              T& alongNormal)
 {
   using namespace branchFree;
   T inverseMass{};
@@ -323,6 +326,7 @@ stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& ela
                   squareRoot(patch.area * normalStiffness / inverseMass) * motion.speed;
   const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
   normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
+  alongNormal = normalForce;
   const auto sticks =
       planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
   const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
@@ -391,17 +395,23 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
   Vec3Of<T> force =
       patch.area *
       (sigma * n + planes.eachVector([](const Plane& p) { return p.history.shearTraction; }));
-  T dampingWork{};
+  T dampingWork{}, alongNormal{};
   if (options.dampNormal > 0 || options.dampShear > 0)
   {
     const Vec3Of<T> damping = stepH_damping(planes, patch, patch.area * sigma, each(stiffnesses), n,
-                                            motion, a, b, options);
-    dampingWork = dt * dot(damping, motion.relative.jump);
+                                            motion, a, b, options, alongNormal);
+    // Along the normal, which bodies strike, by the trapezoid rule, as all work of nodes.
+    const T before = planes.each([](const Plane& p) { return p.normalDamping; });
+    dampingWork =
+        dt * (dot(damping, motion.relative.jump) + 0.5 * (before - alongNormal) * motion.speed);
     force += damping;
   }
   for (int i = 0; i < planes.count; ++i)
     if (lane(touching, i))
+    {
       planes.plane[i]->dampingWork -= lane(dampingWork, i);
+      planes.plane[i]->normalDamping = float(lane(alongNormal, i));
+    }
 
   Vec3Of<T> nodal[2][4];
   stepH_nodalForces<Dim>(patch, force, motion, a, b, options.couple, dt, nodal);

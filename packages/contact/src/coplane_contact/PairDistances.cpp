@@ -33,8 +33,6 @@ struct Corners
         x[k] += time * at(v, face.nodes[k]);
     }
   }
-  /// Half the distance between the diagonals of a quadrilateral.
-  Vec3 warp() const { return count == 4 ? 0.25 * (x[0] - x[1] + x[2] - x[3]) : Vec3{}; }
   /// By how much the unit normal changes at most for each metre that nodes stray, over perNode
   /// [1/m].
   Real turningPerMetre() const
@@ -54,13 +52,6 @@ struct Corners
   }
 };
 
-/// By how much the mean plane of a face may lie beyond its nodes, on its way.
-Real beyondNodes(const FacePlane& plane, const Corners& first, const Corners& last)
-{
-  const Vec3 a = first.warp(), b = last.warp();
-  return std::max(std::abs(dot(plane.normal, a)), std::abs(dot(plane.normal, b))) +
-         plane.turning * std::max(norm(a), norm(b));
-}
 } // namespace
 
 void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
@@ -104,10 +95,12 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
                 }
                 if (mayReach(slot) != 0)
                   return;
-                const Vec3 n = normalised(planeA.normal - planeB.normal);
+                const Vec3 apart = planeA.normal - planeB.normal, n = normalised(apart);
                 const Corners lastA(a, seen_.x, seen_.v, ahead), lastB(b, seen_.x, seen_.v, ahead);
-                const Real less = seen_.offset + beyondNodes(planeA, firstA, lastA) +
-                                  beyondNodes(planeB, firstB, lastB);
+                // The planes of warped faces lie beyond their nodes, along a normal that leans
+                // towards theirs by half the length of their difference.
+                const Real less =
+                    seen_.offset + (planeA.warp + planeB.warp) / (0.5 * norm(apart) - turning);
                 const Real first = firstB.least(n) + firstA.least(-1.0 * n) - less;
                 const Real last = lastB.least(n) + lastA.least(-1.0 * n) - less;
                 const Real gap = down * first - roundOff * norm(firstA.x[1] - firstA.x[0]);

@@ -139,9 +139,10 @@ struct alignas(64) Plane
   Real gap = 0;    ///< at the centre of gravity, positive when open, offset not subtracted [m]
   Real offset = 0; ///< gap at which the joint is just closed [m]
   JointState history;
-  Real closure = 0;           ///< [m]
-  Real normalTraction = 0;    ///< compression positive [Pa]
-  Real depthLimit = infinity; ///< [m]
+  Real closure = 0;            ///< [m]
+  Real normalTraction = 0;     ///< compression positive [Pa]
+  float depthLimit = infinity; ///< [m]
+  float normalDamping = 0;     ///< force of the dashpot that pushes the faces apart [N]
 
   Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
   Real stored = 0;            ///< recoverable energy now [J]

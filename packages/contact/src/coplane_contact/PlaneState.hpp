@@ -168,6 +168,8 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "depth_limit", "m", [](auto& p) -> auto& { return p.depthLimit; }),
     planeMember(
+        "normal_damping", "N", [](auto& p) -> auto& { return p.normalDamping; }),
+    planeMember(
         "birth_area", "m²", [](auto& p) -> auto& { return p.birthArea; }),
     planeMember(
         "stored", "J", [](auto& p) -> auto& { return p.stored; })

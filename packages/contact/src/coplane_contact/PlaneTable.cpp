@@ -78,7 +78,7 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
       rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
   plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
                 stiffestCalm;
-  plane.depthLimit = depthMax_ * std::min(a.thickness, b.thickness);
+  plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);
   return plane;

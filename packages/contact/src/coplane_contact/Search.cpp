@@ -75,7 +75,7 @@ Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors&
   const Vec3 inside = -rules.depthInto(face, plane) * plane.normal;
   for (int c = 0; c < 3; ++c)
     (inside[c] < 0 ? box.low : box.high)[c] += inside[c];
-  box.grow(0.5 * rules.reach);
+  box.grow(0.5 * rules.reach + rules.beyondNodes(plane));
   return box;
 }
 

@@ -22,6 +22,7 @@ struct FacePlane
 {
   Vec3 center{}, normal{};
   Real turning = 0; ///< by which a product with the normal may change as the face goes on [-]
+  Real warp = 0;    ///< by which nodes lie beside the plane, on its way, too [m]
 };
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension);
 
@@ -68,16 +69,25 @@ struct CandidateRules
   /// meet.
   Real depthInto(const Face& face, const FacePlane& plane) const
   {
-    // Least of |n0 - n1|, with another face that turns as much as this one.
-    const Real square = 2 - 2 * std::max(0.0, mostCosine(plane, plane));
-    return depthMax * face.thickness / std::sqrt(square);
+    return depthMax * face.thickness / leastApart(plane);
   }
-  /// The plane of a face, with what motion makes of its normal.
+  /// The plane of a warped face stands for it, and lies beyond its nodes: by how much along the
+  /// normal of any pair, which leans towards that of the face by half of |n0 - n1| [m].
+  Real beyondNodes(const FacePlane& plane) const { return 2 * plane.warp / leastApart(plane); }
+  /// The plane of a face, with what motion makes of it.
   FacePlane planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const;
+
+private:
+  /// Least of |n0 - n1| of a pair, with another face that turns as much as this one.
+  Real leastApart(const FacePlane& plane) const
+  {
+    return std::sqrt(2 - 2 * std::max(0.0, mostCosine(plane, plane)));
+  }
 };
 
 /// Where the face may be in contact before the next search: the face, the same at the largest depth
-/// of a contact inside its body, both where its motion takes it, and half the reach around. Two
+/// of a contact inside its body, both where its motion takes it, and around them half the reach and
+/// what its plane lies beyond its nodes. Two
 /// faces within that depth of each other, or within the reach, have boxes that overlap.
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules);

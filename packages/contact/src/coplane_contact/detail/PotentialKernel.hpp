@@ -140,9 +140,11 @@ private:
     }
     slope_ = all(slopes_);
     hardening_ = branchFree::gathered<T>(
-        [&](int i) -> Real {
-          return i < planes_.count && planes_.law[i]->penalty ? 1 / planes_.plane[i]->depthLimit
-                                                              : 0;
+        [&](int i) -> Real
+        {
+          return i < planes_.count && planes_.law[i]->penalty
+                     ? 1 / Real(planes_.plane[i]->depthLimit)
+                     : 0;
         });
   }
 
@@ -426,6 +428,9 @@ private:
     T normalDamping{};
     if (options_.dampNormal > 0 || options_.dampShear > 0)
       tangential += damp(touching, area, normalForce, relative, normalDamping);
+    for (int i = 0; i < planes_.count; ++i)
+      if (branchFree::lane(touching, i))
+        planes_.plane[i]->normalDamping = float(branchFree::lane(normalDamping, i));
     const Vec3Of<T> lever = (0.5 / pair_.kappa() * relative.apart) * tangential;
     pair_.addThroughNormal(0, lever);
     pair_.addThroughNormal(1, -lever);
@@ -465,7 +470,10 @@ private:
                                   branchFree::squareRoot(area * shearStiffness / inverseMass),
                               T(0.0)) *
                            relative.sliding);
-    const T work = dt_ * (dot(damping, relative.sliding) - normalDamping * relative.closing);
+    // Along the normal, which bodies strike, by the trapezoid rule, as all work of nodes.
+    const T before = planes_.each([](const Plane& p) { return p.normalDamping; });
+    const T work =
+        dt_ * (dot(damping, relative.sliding) - 0.5 * (before + normalDamping) * relative.closing);
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
         planes_.plane[i]->dampingWork -= branchFree::lane(work, i);
