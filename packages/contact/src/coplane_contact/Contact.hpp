@@ -265,8 +265,7 @@ private:
   bool wasPassedOver(std::size_t slot) const;
   /// How far the pairs of a search are from each other. @param planes of the faces, x (a copy) and
   /// v of the nodes at that time
-  void measureDistances(const Array<FacePlane>& planes, const ConstNodeVectors& x,
-                        const ConstNodeVectors& v);
+  void measureDistances(const ConstNodeVectors& x, const ConstNodeVectors& v);
   /// Law of a pair of faces.
   const JointLaw& lawOf(const SlotFaces& pair) const
   {

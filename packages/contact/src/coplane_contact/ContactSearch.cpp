@@ -273,9 +273,10 @@ void Contact::addGhostsOfLivingPlanes(const std::vector<GlobalId>& nodeIds)
                      [](const GhostFace& a, const GhostFace& b) { return a.id < b.id; });
 }
 
-void Contact::measureDistances(const Array<FacePlane>& planes, const ConstNodeVectors& x,
-                               const ConstNodeVectors& v)
+void Contact::measureDistances(const ConstNodeVectors& x, const ConstNodeVectors& v)
 {
+  // Bodies that fly apart go on as they were foreseen for longer than searches look.
+  constexpr Real longer = 3;
   distances_.forget();
   if (options_.forces != ContactOptions::Forces::Potential)
     return;
@@ -288,8 +289,11 @@ void Contact::measureDistances(const Array<FacePlane>& planes, const ConstNodeVe
                 if (pair.face[0] >= 0)
                   mayReach(slot) = lawOf(pair).mayReachOut();
               });
-  const Motion& motion = reach_.rules().motion;
-  distances_.take(slots, faces_.forKernels(), planes, mayReach,
+  CandidateRules rules = reach_.rules();
+  Motion& motion = rules.motion;
+  motion.ahead *= longer;
+  distances_.take(slots, faces_.forKernels(),
+                  facePlanes(faces_.forKernels(), x, rules, dimension_), mayReach,
                   {x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(), motion.ahead, motion.frame,
                    reach_.offset(), leastOpposed(options_)});
 }
@@ -297,8 +301,7 @@ void Contact::measureDistances(const Array<FacePlane>& planes, const ConstNodeVe
 void Contact::restoreDistances(const ConstNodeVectors& x, const ConstNodeVectors& v, Real ahead)
 {
   reach_.begin(reach_.offset(), motionAhead(v, ahead));
-  const ConstNodeVectors copy = copyOf(x);
-  measureDistances(facePlanes(faces_.forKernels(), copy, reach_.rules(), dimension_), copy, v);
+  measureDistances(copyOf(x), v);
   reach_.end();
 }
 
@@ -374,7 +377,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   PlaneTable::Slots made =
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
-  measureDistances(place.planes, place.x, v);
+  measureDistances(place.x, v);
   shown_ = {};
   firstHalf_ = {};
   ghostsElsewhere_ = {};
