@@ -154,21 +154,6 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 }
 } // namespace
 
-namespace
-{
-/// The gap and the overlap of a plane that is open.
-template <int Dim>
-void lookAgain(Plane& plane, const HalfStepFace& a, const HalfStepFace& b, const JointLaw& law,
-               const ContactOptions& options)
-{
-  constexpr Real noTime = 0;
-  if (mayMeet<Dim>(a, b, options))
-    updateByForces<Dim>(plane, a, b, law, options, noTime);
-  else
-    passBy(plane, a, b, noTime);
-}
-} // namespace
-
 void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
                         const ConstArray<Real>& mass) const
 {
@@ -199,7 +184,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
 
 PairTables Contact::pairTables()
 {
-  PairTables pairs = planes_.forKernels(options_.closure == ContactOptions::Closure::Incremental);
+  PairTables pairs = planes_.forKernels(isIncremental());
   pairs.distances = &distances_;
   return pairs;
 }
@@ -218,19 +203,23 @@ const PlaneList& Contact::planesNow() const
   for (std::size_t p = 0; p < all.size(); ++p)
     if (all[p].isBorn() && wasPassedOver(all.slotOf(p)))
       passedOver.push_back(p);
+  const std::size_t count = passedOver.size();
   shown_.copies = Kokkos::View<Plane*, Kokkos::HostSpace>(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::shown"), passedOver.size());
-  parallelFor("coplane::contact::planesNow", int(passedOver.size()),
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::shown"), count);
+  std::vector<Plane*> copies(count);
+  std::vector<SlotFaces> slots(count);
+  std::vector<Activity> activity(count, Activity::Awake);
+  parallelFor("coplane::contact::planesNow", int(count),
               [&](const int i)
               {
-                Plane& plane = *new (&shown_.copies(i)) Plane(all[passedOver[i]]);
-                const HalfStepFace &a = pairedFaces_.data()[plane.face[0]],
-                                   &b = pairedFaces_.data()[plane.face[1]];
-                if (dimension_ == 2)
-                  lookAgain<2>(plane, a, b, lawOf(plane), options_);
-                else
-                  lookAgain<3>(plane, a, b, lawOf(plane), options_);
+                copies[i] = new (&shown_.copies(i)) Plane(all[passedOver[i]]);
+                slots[i] = planes_.slots().faces(all.slotOf(passedOver[i]));
               });
+  std::atomic<bool> passedOnHasChanged{false};
+  const PairTables again{nullptr,        copies.data(),   slots.data(),       activity.data(),
+                         planes_.laws(), isIncremental(), &passedOnHasChanged};
+  constexpr Real noTime = 0;
+  stepsBtoH(again, int(count), pairedFaces_.data(), dimension_, options_, noTime);
   std::size_t next = 0;
   shown_.list.clear();
   for (std::size_t p = 0; p < all.size(); ++p)

@@ -260,6 +260,7 @@ private:
   std::vector<Coinciding> coincidingFaces(const ConstNodeVectors& x,
                                           const std::vector<std::size_t>& slots) const;
   void listSlotsOfFaces(int ownedNodes);
+  bool isIncremental() const { return options_.closure == ContactOptions::Closure::Incremental; }
   PairTables pairTables();
   /// Whether the last update may have left out an open plane.
   bool wasPassedOver(std::size_t slot) const;

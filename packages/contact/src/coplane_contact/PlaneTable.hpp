@@ -95,6 +95,7 @@ public:
   /// For the steps A to H, after which listWoken() is due. @param incremental closures are sums of
   /// increments
   PairTables forKernels(bool incremental);
+  const JointLaw* laws() const { return laws_.data(); } ///< by joint card
 
   /// What a search has found, with planes where there are some and what is known of the others.
   /// @param faces that slots refer to; preparation: tells planes the rest when they come near
