@@ -462,7 +462,9 @@ Key sliversKey()
                      .atLeast(0)
                      .defaultIs("a tenth of the element size")
                      .like("0.05")
-                     .means("the same of blocks whose volume over their largest face is less"),
+                     .means("the same of blocks whose volume over their largest face is less; "
+                            "3D: joints leave their planes by up to this much where elements "
+                            "would be flat otherwise"),
                  number("stub", &SliverCard::stub)
                      .in("m")
                      .atLeast(0)
@@ -470,6 +472,14 @@ Key sliversKey()
                      .like("0.2")
                      .means("the end of a joint inside a block is left out where it reaches less "
                             "than this beyond another joint"),
+                 number("shape", &SliverCard::shape)
+                     .in("-")
+                     .atLeast(0)
+                     .atMost(0.1)
+                     .like("0")
+                     .means("a mesh with a flatter element is refused: least height over that of a "
+                            "regular element of the size asked for, or the shape that check "
+                            "prints, if that is less; 0 takes all"),
              })
       .means("blocks that are too small to stay");
 }

@@ -111,6 +111,7 @@ struct SliverCard
   Real volume = -1;    ///< of blocks that are joined to others [m^3, 2D: m^2]; -1: by size
   Real stub = -1;      ///< ends of joints beyond others that are left out [m]; -1: by size
   Real thickness = -1; ///< the same of their volume over their largest face [m]; -1: by size
+  Real shape = 0.003;  ///< of elements, the least that is written [-]
 };
 
 /// What a recipe of blocks says.

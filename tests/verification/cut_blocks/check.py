@@ -98,6 +98,23 @@ made = cut("slivers_kept", {**near, "slivers": {"volume": 0, "thickness": 0}})
 case.check_equal("slivers kept: parts", made["parts"], 3)
 case.check("slivers kept: the thin one", made["least"], 0.18, 1e-4)
 
+# --- joints that nearly meet: no flat elements ---------------------------------------------------------------------
+broken = {"dimension": 3, "seed": 1, "domain": {"box": {"min": [0, 0, 0], "max": [10, 10, 10]}}, "elements": {"size": 1.2},
+          "joints": {"bedding": {"set": {"dip": 20, "dip_direction": 90, "spacing": 2, "persistence": 0.8, "length": 4}},
+                     "cross": {"set": {"dip": 75, "dip_direction": 200, "spacing": 2.5, "persistence": 0.8, "length": 4}}}}
+
+
+def worst_shape(made):
+    return float(re.search(r"worst shape (\S+)", made["said"])[1])
+
+
+made = cut("nearly_met", broken)
+case.check_within("joints that nearly meet: worst shape", worst_shape(made), 0.05, 1)
+close("joints that nearly meet: volume, faces without partner", [made["blocks"]["rock"], lone_faces(made)], [1000, 0], 1e-9)
+made = cut("nearly_met_cubes", {**broken, "elements": {"size": 1.2, "shape": "cubes"}})
+close("the same of cubes: volume, faces without partner", [made["blocks"]["rock"], lone_faces(made)], [1000, 0], 1e-9)
+pressed = {**flat, "joints": {"a": {"planes": [{"point": [4, 0], "normal": [1, 0]}, {"point": [4.001, 0], "normal": [1, 0]}]}}, "slivers": {"volume": 0, "thickness": 0}}
+
 # --- cells -------------------------------------------------------------------------------------------------------
 for name, recipe, total in (("cells_2d", flat, 48), ("cells_3d", {**solid, "elements": {"size": 1.5}}, 192)):
     made = cut(name, {**recipe, "joints": {"grains": {"voronoi": {"cells": 20, "relaxations": 5}}}, "slivers": {"volume": 0, "thickness": 0}})
@@ -169,6 +186,10 @@ def refused(name, recipe, *words):
         said = str(failed)
     case.check_equal(f"{name}: says what is wrong", [word for word in words if word not in said], [])
 
+
+refused("elements that are flat", pressed, "slivers.shape", "(4", "exit code 4")
+made = cut("flat_on_purpose", {**pressed, "slivers": {**pressed["slivers"], "shape": 0}})
+case.check_equal("flat elements on purpose: parts", made["parts"], 3)
 
 # A box of several shells in one group: a cavity, a stone in it, and another stone beside it; a face that is not plane.
 def shell(low, size, count):
