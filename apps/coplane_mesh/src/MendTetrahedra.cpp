@@ -244,7 +244,7 @@ private:
     for (std::size_t k = 0; k < before.size(); ++k)
     {
       const Real a = k < after.size() ? after[k] : limits_.worth;
-      if (std::abs(a - before[k]) > 0.01 * std::abs(before[k]))
+      if (a < before[k] || a > before[k] + 0.01 * std::abs(before[k]))
         return a > before[k];
     }
     return false;
