@@ -103,6 +103,7 @@ struct BlockElementsCard
   Real size = 0; ///< [m]
   BlockElements shape = BlockElements::Simplices;
   Real growth = 0.3; ///< of the size with the distance from openings and regions [-]
+  Real most = 5e6;   ///< elements, by an estimate
   std::vector<ElementSizeCard> regions;
 };
 
