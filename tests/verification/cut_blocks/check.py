@@ -258,6 +258,8 @@ def deck(recipe, declared=True):
 at_rest = {
     "cells at rest": {"dimension": 2, "domain": {"box": {"min": [0, 0], "max": [6, 5]}}, "elements": {"size": 0.7, "shape": "cubes"}, "node_sets": outside,
                       "joints": {"grains": {"voronoi": {"cells": 12, "relaxations": 3}}}},
+    "mended joints at rest": {**scattered, "node_sets": {**outside, "bottom": {"where": {"z": 0}}, "top": {"where": {"z": 4}}},
+                              "joints": {name: {"set": {**joint["set"], "persistence": 0.8, "length": 3}} for name, joint in scattered["joints"].items()}},
     "scattered sets at rest": {**scattered, "node_sets": {**outside, "bottom": {"where": {"z": 0}}, "top": {"where": {"z": 4}}}},
 }
 for name, recipe in at_rest.items():
