@@ -144,45 +144,49 @@ Key openingsKey()
                            "along the path");
   section.byDimension = false;
   section.itemLength = 2;
-  return named("openings", &BlocksRecipe::openings,
-               {
-                   number("circle", &OpeningCard::circle)
-                       .in("m")
-                       .above(0)
-                       .defaultIs("none")
-                       .like("2.5")
-                       .means("radius of a circle round the point"),
-                   numbers("horseshoe", &OpeningCard::horseshoe, 2)
-                       .in("m")
-                       .above(0)
-                       .defaultIs("none")
-                       .like("[5, 6]")
-                       .means("width and height of a section with a flat floor, upright walls and "
-                              "half a circle as roof; the point is the middle of the floor"),
-                   section,
-                   numbers("at", &OpeningCard::at, 2)
-                       .needed()
-                       .onlyInDimension(2)
-                       .in("m")
-                       .like("[20, 12]")
-                       .means("the point of the section"),
-                   points("path", &OpeningCard::path, 2)
-                       .needed()
-                       .onlyInDimension(3)
-                       .in("m")
-                       .like("[[0, 5, 0], [20, 5, 0]]")
-                       .means("the two ends of the straight line along which the section goes"),
-                   number("size", &OpeningCard::elementSize)
-                       .in("m")
-                       .above(0)
-                       .defaultIs("that of elements")
-                       .like("0.25")
-                       .means("of elements at its wall; it grows with the distance"),
-                   flag("keep", &OpeningCard::keep)
-                       .like("true")
-                       .means("stays, as an element block of the opening's name, to be dug out "
-                              "later; its border holds"),
-               })
+  return named(
+             "openings", &BlocksRecipe::openings,
+             {
+                 number("circle", &OpeningCard::circle)
+                     .in("m")
+                     .above(0)
+                     .defaultIs("none")
+                     .like("2.5")
+                     .means(
+                         "radius of a circle round the point; a regular polygon of the same area "
+                         "with sides of about the size of elements, at least 6"),
+                 numbers("horseshoe", &OpeningCard::horseshoe, 2)
+                     .in("m")
+                     .above(0)
+                     .defaultIs("none")
+                     .like("[5, 6]")
+                     .means("width and height of a section with a flat floor, upright walls and "
+                            "half a circle as roof, of at least 18 sides; the point is the middle "
+                            "of the floor"),
+                 section,
+                 numbers("at", &OpeningCard::at, 2)
+                     .needed()
+                     .onlyInDimension(2)
+                     .in("m")
+                     .like("[20, 12]")
+                     .means("the point of the section"),
+                 points("path", &OpeningCard::path, 2)
+                     .needed()
+                     .onlyInDimension(3)
+                     .in("m")
+                     .like("[[0, 5, 0], [20, 5, 0]]")
+                     .means("the two ends of the straight line along which the section goes"),
+                 number("size", &OpeningCard::elementSize)
+                     .in("m")
+                     .above(0)
+                     .defaultIs("that of elements")
+                     .like("0.25")
+                     .means("of elements at its wall; it grows with the distance"),
+                 flag("keep", &OpeningCard::keep)
+                     .like("true")
+                     .means("stays, as an element block of the opening's name, to be dug out "
+                            "later; its border holds"),
+             })
       .exactlyOneOf({"circle", "horseshoe", "polygon"})
       .checkedBy(checkOpening)
       .means("openings, by names of your choice; the first that has a place takes it");
@@ -417,6 +421,12 @@ Key elementsKey()
                      .atMost(2)
                      .like("0.5")
                      .means("by how much the size grows per distance from openings and regions"),
+                 number("most", &BlockElementsCard::most)
+                     .in("elements")
+                     .above(0)
+                     .like("2e7")
+                     .means("a recipe whose sizes ask for more is refused before anything is cut; "
+                            "the number is estimated from volumes and sizes"),
                  list("regions", &BlockElementsCard::regions,
                       {
                           group("box", &ElementSizeCard::box,
@@ -462,7 +472,9 @@ Key sliversKey()
                      .atLeast(0)
                      .defaultIs("a tenth of the element size")
                      .like("0.05")
-                     .means("the same of blocks whose volume over their largest face is less"),
+                     .means("the same of blocks whose volume over their largest face is less; "
+                            "3D: joints leave their planes by up to this much where elements "
+                            "would be flat otherwise"),
                  number("stub", &SliverCard::stub)
                      .in("m")
                      .atLeast(0)
@@ -470,6 +482,14 @@ Key sliversKey()
                      .like("0.2")
                      .means("the end of a joint inside a block is left out where it reaches less "
                             "than this beyond another joint"),
+                 number("shape", &SliverCard::shape)
+                     .in("-")
+                     .atLeast(0)
+                     .atMost(0.1)
+                     .like("0")
+                     .means("a mesh with a flatter element is refused: least height over that of a "
+                            "regular element of the size asked for, or the shape that check "
+                            "prints, if that is less; 0 takes all"),
              })
       .means("blocks that are too small to stay");
 }

@@ -103,6 +103,7 @@ struct BlockElementsCard
   Real size = 0; ///< [m]
   BlockElements shape = BlockElements::Simplices;
   Real growth = 0.3; ///< of the size with the distance from openings and regions [-]
+  Real most = 5e6;   ///< elements, by an estimate
   std::vector<ElementSizeCard> regions;
 };
 
@@ -111,6 +112,7 @@ struct SliverCard
   Real volume = -1;    ///< of blocks that are joined to others [m^3, 2D: m^2]; -1: by size
   Real stub = -1;      ///< ends of joints beyond others that are left out [m]; -1: by size
   Real thickness = -1; ///< the same of their volume over their largest face [m]; -1: by size
+  Real shape = 0.003;  ///< of elements, the least that is written [-]
 };
 
 /// What a recipe of blocks says.

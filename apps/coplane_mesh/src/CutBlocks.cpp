@@ -2,6 +2,7 @@
 
 #include "ElementSizes.hpp"
 #include "JointSurfaces.hpp"
+#include "MendTetrahedra.hpp"
 #include "ShapeModel.hpp"
 #include "SolidFile.hpp"
 #include "VoronoiCells.hpp"
@@ -90,6 +91,52 @@ int addSolid(const Polyhedron& solid)
   return rest.at(0).second;
 }
 
+/// Four hexahedra for each tetrahedron, three quadrilaterals for each triangle.
+void cutIntoCubes(GmshFile& mesh)
+{
+  std::map<std::vector<int>, int> middles; // by the corners that they are between
+  const auto middleOf = [&](std::vector<int> corners)
+  {
+    std::sort(corners.begin(), corners.end());
+    const auto [place, isNew] = middles.insert({corners, int(mesh.coordinates.size())});
+    if (isNew)
+    {
+      Vec3 middle{};
+      for (const int corner : corners)
+        middle += (1 / Real(corners.size())) * mesh.coordinates[std::size_t(corner)];
+      mesh.coordinates.push_back(middle);
+      mesh.nodeIds.push_back(GlobalId(mesh.nodeIds.size()) + 1);
+    }
+    return place->second;
+  };
+  std::vector<GmshFile::Element> cut;
+  const auto add = [&](const GmshFile::Element& whole, int type, const std::array<int, 8>& nodes) {
+    cut.push_back({whole.entity, type, GlobalId(cut.size()) + 1, nodes});
+  };
+  for (const GmshFile::Element& whole : mesh.elements)
+  {
+    const auto& n = whole.nodes;
+    if (whole.type == 2)
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const int a = n[k], b = n[(k + 1) % 3], c = n[(k + 2) % 3];
+        add(whole, 3, {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c})});
+      }
+    else
+    {
+      constexpr std::size_t turns[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+      for (const auto& turn : turns)
+      {
+        const int a = n[turn[0]], b = n[turn[1]], c = n[turn[2]], d = n[turn[3]];
+        add(whole, 5,
+            {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c}), middleOf({a, d}),
+             middleOf({a, b, d}), middleOf({a, b, c, d}), middleOf({a, c, d})});
+      }
+    }
+  }
+  mesh.elements = cut;
+}
+
 /// Cuts one domain.
 class Cutter
 {
@@ -107,6 +154,7 @@ public:
   CutDomain cut()
   {
     addDomain();
+    demandFewElements();
     for (const OpeningCard& opening : recipe_.openings)
       addOpening(opening);
     addJoints();
@@ -126,6 +174,7 @@ private:
   {
     int opening = -1; ///< position in the recipe; -1: the domain
     bool support = false;
+    std::string name; ///< of a solid of a file
     Entity entity;
   };
 
@@ -161,36 +210,103 @@ private:
     for (const Polyhedron& solid : readSolids(file.string()))
     {
       widen(solid.points);
-      addBody(-1, addSolid(solid), solid.support);
+      addBody(-1, addSolid(solid), solid.support, solid.name);
     }
   }
 
-  void addBody(int opening, int tag, bool support = false)
+  void addBody(int opening, int tag, bool support = false, const std::string& name = "")
   {
-    bodies_.push_back({opening, support, {dimension_, tag}});
+    bodies_.push_back({opening, support, name, {dimension_, tag}});
+  }
+
+  /// Perimeter and area of a section [m, m^2].
+  static std::array<Real, 2> measuresOf(const OpeningCard& card)
+  {
+    if (card.circle > 0)
+      return {2 * pi * card.circle, pi * card.circle * card.circle};
+    if (!card.horseshoe.empty())
+    {
+      const Real width = card.horseshoe[0], upright = card.horseshoe[1] - width / 2;
+      return {width + 2 * upright + pi * width / 2, width * upright + pi * width * width / 8};
+    }
+    const std::vector<Vec3> corners = toPoints(card.polygon);
+    Real perimeter = 0;
+    Vec3 twiceArea{};
+    for (std::size_t k = 0; k < corners.size(); ++k)
+    {
+      const Vec3 &a = corners[k], &b = corners[(k + 1) % corners.size()];
+      perimeter += norm(b - a);
+      twiceArea += cross(a, b);
+    }
+    return {perimeter, norm(twiceArea) / 2};
+  }
+
+  /// Before anything is cut: how many elements the sizes ask for, about; joints make it more.
+  void demandFewElements() const
+  {
+    const bool flat = dimension_ == 2, cubes = recipe_.elements.shape == BlockElements::Cubes;
+    const Real perVolume = flat ? (cubes ? 1 : 2.3) : (cubes ? 3 : 6);
+    const auto count = [&](Real volume, Real size)
+    { return perVolume * volume / std::pow(size, dimension_); };
+    Real domain = 0, supports = 0;
+    for (const Body& body : bodies_)
+      (body.support ? supports : domain) += measureOf(body.entity);
+    std::map<std::string, Real> volumes{{recipe_.domain.block, domain}};
+    volumes[recipe_.domain.supports] += supports;
+    Real elements = count(domain + supports, size_);
+    for (const OpeningCard& opening : recipe_.openings)
+    {
+      const auto [perimeter, area] = measuresOf(opening);
+      const Real length = flat ? 1 : norm(toVec3(opening.path[1]) - toVec3(opening.path[0]));
+      volumes[opening.name] = length * area;
+      if (const Real size = opening.elementSize; size > 0) // growing to both sides of its wall
+        elements += 2 * count(length * perimeter, size) * size /
+                    (recipe_.elements.growth * (dimension_ - 1));
+    }
+    for (const ElementSizeCard& region : recipe_.elements.regions)
+    {
+      Real volume = 1;
+      if (!region.block.empty())
+        volume = volumes.count(region.block) ? volumes.at(region.block) : 0;
+      else
+        for (int axis = 0; axis < dimension_; ++axis)
+          volume *= std::max(0.0, std::min(region.box.max[std::size_t(axis)], high_[axis]) -
+                                      std::max(region.box.min[std::size_t(axis)], low_[axis]));
+      elements += count(volume, region.size);
+    }
+    if (elements > recipe_.elements.most)
+      fail(ExitCode::Deck,
+           "{}: the sizes of elements ask for about {:.2g} elements (elements.size = {:.6g} m, the "
+           "least size anywhere {:.6g} m, the domain has {:.4g} {}), and up to elements.most = "
+           "{:.6g} are meshed. All lengths are in metres. Make elements larger, or raise "
+           "elements.most.",
+           recipeFile_, elements, size_, leastSize(), domain + supports, flat ? "m^2" : "m^3",
+           recipe_.elements.most);
   }
 
   /// The corners of a section: to the right and upward.
   static std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
   {
     std::vector<std::array<Real, 2>> corners;
-    const auto addArc = [&](Real radius, Real height, Real from, Real to, bool withEnd)
-    {
-      const int parts = std::max(6, int(std::ceil((to - from) * radius / size)));
-      for (int k = 0; k < parts + (withEnd ? 1 : 0); ++k)
-      {
-        const Real angle = from + (to - from) * k / parts;
-        corners.push_back({radius * std::cos(angle), height + radius * std::sin(angle)});
-      }
+    const auto add = [&](Real radius, Real height, Real angle) {
+      corners.push_back({radius * std::cos(angle), height + radius * std::sin(angle)});
     };
     if (card.circle > 0)
-      addArc(card.circle, 0, 0, 2 * pi, false);
+    {
+      const int sides = std::max(6, int(std::ceil(2 * pi * card.circle / size)));
+      const Real turn = 2 * pi / sides;
+      for (int k = 0; k < sides; ++k) // the area is that of the circle
+        add(card.circle * std::sqrt(turn / std::sin(turn)), 0, turn * k);
+    }
     else if (!card.horseshoe.empty())
     {
       const Real half = card.horseshoe[0] / 2;
       corners.push_back({-half, 0});
       corners.push_back({half, 0});
-      addArc(half, card.horseshoe[1] - half, 0, pi, true);
+      // The roof lacks up to 0.51 % of the area of its half circle.
+      const int sides = std::max(18, int(std::ceil(pi * half / size)));
+      for (int k = 0; k <= sides; ++k)
+        add(half, card.horseshoe[1] - half, pi * k / sides);
     }
     else
       for (const std::vector<Real>& corner : card.polygon)
@@ -330,6 +446,7 @@ private:
       refuseJoint(result_.joints.size() - 1);
     std::vector<Entities> parts;
     occ::fragment(objects, tools, all, parts);
+    demandApart(parts);
     blocks_.clear();
     isSupport_.clear();
     // A part of the domain that is also one of an opening belongs to the first opening; what an
@@ -368,6 +485,37 @@ private:
     occ::synchronize();
     if (!recipe_.domain.joint.empty())
       addBordersOfSolids(parts);
+  }
+
+  /// Solids of a file may touch, and no more; what both have would be given to one of them.
+  void demandApart(const std::vector<Entities>& parts) const
+  {
+    constexpr Real rounding = 1e-6; // coordinates of files have single precision
+    std::map<Entity, std::vector<std::size_t>> solidsOf;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+      if (bodies_[b].opening < 0)
+        for (const Entity& part : parts[b])
+          solidsOf[part].push_back(b);
+    std::map<std::pair<std::size_t, std::size_t>, Real> shared;
+    for (const auto& [part, solids] : solidsOf)
+      for (std::size_t i = 0; i < solids.size(); ++i)
+        for (std::size_t k = i + 1; k < solids.size(); ++k)
+          shared[{solids[i], solids[k]}] += measureOf(part);
+    std::vector<std::string> pairs;
+    for (const auto& [pair, volume] : shared)
+    {
+      const Body &a = bodies_[pair.first], &b = bodies_[pair.second];
+      if (volume > rounding * std::min(measureOf(a.entity), measureOf(b.entity)))
+        pairs.push_back(fmt::format("'{}' and '{}' by {:.4g} m^3", a.name, b.name, volume));
+    }
+    if (pairs.empty())
+      return;
+    const std::size_t told = std::min<std::size_t>(pairs.size(), 10);
+    fail(ExitCode::Mesh,
+         "{}: solids of domain.file = {} overlap: {}{}. Accepted: solids that are apart or touch; "
+         "move them, or cut one out of the other where they were drawn.",
+         recipeFile_, recipe_.domain.file, fmt::join(pairs.begin(), pairs.begin() + told, ", "),
+         pairs.size() > told ? fmt::format(", and {} more pairs", pairs.size() - told) : "");
   }
 
   /// Where solids of a file touch is a joint as well, unless one of the recipe has the place.
@@ -587,7 +735,7 @@ private:
     {
       if (faces[j].empty())
         refuseJoint(j);
-      addGroup(dimension_ - 1, faces[j], result_.joints[j].name);
+      groupOfJoint_.push_back(addGroup(dimension_ - 1, faces[j], result_.joints[j].name));
     }
   }
 
@@ -600,13 +748,14 @@ private:
          result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
   }
 
-  void addGroup(int dimension, const std::vector<int>& tags, const std::string& name)
+  int addGroup(int dimension, const std::vector<int>& tags, const std::string& name)
   {
     const int number = gmsh::model::addPhysicalGroup(dimension, tags);
     gmsh::model::setPhysicalName(dimension, number, name);
     result_.mesh.physicalNames[{dimension, number}] = name;
     for (const int tag : tags)
       result_.mesh.physicalsOfEntity[{dimension, tag}] = {number};
+    return number;
   }
 
   void mesh()
@@ -614,8 +763,8 @@ private:
     const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
     setElementSizes(recipe_, recipeFile_, sized_,
                     cubes ? 2 : 1); // each element is cut in half along its edges
-    if (cubes)
-      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", dimension_ == 2 ? 1 : 2);
+    if (cubes && dimension_ == 2)
+      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
     gmsh::model::mesh::generate(dimension_);
     readNodes();
     GlobalId next = 0;
@@ -623,6 +772,176 @@ private:
       for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
         if (entity.first == d)
           readElements(entity, next);
+    const bool whole = cubes && dimension_ == 3; // as long as they are tetrahedra
+    const Real size = (whole ? 2 : 1) * leastSize();
+    result_.worstBefore = findWorst(size);
+    if (dimension_ == 3)
+      mendElements(size);
+    demandWorth();
+    if (whole)
+      cutIntoCubes(result_.mesh);
+  }
+
+  /// The least size of elements that the recipe asks for anywhere.
+  Real leastSize() const
+  {
+    Real least = size_;
+    for (const ElementSizeCard& region : recipe_.elements.regions)
+      least = std::min(least, region.size);
+    for (const OpeningCard& opening : recipe_.openings)
+      if (opening.elementSize > 0)
+        least = std::min(least, opening.elementSize);
+    return least;
+  }
+
+  /// The least worth of an element, and its place.
+  Real findWorst(Real size)
+  {
+    Real least = infinity;
+    for (const GmshFile::Element& element : result_.mesh.elements)
+    {
+      if (element.entity.first != dimension_)
+        continue;
+      std::array<Vec3, 4> x{};
+      const std::size_t count = std::size_t(nodesOfGmshType(element.type));
+      for (std::size_t k = 0; k < count; ++k)
+        x[k] = result_.mesh.coordinates[std::size_t(element.nodes[k])];
+      Real worth = infinity;
+      if (dimension_ == 3)
+        worth = worthOf(x, size);
+      else
+        for (std::size_t k = 0; k < count; ++k) // the corners of a quadrilateral
+          worth = std::min(worth, worthOf(std::array<Vec3, 3>{x[(k + count - 1) % count], x[k],
+                                                              x[(k + 1) % count]},
+                                          size));
+      if (worth < least)
+      {
+        least = worth;
+        result_.worstPlace = (1 / Real(count)) * (x[0] + x[1] + x[2] + x[3]);
+      }
+    }
+    result_.worst = least;
+    return least;
+  }
+
+  /// What is flat makes a step that nobody can pay.
+  void demandWorth() const
+  {
+    if (result_.worst >= recipe_.slivers.shape)
+      return;
+    const Vec3& x = result_.worstPlace;
+    fail(ExitCode::Mesh,
+         "{}: the element at ({:.4g}, {:.4g}, {:.4g}) m is worth {:.2g} (1: regular and of the "
+         "size asked for, 0: flat), which would make the time step about {} times shorter; "
+         "accepted: slivers.shape = {:.6g} or more. Joints or borders nearly meet there. Larger "
+         "slivers.thickness (here {:.3g} m) or slivers.stub (here {:.3g} m), another seed, or "
+         "joints somewhat elsewhere help; slivers.shape: 0 writes the mesh as it is.",
+         recipeFile_, x.x, x.y, x.z, result_.worst,
+         result_.worst > 1e-6 ? fmt::format("{:.0f}", 1 / result_.worst) : "infinitely many",
+         recipe_.slivers.shape, leastThickness_, leastStub_);
+  }
+
+  /// Mends tetrahedra that are nearly flat, if there are any.
+  void mendElements(Real size)
+  {
+    MendLimits limits;
+    limits.size = size;
+    limits.worth = 0.1;
+    limits.tolerance = leastThickness_;
+    limits.reach = leastStub_;
+    TetrahedraWithSurfaces mesh = tetrahedra();
+    result_.changes = mendTetrahedra(mesh, limits);
+    if (result_.changes == 0)
+      return;
+    takeOver(mesh);
+    findWorst(size);
+  }
+
+  /// The tetrahedra, with the surfaces of joints and borders.
+  TetrahedraWithSurfaces tetrahedra() const
+  {
+    TetrahedraWithSurfaces mesh;
+    mesh.points = result_.mesh.coordinates;
+    const auto groupOf = [&](const Entity& entity)
+    { return result_.mesh.physicalsOfEntity.at(entity).front(); };
+    for (const GmshFile::Element& element : result_.mesh.elements)
+      if (element.entity.first == 3)
+      {
+        const auto& n = element.nodes;
+        mesh.tetrahedra.push_back({{n[0], n[1], n[2], n[3]}, groupOf(element.entity)});
+      }
+    Entities faces;
+    gmsh::model::getEntities(faces, 2);
+    for (const Entity& face : faces)
+    {
+      TetrahedraWithSurfaces::Surface surface;
+      const std::vector<int> sides = blocksAt(face.second);
+      if (const auto piece = pieces_.find(face); piece != pieces_.end())
+        surface.joint = piece->second;
+      surface.exact = sides.size() == 1 ||
+                      (sides.size() == 2 && groupOf({3, sides[0]}) != groupOf({3, sides[1]}));
+      if (!surface.exact && surface.joint < 0)
+        continue;
+      std::vector<int> types;
+      std::vector<std::vector<std::size_t>> tags, nodes;
+      gmsh::model::mesh::getElements(types, tags, nodes, 2, face.second);
+      Real area = 0;
+      for (const std::vector<std::size_t>& all : nodes)
+        for (std::size_t k = 0; k + 2 < all.size(); k += 3)
+        {
+          TetrahedraWithSurfaces::Face corners;
+          for (std::size_t i = 0; i < 3; ++i)
+            corners[i] = nodeOfTag_.at(all[k + i]);
+          const auto x = [&](std::size_t i) { return mesh.points[std::size_t(corners[i])]; };
+          const Vec3 normal = cross(x(1) - x(0), x(2) - x(0));
+          surface.normal += normal;
+          surface.point += norm(normal) * ((1.0 / 3) * (x(0) + x(1) + x(2)));
+          area += norm(normal);
+          std::sort(corners.begin(), corners.end());
+          mesh.surfaceOf[corners] = int(mesh.surfaces.size());
+        }
+      if (!(area > 0))
+        continue;
+      surface.point = (1 / area) * surface.point;
+      surface.normal = normalised(surface.normal);
+      mesh.surfaces.push_back(surface);
+    }
+    return mesh;
+  }
+
+  /// The mesh that was mended, in place of that of Gmsh.
+  void takeOver(const TetrahedraWithSurfaces& mesh)
+  {
+    GmshFile& result = result_.mesh;
+    std::map<std::pair<int, int>, Entity> entityOf; // one of each group, by dimension and number
+    for (const auto& [entity, groups] : result.physicalsOfEntity)
+      entityOf.insert({{entity.first, groups.front()}, entity});
+    result.coordinates = mesh.points;
+    while (result.nodeIds.size() < mesh.points.size())
+      result.nodeIds.push_back(GlobalId(result.nodeIds.size()) + 1);
+    result.elements.clear();
+    const auto add = [&](const Entity& entity, int type, const auto& nodes)
+    {
+      GmshFile::Element element{entity, type, GlobalId(result.elements.size()) + 1, {}};
+      std::copy(nodes.begin(), nodes.end(), element.nodes.begin());
+      result.elements.push_back(element);
+    };
+    std::map<TetrahedraWithSurfaces::Face, int> sides;
+    for (const auto& element : mesh.tetrahedra)
+    {
+      add(entityOf.at({3, element.group}), 4, element.nodes);
+      for (std::size_t k = 0; k < 4; ++k)
+      {
+        TetrahedraWithSurfaces::Face face{element.nodes[(k + 1) % 4], element.nodes[(k + 2) % 4],
+                                          element.nodes[(k + 3) % 4]};
+        std::sort(face.begin(), face.end());
+        ++sides[face];
+      }
+    }
+    for (const auto& [face, surface] : mesh.surfaceOf)
+      if (const int joint = mesh.surfaces[std::size_t(surface)].joint;
+          joint >= 0 && sides[face] == 2)
+        add(entityOf.at({2, groupOfJoint_.at(joint)}), 2, face);
   }
 
   void readNodes()
@@ -675,6 +994,7 @@ private:
   std::map<Entity, int> blocks_;     ///< and the opening they are in; -1: none
   std::map<Entity, bool> isSupport_; ///< blocks of the domain
   SizedParts sized_;
+  std::vector<int> groupOfJoint_; ///< numbers of Gmsh
   std::map<std::size_t, int> nodeOfTag_;
   CutDomain result_;
 };

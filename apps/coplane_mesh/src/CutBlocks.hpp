@@ -18,11 +18,14 @@ struct CutDomain
     Real area = 0; ///< of its faces inside the domain [m^2; 2D: m]
   };
   GmshFile mesh;
-  std::vector<Joint> joints;      ///< by the order of the recipe; then that between solids
-  std::vector<Real> blockVolumes; ///< [m^3; 2D: m^2]
-  int joined = 0;                 ///< slivers that became part of a neighbour
-  int stubs = 0;                  ///< ends of joints that were left out
-  int slivers = 0;                ///< those that have stayed, without a joint to be left out
+  std::vector<Joint> joints;       ///< by the order of the recipe; then that between solids
+  std::vector<Real> blockVolumes;  ///< [m^3; 2D: m^2]
+  int joined = 0;                  ///< slivers that became part of a neighbour
+  int stubs = 0;                   ///< ends of joints that were left out
+  int slivers = 0;                 ///< those that have stayed, without a joint to be left out
+  int changes = 0;                 ///< 3D: by which flat tetrahedra were mended
+  Real worstBefore = 1, worst = 1; ///< the least worth of an element before and after mending
+  Vec3 worstPlace{};               ///< the middle of that one [m]
 };
 
 /// Cuts and meshes with Gmsh. Throws Error(ExitCode::Deck) for what the recipe says wrong,

@@ -8,8 +8,10 @@
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <numeric>
 
@@ -132,12 +134,35 @@ std::vector<Polyhedron> solidsOf(const std::vector<Polyhedron>& shells)
   return solids;
 }
 
+constexpr char blank = '\x1f'; // stands for one in names
+
+/// An OBJ file whose names of groups and objects have no blanks: Assimp would cut them there, and
+/// take groups for one whose names begin alike.
+std::string withWholeNames(const std::string& file)
+{
+  std::ifstream in(file, std::ios::binary);
+  std::string text;
+  for (std::string line; std::getline(in, line); text += line + '\n')
+  {
+    const auto isBlank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+    const auto key = std::find_if_not(line.begin(), line.end(), isBlank);
+    if (line.end() - key < 2 || (*key != 'g' && *key != 'o') || !isBlank(key[1]))
+      continue;
+    const auto name = std::find_if_not(key + 1, line.end(), isBlank);
+    while (line.end() > name && isBlank(line.back()))
+      line.pop_back();
+    std::replace_if(name, line.end(), isBlank, blank);
+  }
+  return text;
+}
+
 std::vector<Polyhedron> surfacesOf(const aiScene& scene)
 {
   std::vector<Polyhedron> surfaces;
   for (unsigned m = 0; m < scene.mNumMeshes; ++m)
   {
-    const std::string name = scene.mMeshes[m]->mName.C_Str();
+    std::string name = scene.mMeshes[m]->mName.C_Str();
+    std::replace(name.begin(), name.end(), blank, ' ');
     surfaces.push_back(
         polyhedronOf(*scene.mMeshes[m], name.empty() ? fmt::format("solid {}", m + 1) : name));
   }
@@ -153,19 +178,40 @@ std::vector<Polyhedron> readSolids(const std::string& file)
   // Points and lines have no inside.
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
                               aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* const scene = importer.ReadFile(file, aiProcess_SortByPType);
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  const aiScene* scene = nullptr;
+  if (extension == ".obj" && std::filesystem::is_regular_file(file))
+  {
+    const std::string text = withWholeNames(file);
+    scene = importer.ReadFileFromMemory(text.data(), text.size(), aiProcess_SortByPType, "obj");
+  }
+  else
+    scene = importer.ReadFile(file, aiProcess_SortByPType);
   if (!scene || scene->mNumMeshes == 0)
     fail(ExitCode::Mesh, "{}: no surfaces of solids can be read: {}", file,
          scene ? "it has no faces" : importer.GetErrorString());
   std::vector<Polyhedron> surfaces = surfacesOf(*scene);
   if (!std::all_of(surfaces.begin(), surfaces.end(), isPlane))
     surfaces = surfacesOf(*importer.ApplyPostProcessing(aiProcess_Triangulate));
+  std::map<std::string, int> bearers;
+  for (const Polyhedron& surface : surfaces)
+    ++bearers[surface.name];
+  for (std::size_t k = 0; k < surfaces.size(); ++k)
+    if (bearers.at(surfaces[k].name) > 1)
+      surfaces[k].name = fmt::format("{}, solid {}", surfaces[k].name, k + 1);
   std::vector<Polyhedron> solids;
   for (const Polyhedron& surface : surfaces)
   {
     demandClosed(surface, file);
-    for (const Polyhedron& solid : solidsOf(shellsOf(surface)))
-      solids.push_back(solid);
+    const std::vector<Polyhedron> parts = solidsOf(shellsOf(surface));
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+      solids.push_back(parts[k]);
+      if (parts.size() > 1)
+        solids.back().name = fmt::format("{}, part {}", surface.name, k + 1);
+    }
   }
   return solids;
 }

@@ -96,6 +96,9 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
     print(
         fmt::format("note: {} slivers stay: no joint between them and a neighbour can be left out",
                     domain.slivers));
+  if (domain.changes > 0)
+    print(fmt::format("{} changes mended flat elements: the worst is worth {:.3g}, was {:.3g}",
+                      domain.changes, domain.worst, domain.worstBefore));
   for (std::size_t j = 0; j < domain.joints.size(); ++j)
     print(fmt::format(
         "joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", domain.joints[j].name,
