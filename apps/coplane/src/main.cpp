@@ -301,6 +301,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
   const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(deck, known, home, comm);
   const std::vector<std::string> ofDashpots = problemsOfDashpots(deck, known, home, comm);
   const std::vector<std::string> ofReactions = problemsOfReactions(deck, known, home, comm);
+  const std::vector<std::string> ofProbes = problemsOfProbes(deck, home, comm);
   comm.together(
       [&]
       {
@@ -309,7 +310,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
               problemsOfOutputs(deck, known.dimension), ofRigidBlocks, ofAirBlasts, ofDashpots,
-              ofReactions})
+              ofReactions, ofProbes})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));

@@ -1,6 +1,7 @@
 #include "WallOfTwo.hpp"
 
 #include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/DeckProblems.hpp>
 
 namespace coplane
 {
@@ -113,6 +114,31 @@ TEST(ConditionsOfDeck, lastChangeOfLoads) // before the end at 1 s
       of("conditions: [{type: fixed, node_set: base}, {type: fixed, node_set: lid, until: 0.3}]\n");
   EXPECT_EQ(rest.lastChange, 0.3);
   EXPECT_EQ(rest.changing.find("conditions.1 (wall.yaml:"), 0u) << rest.changing;
+}
+
+TEST(DeckProblems, probesBesideAllBodies) // elements of 0.5 m, with diagonals of 0.707 m
+{
+  const Comm comm;
+  const Mesh mesh = wallOfTwo();
+  const RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
+  const auto problemsOf = [&](const std::string& probe)
+  {
+    const Deck deck = parseDeck(
+        deckOfTwo + blocksOfTwo + "history: {probes: [{name: p, " + probe + "}]}\n", "wall.yaml");
+    return problemsOfProbes(deck, part, comm);
+  };
+  EXPECT_TRUE(problemsOf("point: [0.3, 0.2, 0]").empty());
+  EXPECT_TRUE(problemsOf("point: [1.5, 2.4, 0]").empty());
+  EXPECT_TRUE(problemsOf("between: [[0, 0], [9, 0]], count: 2").empty()); // a warning
+  ASSERT_EQ(problemsOf("plane: [500, 1000, 0]").size(), 1u);
+  ASSERT_EQ(problemsOf("point: [1, 3, 0]").size(), 1u);
+  EXPECT_NE(problemsOf("point: [1, 3, 0]")[0].find(
+                "history.probes.0.point: (1, 3, 0) m is beside all bodies, 1 m from the nearest "
+                "node, "),
+            std::string::npos)
+      << problemsOf("point: [1, 3, 0]")[0];
+  EXPECT_NE(problemsOf("point: [1, 3, 0]")[0].find("at (1, 2, 0) m, where elements are 0.707 m"),
+            std::string::npos);
 }
 
 TEST(ConditionsOfDeck, blastWaveOfACharge)

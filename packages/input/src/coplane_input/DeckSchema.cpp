@@ -692,7 +692,8 @@ Key stages()
                      .like("{joints.dry.friction: 0.4}")
                      .means(
                          "values of the deck that change, by paths of its keys, for this stage and "
-                         "those after it; null takes a key out"),
+                         "those after it; null takes a key or a condition out, and the number "
+                         "after the last condition adds one"),
                  flag("zero_displacements", &StageCard::zeroDisplacements)
                      .like("true")
                      .means("displacements that are written count from its beginning"),
