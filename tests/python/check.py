@@ -143,6 +143,9 @@ case.check_equal("lines of a plot", [trace.name for trace in figure.data], ["kin
 for path in sorted((SOURCE / "exodus_inputs").glob("*/*deck*.yaml")):
     plain = documents.load(path)
     case.check_equal(f"{path.parent.name}/{path.name}: as written again", documents.parse(coplane.Deck.read(path).text), plain)
+pathlib.Path("digits.yaml").write_text("a: [-4.802534887208887e-05, 3.543160832092786e-05, 210e9, 2.0e+9, -1.50E-3, 1e-05, 0.1]\n")
+digits = coplane.Deck.read("digits.yaml")
+case.check_equal("all digits of numbers: as written again", digits.text, digits.path.read_text())
 opened = coplane.Deck.read(SOURCE / "exodus_inputs/jointed_rock_2d/deck.yaml")
 comments = re.findall("# .*", opened.path.read_text())
 opened["time.end"] = 1e-3

@@ -99,6 +99,10 @@ csv = "time[s],ns[cm/s^2],ew[cm/s^2]\n0,1,4\n0.1,2,5\n0.3,3,7\n"
 differs("CSV: column by its name", record.read(written("a.csv", csv), column="ew").acceleration, [0.04, 0.05, 0.07])
 differs("CSV: times", record.read("a.csv", column=1).times, [0, 0.1, 0.3])
 differs("text: unit, blanks, comments", record.read(written("a.txt", "# station\n0.0 1.0 # first\n0.5 -1e0\n"), unit="g").acceleration, [G, -G])
+for unit, factor in (("ms", 1e-3), ("s", 1), ("us", 1e-6), ("min", 60)):
+    table = written("t.csv", f"t[{unit}],a[m/s^2]\n0,1\n20,2\n40,3\n")
+    differs(f"CSV: times in {unit}", record.read(table).times, factor * numpy.array([0.0, 20, 40]), 1e-15 * factor)
+told("times in a unit that is not known", lambda: record.read(written("u.csv", "t[h],a[g]\n0,1\n1,2\n")), "t[h]", "ms")
 differs("text: one column", record.read(written("b.txt", "1\n2\n3\n"), unit="gal", step=0.1).acceleration, [0.01, 0.02, 0.03])
 differs("text: rows of values, the last one short", record.read(written("c.txt", "1 2 3\n4 5\n"), unit="m/s^2", step=0.1).times, numpy.arange(5) * 0.1)
 told("several columns", lambda: record.read("a.csv"), "3 columns", "ns[cm/s^2]", "column=")

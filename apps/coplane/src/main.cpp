@@ -301,6 +301,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
   const std::vector<std::string> ofAirBlasts = problemsOfAirBlasts(deck, known, home, comm);
   const std::vector<std::string> ofDashpots = problemsOfDashpots(deck, known, home, comm);
   const std::vector<std::string> ofReactions = problemsOfReactions(deck, known, home, comm);
+  const std::vector<std::string> ofProbes = problemsOfProbes(deck, home, comm);
   comm.together(
       [&]
       {
@@ -309,7 +310,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
         for (const std::vector<std::string>& more :
              {problemsOfDimension(deck, known.dimension), problemsOfLaws(deck, known.dimension),
               problemsOfOutputs(deck, known.dimension), ofRigidBlocks, ofAirBlasts, ofDashpots,
-              ofReactions})
+              ofReactions, ofProbes})
           problems.insert(problems.end(), more.begin(), more.end());
         if (!problems.empty())
           fail(ExitCode::Deck, "{}", fmt::join(problems, "\n"));
@@ -388,6 +389,22 @@ void tellStage(const StageCard& stage)
   logInfo("stage '{}' begins{}{}", stage.name, acts.empty() ? "" : ": ", fmt::join(acts, "; "));
 }
 
+/// From when on the run, or a stage of it, may end at rest.
+void tellWhenRestCounts(const Model& model, const Deck& deck, Real now)
+{
+  const RelaxationOptions& rest = model.conditions.relaxation;
+  if (!model.time.endAtRest || rest.lastChange <= now)
+    return;
+  if (rest.lastChange < model.time.end)
+    logInfo("rest counts from t = {:.6g} s on, when {} has changed for the last time",
+            rest.lastChange, rest.changing);
+  else
+    logWarning("no rest", fmt::format("{}: {} changes until t = {:.6g} s, so nothing ends at rest "
+                                      "before that. Let it end earlier, or leave the end to the "
+                                      "time.",
+                                      deck.file, rest.changing, model.time.end));
+}
+
 /// Checkpoints that this run does not go on from are of another, or may be.
 void putAsideOtherCheckpoints(const Deck& deck, const MeshSlice& mesh, const std::string& from,
                               const Comm& comm)
@@ -445,7 +462,9 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
       return std::nullopt;
     ++stage;
     tellStage(deck.stages[stage]);
-    return stageOf(decks[stage], int(stage), mesh, solver.mesh(), comm);
+    Stage next = stageOf(decks[stage], int(stage), mesh, solver.mesh(), comm);
+    tellWhenRestCounts(next.model, deck, solver.clock().time);
+    return next;
   };
   const auto begin = std::chrono::steady_clock::now();
   Solver solver(modelOf(partOf(mesh, std::move(home), deck, comm)), comm);
@@ -464,6 +483,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     reportModel(solver, mesh, decks.back());
     reportSoftening(deck, mesh, solver, comm);
     reportDamping(deck);
+    tellWhenRestCounts(solver.model(), deck, solver.clock().time);
     if (line.check)
     {
       reportEstimate(solver, mesh, decks.back());

@@ -524,4 +524,25 @@ TEST(Line, isNoStifferThanItsBound)
     EXPECT_GE(largest, 0.2 * bound);
   }
 }
+
+TEST(Line, knowsWhetherItWillChange) // within a stage that ends at 10 s
+{
+  LineSetup setup = boltOf(4);
+  const LineHosts hosts = hostsOf(setup);
+  EXPECT_FALSE(installed(setup, hosts).willChange(0, 10, 0));
+  setup.pretension = 1e4;
+  setup.pretensionTime = 2;
+  setup.stage = 1;
+  Line line(setup, {});
+  EXPECT_FALSE(line.willChange(1, 10, 0)); // another stage
+  EXPECT_TRUE(line.willChange(1, 10, 1));
+  line.advance(hosts, 5, 1, 1);
+  EXPECT_TRUE(line.willChange(5, 10, 1));
+  EXPECT_FALSE(line.willChange(7, 10, 1));
+  setup.until = 9;
+  EXPECT_TRUE(Line(setup, {}).willChange(8, 10, 1));
+  setup.until = 12;
+  setup.from = 11;
+  EXPECT_FALSE(Line(setup, {}).willChange(8, 10, 1)); // after the end
+}
 } // namespace coplane

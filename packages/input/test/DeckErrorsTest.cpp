@@ -116,6 +116,23 @@ TEST(DeckErrors, erosionNeedsLimitsThatTheStartKeeps)
             "below or both, as in porosity: {above: 0.5}.");
 }
 
+TEST(DeckErrors, linesThatWouldEndBeforeTheirStage)
+{
+  const auto of = [](const std::string& firstStage)
+  {
+    return errorWith("lines: {bar: {points: [[0, 0], [1, 0]], attach: ends, area: 1e-3, "
+                     "youngs_modulus: 2e11, stage: two, until: 0.4}}\n"
+                     "damping: {local: 0.7, until_force_ratio: 1e-4}\n"
+                     "stages: [{name: one, until: 0.5" +
+                     firstStage + "}, {name: two}]\n");
+  };
+  EXPECT_NE(of("").find("lines.bar.until = 0.4 s; accepted: later than the beginning of the stage "
+                        "'two', 0.5 s."),
+            std::string::npos)
+      << of("");
+  EXPECT_EQ(of(", at_rest: true"), "no error"); // it may begin earlier
+}
+
 TEST(DeckErrors, linesSayWhatDoesNotFit)
 {
   const auto lineWith = [](const std::string& keys)

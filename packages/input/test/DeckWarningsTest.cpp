@@ -28,6 +28,43 @@ TEST(DeckWarnings, outputsThatTheRunNeverComesTo)
                 "only its first and last state are written."}));
 }
 
+TEST(DeckWarnings, timesThatTheRunNeverComesTo)
+{
+  EXPECT_EQ(warningsOf("damping: {local: 0.7, from: 2}\n"),
+            (std::vector<std::string>{
+                "wall.yaml:5:29: damping.from = 2 s, but the run ends at time.end = 1 s."}));
+  const auto ofLine = [](const std::string& keys)
+  {
+    return warningsOf("lines: {bar: {points: [[0, 0], [1, 0]], attach: ends, area: 1e-3, "
+                      "youngs_modulus: 2e11, pretension: 1e3" +
+                      keys + "}}\n");
+  };
+  EXPECT_EQ(ofLine(", pretension_time: 1"), std::vector<std::string>());
+  ASSERT_EQ(ofLine(", from: 2").size(), 1u);
+  EXPECT_NE(ofLine(", from: 2")[0].find("lines.bar.from = 2 s, but the run ends"),
+            std::string::npos);
+  ASSERT_EQ(ofLine(", pretension_time: 0.6, from: 0.5").size(), 1u);
+  EXPECT_NE(ofLine(", pretension_time: 0.6, from: 0.5")[0].find(
+                "there from 0.5 to 1 s, so it is never pulled on in full"),
+            std::string::npos);
+}
+
+TEST(DeckWarnings, tablesThatDoNotVaryWhileTheyAct)
+{
+  const auto ofPressure = [](const std::string& keys)
+  { return warningsOf("conditions: [{type: pressure, side_set: roof, " + keys + "}]\n"); };
+  EXPECT_EQ(ofPressure("value: {times: [0, 5], values: [0, 1e6]}"), std::vector<std::string>());
+  EXPECT_EQ(ofPressure("value: {times: [2, 5], values: [1e6, 1e6]}"), std::vector<std::string>());
+  EXPECT_EQ(ofPressure("value: {times: [2, 5], values: [0, 1e6]}"),
+            (std::vector<std::string>{
+                "wall.yaml:5:54: conditions.0.value: the table has times from 2 to 5 s and is "
+                "constant from 0 to 1 s, while it acts. Times are in s, from the start of the run "
+                "on."}));
+  EXPECT_EQ(ofPressure("value: {times: [0, 0.1], values: [0, 1e6]}, from: 0.2").size(), 1u);
+  EXPECT_EQ(ofPressure("value: {times: [0, 5, 6], values: [0, 0, 1e6]}").size(), 1u);
+  EXPECT_EQ(warningsOf("gravity: [0, {times: [2, 5], values: [0, -9.81]}, 0]\n").size(), 1u);
+}
+
 TEST(DeckWarnings, aWeightThatLifts)
 {
   EXPECT_EQ(warningsOf("gravity: [0, 9.81, 0]\n"),

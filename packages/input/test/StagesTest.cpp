@@ -142,6 +142,30 @@ TEST(Stages, refuseWhatTheyCannotDo)
               "block 'lining' is not there at the start");
 }
 
+TEST(Stages, addAndTakeOutSingleConditions)
+{
+  const auto decks = decksOf(
+      "stages:\n"
+      "  - {name: a, until: 1}\n"
+      "  - {name: b, until: 2, set: {conditions.1: {type: fixed, node_set: base}, conditions.2: "
+      "{type: fixed, node_set: lid}}}\n"
+      "  - {name: c, until: 3, set: {conditions.1: null}}\n"
+      "  - {name: d, set: {conditions.0: null, conditions.2.components: [x]}}\n");
+  const auto setsOf = [](const Deck& deck)
+  {
+    std::vector<std::string> sets;
+    for (const ConditionCard& card : deck.conditions)
+      sets.push_back(card.set);
+    return sets;
+  };
+  using Sets = std::vector<std::string>;
+  EXPECT_EQ(setsOf(decks[0]), Sets({"wall"}));
+  EXPECT_EQ(setsOf(decks[1]), Sets({"wall", "base", "lid"}));
+  EXPECT_EQ(setsOf(decks[2]), Sets({"wall", "lid"}));
+  EXPECT_EQ(setsOf(decks[3]), Sets({"lid"})); // which is still number 2
+  EXPECT_FALSE(decks[3].conditions[0].components[1]);
+}
+
 TEST(Stages, changeNothingThatTheStateHolds)
 {
   const std::string first = "stages:\n  - {name: a, until: 1}\n  - ";
@@ -152,6 +176,8 @@ TEST(Stages, changeNothingThatTheStateHolds)
   expectError(first + "{name: b, set: {joints.wet.friction: 0.1}}\n", "joints.wet.friction");
   expectError(first + "{name: b, set: {conditions.7.value: 0.1}}\n",
               "'7' is no item of conditions, which has 1");
+  expectError(first + "{name: b, set: {conditions.2: {type: fixed, node_set: base}}}\n",
+              "'2' is no item of conditions, which has 1");
   expectError("stages: [{name: a, until: 1, remove: [core]}, {name: b}]\n",
               "stages.0.remove: the first stage is the deck as it stands");
   expectError(first + "{name: b, at_rest: true, set: {damping: {local: 0.5}}}\n",

@@ -1,5 +1,6 @@
 """Decks: read, change, check, write."""
 
+import functools
 import io
 import os
 import pathlib
@@ -20,7 +21,27 @@ def _yaml():
     yaml.preserve_quotes = True
     yaml.width = 4096  # lines stay as they are
     yaml.indent(mapping=2, sequence=4, offset=2)
+    yaml.Representer = _exact_numbers()
     return yaml
+
+
+@functools.cache
+def _exact_numbers():
+    """Numbers with an exponent are written as they stood in the file where that is the same number. ruamel.yaml cuts digits off those
+    with 16 and more, as records have them.
+    """
+    ruamel = needs("ruamel.yaml", "Reading a deck with its comments")
+
+    class Representer(ruamel.representer.RoundTripRepresenter):
+        def represent_scalar_float(self, data):
+            node = super().represent_scalar_float(data)
+            if float(node.value.replace("_", "")) != float(data):
+                mantissa, exponent, power = repr(float(data)).partition("e")
+                node.value = mantissa + ("" if "." in mantissa else ".0") + exponent + power
+            return node
+
+    Representer.add_representer(ruamel.scalarfloat.ScalarFloat, Representer.represent_scalar_float)
+    return Representer
 
 
 class Deck:

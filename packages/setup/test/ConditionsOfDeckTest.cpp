@@ -1,6 +1,7 @@
 #include "WallOfTwo.hpp"
 
 #include <coplane_setup/ConditionsOfDeck.hpp>
+#include <coplane_setup/DeckProblems.hpp>
 
 namespace coplane
 {
@@ -79,6 +80,65 @@ initial: [{block: lower, stress: [0, -5e5, 0, 0, 0, 0]}]
     EXPECT_NEAR(side.shearImpedance, std::sqrt(2000 * 0.4e9), 1e-6);
     EXPECT_DOUBLE_EQ(side.stress[0].yy, -5e5);
   }
+}
+
+TEST(ConditionsOfDeck, lastChangeOfLoads) // before the end at 1 s
+{
+  const auto of = [](const std::string& text)
+  {
+    return modelOf(blocksOfTwo + "damping: {local: 0.7, until_force_ratio: 1e-6}\n" + text)
+        .conditions.relaxation;
+  };
+  const auto ofPressure = [&](const std::string& keys)
+  { return of("conditions: [{type: pressure, side_set: load, " + keys + "}]\n").lastChange; };
+  EXPECT_EQ(of("").lastChange, 0);
+  EXPECT_EQ(ofPressure("value: 1e5"), 0);
+  EXPECT_EQ(ofPressure("value: \"1e5*y\""), 0);
+  // Tables and windows exactly; rows that a table repeats at its end are no change.
+  EXPECT_EQ(ofPressure("value: {times: [0, 0.05, 0.06, 0.9], values: [0, 0, 1, 1]}"), 0.06);
+  EXPECT_EQ(ofPressure("value: {times: [0, 5], values: [0, 1]}"), 1);
+  EXPECT_EQ(ofPressure("value: {times: [2, 5], values: [0, 1]}"), 0);
+  EXPECT_EQ(ofPressure("value: 1e5, from: 0.07"), 0.07);
+  EXPECT_EQ(ofPressure("value: 1e5, from: 0.07, until: 0.09"), 0.09);
+  EXPECT_EQ(ofPressure("value: 1e5, from: 7, until: 9"), 0);
+  EXPECT_EQ(ofPressure("value: {times: [0, 0.5], values: [0, 1]}, until: 0.09"), 0.09);
+  // Expressions to within the distance of the times at which they are asked, 3e-4 of the end.
+  EXPECT_NEAR(ofPressure("value: \"1e5*min(t/0.005, 1)\""), 0.005, 5e-5);
+  EXPECT_NEAR(ofPressure("value: \"t > 0.99 ? 1e5 : 0\""), 0.99, 3e-4);
+  EXPECT_NEAR(ofPressure("value: \"1e5*(1 - exp(-100*t))\""), 0.207, 1e-3);
+  EXPECT_EQ(ofPressure("value: \"sin(20*t)\""), 1);
+  EXPECT_EQ(ofPressure("value: \"sqrt(0.5 - t)\", until: 0.4"), 0.4);
+  EXPECT_NEAR(ofPressure("value: \"1e5*min(t/(0.1*x + 0.01), 1)\""), 0.11, 1e-3); // x up to 1
+  EXPECT_NEAR(of("gravity: [0, \"-9.81*min(t/0.02, 1)\", 0]\n").lastChange, 0.02, 2e-4);
+  const RelaxationOptions rest =
+      of("conditions: [{type: fixed, node_set: base}, {type: fixed, node_set: lid, until: 0.3}]\n");
+  EXPECT_EQ(rest.lastChange, 0.3);
+  EXPECT_EQ(rest.changing.find("conditions.1 (wall.yaml:"), 0u) << rest.changing;
+}
+
+TEST(DeckProblems, probesBesideAllBodies) // elements of 0.5 m, with diagonals of 0.707 m
+{
+  const Comm comm;
+  const Mesh mesh = wallOfTwo();
+  const RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
+  const auto problemsOf = [&](const std::string& probe)
+  {
+    const Deck deck = parseDeck(
+        deckOfTwo + blocksOfTwo + "history: {probes: [{name: p, " + probe + "}]}\n", "wall.yaml");
+    return problemsOfProbes(deck, part, comm);
+  };
+  EXPECT_TRUE(problemsOf("point: [0.3, 0.2, 0]").empty());
+  EXPECT_TRUE(problemsOf("point: [1.5, 2.4, 0]").empty());
+  EXPECT_TRUE(problemsOf("between: [[0, 0], [9, 0]], count: 2").empty()); // a warning
+  ASSERT_EQ(problemsOf("plane: [500, 1000, 0]").size(), 1u);
+  ASSERT_EQ(problemsOf("point: [1, 3, 0]").size(), 1u);
+  EXPECT_NE(problemsOf("point: [1, 3, 0]")[0].find(
+                "history.probes.0.point: (1, 3, 0) m is beside all bodies, 1 m from the nearest "
+                "node, "),
+            std::string::npos)
+      << problemsOf("point: [1, 3, 0]")[0];
+  EXPECT_NE(problemsOf("point: [1, 3, 0]")[0].find("at (1, 2, 0) m, where elements are 0.707 m"),
+            std::string::npos);
 }
 
 TEST(ConditionsOfDeck, blastWaveOfACharge)

@@ -16,6 +16,15 @@ Vec3 across(const Vec3& v, const Vec3& along)
 }
 } // namespace
 
+bool Line::willChange(Real t, Real end, int stage) const
+{
+  if (removed_ || stage_ > stage)
+    return false;
+  if (!installed_)
+    return from_ < end && until_ > from_;
+  return (pretension_ > 0 && t < installTime_ + pretensionTime_) || until_ < end;
+}
+
 LineEnergy& LineEnergy::operator+=(const LineEnergy& other)
 {
   work += other.work;

@@ -113,6 +113,8 @@ public:
   const LineSection& section() const { return section_; }
   bool installed() const { return installed_; } ///< also when it has been taken out again
   bool removed() const { return removed_; }
+  /// Whether it is installed, pulled on or taken out between t and `end`, in this stage [s].
+  bool willChange(Real t, Real end, int stage) const;
 
   struct Point
   {

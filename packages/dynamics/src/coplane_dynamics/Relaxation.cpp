@@ -3,6 +3,8 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Relaxation.hpp>
 
+#include <algorithm>
+
 namespace coplane
 {
 namespace
@@ -66,10 +68,23 @@ bool Relaxation::isAtRest(const Parts& parts) const
     if (!(unbalanced <= wanted_.forceRatio * given))
       return false;
   }
-  return wanted_.energyRatio > 0 || wanted_.forceRatio > 0;
+  return wanted_.looksForRest();
 }
 
-Relaxation::Verdict Relaxation::look(const Parts& parts)
+bool Relaxation::mayEnd(const Parts& parts, int stage) const
+{
+  if (!parts.model.time.endAtRest)
+    return true;
+  // A step later all forces know of a change.
+  const Clock& clock = parts.clock;
+  const auto& lines = parts.lines.lines();
+  return Window::isReached(wanted_.lastChange, clock.time - clock.step) &&
+         std::none_of(lines.begin(), lines.end(),
+                      [&](const Line& line)
+                      { return line.willChange(clock.time, parts.model.time.end, stage); });
+}
+
+Relaxation::Verdict Relaxation::look(const Parts& parts, int stage)
 {
   const Clock& clock = parts.clock;
   if (state_.ended)
@@ -85,12 +100,11 @@ Relaxation::Verdict Relaxation::look(const Parts& parts)
     const Real kinetic = parts.motion.kineticAtHalfStep(parts.state, parts.comm);
     const bool passed = kinetic < state_.kineticBefore;
     state_.kineticBefore = kinetic;
-    return {passed, passed && isAtRest(parts)};
+    return {passed, passed && mayEnd(parts, stage) && isAtRest(parts)};
   }
-  if ((wanted_.energyRatio > 0 || wanted_.forceRatio > 0) && clock.cycle > 0 &&
-      clock.cycle % checkEvery == 0)
+  if (wanted_.looksForRest() && clock.cycle > 0 && clock.cycle % checkEvery == 0)
   {
-    state_.below = isAtRest(parts) ? state_.below + 1 : 0;
+    state_.below = mayEnd(parts, stage) && isAtRest(parts) ? state_.below + 1 : 0;
     return {false, state_.below >= checksInARow};
   }
   return {};
@@ -116,10 +130,15 @@ void Relaxation::bookStop(Real lost, Real left)
   ++state_.stops;
 }
 
-void Relaxation::end(const Clock& clock)
+void Relaxation::end(const Parts& parts)
 {
+  const Clock& clock = parts.clock;
   state_.ended = true;
-  logInfo("cycle {}, t = {:.6e} s: damping ends, at rest within the ratios of damping", clock.cycle,
-          clock.time);
+  logInfo("cycle {}, t = {:.6e} s: damping ends, at rest within the ratios of damping{}",
+          clock.cycle, clock.time,
+          clock.time < wanted_.lastChange
+              ? fmt::format("; {} changes until t = {:.6g} s, without damping", wanted_.changing,
+                            wanted_.lastChange)
+              : "");
 }
 } // namespace coplane

@@ -41,10 +41,11 @@ public:
     bool rest = false; ///< at rest within the ratios: damping ends
   };
   /// After a kick. Collective.
-  Verdict look(const Parts& parts);
+  /// @param stage index of the present one
+  Verdict look(const Parts& parts, int stage);
   /// A stop has been made. @param lost kinetic energy [J]; left: at n + 1/2 after it [J]
   void bookStop(Real lost, Real left);
-  void end(const Clock& clock);
+  void end(const Parts& parts);
   /// Another stage: looks for rest anew.
   void beginAnew()
   {
@@ -65,6 +66,9 @@ public:
   }
 
 private:
+  /// What ends at rest has to be at rest for good: with loads that do not change any more. Where
+  /// only damping ends, loads may follow, such as the shaking of what has settled.
+  bool mayEnd(const Parts& parts, int stage) const;
   bool isAtRest(const Parts& parts) const;
   void tellWhenTimeEndsDamping(const Parts& parts) const;
 

@@ -384,14 +384,14 @@ void Solver::kick(Real step)
 
 void Solver::relax(Real step)
 {
-  const Relaxation::Verdict verdict = relaxation_.look(parts());
+  const Relaxation::Verdict verdict = relaxation_.look(parts(), stage_.index);
   if (verdict.stop)
   {
     const Real lost = motion_->stop(kickTimes(step), model_.conditions, state_, *comm_);
     relaxation_.bookStop(lost, motion_->kineticAtHalfStep(state_, *comm_));
   }
   if (verdict.rest)
-    relaxation_.end(clock_);
+    relaxation_.end(parts());
 }
 
 void Solver::planSearch()

@@ -118,6 +118,35 @@ void checkComponent(const ConditionCard& card, const DeckNode& node, const std::
                              path, c, "xyz"[c], key));
 }
 
+/// Warns of a time at which something begins, but which the run does not come to.
+void warnOfLateFrom(Real from, Real end, const DeckNode& node, const std::string& path,
+                    Problems& problems)
+{
+  if (from >= end && end > 0)
+    problems.warn(
+        nodeAt(node, {"from"}),
+        fmt::format("{}.from = {:g} s, but the run ends at time.end = {:g} s.", path, from, end));
+}
+
+/// Warns of a table that varies, but not while it acts.
+void warnOfIdleTable(const TimeFunction& table, Real from, Real until, const DeckNode& node,
+                     const std::string& path, Problems& problems)
+{
+  const auto& values = table.values;
+  bool varies = false, acts = false;
+  for (std::size_t i = 1; i < values.size(); ++i)
+    if (values[i] != values[i - 1])
+    {
+      varies = true;
+      acts |= table.times[i] > from && table.times[i - 1] < until;
+    }
+  if (varies && !acts && from < until)
+    problems.warn(node, fmt::format("{}: the table has times from {:g} to {:g} s and is constant "
+                                    "from {:g} to {:g} s, while it acts. Times are in s, from the "
+                                    "start of the run on.",
+                                    path, table.times.front(), table.times.back(), from, until));
+}
+
 void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   const DeckNode& node = nodeAt(root, {"damping"});
@@ -137,6 +166,11 @@ void checkDamping(const Deck& deck, const DeckNode& root, Problems& problems)
                  fmt::format("damping.until = {} s is not after damping.from = {} s; accepted: a "
                              "later time.",
                              *deck.dampingUntil, deck.dampingFrom));
+  else
+    warnOfLateFrom(deck.dampingFrom, deck.time.end, node, "damping", problems);
+  warnOfIdleTable(deck.massDamping, deck.dampingFrom,
+                  std::min(deck.dampingUntil.value_or(infinity), deck.time.end),
+                  nodeAt(node, {"mass"}), "damping.mass", problems);
 }
 
 void checkMassScaling(const Deck& deck, const DeckNode& root, Problems& problems)
@@ -187,10 +221,27 @@ void checkConditions(const Deck& deck, const DeckNode& root, Problems& problems)
                    fmt::format("{0}.until = {1} s is not after {0}.from = {2} s; accepted: a later "
                                "time.",
                                path, *card.until, card.from));
-    else if (card.from >= deck.time.end && deck.time.end > 0)
-      problems.warn(nodeAt(node, {"from"}),
-                    fmt::format("{}.from = {:g} s, but the run ends at time.end = {:g} s.", path,
-                                card.from, deck.time.end));
+    else
+      warnOfLateFrom(card.from, deck.time.end, node, path, problems);
+    const Real until = std::min(card.until.value_or(infinity), deck.time.end);
+    const auto look = [&](const char* key, const TimeFunction& function, int c)
+    {
+      const DeckNode& at = c < 0 ? nodeAt(node, {key}) : nodeAt(node, {key, std::to_string(c)});
+      const std::string component = c < 0 ? "" : fmt::format(".{}", c);
+      warnOfIdleTable(function, card.from, until, at, path + "." + key + component, problems);
+    };
+    look("value", card.pressure, -1);
+    for (int c = 0; c < 3; ++c)
+    {
+      for (const auto* value :
+           {&card.velocity, &card.displacement, &card.acceleration, &card.traction})
+        look("value", (*value)[c], c);
+      look("incident", card.incident[c], c);
+      if (card.translation)
+        look("velocity", (*card.translation)[c], c);
+      if (card.spin)
+        look("angular_velocity", (*card.spin)[c], c);
+    }
     if (card.type == "rigid_motion")
     {
       if (!card.translation && !card.spin)
@@ -509,6 +560,42 @@ Real lengthOf(const LineCard& card)
   return length;
 }
 
+/// The earliest time at which a stage can begin [s]: one that may end at rest has no least length.
+Real earliestBegin(const std::vector<StageCard>& stages, const std::string& name)
+{
+  Real begin = 0;
+  for (std::size_t i = 0; i < stages.size() && stages[i].name != name; ++i)
+    if (!stages[i].atRest)
+      begin = stages[i].until.value_or(begin);
+  return begin;
+}
+
+/// When a line is there.
+void checkTimesOfLine(const Deck& deck, const LineCard& card, const DeckNode& node,
+                      Problems& problems)
+{
+  const std::string path = "lines." + card.name;
+  const Real begin =
+      std::max(card.from, card.stage.empty() ? 0 : earliestBegin(deck.stages, card.stage));
+  const Real end = std::min(card.until.value_or(infinity), deck.time.end);
+  if (card.until && *card.until <= card.from)
+    problems.add(nodeAt(node, {"until"}), fmt::format("{}.until = {} s; accepted: later than from, "
+                                                      "{} s.",
+                                                      path, *card.until, card.from));
+  else if (card.until && *card.until <= begin)
+    problems.add(nodeAt(node, {"until"}),
+                 fmt::format("{}.until = {} s; accepted: later than the beginning of the stage "
+                             "'{}', {} s.",
+                             path, *card.until, card.stage, begin));
+  else if (card.from >= deck.time.end)
+    warnOfLateFrom(card.from, deck.time.end, node, path, problems);
+  else if (card.pretension > 0 && begin + card.pretensionTime > (1 + 1e-9) * end)
+    problems.warn(nodeAt(node, {"pretension_time"}),
+                  fmt::format("{}.pretension_time = {:g} s: the line is there from {:g} to {:g} s, "
+                              "so it is never pulled on in full.",
+                              path, card.pretensionTime, begin, end));
+}
+
 void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
 {
   if (!deck.lines.empty() && deck.geometry == "axisymmetric")
@@ -559,9 +646,7 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
         problems.add(at("copies"), fmt::format("{}.copies: copy {} would be called {}, as another "
                                                "line is; accepted: names of their own.",
                                                path, copy, name));
-    if (card.until && *card.until <= card.from)
-      problems.add(at("until"), fmt::format("{}.until = {} s; accepted: later than from, {} s.",
-                                            path, *card.until, card.from));
+    checkTimesOfLine(deck, card, nodeAt(root, {"lines", card.name}), problems);
     if (!card.stage.empty() && !contains(stages, card.stage))
       problems.add(at("stage"), unknown(path + ".stage", card.stage, "a stage", stages));
   }
@@ -678,6 +763,9 @@ void checkDeck(const Deck& deck, const DeckNode& root, Problems& problems)
   checkLines(deck, root, problems);
   checkBesideResults(deck, root, problems);
   warnOfLateOutputs(deck, root, problems);
+  for (int c = 0; c < 3; ++c)
+    warnOfIdleTable(deck.gravity[c], 0, deck.time.end, nodeAt(root, {"gravity", std::to_string(c)}),
+                    fmt::format("gravity.{}", c), problems);
   warnOfGravityUpwards(deck, root, problems);
   warnOfJointsWithoutUse(deck, root, joints, problems);
 }
@@ -730,6 +818,10 @@ std::vector<std::string> problemsOfDimension(const Deck& deck, int dimension)
   }
   if (dimension == 3)
     return messages;
+  for (std::size_t p = 0; p < deck.history.probes.size(); ++p)
+    for (const auto& point : {deck.history.probes[p].point, deck.history.probes[p].plane})
+      demand(!point || point->z == 0, deck.history.probes[p].where,
+             fmt::format("z of a point of history.probes.{}", p));
   demand(nothing(deck.gravity[2]),
          deck.gravity[2].where.empty() ? deck.file : deck.gravity[2].where, "gravity along z");
   for (const InitialCard& card : deck.initial)

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 namespace coplane
@@ -40,6 +41,12 @@ void applyStages(DeckNode& root, int last, Problems& problems)
     if (const DeckNode* set = items[std::size_t(i)].find("set"))
       for (const auto& [path, value] : set->entries)
         apply(i, path, value);
+  // What stages have taken out keeps its number up to here.
+  if (DeckNode* const conditions = root.find("conditions"))
+    conditions->items.erase(std::remove_if(conditions->items.begin(), conditions->items.end(),
+                                           [](const DeckNode& item)
+                                           { return item.kind == DeckNode::Kind::Nothing; }),
+                            conditions->items.end());
 }
 
 /// @param stage whose deck is wanted; the first is 0
@@ -60,7 +67,10 @@ Deck parse(const std::string& text, const std::string& file,
     insertMaterialSets(root);
     applyStages(root, stage, problems);
   };
-  const DeckNode root = readBySchema(deckSchema(), text, file, overrides, &deck, problems, prepare);
+  FileKind kind;
+  kind.idleNames = stage > 0;
+  const DeckNode root =
+      readBySchema(deckSchema(), text, file, overrides, &deck, problems, prepare, kind);
   // Where values do not stand as written, the text of the run has them as they were read.
   deck.text = overrides.empty() && !defines && stage == 0 ? text : toYaml(root);
   if (const DeckNode* mesh = root.find("mesh"))

@@ -593,8 +593,9 @@ Key timeGroup()
                        .elsewhere({"until_rest", "steady_state"})
                        .like("true")
                        .means("the run ends as soon as damping ends by one of its ratios, "
-                              "damping.until_energy_ratio or damping.until_force_ratio; at `end` "
-                              "if that does not happen"),
+                              "damping.until_energy_ratio or damping.until_force_ratio, with loads "
+                              "that change no more before `end`; at `end` if that does not "
+                              "happen"),
                    number("step_factor", &TimeCard::stepFactor)
                        .in("-")
                        .elsewhere({"tssfac", "cfl", "courant", "safety", "scale"})
@@ -677,7 +678,8 @@ Key stages()
                  flag("at_rest", &StageCard::atRest)
                      .like("true")
                      .means("it ends before as soon as damping ends by one of its ratios, "
-                            "damping.until_energy_ratio or damping.until_force_ratio"),
+                            "damping.until_energy_ratio or damping.until_force_ratio, with loads "
+                            "that change no more before `until`"),
                  texts("remove", &StageCard::remove)
                      .like("[core]")
                      .means("element blocks that leave at its beginning, with their mass; the "
@@ -690,7 +692,8 @@ Key stages()
                      .like("{joints.dry.friction: 0.4}")
                      .means(
                          "values of the deck that change, by paths of its keys, for this stage and "
-                         "those after it; null takes a key out"),
+                         "those after it; null takes a key or a condition out, and the number "
+                         "after the last condition adds one"),
                  flag("zero_displacements", &StageCard::zeroDisplacements)
                      .like("true")
                      .means("displacements that are written count from its beginning"),

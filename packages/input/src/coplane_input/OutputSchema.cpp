@@ -143,7 +143,8 @@ Key historyKeys()
                           flag("reaction", &ProbeCard::reaction)
                               .like("true")
                               .means("of a node set: also the sum of the forces with which fixed, "
-                                     "velocity, displacement and symmetry hold its nodes"),
+                                     "velocity, displacement, acceleration and symmetry hold its "
+                                     "nodes"),
                       })
                      .exactlyOneOf({"node_set", "block", "point", "plane", "between"})
                      .means("motions, variables and planes to be recorded"),

@@ -161,7 +161,9 @@ struct Found
 };
 
 /// The value at a path "a.b.0.c", new if it is not there.
-Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place, Problems& problems)
+/// @param listsGrow the item after the last one of a list is new, too
+Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place, Problems& problems,
+                 bool listsGrow = false)
 {
   DeckNode *node = &root, *parent = nullptr;
   std::string done, word;
@@ -172,6 +174,8 @@ Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place,
     if (node->kind == DeckNode::Kind::List)
     {
       const auto index = listIndex(word);
+      if (listsGrow && index && *index == node->items.size())
+        node->items.emplace_back();
       if (!index || *index >= node->items.size())
       {
         problems.add(place, fmt::format("'{}' is no item of {}, which has {}; accepted: a whole "
@@ -373,7 +377,7 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
 
 void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems)
 {
-  const Found found = nodeOfPath(root, path.text, path, problems);
+  const Found found = nodeOfPath(root, path.text, path, problems, true);
   if (!found.node)
     return;
   *found.node = value;

@@ -76,6 +76,8 @@ struct FileKind
   std::string help = "--help-deck"; ///< the option that lists its keys
   std::string example = "mesh: bricks.e";
   Real longest = infinity; ///< numbers in metres beyond are refused [m]
+  /// Names of `define` that nothing uses are accepted, as in a stage that has taken out what did.
+  bool idleNames = false;
 };
 
 /// The text of a file. Throws Error(Deck) when it cannot be read.
@@ -90,7 +92,8 @@ DeckNode parseYaml(const std::string& text, const std::string& file, const FileK
 void applyOverride(DeckNode& root, const std::string& assignment, int number, Problems& problems);
 
 /// The same with a value at hand, by a key "a.b.0.c" that stands somewhere in a file; a value that
-/// is nothing takes the key out.
+/// is nothing takes the key out, or leaves nothing in place of an item of a list, so that the
+/// others keep their numbers. The item after the last one is new.
 void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems);
 
 /// The tree as YAML text; reading it again gives the same tree.

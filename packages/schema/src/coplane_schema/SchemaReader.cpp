@@ -55,7 +55,7 @@ public:
     readGroup(schema_, root, "", target);
     if (!mayDefine)
       return;
-    if (problems_.size() == before)
+    if (problems_.size() == before && !reading_.file.idleNames)
       reading_.definitions.demandUse(problems_);
     auto& entries = root.entries;
     entries.erase(std::remove_if(entries.begin(), entries.end(), isDefine), entries.end());

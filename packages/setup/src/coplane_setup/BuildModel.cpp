@@ -5,6 +5,7 @@
 #include <coplane_setup/Lookups.hpp>
 #include <coplane_setup/detail/BlocksOfDeck.hpp>
 #include <coplane_setup/detail/ContactRulesOfDeck.hpp>
+#include <coplane_setup/detail/LastChange.hpp>
 #include <coplane_setup/detail/LinesOfDeck.hpp>
 
 #include <algorithm>
@@ -67,6 +68,8 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   if (std::count(rigidBlocks.begin(), rigidBlocks.end(), 1) > 0)
     model.rigidBodyOfNode = rigidBodiesOf(part, rigidBlocks, comm);
   model.conditions = conditionsOf(deck, mesh, part, model.blocks);
+  if (model.conditions.relaxation.looksForRest())
+    findLastChange(deck, mesh, part, comm, model.conditions);
   model.lines = linesOf(deck);
   model.viscosity = {deck.viscosityLinear, deck.viscosityQuadratic};
   model.contactEnabled = deck.contact.enabled;

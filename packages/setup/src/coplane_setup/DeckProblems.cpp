@@ -1,3 +1,4 @@
+#include <coplane_core/Log.hpp>
 #include <coplane_input/MaterialCards.hpp>
 #include <coplane_setup/DeckProblems.hpp>
 #include <coplane_setup/Lookups.hpp>
@@ -80,6 +81,96 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice
             fmt::format("{}: {} side set '{}' has a side of the rigid block '{}', through which no "
                         "waves run; take it out of the set, or remove rigid.",
                         card.where, card.type, card.set, mesh.blocks[block].name));
+  return problems;
+}
+
+namespace
+{
+struct NearestNode
+{
+  Real distance = 0; ///< [m]
+  GlobalId id = 0;
+  Vec3 place{};
+  Real size = 0; ///< the longest way between two nodes of an element there [m]
+};
+
+/// Collective.
+NearestNode nearestNodeTo(const Vec3& point, const RankMesh& part, const Comm& comm)
+{
+  NearestNode nearest;
+  nearest.distance = infinity;
+  for (const Vec3& x : part.coordinates)
+    nearest.distance = std::min(nearest.distance, norm(x - point));
+  nearest.distance = comm.min(nearest.distance);
+  std::int64_t id = INT64_MAX;
+  for (std::size_t n = 0; n < part.coordinates.size(); ++n)
+    if (norm(part.coordinates[n] - point) == nearest.distance)
+      id = std::min(id, std::int64_t(part.nodeIds[n]));
+  nearest.id = GlobalId(comm.min(id));
+  std::vector<Real> most(4, -infinity); // place, size
+  for (std::size_t n = 0; n < part.coordinates.size(); ++n)
+    for (int c = 0; c < 3 && part.nodeIds[n] == nearest.id; ++c)
+      most[std::size_t(c)] = part.coordinates[n][c];
+  for (const RankMesh::Block& block : part.blocks)
+  {
+    const std::size_t corners = std::size_t(topology(block.type).nodes);
+    for (auto first = block.connectivity.begin(); first < block.connectivity.end();
+         first += long(corners))
+    {
+      const auto last = first + long(corners);
+      if (std::none_of(first, last, [&](int n) { return part.nodeIds[n] == nearest.id; }))
+        continue;
+      for (auto a = first; a < last; ++a)
+        for (auto b = first; b < a; ++b)
+          most[3] = std::max(most[3], norm(part.coordinates[*a] - part.coordinates[*b]));
+    }
+  }
+  comm.max(most);
+  nearest.place = {most[0], most[1], most[2]};
+  nearest.size = most[3];
+  return nearest;
+}
+} // namespace
+
+std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part, const Comm& comm)
+{
+  std::vector<std::string> problems;
+  const auto farText = [&](const ProbeCard& probe, std::size_t p, const char* key,
+                           const Vec3& point) -> std::string
+  {
+    const NearestNode nearest = nearestNodeTo(point, part, comm);
+    if (nearest.distance <= nearest.size)
+      return "";
+    return fmt::format("{}: history.probes.{}.{}: ({:g}, {:g}, {:g}) m is beside all bodies, "
+                       "{:.4g} m from the nearest node, {} at ({:g}, {:g}, {:g}) m, where elements "
+                       "are {:.3g} m long. Accepted: points in or at a body, in m.",
+                       probe.where, p, key, point.x, point.y, point.z, nearest.distance, nearest.id,
+                       nearest.place.x, nearest.place.y, nearest.place.z, nearest.size);
+  };
+  for (std::size_t p = 0; p < deck.history.probes.size(); ++p)
+  {
+    const ProbeCard& probe = deck.history.probes[p];
+    for (const auto& [key, point] :
+         {std::pair("point", probe.point), std::pair("plane", probe.plane)})
+      if (const std::string text = point ? farText(probe, p, key, *point) : ""; !text.empty())
+        problems.push_back(text);
+    if (probe.between.size() != 2)
+      continue;
+    const auto end = [&](std::size_t i)
+    {
+      const std::vector<Real>& x = probe.between[i];
+      return Vec3{x[0], x[1], x.size() > 2 ? x[2] : 0};
+    };
+    for (int k = 0; k < probe.count; ++k)
+    {
+      const Vec3 point = end(0) + (Real(k) / (probe.count - 1)) * (end(1) - end(0));
+      if (const std::string text = farText(probe, p, "between", point); !text.empty())
+      {
+        logWarning("probes beside all bodies", text);
+        break; // one of a line is enough
+      }
+    }
+  }
   return problems;
 }
 } // namespace coplane

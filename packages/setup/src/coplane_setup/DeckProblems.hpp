@@ -3,6 +3,7 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_input/Deck.hpp>
 #include <coplane_mesh/MeshSlice.hpp>
+#include <coplane_mesh/RankMesh.hpp>
 
 #include <string>
 #include <vector>
@@ -19,4 +20,10 @@ std::vector<std::string> problemsOfLaws(const Deck& deck, int dimension);
 /// on all ranks. Collective.
 std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice& mesh,
                                                const Comm& comm);
+
+/// Probes whose points lie beside all bodies: farther from the nearest node than the elements there
+/// are long. Points on a line are only warned of, as lines may cross an opening. The same on all
+/// ranks. Collective.
+/// @param part with every node of this rank
+std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part, const Comm& comm);
 } // namespace coplane
