@@ -102,8 +102,7 @@ private:
   }
   Real worth(const Nodes& nodes) const { return worthOf(cornersOf(nodes), limits_.size); }
 
-  // --- what can be undone
-  // -------------------------------------------------------------------------
+  // --- what can be undone -----------------------------------------------------------------------
   void remove(int t)
   {
     alive_[std::size_t(t)] = false;
