@@ -18,9 +18,9 @@
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 #include <coplane_exodus/ReadMesh.hpp>
-#include <coplane_input/DeckChecks.hpp>
 #include <coplane_input/DeckReader.hpp>
 #include <coplane_input/DeckReference.hpp>
+#include <coplane_input/MeshChecks.hpp>
 #include <coplane_mesh/Distribute.hpp>
 #include <coplane_output/CheckpointObserver.hpp>
 #include <coplane_setup/BuildModel.hpp>

@@ -1,6 +1,6 @@
 #include "TestDecks.hpp"
 
-#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/ContactRoles.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_input/MaterialCards.hpp>
 

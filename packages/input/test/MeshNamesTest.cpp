@@ -1,6 +1,6 @@
 #include "TestDecks.hpp"
 
-#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/MeshChecks.hpp>
 
 namespace coplane
 {

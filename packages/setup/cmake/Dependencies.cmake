@@ -1,1 +1,1 @@
-coplane_dependencies(PACKAGES dynamics partition input material schema mesh core)
+coplane_dependencies(PACKAGES dynamics partition input material schema mesh core PRIVATE_LIBRARIES fmt::fmt)

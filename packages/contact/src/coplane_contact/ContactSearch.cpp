@@ -292,8 +292,8 @@ void Contact::measureDistances(const ConstNodeVectors& x, const ConstNodeVectors
   CandidateRules rules = reach_.rules();
   Motion& motion = rules.motion;
   motion.ahead *= longer;
-  distances_.take(slots, faces_.forKernels(),
-                  facePlanes(faces_.forKernels(), x, rules, dimension_), mayReach,
+  distances_.take(slots, faces_.forKernels(), facePlanes(faces_.forKernels(), x, rules, dimension_),
+                  mayReach,
                   {x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(), motion.ahead, motion.frame,
                    reach_.offset(), leastOpposed(options_)});
 }

@@ -1,4 +1,4 @@
-#include <coplane_input/DeckChecks.hpp>
+#include <coplane_input/ContactRoles.hpp>
 #include <coplane_input/JointCards.hpp>
 #include <coplane_setup/Lookups.hpp>
 #include <coplane_setup/detail/ContactRulesOfDeck.hpp>
