@@ -12,7 +12,7 @@ example = Example()
 h, results = example.history, example.results
 example.balances(hourglass=1e-9)  # triangles have no hourglass modes
 size = 1.0 if example.size == "coarse" else 0.5
-sides = max(6, math.ceil(math.pi * 4 / size))
+sides = max(18, math.ceil(math.pi * 4 / size))
 dug = 8 * 1 + 0.5 * sides * 16 * math.sin(math.pi / sides) + 20
 example.check("mass that was dug [kg]", float(h["eroded_mass"][-1]), 2650 * dug, 1e-9, relative=True)
 wave = {"coarse": 0.06}.get(example.size, 0.12)  # when it enters [s]
