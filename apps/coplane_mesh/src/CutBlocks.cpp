@@ -1,8 +1,10 @@
 #include "CutBlocks.hpp"
 
+#include "CubesOfTetrahedra.hpp"
 #include "ElementSizes.hpp"
 #include "JointSurfaces.hpp"
 #include "MendTetrahedra.hpp"
+#include "OpeningSection.hpp"
 #include "ShapeModel.hpp"
 #include "SolidFile.hpp"
 #include "VoronoiCells.hpp"
@@ -91,52 +93,6 @@ int addSolid(const Polyhedron& solid)
   return rest.at(0).second;
 }
 
-/// Four hexahedra for each tetrahedron, three quadrilaterals for each triangle.
-void cutIntoCubes(GmshFile& mesh)
-{
-  std::map<std::vector<int>, int> middles; // by the corners that they are between
-  const auto middleOf = [&](std::vector<int> corners)
-  {
-    std::sort(corners.begin(), corners.end());
-    const auto [place, isNew] = middles.insert({corners, int(mesh.coordinates.size())});
-    if (isNew)
-    {
-      Vec3 middle{};
-      for (const int corner : corners)
-        middle += (1 / Real(corners.size())) * mesh.coordinates[std::size_t(corner)];
-      mesh.coordinates.push_back(middle);
-      mesh.nodeIds.push_back(GlobalId(mesh.nodeIds.size()) + 1);
-    }
-    return place->second;
-  };
-  std::vector<GmshFile::Element> cut;
-  const auto add = [&](const GmshFile::Element& whole, int type, const std::array<int, 8>& nodes) {
-    cut.push_back({whole.entity, type, GlobalId(cut.size()) + 1, nodes});
-  };
-  for (const GmshFile::Element& whole : mesh.elements)
-  {
-    const auto& n = whole.nodes;
-    if (whole.type == 2)
-      for (std::size_t k = 0; k < 3; ++k)
-      {
-        const int a = n[k], b = n[(k + 1) % 3], c = n[(k + 2) % 3];
-        add(whole, 3, {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c})});
-      }
-    else
-    {
-      constexpr std::size_t turns[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
-      for (const auto& turn : turns)
-      {
-        const int a = n[turn[0]], b = n[turn[1]], c = n[turn[2]], d = n[turn[3]];
-        add(whole, 5,
-            {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c}), middleOf({a, d}),
-             middleOf({a, b, d}), middleOf({a, b, c, d}), middleOf({a, c, d})});
-      }
-    }
-  }
-  mesh.elements = cut;
-}
-
 /// Cuts one domain.
 class Cutter
 {
@@ -219,28 +175,6 @@ private:
     bodies_.push_back({opening, support, name, {dimension_, tag}});
   }
 
-  /// Perimeter and area of a section [m, m^2].
-  static std::array<Real, 2> measuresOf(const OpeningCard& card)
-  {
-    if (card.circle > 0)
-      return {2 * pi * card.circle, pi * card.circle * card.circle};
-    if (!card.horseshoe.empty())
-    {
-      const Real width = card.horseshoe[0], upright = card.horseshoe[1] - width / 2;
-      return {width + 2 * upright + pi * width / 2, width * upright + pi * width * width / 8};
-    }
-    const std::vector<Vec3> corners = toPoints(card.polygon);
-    Real perimeter = 0;
-    Vec3 twiceArea{};
-    for (std::size_t k = 0; k < corners.size(); ++k)
-    {
-      const Vec3 &a = corners[k], &b = corners[(k + 1) % corners.size()];
-      perimeter += norm(b - a);
-      twiceArea += cross(a, b);
-    }
-    return {perimeter, norm(twiceArea) / 2};
-  }
-
   /// Before anything is cut: how many elements the sizes ask for, about; joints make it more.
   void demandFewElements() const
   {
@@ -282,36 +216,6 @@ private:
            "elements.most.",
            recipeFile_, elements, size_, leastSize(), domain + supports, flat ? "m^2" : "m^3",
            recipe_.elements.most);
-  }
-
-  /// The corners of a section: to the right and upward.
-  static std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
-  {
-    std::vector<std::array<Real, 2>> corners;
-    const auto add = [&](Real radius, Real height, Real angle) {
-      corners.push_back({radius * std::cos(angle), height + radius * std::sin(angle)});
-    };
-    if (card.circle > 0)
-    {
-      const int sides = std::max(6, int(std::ceil(2 * pi * card.circle / size)));
-      const Real turn = 2 * pi / sides;
-      for (int k = 0; k < sides; ++k) // the area is that of the circle
-        add(card.circle * std::sqrt(turn / std::sin(turn)), 0, turn * k);
-    }
-    else if (!card.horseshoe.empty())
-    {
-      const Real half = card.horseshoe[0] / 2;
-      corners.push_back({-half, 0});
-      corners.push_back({half, 0});
-      // The roof lacks up to 0.51 % of the area of its half circle.
-      const int sides = std::max(18, int(std::ceil(pi * half / size)));
-      for (int k = 0; k <= sides; ++k)
-        add(half, card.horseshoe[1] - half, pi * k / sides);
-    }
-    else
-      for (const std::vector<Real>& corner : card.polygon)
-        corners.push_back({corner[0], corner[1]});
-    return corners;
   }
 
   void addOpening(const OpeningCard& card)
@@ -356,14 +260,14 @@ private:
       throw Error(ExitCode::Deck, problems.text());
     for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
     {
-      result_.joints.push_back({recipe_.joints[j].name, 0});
+      result_.joints.push_back(recipe_.joints[j].name);
       if (const VoronoiCard& card = recipe_.joints[j].voronoi; card.cells > 0)
         for (const JointSurface& surface :
              voronoiSurfaces(card, int(j), recipe_.seed, dimension_, low_, high_))
           surfaces.push_back(surface);
     }
     if (!recipe_.domain.joint.empty())
-      result_.joints.push_back({recipe_.domain.joint, 0});
+      result_.joints.push_back(recipe_.domain.joint);
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const auto& a, const auto& b) { return a.joint < b.joint; });
     Entities tools;
@@ -727,15 +631,12 @@ private:
     std::vector<std::vector<int>> faces(result_.joints.size());
     for (const auto& [piece, joint] : pieces_)
       if (inside.count(piece.second) || blocksAt(piece.second).size() == 2)
-      {
         faces[std::size_t(joint)].push_back(piece.second);
-        result_.joints[std::size_t(joint)].area += measureOf(piece);
-      }
     for (std::size_t j = 0; j < faces.size(); ++j)
     {
       if (faces[j].empty())
         refuseJoint(j);
-      groupOfJoint_.push_back(addGroup(dimension_ - 1, faces[j], result_.joints[j].name));
+      groupOfJoint_.push_back(addGroup(dimension_ - 1, faces[j], result_.joints[j]));
     }
   }
 
@@ -744,7 +645,7 @@ private:
     fail(ExitCode::Deck,
          "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
          "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m{}.",
-         recipeFile_, result_.joints[joint].name, low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
+         recipeFile_, result_.joints[joint], low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
          result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
   }
 

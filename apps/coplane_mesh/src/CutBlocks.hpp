@@ -12,13 +12,9 @@ namespace coplane
 /// element blocks, those below the faces of the joints inside.
 struct CutDomain
 {
-  struct Joint
-  {
-    std::string name;
-    Real area = 0; ///< of its faces inside the domain [m^2; 2D: m]
-  };
   GmshFile mesh;
-  std::vector<Joint> joints;       ///< by the order of the recipe; then that between solids
+  std::vector<std::string>
+      joints; ///< their names, by the order of the recipe; then that between solids
   std::vector<Real> blockVolumes;  ///< [m^3; 2D: m^2]
   int joined = 0;                  ///< slivers that became part of a neighbour
   int stubs = 0;                   ///< ends of joints that were left out

@@ -85,16 +85,30 @@ Vec3 centreOf(const Mesh& mesh, const MeshFace& face)
   return (1.0 / nodes) * sum;
 }
 
-Vec3 normalOf(const Mesh& mesh, const MeshFace& face)
+namespace
+{
+/// Normal to a face, of the length of its area.
+Vec3 vectorAreaOf(const Mesh& mesh, const MeshFace& face)
 {
   const auto x = [&](int k) { return mesh.coordinates[face.nodes[k]]; };
   if (mesh.dimension == 2)
   {
     const Vec3 edge = x(1) - x(0);
-    return normalised(Vec3{edge.y, -edge.x, 0});
+    return {edge.y, -edge.x, 0};
   }
   const Vec3 last = face.nodes[3] < 0 ? x(0) : x(3); // of a triangle: x(0), x(1), x(2), x(0)
-  return normalised(cross(x(2) - x(0), last - x(1)));
+  return 0.5 * cross(x(2) - x(0), last - x(1));
+}
+} // namespace
+
+Vec3 normalOf(const Mesh& mesh, const MeshFace& face)
+{
+  return normalised(vectorAreaOf(mesh, face));
+}
+
+Real areaOf(const Mesh& mesh, const MeshFace& face)
+{
+  return norm(vectorAreaOf(mesh, face));
 }
 
 Real sizeOf(const Mesh& mesh)

@@ -34,6 +34,9 @@ Vec3 centreOf(const Mesh& mesh, const MeshFace& face);
 /// edge in two.
 Vec3 normalOf(const Mesh& mesh, const MeshFace& face);
 
+/// Area of the plane that normalOf() is normal to; length in two dimensions [m^2, m].
+Real areaOf(const Mesh& mesh, const MeshFace& face);
+
 /// Diagonal of the bounding box [m].
 Real sizeOf(const Mesh& mesh);
 

@@ -179,7 +179,7 @@ private:
       id = std::max(id, set.id);
     for (std::size_t c = 0; c < cuts.size(); ++c)
     {
-      CutReport report{cuts[c].name, 0, 0};
+      CutReport report{cuts[c].name};
       Mesh::SideSet set{++id, cuts[c].name, {}, {}};
       for (std::size_t f = 0; f < faces_.size(); ++f)
       {
@@ -193,6 +193,7 @@ private:
           continue;
         }
         ++report.opened;
+        report.area += areaOf(before_, face);
         for (int k = 0; k < 2; ++k)
         {
           set.elements.push_back(face.elements[k]);

@@ -19,6 +19,7 @@ struct CutReport
 {
   std::string name;
   int opened = 0; ///< faces that became two
+  Real area = 0;  ///< of those [m^2; 2D: m]
   int closed = 0; ///< faces that stay one: all their nodes are on the rim of the joint
 };
 

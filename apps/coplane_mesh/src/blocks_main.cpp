@@ -23,8 +23,7 @@ namespace
 {
 bool isJoint(const std::string& name, const CutDomain& domain)
 {
-  return std::any_of(domain.joints.begin(), domain.joints.end(),
-                     [&](const CutDomain::Joint& joint) { return joint.name == name; });
+  return std::find(domain.joints.begin(), domain.joints.end(), name) != domain.joints.end();
 }
 
 /// The faces of each joint, in the order of the recipe.
@@ -36,11 +35,11 @@ std::vector<Cut> cutsOf(const Mesh& mesh, const std::vector<MeshFace>& faces,
     for (int k = 0; k < faces[f].count; ++k)
       faceOfSide[{faces[f].elements[k], faces[f].sides[k]}] = int(f);
   std::vector<Cut> cuts;
-  for (const CutDomain::Joint& joint : domain.joints)
+  for (const std::string& joint : domain.joints)
   {
-    Cut cut{joint.name, {}};
+    Cut cut{joint, {}};
     for (const Mesh::SideSet& set : mesh.sideSets)
-      if (set.name == joint.name)
+      if (set.name == joint)
         for (std::size_t s = 0; s < set.elements.size(); ++s)
           cut.faces.push_back(faceOfSide.at({set.elements[s], set.sides[s]}));
     std::sort(cut.faces.begin(), cut.faces.end());
@@ -99,13 +98,12 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
   if (domain.changes > 0)
     print(fmt::format("{} changes mended flat elements: the worst is worth {:.3g}, was {:.3g}",
                       domain.changes, domain.worst, domain.worstBefore));
-  for (std::size_t j = 0; j < domain.joints.size(); ++j)
-    print(fmt::format(
-        "joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", domain.joints[j].name,
-        domain.joints[j].area, area, total / domain.joints[j].area, result.cuts[j].opened,
-        result.cuts[j].closed > 0
-            ? fmt::format(", {} closed: all their nodes are on the rim", result.cuts[j].closed)
-            : ""));
+  for (const CutReport& joint : result.cuts)
+    print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
+                      joint.area, area, total / joint.area, joint.opened,
+                      joint.closed > 0
+                          ? fmt::format(", {} closed: all their nodes are on the rim", joint.closed)
+                          : ""));
 }
 
 void makeBlocks(const std::string& file, const std::vector<std::string>& overrides,

@@ -121,6 +121,7 @@ TEST(Split, aPlaneMakesTwoBodiesWithNodesOfTheirOwn)
   EXPECT_EQ(split.bodies, 2);
   EXPECT_EQ(split.copies, 5);
   EXPECT_EQ(split.cuts[0].opened, 4);
+  EXPECT_EQ(split.cuts[0].area, 4);
   EXPECT_EQ(split.cuts[0].closed, 0);
   const Mesh& mesh = split.mesh;
   EXPECT_EQ(mesh.nodes(), 30);
@@ -208,6 +209,7 @@ TEST(Split, aFaceWithAllNodesOnTheRimStaysClosed)
       cut(square(), "{j: {planes: {point: [0, 2], normal: [0, 1], segment: [[1, 2], [2, 2]]}}}");
   EXPECT_EQ(split.copies, 0);
   EXPECT_EQ(split.cuts[0].opened, 0);
+  EXPECT_EQ(split.cuts[0].area, 0);
   EXPECT_EQ(split.cuts[0].closed, 1);
   EXPECT_TRUE(sideSet(split.mesh, "j").elements.empty());
 }

@@ -65,7 +65,7 @@ CASES = {
     # Waves behind a joint that breaks. While the sheared plane loses its last strength, what differs grows from 1e-11 to 4e-5 of the kinetic energy within 5 ms, and fades.
     "V94_bonded_blocks": Retold([], bounds=dict.fromkeys(["mirrored", "renumbered", "turned"], WALL),
                                 apart={"strip": "round-off grows while a plane that is sheared loses its last strength, to 4e-5 of the kinetic energy"}),
-    "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest", "local_late", "never"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
+    "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
     "rigid_motion": Retold(["mirrored", "renumbered", "turned"], other=dict.fromkeys(["millimetres", "powers_of_two"], "its check reads a table of the run as it is, in the units of the run")),
     "V39_gas_shocks": Retold(["mirrored", "turned"]),
     "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], base=False),
@@ -96,6 +96,7 @@ UNTOLD = {
     **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "fast_blocks", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
+    "rest_under_loads": "the bar of relaxation, which is told; its answers are when a run ends, and what the log says",
     **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
     **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "mass_scaling"], TRIED),
 }  # fmt: skip

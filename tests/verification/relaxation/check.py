@@ -64,27 +64,4 @@ h = told.history
 at = numpy.argmin(abs(h["time"] - time))
 ratios = [h["kinetic"][i] / (h["internal"][at] + h["contact_stored"][at]) for i in (at, at + 1)]
 case.check_within("until: kinetic over internal energy when it ends", energy, 0.9 * min(ratios), 1.1 * max(ratios))
-# A load in absolute time begins long after all has come to rest: the run ends at rest under it, and not before.
-for name, damping in dampings.items():
-    deck = case.load()
-    deck["damping"] = damping
-    deck["time"] = {"end": 4, "end_at_rest": True}
-    table = {"times": [0, 0.35, 0.4, 3], "values": [0, 0, 0.1 * weight, 0.1 * weight]}
-    deck["conditions"] += [{"type": "pressure", "side_set": "lid", "value": table}]
-    run = case.run(f"{name}_late", case.load("mesh.yaml"), deck)
-    h = run.history
-    case.check_within(f"{name}, a late load: the run ends at [s]", h["time"][-1], 0.4, 0.7)
-    sunk = -h["base_displacement_y"][-1]
-    case.check(f"{name}, a late load: base has sunk by [m]", sunk, 1.1 * closure, 1e-3, relative=True)
-    told = "rest counts from t = 0.4 s on, when conditions.1 (run.yaml:" in run.output
-    case.check_equal(f"{name}, a late load: the log says from when rest counts", told, True)
-    case.same_bits(f"{name}_late", case.load("mesh.yaml"), deck, run)
-# What goes on changing is never at rest, and the log says so.
-deck = case.load()
-deck["damping"] = dampings["local"]
-deck["time"] = {"end": 0.2, "end_at_rest": True}
-deck["gravity"] = [0, "-10 - 1e-3*sin(300*t)", 0]
-never = case.run("never", case.load("mesh.yaml"), deck)
-case.check("a load that goes on changing: end [s]", never.history["time"][-1], 0.2, 1e-3)
-case.check_equal("a load that goes on changing: warned of", "gravity changes until t = 0.2 s, so" in never.output, True)
 case.finish()

@@ -1,0 +1,54 @@
+#include "CubesOfTetrahedra.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <vector>
+
+namespace coplane
+{
+void cutIntoCubes(GmshFile& mesh)
+{
+  std::map<std::vector<int>, int> middles; // by the corners that they are between
+  const auto middleOf = [&](std::vector<int> corners)
+  {
+    std::sort(corners.begin(), corners.end());
+    const auto [place, isNew] = middles.insert({corners, int(mesh.coordinates.size())});
+    if (isNew)
+    {
+      Vec3 middle{};
+      for (const int corner : corners)
+        middle += (1 / Real(corners.size())) * mesh.coordinates[std::size_t(corner)];
+      mesh.coordinates.push_back(middle);
+      mesh.nodeIds.push_back(GlobalId(mesh.nodeIds.size()) + 1);
+    }
+    return place->second;
+  };
+  std::vector<GmshFile::Element> cut;
+  const auto add = [&](const GmshFile::Element& whole, int type, const std::array<int, 8>& nodes) {
+    cut.push_back({whole.entity, type, GlobalId(cut.size()) + 1, nodes});
+  };
+  for (const GmshFile::Element& whole : mesh.elements)
+  {
+    const auto& n = whole.nodes;
+    if (whole.type == 2)
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        const int a = n[k], b = n[(k + 1) % 3], c = n[(k + 2) % 3];
+        add(whole, 3, {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c})});
+      }
+    else
+    {
+      constexpr std::size_t turns[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
+      for (const auto& turn : turns)
+      {
+        const int a = n[turn[0]], b = n[turn[1]], c = n[turn[2]], d = n[turn[3]];
+        add(whole, 5,
+            {a, middleOf({a, b}), middleOf({a, b, c}), middleOf({a, c}), middleOf({a, d}),
+             middleOf({a, b, d}), middleOf({a, b, c, d}), middleOf({a, c, d})});
+      }
+    }
+  }
+  mesh.elements = cut;
+}
+} // namespace coplane

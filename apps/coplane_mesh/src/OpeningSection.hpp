@@ -1,0 +1,16 @@
+#pragma once
+
+#include "BlocksRecipe.hpp"
+
+#include <array>
+#include <vector>
+
+namespace coplane
+{
+/// Perimeter and area of the section of an opening [m, m^2].
+std::array<Real, 2> measuresOf(const OpeningCard& card);
+
+/// The corners of a section, to the right and upward [m]. A circle is a regular polygon of its
+/// area, with sides of about `size`; a roof has its corners on the half circle.
+std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size);
+} // namespace coplane

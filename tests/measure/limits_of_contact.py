@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What contact does not do right yet, measured: pairs that are told too late what their neighbours carry, and joints that are crushed in an impact.
+
+    python3 tests/measure/limits_of_contact.py BUILD/bin
+
+Prints the tables behind two of the limits in docs/user/contact.md; takes a minute. When one of them is mended, its problem becomes a check.
+"""
+
+import os
+import pathlib
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "support"))
+from coplanetest import Case
+
+# A rigid plank comes down on its edge and turns: faces beside each other begin to touch within a few cycles.
+PLANK = {"dimension": 3, "node_sets": {"base": {"block": "base"}}, "parts": [
+    {"shape": "box", "block": "base", "min": [-0.5, -0.2, -0.3], "size": [1, 0.2, 0.6], "divisions": [5, 1, 3]},
+    {"shape": "box", "block": "plank", "min": [-0.5, 0.3, -0.05], "size": [1, 0.02, 0.1], "divisions": [13, 1, 2], "rotate": [0, 17, 0]}]}  # fmt: skip
+FALLING_PLANK = {
+    "materials": {"rock": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e8, "poisson_ratio": 0.25}},
+    "blocks": {name: {"material": "rock", "rigid": True} for name in ("base", "plank")},
+    "initial": [{"block": "plank", "velocity": [0, -5, 0], "angular_velocity": [0, 0, 20]}],
+    "conditions": [{"type": "fixed", "node_set": "base"}],
+    "joints": {"rough": {"model": "penalty", "friction": 0.4}},
+    "contact": {"default_joint": "rough"},
+    "time": {"end": 0.04},
+}
+
+# A brick falls on mortar, which it crushes beyond its peak.
+GAP = 1e-4
+BRICK = {"dimension": 2, "node_sets": {"ground": {"block": "base", "where": {"y": -0.1}}}, "parts": [
+    {"shape": "box", "block": "base", "min": [-0.2, -0.1], "size": [0.4, 0.1], "divisions": [8, 2]},
+    {"shape": "box", "block": "brick", "min": [-0.1, GAP], "size": [0.2, 0.1], "divisions": [4, 2]}]}  # fmt: skip
+MORTAR = {"model": "mortar", "normal_stiffness": 5e10, "tensile_strength": 0.3e6, "tension_energy": 20, "cohesion": 0.4e6, "shear_energy": 130, "friction": 0.7,
+          "compressive_strength": 11e6, "compression_energy": 5e3, "peak_crushing": 9e-5}  # fmt: skip
+
+
+def falling_brick(speed, weight_of_shear, step_factor):
+    return {
+        "materials": {"clay": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e10, "poisson_ratio": 0.2}},
+        "blocks": {name: {"material": "clay"} for name in ("base", "brick")},
+        "initial": [{"block": "brick", "velocity": [0, -speed, 0]}],
+        "conditions": [{"type": "fixed", "node_set": "ground"}],
+        "joints": {"bed": {**MORTAR, "shear_in_crushing": weight_of_shear}},
+        "contact": {"default_joint": "bed"},
+        "time": {"end": 1.5e-3, "step_factor": step_factor},
+        "history": {"probes": [{"name": "brick", "block": "brick"}]},
+    }
+
+
+def main():
+    os.environ["COPLANE_BIN"] = str(pathlib.Path(sys.argv[1]).resolve())
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        case = Case("limits of contact", __file__)
+        print("| a plank comes down, `search_every` | kinetic energy at the end over the first | friction work over that |\n|---|---|---|")
+        for every in (1, 4, "auto", "once"):
+            FALLING_PLANK["contact"]["search_every"] = every
+            h = case.attempt(f"plank_{every}", PLANK, FALLING_PLANK).history
+            print(f"| {every} | {h['kinetic'][-1] / h['kinetic'][0]:.4f} | {h['contact_friction'][-1] / h['kinetic'][0]:.4f} |")
+        print("\n| brick falls on mortar [m/s] | `shear_in_crushing` | `step_factor` | largest closure [mm] | contact remainder over the first energy |\n|---|---|---|---|---|")
+        for speed, weight_of_shear in ((4, 0), (10, 0), (10, 9)):
+            for step_factor in (0.8, 0.2, 0.05):
+                h = case.attempt(f"brick_{speed}_{weight_of_shear}_{step_factor}", BRICK, falling_brick(speed, weight_of_shear, step_factor)).history
+                closure = -1e3 * (h["brick_displacement_y"].min() + GAP)
+                print(f"| {speed} | {weight_of_shear} | {step_factor} | {closure:.3f} | {h['contact_remainder'][-1] / h['kinetic'][0]:.4f} |")
+
+
+main()
