@@ -146,7 +146,7 @@ struct Slots
   std::vector<Plane*> places;
   std::vector<SlotFaces> faces;
   std::vector<Activity> activity;
-  std::atomic<bool> changed{false};
+  Changes changed;
 };
 } // namespace
 

@@ -195,12 +195,11 @@ TEST(PlaneState, whatIsPassedOnArrivesAndIsForgotten)
 namespace
 {
 /// Which of what is passed on makes a search stale when it changes, where a pair has this law.
-std::set<std::string> staleFor(const JointLaw& law, bool incremental, Real closure)
+std::set<std::string> staleFor(const JointLaw& law, bool incremental)
 {
   Plane plane;
   plane.area = 1;
   plane.depthLimit = 1;
-  plane.closure = closure;
   std::set<std::string> names;
   forEachPassed(
       [&](const auto& member)
@@ -241,28 +240,46 @@ TEST(PlaneState, whatIsPassedOnMakesASearchStaleOrHasAReason)
           excused.insert(member.name);
       });
   EXPECT_EQ(excused, std::set<std::string>{"shear"});
-  EXPECT_EQ(staleFor(lawWithMemory(), true, 0), others);
+  EXPECT_EQ(staleFor(lawWithMemory(), true), others);
 }
 
 TEST(PlaneState, aSearchIsStaleOnlyByWhatTheLawRemembers)
 {
   using Names = std::set<std::string>;
   const JointLaw plain;
-  EXPECT_EQ(staleFor(plain, false, 0), (Names{"bonded", "offset"}));
-  EXPECT_EQ(staleFor(plain, true, 0), (Names{"bonded", "closure", "offset"}));
-  EXPECT_EQ(staleFor(plain, false, 0.5), (Names{"bonded", "closure", "offset"})) << "a deep pair";
+  EXPECT_EQ(staleFor(plain, false), (Names{"bonded", "offset"}));
+  EXPECT_EQ(staleFor(plain, true), (Names{"bonded", "closure", "offset"}));
   JointLaw law;
   law.curve.inverseMaximumClosure = 1;
-  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "maximum_closure", "offset"}));
+  EXPECT_EQ(staleFor(law, false), (Names{"bonded", "maximum_closure", "offset"}));
   law = plain;
   law.bond.kind = Bond::Kind::Linear;
-  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "offset", "opening", "shearing"}));
+  EXPECT_EQ(staleFor(law, false), (Names{"bonded", "offset", "opening", "shearing"}));
   law = plain;
   law.dilation = 0.1;
-  EXPECT_EQ(staleFor(law, false, 0), (Names{"bonded", "offset", "slip"}));
+  EXPECT_EQ(staleFor(law, false), (Names{"bonded", "offset", "slip"}));
   Plane idle;
   Plane closed;
   closed.offset = 1;
   EXPECT_FALSE(PassedOn(idle, plain, true) != PassedOn(closed, plain, true)) << "carry nothing";
+}
+
+TEST(PlaneState, depthsThatExplainThoseOfPairsBesideThemAreToldAtOnce)
+{
+  const JointLaw law;
+  const auto passedAt = [&](Real closure, Real area = 1)
+  {
+    Plane plane;
+    plane.area = area;
+    plane.depthLimit = 1;
+    plane.closure = closure;
+    return PassedOn(plane, law, false);
+  };
+  const Real step = 0.25 * deepestBirth;
+  EXPECT_TRUE(passedAt(0.9 * step).isAsDeepAs(passedAt(0))) << "nothing that matters";
+  EXPECT_TRUE(passedAt(-3 * step, 0).isAsDeepAs(passedAt(0))) << "open";
+  EXPECT_FALSE(passedAt(1.1 * step).isAsDeepAs(passedAt(0.9 * step)));
+  EXPECT_FALSE(passedAt(1.1 * step).isAsDeepAs(passedAt(2.1 * step))) << "shallower";
+  EXPECT_FALSE(passedAt(1.1 * step).isAsDeepAs(passedAt(1.1 * step, 0))) << "born deep";
 }
 } // namespace coplane

@@ -114,4 +114,28 @@ for name, recipe, deck in (
         runs[every] = case.run(f"{name}_{every}", recipe, deck)
     # The preset sums closures up from velocities, so that its answers hang on when pairs begin.
     case.check(f"{name}: auto against every 4 cycles", spread(runs, "auto", 4), 0, 1e-6, report=name == "seed")
+
+# --- a plank comes down on its edge, and faces beside each other begin to touch within a few cycles ---
+# The second lies deep when its shadow first shares area with a face, and has to know what the first has begun to pass on.
+plank = {"dimension": 3, "node_sets": {"base": {"block": "base"}}, "parts": [
+    {"shape": "box", "block": "base", "min": [-0.5, -0.2, -0.3], "size": [1, 0.2, 0.6], "divisions": [5, 1, 3]},
+    {"shape": "box", "block": "plank", "min": [-0.5, 0.3, -0.05], "size": [1, 0.02, 0.1], "divisions": [13, 1, 2], "rotate": [0, 17, 0]}]}  # fmt: skip
+down = {
+    "materials": {"rock": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e8, "poisson_ratio": 0.25}},
+    "blocks": {name: {"material": "rock", "rigid": True} for name in ("base", "plank")},
+    "initial": [{"block": "plank", "velocity": [0, -5, 0], "angular_velocity": [0, 0, 20]}],
+    "conditions": [{"type": "fixed", "node_set": "base"}],
+    "joints": {"rough": {"model": "penalty", "friction": 0.4}},
+    "contact": {"default_joint": "rough"},
+    "time": {"end": 0.04},
+}
+for forces in ("potential", "common_normal"):
+    energies = {}
+    for every in (1, 4, 100, "auto", "once"):
+        down["contact"].update(search_every=every, forces=forces)
+        h = case.run(f"plank_{forces}_{every}", plank, down).history
+        energies[every] = h["kinetic"][-1], h["contact_friction"][-1]
+    for every in (4, 100, "auto", "once"):
+        for what, value, reference in zip(("kinetic energy", "friction work"), energies[every], energies[1]):
+            case.check(f"plank, {forces}, {every}: {what} [J]", value, reference, 1e-6, relative=True)
 case.finish()

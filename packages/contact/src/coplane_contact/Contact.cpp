@@ -215,9 +215,9 @@ const PlaneList& Contact::planesNow() const
                 copies[i] = new (&shown_.copies(i)) Plane(all[passedOver[i]]);
                 slots[i] = planes_.slots().faces(all.slotOf(passedOver[i]));
               });
-  std::atomic<bool> passedOnHasChanged{false};
-  const PairTables again{nullptr,        copies.data(),   slots.data(),       activity.data(),
-                         planes_.laws(), isIncremental(), &passedOnHasChanged};
+  Changes notAsked;
+  const PairTables again{nullptr,        copies.data(),   slots.data(), activity.data(),
+                         planes_.laws(), isIncremental(), &notAsked};
   constexpr Real noTime = 0;
   stepsBtoH(again, int(count), pairedFaces_.data(), dimension_, options_, noTime);
   std::size_t next = 0;

@@ -146,6 +146,8 @@ public:
   /// Whether since pairs last learned what planes have to give, planes of this rank have changed
   /// it, as far as it matters (detail/PassedOn.hpp).
   bool passedOnHasChanged() const { return planes_.passedOnHasChanged(); }
+  /// The same for how deep they lie, which pairs beside them have to know in the next cycle.
+  bool depthsHaveChanged() const { return planes_.depthsHaveChanged(); }
   std::int64_t searches() const { return searches_.count; }
   /// What this rank has worked in searches since the last call, without waiting for others [s].
   double takeSearchSeconds() { return std::exchange(searches_.seconds, 0.0); }

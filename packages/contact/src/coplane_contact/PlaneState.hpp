@@ -33,8 +33,7 @@ enum class Stale : std::uint8_t
   WithCurve,         ///< where the closure curve is none that is straight: it remembers its maximum
   WithSoftening,     ///< where the bond softens
   WithSlipMemory,    ///< where friction or dilation hang on the slip
-  WithClosureMemory, ///< where closures are sums of increments, or so deep that without it a pair
-                     ///< is taken for none
+  WithClosureMemory, ///< where closures are sums of increments; depths count by themselves
   Never              ///< and `neverStale` says why
 };
 

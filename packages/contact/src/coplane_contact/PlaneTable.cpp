@@ -108,7 +108,7 @@ bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
 PairTables PlaneTable::forKernels(bool incremental)
 {
   return {this,         slots_.plane.data(), slots_.faces.data(), slots_.activity.data(),
-          laws_.data(), incremental,         &passedOnHasChanged_};
+          laws_.data(), incremental,         &passedOn_};
 }
 
 void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation preparation)
@@ -116,7 +116,7 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation prepara
   slots_ = std::move(slots);
   faces_ = faces;
   preparation_ = std::move(preparation);
-  passedOnHasChanged_ = false;
+  passedOn_.forget();
   woken_.clear();
   wokenCount_ = 0;
   parallelFor("coplane::contact::slots", int(count()),
@@ -155,7 +155,7 @@ Preparation::Todo PlaneTable::takeOver(std::size_t slot) const
 void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
 {
   preparation_.renew(std::move(heritage));
-  passedOnHasChanged_ = false;
+  passedOn_.forget();
   parallelFor("coplane::contact::renew", int(count()),
               [&](const int slot)
               {

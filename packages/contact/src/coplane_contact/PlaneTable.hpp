@@ -17,6 +17,15 @@ namespace coplane
 {
 struct PairTables;
 
+/// What cycles have changed, by any thread.
+struct Changes
+{
+  std::atomic<bool> changed{false}; ///< something that planes pass on
+  std::atomic<bool> deeper{false};  ///< how deep they lie, as far as that matters
+
+  void forget() { changed = deeper = false; }
+};
+
 /// The planes of those slots that have one, in the order of slots, which is that of their keys.
 class PlaneList
 {
@@ -79,7 +88,8 @@ public:
   /// What a pair that has not touched yet has to be told of what others pass on.
   Preparation::Todo takeOver(std::size_t slot) const;
   /// Whether planes have changed what they pass on since pairs last learned it.
-  bool passedOnHasChanged() const { return passedOnHasChanged_; }
+  bool passedOnHasChanged() const { return passedOn_.changed; }
+  bool depthsHaveChanged() const { return passedOn_.deeper; }
 
   /// Ids of the faces of a slot; before all others for one whose plane has been taken away while
   /// its faces were no candidates.
@@ -130,6 +140,6 @@ private:
   std::mutex waking_;
   std::vector<std::unique_ptr<Plane[]>> woken_;
   std::size_t wokenCount_ = 0, wokenListed_ = 0;
-  std::atomic<bool> passedOnHasChanged_{false};
+  Changes passedOn_; ///< since pairs last learned what others pass on
 };
 } // namespace coplane

@@ -80,6 +80,7 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   for (const Extent* extent : {&way, &unforeseen, &sincePassing, &velocity})
     range.insert(range.end(), extent->bounds.begin(), extent->bounds.end());
   range.push_back(parts.contact && parts.contact->passedOnHasChanged());
+  range.push_back(parts.contact && parts.contact->depthsHaveChanged());
   range.push_back(trouble);
   parts.comm.max(range);
   if (range.back() > 0)
@@ -92,8 +93,9 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   passedOnHasChanged_ = passedOnHasChanged_ || range[24] > 0;
   const auto comes = [&](int every) { return every > 0 && (clock.cycle + 1) % every == 0; };
   isDue_ = comes(every_);
-  isPassingDue_ = every_ == automatic &&
-                  ((comes(mostOften) && passedOnHasChanged_) || !isWithin(0.5 * skin, &range[12]));
+  isPassingDue_ =
+      range[25] > 0 || (every_ == automatic && ((comes(mostOften) && passedOnHasChanged_) ||
+                                                !isWithin(0.5 * skin, &range[12])));
   // What lies on the way that the search foresaw is covered, and so is what has stayed where it
   // was.
   if (!isWithin(0.5 * skin, moved) && !isWithin(0.5 * skin, strayed))

@@ -78,8 +78,8 @@ struct PairTables
   const SlotFaces* slots;
   Activity* activity;
   const JointLaw* laws;
-  bool incremental;          ///< closures are sums of increments
-  std::atomic<bool>* passed; ///< becomes true when what a plane passes on is something else now
+  bool incremental;  ///< closures are sums of increments
+  Changes* passedOn; ///< of what planes pass on
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;
   const PairDistances* distances = nullptr; ///< null: all pairs are looked at
@@ -89,8 +89,15 @@ struct PairTables
   void book(int p, const PassedOn& before) const
   {
     setActivity(p, activityOf(*planes[p]));
-    if (!passed->load(std::memory_order_relaxed) && passedBy(p) != before)
-      passed->store(true, std::memory_order_relaxed);
+    const auto isSaid = [](const std::atomic<bool>& what)
+    { return what.load(std::memory_order_relaxed); };
+    if (isSaid(passedOn->changed) && isSaid(passedOn->deeper))
+      return;
+    const PassedOn now = passedBy(p);
+    if (!isSaid(passedOn->changed) && now != before)
+      passedOn->changed.store(true, std::memory_order_relaxed);
+    if (!now.isAsDeepAs(before))
+      passedOn->deeper.store(true, std::memory_order_relaxed);
   }
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
   /// Leaves out a pair whose faces are so far from each other that they will not touch.

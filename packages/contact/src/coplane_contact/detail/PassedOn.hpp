@@ -3,6 +3,7 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/PlaneState.hpp>
 
+#include <cmath>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -43,13 +44,13 @@ public:
   {
     if (!(plane.area > 0))
       return;
+    depth_ = std::trunc(plane.closure / (0.25 * deepestBirth * plane.depthLimit));
     int next = 0;
     forEachWatched(
         [&](const auto& member)
         {
           const auto& value = member.get(plane);
-          const bool counts =
-              matters<std::decay_t<decltype(member)>::stale>(plane, law, incremental);
+          const bool counts = matters<std::decay_t<decltype(member)>::stale>(law, incremental);
           forEachPart(value, [&](const auto& part) { numbers_[next++] = counts ? Real(part) : 0; });
         });
   }
@@ -61,6 +62,9 @@ public:
       differs = differs || numbers_[i] != o.numbers_[i];
     return differs;
   }
+  /// Whether it explains another depth of the pairs beside it (PotentialCycle::refuse): these would
+  /// be taken for none, or for some, with what it was a few cycles ago.
+  bool isAsDeepAs(const PassedOn& o) const { return depth_ == o.depth_; }
 
 private:
   /// Calls f(member) for those whose changes may make a search stale.
@@ -76,7 +80,7 @@ private:
   }
 
   template <Stale when>
-  static bool matters(const Plane& plane, const JointLaw& law, bool incremental)
+  static bool matters(const JointLaw& law, bool incremental)
   {
     switch (when)
     {
@@ -89,7 +93,7 @@ private:
     case Stale::WithSlipMemory:
       return law.remembersSlip();
     case Stale::WithClosureMemory:
-      return incremental || plane.closure > 0.5 * deepestBirth * plane.depthLimit;
+      return incremental;
     case Stale::Unsaid:
     case Stale::Never:
       break;
@@ -100,5 +104,6 @@ private:
   static constexpr int count = std::apply(
       [](const auto&... member) { return (0 + ... + detail::watchedParts(member)); }, planeMembers);
   Real numbers_[count] = {};
+  Real depth_ = 0; ///< in fourths of the depth at which first overlaps are none
 };
 } // namespace coplane
