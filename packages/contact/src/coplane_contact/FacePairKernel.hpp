@@ -519,8 +519,9 @@ KOKKOS_INLINE_FUNCTION bool touches(Plane& plane, const Vec3& normal, Real gap, 
     // explain nothing. An open plane has no closure: its surface is where its offset says.
     const Real explained = exists || plane.isInherited() ? plane.offset - plane.closure : 0;
     // A face that slides on over the same surface meets the next face of it as deep as it lies
-    // there, also where the surface is rough.
-    if (!plane.declared && plane.lineage != Lineage::SlidesOn && motion + explained - gap > limit)
+    // there, also where the surface is rough; what is found with area in common does not slide on.
+    const bool slidesOn = plane.lineage == Lineage::SlidesOn && !plane.isNew();
+    if (!plane.declared && !slidesOn && motion + explained - gap > limit)
       plane.refusal = Refusal::Deep;
     if (!plane.isRefused() && !exists)
       stepF_createPlane(plane, normal, deepest);

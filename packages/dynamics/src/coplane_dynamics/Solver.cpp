@@ -492,12 +492,14 @@ void Solver::judge(Observer& observer)
   if (contactCannotStop())
     failAfter(observer,
               computationFailed(fmt::format(
-                  "cycle {}, t = {:.6e} s: bodies move at {:.4g} m/s relative to each other, "
-                  "faster than waves run in them, and faces lie deeper in them than "
-                  "contact.depth_max, or in each other before they were found: contact cannot stop "
-                  "them. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
+                  "cycle {}, t = {:.6e} s: nodes move at up to {:.4g} m/s relative to each other, "
+                  "by {:.2g} of the thinnest element behind a face in a stable step, and faces lie "
+                  "deeper in bodies than contact.depth_max, or in each other before they were "
+                  "found: they are too fast for the waves that had to stop them, and contact "
+                  "cannot. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
                   "under pressure. {}",
-                  clock_.cycle, clock_.time, searches_.relativeSpeed(), worstEntities())));
+                  clock_.cycle, clock_.time, searches_.relativeSpeed(),
+                  step_.motionInStableStep(searches_.relativeSpeed()), worstEntities())));
   const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
   if (!due && !contactMayHaveGained_)
     return;

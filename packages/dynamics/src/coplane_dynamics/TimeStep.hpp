@@ -54,6 +54,11 @@ public:
   {
     return motionStep(thinnest_, relativeSpeed) < part * options_.stepFactor * stable_;
   }
+  /// How far nodes move against each other in the stable step, over the thinnest element [-].
+  Real motionInStableStep(Real relativeSpeed) const
+  {
+    return thinnest_ > 0 ? relativeSpeed * stable_ / thinnest_ : 0;
+  }
   /// Bound for the step after the one in progress [s].
   Real largestNext() const { return largestNext_; }
   StepControl control(const Parts& parts, Real relativeSpeed) const; ///< collective

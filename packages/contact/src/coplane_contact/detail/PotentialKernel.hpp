@@ -217,10 +217,11 @@ private:
       plane.refusal = Refusal::Hidden;
     const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
     // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
-    // quarter of that at its border.
-    const Real explained = (plane.lineage == Lineage::SlidesOn      ? 4
-                            : plane.isBorn() || plane.isInherited() ? 1
-                                                                    : 0) *
+    // quarter of that at its border. What is found with area in common is no such border.
+    const bool comesFromTheSide = !late_[i] && plane.sighting != Sighting::Woken;
+    const Real explained = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
+                            : plane.isBorn() || plane.isInherited()                ? 1
+                                                                                   : 0) *
                            plane.closure;
     if (branchFree::lane(deepest_, i) - explained > start)
       plane.refusal = Refusal::Deep;
