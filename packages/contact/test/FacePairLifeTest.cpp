@@ -163,11 +163,11 @@ TEST_P(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFaces
 TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
 {
   // Sliding on, a pair is born as deep as its neighbours are.
-  const auto born = [&](Real depth)
+  const auto born = [&](Real depth, Sighting sighting)
   {
     PairPlane plane = touchingPlane(1e3);
     plane.state = PlaneState::Slot;
-    plane.sighting = Sighting::New;
+    plane.sighting = sighting;
     plane.lineage = Lineage::Inherited;
     plane.depthLimit = .1;
     plane.offset = -.05;
@@ -176,12 +176,16 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
     EXPECT_EQ(plane.isRefused(), !plane.isBorn());
     return plane;
   };
-  EXPECT_NEAR(born(.11).forceOn(1).z, 60, 1e-10); // 1e3 * (.11 - .05) * 1
-  // With the potential the force goes on; along the common normal it ends at the depth limit.
-  EXPECT_NEAR(born(.2).forceOn(1).z, potential() ? 150 : 1e3 * Real(.1F), 1e-10);
+  EXPECT_NEAR(born(.11, Sighting::Known).forceOn(1).z, 60, 1e-10); // 1e3 * (.11 - .05) * 1
+  EXPECT_TRUE(born(.14, Sighting::Known).isRefused());             // a quarter of the limit deeper
   // The back of a thin body lies far behind the contact on its front, from which it inherits.
-  EXPECT_TRUE(born(.22).isRefused());
-  EXPECT_EQ(norm(born(.22).forceOn(1)), 0.0);
+  EXPECT_FALSE(born(.2, Sighting::New).isRefused());
+  EXPECT_TRUE(born(.22, Sighting::New).isRefused());
+  EXPECT_EQ(norm(born(.22, Sighting::New).forceOn(1)), 0.0);
+  // What lies in each other when it is found has no energy: the potential begins with none. Along
+  // the common normal the force is there at once, and ends at the depth limit.
+  EXPECT_NEAR(born(.11, Sighting::New).forceOn(1).z, potential() ? 0 : 60, 1e-10);
+  EXPECT_NEAR(born(.2, Sighting::New).forceOn(1).z, potential() ? 0 : 1e3 * Real(.1F), 1e-10);
 }
 
 TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)

@@ -205,7 +205,7 @@ private:
     // Overlap that exists when a pair is found has no energy.
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
     plane.maximumBefore = plane.history.maximumClosure;
-    return !((late_[i] || plane.sighting == Sighting::Woken) && !plane.isInherited());
+    return !late_[i] && plane.sighting != Sighting::Woken;
   }
 
   /// A contact begins at the surface, and begins there anew after its faces had no area in common.
