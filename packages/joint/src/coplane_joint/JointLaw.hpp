@@ -94,14 +94,17 @@ struct JointLaw
   ///        multiplied the stored traction for that, r, and the increment by (r + 1) / 2. What it
   ///        raised slips back where it is beyond the strength, but nothing has moved for it. [-]
   /// @param bending how the closure is spread, for bonds that resist bending; none: evenly
+  /// @param unevenness of the elastic closure over the area in contact, mean of its squares over
+  ///        the square of its mean: so many times the mean compression crushes the joint [-]
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
                                                   const Vec3& tangentialIncrement, Real dt,
                                                   JointState& state, Real shrunk = 1,
-                                                  const BondBending* bending = nullptr) const
+                                                  const BondBending* bending = nullptr,
+                                                  Real unevenness = 1) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
           dilation <= 0))
-      return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending);
+      return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending, unevenness);
     JointResponse response;
     close(fit, closure, state, response);
     if (response.normalTraction > 0)
@@ -124,6 +127,19 @@ struct JointLaw
     return state.opening > 0 || state.shearing > 0 ||
            fit.normalStiffness * opened > 0.5 * bond.tensileStrength || shear > 0.5 * held ||
            shear + fit.shearStiffness * slid > held;
+  }
+
+  /// Whether a joint without a bond may be crushed in a step.
+  /// @param sigma compression without crushing, where it is largest in the sense of crush() [Pa]
+  KOKKOS_INLINE_FUNCTION bool mayBeCrushed(const JointFit& fit, const JointState& state,
+                                           Real sigma) const
+  {
+    const Crushing& crushing = curve.crushing;
+    const Real f =
+        crushing.strengthAt(crushing.crushedAt(state.maximumClosure, fit.normalStiffness));
+    const Real shear = cohesion + std::fmax(friction, dynamicFriction) * sigma;
+    return remembersSlip() ||
+           sigma * sigma + crushing.shearWeight * (shear * shear) > (1 - 1e-9) * (f * f);
   }
 
   /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.
@@ -189,13 +205,14 @@ struct JointLaw
   }
 
 private:
-  /// Compression at closure c; raises the maximum closure. Returns how far a joint is open beyond
+  /// Compression at closure c; raises the maximum closure. Of a joint that is crushed the elastic
+  /// trial, from which crush() comes back. Returns how far a joint is open beyond
   /// the closure at which it carries nothing [m]; negative: it is pressed.
   KOKKOS_INLINE_FUNCTION Real close(const JointFit& fit, Real c, JointState& state,
                                     JointResponse& response) const
   {
     const Real before = state.maximumClosure;
-    const bool loading = c > before;
+    const bool loading = c > before && !curve.crushing.acts();
     if (loading)
       state.maximumClosure = c;
     const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
@@ -211,7 +228,8 @@ private:
   /// Compression that a closure would give.
   KOKKOS_INLINE_FUNCTION Real pressedAt(const JointFit& fit, Real c, const JointState& state) const
   {
-    const Real most = c > state.maximumClosure ? c : state.maximumClosure;
+    const bool loading = c > state.maximumClosure && !curve.crushing.acts();
+    const Real most = loading ? c : state.maximumClosure;
     const ClosureCurve::Point top = curve.at(fit, most);
     const Real sigma = top.traction - top.stiffness * (most - c);
     return sigma > 0 ? sigma : 0;
@@ -339,13 +357,14 @@ private:
     Real wear; ///< of the bond, if it softens
     Real held; ///< strength without friction [Pa]
     Real friction;
+    Real lift = 0; ///< dilation by the slip [m]
     BondBending bending;
   };
 
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
                                         Real dt, JointState& state, Real shrunk,
-                                        const BondBending* bending) const
+                                        const BondBending* bending, Real unevenness) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
@@ -383,7 +402,7 @@ private:
     if (!(s.size > s.held + s.friction * s.pressed))
     {
       state.shearTraction = s.trial;
-      crushInShear(fit, s, state, response);
+      crush(fit, s, unevenness, state, response);
       return response;
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
@@ -399,56 +418,96 @@ private:
     slide(fit, s, state, response);
     if (s.softening)
       wearBySlip(fit, s, state, response);
-    crushInShear(fit, s, state, response);
+    crush(fit, s, unevenness, state, response);
     return response;
   }
 
-  /// Shear crushes a joint, too: brings both tractions back to the ellipse of the strength, along
-  /// its normal at the trial. What the falling compression takes from the strength of shear slips.
-  KOKKOS_INLINE_FUNCTION void crushInShear(const JointFit& fit, const SlipStart& s,
-                                           JointState& state, JointResponse& response) const
+  /// Brings the elastic trial back to what a joint bears that is crushed: the crushing x of this
+  /// step is that at whose end both tractions lie on the ellipse of the strength, along its normal
+  /// at the trial. What the falling compression takes from the strength of shear slips.
+  KOKKOS_INLINE_FUNCTION void crush(const JointFit& fit, const SlipStart& s, Real unevenness,
+                                    JointState& state, JointResponse& response) const
   {
     const Crushing& crushing = curve.crushing;
     const Real sigma = response.normalTraction, tau = norm(state.shearTraction);
-    if (!(crushing.acts() && crushing.shearWeight > 0 && sigma > 0 && tau > 0))
+    if (!(crushing.acts() && sigma > 0))
       return;
     const Real kn = fit.normalStiffness, ks = fit.shearStiffness, weight = crushing.shearWeight;
     const Real before = crushing.crushedAt(state.maximumClosure, kn);
-    const Real weak = crushing.strengthAt(before);
-    const Real size = std::sqrt(sigma * sigma + weight * weight * (tau * tau));
+    const Real weak = crushing.strengthAt(before), pressed = unevenness * sigma;
+    const Real size = std::sqrt(pressed * pressed + weight * weight * (tau * tau));
     const Real elastic = sigma / crushing.unloading(before, kn);
-    const Real closing = (1 - crushing.loss) * (sigma / size), sliding = weight * tau / size;
+    const Real closing = (1 - crushing.loss) * (pressed / size), sliding = weight * tau / size;
+    const Real closingOfMean = closing * (2 / unevenness - 1);
     const bool wears = state.bonded && bond.softens();
     const Real held = wears ? bond.cohesion * bond.share(state) : s.held;
     const auto normalAt = [&](Real x)
-    { return crushing.unloading(before + x, kn) * std::fmax(elastic - closing * x, 0.0); };
+    { return crushing.unloading(before + x, kn) * std::fmax(elastic - closingOfMean * x, 0.0); };
     const auto shearAt = [&](Real x, Real normal)
     { return std::fmin(std::fmax(tau - ks * sliding * x, 0.0), held + s.friction * normal); };
     const auto beyond = [&](Real x)
     {
       const Real normal = normalAt(x), shear = shearAt(x, normal);
-      return std::sqrt(normal * normal + weight * (shear * shear)) -
+      return std::sqrt(unevenness * unevenness * (normal * normal) + weight * (shear * shear)) -
              crushing.strengthAt(before + x);
     };
-    Real atLow = beyond(0);
-    if (!(atLow > 1e-12 * weak))
+    const Real atStart = beyond(0);
+    if (!(atStart > 1e-12 * weak))
       return;
 
-    // False position that halves the value of an end that stays (Illinois).
-    Real low = 0, high = atLow / kn, atHigh = beyond(high), x = high;
+    const bool straight = !(sliding > 0) && unevenness == 1;
+    const Real x = straight
+                       ? crushing.crushedAt((1 - crushing.loss) * before + elastic, kn) - before
+                       : whereNothingIsLeft(beyond, atStart, atStart / kn, 1e-14 * weak);
+    const Real crushed = before + x, strong = crushing.strengthAt(crushed);
+    const Real normal = normalAt(x), shear = shearAt(x, normal);
+    // The compression is nearly the same part of the strength all along.
+    const Real part = normal / strong, work = crushing.workTo(crushed) - crushing.workTo(before);
+    response.hysteresisWork += part * (closing * work) +
+                               part * part * crushing.loss *
+                                   std::fmax(work - 0.5 * (crushed * strong - before * weak), 0.0);
+    const Real slipped = ks > 0 ? (tau - shear) / ks : 0;
+    if (slipped > 0)
+    {
+      state.slip += slipped;
+      if (wears)
+        state.shearing += std::fmax(slipped - sliding * x, 0.0);
+      // Work of all slip of the step, less what of it is booked and what lifts the joint.
+      const Real carried = dot(s.before, s.trial) / s.size;
+      const Real all = 0.5 * (carried + shear) * (s.size - shear) / ks;
+      response.frictionWork = std::fmax(all - response.fractureWork - normal * s.lift, 0.0);
+      state.shearTraction = (shear / tau) * state.shearTraction;
+      response.slipping = true;
+    }
+    state.maximumClosure = crushed + strong / kn;
+    response.normalTraction = normal;
+    response.normalStiffness = crushing.unloading(crushed, kn);
+    response.crushed = true;
+    response.notClosed = (1 - crushing.loss) * x - closing * x;
+    response.dilation += response.notClosed;
+  }
+
+  /// Where a function falls to zero: false position that halves the value of an end that stays
+  /// (Illinois).
+  /// @param atLow its value at zero, positive; high: first guess; enough: is as good as zero
+  template <class F>
+  static KOKKOS_INLINE_FUNCTION Real whereNothingIsLeft(const F& f, Real atLow, Real high,
+                                                        Real enough)
+  {
+    Real low = 0, atHigh = f(high), x = high;
     for (int i = 0; i < 200 && atHigh > 0; ++i)
     {
       low = high;
       atLow = atHigh;
       high *= 2;
       x = high;
-      atHigh = beyond(high);
+      atHigh = f(high);
     }
     for (int i = 0, stays = 0; i < 100 && high > low; ++i)
     {
       x = low + (high - low) * (atLow / (atLow - atHigh));
-      const Real at = beyond(x);
-      if (std::fabs(at) <= 1e-14 * weak)
+      const Real at = f(x);
+      if (std::fabs(at) <= enough)
         break;
       const int side = at > 0 ? 1 : -1;
       (at > 0 ? low : high) = x;
@@ -457,35 +516,11 @@ private:
         (at > 0 ? atHigh : atLow) *= 0.5;
       stays = side;
     }
-
-    const Real crushed = before + x, strong = crushing.strengthAt(crushed);
-    const Real normal = normalAt(x), shear = shearAt(x, normal);
-    const Real ratio = weak / strong; // of the tractions at the start to those at the end
-    response.hysteresisWork += 0.5 * (1 + ratio) * normal * (closing * x) +
-                               0.5 * crushing.loss * ratio * (normal * normal) *
-                                   std::fmax(crushed / strong - before / weak, 0.0);
-    // Work of all slip of the step, less what of it is booked.
-    const Real carried = dot(s.before, s.trial) / s.size;
-    const Real more = (carried + shear) * (s.size - shear) - (carried + tau) * (s.size - tau);
-    if (ks > 0)
-    {
-      const Real slipped = (tau - shear) / ks;
-      state.slip += slipped;
-      if (wears)
-        state.shearing += std::fmax(slipped - sliding * x, 0.0);
-      response.frictionWork = std::fmax(response.frictionWork + 0.5 * more / ks, 0.0);
-    }
-    state.shearTraction = (shear / tau) * state.shearTraction;
-    state.maximumClosure = crushed + strong / kn;
-    response.normalTraction = normal;
-    response.normalStiffness = crushing.unloading(crushed, kn);
-    response.crushedByShear = true;
-    response.dilation += (1 - crushing.loss) * x - closing * x; // what is crushed and not closed
-    response.slipping = true;
+    return x;
   }
 
   /// Slip with dilation and softening; its work.
-  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, const SlipStart& s, JointState& state,
+  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, SlipStart& s, JointState& state,
                                     JointResponse& response) const
   {
     // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
@@ -510,6 +545,7 @@ private:
       sigma = response.normalTraction;
       mu = frictionAt(sigma, s.slip, s.speed);
       response.dilation += lift;
+      s.lift = lift;
     }
     if (s.softening)
     {
