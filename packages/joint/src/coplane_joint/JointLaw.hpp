@@ -103,7 +103,7 @@ struct JointLaw
                                                   Real unevenness = 1) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
-          dilation <= 0))
+          dilation <= 0 && !curve.crushing.acts()))
       return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending, unevenness);
     JointResponse response;
     close(fit, closure, state, response);
@@ -357,7 +357,6 @@ private:
     Real wear; ///< of the bond, if it softens
     Real held; ///< strength without friction [Pa]
     Real friction;
-    Real lift = 0; ///< dilation by the slip [m]
     BondBending bending;
   };
 
@@ -399,10 +398,12 @@ private:
     s.before = state.shearTraction;
     s.trial = s.before - fit.shearStiffness * increment;
     s.size = norm(s.trial);
+    s.raised = raised(fit, s.before, increment, s.size, shrunk);
+    if (curve.crushing.acts() && s.pressed > 0 && crush(fit, s, unevenness, state, response))
+      return response;
     if (!(s.size > s.held + s.friction * s.pressed))
     {
       state.shearTraction = s.trial;
-      crush(fit, s, unevenness, state, response);
       return response;
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
@@ -414,77 +415,129 @@ private:
         return response;
       }
     }
-    s.raised = raised(fit, s.before, increment, s.size, shrunk);
     slide(fit, s, state, response);
     if (s.softening)
       wearBySlip(fit, s, state, response);
-    crush(fit, s, unevenness, state, response);
     return response;
   }
 
-  /// Brings the elastic trial back to what a joint bears that is crushed: the crushing x of this
-  /// step is that at whose end both tractions lie on the ellipse of the strength, along its normal
-  /// at the trial. What the falling compression takes from the strength of shear slips.
-  KOKKOS_INLINE_FUNCTION void crush(const JointFit& fit, const SlipStart& s, Real unevenness,
+  /// What a step of crushing ends with.
+  struct Crushed
+  {
+    Real crushing; ///< of this step, x [m]
+    Real closing;  ///< by which the permanent closure rises [m]
+    Real rubbing;  ///< slip that friction and cohesion ask for, beyond that on the ellipse [m]
+    Real normal;   ///< compression [Pa]
+    Real shear;    ///< [Pa]
+    Real held;     ///< strength of shear without friction [Pa]
+  };
+
+  /// Brings the elastic trial back to what a joint bears that is crushed: both tractions end on the
+  /// ellipse of the strength that is left at the end of the step, along its normal there, and
+  /// within friction and cohesion. @returns whether the joint is crushed in this step
+  KOKKOS_INLINE_FUNCTION bool crush(const JointFit& fit, const SlipStart& s, Real unevenness,
                                     JointState& state, JointResponse& response) const
   {
     const Crushing& crushing = curve.crushing;
-    const Real sigma = response.normalTraction, tau = norm(state.shearTraction);
-    if (!(crushing.acts() && sigma > 0))
-      return;
     const Real kn = fit.normalStiffness, ks = fit.shearStiffness, weight = crushing.shearWeight;
     const Real before = crushing.crushedAt(state.maximumClosure, kn);
-    const Real weak = crushing.strengthAt(before), pressed = unevenness * sigma;
-    const Real size = std::sqrt(pressed * pressed + weight * weight * (tau * tau));
-    const Real elastic = sigma / crushing.unloading(before, kn);
-    const Real closing = (1 - crushing.loss) * (pressed / size), sliding = weight * tau / size;
-    const Real closingOfMean = closing * (2 / unevenness - 1);
-    const bool wears = state.bonded && bond.softens();
-    const Real held = wears ? bond.cohesion * bond.share(state) : s.held;
-    const auto normalAt = [&](Real x)
-    { return crushing.unloading(before + x, kn) * std::fmax(elastic - closingOfMean * x, 0.0); };
-    const auto shearAt = [&](Real x, Real normal)
-    { return std::fmin(std::fmax(tau - ks * sliding * x, 0.0), held + s.friction * normal); };
-    const auto beyond = [&](Real x)
+    const Real weak = crushing.strengthAt(before), slope = crushing.unloading(before, kn);
+    const Real elastic = s.pressed / slope, plastic = 1 - crushing.loss;
+    const Real ofMean = plastic * (2 - unevenness); // as the mean of the closure falls with it
+    // The step with a crushing of y times (unevenness sigma, weight tau) at its end.
+    const auto endOf = [&](Real y)
     {
-      const Real normal = normalAt(x), shear = shearAt(x, normal);
-      return std::sqrt(unevenness * unevenness * (normal * normal) + weight * (shear * shear)) -
-             crushing.strengthAt(before + x);
+      Crushed end{};
+      Real k = slope, held = s.held;
+      // The slope of unloading and the cohesion hang on the crushing and the slip weakly.
+      for (int i = 0, times = crushing.loss > 0 || s.softening ? 3 : 1; i < times; ++i)
+      {
+        end.normal = k * elastic / (1 + k * ofMean * y);
+        end.shear = std::fmin(s.size / (1 + ks * weight * y), held + s.friction * end.normal);
+        const Real pressed = unevenness * end.normal, sheared = weight * end.shear;
+        end.crushing = y * std::sqrt(pressed * pressed + sheared * sheared);
+        end.closing = plastic * (y * pressed);
+        end.rubbing =
+            ks > 0 ? std::fmax((s.size - s.raised - end.shear) / ks - y * sheared, 0.0) : 0;
+        k = crushing.unloading(before + end.crushing, kn);
+        if (s.softening)
+          held = bond.cohesion * bond.share(s.wear + end.rubbing / bond.shearingLength);
+      }
+      end.held = held;
+      end.normal = k * std::fmax(elastic - (2 / unevenness - 1) * end.closing, 0.0);
+      end.shear = std::fmin(end.shear, held + s.friction * end.normal);
+      return end;
+    };
+    const auto beyond = [&](Real y)
+    {
+      const Crushed end = endOf(y);
+      return std::sqrt(unevenness * unevenness * (end.normal * end.normal) +
+                       weight * (end.shear * end.shear)) -
+             crushing.strengthAt(before + end.crushing);
     };
     const Real atStart = beyond(0);
     if (!(atStart > 1e-12 * weak))
-      return;
+      return false;
 
-    const bool straight = !(sliding > 0) && unevenness == 1;
-    const Real x = straight
-                       ? crushing.crushedAt((1 - crushing.loss) * before + elastic, kn) - before
-                       : whereNothingIsLeft(beyond, atStart, atStart / kn, 1e-14 * weak);
-    const Real crushed = before + x, strong = crushing.strengthAt(crushed);
-    const Real normal = normalAt(x), shear = shearAt(x, normal);
-    // The compression is nearly the same part of the strength all along.
-    const Real part = normal / strong, work = crushing.workTo(crushed) - crushing.workTo(before);
-    response.hysteresisWork += part * (closing * work) +
-                               part * part * crushing.loss *
-                                   std::fmax(work - 0.5 * (crushed * strong - before * weak), 0.0);
-    const Real slipped = ks > 0 ? (tau - shear) / ks : 0;
-    if (slipped > 0)
+    Crushed end;
+    if (!(weight * s.size > 0) && unevenness == 1)
     {
-      state.slip += slipped;
-      if (wears)
-        state.shearing += std::fmax(slipped - sliding * x, 0.0);
-      // Work of all slip of the step, less what of it is booked and what lifts the joint.
-      const Real carried = dot(s.before, s.trial) / s.size;
-      const Real all = 0.5 * (carried + shear) * (s.size - shear) / ks;
-      response.frictionWork = std::fmax(all - response.fractureWork - normal * s.lift, 0.0);
-      state.shearTraction = (shear / tau) * state.shearTraction;
-      response.slipping = true;
+      const Real most = crushing.crushedAt(plastic * before + elastic, kn);
+      end.crushing = most - before;
+      end.closing = plastic * end.crushing;
+      end.normal = crushing.strengthAt(most);
+      end.held = s.held;
+      end.shear = std::fmin(s.size, s.held + s.friction * end.normal);
+      end.rubbing = ks > 0 ? std::fmax((s.size - s.raised - end.shear) / ks, 0.0) : 0;
     }
-    state.maximumClosure = crushed + strong / kn;
-    response.normalTraction = normal;
-    response.normalStiffness = crushing.unloading(crushed, kn);
+    else
+      end = endOf(whereNothingIsLeft(beyond, atStart, atStart / (kn * s.pressed), 1e-14 * weak));
+    bookCrushing(fit, s, before, end, state, response);
+    state.maximumClosure = before + end.crushing;
+    state.maximumClosure += crushing.strengthAt(state.maximumClosure) / kn;
+    response.normalTraction = end.normal;
+    response.normalStiffness = crushing.unloading(before + end.crushing, kn);
     response.crushed = true;
-    response.notClosed = (1 - crushing.loss) * x - closing * x;
+    response.notClosed = plastic * end.crushing - end.closing;
     response.dilation += response.notClosed;
+    if (s.softening && bond.share(state) < Bond::brokenAt)
+      breakBond(fit, s.bending, state, response);
+    return true;
+  }
+
+  /// Slip and work of a step that crushes; what rubs lifts the joint from the next step on.
+  /// @param before crushing until now [m]
+  KOKKOS_INLINE_FUNCTION void bookCrushing(const JointFit& fit, const SlipStart& s, Real before,
+                                           const Crushed& end, JointState& state,
+                                           JointResponse& response) const
+  {
+    const Crushing& crushing = curve.crushing;
+    const Real now = before + end.crushing, weak = crushing.strengthAt(before),
+               strong = crushing.strengthAt(now);
+    // The compression is nearly the same part of the strength all along.
+    const Real part = end.normal / strong, work = crushing.workTo(now) - crushing.workTo(before);
+    if (end.crushing > 0)
+      response.hysteresisWork +=
+          part * (end.closing / end.crushing * work) +
+          part * part * crushing.loss * std::fmax(work - 0.5 * (now * strong - before * weak), 0.0);
+    if (!(end.shear < s.size))
+    {
+      state.shearTraction = s.trial;
+      return;
+    }
+    const Real all = slip(fit, s.before, s.trial, s.size, end.shear, s.raised, state, response);
+    const Real room = std::fmax(dilationSlip - s.slip, 0.0);
+    const Real lift = dilation * std::fmin(end.rubbing, room);
+    const Real paid = std::fmax(all - end.normal * lift, 0.0);
+    const Real slipped = (s.size - end.shear) / fit.shearStiffness;
+    const Real fracture = s.softening && end.shear > 0 ? paid * (end.rubbing / slipped) *
+                                                             std::fmin(end.held / end.shear, 1.0)
+                                                       : 0;
+    if (s.softening)
+      state.shearing += end.rubbing;
+    response.dilation += lift;
+    response.fractureWork += fracture;
+    response.frictionWork = paid - fracture;
   }
 
   /// Where a function falls to zero: false position that halves the value of an end that stays
@@ -520,7 +573,7 @@ private:
   }
 
   /// Slip with dilation and softening; its work.
-  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, SlipStart& s, JointState& state,
+  KOKKOS_INLINE_FUNCTION void slide(const JointFit& fit, const SlipStart& s, JointState& state,
                                     JointResponse& response) const
   {
     // Slip x: size - k_s x = held + mu (pressed + k_n x tan(psi)).
@@ -545,7 +598,6 @@ private:
       sigma = response.normalTraction;
       mu = frictionAt(sigma, s.slip, s.speed);
       response.dilation += lift;
-      s.lift = lift;
     }
     if (s.softening)
     {
