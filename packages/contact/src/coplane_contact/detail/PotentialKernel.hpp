@@ -114,6 +114,7 @@ private:
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
     // Of joints that are crushed in this step:
     PerLane pushed = {}; ///< normal force of the cycle before, compression positive [N]
+    PerLane held = {};   ///< energy of the normal traction in the cycle before [J]
     PerLane shifts = {}; ///< by which the closure that comes back gets less [m]
     PerLane loss = {};   ///< of the slope of unloading, over that before [-]
   };
@@ -370,7 +371,10 @@ private:
     const Real wholeArea = branchFree::lane(m.area, i);
     const bool wasBonded = plane.history.bonded, crushable = law.curve.crushing.acts();
     if (crushable)
+    {
       out.pushed[i] = dot(plane.forceOn(1), plane.normal) - plane.normalDamping;
+      out.held[i] = std::fmax(plane.stored - plane.shearEnergy(), 0.0);
+    }
     plane.normal = branchFree::lane(pair_.plane.normal, i);
     plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
     plane.tooDeep = plane.closure > plane.depthLimit;
@@ -457,18 +461,19 @@ private:
 
   /// What crushing costs: work of the normal forces of this cycle and the one before by the
   /// trapezoid rule, less what of it is stored. With the permanent closure p and the slope k of
-  /// unloading that is (Y0 + Y1) / 2 dp + Y0 Y1 / 2 d(1/k).
+  /// unloading, force Y and energy E that is (Y0 + Y1) / 2 dp + sqrt(k0 E0 k1 E1) d(1/k).
   KOKKOS_FORCEINLINE_FUNCTION void bookCrushing(const Mask& touching, const T& force,
                                                 const T& energy, const Response& response) const
   {
     for (int i = 0; i < planes_.count; ++i)
     {
-      const Real now = branchFree::lane(force, i), before = response.pushed[i];
-      if (branchFree::lane(touching, i) && response.shifts[i] > 0 && now > 0)
-        planes_.plane[i]->hysteresisWork +=
-            std::fmax(0.5 * (before + now) * response.shifts[i] +
-                          branchFree::lane(energy, i) * (before / now) * response.loss[i],
-                      0.0);
+      if (!(branchFree::lane(touching, i) && response.shifts[i] > 0))
+        continue;
+      const Real before = response.pushed[i], loss = response.loss[i];
+      const Real softened = std::sqrt(response.held[i] * branchFree::lane(energy, i) / (1 - loss));
+      const Real lost = 0.5 * (before + branchFree::lane(force, i)) * response.shifts[i] +
+                        (before > 0 ? loss * softened : 0);
+      planes_.plane[i]->hysteresisWork += std::fmax(lost, 0.0);
     }
   }
 
