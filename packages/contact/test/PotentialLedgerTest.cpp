@@ -122,4 +122,73 @@ TEST(LedgerOfThePotential, aQuadrilateralThatFoldsLosesNothing)
       EXPECT_LT(fine, 1e-3 * largest);
     }
 }
+
+namespace
+{
+/// A joint that is crushed: 20 kPa at a closure of 0.04 m, half of that 0.1 m later.
+PairPlane crushedPlane(Real loss, Real friction)
+{
+  PairPlane plane = touchingPlane(1e6, friction);
+  Crushing& crushing = plane.law.curve.crushing;
+  crushing.strength = 2e4;
+  crushing.peak = .02;
+  crushing.length = .1;
+  crushing.loss = loss;
+  return plane;
+}
+
+/// A face that is pressed into another one by 0.3 m and moved along it by 0.1 m.
+template <int Dim>
+std::array<FaceNodes, 2> pressedAndSheared(Real slope, Real time)
+{
+  const Real down = .3 * time, along = .1 * time;
+  const auto at = [&](Real x, Real z) { return Vec3{x + along, slope * x - down, z}; };
+  if constexpr (Dim == 2)
+    return {face({{2, 0, 0}, {-2, 0, 0}}), face({at(0, 0), at(1, 0)})};
+  return {face({{2, 0, -2}, {-2, 0, -2}, {-2, 0, 2}, {2, 0, 2}}),
+          face({at(0, -.5), at(1, -.5), at(1, .5), at(0, .5)})};
+}
+} // namespace
+
+TEST(LedgerOfThePotential, whatIsCrushedInFewStepsBearsWhatItsCurveSaysAndLosesWhatItsForcesDid)
+{
+  // In steps of one and a half times the crushing at the peak, to the end of the softening.
+  for (const Real loss : {0., .5})
+  {
+    const auto path = [](Real time) { return pressedAndSheared<2>(0, time); };
+    const auto space = [](Real time) { return pressedAndSheared<3>(0, time); };
+    for (const PairPlane& end :
+         {walked<2>(crushedPlane(loss, 0), 10, path), walked<3>(crushedPlane(loss, 0), 10, space)})
+    {
+      Vec3 force{};
+      for (const Vec3& corner : end.cornerForce[1])
+        force += corner;
+      EXPECT_NEAR(end.history.maximumClosure, .3, 1e-12);
+      EXPECT_NEAR(force.y, end.law.curve.at(end.fit, .3).traction, 1e-9 * 2e4);
+      EXPECT_GT(end.hysteresisWork, 1e3);
+      EXPECT_NEAR(end.remainder(), 0, 1e-12 * end.hysteresisWork);
+    }
+  }
+}
+
+TEST(LedgerOfThePotential, whatIsCrushedUnevenlyAndShearedLosesWhatItsForcesDid)
+{
+  // The same where the closed part is cut anew as it is crushed, and where shear crushes, too.
+  for (const Real loss : {0., .5})
+    for (const Real slope : {0., .1})
+      for (const Real friction : {0., .5})
+      {
+        SCOPED_TRACE(testing::Message() << loss << " slope " << slope << " friction " << friction);
+        const auto leftOver = [&](const PairPlane& end)
+        { return std::abs(end.remainder()) / (end.hysteresisWork + end.frictionWork); };
+        for (const int steps : {40, 160})
+        {
+          const Real most = steps == 40 ? 1e-2 : 1e-3;
+          const auto path = [&](Real time) { return pressedAndSheared<2>(slope, time); };
+          const auto space = [&](Real time) { return pressedAndSheared<3>(slope, time); };
+          EXPECT_LT(leftOver(walked<2>(crushedPlane(loss, friction), steps, path)), most);
+          EXPECT_LT(leftOver(walked<3>(crushedPlane(loss, friction), steps, space)), most);
+        }
+      }
+}
 } // namespace coplane
