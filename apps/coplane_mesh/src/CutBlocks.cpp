@@ -17,6 +17,7 @@
 #include <gmsh.h>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace coplane
 {
@@ -97,8 +98,10 @@ int addSolid(const Polyhedron& solid)
 class Cutter
 {
 public:
-  Cutter(const BlocksRecipe& recipe, const std::string& recipeFile)
-      : recipe_(recipe), recipeFile_(recipeFile), dimension_(recipe.dimension)
+  Cutter(const BlocksRecipe& recipe, const std::string& recipeFile, const MeshingWay& way,
+         Stages& stages)
+      : recipe_(recipe), recipeFile_(recipeFile), way_(way), stages_(stages),
+        dimension_(recipe.dimension)
   {
     size_ = recipe.elements.size;
     leastVolume_ =
@@ -109,8 +112,10 @@ public:
 
   CutDomain cut()
   {
+    begin("the domain was read");
     addDomain();
     demandFewElements();
+    begin("Gmsh cut the domain");
     for (const OpeningCard& opening : recipe_.openings)
       addOpening(opening);
     addJoints();
@@ -133,6 +138,8 @@ private:
     std::string name; ///< of a solid of a file
     Entity entity;
   };
+
+  void begin(const std::string& stage) { stages_.begin(stage, recipe_.elements.timeLimit); }
 
   void addDomain()
   {
@@ -662,12 +669,17 @@ private:
   void mesh()
   {
     const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
-    setElementSizes(recipe_, recipeFile_, sized_,
-                    cubes ? 2 : 1); // each element is cut in half along its edges
+    begin("sizes of elements were set");
+    setElementSizes(recipe_, recipeFile_, sized_, // each cube is cut in half along its edges
+                    way_.sizeFactor * (cubes ? 2 : 1));
     if (cubes && dimension_ == 2)
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+    gmsh::option::setNumber("Mesh.Algorithm", way_.faceAlgorithm);
+    if (const char* dbg = getenv("DBGO")) { std::stringstream ss(dbg); std::string k; double v; while (ss >> k >> v) gmsh::option::setNumber(k, v); }
+    begin(meshingStage);
     gmsh::model::mesh::generate(dimension_);
     readNodes();
+    begin("flat elements were mended");
     GlobalId next = 0;
     for (int d = dimension_; d >= dimension_ - 1; --d)
       for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
@@ -855,6 +867,10 @@ private:
       sorted[tags[n]] = {places[3 * n], places[3 * n + 1], places[3 * n + 2]};
     for (const auto& [tag, place] : sorted)
     {
+      for (int axis = 0; axis < dimension_; ++axis)
+        if (const Real x = place[axis], slack = 1e-3 * size_;
+            !(x >= low_[axis] - slack && x <= high_[axis] + slack))
+          throw Error(ExitCode::Computation, "it has made nodes outside of the domain");
       nodeOfTag_[tag] = int(result_.mesh.nodeIds.size());
       result_.mesh.nodeIds.push_back(GlobalId(result_.mesh.nodeIds.size()) + 1);
       result_.mesh.coordinates.push_back(place);
@@ -887,6 +903,8 @@ private:
 
   const BlocksRecipe& recipe_;
   const std::string& recipeFile_;
+  const MeshingWay& way_;
+  Stages& stages_;
   int dimension_;
   Real size_, leastVolume_, leastThickness_, leastStub_;
   Vec3 low_{}, high_{};
@@ -901,14 +919,19 @@ private:
 };
 } // namespace
 
-CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
+CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile,
+                    const MeshingWay& way, Stages& stages)
 {
   const Session session;
   try
   {
-    return Cutter(recipe, recipeFile).cut();
+    return Cutter(recipe, recipeFile, way, stages).cut();
   }
   catch (const Error&)
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
   {
     throw;
   }
@@ -916,12 +939,7 @@ CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
   {
     std::string last;
     gmsh::logger::getLastError(last);
-    if (last.empty())
-      last = "it gives no reason";
-    fail(ExitCode::Mesh,
-         "{}: Gmsh cannot cut or mesh this: {}. Larger slivers.volume or slivers.thickness, or "
-         "another elements.size, often help.",
-         recipeFile, last);
+    throw Error(ExitCode::Computation, last.empty() ? "it gives no reason" : last);
   }
 }
 } // namespace coplane

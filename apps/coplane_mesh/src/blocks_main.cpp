@@ -1,5 +1,5 @@
 #include "ConvertGmsh.hpp"
-#include "CutBlocks.hpp"
+#include "CutApart.hpp"
 #include "MakeMesh.hpp"
 #include "MeshCommand.hpp"
 #include "MeshFaces.hpp"
@@ -98,6 +98,8 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
   if (domain.changes > 0)
     print(fmt::format("{} changes mended flat elements: the worst is worth {:.3g}, was {:.3g}",
                       domain.changes, domain.worst, domain.worstBefore));
+  for (const std::string& note : domain.notes)
+    print("note: " + note);
   for (const CutReport& joint : result.cuts)
     print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
                       joint.area, area, total / joint.area, joint.opened,
@@ -112,7 +114,7 @@ void makeBlocks(const std::string& file, const std::vector<std::string>& overrid
   demandDistinct({{file, "the recipe"}}, output);
   const BlocksRecipe recipe =
       parseBlocksRecipe(readTextFile(file, blocksRecipeFile()), file, overrides);
-  const CutDomain domain = cutDomain(recipe, file);
+  const CutDomain domain = cutDomainApart(recipe, file);
   SplitMesh result = openJoints(domain, file);
   printBlocks(domain, recipe, result);
   Mesh& mesh = result.mesh;

@@ -1,0 +1,68 @@
+#include "CutApart.hpp"
+
+#include "CutDomainBytes.hpp"
+
+#include <coplane_core/Error.hpp>
+
+#include <fmt/ranges.h>
+
+namespace coplane
+{
+namespace
+{
+bool gaveUp(const ApartOutcome& outcome)
+{
+  return outcome.end == ApartOutcome::End::Failed && outcome.code == ExitCode::Computation;
+}
+
+/// Whether another way of meshing may help.
+bool isOfMeshing(const ApartOutcome& outcome)
+{
+  return (gaveUp(outcome) || outcome.end == ApartOutcome::End::Died) &&
+         outcome.stage == meshingStage;
+}
+
+std::string reasonOf(const ApartOutcome& outcome, const BlocksRecipe& recipe)
+{
+  if (gaveUp(outcome))
+    return outcome.bytes;
+  if (outcome.end == ApartOutcome::End::Late)
+    return fmt::format("ended while {}, which took longer than elements.time_limit = {:.6g} s",
+                       outcome.stage, recipe.elements.timeLimit);
+  return fmt::format("crashed while {}: {}", outcome.stage,
+                     outcome.signal > 0 ? nameOfSignal(outcome.signal) : "no signal");
+}
+} // namespace
+
+CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFile)
+{
+  const MeshingWay ways[] = {{},
+                             {5, 1, "faces by Delaunay's criterion"},
+                             {6, 0.93, "elements smaller by 7 %"},
+                             {5, 0.85, "faces by Delaunay's criterion and elements smaller by 15 %"}};
+  std::vector<std::string> failures;
+  for (const MeshingWay& way : ways)
+  {
+    const ApartOutcome outcome = runApart(
+        [&](Stages& stages) { return bytesOf(cutDomain(recipe, recipeFile, way, stages)); });
+    if (outcome.end == ApartOutcome::End::Done)
+    {
+      CutDomain domain = cutDomainOf(outcome.bytes);
+      if (!failures.empty())
+        domain.notes.push_back(fmt::format("Gmsh failed to mesh this {}; it was meshed with {}",
+                                           fmt::join(failures, "; "), way.name));
+      return domain;
+    }
+    if (outcome.end == ApartOutcome::End::Failed && !gaveUp(outcome))
+      throw Error(outcome.code, outcome.bytes);
+    failures.push_back(fmt::format("{} ({})", way.name, reasonOf(outcome, recipe)));
+    if (!isOfMeshing(outcome))
+      break;
+  }
+  fail(ExitCode::Mesh,
+       "{}: Gmsh cannot cut or mesh this: {}. Nothing was written. Joints, ends of joints or "
+       "borders nearly meet somewhere. Another elements.size or seed, larger slivers.thickness, "
+       "slivers.stub or slivers.volume, or joints somewhat elsewhere often help.",
+       recipeFile, fmt::join(failures, "; "));
+}
+} // namespace coplane
