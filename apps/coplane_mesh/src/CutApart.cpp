@@ -22,13 +22,10 @@ bool isOfMeshing(const ApartOutcome& outcome)
          outcome.stage == meshingStage;
 }
 
-std::string reasonOf(const ApartOutcome& outcome, const BlocksRecipe& recipe)
+std::string reasonOf(const ApartOutcome& outcome)
 {
   if (gaveUp(outcome))
     return outcome.bytes;
-  if (outcome.end == ApartOutcome::End::Late)
-    return fmt::format("ended while {}, which took longer than elements.time_limit = {:.6g} s",
-                       outcome.stage, recipe.elements.timeLimit);
   return fmt::format("crashed while {}: {}", outcome.stage,
                      outcome.signal > 0 ? nameOfSignal(outcome.signal) : "no signal");
 }
@@ -36,10 +33,13 @@ std::string reasonOf(const ApartOutcome& outcome, const BlocksRecipe& recipe)
 
 CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFile)
 {
-  const MeshingWay ways[] = {{},
-                             {5, 1, "faces by Delaunay's criterion"},
-                             {6, 0.93, "elements smaller by 7 %"},
-                             {5, 0.85, "faces by Delaunay's criterion and elements smaller by 15 %"}};
+  const MeshingWay ways[] = {
+      {},
+      {"with other random numbers", 7},
+      {"with others again", 13},
+      {"with faces by Delaunay's criterion", 7, 5},
+      {"with elements smaller by 7 %", 7, 6, 0.93},
+      {"with faces by Delaunay's criterion and elements smaller by 15 %", 7, 5, 0.85}};
   std::vector<std::string> failures;
   for (const MeshingWay& way : ways)
   {
@@ -49,13 +49,19 @@ CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFi
     {
       CutDomain domain = cutDomainOf(outcome.bytes);
       if (!failures.empty())
-        domain.notes.push_back(fmt::format("Gmsh failed to mesh this {}; it was meshed with {}",
+        domain.notes.push_back(fmt::format("Gmsh failed to mesh this {}; it was meshed {}",
                                            fmt::join(failures, "; "), way.name));
       return domain;
     }
     if (outcome.end == ApartOutcome::End::Failed && !gaveUp(outcome))
       throw Error(outcome.code, outcome.bytes);
-    failures.push_back(fmt::format("{} ({})", way.name, reasonOf(outcome, recipe)));
+    if (outcome.end == ApartOutcome::End::Late)
+      fail(ExitCode::Mesh,
+           "{}: ended while {}, which took longer than elements.time_limit = {:.6g} s: Gmsh may "
+           "hang, or has too much to do. Nothing was written. Fewer joints, larger elements or a "
+           "larger elements.time_limit help; if it hangs, another elements.size or seed.",
+           recipeFile, outcome.stage, recipe.elements.timeLimit);
+    failures.push_back(fmt::format("{} ({})", way.name, reasonOf(outcome)));
     if (!isOfMeshing(outcome))
       break;
   }

@@ -1,8 +1,10 @@
 #include "CutBlocks.hpp"
 
 #include "CubesOfTetrahedra.hpp"
+#include "CutEstimate.hpp"
 #include "ElementSizes.hpp"
 #include "JointSurfaces.hpp"
+#include "MeasureOfElements.hpp"
 #include "MendTetrahedra.hpp"
 #include "OpeningSection.hpp"
 #include "ShapeModel.hpp"
@@ -10,14 +12,15 @@
 #include "VoronoiCells.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/PlaceText.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <gmsh.h>
 #include <map>
+#include <numeric>
 #include <set>
-#include <sstream>
 
 namespace coplane
 {
@@ -37,7 +40,6 @@ public:
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
     gmsh::option::setNumber("Geometry.OCCParallel", 0);
-    gmsh::option::setNumber("Mesh.RandomSeed", 1);
     gmsh::option::setNumber("Mesh.Smoothing", 0); // it has moved nodes across joints that end
     gmsh::model::add("blocks");
   }
@@ -277,6 +279,8 @@ private:
       result_.joints.push_back(recipe_.domain.joint);
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const auto& a, const auto& b) { return a.joint < b.joint; });
+    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, leastThickness_);
+    result_.notes = notesOfSizes(recipe_, low_, high_);
     Entities tools;
     std::vector<int> joints;
     for (const JointSurface& surface : surfaces)
@@ -299,10 +303,12 @@ private:
     occ::intersect(tools, domain, inside, pieces, -1, true, false);
     std::set<Entity> taken;
     std::set<int> covered; // joints with pieces where one before them has the place
+    std::vector<bool> outside(tools.size(), true);
     for (std::size_t t = 0; t < tools.size(); ++t)
       for (const Entity& piece : pieces[t])
         if (piece.first == dimension_ - 1)
         {
+          outside[t] = false;
           if (taken.insert(piece).second)
             pieces_[piece] = joints[t];
           else
@@ -318,6 +324,8 @@ private:
                recipeFile_, recipe_.joints[j].name);
         refuseJoint(j);
       }
+    for (const std::string& note : notesOfOutside(recipe_, surfaces, outside))
+      result_.notes.push_back(note);
   }
 
   /// Each opening has a part of the domain of its own.
@@ -650,9 +658,9 @@ private:
   [[noreturn]] void refuseJoint(std::size_t joint) const
   {
     fail(ExitCode::Deck,
-         "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
-         "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m{}.",
-         recipeFile_, result_.joints[joint], low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
+         "{}: joints.{} has no face inside of the domain, which reaches from {} to {} m{}.",
+         recipeFile_, result_.joints[joint], placeText(low_, size_ / 10),
+         placeText(high_, size_ / 10),
          result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
   }
 
@@ -675,24 +683,40 @@ private:
     if (cubes && dimension_ == 2)
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
     gmsh::option::setNumber("Mesh.Algorithm", way_.faceAlgorithm);
-    if (const char* dbg = getenv("DBGO")) { std::stringstream ss(dbg); std::string k; double v; while (ss >> k >> v) gmsh::option::setNumber(k, v); }
+    gmsh::option::setNumber("Mesh.RandomSeed", way_.seed);
     begin(meshingStage);
     gmsh::model::mesh::generate(dimension_);
     readNodes();
-    begin("flat elements were mended");
     GlobalId next = 0;
     for (int d = dimension_; d >= dimension_ - 1; --d)
       for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
         if (entity.first == d)
           readElements(entity, next);
+    demandFilled();
+    begin("flat elements were mended");
     const bool whole = cubes && dimension_ == 3; // as long as they are tetrahedra
     const Real size = (whole ? 2 : 1) * leastSize();
     result_.worstBefore = findWorst(size);
     if (dimension_ == 3)
       mendElements(size);
     demandWorth();
-    if (whole)
-      cutIntoCubes(result_.mesh);
+    if (!whole)
+      return;
+    cutIntoCubes(result_.mesh);
+    findWorst(leastSize());
+    demandWorth();
+  }
+
+  /// Gmsh has left gaps, and put elements on each other, without a word.
+  void demandFilled() const
+  {
+    const Real filled = measureOfElements(result_.mesh, dimension_);
+    const Real volume =
+        std::accumulate(result_.blockVolumes.begin(), result_.blockVolumes.end(), 0.0);
+    if (!(std::abs(filled - volume) <= 1e-6 * volume))
+      throw Error(ExitCode::Computation,
+                  fmt::format("its elements fill {:.9g} of {:.9g} {}", filled, volume,
+                              dimension_ == 2 ? "m^2" : "m^3"));
   }
 
   /// The least size of elements that the recipe asks for anywhere.
@@ -715,13 +739,15 @@ private:
     {
       if (element.entity.first != dimension_)
         continue;
-      std::array<Vec3, 4> x{};
+      std::array<Vec3, 8> x{};
       const std::size_t count = std::size_t(nodesOfGmshType(element.type));
       for (std::size_t k = 0; k < count; ++k)
         x[k] = result_.mesh.coordinates[std::size_t(element.nodes[k])];
       Real worth = infinity;
-      if (dimension_ == 3)
+      if (count == 8)
         worth = worthOf(x, size);
+      else if (dimension_ == 3)
+        worth = worthOf(std::array<Vec3, 4>{x[0], x[1], x[2], x[3]}, size);
       else
         for (std::size_t k = 0; k < count; ++k) // the corners of a quadrilateral
           worth = std::min(worth, worthOf(std::array<Vec3, 3>{x[(k + count - 1) % count], x[k],
@@ -730,7 +756,8 @@ private:
       if (worth < least)
       {
         least = worth;
-        result_.worstPlace = (1 / Real(count)) * (x[0] + x[1] + x[2] + x[3]);
+        result_.worstPlace =
+            (1 / Real(count)) * std::accumulate(x.begin(), x.end(), Vec3{});
       }
     }
     result_.worst = least;
@@ -742,14 +769,13 @@ private:
   {
     if (result_.worst >= recipe_.slivers.shape)
       return;
-    const Vec3& x = result_.worstPlace;
     fail(ExitCode::Mesh,
-         "{}: the element at ({:.4g}, {:.4g}, {:.4g}) m is worth {:.2g} (1: regular and of the "
+         "{}: the element at {} m is worth {:.2g} (1: regular and of the "
          "size asked for, 0: flat), which would make the time step about {} times shorter; "
          "accepted: slivers.shape = {:.6g} or more. Joints or borders nearly meet there. Larger "
          "slivers.thickness (here {:.3g} m) or slivers.stub (here {:.3g} m), another seed, or "
          "joints somewhat elsewhere help; slivers.shape: 0 writes the mesh as it is.",
-         recipeFile_, x.x, x.y, x.z, result_.worst,
+         recipeFile_, placeText(result_.worstPlace, leastSize() / 10), result_.worst,
          result_.worst > 1e-6 ? fmt::format("{:.0f}", 1 / result_.worst) : "infinitely many",
          recipe_.slivers.shape, leastThickness_, leastStub_);
   }

@@ -29,9 +29,10 @@ struct CutDomain
 /// How Gmsh meshes; where one way fails another one often works.
 struct MeshingWay
 {
+  std::string name = "as always";
+  int seed = 1;          ///< of what Gmsh does at random
   int faceAlgorithm = 6; ///< Gmsh's number: 6 frontal, 5 Delaunay
   Real sizeFactor = 1;   ///< on all sizes of elements [-]
-  std::string name = "as always";
 };
 
 /// The stage in which another way may help.

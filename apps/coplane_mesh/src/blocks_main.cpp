@@ -8,6 +8,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Memory.hpp>
+#include <coplane_core/PlaceText.hpp>
 #include <coplane_core/Program.hpp>
 
 #include <CLI/CLI.hpp>
@@ -65,7 +66,7 @@ SplitMesh openJoints(const CutDomain& domain, const std::string& recipe)
   const std::vector<Cut> cuts = cutsOf(mesh, faces, domain);
   eraseJoints(mesh.sideSets, domain);
   eraseJoints(mesh.nodeSets, domain);
-  SplitMesh result = splitMesh(mesh, faces, cuts);
+  SplitMesh result = splitMesh(mesh, faces, cuts, Hinges::Open);
   for (const CutReport& cut : result.cuts)
     if (cut.opened == 0)
       fail(ExitCode::Deck,
@@ -100,6 +101,12 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
                       domain.changes, domain.worst, domain.worstBefore));
   for (const std::string& note : domain.notes)
     print("note: " + note);
+  if (!result.hinges.empty())
+    print(fmt::format("note: parts hung together by a node or an edge only, which would be a hinge: "
+                      "{} nodes were doubled, the first at {} m. An opening, a joint or a border "
+                      "ends askew there; move it if the parts are to hold together",
+                      result.hinges.size(),
+                      placeText(result.hinges.front(), recipe.elements.size / 10)));
   for (const CutReport& joint : result.cuts)
     print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
                       joint.area, area, total / joint.area, joint.opened,
