@@ -62,8 +62,7 @@ Real worthOf(const std::array<Vec3, 8>& x, Real size)
   for (int side = 0; side < shape.sides; ++side)
   {
     const auto corner = [&](int k) { return x[std::size_t(shape.sideNodes[side][k])]; };
-    largest =
-        std::max(largest, norm(cross(corner(2) - corner(0), corner(3) - corner(1))) / 2);
+    largest = std::max(largest, norm(cross(corner(2) - corner(0), corner(3) - corner(1))) / 2);
   }
   if (!(largest > 0))
     return 0;

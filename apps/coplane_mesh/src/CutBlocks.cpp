@@ -756,8 +756,7 @@ private:
       if (worth < least)
       {
         least = worth;
-        result_.worstPlace =
-            (1 / Real(count)) * std::accumulate(x.begin(), x.end(), Vec3{});
+        result_.worstPlace = (1 / Real(count)) * std::accumulate(x.begin(), x.end(), Vec3{});
       }
     }
     result_.worst = least;

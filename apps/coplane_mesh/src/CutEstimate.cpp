@@ -39,6 +39,18 @@ std::vector<Vec3> clipped(std::vector<Vec3> corners, int dimension, const Vec3& 
   return corners;
 }
 
+/// Cuts nothing.
+bool isOnBorder(const std::vector<Vec3>& corners, int dimension, const Vec3& low, const Vec3& high)
+{
+  for (int axis = 0; axis < dimension; ++axis)
+    for (const Real border : {low[axis], high[axis]})
+      if (std::all_of(corners.begin(), corners.end(),
+                      [&](const Vec3& x)
+                      { return std::abs(x[axis] - border) < 1e-6 * (high[axis] - low[axis]); }))
+        return true;
+  return false;
+}
+
 /// Normal times area; in two dimensions times length.
 Vec3 areaVector(const std::vector<Vec3>& corners, int dimension)
 {
@@ -69,9 +81,10 @@ Real estimatedParts(const std::vector<JointSurface>& surfaces, int dimension, co
   Vec3 m[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}; // 1 + L F
   for (const JointSurface& surface : surfaces)
   {
-    const Vec3 vector = areaVector(clipped(surface.corners, dimension, low, high), dimension);
+    const std::vector<Vec3> part = clipped(surface.corners, dimension, low, high);
+    const Vec3 vector = areaVector(part, dimension);
     const Real area = norm(vector);
-    if (!(area > 0))
+    if (!(area > 0) || isOnBorder(part, dimension, low, high))
       continue;
     ++count;
     for (int axis = 0; axis < 3; ++axis)

@@ -77,7 +77,7 @@ std::vector<Vec3> discOf(const Vec3& centre, const Vec3& normal, Real radius)
 /// One row of a table.
 struct Fracture
 {
-  int line = 0; ///< of the file, from 1
+  int line = 0;                       ///< of the file, from 1
   std::map<std::string, Real> values; ///< by the names of the columns
 };
 

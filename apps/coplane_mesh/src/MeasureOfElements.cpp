@@ -19,7 +19,8 @@ Real measureOfElements(const GmshFile& mesh, int dimension)
     if (dimension == 2)
     {
       const std::size_t last = std::size_t(nodesOfGmshType(element.type)) - 1;
-      sum += norm(last == 2 ? cross(x(1) - x(0), x(2) - x(0)) : cross(x(2) - x(0), x(3) - x(1))) / 2;
+      sum +=
+          norm(last == 2 ? cross(x(1) - x(0), x(2) - x(0)) : cross(x(2) - x(0), x(3) - x(1))) / 2;
       continue;
     }
     sum += std::abs(dot(cross(x(1) - x(0), x(2) - x(0)), x(3) - x(0))) / 6;

@@ -138,8 +138,8 @@ bool receive(int pipe, const Board& board, pid_t child, std::string& bytes)
 
 ApartOutcome runApart(const std::function<std::string(Stages&)>& work)
 {
-  void* memory = ::mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
-                        -1, 0);
+  void* memory =
+      ::mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
     refuse("mmap");
   Board& board = *new (memory) Board;

@@ -102,11 +102,11 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
   for (const std::string& note : domain.notes)
     print("note: " + note);
   if (!result.hinges.empty())
-    print(fmt::format("note: parts hung together by a node or an edge only, which would be a hinge: "
-                      "{} nodes were doubled, the first at {} m. An opening, a joint or a border "
-                      "ends askew there; move it if the parts are to hold together",
-                      result.hinges.size(),
-                      placeText(result.hinges.front(), recipe.elements.size / 10)));
+    print(fmt::format(
+        "note: parts hung together by a node or an edge only, which would be a hinge: "
+        "{} nodes were doubled, the first at {} m. An opening, a joint or a border "
+        "ends askew there; move it if the parts are to hold together",
+        result.hinges.size(), placeText(result.hinges.front(), recipe.elements.size / 10)));
   for (const CutReport& joint : result.cuts)
     print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
                       joint.area, area, total / joint.area, joint.opened,

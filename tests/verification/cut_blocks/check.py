@@ -256,11 +256,11 @@ case.check_equal("no time to cut: nothing is written", sorted(path.name for path
 
 # --- hinges, units, what lies outside ----------------------------------------------------------------------------------
 askew = {"dimension": 3, "domain": {"box": {"min": [0, 0, 0], "max": [8, 8, 8]}}, "openings": {"t": {"horseshoe": [3, 3], "path": [[0, 4, 2], [8, 4, 5]]}},
-         "joints": {"a": {"set": {"dip": 30, "dip_direction": 0, "spacing": 3}}}, "elements": {"size": 1.2}}
+         "joints": {"a": {"set": {"dip": 30, "dip_direction": 0, "spacing": 3}}}, "elements": {"size": 1.2, "shape": "cubes"}}
 made = cut("askew", askew)
 case.check_equal("an opening that ends askew: the hinge is opened", "nodes were doubled, the first at (8, 4, 5) m" in made["said"], True)
-refused("spacing in kilometres by mistake", {**solid, "joints": {"x": {"set": {"dip": 90, "dip_direction": 90, "spacing": 0.002}}}}, "joints.x.set: spacing = 0.002 m is not more than slivers.thickness", "exit code 3")
-refused("too many parts", {**solid, "elements": {"size": 1, "most_parts": 20}}, "into about 24 parts", "elements.most_parts = 20", "exit code 3")
+refused("spacing a thousand times too small", {**solid, "joints": {"x": {"set": {"dip": 90, "dip_direction": 90, "spacing": 0.002}}}}, "joints.x.set: spacing = 0.002 m is not more than slivers.thickness", "exit code 3")
+refused("too many parts", {**solid, "elements": {"size": 1, "most_parts": 20}}, "into about 23 parts", "elements.most_parts = 20", "exit code 3")
 east, north = 512340, 4005120
 moved = {**solid, "domain": {"box": {"min": [east, north, 0], "max": [east + 8, north + 6, 4]}}, "elements": {"size": 1, "regions": {"box": {"min": [0, 0, 0], "max": [2, 2, 2]}, "size": 0.3}},
          "joints": {"x": {"planes": [{"point": [place, north, 0], "normal": [1, 0, 0]} for place in (east + 2, 2)]}, "y": {"set": {"dip": 90, "dip_direction": 0, "spacing": 2000}}}}

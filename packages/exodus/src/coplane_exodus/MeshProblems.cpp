@@ -104,7 +104,8 @@ void addProblemsOfConnection(const MeshReport& report, Problems& problems)
         report.twice.count,
         firstOf(report.twice,
                 [&](const MeshReport::ElementPair& p) {
-                  return fmt::format("elements {} and {} at {}", p.first, p.second, at(report, p.place));
+                  return fmt::format("elements {} and {} at {}", p.first, p.second,
+                                     at(report, p.place));
                 })));
   if (!report.overused.empty())
     problems.push_back(fmt::format(
@@ -126,13 +127,14 @@ void addProblemsOfLengths(const MeshReport& report, Problems& problems)
         "coordinates from {} to {} m, and an edge of {:.3g} m at {}: too few of sixteen digits are "
         "left for it; accepted: up to {:.0e} times the shortest edge. Look at the outermost nodes, "
         "at that edge and at the units.",
-        at(report, report.lowest), at(report, report.highest), report.shortestEdge, at(report, report.shortestPlace),
-        MeshReport::farthest));
+        at(report, report.lowest), at(report, report.highest), report.shortestEdge,
+        at(report, report.shortestPlace), MeshReport::farthest));
   if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
     problems.push_back(fmt::format(
         "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "
         "time step of all. If that is not intended, remesh that region.",
-        report.shortestEdge, at(report, report.shortestPlace), report.longestEdge / report.shortestEdge));
+        report.shortestEdge, at(report, report.shortestPlace),
+        report.longestEdge / report.shortestEdge));
   const Real extent = norm(report.highest - report.lowest);
   if (report.elements > 0 && (extent > largestExtent || extent < smallestExtent))
     problems.push_back(fmt::format(
