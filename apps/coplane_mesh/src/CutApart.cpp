@@ -6,6 +6,8 @@
 
 #include <fmt/ranges.h>
 
+#include <csignal>
+
 namespace coplane
 {
 namespace
@@ -29,6 +31,33 @@ std::string reasonOf(const ApartOutcome& outcome)
   return fmt::format("crashed while {}: {}", outcome.stage,
                      outcome.signal > 0 ? nameOfSignal(outcome.signal) : "no signal");
 }
+
+/// Ways that failed, those with the same reason together.
+class Failures
+{
+public:
+  void add(const std::string& way, const std::string& reason)
+  {
+    if (ways_.empty() || reasons_.back() != reason)
+    {
+      reasons_.push_back(reason);
+      ways_.emplace_back();
+    }
+    ways_.back().push_back(way);
+  }
+  bool empty() const { return ways_.empty(); }
+  std::string text() const
+  {
+    std::vector<std::string> all;
+    for (std::size_t k = 0; k < ways_.size(); ++k)
+      all.push_back(fmt::format("{} ({})", fmt::join(ways_[k], ", "), reasons_[k]));
+    return fmt::format("{}", fmt::join(all, "; "));
+  }
+
+private:
+  std::vector<std::vector<std::string>> ways_;
+  std::vector<std::string> reasons_;
+};
 } // namespace
 
 CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFile)
@@ -40,7 +69,7 @@ CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFi
       {"with faces by Delaunay's criterion", 7, 5},
       {"with elements smaller by 7 %", 7, 6, 0.93},
       {"with faces by Delaunay's criterion and elements smaller by 15 %", 7, 5, 0.85}};
-  std::vector<std::string> failures;
+  Failures failures;
   for (const MeshingWay& way : ways)
   {
     const ApartOutcome outcome = runApart(
@@ -50,7 +79,7 @@ CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFi
       CutDomain domain = cutDomainOf(outcome.bytes);
       if (!failures.empty())
         domain.notes.push_back(fmt::format("Gmsh failed to mesh this {}; it was meshed {}",
-                                           fmt::join(failures, "; "), way.name));
+                                           failures.text(), way.name));
       return domain;
     }
     if (outcome.end == ApartOutcome::End::Failed && !gaveUp(outcome))
@@ -61,7 +90,12 @@ CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFi
            "hang, or has too much to do. Nothing was written. Fewer joints, larger elements or a "
            "larger elements.time_limit help; if it hangs, another elements.size or seed.",
            recipeFile, outcome.stage, recipe.elements.timeLimit);
-    failures.push_back(fmt::format("{} ({})", way.name, reasonOf(outcome)));
+    if (outcome.signal == SIGKILL)
+      fail(ExitCode::Machine,
+           "{}: the process was killed while {}: most often the machine has too little memory. "
+           "Nothing was written. Make elements larger, or joints fewer.",
+           recipeFile, outcome.stage);
+    failures.add(way.name, reasonOf(outcome));
     if (!isOfMeshing(outcome))
       break;
   }
@@ -69,6 +103,6 @@ CutDomain cutDomainApart(const BlocksRecipe& recipe, const std::string& recipeFi
        "{}: Gmsh cannot cut or mesh this: {}. Nothing was written. Joints, ends of joints or "
        "borders nearly meet somewhere. Another elements.size or seed, larger slivers.thickness, "
        "slivers.stub or slivers.volume, or joints somewhat elsewhere often help.",
-       recipeFile, fmt::join(failures, "; "));
+       recipeFile, failures.text());
 }
 } // namespace coplane

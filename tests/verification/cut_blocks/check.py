@@ -251,7 +251,7 @@ made = cut("where_gmsh_crashes", bored)
 box = bored["domain"]["box"]["max"]
 case.check("where Gmsh crashes: volume over that of the box", (made["blocks"]["rock"] + made["blocks"]["t"]) / math.prod(box), 1, 1e-5)
 case.check_equal("where Gmsh crashes: faces without partner", lone_faces(made), 0)
-refused("no time to cut", {**solid, "elements": {"size": 1, "time_limit": 1e-3}}, "elements.time_limit = 0.001 s", "exit code 4")
+refused("no time to cut", {**broken, "elements": {"size": 1.2, "time_limit": 0.1}}, "elements.time_limit = 0.1 s", "exit code 4")
 case.check_equal("no time to cut: nothing is written", sorted(path.name for path in pathlib.Path(".").glob("no time to cut*")), [])
 
 # --- hinges, units, what lies outside ----------------------------------------------------------------------------------
@@ -302,7 +302,7 @@ for name, recipe in at_rest.items():
 kites = {"dimension": 3, "seed": 2, "domain": {"box": {"min": [0, 0, 0], "max": [6, 5, 4]}}, "elements": {"size": 1.2, "shape": "cubes"}, "joints": {"grains": {"voronoi": {"cells": 15, "relaxations": 3}}},
          "node_sets": at_rest["scattered sets at rest"]["node_sets"]}
 run = case.attempt("kites", kites, deck(kites))
-case.check_within("cubes in space: largest displacement over the closure", numpy.max(numpy.abs(run.results.nodal("displacement"))) / closure, 1e-6, 1)
+case.check_within("cubes in space: largest displacement over the closure", numpy.max(numpy.abs(run.results.nodal("displacement"))) / closure, 1e-6, 0.02)
 loose = case.attempt("loose", at_rest["cells at rest"], deck(at_rest["cells at rest"], declared=False))
 case.check_within("not declared: largest displacement over the closure", numpy.max(numpy.abs(loose.results.nodal("displacement"))) / closure, 0.1, 100)
 
