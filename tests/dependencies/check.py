@@ -37,7 +37,7 @@ LIBRARIES = [
     (r"benchmark/.*", ["benchmark::benchmark"]),
 ]
 # The standard library of C++, and the system: no target.
-SYSTEM = r"[a-z_0-9]+|experimental/simd|sys/\w+\.h|(dlfcn|execinfo|fcntl|malloc|sched|spawn|unistd)\.h"
+SYSTEM = r"[a-z_0-9]+|experimental/simd|sys/\w+\.h|(dlfcn|execinfo|fcntl|malloc|poll|sched|spawn|unistd)\.h"
 PACKAGES = packages_bottom_to_top()
 # Headers of programs and of tests, which others find by an include folder.
 LOCAL = {path.name for top in ("apps/*/src", "packages/*/test", "packages/core/testing") for path in SOURCE.glob(f"{top}/*.hpp")}

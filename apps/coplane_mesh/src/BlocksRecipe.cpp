@@ -427,6 +427,18 @@ Key elementsKey()
                      .like("2e7")
                      .means("a recipe whose sizes ask for more is refused before anything is cut; "
                             "the number is estimated from volumes and sizes"),
+                 number("most_parts", &BlockElementsCard::mostParts)
+                     .in("parts")
+                     .above(0)
+                     .like("2e4")
+                     .means("a recipe whose joints cut the domain into more is refused before "
+                            "anything is cut; the number is estimated from the areas of joints"),
+                 number("time_limit", &BlockElementsCard::timeLimit)
+                     .in("s")
+                     .above(0)
+                     .like("1e4")
+                     .means("of each step that Gmsh takes (cut, mesh edges, faces, volumes); one "
+                            "that takes longer is ended: Gmsh hangs with some geometries"),
                  list("regions", &BlockElementsCard::regions,
                       {
                           group("box", &ElementSizeCard::box,

@@ -1,7 +1,10 @@
 #include "CubesOfTetrahedra.hpp"
 
+#include <coplane_exodus/MeshReport.hpp>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <vector>
 
@@ -50,5 +53,21 @@ void cutIntoCubes(GmshFile& mesh)
     }
   }
   mesh.elements = cut;
+}
+
+Real worthOf(const std::array<Vec3, 8>& x, Real size)
+{
+  const ElementTopology& shape = topology(ElementType::Hex8);
+  Real largest = 0;
+  for (int side = 0; side < shape.sides; ++side)
+  {
+    const auto corner = [&](int k) { return x[std::size_t(shape.sideNodes[side][k])]; };
+    largest = std::max(largest, norm(cross(corner(2) - corner(0), corner(3) - corner(1))) / 2);
+  }
+  if (!(largest > 0))
+    return 0;
+  // Of a regular tetrahedron of edge 2: volume sqrt(2) / 6, largest face sqrt(3) / 3.
+  const Real height = elementVolume(ElementType::Hex8, x) / largest;
+  return std::min(elementQuality(ElementType::Hex8, x), height / (size / std::sqrt(6.0)));
 }
 } // namespace coplane

@@ -1,8 +1,10 @@
 #include "CutBlocks.hpp"
 
 #include "CubesOfTetrahedra.hpp"
+#include "CutEstimate.hpp"
 #include "ElementSizes.hpp"
 #include "JointSurfaces.hpp"
+#include "MeasureOfElements.hpp"
 #include "MendTetrahedra.hpp"
 #include "OpeningSection.hpp"
 #include "ShapeModel.hpp"
@@ -10,12 +12,14 @@
 #include "VoronoiCells.hpp"
 
 #include <coplane_core/Error.hpp>
+#include <coplane_core/PlaceText.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <gmsh.h>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace coplane
@@ -36,7 +40,6 @@ public:
     gmsh::option::setNumber("General.Terminal", 0);
     gmsh::option::setNumber("General.NumThreads", 1);
     gmsh::option::setNumber("Geometry.OCCParallel", 0);
-    gmsh::option::setNumber("Mesh.RandomSeed", 1);
     gmsh::option::setNumber("Mesh.Smoothing", 0); // it has moved nodes across joints that end
     gmsh::model::add("blocks");
   }
@@ -97,8 +100,10 @@ int addSolid(const Polyhedron& solid)
 class Cutter
 {
 public:
-  Cutter(const BlocksRecipe& recipe, const std::string& recipeFile)
-      : recipe_(recipe), recipeFile_(recipeFile), dimension_(recipe.dimension)
+  Cutter(const BlocksRecipe& recipe, const std::string& recipeFile, const MeshingWay& way,
+         Stages& stages)
+      : recipe_(recipe), recipeFile_(recipeFile), way_(way), stages_(stages),
+        dimension_(recipe.dimension)
   {
     size_ = recipe.elements.size;
     leastVolume_ =
@@ -109,8 +114,10 @@ public:
 
   CutDomain cut()
   {
+    begin("the domain was read");
     addDomain();
     demandFewElements();
+    begin("Gmsh cut the domain");
     for (const OpeningCard& opening : recipe_.openings)
       addOpening(opening);
     addJoints();
@@ -133,6 +140,8 @@ private:
     std::string name; ///< of a solid of a file
     Entity entity;
   };
+
+  void begin(const std::string& stage) { stages_.begin(stage, recipe_.elements.timeLimit); }
 
   void addDomain()
   {
@@ -270,6 +279,8 @@ private:
       result_.joints.push_back(recipe_.domain.joint);
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const auto& a, const auto& b) { return a.joint < b.joint; });
+    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, leastThickness_);
+    result_.notes = notesOfSizes(recipe_, low_, high_);
     Entities tools;
     std::vector<int> joints;
     for (const JointSurface& surface : surfaces)
@@ -292,10 +303,12 @@ private:
     occ::intersect(tools, domain, inside, pieces, -1, true, false);
     std::set<Entity> taken;
     std::set<int> covered; // joints with pieces where one before them has the place
+    std::vector<bool> outside(tools.size(), true);
     for (std::size_t t = 0; t < tools.size(); ++t)
       for (const Entity& piece : pieces[t])
         if (piece.first == dimension_ - 1)
         {
+          outside[t] = false;
           if (taken.insert(piece).second)
             pieces_[piece] = joints[t];
           else
@@ -311,6 +324,8 @@ private:
                recipeFile_, recipe_.joints[j].name);
         refuseJoint(j);
       }
+    for (const std::string& note : notesOfOutside(recipe_, surfaces, outside))
+      result_.notes.push_back(note);
   }
 
   /// Each opening has a part of the domain of its own.
@@ -643,9 +658,9 @@ private:
   [[noreturn]] void refuseJoint(std::size_t joint) const
   {
     fail(ExitCode::Deck,
-         "{}: joints.{} has no face inside of the domain, which reaches from ({:.6g}, {:.6g}, "
-         "{:.6g}) to ({:.6g}, {:.6g}, {:.6g}) m{}.",
-         recipeFile_, result_.joints[joint], low_.x, low_.y, low_.z, high_.x, high_.y, high_.z,
+         "{}: joints.{} has no face inside of the domain, which reaches from {} to {} m{}.",
+         recipeFile_, result_.joints[joint], placeText(low_, size_ / 10),
+         placeText(high_, size_ / 10),
          result_.joined + result_.stubs > 0 ? ", or all that it had were left out as slivers" : "");
   }
 
@@ -662,10 +677,14 @@ private:
   void mesh()
   {
     const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
-    setElementSizes(recipe_, recipeFile_, sized_,
-                    cubes ? 2 : 1); // each element is cut in half along its edges
+    begin("sizes of elements were set");
+    setElementSizes(recipe_, recipeFile_, sized_, // each cube is cut in half along its edges
+                    way_.sizeFactor * (cubes ? 2 : 1));
     if (cubes && dimension_ == 2)
       gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
+    gmsh::option::setNumber("Mesh.Algorithm", way_.faceAlgorithm);
+    gmsh::option::setNumber("Mesh.RandomSeed", way_.seed);
+    begin(meshingStage);
     gmsh::model::mesh::generate(dimension_);
     readNodes();
     GlobalId next = 0;
@@ -673,14 +692,31 @@ private:
       for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
         if (entity.first == d)
           readElements(entity, next);
+    demandFilled();
+    begin("flat elements were mended");
     const bool whole = cubes && dimension_ == 3; // as long as they are tetrahedra
     const Real size = (whole ? 2 : 1) * leastSize();
     result_.worstBefore = findWorst(size);
     if (dimension_ == 3)
       mendElements(size);
     demandWorth();
-    if (whole)
-      cutIntoCubes(result_.mesh);
+    if (!whole)
+      return;
+    cutIntoCubes(result_.mesh);
+    findWorst(leastSize());
+    demandWorth();
+  }
+
+  /// Gmsh has left gaps, and put elements on each other, without a word.
+  void demandFilled() const
+  {
+    const Real filled = measureOfElements(result_.mesh, dimension_);
+    const Real volume =
+        std::accumulate(result_.blockVolumes.begin(), result_.blockVolumes.end(), 0.0);
+    if (!(std::abs(filled - volume) <= 1e-6 * volume))
+      throw Error(ExitCode::Computation,
+                  fmt::format("its elements fill {:.9g} of {:.9g} {}", filled, volume,
+                              dimension_ == 2 ? "m^2" : "m^3"));
   }
 
   /// The least size of elements that the recipe asks for anywhere.
@@ -703,13 +739,15 @@ private:
     {
       if (element.entity.first != dimension_)
         continue;
-      std::array<Vec3, 4> x{};
+      std::array<Vec3, 8> x{};
       const std::size_t count = std::size_t(nodesOfGmshType(element.type));
       for (std::size_t k = 0; k < count; ++k)
         x[k] = result_.mesh.coordinates[std::size_t(element.nodes[k])];
       Real worth = infinity;
-      if (dimension_ == 3)
+      if (count == 8)
         worth = worthOf(x, size);
+      else if (dimension_ == 3)
+        worth = worthOf(std::array<Vec3, 4>{x[0], x[1], x[2], x[3]}, size);
       else
         for (std::size_t k = 0; k < count; ++k) // the corners of a quadrilateral
           worth = std::min(worth, worthOf(std::array<Vec3, 3>{x[(k + count - 1) % count], x[k],
@@ -718,7 +756,7 @@ private:
       if (worth < least)
       {
         least = worth;
-        result_.worstPlace = (1 / Real(count)) * (x[0] + x[1] + x[2] + x[3]);
+        result_.worstPlace = (1 / Real(count)) * std::accumulate(x.begin(), x.end(), Vec3{});
       }
     }
     result_.worst = least;
@@ -730,14 +768,13 @@ private:
   {
     if (result_.worst >= recipe_.slivers.shape)
       return;
-    const Vec3& x = result_.worstPlace;
     fail(ExitCode::Mesh,
-         "{}: the element at ({:.4g}, {:.4g}, {:.4g}) m is worth {:.2g} (1: regular and of the "
+         "{}: the element at {} m is worth {:.2g} (1: regular and of the "
          "size asked for, 0: flat), which would make the time step about {} times shorter; "
          "accepted: slivers.shape = {:.6g} or more. Joints or borders nearly meet there. Larger "
          "slivers.thickness (here {:.3g} m) or slivers.stub (here {:.3g} m), another seed, or "
          "joints somewhat elsewhere help; slivers.shape: 0 writes the mesh as it is.",
-         recipeFile_, x.x, x.y, x.z, result_.worst,
+         recipeFile_, placeText(result_.worstPlace, leastSize() / 10), result_.worst,
          result_.worst > 1e-6 ? fmt::format("{:.0f}", 1 / result_.worst) : "infinitely many",
          recipe_.slivers.shape, leastThickness_, leastStub_);
   }
@@ -855,6 +892,10 @@ private:
       sorted[tags[n]] = {places[3 * n], places[3 * n + 1], places[3 * n + 2]};
     for (const auto& [tag, place] : sorted)
     {
+      for (int axis = 0; axis < dimension_; ++axis)
+        if (const Real x = place[axis], slack = 1e-3 * size_;
+            !(x >= low_[axis] - slack && x <= high_[axis] + slack))
+          throw Error(ExitCode::Computation, "it has made nodes outside of the domain");
       nodeOfTag_[tag] = int(result_.mesh.nodeIds.size());
       result_.mesh.nodeIds.push_back(GlobalId(result_.mesh.nodeIds.size()) + 1);
       result_.mesh.coordinates.push_back(place);
@@ -887,6 +928,8 @@ private:
 
   const BlocksRecipe& recipe_;
   const std::string& recipeFile_;
+  const MeshingWay& way_;
+  Stages& stages_;
   int dimension_;
   Real size_, leastVolume_, leastThickness_, leastStub_;
   Vec3 low_{}, high_{};
@@ -901,14 +944,19 @@ private:
 };
 } // namespace
 
-CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
+CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile,
+                    const MeshingWay& way, Stages& stages)
 {
   const Session session;
   try
   {
-    return Cutter(recipe, recipeFile).cut();
+    return Cutter(recipe, recipeFile, way, stages).cut();
   }
   catch (const Error&)
+  {
+    throw;
+  }
+  catch (const std::bad_alloc&)
   {
     throw;
   }
@@ -916,12 +964,7 @@ CutDomain cutDomain(const BlocksRecipe& recipe, const std::string& recipeFile)
   {
     std::string last;
     gmsh::logger::getLastError(last);
-    if (last.empty())
-      last = "it gives no reason";
-    fail(ExitCode::Mesh,
-         "{}: Gmsh cannot cut or mesh this: {}. Larger slivers.volume or slivers.thickness, or "
-         "another elements.size, often help.",
-         recipeFile, last);
+    throw Error(ExitCode::Computation, last.empty() ? "it gives no reason" : last);
   }
 }
 } // namespace coplane

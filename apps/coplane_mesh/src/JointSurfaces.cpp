@@ -74,6 +74,13 @@ std::vector<Vec3> discOf(const Vec3& centre, const Vec3& normal, Real radius)
   return corners;
 }
 
+/// One row of a table.
+struct Fracture
+{
+  int line = 0;                       ///< of the file, from 1
+  std::map<std::string, Real> values; ///< by the names of the columns
+};
+
 /// The surfaces of one joint.
 class JointMaker
 {
@@ -123,8 +130,12 @@ public:
   void makePlanes(const JointPlaneCard& card)
   {
     const Vec3 normal = normalised(toVec3(card.normal));
+    const auto number = &card - recipe_.joints[std::size_t(joint_)].planes.data() + 1;
     for (int k = 0; k < card.count; ++k)
     {
+      source_ = fmt::format("plane {}", number);
+      if (card.count > 1)
+        source_ += fmt::format(" ({} of {})", k + 1, card.count);
       const Vec3 shift = k * card.spacing * normal, point = toVec3(card.point) + shift;
       const auto onPlane = [&](const Vec3& x) { return x - dot(x - point, normal) * normal; };
       if (card.disc.radius > 0)
@@ -143,10 +154,11 @@ public:
     }
   }
 
-  /// One fracture of a table. @param values by the names of the columns
-  void makeFracture(const std::map<std::string, Real>& values)
+  void makeFracture(const Fracture& fracture)
   {
+    const auto& values = fracture.values;
     const auto at = [&](const char* name) { return values.at(name); };
+    source_ = fmt::format("line {}", fracture.line);
     if (recipe_.dimension == 2)
       return add({{at("x1"), at("y1"), 0}, {at("x2"), at("y2"), 0}});
     const Vec3 normal =
@@ -173,7 +185,7 @@ private:
     return all;
   }
 
-  void add(const std::vector<Vec3>& corners) { surfaces_.push_back({joint_, corners}); }
+  void add(const std::vector<Vec3>& corners) { surfaces_.push_back({joint_, corners, source_}); }
 
   /// Beyond the domain to all sides.
   void addPlane(const Vec3& point, const Vec3& normal)
@@ -225,6 +237,7 @@ private:
   Vec3 middle_;
   Real reach_; ///< the diagonal of the domain's box [m]
   std::vector<JointSurface>& surfaces_;
+  std::string source_;
   Draws draws_;
 };
 
@@ -261,11 +274,11 @@ std::string problemOfColumns(const std::vector<std::string>& columns, int dimens
 }
 
 /// The rows of a table of numbers. Throws Error(Deck) with the line.
-std::vector<std::map<std::string, Real>> readFractures(const std::string& file, int dimension)
+std::vector<Fracture> readFractures(const std::string& file, int dimension)
 {
   std::stringstream text(readTextFile(file, {"the table of fractures", "", "", infinity}));
   std::vector<std::string> columns;
-  std::vector<std::map<std::string, Real>> rows;
+  std::vector<Fracture> rows;
   int number = 0;
   for (std::string line; std::getline(text, line);)
   {
@@ -287,7 +300,8 @@ std::vector<std::map<std::string, Real>> readFractures(const std::string& file, 
     if (fields.size() != columns.size())
       fail(ExitCode::Deck, "{}:{}: {} values for {} columns.", file, number, fields.size(),
            columns.size());
-    auto& row = rows.emplace_back();
+    rows.push_back({number, {}});
+    auto& row = rows.back().values;
     for (std::size_t k = 0; k < fields.size(); ++k)
     {
       char* end = nullptr;

@@ -13,6 +13,7 @@ struct JointSurface
 {
   int joint = 0;             ///< position in the recipe
   std::vector<Vec3> corners; ///< [m]
+  std::string source;        ///< what the user calls it; empty: one of a set
 };
 
 /// The pieces of all joints but Voronoi cells, in the order of the recipe. Planes without ends

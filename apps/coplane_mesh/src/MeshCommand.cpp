@@ -4,6 +4,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/OutputLocks.hpp>
+#include <coplane_core/PlaceText.hpp>
 #include <coplane_exodus/WriteMesh.hpp>
 
 #include <cstdio>
@@ -39,8 +40,12 @@ void printReport(const Mesh& mesh, const MeshReport& report)
                       pairsOf(report, set.id)));
   const char axes[] = "xyz";
   for (int axis = 0; axis < report.dimension; ++axis)
-    print(fmt::format("  {} from {:.6g} to {:.6g} m", axes[axis], report.lowest[axis],
-                      report.highest[axis]));
+  {
+    const Real resolution = 1e-6 * (report.highest[axis] - report.lowest[axis]);
+    print(fmt::format("  {} from {} to {} m", axes[axis],
+                      coordinateText(report.lowest[axis], resolution),
+                      coordinateText(report.highest[axis], resolution)));
+  }
   print(fmt::format("  edges from {:.6g} to {:.6g} m", report.shortestEdge, report.longestEdge));
 }
 

@@ -36,8 +36,10 @@ std::vector<int> nodesOf(const MeshFace& face)
 class Splitter
 {
 public:
-  Splitter(const Mesh& mesh, const std::vector<MeshFace>& faces, const std::vector<Cut>& cuts)
-      : before_(mesh), faces_(faces), places_(placesOfElements(mesh)), cutOfFace_(faces.size(), -1)
+  Splitter(const Mesh& mesh, const std::vector<MeshFace>& faces, const std::vector<Cut>& cuts,
+           Hinges hinges)
+      : before_(mesh), faces_(faces), hinges_(hinges), places_(placesOfElements(mesh)),
+        cutOfFace_(faces.size(), -1)
   {
     for (int cut = int(cuts.size()) - 1; cut >= 0; --cut)
       for (const int face : cuts[cut].faces)
@@ -57,6 +59,8 @@ public:
       const std::vector<std::vector<int>> groups = groupsAround(node, facesAt, elementsAt);
       if (groups.size() < 2)
         continue;
+      if (!isCut(node, facesAt))
+        result_.hinges.push_back(before_.coordinates[node]);
       std::vector<int> copies{node};
       for (std::size_t g = 1; g < groups.size(); ++g)
       {
@@ -83,15 +87,20 @@ private:
     return {first, first + perElement};
   }
 
-  /// The elements around a node, in groups that hang together there; one group when no cut meets
-  /// the node.
+  bool isCut(int node, const Lists<int>& facesAt) const
+  {
+    for (const int face : facesAt[node])
+      if (cutOfFace_[face] >= 0)
+        return true;
+    return false;
+  }
+
+  /// The elements around a node, in groups that hang together there; none when no cut meets the
+  /// node and hinges stay.
   std::vector<std::vector<int>> groupsAround(int node, const Lists<int>& facesAt,
                                              const Lists<int>& elementsAt) const
   {
-    bool isCut = false;
-    for (const int face : facesAt[node])
-      isCut = isCut || cutOfFace_[face] >= 0;
-    if (!isCut)
+    if (hinges_ == Hinges::Stay && !isCut(node, facesAt))
       return {};
     std::map<int, int> parent;
     for (const int element : elementsAt[node])
@@ -223,6 +232,7 @@ private:
 
   const Mesh& before_;
   const std::vector<MeshFace>& faces_;
+  Hinges hinges_;
   std::vector<ElementPlace> places_;
   std::vector<int> cutOfFace_;         ///< -1 where no cut is
   std::vector<std::set<int>> members_; ///< of the node sets
@@ -231,12 +241,12 @@ private:
 } // namespace
 
 SplitMesh splitMesh(const Mesh& mesh, const std::vector<MeshFace>& faces,
-                    const std::vector<Cut>& cuts)
+                    const std::vector<Cut>& cuts, Hinges hinges)
 {
   for (const Cut& cut : cuts)
     for (const int face : cut.faces)
       if (faces[face].count != 2)
         fail(ExitCode::Internal, "the cut '{}' has a face of one element", cut.name);
-  return Splitter(mesh, faces, cuts).split(cuts);
+  return Splitter(mesh, faces, cuts, hinges).split(cuts);
 }
 } // namespace coplane

@@ -27,9 +27,10 @@ struct SplitMesh
 {
   Mesh mesh;
   std::vector<CutReport> cuts;
-  int copies = 0;       ///< nodes added
-  int bodiesBefore = 0; ///< parts that share no node
-  int bodies = 0;       ///< the same after
+  int copies = 0;           ///< nodes added
+  std::vector<Vec3> hinges; ///< places of nodes without a cut that were opened [m]
+  int bodiesBefore = 0;     ///< parts that share no node
+  int bodies = 0;           ///< the same after
 };
 
 /// Opens the cuts: the elements around a node fall into groups that hang together through faces
@@ -41,6 +42,14 @@ struct SplitMesh
 /// the cut faces at the node; where no group has one, all copies belong. Side sets stay as they
 /// are; each cut adds one with both faces of all it opened. body_id is numbered anew. A face in
 /// several cuts belongs to the first.
+///
+/// Away from cuts nodes stay, or hinges are opened, too: nodes by which alone, or with an edge,
+/// parts hang together.
+enum class Hinges
+{
+  Stay,
+  Open
+};
 SplitMesh splitMesh(const Mesh& mesh, const std::vector<MeshFace>& faces,
-                    const std::vector<Cut>& cuts);
+                    const std::vector<Cut>& cuts, Hinges hinges = Hinges::Stay);
 } // namespace coplane

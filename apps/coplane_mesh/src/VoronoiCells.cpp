@@ -82,7 +82,7 @@ std::vector<JointSurface> voronoiSurfaces(const VoronoiCard& card, int joint, in
                    else if (x[2] < 0)
                      corners.push_back({x[0], x[1], 0});
                  }
-                 surfaces.push_back({joint, corners});
+                 surfaces.push_back({joint, corners, ""});
                }
                at += std::size_t(count);
              }

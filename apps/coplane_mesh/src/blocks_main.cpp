@@ -1,5 +1,5 @@
 #include "ConvertGmsh.hpp"
-#include "CutBlocks.hpp"
+#include "CutApart.hpp"
 #include "MakeMesh.hpp"
 #include "MeshCommand.hpp"
 #include "MeshFaces.hpp"
@@ -8,6 +8,7 @@
 
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Memory.hpp>
+#include <coplane_core/PlaceText.hpp>
 #include <coplane_core/Program.hpp>
 
 #include <CLI/CLI.hpp>
@@ -65,7 +66,7 @@ SplitMesh openJoints(const CutDomain& domain, const std::string& recipe)
   const std::vector<Cut> cuts = cutsOf(mesh, faces, domain);
   eraseJoints(mesh.sideSets, domain);
   eraseJoints(mesh.nodeSets, domain);
-  SplitMesh result = splitMesh(mesh, faces, cuts);
+  SplitMesh result = splitMesh(mesh, faces, cuts, Hinges::Open);
   for (const CutReport& cut : result.cuts)
     if (cut.opened == 0)
       fail(ExitCode::Deck,
@@ -98,6 +99,14 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
   if (domain.changes > 0)
     print(fmt::format("{} changes mended flat elements: the worst is worth {:.3g}, was {:.3g}",
                       domain.changes, domain.worst, domain.worstBefore));
+  for (const std::string& note : domain.notes)
+    print("note: " + note);
+  if (!result.hinges.empty())
+    print(fmt::format(
+        "note: parts hung together by a node or an edge only, which would be a hinge: "
+        "{} nodes were doubled, the first at {} m. An opening, a joint or a border "
+        "ends askew there; move it if the parts are to hold together",
+        result.hinges.size(), placeText(result.hinges.front(), recipe.elements.size / 10)));
   for (const CutReport& joint : result.cuts)
     print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
                       joint.area, area, total / joint.area, joint.opened,
@@ -112,7 +121,7 @@ void makeBlocks(const std::string& file, const std::vector<std::string>& overrid
   demandDistinct({{file, "the recipe"}}, output);
   const BlocksRecipe recipe =
       parseBlocksRecipe(readTextFile(file, blocksRecipeFile()), file, overrides);
-  const CutDomain domain = cutDomain(recipe, file);
+  const CutDomain domain = cutDomainApart(recipe, file);
   SplitMesh result = openJoints(domain, file);
   printBlocks(domain, recipe, result);
   Mesh& mesh = result.mesh;

@@ -272,6 +272,32 @@ TEST(Split, aPennyShapedCrackHasAClosedRim)
         << extent;
 }
 
+TEST(Split, hingesOpenWhereTheyAreAskedTo)
+{
+  // Of four cubes round an edge two stay that have only the edge in common.
+  Mesh mesh = makeMeshFromText("{dimension: 3, parts: [{shape: box, block: rock, size: [2, 2, 1], "
+                               "divisions: [2, 2, 1]}]}",
+                               "hinge.yaml");
+  Mesh::Block& block = mesh.blocks[0];
+  for (const int gone : {2, 1})
+  {
+    block.connectivity.erase(block.connectivity.begin() + 8 * gone,
+                             block.connectivity.begin() + 8 * gone + 8);
+    block.elementIds.erase(block.elementIds.begin() + gone);
+    block.bodyIds.erase(block.bodyIds.begin() + gone);
+  }
+  const std::vector<MeshFace> faces = facesOf(mesh);
+  EXPECT_EQ(splitMesh(mesh, faces, {}).bodies, 1);
+  const SplitMesh open = splitMesh(mesh, faces, {}, Hinges::Open);
+  EXPECT_EQ(open.bodies, 2);
+  EXPECT_EQ(open.copies, 2);
+  ASSERT_EQ(open.hinges.size(), 2u);
+  EXPECT_NEAR(open.hinges[0].x, 1, 1e-14);
+  EXPECT_NEAR(open.hinges[0].y, 1, 1e-14);
+  const Mesh whole = cube();
+  EXPECT_EQ(splitMesh(whole, facesOf(whole), {}, Hinges::Open).copies, 0);
+}
+
 TEST(Split, aSetOfPlanesIsRepeatedAtItsSpacing)
 {
   // All planes through the square: x = 1, 2, 3; those at 0 and 4 have no faces inside.

@@ -1,3 +1,4 @@
+#include <coplane_core/PlaceText.hpp>
 #include <coplane_core/Text.hpp>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,14 @@ TEST(Text, FieldsOfCsvAreQuotedWhereTheyHaveTo)
   EXPECT_EQ(csvField("a,b"), "\"a,b\"");
   EXPECT_EQ(csvField("5\" pipe"), "\"5\"\" pipe\"");
   EXPECT_EQ(csvField("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(Text, PlacesHaveTheDigitsThatTellThemApart)
+{
+  EXPECT_EQ(placeText({7.62512, 5.5, -0.00012345}, 0.01), "(7.625, 5.5, -0.0001234)");
+  EXPECT_EQ(placeText({512340.376, 4005123.128, 0}, 0.05), "(512340.38, 4005123.13, 0)");
+  EXPECT_EQ(coordinateText(512340.376, 100), "512340");
+  EXPECT_EQ(coordinateText(1e8 + 0.125, 0), "100000000");
 }
 
 TEST(Text, XmlIsEscaped)

@@ -1,3 +1,4 @@
+#include <coplane_core/PlaceText.hpp>
 #include <coplane_exodus/MeshReport.hpp>
 
 #include <fmt/format.h>
@@ -14,9 +15,10 @@ constexpr Real poorQuality = 0.03;                         // a corner of 2 degr
 constexpr Real shortEdge = 1.0 / 300;                      // of the longest
 constexpr Real largestExtent = 1e5, smallestExtent = 1e-5; // [m]
 
-std::string at(const Vec3& x)
+/// With digits that tell elements apart, however far from the origin.
+std::string at(const MeshReport& report, const Vec3& x)
 {
-  return fmt::format("({:.4g}, {:.4g}, {:.4g})", x.x, x.y, x.z);
+  return placeText(x, std::max(report.shortestEdge, 1e-3 * report.longestEdge));
 }
 
 template <class T, class Text>
@@ -65,7 +67,7 @@ void addProblemsOfElements(const MeshReport& report, Problems& problems)
       problems.push_back(fmt::format(
           "element {} of block '{}' at {} has the shape {:.3g} (1 is ideal, 0 is flat): it takes a "
           "small time step and is stiff. Remesh that region.",
-          block.worstElement, block.name, at(block.worstPlace), block.worstQuality));
+          block.worstElement, block.name, at(report, block.worstPlace), block.worstQuality));
 }
 
 void addProblemsOfJoints(const MeshReport& report, Problems& problems)
@@ -101,8 +103,9 @@ void addProblemsOfConnection(const MeshReport& report, Problems& problems)
         "bodies lie in each other; remove one of each pair.",
         report.twice.count,
         firstOf(report.twice,
-                [](const MeshReport::ElementPair& p) {
-                  return fmt::format("elements {} and {} at {}", p.first, p.second, at(p.place));
+                [&](const MeshReport::ElementPair& p) {
+                  return fmt::format("elements {} and {} at {}", p.first, p.second,
+                                     at(report, p.place));
                 })));
   if (!report.overused.empty())
     problems.push_back(fmt::format(
@@ -110,10 +113,10 @@ void addProblemsOfConnection(const MeshReport& report, Problems& problems)
         "nodes of its own for one of the bodies.",
         report.overused.count, report.dimension == 2 ? "edges" : "faces",
         firstOf(report.overused,
-                [](const MeshReport::SharedFace& f)
+                [&](const MeshReport::SharedFace& f)
                 {
                   return fmt::format("of {} elements, among them {} and {}, at {}", f.count,
-                                     f.elements[0], f.elements[1], at(f.place));
+                                     f.elements[0], f.elements[1], at(report, f.place));
                 })));
 }
 
@@ -124,13 +127,14 @@ void addProblemsOfLengths(const MeshReport& report, Problems& problems)
         "coordinates from {} to {} m, and an edge of {:.3g} m at {}: too few of sixteen digits are "
         "left for it; accepted: up to {:.0e} times the shortest edge. Look at the outermost nodes, "
         "at that edge and at the units.",
-        at(report.lowest), at(report.highest), report.shortestEdge, at(report.shortestPlace),
-        MeshReport::farthest));
+        at(report, report.lowest), at(report, report.highest), report.shortestEdge,
+        at(report, report.shortestPlace), MeshReport::farthest));
   if (report.shortestEdge > 0 && report.shortestEdge < shortEdge * report.longestEdge)
     problems.push_back(fmt::format(
         "the shortest edge, {:.3g} m at {}, is {:.0f} times shorter than the longest: it sets the "
         "time step of all. If that is not intended, remesh that region.",
-        report.shortestEdge, at(report.shortestPlace), report.longestEdge / report.shortestEdge));
+        report.shortestEdge, at(report, report.shortestPlace),
+        report.longestEdge / report.shortestEdge));
   const Real extent = norm(report.highest - report.lowest);
   if (report.elements > 0 && (extent > largestExtent || extent < smallestExtent))
     problems.push_back(fmt::format(

@@ -1,0 +1,160 @@
+#include "CutEstimate.hpp"
+
+#include "CubesOfTetrahedra.hpp"
+#include "MeasureOfElements.hpp"
+
+#include <coplane_core/Error.hpp>
+#include <coplane_exodus/MeshReport.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace coplane
+{
+namespace
+{
+const Vec3 low{500000, 4000000, 0}, high{500010, 4000010, 10};
+
+BlocksRecipe recipeOf(const std::string& joints, const std::string& more = "")
+{
+  return parseBlocksRecipe("{dimension: 3, domain: {box: {min: [500000, 4000000, 0], max: [500010, "
+                           "4000010, 10]}}, elements: {size: 1" +
+                               more + "}, joints: {" + joints + "}}",
+                           "blocks.yaml");
+}
+
+std::vector<JointSurface> surfacesOf(const BlocksRecipe& recipe)
+{
+  Problems problems;
+  auto surfaces = jointSurfaces(recipe, "blocks.yaml", low, high, problems);
+  EXPECT_EQ(problems.text(), "");
+  return surfaces;
+}
+
+std::string refusalOf(const BlocksRecipe& recipe)
+{
+  try
+  {
+    demandFewParts(recipe, "blocks.yaml", surfacesOf(recipe), low, high, 0.1);
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Deck);
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string setOf(const std::string& name, int dip, int direction, Real spacing)
+{
+  return fmt::format("{}: {{set: {{dip: {}, dip_direction: {}, spacing: {}}}}}", name, dip,
+                     direction, spacing);
+}
+
+TEST(EstimatedParts, areThoseOfSetsAtRightAngles)
+{
+  // Planes go through the middle: 5 of a spacing of 2 m, 9 of 1.1 m, 3 of 4 m.
+  const std::string a = setOf("a", 0, 0, 2), b = setOf("b", 90, 0, 1.1), c = setOf("c", 90, 90, 4);
+  const auto partsOf = [](const std::string& joints)
+  { return estimatedParts(surfacesOf(recipeOf(joints)), 3, low, high); };
+  EXPECT_NEAR(partsOf(a), 6, 1e-9);
+  EXPECT_NEAR(partsOf(a + ", " + b), 6 * 10, 1e-9);
+  EXPECT_NEAR(partsOf(a + ", " + b + ", " + c), 6 * 10 * 4, 1e-9);
+  // In the plane a trace counts by its length inside.
+  std::vector<JointSurface> traces{{0, {{-5, 5, 0}, {15, 5, 0}}, ""},
+                                   {0, {{5, 0, 0}, {5, 5, 0}}, ""},
+                                   {0, {{20, 0, 0}, {30, 5, 0}}, ""}};
+  EXPECT_NEAR(estimatedParts(traces, 2, {0, 0, 0}, {10, 10, 0}), 2 * 1.5, 1e-12);
+}
+
+TEST(JointsInWrongUnits, areRefusedBeforeAnythingIsCut)
+{
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  const std::string grid = setOf("b", 90, 0, 0.5) + ", " + setOf("c", 90, 90, 0.5);
+  EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 2))), "accepted");
+  contains(refusalOf(recipeOf(setOf("a", 0, 0, 0.002))),
+           "joints.a.set: spacing = 0.002 m is not more than slivers.thickness = 0.1 m");
+  contains(refusalOf(recipeOf("a: {planes: {point: [500001, 4000001, 1], normal: [0, 0, 1], "
+                              "spacing: 0.001, count: 4}}")),
+           "joints.a.planes: spacing = 0.001 m");
+  contains(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid)),
+           "about 2e+04 parts (surfaces: 87 of joints.a, 35 of joints.b, 35 of joints.c)");
+  EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid, ", most_parts: 1e5")),
+            "accepted");
+}
+
+TEST(WhatLiesOutside, isNamed)
+{
+  const std::string file = "estimate_test_fractures.csv";
+  std::ofstream(file) << "x,y,z,radius,dip,dip_direction\n500005,4000005,5,1,0,0\n5,5,5,1,0,0\n";
+  const BlocksRecipe recipe =
+      recipeOf("a: {file: " + file +
+                   "}, b: {planes: {point: [500001, 4000001, 1], normal: [0, 0, "
+                   "1]}}, " +
+                   setOf("c", 0, 0, 5000),
+               ", regions: {box: {min: [0, 0, 0], max: [1, 1, 1]}, size: 0.5}");
+  const auto surfaces = surfacesOf(recipe);
+  std::filesystem::remove(file);
+  ASSERT_EQ(surfaces.size(), 4u);
+  const auto outside = notesOfOutside(recipe, surfaces, {false, true, true, false});
+  ASSERT_EQ(outside.size(), 2u);
+  EXPECT_EQ(outside[0], "joints.a: 1 of 2 lie wholly outside of the domain: line 3");
+  EXPECT_EQ(outside[1], "joints.b: 1 of 1 lie wholly outside of the domain: plane 1");
+  const auto sizes = notesOfSizes(recipe, low, high);
+  ASSERT_EQ(sizes.size(), 2u);
+  EXPECT_EQ(sizes[0].rfind("joints.c.set: spacing = 5000 m is more than the domain", 0), 0u);
+  EXPECT_NE(sizes[1].find("region 1, from (0, 0, 0) to (1, 1, 1) m, lies outside of the domain, "
+                          "which reaches from (500000, 4000000, 0)"),
+            std::string::npos);
+}
+
+TEST(WorthOfCubes, isThatOfTheFinalElements)
+{
+  // A regular tetrahedron of edge 2, and a flat one: the worth of its cubes goes with the height.
+  for (const Real flat : {1.0, 0.05})
+  {
+    GmshFile mesh;
+    mesh.nodeIds = {1, 2, 3, 4};
+    mesh.coordinates = {{0, 0, 0},
+                        {2, 0, 0},
+                        {1, std::sqrt(3.0), 0},
+                        {1, std::sqrt(1.0 / 3), flat * std::sqrt(8.0 / 3)}};
+    mesh.elements = {{{3, 1}, 4, 1, {0, 1, 2, 3}}};
+    cutIntoCubes(mesh);
+    ASSERT_EQ(mesh.elements.size(), 4u);
+    Real worst = infinity, volume = 0;
+    for (const GmshFile::Element& element : mesh.elements)
+    {
+      std::array<Vec3, 8> x;
+      for (std::size_t k = 0; k < 8; ++k)
+        x[k] = mesh.coordinates[std::size_t(element.nodes[k])];
+      worst = std::min(worst, worthOf(x, 1));
+      volume += elementVolume(ElementType::Hex8, x);
+    }
+    EXPECT_NEAR(volume, flat * std::sqrt(8.0) / 3, 1e-14);
+    if (flat == 1)
+      EXPECT_NEAR(worst, std::sqrt(0.5), 1e-14); // the shape at the corners of the tetrahedron
+    else
+      EXPECT_LE(worst, 0.05);
+    EXPECT_GT(worst, 0);
+  }
+}
+
+TEST(MeasureOfElements, findsGapsAndOverlaps)
+{
+  GmshFile mesh;
+  mesh.coordinates = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  mesh.elements = {{{3, 1}, 4, 1, {0, 1, 2, 3}}, {{3, 1}, 4, 2, {1, 2, 3, 4}}};
+  EXPECT_NEAR(measureOfElements(mesh, 3), 1.0 / 6 + 1.0 / 3, 1e-15);
+  mesh.elements.push_back({{3, 1}, 4, 3, {1, 2, 3, 4}});
+  EXPECT_TRUE(std::isnan(measureOfElements(mesh, 3)));
+  mesh.elements = {{{2, 1}, 2, 1, {0, 2, 1}}, {{2, 1}, 3, 2, {0, 1, 4, 2}}, {{1, 1}, 1, 3, {0, 1}}};
+  mesh.coordinates[4] = {1, 1, 0};
+  EXPECT_NEAR(measureOfElements(mesh, 2), 1.5, 1e-15);
+}
+} // namespace
+} // namespace coplane
