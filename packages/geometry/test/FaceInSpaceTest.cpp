@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -122,5 +123,47 @@ TEST(FaceInSpace, affineWeightsReproduceAnyPointAndHaveTheLeastNorm)
     off += (i % 2 ? -1 : 1) * cross(b - a, c - a) * w[i];
   }
   EXPECT_NEAR(off, 0, 1e-13);
+}
+
+TEST(FaceInSpace, evenWeightsAreMeansOfTheShapeFunctionsAtTheCentroid)
+{
+  // A third of a triangle, cut at the middles of its sides and its centroid; a trapezium.
+  const Vec2 kite[4] = {{0, 0}, {0.5, 0}, {1.0 / 3, 1.0 / 3}, {0, 0.5}};
+  Real w[4];
+  evenWeights(kite, 4, {7.0 / 36, 7.0 / 36}, w);
+  const Real expected[4] = {7.0 / 24, 6.0 / 24, 5.0 / 24, 6.0 / 24};
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(w[i], expected[i], 1e-15);
+  affineWeights(kite, 4, {7.0 / 36, 7.0 / 36}, w);
+  EXPECT_NEAR(w[2] - expected[2], 3.0 / 216, 1e-15); // 1.4 % of the force
+  // Whatever the corners and the point, convex or not, either way round or folded.
+  Random random(5);
+  std::uniform_real_distribution<Real> number(-1, 1);
+  for (int k = 0; k < 2000; ++k)
+  {
+    Vec2 corners[4];
+    for (Vec2& corner : corners)
+      corner = {number(random), number(random)};
+    const Vec2 point{number(random), number(random)};
+    evenWeights(corners, 4, point, w);
+    Vec2 at;
+    Real sum = 0, most = 0;
+    for (int i = 0; i < 4; ++i)
+    {
+      sum += w[i];
+      at = at + w[i] * corners[i];
+      most = std::max(most, std::abs(w[i]));
+    }
+    Real least[4];
+    affineWeights(corners, 4, point, least);
+    const Real scale = std::max(1.0, most);
+    EXPECT_NEAR(sum, 1, 1e-13 * scale);
+    EXPECT_NEAR(at.x, point.x, 1e-13 * scale);
+    EXPECT_NEAR(at.y, point.y, 1e-13 * scale);
+    Real affine = 1;
+    for (const Real l : least)
+      affine = std::max(affine, std::abs(l));
+    EXPECT_LT(most, 4 * affine);
+  }
 }
 } // namespace coplane

@@ -299,11 +299,11 @@ for name, recipe in at_rest.items():
     case.check(f"{name}: missed contacts", int(numpy.max(run.history["missed"])), 0, 0, kept="missed contacts")
     case.check(f"{name}: energy balance", numpy.max(numpy.abs(run.history["error"])) / run.history["contact_stored"][0], 0, 1e-12, kept="energy balance")
     case.same_bits(name.replace(" ", "_"), recipe, deck(recipe), run)
-# Faces of cubes are kites, no parallelograms: friction, which acts at a point, has other nodal forces there than a uniform stress in the elements has.
+# Faces of cubes are kites, no parallelograms: friction, too, has the nodal forces of a uniform stress in the elements there.
 kites = {"dimension": 3, "seed": 2, "domain": {"box": {"min": [0, 0, 0], "max": [6, 5, 4]}}, "elements": {"size": 1.2, "shape": "cubes"}, "joints": {"grains": {"voronoi": {"cells": 15, "relaxations": 3}}},
          "node_sets": at_rest["scattered sets at rest"]["node_sets"]}
 run = case.attempt("kites", kites, deck(kites))
-case.check_within("cubes in space: largest displacement over the closure", numpy.max(numpy.abs(run.results.nodal("displacement"))) / closure, 1e-6, 0.02)
+case.check("cubes in space: largest displacement [m]", numpy.max(numpy.abs(run.results.nodal("displacement"))), 0, 1e-12)
 loose = case.attempt("loose", at_rest["cells at rest"], deck(at_rest["cells at rest"], declared=False))
 case.check_within("not declared: largest displacement over the closure", numpy.max(numpy.abs(loose.results.nodal("displacement"))) / closure, 0.1, 100)
 

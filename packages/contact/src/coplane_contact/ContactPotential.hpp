@@ -266,7 +266,7 @@ public:
   /// n . (mean normal of face f): what a face's normal has along the plane's.
   KOKKOS_INLINE_FUNCTION const T& kappa() const { return kappa_; }
 
-  /// Weights of the nodes of both faces that reproduce a place in the plane: affine, of least norm.
+  /// Weights of the nodes of both faces that reproduce a place in the plane (evenWeights).
   KOKKOS_INLINE_FUNCTION void weightsAt(const Vec2Of<T>& at, T (&weights)[2][4]) const
   {
     for (int f = 0; f < 2; ++f)
@@ -280,7 +280,7 @@ public:
         weights[f][0] = 1.0 - weights[f][1];
       }
       else
-        affineWeights(s.p, s.count, at, weights[f]);
+        evenWeights(s.p, s.count, at, weights[f]);
     }
   }
 

@@ -38,4 +38,35 @@ KOKKOS_INLINE_FUNCTION void affineWeights(const Vec2Of<T>* p, int count, const V
   for (int i = 0; i < count; ++i)
     w[i] = 1.0 / count + dot(p[i] - mean, slope);
 }
+
+/// The same for triangles. Of a quadrilateral w0 - w1 + w2 - w3 = 0 besides: at its centroid these
+/// are the means of the bilinear shape functions, so that a uniform traction has the nodal forces
+/// that a uniform stress has in a hexahedron. One that is folded beyond a reentrant corner, whose
+/// area goes to zero, gets those of least norm; between are weights between, which reproduce the
+/// point as well.
+template <class T>
+KOKKOS_INLINE_FUNCTION void evenWeights(const Vec2Of<T>* p, int count, const Vec2Of<T>& at, T* w)
+{
+  affineWeights(p, count, at, w);
+  if (count != 4)
+    return;
+  using branchFree::choose;
+  // What changes neither the sum nor the point: the minors of (1, x, y), twice the corners'
+  // triangles, with alternating signs.
+  const T minors[4] = {cross(p[2] - p[1], p[3] - p[1]), cross(p[3] - p[2], p[0] - p[2]),
+                       cross(p[0] - p[3], p[1] - p[3]), cross(p[1] - p[0], p[2] - p[0])};
+  T sum{}, largest{};
+  for (const T& minor : minors)
+  {
+    sum += minor;
+    largest = branchFree::larger(branchFree::absolute(minor), largest);
+  }
+  // The area over the largest triangle: 1 at least where the quadrilateral is convex.
+  const auto has = branchFree::absolute(sum) > 0.5 * largest;
+  const T share = choose(has, branchFree::absolute(sum) / (2.0 * largest), T(0.25));
+  const T z = branchFree::smaller(2.0 * (share - 0.25), T(1.0));
+  const T change = choose(has, z * z * (3.0 - 2.0 * z) * (w[0] - w[1] + w[2] - w[3]) / sum, T(0.0));
+  for (int i = 0; i < 4; ++i)
+    w[i] += (i % 2 == 0 ? -1.0 : 1.0) * change * minors[i];
+}
 } // namespace coplane
