@@ -77,7 +77,8 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
                                  std::size_t localFaces, const Array<FacePlane>& planes,
                                  const ConstNodeVectors& x, int dimension, const NodeLayout& layout)
     : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
-      lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size())
+      lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size()),
+      goingOn_(layout.size())
 {
   for (std::size_t f = 0; f < localFaces; ++f)
     for (int k = 0; k < faces[f].count; ++k)
@@ -122,14 +123,15 @@ const EdgesOfSurfaces::Edge& EdgesOfSurfaces::edge(int face, int side, int e) co
   return edges_[firstEdge_[face] + own];
 }
 
-int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const
+int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond,
+                           const DirectionsOfNodes& ends) const
 {
   const Vec3 outward = normalised(beyond - dot(beyond, normal) * normal);
   int bodies[2];
   for (int end = 0; end < 2; ++end)
   {
     const int place = hidden_.find(nodes[end], normal);
-    if (place < 0 || flush_.find(nodes[end], outward) < 0)
+    if (place < 0 || ends.find(nodes[end], outward) < 0)
       return -1;
     bodies[end] = hidden_.number(nodes[end], place);
   }
@@ -195,6 +197,8 @@ void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
               continue;
             hidden_.add(node, planes_(places[f]).normal, both[1 - f]->body);
             flush_.add(node, from.outward, 0);
+            if (dot(mine.beyond, its.beyond) > DirectionsOfNodes::one)
+              goingOn_.add(node, from.outward, 0);
           }
         }
       }
@@ -202,6 +206,7 @@ void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
   }
   hidden_.refresh(layout);
   flush_.refresh(layout);
+  goingOn_.refresh(layout);
 }
 
 /// What lies beyond one of the edges of a pair.
@@ -245,10 +250,10 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
       here.edge = &edge;
       here.outward = normalised(edge.outward - dot(edge.outward, common) * common);
       // Not by the body of the other face: that one comes with what lies there.
-      const int covers = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond);
+      const int covers = onEachOther ? -1 : hides(edge.nodes, normals[f], edge.beyond, flush_);
       here.covers = covers == other ? -1 : covers;
       // A body that opposes a face just so, past the seam, does not press upon itself there.
-      const int goesOn = hides(edge.nodes, edge.beyond, normals[f]);
+      const int goesOn = hides(edge.nodes, edge.beyond, normals[f], goingOn_);
       here.goesOn = slanted && goesOn == other ? -1 : goesOn;
     }
   }

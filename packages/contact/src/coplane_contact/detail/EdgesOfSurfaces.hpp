@@ -48,7 +48,9 @@ private:
   void findHidden(const NodeLayout& layout);
   /// The body that hides the face with this normal up to its edge, beyond which lies one with the
   /// other normal; -1: none, or several.
-  int hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond) const;
+  /// @param ends where hidden faces end: flush_, or goingOn_
+  int hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond,
+            const DirectionsOfNodes& ends) const;
   /// Size of the smaller one of two faces that lie on each other [m]; 0 if they do not.
   Real lieOn(int a, int b) const;
 
@@ -59,9 +61,10 @@ private:
   int dimension_;
   std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
   std::vector<Edge> edges_;
-  std::vector<Real> lieOn_;  ///< by pair
-  NormalsOfNodes normals_;   ///< of the faces around a node
-  DirectionsOfNodes hidden_; ///< normals of hidden faces that end at a node, and who lies on them
-  DirectionsOfNodes flush_;  ///< out over the edges at which they end
+  std::vector<Real> lieOn_;   ///< by pair
+  NormalsOfNodes normals_;    ///< of the faces around a node
+  DirectionsOfNodes hidden_;  ///< normals of hidden faces that end at a node, and who lies on them
+  DirectionsOfNodes flush_;   ///< out over the edges at which they end
+  DirectionsOfNodes goingOn_; ///< out over those where both bodies turn the same way: one surface
 };
 } // namespace coplane
