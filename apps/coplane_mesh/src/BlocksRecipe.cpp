@@ -437,8 +437,9 @@ Key elementsKey()
                      .in("s")
                      .above(0)
                      .like("1e4")
-                     .means("of each step that Gmsh takes (cut, mesh edges, faces, volumes); one "
-                            "that takes longer is ended: Gmsh hangs with some geometries"),
+                     .means(
+                         "of each step that Gmsh takes (reading, cutting, meshing, mending); one "
+                         "that takes longer is ended: Gmsh hangs with some geometries"),
                  list("regions", &BlockElementsCard::regions,
                       {
                           group("box", &ElementSizeCard::box,

@@ -267,6 +267,7 @@ private:
     std::vector<JointSurface> surfaces = jointSurfaces(recipe_, recipeFile_, low_, high_, problems);
     if (!problems.empty())
       throw Error(ExitCode::Deck, problems.text());
+    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, leastThickness_);
     for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
     {
       result_.joints.push_back(recipe_.joints[j].name);
@@ -279,7 +280,6 @@ private:
       result_.joints.push_back(recipe_.domain.joint);
     std::stable_sort(surfaces.begin(), surfaces.end(),
                      [](const auto& a, const auto& b) { return a.joint < b.joint; });
-    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, leastThickness_);
     result_.notes = notesOfSizes(recipe_, low_, high_);
     Entities tools;
     std::vector<int> joints;

@@ -116,7 +116,9 @@ void demandFewParts(const BlocksRecipe& recipe, const std::string& recipeFile,
   }
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
-  const Real parts = estimatedParts(surfaces, recipe.dimension, low, high);
+  Real parts = estimatedParts(surfaces, recipe.dimension, low, high);
+  for (const JointsCard& card : recipe.joints)
+    parts += card.voronoi.cells;
   if (parts <= recipe.elements.mostParts)
     return;
   std::vector<std::string> each;

@@ -15,7 +15,8 @@ Real estimatedParts(const std::vector<JointSurface>& surfaces, int dimension, co
                     const Vec3& high);
 
 /// Refuses joints that would cut for ever: more parts than elements.most_parts, or neighbours
-/// nearer than what is a sliver. @param thickness of slivers [m]
+/// nearer than what is a sliver. @param surfaces without those of Voronoi cells, which count by
+/// themselves; thickness: of slivers [m]
 void demandFewParts(const BlocksRecipe& recipe, const std::string& recipeFile,
                     const std::vector<JointSurface>& surfaces, const Vec3& low, const Vec3& high,
                     Real thickness);

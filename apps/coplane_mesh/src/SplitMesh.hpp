@@ -33,6 +33,14 @@ struct SplitMesh
   int bodies = 0;           ///< the same after
 };
 
+/// Away from cuts nodes stay, or hinges are opened, too: nodes by which alone, or with an edge,
+/// parts hang together.
+enum class Hinges
+{
+  Stay,
+  Open
+};
+
 /// Opens the cuts: the elements around a node fall into groups that hang together through faces
 /// that are not cut, and every group but the first (the one with the first element) gets a copy of
 /// the node. So a tip stays one node, a joint gives two, a crossing of two joints four.
@@ -42,14 +50,6 @@ struct SplitMesh
 /// the cut faces at the node; where no group has one, all copies belong. Side sets stay as they
 /// are; each cut adds one with both faces of all it opened. body_id is numbered anew. A face in
 /// several cuts belongs to the first.
-///
-/// Away from cuts nodes stay, or hinges are opened, too: nodes by which alone, or with an edge,
-/// parts hang together.
-enum class Hinges
-{
-  Stay,
-  Open
-};
 SplitMesh splitMesh(const Mesh& mesh, const std::vector<MeshFace>& faces,
                     const std::vector<Cut>& cuts, Hinges hinges = Hinges::Stay);
 } // namespace coplane

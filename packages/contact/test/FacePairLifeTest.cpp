@@ -186,6 +186,32 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   // the common normal the force is there at once, and ends at the depth limit.
   EXPECT_NEAR(born(.11, Sighting::New).forceOn(1).z, potential() ? 0 : 60, 1e-10);
   EXPECT_NEAR(born(.2, Sighting::New).forceOn(1).z, potential() ? 0 : 1e3 * Real(.1F), 1e-10);
+  if (!potential())
+    return;
+  PairPlane found = born(.11, Sighting::New);
+  updatePlane<3>(found, below(), above(.11), usual, 1);
+  EXPECT_FALSE(found.isRefused());
+  EXPECT_NEAR(found.forceOn(1).z, 0, 1e-10) << "nor with a delay";
+  updatePlane<3>(found, below(), above(.111), usual, 1);
+  EXPECT_NEAR(found.forceOn(1).z, 1, 1e-10);
+}
+
+TEST_P(StepF_CreatePlane, whatIsFoundWithAreaInCommonDoesNotSlideOn)
+{
+  const auto isRefused = [&](Real depth)
+  {
+    PairPlane plane = touchingPlane(1e3);
+    plane.state = PlaneState::Slot;
+    plane.sighting = Sighting::New;
+    plane.lineage = Lineage::SlidesOn;
+    plane.depthLimit = .1;
+    plane.offset = -.05;
+    plane.closure = .05;
+    updatePlane<3>(plane, below(), above(depth), usual, 1);
+    return plane.isRefused();
+  };
+  EXPECT_FALSE(isRefused(.19)); // the limit, beside .1 that its neighbours explain
+  EXPECT_TRUE(isRefused(.21));
 }
 
 TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)

@@ -1,4 +1,4 @@
-"""V94: bonded elements: a bar is pulled apart, a strip is sheared off."""
+"""V94: bonded elements: a bar is pulled apart, a strip is sheared off, a bar of tetrahedra breaks."""
 
 import copy
 
@@ -44,4 +44,21 @@ case.check("strip: largest force over the area [Pa]", force.max() / 0.4, weak["c
 case.check("strip: fracture energy [J]", run.history["contact_fracture"][-1], weak["shear_energy"] * 0.4, 0.01, relative=True)
 case.check("strip: force at the end over the largest", abs(force[-1]) / force.max(), 0, 1e-2)
 case.check_equal("strip: elements of the fragments at the end", pieces(run)[-2:], [32, 32])
+
+# --- tetrahedra: wedges that lie on each other, whose surfaces do not go on in each other -------------------------
+recipe = {"dimension": 3, "parts": [{"shape": "box", "block": "bar", "min": [0, 0, 0], "max": [0.4, 0.1, 0.1], "divisions": [4, 1, 1], "split": "tetrahedra"}],
+          "node_sets": {"left": {"where": {"x": 0}}, "right": {"where": {"x": 0.4}}}}  # fmt: skip
+broken = {
+    "materials": {"rock": {"model": "linear_elastic", "density": 2500, "youngs_modulus": 30e9, "poisson_ratio": 0.2}},
+    "blocks": {"bar": {"material": "rock"}},
+    "joints": {"bond": {"model": "mortar", "normal_stiffness": 6e13, "shear_stiffness": 2.4e13, "tensile_strength": 3e6, "cohesion": 12e6, "friction": 0.7, "tension_energy": 10, "shear_energy": 40}},
+    "contact": {"pairs": [{"joint_set": "bond", "joint": "bond", "declared": True}]},
+    "conditions": [{"type": "velocity", "node_set": side, "components": ["x"], "value": [f"{speed}*min(t/1e-3,1)", 0, 0]} for side, speed in (("left", -0.02), ("right", 0.02))],
+    "time": {"end": 3e-3},
+}  # fmt: skip
+run = case.attempt("tetrahedra", recipe, broken, joints={"joints": {"bond": {"every_face": "bar"}}})
+if case.check_equal("tetrahedra: exit code", run.code, 0):
+    h = run.history
+    case.check("tetrahedra: contact remainder over the work done", numpy.max(numpy.abs(h["contact_remainder"])) / h["external_work"].max(), 0, 5e-3)
+    case.check_within("tetrahedra: fracture energy over that of the section", h["contact_fracture"][-1] / (10 * 0.1**2), 0.9, 6)
 case.finish()

@@ -241,7 +241,7 @@ refused("nothing left", {**flat, "openings": {"all": {"polygon": [[-1, -1], [9, 
 refused("two dimensions with a file", {**flat, "domain": {"file": "x.obj"}}, "domain.file", "exit code 3")
 
 # --- where Gmsh fails ------------------------------------------------------------------------------------------------
-# Gmsh 4.8 crashes with the first one, and cannot recover the border with the second; other ways of meshing work.
+# Gmsh 4.8 crashes with this one; other ways of meshing work.
 bored = {"dimension": 3, "seed": 393, "domain": {"box": {"min": [0, 0, 0], "max": [5.4807588052599945, 5.7269581399261051, 6.9982190815347671]}}, "elements": {"size": 1.4239799131093636, "shape": "cubes"},
          "openings": {"t": {"circle": 1.0961517610519989, "path": [[2.7403794026299972, -1, 3.4991095407673836], [2.7403794026299972, 6.7269581399261051, 3.4991095407673836]], "keep": True}},
          "joints": {"j0": {"set": {"spacing": 3.4838192709716109, "spacing_scatter": 0, "dip": 79.547626306197742, "dip_direction": 13.726332488974267, "fisher": 100}},

@@ -11,6 +11,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
 {
   using namespace branchFree;
   pieces_ = 0;
+  inOrder_ = false;
   if constexpr (Dim == 2)
   {
     // A segment as a polygon without width: two "sides" that are its ends.

@@ -8,7 +8,8 @@ namespace coplane
 /// the skin of the last search covers beside the way that it foresaw, and every so many cycles, if
 /// that is a number. With `auto` pairs learn between searches what they take over from others: when
 /// bodies have moved by half a skin, and every few cycles in which a surface of a plane has moved
-/// or a bond has broken.
+/// or a bond has broken. They learn how deep others lie in the cycle after that has changed,
+/// whatever the number.
 class SearchPlan
 {
 public:

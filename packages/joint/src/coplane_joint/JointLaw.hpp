@@ -480,7 +480,7 @@ private:
       return false;
 
     Crushed end;
-    if (!(weight * s.size > 0) && unevenness == 1)
+    if (!(weight * s.size > 0) && unevenness == 1 && !s.softening)
     {
       const Real most = crushing.crushedAt(plastic * before + elastic, kn);
       end.crushing = most - before;

@@ -228,8 +228,10 @@ private:
     }
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
-    // Overlap that exists when a pair is found has no energy.
+    // Overlap that exists when a pair is found has no energy, whatever its neighbours passed on.
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
+    if (late_[i] && leastGaps_[i] < plane.offset)
+      plane.offset = leastGaps_[i];
     plane.maximumBefore = plane.history.maximumClosure;
     return !late_[i] && plane.sighting != Sighting::Woken;
   }
