@@ -196,6 +196,26 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   EXPECT_NEAR(found.forceOn(1).z, 1, 1e-10);
 }
 
+TEST_P(StepF_CreatePlane, aJointThatHasClosedForGoodBeginsThere)
+{
+  // Along the common normal planes go on while faces share area.
+  if (!potential())
+    return;
+  PairPlane plane = touchingPlane(1e3);
+  plane.law.curve.inverseMaximumClosure = 1 / .08;
+  plane.depthLimit = .1;
+  plane.history.maximumClosure = .06; // 240 Pa and 16 kPa/m there: closed by 45 mm for good
+  updatePlane<3>(plane, below(), above(.04), usual, 1);
+  EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "it has parted";
+  updatePlane<3>(plane, below(), above(.05), usual, 1);
+  EXPECT_FALSE(plane.isRefused());
+  EXPECT_NEAR(plane.forceOn(1).z, 16e3 * .005, 1e-10);
+  // Deep is what lies a quarter of the limit behind that surface.
+  updatePlane<3>(plane, below(), above(.04), usual, 1);
+  updatePlane<3>(plane, below(), above(.075), usual, 1);
+  EXPECT_TRUE(plane.isRefused());
+}
+
 TEST_P(StepF_CreatePlane, whatIsFoundWithAreaInCommonDoesNotSlideOn)
 {
   const auto isRefused = [&](Real depth)

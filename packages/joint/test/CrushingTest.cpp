@@ -196,31 +196,6 @@ TEST(Crushing_Shear, longSlipIsBookedAtTheStrengthThatCrushingLeaves)
   EXPECT_NEAR(run.imbalance(), 0, 1e-3 * run.work);
 }
 
-TEST(Crushing_Shear, closingAndSlipCrushAlikeWhateverTheSteps)
-{
-  // What bodies do that strike at a slant, in steps of 0.1 um to 0.6 mm, seven times the crushing
-  // at the peak. Along the normal of the ellipse at the trial instead of the end, 30 steps gave
-  // from 1.04 to 3.3 times the crushing.
-  for (const Real friction : {.75, 50.})
-    for (const Real slant : {.1, .5, 1., 3.})
-      for (const Real loss : {0., .5})
-      {
-        const auto crushed = [&](int steps)
-        {
-          JointRun run(crushedMortar(loss, friction));
-          run.state.bonded = false;
-          run.go(-3e-3, {0, 3e-3 * slant, 0}, steps);
-          EXPECT_NEAR(onEllipse(run), strengthAt(crushing(run)), 1e-9 * fm);
-          return crushing(run);
-        };
-        const Real fine = crushed(30000);
-        EXPECT_GT(fine, 7 * kp);
-        for (const int steps : {5, 30, 300})
-          EXPECT_NEAR(crushed(steps), fine, 1e-2 * fine)
-              << slant << " with friction " << friction << " in " << steps;
-      }
-}
-
 TEST(Crushing_Shear, withoutWeightShearDoesNotCrush)
 {
   Joint joint = crushedMortar(0, 50);

@@ -131,7 +131,6 @@ public:
     const T hard = 1.0 + PenaltyHardening::part * grown;
     const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
     wayOut = T(1.0);
-    alongStrip_ = T(0.0);
     T slope(0.0);
     if constexpr (widthOf<T> == 1)
       if (strip_)

@@ -94,17 +94,14 @@ struct JointLaw
   ///        multiplied the stored traction for that, r, and the increment by (r + 1) / 2. What it
   ///        raised slips back where it is beyond the strength, but nothing has moved for it. [-]
   /// @param bending how the closure is spread, for bonds that resist bending; none: evenly
-  /// @param unevenness of the elastic closure over the area in contact, mean of its squares over
-  ///        the square of its mean: so many times the mean compression crushes the joint [-]
   KOKKOS_INLINE_FUNCTION JointResponse operator()(const JointFit& fit, Real closure,
                                                   const Vec3& tangentialIncrement, Real dt,
                                                   JointState& state, Real shrunk = 1,
-                                                  const BondBending* bending = nullptr,
-                                                  Real unevenness = 1) const
+                                                  const BondBending* bending = nullptr) const
   {
     if (!(strength == Strength::Coulomb && bond.kind == Bond::Kind::None && dynamicFriction < 0 &&
-          dilation <= 0 && !curve.crushing.acts()))
-      return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending, unevenness);
+          dilation <= 0))
+      return general(fit, closure, tangentialIncrement, dt, state, shrunk, bending);
     JointResponse response;
     close(fit, closure, state, response);
     if (response.normalTraction > 0)
@@ -127,19 +124,6 @@ struct JointLaw
     return state.opening > 0 || state.shearing > 0 ||
            fit.normalStiffness * opened > 0.5 * bond.tensileStrength || shear > 0.5 * held ||
            shear + fit.shearStiffness * slid > held;
-  }
-
-  /// Whether a joint without a bond may be crushed in a step.
-  /// @param sigma compression without crushing, where it is largest in the sense of crush() [Pa]
-  KOKKOS_INLINE_FUNCTION bool mayBeCrushed(const JointFit& fit, const JointState& state,
-                                           Real sigma) const
-  {
-    const Crushing& crushing = curve.crushing;
-    const Real f =
-        crushing.strengthAt(crushing.crushedAt(state.maximumClosure, fit.normalStiffness));
-    const Real shear = cohesion + std::fmax(friction, dynamicFriction) * sigma;
-    return remembersSlip() ||
-           sigma * sigma + crushing.shearWeight * (shear * shear) > (1 - 1e-9) * (f * f);
   }
 
   /// Recoverable energy of the normal traction [J/m^2]; the closure after dilation.
@@ -205,14 +189,13 @@ struct JointLaw
   }
 
 private:
-  /// Compression at closure c; raises the maximum closure. Of a joint that is crushed the elastic
-  /// trial, from which crush() comes back. Returns how far a joint is open beyond
+  /// Compression at closure c; raises the maximum closure. Returns how far a joint is open beyond
   /// the closure at which it carries nothing [m]; negative: it is pressed.
   KOKKOS_INLINE_FUNCTION Real close(const JointFit& fit, Real c, JointState& state,
                                     JointResponse& response) const
   {
     const Real before = state.maximumClosure;
-    const bool loading = c > before && !curve.crushing.acts();
+    const bool loading = c > before;
     if (loading)
       state.maximumClosure = c;
     const ClosureCurve::Point top = curve.at(fit, state.maximumClosure);
@@ -228,8 +211,7 @@ private:
   /// Compression that a closure would give.
   KOKKOS_INLINE_FUNCTION Real pressedAt(const JointFit& fit, Real c, const JointState& state) const
   {
-    const bool loading = c > state.maximumClosure && !curve.crushing.acts();
-    const Real most = loading ? c : state.maximumClosure;
+    const Real most = c > state.maximumClosure ? c : state.maximumClosure;
     const ClosureCurve::Point top = curve.at(fit, most);
     const Real sigma = top.traction - top.stiffness * (most - c);
     return sigma > 0 ? sigma : 0;
@@ -363,7 +345,7 @@ private:
   /// All laws; operator() has a shorter way for dry joints with constant friction.
   KOKKOS_FUNCTION JointResponse general(const JointFit& fit, Real closure, const Vec3& increment,
                                         Real dt, JointState& state, Real shrunk,
-                                        const BondBending* bending, Real unevenness) const
+                                        const BondBending* bending) const
   {
     JointResponse response;
     const bool wasBonded = state.bonded;
@@ -398,12 +380,10 @@ private:
     s.before = state.shearTraction;
     s.trial = s.before - fit.shearStiffness * increment;
     s.size = norm(s.trial);
-    s.raised = raised(fit, s.before, increment, s.size, shrunk);
-    if (curve.crushing.acts() && s.pressed > 0 && crush(fit, s, unevenness, state, response))
-      return response;
     if (!(s.size > s.held + s.friction * s.pressed))
     {
       state.shearTraction = s.trial;
+      crushInShear(fit, s, state, response);
       return response;
     }
     if (state.bonded && bond.kind == Bond::Kind::Brittle)
@@ -415,152 +395,60 @@ private:
         return response;
       }
     }
+    s.raised = raised(fit, s.before, increment, s.size, shrunk);
     slide(fit, s, state, response);
     if (s.softening)
       wearBySlip(fit, s, state, response);
+    crushInShear(fit, s, state, response);
     return response;
   }
 
-  /// What a step of crushing ends with.
-  struct Crushed
-  {
-    Real crushing; ///< of this step, x [m]
-    Real closing;  ///< by which the permanent closure rises [m]
-    Real rubbing;  ///< slip that friction and cohesion ask for, beyond that on the ellipse [m]
-    Real normal;   ///< compression [Pa]
-    Real shear;    ///< [Pa]
-    Real held;     ///< strength of shear without friction [Pa]
-  };
-
-  /// Brings the elastic trial back to what a joint bears that is crushed: both tractions end on the
-  /// ellipse of the strength that is left at the end of the step, along its normal there, and
-  /// within friction and cohesion. @returns whether the joint is crushed in this step
-  KOKKOS_INLINE_FUNCTION bool crush(const JointFit& fit, const SlipStart& s, Real unevenness,
-                                    JointState& state, JointResponse& response) const
+  /// Shear crushes a joint, too: brings both tractions back to the ellipse of the strength, along
+  /// its normal at the trial. What the falling compression takes from the strength of shear slips.
+  KOKKOS_INLINE_FUNCTION void crushInShear(const JointFit& fit, const SlipStart& s,
+                                           JointState& state, JointResponse& response) const
   {
     const Crushing& crushing = curve.crushing;
+    const Real sigma = response.normalTraction, tau = norm(state.shearTraction);
+    if (!(crushing.acts() && crushing.shearWeight > 0 && sigma > 0 && tau > 0))
+      return;
     const Real kn = fit.normalStiffness, ks = fit.shearStiffness, weight = crushing.shearWeight;
     const Real before = crushing.crushedAt(state.maximumClosure, kn);
-    const Real weak = crushing.strengthAt(before), slope = crushing.unloading(before, kn);
-    const Real elastic = s.pressed / slope, plastic = 1 - crushing.loss;
-    const Real ofMean = plastic * (2 - unevenness); // as the mean of the closure falls with it
-    // The step with a crushing of y times (unevenness sigma, weight tau) at its end.
-    const auto endOf = [&](Real y)
+    const Real weak = crushing.strengthAt(before);
+    const Real size = std::sqrt(sigma * sigma + weight * weight * (tau * tau));
+    const Real elastic = sigma / crushing.unloading(before, kn);
+    const Real closing = (1 - crushing.loss) * (sigma / size), sliding = weight * tau / size;
+    const bool wears = state.bonded && bond.softens();
+    const Real held = wears ? bond.cohesion * bond.share(state) : s.held;
+    const auto normalAt = [&](Real x)
+    { return crushing.unloading(before + x, kn) * std::fmax(elastic - closing * x, 0.0); };
+    const auto shearAt = [&](Real x, Real normal)
+    { return std::fmin(std::fmax(tau - ks * sliding * x, 0.0), held + s.friction * normal); };
+    const auto beyond = [&](Real x)
     {
-      Crushed end{};
-      Real k = slope, held = s.held;
-      // The slope of unloading and the cohesion hang on the crushing and the slip weakly.
-      for (int i = 0, times = crushing.loss > 0 || s.softening ? 3 : 1; i < times; ++i)
-      {
-        end.normal = k * elastic / (1 + k * ofMean * y);
-        end.shear = std::fmin(s.size / (1 + ks * weight * y), held + s.friction * end.normal);
-        const Real pressed = unevenness * end.normal, sheared = weight * end.shear;
-        end.crushing = y * std::sqrt(pressed * pressed + sheared * sheared);
-        end.closing = plastic * (y * pressed);
-        end.rubbing =
-            ks > 0 ? std::fmax((s.size - s.raised - end.shear) / ks - y * sheared, 0.0) : 0;
-        k = crushing.unloading(before + end.crushing, kn);
-        if (s.softening)
-          held = bond.cohesion * bond.share(s.wear + end.rubbing / bond.shearingLength);
-      }
-      end.held = held;
-      end.normal = k * std::fmax(elastic - (2 / unevenness - 1) * end.closing, 0.0);
-      end.shear = std::fmin(end.shear, held + s.friction * end.normal);
-      return end;
+      const Real normal = normalAt(x), shear = shearAt(x, normal);
+      return std::sqrt(normal * normal + weight * (shear * shear)) -
+             crushing.strengthAt(before + x);
     };
-    const auto beyond = [&](Real y)
-    {
-      const Crushed end = endOf(y);
-      return std::sqrt(unevenness * unevenness * (end.normal * end.normal) +
-                       weight * (end.shear * end.shear)) -
-             crushing.strengthAt(before + end.crushing);
-    };
-    const Real atStart = beyond(0);
-    if (!(atStart > 1e-12 * weak))
-      return false;
-
-    Crushed end;
-    if (!(weight * s.size > 0) && unevenness == 1 && !s.softening)
-    {
-      const Real most = crushing.crushedAt(plastic * before + elastic, kn);
-      end.crushing = most - before;
-      end.closing = plastic * end.crushing;
-      end.normal = crushing.strengthAt(most);
-      end.held = s.held;
-      end.shear = std::fmin(s.size, s.held + s.friction * end.normal);
-      end.rubbing = ks > 0 ? std::fmax((s.size - s.raised - end.shear) / ks, 0.0) : 0;
-    }
-    else
-      end = endOf(whereNothingIsLeft(beyond, atStart, atStart / (kn * s.pressed), 1e-14 * weak));
-    bookCrushing(fit, s, before, end, state, response);
-    state.maximumClosure = before + end.crushing;
-    state.maximumClosure += crushing.strengthAt(state.maximumClosure) / kn;
-    response.normalTraction = end.normal;
-    response.normalStiffness = crushing.unloading(before + end.crushing, kn);
-    response.crushed = true;
-    response.notClosed = plastic * end.crushing - end.closing;
-    response.dilation += response.notClosed;
-    if (s.softening && bond.share(state) < Bond::brokenAt)
-      breakBond(fit, s.bending, state, response);
-    return true;
-  }
-
-  /// Slip and work of a step that crushes; what rubs lifts the joint from the next step on.
-  /// @param before crushing until now [m]
-  KOKKOS_INLINE_FUNCTION void bookCrushing(const JointFit& fit, const SlipStart& s, Real before,
-                                           const Crushed& end, JointState& state,
-                                           JointResponse& response) const
-  {
-    const Crushing& crushing = curve.crushing;
-    const Real now = before + end.crushing, weak = crushing.strengthAt(before),
-               strong = crushing.strengthAt(now);
-    // The compression is nearly the same part of the strength all along.
-    const Real part = end.normal / strong, work = crushing.workTo(now) - crushing.workTo(before);
-    if (end.crushing > 0)
-      response.hysteresisWork +=
-          part * (end.closing / end.crushing * work) +
-          part * part * crushing.loss * std::fmax(work - 0.5 * (now * strong - before * weak), 0.0);
-    if (!(end.shear < s.size))
-    {
-      state.shearTraction = s.trial;
+    Real atLow = beyond(0);
+    if (!(atLow > 1e-12 * weak))
       return;
-    }
-    const Real all = slip(fit, s.before, s.trial, s.size, end.shear, s.raised, state, response);
-    const Real room = std::fmax(dilationSlip - s.slip, 0.0);
-    const Real lift = dilation * std::fmin(end.rubbing, room);
-    const Real paid = std::fmax(all - end.normal * lift, 0.0);
-    const Real slipped = (s.size - end.shear) / fit.shearStiffness;
-    const Real fracture = s.softening && end.shear > 0 ? paid * (end.rubbing / slipped) *
-                                                             std::fmin(end.held / end.shear, 1.0)
-                                                       : 0;
-    if (s.softening)
-      state.shearing += end.rubbing;
-    response.dilation += lift;
-    response.fractureWork += fracture;
-    response.frictionWork = paid - fracture;
-  }
 
-  /// Where a function falls to zero: false position that halves the value of an end that stays
-  /// (Illinois).
-  /// @param atLow its value at zero, positive; high: first guess; enough: is as good as zero
-  template <class F>
-  static KOKKOS_INLINE_FUNCTION Real whereNothingIsLeft(const F& f, Real atLow, Real high,
-                                                        Real enough)
-  {
-    Real low = 0, atHigh = f(high), x = high;
+    // False position that halves the value of an end that stays (Illinois).
+    Real low = 0, high = atLow / kn, atHigh = beyond(high), x = high;
     for (int i = 0; i < 200 && atHigh > 0; ++i)
     {
       low = high;
       atLow = atHigh;
       high *= 2;
       x = high;
-      atHigh = f(high);
+      atHigh = beyond(high);
     }
     for (int i = 0, stays = 0; i < 100 && high > low; ++i)
     {
       x = low + (high - low) * (atLow / (atLow - atHigh));
-      const Real at = f(x);
-      if (std::fabs(at) <= enough)
+      const Real at = beyond(x);
+      if (std::fabs(at) <= 1e-14 * weak)
         break;
       const int side = at > 0 ? 1 : -1;
       (at > 0 ? low : high) = x;
@@ -569,7 +457,31 @@ private:
         (at > 0 ? atHigh : atLow) *= 0.5;
       stays = side;
     }
-    return x;
+
+    const Real crushed = before + x, strong = crushing.strengthAt(crushed);
+    const Real normal = normalAt(x), shear = shearAt(x, normal);
+    const Real ratio = weak / strong; // of the tractions at the start to those at the end
+    response.hysteresisWork += 0.5 * (1 + ratio) * normal * (closing * x) +
+                               0.5 * crushing.loss * ratio * (normal * normal) *
+                                   std::fmax(crushed / strong - before / weak, 0.0);
+    // Work of all slip of the step, less what of it is booked.
+    const Real carried = dot(s.before, s.trial) / s.size;
+    const Real more = (carried + shear) * (s.size - shear) - (carried + tau) * (s.size - tau);
+    if (ks > 0)
+    {
+      const Real slipped = (tau - shear) / ks;
+      state.slip += slipped;
+      if (wears)
+        state.shearing += std::fmax(slipped - sliding * x, 0.0);
+      response.frictionWork = std::fmax(response.frictionWork + 0.5 * more / ks, 0.0);
+    }
+    state.shearTraction = (shear / tau) * state.shearTraction;
+    state.maximumClosure = crushed + strong / kn;
+    response.normalTraction = normal;
+    response.normalStiffness = crushing.unloading(crushed, kn);
+    response.crushedByShear = true;
+    response.dilation += (1 - crushing.loss) * x - closing * x; // what is crushed and not closed
+    response.slipping = true;
   }
 
   /// Slip with dilation and softening; its work.

@@ -60,9 +60,8 @@ struct JointResponse
   Real frictionWork = 0;   ///< [J/m^2]
   Real fractureWork = 0;   ///< [J/m^2]
   Real hysteresisWork = 0; ///< of the closure curve [J/m^2]
-  Real dilation = 0;    ///< by which the plane's offset rises in this step [m]; the tractions are
-                        ///< those at the raised offset
-  bool crushed = false; ///< and the maximum closure raised by it
-  Real notClosed = 0; ///< part of the dilation by which a joint is crushed more than it closes [m]
+  Real dilation = 0; ///< by which the plane's offset rises in this step [m]; the tractions are
+                     ///< those at the raised offset
+  bool crushedByShear = false; ///< and the maximum closure raised by it
 };
 } // namespace coplane

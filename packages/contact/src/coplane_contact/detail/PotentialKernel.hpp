@@ -112,11 +112,6 @@ private:
     PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
     PerLane stored = {};    ///< energy of bonds per area [J/m^2]
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
-    // Of joints that are crushed in this step:
-    PerLane pushed = {}; ///< normal force of the cycle before, compression positive [N]
-    PerLane held = {};   ///< energy of the normal traction in the cycle before [J]
-    PerLane shifts = {}; ///< by which the closure that comes back gets less [m]
-    PerLane loss = {};   ///< of the slope of unloading, over that before [-]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -168,27 +163,6 @@ private:
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
-    if constexpr (width > 1)
-      done_ = done_ && !mayBeCrushed();
-  }
-
-  /// Joints without a bond that may be crushed in this step: crushing changes what of them is in
-  /// contact, which is left to T = Real.
-  KOKKOS_FORCEINLINE_FUNCTION Mask mayBeCrushed() const
-  {
-    const ContactMoments<T>& m = pair_.moments;
-    return branchFree::gathered<T>(
-               [&](int i) -> Real
-               {
-                 if (i >= planes_.count || !planes_.law[i]->curve.crushing.acts())
-                   return 0;
-                 const Plane& plane = *planes_.plane[i];
-                 const Real volume = branchFree::lane(m.volume, i);
-                 return !plane.history.bonded && branchFree::lane(overlaps_, i) && volume > 0 &&
-                        planes_.law[i]->mayBeCrushed(plane.fit, plane.history,
-                                                     slopes_[i] *
-                                                         (branchFree::lane(m.squares, i) / volume));
-               }) > 0.0;
   }
 
   /// Steps E and F. @returns the lanes that carry
@@ -247,10 +221,12 @@ private:
     // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
     // quarter of that at its border. What is found with area in common is no such border.
     const bool comesFromTheSide = !late_[i] && plane.sighting != Sighting::Woken;
-    const Real explained = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
-                            : plane.isBorn() || plane.isInherited()                ? 1
-                                                                                   : 0) *
-                           plane.closure;
+    const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
+                                : plane.isBorn() || plane.isInherited()                ? 1
+                                                                                       : 0) *
+                               plane.closure;
+    // The surface of a joint that has closed for good lies as deep as that.
+    const Real explained = carriedBeside > permanents_[i] ? carriedBeside : permanents_[i];
     if (branchFree::lane(deepest_, i) - explained > start)
       plane.refusal = Refusal::Deep;
   }
@@ -261,7 +237,7 @@ private:
     using branchFree::choose;
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
-    T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
+    const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
     const T share = choose(bonded_, T(1.0), pair_.wayOut);
     const T area = choose(touching, pair_.opposedness * share * m.area, T(0.0));
     const Relative relative = stepG_motion();
@@ -286,13 +262,6 @@ private:
 
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
-    if constexpr (width == 1)
-      if (cutAnew_)
-      {
-        slope_ = slopes_[0];
-        pair_.meet(cutAt_, false, edgesOf(planes_));
-        pressed = pair_.press(slope_, 0, density);
-      }
     const T sigma = all(response.tractions), perArea = all(response.stored);
     const T bent = 0.5 * all(response.slopes);
     const Mask even = bonded_ && !bends_;
@@ -306,7 +275,6 @@ private:
       if (bent_.partly && touching)
         addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
                       normalEnergy);
-    bookCrushing(touching, normalForce, normalEnergy, response);
     stepH_forces(touching, area, normalForce, relative);
 
     const Vec3Of<T> point = 0.5 * (weighted(relative.weights[0], a_.x, a_.count) +
@@ -367,17 +335,12 @@ private:
   /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
   KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real energyShare,
                                              Real loaded, const Vec3& tau, const Vec3& increment,
-                                             Response& out)
+                                             Response& out) const
   {
     const JointLaw& law = *planes_.law[i];
     const ContactMoments<T>& m = pair_.moments;
     const Real wholeArea = branchFree::lane(m.area, i);
-    const bool wasBonded = plane.history.bonded, crushable = law.curve.crushing.acts();
-    if (crushable)
-    {
-      out.pushed[i] = dot(plane.forceOn(1), plane.normal) - plane.normalDamping;
-      out.held[i] = std::fmax(plane.stored - plane.shearEnergy(), 0.0);
-    }
+    const bool wasBonded = plane.history.bonded;
     plane.normal = branchFree::lane(pair_.plane.normal, i);
     plane.closure = permanents_[i] + branchFree::lane(m.volume / m.area, i);
     plane.tooDeep = plane.closure > plane.depthLimit;
@@ -394,22 +357,15 @@ private:
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
     const bool bends = branchFree::lane(bends_, i);
     const JointResponse response =
-        law(plane.fit, closed, increment, dt_, state, shrunk, bends ? &bent_.lanes[i] : nullptr,
-            crushable && !wasBonded ? unevenness(i) : 1);
+        law(plane.fit, closed, increment, dt_, state, shrunk, bends ? &bent_.lanes[i] : nullptr);
     out.slopes[i] = bends && bent_.lanes[i].opened > 0 ? response.bondStiffness : slopes_[i];
-    if (crushable)
-    {
-      if (response.crushed)
-        crush(plane, i, response, state, out);
-      plane.maximumBefore = state.maximumClosure;
-    }
-    else if (wasBonded)
+    if (wasBonded)
     {
       plane.hysteresisWork += area * response.hysteresisWork;
       plane.maximumBefore = state.maximumClosure;
     }
     else if (!law.curve.straight())
-      loadCurve(plane, i, energyShare, state);
+      loadCurve(plane, i, area, energyShare, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -428,62 +384,10 @@ private:
           settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
   }
 
-  /// Mean of the squares of the elastic closure over the square of its mean [-].
-  KOKKOS_FORCEINLINE_FUNCTION Real unevenness(int i) const
-  {
-    const ContactMoments<T>& m = pair_.moments;
-    const Real volume = branchFree::lane(m.volume, i);
-    const Real ratio =
-        branchFree::lane(m.squares, i) * branchFree::lane(m.area, i) / (volume * volume);
-    return std::fmin(std::fmax(ratio, 1.0), mostUneven);
-  }
-
-  /// A joint that is crushed in this step carries as the crushing at its end says.
-  KOKKOS_FORCEINLINE_FUNCTION void crush(Plane& plane, int i, const JointResponse& response,
-                                         const JointState& state, Response& out)
-  {
-    const ClosureCurve& curve = planes_.law[i]->curve;
-    const ClosureCurve::Point before = curve.at(plane.fit, plane.history.maximumClosure),
-                              now = curve.at(plane.fit, state.maximumClosure);
-    const Real wanted = state.maximumClosure - now.traction / now.stiffness -
-                        (plane.history.maximumClosure - before.traction / before.stiffness) -
-                        response.notClosed;
-    out.shifts[i] = wanted;
-    out.loss[i] = 1 - now.stiffness / before.stiffness;
-    if constexpr (width == 1)
-      if (!plane.history.bonded)
-      {
-        // Something stays in contact, however unevenly the faces close.
-        out.shifts[i] = std::fmin(wanted, mostOfClosure * pair_.mostClosure);
-        slopes_[i] = now.stiffness;
-        cutAnew_ = true;
-        cutAt_ = plane.offset - permanents_[i] - out.shifts[i];
-        plane.offset += wanted - out.shifts[i];
-      }
-  }
-
-  /// What crushing costs: work of the normal forces of this cycle and the one before by the
-  /// trapezoid rule, less what of it is stored. With the permanent closure p and the slope k of
-  /// unloading, force Y and energy E that is (Y0 + Y1) / 2 dp + sqrt(k0 E0 k1 E1) d(1/k).
-  KOKKOS_FORCEINLINE_FUNCTION void bookCrushing(const Mask& touching, const T& force,
-                                                const T& energy, const Response& response) const
-  {
-    for (int i = 0; i < planes_.count; ++i)
-    {
-      if (!(branchFree::lane(touching, i) && response.shifts[i] > 0))
-        continue;
-      const Real before = response.pushed[i], loss = response.loss[i];
-      const Real softened = std::sqrt(response.held[i] * branchFree::lane(energy, i) / (1 - loss));
-      const Real lost = 0.5 * (before + branchFree::lane(force, i)) * response.shifts[i] +
-                        (before > 0 ? loss * softened : 0);
-      planes_.plane[i]->hysteresisWork += std::fmax(lost, 0.0);
-    }
-  }
-
   /// The maximum closure of the next cycle; what it costs is booked half with the area of this
   /// cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare,
-                                             JointState& state) const
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
+                                             const JointResponse& response, JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
     const Real wholeArea = branchFree::lane(pair_.moments.area, i),
@@ -498,6 +402,13 @@ private:
                                                    wholeArea, volume, squares, rising);
     plane.maximumBefore = before;
     plane.halfHysteresis = 0;
+    if (response.crushedByShear)
+    {
+      // Crushed by shear, for which the law knows the work; part of it is in the offset.
+      plane.hysteresisWork += area * response.hysteresisWork;
+      plane.maximumBefore = state.maximumClosure;
+      return;
+    }
     state.maximumClosure = before;
     const Real reached = permanents_[i] + squares / volume;
     if (!(reached > before))
@@ -605,8 +516,6 @@ private:
     }
   }
 
-  static constexpr Real mostUneven = 1.9, mostOfClosure = 0.999; ///< in crushing [-]
-
   // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
   // on, by so many times the fraction beyond (docs/theory/contact-potential.md, "Stable step").
   static constexpr Real rimsCountFrom = 0.02, rimStiffening = 3;
@@ -645,8 +554,6 @@ private:
   T deepest_;                              ///< closure; negative: least distance [m]
   PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
   T speed_;                                ///< of approach [m/s]
-  bool cutAnew_ = false;                   ///< for a joint that is crushed; T = Real only
-  Real cutAt_ = 0;                         ///< gap at which its elastic closure is zero then [m]
   bool late_[branchFree::widthOf<T>] = {}; ///< found later than they should have been
 };
 } // namespace detail
