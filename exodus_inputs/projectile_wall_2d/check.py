@@ -41,7 +41,7 @@ damage, centre = results.element("bricks", "damage", step), results.centres("bri
 track = numpy.abs(centre[:, 1]) < 0.0125
 far = numpy.abs(centre[:, 1]) > 0.2
 # Cracks are bands of one element's width. How much of the track they fill hangs on that width, and between them stay pieces that
-# are whole: so mean damage says little (0.58 in size S), and its lower limit is low. That every quarter of a brick is broken does not
+# are whole: so mean damage says little (0.50 in size S), and its lower limit is low. That every quarter of a brick is broken does not
 # hang on the size of elements.
 example.check_within("mean damage in front of the projectile", float(damage[track].mean()),
                      0.5 if example.size in ("coarse", "S") else 0.3, 1)

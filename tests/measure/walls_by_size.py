@@ -23,6 +23,8 @@ class Wall:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.size = json.loads((self.folder / "example.json").read_text())["size"]
+        if (end := json.loads((self.folder / "run.run.json").read_text())["ending"]) != "completed":
+            sys.exit(f"{folder}: the run is {end}; run it to its end first")
         self.run = EndedRun(self.folder, 0, "")
         self.history, self.results = self.run.history, self.run.results
         brick = documents.load(self.folder / "mesh.yaml")["parts"][0]

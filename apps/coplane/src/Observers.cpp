@@ -96,6 +96,17 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     if (card.between.empty())
       history.probes.push_back(probe);
   }
+  const auto byName = [&](const std::string& name)
+  {
+    return int(std::find_if(history.probes.begin(), history.probes.end(),
+                            [&](const Probe& probe) { return probe.name == name; }) -
+               history.probes.begin());
+  };
+  std::size_t p = 0;
+  for (const ProbeCard& card : deck.history.probes)
+    for (int k = 0; k < (card.between.empty() ? 1 : card.count); ++k, ++p)
+      if (!card.relativeTo.empty())
+        history.probes[p].relativeTo = byName(card.relativeTo);
   for (const JointCard& card : deck.joints)
     if (isListed(deck.history.joints, card.name))
       history.joints.push_back(card.name);
@@ -199,6 +210,11 @@ std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension)
       demand(probe.where, fmt::format("history.probes.{}.variables", p), probe.variables,
              nodalVariables(), "nodes");
   return problems;
+}
+
+void demandPossibleOutputs(const Deck& deck, const MeshSlice& mesh, const Solver& solver)
+{
+  HistoryObserver::demandPossible(solver, historyOptions(deck, mesh.mine, {}));
 }
 
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,

@@ -32,6 +32,9 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
 /// Variables that outputs ask for and that are not there, a line for each. Laws have been checked.
 std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension);
 
+/// Throws what the outputs of a run would throw at its start, and writes nothing. Collective.
+void demandPossibleOutputs(const Deck& deck, const MeshSlice& mesh, const Solver& solver);
+
 /// Adds everything that a deck asks to be written: results, planes, history, progress, run record,
 /// checkpoints. `observers` and `mesh` have to stay where they are. Collective.
 void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& mesh,

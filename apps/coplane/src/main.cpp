@@ -486,6 +486,7 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     tellWhenRestCounts(solver.model(), deck, solver.clock().time);
     if (line.check)
     {
+      demandPossibleOutputs(deck, mesh, solver);
       reportEstimate(solver, mesh, decks.back());
       logInfo("check: deck and mesh are fine; nothing was written");
       return;

@@ -146,7 +146,7 @@ struct Slots
   std::vector<Plane*> places;
   std::vector<SlotFaces> faces;
   std::vector<Activity> activity;
-  Changes changed;
+  PassedOnChanges changed;
 };
 } // namespace
 

@@ -1,6 +1,7 @@
 """What a deck chooses to be written: variables of the results, planes nearest to points, points on a line, extremes over sets of nodes."""
 
 import copy
+import os
 
 import numpy
 from coplanetest import Case, differences
@@ -14,7 +15,10 @@ deck["history"]["probes"] = [
     {"name": "near", "plane": [0.4, 1.0, 0]},
     {"name": "bed", "plane": [0.4, 1.0, 0], "joint": "bed"},
     {"name": "none", "plane": [0.4, 1.0, 0], "joint": "unused"},
-    {"name": "row", "between": [[0, 2], [1, 2]], "count": 4, "variables": ["stress_yy"]},
+    {"name": "row", "between": [[0, 2], [1, 2]], "count": 4, "variables": ["stress_yy", "strain_yy"]},
+    {"name": "head", "point": [1, 2, 0], "relative_to": "row_1"},
+    {"name": "roof", "node_set": "upper", "relative_to": "ground"},
+    {"name": "ground", "block": "lower", "variables": ["strain_xy"]},
     {"name": "upper", "node_set": "upper", "variables": ["displacement_y", "velocity", "contact_pressure", "contact_slip"]},
 ]
 full = copy.deepcopy(deck)
@@ -50,6 +54,39 @@ for k in range(4):
         case.check(f"point {k + 1} of the line: displacement along {axis} [m]", h[f"row_{k + 1}_displacement_{axis}"][-1], float(results.nodal("displacement")[top[k], c]), 1e-15)
 case.check_equal("points of the line have the variables", [f"row_{k}_stress_yy" in h for k in range(1, 5)], [True] * 4)
 
+# --- motion against another probe --------------------------------------------------------------------------------------------------------
+column = {name: numpy.array([h[f"{name}_{axis}"] for axis in "xy"]).T for name in ("row_1_displacement", "row_4_displacement", "head_displacement", "head_drift",
+                                                                                   "row_1_velocity", "row_4_velocity", "head_velocity", "roof_displacement",
+                                                                                   "roof_drift", "ground_displacement")}  # fmt: skip
+for what in ("displacement", "velocity"):
+    apart = column[f"row_4_{what}"] - column[f"row_1_{what}"]
+    case.check(f"relative: {what} of the corner against the other one", numpy.abs(column[f"head_{what}"] - apart).max(), 0, 1e-18)
+case.check("relative: drift of the corners, 1 m apart", numpy.abs(column["head_drift"] - column["head_displacement"]).max(), 0, 1e-18)
+moved = results.nodal("displacement")
+heights = results.coordinates[:, 1]
+upper = numpy.arange(len(heights)) >= len(heights) - 16  # the upper block has the last 4 x 4
+masses = numpy.array([0.25 if 0 < x < 1 else 0.125 for x in results.coordinates[~upper, 0]]) * [1.0 if 0 < y < 1 else 0.5 for y in heights[~upper]]
+own = moved[upper].mean(axis=0) - (masses @ moved[~upper]) / masses.sum()
+for c, axis in enumerate("xy"):
+    case.check(f"relative: block against block along {axis} [m]", column["roof_displacement"][-1, c], own[c], 1e-15)
+    case.check(f"relative: drift of the blocks, whose middles are 1 m apart, along {axis}", column["roof_drift"][-1, c], own[c], 1e-15)
+
+# --- strain ------------------------------------------------------------------------------------------------------------------------------
+strain = {c: results.element("upper", f"strain_{c}") for c in ("xx", "yy", "zz", "xy")}
+quads = results.connectivity("upper")
+for e, quad in enumerate(quads):
+    # The gradient at the middle of a square from its corners, counter-clockwise from below on the left.
+    rows = numpy.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / (2 * (results.coordinates[quad[1], 0] - results.coordinates[quad[0], 0]))
+    slope = numpy.eye(2) + moved[quad, :2].T @ rows
+    stretches, axes = numpy.linalg.eigh(slope @ slope.T)
+    exact = axes @ numpy.diag(0.5 * numpy.log(stretches)) @ axes.T
+    for c, value in (("xx", exact[0, 0]), ("yy", exact[1, 1]), ("xy", exact[0, 1]), ("zz", 0.0)):
+        case.check(f"strain {c} of element {e}", float(strain[c][e]), float(value), 1e-12)
+middles = results.centres("upper")
+nearest = numpy.argmin(numpy.hypot(middles[:, 0], middles[:, 1] - 2))
+case.check("strain at a point is that of its element", h["row_1_strain_yy"][-1], float(strain["yy"][nearest]), 1e-18)
+case.check("largest strain of a block", h["ground_strain_xy_largest"][-1], float(results.element("lower", "strain_xy").max()), 1e-18)
+
 # --- extremes over a node set ------------------------------------------------------------------------------------------------------
 nodes = numpy.flatnonzero(results.coordinates[:, 1] >= 1)
 nodes = nodes[len(nodes) - 16 :]  # the upper block has the last 4 x 4
@@ -84,6 +121,8 @@ for name, key, told in (("misspelt", {"output": {"variables": ["von_mices"]}}, "
                         ("no_node_variable", {"probes": [{"name": "a", "node_set": "upper", "variables": ["contact_presure"]}]}, "Did you mean 'contact_pressure'?"),
                         ("no_joint", {"probes": [{"name": "a", "plane": [0, 1, 0], "joint": "bet"}]}, "Did you mean 'bed'?"),
                         ("taken", {"probes": [{"name": "a", "between": [[0, 2], [1, 2]]}, {"name": "a_2", "block": "upper"}]}, "point 2 would be called 'a_2'"),
+                        ("no_other", {"probes": [{"name": "a", "block": "upper", "relative_to": "a"}, {"name": "base", "block": "lower"}]}, "There is: base"),
+                        ("relative_plane", {"probes": [{"name": "b", "block": "upper"}, {"name": "a", "plane": [0, 1, 0], "relative_to": "b"}]}, "relative_to belongs to probes of a motion"),
                         ("one_point", {"probes": [{"name": "a", "between": [[0, 2], [0, 2]]}]}, "two different points")):  # fmt: skip
     wrong = copy.deepcopy(deck)
     wrong["output"].update(key.get("output", {}))
@@ -91,4 +130,18 @@ for name, key, told in (("misspelt", {"output": {"variables": ["von_mices"]}}, "
     refused = case.attempt(name, recipe, wrong)
     case.check_equal(f"{name}: exit code", refused.code, 3)
     case.check_equal(f"{name}: is told '{told}'", told in refused.output, True)
+
+# What the laws or the first line of the history refuse, --check refuses, too, and writes nothing.
+for name, probes, told in (("law", [{"name": "a", "block": "upper", "variables": ["damage"]}], "'a' asks for 'damage'"),
+                           ("one_place", [{"name": "a", "point": [0, 2, 0]}, {"name": "b", "point": [0.01, 2, 0], "relative_to": "a"}], "are in one place"),
+                           ("one_name", [], "two columns would be called 'contact_stored[J]'")):  # fmt: skip
+    wrong = copy.deepcopy(deck)
+    wrong["history"]["probes"] = probes
+    if name == "one_name":
+        wrong["joints"]["contact"] = wrong["joints"].pop("unused")
+    ends = [case.attempt(f"check_{name}_{len(options)}", recipe, wrong, options=options) for options in ([], ["--check"])]
+    case.check_equal(f"{name}: exit codes of the run and of --check", [end.code for end in ends], [3, 3])
+    case.check_equal(f"{name}: both say '{told}'", [told in end.output for end in ends], [True, True])
+    left = sorted(os.listdir(ends[1].folder))
+    case.check_equal(f"{name}: --check writes nothing", [file for file in left if file.startswith("run.") and file != "run.yaml"], [])
 case.finish()

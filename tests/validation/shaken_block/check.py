@@ -4,6 +4,7 @@ import math
 
 import numpy
 from coplanetest import ValidationCase
+from coplanetest.rocking import rocking
 
 case = ValidationCase(__file__)
 G, BEGIN = 9.81, 0.1  # the shaking begins when the block has come to rest
@@ -35,41 +36,8 @@ def overturning(ratio):
 
 
 def rock(acceleration, end, alpha=ALPHA, restitution=None, step=1e-4):
-    """Tilt of a rigid block that turns about its corners: times, tilts [rad]; the fourth order method of Runge and Kutta. It ends with the first impact, or goes
-    on with `restitution` times the spin; beyond a tilt of a right angle it ends.
-    """
-    radius_rate = RATE**2
-
-    def spin_up(t, turn, side):
-        return -radius_rate * (math.sin(side * alpha - turn) + acceleration(t) / G * math.cos(side * alpha - turn))
-
-    times, turns = [0.0], [0.0]
-    t, turn, spin, side = 0.0, 0.0, 0.0, 0
-    while t < end:
-        if side == 0:  # it stands
-            if abs(acceleration(t)) > G * math.tan(alpha):
-                side = -1 if acceleration(t) > 0 else 1
-            else:
-                t += step
-                times.append(t), turns.append(0.0)
-                continue
-        k = []
-        for part in (0, 0.5, 0.5, 1):
-            slope = k[-1] if k else (0.0, 0.0)
-            k.append((spin + part * step * slope[1], spin_up(t + part * step, turn + part * step * slope[0], side)))
-        turn += step * (k[0][0] + 2 * k[1][0] + 2 * k[2][0] + k[3][0]) / 6
-        spin += step * (k[0][1] + 2 * k[1][1] + 2 * k[2][1] + k[3][1]) / 6
-        t += step
-        times.append(t), turns.append(turn)
-        if abs(turn) > math.pi / 2:
-            break
-        if turn * side < 0:
-            if restitution is None:
-                break
-            turn, spin, side = 0.0, restitution * spin, -side
-            if abs(spin) < 1e-3 * RATE * alpha:
-                spin, side = 0.0, 0
-    return numpy.array(times), numpy.array(turns)
+    """Times and tilts of a block of this shape, or of a slender one."""
+    return rocking(acceleration, end, alpha, RATE, G, restitution, step)
 
 
 def half_sine(amplitude, frequency):

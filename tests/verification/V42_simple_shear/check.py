@@ -41,6 +41,11 @@ for shape, (dimension, split, elements) in shapes.items():
             run = case.run(name, recipe, deck, energy=1e-2)
             for step in (1, 2, 3):
                 gamma = 4000 * run.results.times[step]
+                # Stretches exp(+-asinh(gamma/2)), the axis of the longer at half of atan2(2, gamma) to the shear.
+                stretch, twice = math.asinh(gamma / 2), math.atan2(2, gamma)
+                for component, value in (("xy", stretch * math.sin(twice)), ("xx", stretch * math.cos(twice)), ("yy", -stretch * math.cos(twice))):
+                    strain = run.results.element("cell", f"strain_{component}", step)[0]
+                    case.check(f"{name}: strain {component} at {round(gamma)}", strain, value, 1e-11)
                 for component, value in zip(("xy", "xx"), exact[rate](gamma)):
                     stress = run.results.element("cell", f"stress_{component}", step)[0] / shear_modulus
                     case.check(f"{name}: stress {component} over G at {round(gamma)}", stress, value, 1e-3 * max(abs(value), 1))

@@ -6,6 +6,10 @@ import sys
 
 import numpy
 from coplanetest import Case, rotation, turned_deck
+from coplanetest.rocking import rocking
+
+from coplane import Deck, record
+from coplane.documents import parse, text
 
 case = Case("V51", __file__)
 width, height, g = 0.3, 1.2, 9.81
@@ -108,6 +112,36 @@ if "all" in sys.argv[1:]:
         run = case.run(f"base_{part}", tilted(0), deck)
         turn = numpy.max(numpy.abs(angles(run, 0))) / alpha
         case.check_within(f"base_{part}: largest tilt over alpha", turn, low, high)
+
+# --- under a record: Housner's equation of motion, with the loss at impacts that a free swing on the same bed has ---------------
+free, deck = case.load("tests/validation/shaken_block/mesh.yaml"), case.load("tests/validation/shaken_block/deck.yaml")
+deck["joints"]["base"]["normal_stiffness"] = 1e11
+shaken = copy.deepcopy(free)
+free["parts"][1].update(rotate=-math.degrees(0.5 * alpha), about=[width, 0])
+for name in ("foot", "head"):
+    where = free["node_sets"][name]
+    where["where_own"] = where.pop("where")
+deck["gravity"], deck["time"]["end"] = [0, -g, 0], 0.75
+run = case.run("free", free, deck)
+left = energy(angles(run, 0.5).min()) / energy(0.5 * alpha)
+case.check_within("free: energy left after the first impact", left, housner, 1)
+
+times = numpy.arange(0, 2.9, 5e-3)
+waves = sum(a * numpy.sin(2 * numpy.pi * f * times + phase) for f, a, phase in ((0.9, 0.59, 1.49), (1.4, 1.3, 3.67), (2.1, 0.59, 2.73), (3.3, 0.98, 1.01)))
+ground = record.Record(times, waves * numpy.minimum(times / 0.15, 1) * numpy.exp(-times / 1.2)).scaled(peak=6.0).corrected()
+begin = 0.1  # the block stands by then
+deck["gravity"], deck["time"]["end"] = [0, f"-{g}*min(t/0.05, 1)", 0], begin + float(times[-1])
+deck["conditions"] = [{"type": "fixed", "node_set": "floor", "components": ["y"]}]
+told = Deck.from_text(text(deck))
+ground.shake(told, "floor", axis="x", start=begin)
+run = case.run("record", shaken, parse(told.text), load=2300 * g * (width * height + 0.3))
+exact_times, exact = rocking(lambda t: float(numpy.interp(t, ground.times, ground.acceleration)), times[-1], alpha, frequency, g, math.sqrt(left), step=5e-4)
+late = run.history["time"] > begin
+turn = angles(run, 0)[late]
+exact = numpy.interp(run.history["time"][late] - begin, exact_times, exact)
+case.check_within("record: impacts", int(numpy.sum(exact[1:] * exact[:-1] < 0)), 5, 20)
+case.check("record: largest tilt over alpha", numpy.max(numpy.abs(turn)) / alpha, numpy.max(numpy.abs(exact)) / alpha, 0.03, relative=True)
+case.check("record: tilt, largest difference over the largest tilt", numpy.max(numpy.abs(turn - exact)) / numpy.max(numpy.abs(exact)), 0, 0.06)
 
 # --- V58: other frames, while the block turns about its corner ---------------------------------------
 case.name = "V58"

@@ -83,6 +83,8 @@ for name, wet in (("dry wedge", False), ("wet wedge", True)):
     just = weight * math.sin(plunge) / (2 * normal)  # the friction of F = 1
     for factor in (0.98, 1.02):
         run = case.run(f"{name.replace(' ', '_')}_{factor}", case.load("wedge.yaml"), wedge(just * factor, wet, 0.9, 0.3))
+        if wet and factor < 1:
+            case.restarts("wet_wedge", case.load("wedge.yaml"), wedge(just * factor, wet, 0.9, 0.3), run, 0.4)
         time, speed = run.history["time"], run.history["wedge_velocity_x"]
         if factor < 1:
             late = time > 0.6
@@ -113,6 +115,7 @@ deck = {
     "history": {"every": 0, "joints": ["base"], "probes": [{"name": "foot", "node_set": "foot", "reaction": True}]},
 }
 run = case.run("dam", case.load("dam.yaml"), deck)
+case.restarts("dam", case.load("dam.yaml"), deck, run, 0.05)  # while the water rises
 history, results = run.history, run.results
 thrust, uplift, own = water * head**2 / 2, water * head * base / 2, concrete * g * base * height
 place = results.coordinates + results.nodal("displacement")

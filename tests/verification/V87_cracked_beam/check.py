@@ -179,4 +179,5 @@ stretched = rest * (depth - math.sqrt(2 * yields * area / (bed * rest))) - yield
 case.check(f"{name}: lost in the bar then [J]", h["line_plastic"][at], yields * area * stretched, 0.01, relative=True)
 case.check(f"{name}: lost in the bar then, over the energy at the start", h["line_plastic"][at] / energy, 1, 0.05)
 case.same_bits(name, mesh, deck, run, ranks=2)
+case.restarts(name, mesh, deck, run, h["time"][at // 2])  # while the bar yields
 case.finish()

@@ -141,6 +141,7 @@ for axis, name in enumerate(exact):
     case.check(f"kirsch: displacement of the {name} [m]", moved[node, axis], exact[name], 0.01 * abs(exact["roof"]))
 case.check("kirsch: mass that has left over that of a quarter circle [-]", run.history["eroded_mass"][-1] / (2600 * math.pi / 4 * a**2), 1, 2e-3)
 case.same_bits("kirsch", None, problem, run, ranks=3)
+case.restarts("kirsch", None, problem, run, 0.7 * run.history["time"][-1])  # on the way to rest without the core
 
 # --- Mohr and Coulomb's rock under equal stresses: the support falls to nothing in steps ------------------------------------------
 

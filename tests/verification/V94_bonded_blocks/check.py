@@ -30,6 +30,7 @@ case.check("largest force over the area [Pa]", force.max() / area, weak["tensile
 case.check("fracture energy [J]", h["contact_fracture"][-1], weak["tension_energy"] * area, 0.01, relative=True)
 case.check_equal("elements of the fragments at the end", pieces(run)[-2:], [32, 32])
 case.same_bits("bar", recipe, deck, run, joints=joints)
+case.restarts("bar", recipe, deck, run, h["time"][force.argmax()], joints=joints)  # where the bond begins to soften
 
 # --- mode II: a strip is sheared off along a weak plane ----------------------------------------------------------
 sheared, along = copy.deepcopy(deck), {"weak": {"planes": {"point": [0, 0.05], "normal": [0, 1]}}, "bonds": joints["joints"]["bonds"]}

@@ -36,7 +36,7 @@ carried = refused = large = missed = 0
 for seed in range(200 if many else 10):
     recipe, deck = scene(seed)
     run = case.attempt(f"scene_{seed}", recipe, deck)
-    # Where thin plates are struck faster than waves run the program says so, and ends.
+    # Where thin plates are struck too fast for contact the program says so, and ends.
     if run.code == COMPUTATION and "too fast for the waves" in run.output:
         refused += 1
         continue
@@ -61,5 +61,5 @@ case.check_within("scenes in which something was struck", carried, (150 if many 
 case.check_within("contacts missed in all scenes", missed, 0, 0)
 if many:
     case.check_within("scenes with a contact remainder above 1e-2 of the energy", large, 0, 5)
-case.check_within("scenes that are refused: faster than waves", refused, 0, 10 if many else 1)
+case.check_within("scenes that are refused: too fast", refused, 0, 10 if many else 1)
 case.finish()

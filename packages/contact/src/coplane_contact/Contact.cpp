@@ -215,7 +215,7 @@ const PlaneList& Contact::planesNow() const
                 copies[i] = new (&shown_.copies(i)) Plane(all[passedOver[i]]);
                 slots[i] = planes_.slots().faces(all.slotOf(passedOver[i]));
               });
-  Changes notAsked;
+  PassedOnChanges notAsked;
   const PairTables again{nullptr,        copies.data(),   slots.data(), activity.data(),
                          planes_.laws(), isIncremental(), &notAsked};
   constexpr Real noTime = 0;

@@ -6,9 +6,6 @@
 
 namespace coplane
 {
-namespace
-{
-/// Whether the faces of a plane lie over each other, now.
 bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
 {
   if (plane.face[0] < 0 || !(plane.overlap > 0))
@@ -26,7 +23,6 @@ bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVe
   return plane.overlap > sliverOfJoint * least &&
          dot(normalised(area[0]), normalised(area[1])) < -opposedAcrossJoint;
 }
-} // namespace
 
 std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x)
 {

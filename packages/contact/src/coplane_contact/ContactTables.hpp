@@ -26,6 +26,10 @@ struct JointSummary
 /// Shadows in common below this part of the smaller face are slivers.
 constexpr Real sliverOfJoint = 1e-3;
 
+/// Whether the faces of a plane, which are on this rank, lie over each other now: nearly opposed,
+/// and in more than a sliver. x: positions of the nodes now [m].
+bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x);
+
 /// One for each joint card of the rules, in their order. x: positions of the nodes now.
 std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x);
 

@@ -18,7 +18,7 @@ namespace coplane
 struct PairTables;
 
 /// What cycles have changed, by any thread.
-struct Changes
+struct PassedOnChanges
 {
   std::atomic<bool> changed{false}; ///< something that planes pass on
   std::atomic<bool> deeper{false};  ///< how deep they lie, as far as that matters
@@ -140,6 +140,6 @@ private:
   std::mutex waking_;
   std::vector<std::unique_ptr<Plane[]>> woken_;
   std::size_t wokenCount_ = 0, wokenListed_ = 0;
-  Changes passedOn_; ///< since pairs last learned what others pass on
+  PassedOnChanges passedOn_; ///< since pairs last learned what others pass on
 };
 } // namespace coplane

@@ -15,7 +15,7 @@ namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles; what contact gains in every one
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
-constexpr Real fasterThanWaves = 0.35;
+constexpr Real fastBesideWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
 /// Default skin over the smallest face [-]; the larger one where searches come by motion only.
 constexpr Real skinOfFace = 0.1, skinOfFaceWithOneSearch = 0.5;
@@ -513,14 +513,14 @@ void Solver::judge(Observer& observer)
   watch_.warn(balance, parts());
 }
 
-/// Faster than waves, bodies may meet with more pressure than contact can give, and pass through
-/// each other. The skin tells at no cost whether anything is fast at all.
+/// Bodies that come at a good part of the wave speed may meet with more pressure than contact can
+/// give, and pass through each other. The skin tells at no cost whether anything is fast at all.
 bool Solver::contactCannotStop() const
 {
   if (!contact_ ||
       stepsThroughSkin * searches_.relativeSpeed() * clock_.nextStep < contact_->skin())
     return false;
-  if (!step_.motionIsFasterThan(fasterThanWaves, searches_.relativeSpeed()))
+  if (!step_.motionIsFasterThan(fastBesideWaves, searches_.relativeSpeed()))
     return false;
   const ContactCounts counts = contact_->counts();
   return counts.tooDeep > 0 || counts.missed > 0;

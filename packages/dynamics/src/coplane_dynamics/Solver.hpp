@@ -204,7 +204,7 @@ private:
   {
     return {clock_.time, clock_.step, step, relaxation_.dampingTime(clock_)};
   }
-  /// Whether bodies are faster than waves in them and contact has lost hold. Collective.
+  /// Whether bodies are fast beside the waves in them and contact has lost hold. Collective.
   bool contactCannotStop() const;
   /// Fails, after the observers have finished, when the run cannot go on. Collective.
   void judge(Observer& observer);

@@ -258,7 +258,8 @@ struct ProbeCard
   int count = 2;                          ///< of these points, with both ends
   /// Of the element nearest to the point, or least and largest of the block or node set.
   std::vector<std::string> variables;
-  bool reaction = false; ///< of a node set: the sum of the reactions on its nodes, too
+  bool reaction = false;  ///< of a node set: the sum of the reactions on its nodes, too
+  std::string relativeTo; ///< the probe from whose motion this one's is counted; empty: none
 };
 
 struct HistoryCard

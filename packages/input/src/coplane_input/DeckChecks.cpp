@@ -362,6 +362,43 @@ void checkListed(const std::string& key, const Names& listed, const std::string&
                    unknown(fmt::format("history.{}.{}", key, i), listed[i], what, there));
 }
 
+/// Names under which the motion of a probe is known.
+Names motionsOf(const ProbeCard& probe)
+{
+  Names names;
+  if (probe.plane)
+    return names;
+  if (probe.between.empty())
+    names.push_back(probe.name);
+  else
+    for (int k = 1; k <= probe.count; ++k)
+      names.push_back(fmt::format("{}_{}", probe.name, k));
+  return names;
+}
+
+void checkRelative(const Deck& deck, const ProbeCard& probe, const std::string& path,
+                   const DeckNode& node, Problems& problems)
+{
+  if (probe.relativeTo.empty())
+    return;
+  if (probe.plane)
+  {
+    problems.add(nodeAt(node, {"relative_to"}),
+                 path + ".relative_to belongs to probes of a motion, which plane has not; remove "
+                        "one of the two.");
+    return;
+  }
+  Names others;
+  for (const ProbeCard& other : deck.history.probes)
+    if (other.name != probe.name)
+      for (const std::string& name : motionsOf(other))
+        others.push_back(name);
+  if (!contains(others, probe.relativeTo))
+    problems.add(nodeAt(node, {"relative_to"}),
+                 unknown(path + ".relative_to", probe.relativeTo,
+                         "another probe with a node_set, block or point", others));
+}
+
 /// Of planes and points on a line.
 void checkProbe(const Deck& deck, std::size_t i, const Names& joints, const DeckNode& node,
                 Problems& problems)
@@ -382,6 +419,7 @@ void checkProbe(const Deck& deck, std::size_t i, const Names& joints, const Deck
     problems.add(nodeAt(node, {"plane"}),
                  path + ".plane: there are no planes, as contact.enabled is false; remove one of "
                         "the two.");
+  checkRelative(deck, probe, path, node, problems);
   if (node.find("count") && probe.between.empty())
     problems.add(nodeAt(node, {"count"}),
                  path + ".count belongs to between; name the ends of a line there, or remove it.");

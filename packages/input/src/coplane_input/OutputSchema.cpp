@@ -145,6 +145,12 @@ Key historyKeys()
                               .means("of a node set: also the sum of the forces with which fixed, "
                                      "velocity, displacement, acceleration and symmetry hold its "
                                      "nodes"),
+                          text("relative_to", &ProbeCard::relativeTo)
+                              .elsewhere({"drift", "reference"})
+                              .like("foot")
+                              .means("name of another probe: displacement and velocity are less "
+                                     "its own, and the drift, that displacement over the distance "
+                                     "of both at t = 0, has columns, too"),
                       })
                      .exactlyOneOf({"node_set", "block", "point", "plane", "between"})
                      .means("motions, variables and planes to be recorded"),

@@ -16,9 +16,10 @@ namespace
 {
 constexpr const char* axes = "xyz";
 constexpr const char* firstColumns = "time[s],cycle,dt[s],kinetic[J],";
+} // namespace
 
 /// Names and values of one line, so that header and lines cannot differ.
-class Columns
+class HistoryColumns
 {
 public:
   void add(const std::string& name, Real value) { put(name, fmt::format("{:.17g}", value)); }
@@ -30,14 +31,15 @@ public:
       add(fmt::format("{}_{}{}", name, axes[c], unit), value[c]);
   }
 
-  /// The first name that stands twice; empty: none.
-  std::string repeated() const
+  void demandNamesOnce() const
   {
     std::set<std::string> seen;
     for (const std::string& name : each_)
       if (!seen.insert(name).second)
-        return name;
-    return "";
+        fail(ExitCode::Deck,
+             "history: two columns would be called '{}'. Give the probe, or the joint card of "
+             "history.joints, another name, or leave one of them out.",
+             name);
   }
 
   std::string names, values;
@@ -54,8 +56,10 @@ private:
   }
 };
 
-void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic, bool withLines,
-                 const Debris* debris)
+namespace
+{
+void addEnergies(HistoryColumns& line, const EnergyBalance& energy, Real initialKinetic,
+                 bool withLines, const Debris* debris)
 {
   line.add("kinetic[J]", energy.kinetic);
   line.add("internal[J]", energy.internal);
@@ -99,7 +103,7 @@ void addEnergies(Columns& line, const EnergyBalance& energy, Real initialKinetic
   line.add("nodal_error[J]", energy.kinetic - initialKinetic - energy.nodalWork);
 }
 
-void addMomenta(Columns& line, const Momenta& momenta)
+void addMomenta(HistoryColumns& line, const Momenta& momenta)
 {
   line.add("momentum", "[N*s]", momenta.linear);
   line.add("impulse", "[N*s]", momenta.impulse);
@@ -109,7 +113,7 @@ void addMomenta(Columns& line, const Momenta& momenta)
   line.add("angular_momentum_error", "[N*m*s]", momenta.angularError());
 }
 
-void addAddedMasses(Columns& line, const Solver& solver)
+void addAddedMasses(HistoryColumns& line, const Solver& solver)
 {
   const std::vector<AddedMass> blocks = solver.addedMasses();
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -123,7 +127,7 @@ void addAddedMasses(Columns& line, const Solver& solver)
   }
 }
 
-void addBody(Columns& line, const std::string& name, const RigidBodies::BodyMotion& motion)
+void addBody(HistoryColumns& line, const std::string& name, const RigidBodies::BodyMotion& motion)
 {
   line.add(name + "_displacement", "[m]", motion.displacement);
   line.add(name + "_velocity", "[m/s]", motion.velocity);
@@ -132,7 +136,7 @@ void addBody(Columns& line, const std::string& name, const RigidBodies::BodyMoti
   line.add(name + "_reaction_moment", "[N*m]", motion.moment);
 }
 
-void addCounts(Columns& line, const ContactCounts& counts, std::int64_t searches)
+void addCounts(HistoryColumns& line, const ContactCounts& counts, std::int64_t searches)
 {
   line.add("pairs", counts.slots);
   line.add("looked_at", counts.lookedAt);
@@ -147,7 +151,7 @@ void addCounts(Columns& line, const ContactCounts& counts, std::int64_t searches
   line.add("searches", searches);
 }
 
-void addJoint(Columns& line, const std::string& name, const JointSummary& joint)
+void addJoint(HistoryColumns& line, const std::string& name, const JointSummary& joint)
 {
   line.add(name + "_open_area[m^2]", joint.openArea);
   line.add(name + "_stick_area[m^2]", joint.stickArea);
@@ -172,9 +176,18 @@ HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
         if (!options_.position.empty())
           position = TextPosition::from(options_.position);
         lastCycle_ = position ? position->cycle : -1;
-        if (comm.isRoot())
+        if (comm.isRoot() && !options_.file.empty())
           hasHeader_ = table_.open(options_.file, firstColumns, position);
       });
+}
+
+void HistoryObserver::demandPossible(const Solver& solver, HistoryOptions options)
+{
+  options.file.clear();
+  HistoryObserver trial(solver.comm(), std::move(options));
+  trial.findShares(solver);
+  const HistoryColumns line = trial.columnsOf(solver);
+  solver.comm().together([&] { line.demandNamesOnce(); });
 }
 
 void HistoryObserver::start(const Solver& solver)
@@ -218,7 +231,7 @@ void HistoryObserver::finish(const Solver& solver, const Ending&)
 void HistoryObserver::findShares(const Solver& solver)
 {
   const RankMesh& mesh = solver.mesh();
-  std::vector<ExactSum> sums(options_.probes.size());
+  std::vector<ExactSum> sums(4 * options_.probes.size()); // of weights, and of weighted places
   shares_.clear();
   for (const Probe& probe : options_.probes)
   {
@@ -247,13 +260,43 @@ void HistoryObserver::findShares(const Solver& solver)
           shares.push_back({n, mass[n]});
     }
     for (const Share& share : shares)
-      sums[shares_.size()].add(share.weight);
+    {
+      ExactSum* mine = &sums[4 * shares_.size()];
+      mine[0].add(share.weight);
+      for (int c = 0; c < 3; ++c)
+        mine[1 + c].add(share.weight * mesh.coordinates[share.node][c]);
+    }
     shares_.push_back(std::move(shares));
   }
   totalWeight_.clear();
+  places_.clear();
   if (!sums.empty())
-    totalWeight_ = ExactSum::overRanks(sums, solver.comm());
+  {
+    const std::vector<Real> total = ExactSum::overRanks(sums, solver.comm());
+    for (std::size_t p = 0; p < shares_.size(); ++p)
+    {
+      const Real* mine = &total[4 * p];
+      totalWeight_.push_back(mine[0]);
+      places_.push_back((1 / mine[0]) * Vec3{mine[1], mine[2], mine[3]});
+    }
+  }
+  demandDistances(solver.comm());
   findElements(solver);
+}
+
+void HistoryObserver::demandDistances(const Comm& comm) const
+{
+  for (std::size_t p = 0; p < options_.probes.size(); ++p)
+    if (const int other = options_.probes[p].relativeTo; other >= 0)
+      comm.together(
+          [&]
+          {
+            if (norm(places_[p] - places_[std::size_t(other)]) == 0)
+              fail(ExitCode::Deck,
+                   "history.probes: '{}' and '{}', to which it is relative, are in one place at "
+                   "t = 0, so there is no drift between them. Accepted: two places.",
+                   options_.probes[p].name, options_.probes[std::size_t(other)].name);
+          });
 }
 
 /// Elements at points; and whether the laws have the variables.
@@ -274,10 +317,10 @@ void HistoryObserver::findElements(const Solver& solver)
           [&]
           {
             if (block >= 0 && solver.blocks()[std::size_t(block)].count() > 0 &&
-                !elementVariable(solver.blocks()[std::size_t(block)], 0, name))
+                !elementVariable(solver, block, 0, name))
               fail(ExitCode::Deck,
                    "history.probes: '{}' asks for '{}', but block '{}' has: stress_xx, ... "
-                   "stress_zx, von_mises, pressure, density{}{}.",
+                   "stress_zx, strain_xx, ... strain_zx, von_mises, pressure, density{}{}.",
                    probe.name, name, solver.model().blocks[std::size_t(block)].name,
                    solver.blocks()[std::size_t(block)].historyVariables().empty() ? "" : ", ",
                    fmt::join(solver.blocks()[std::size_t(block)].historyVariables(), ", "));
@@ -316,8 +359,7 @@ auto HistoryObserver::variablesOf(const Solver& solver, std::size_t p) const -> 
   std::vector<ExactSum> sums(probe.variables.size());
   const auto [block, element] = nearest_[p];
   for (std::size_t i = 0; i < sums.size() && block >= 0; ++i)
-    sums[i].add(
-        elementVariable(solver.blocks()[std::size_t(block)], element, probe.variables[i]).value());
+    sums[i].add(elementVariable(solver, block, element, probe.variables[i]).value());
   const std::vector<Real> values = ExactSum::overRanks(sums, solver.comm());
   for (std::size_t i = 0; i < values.size(); ++i)
     columns.emplace_back(column(probe.variables[i], unitOfVariable(probe.variables[i])), values[i]);
@@ -378,10 +420,9 @@ std::vector<Vec3> HistoryObserver::reactions(const Solver& solver) const
   return result;
 }
 
-void HistoryObserver::write(const Solver& solver)
+HistoryColumns HistoryObserver::columnsOf(const Solver& solver) const
 {
-  TimedRegion region("coplane::output::history");
-  Columns line;
+  HistoryColumns line;
   line.add("time[s]", solver.clock().time);
   line.add("cycle", solver.clock().cycle);
   line.add("dt[s]", solver.clock().step);
@@ -408,8 +449,19 @@ void HistoryObserver::write(const Solver& solver)
         line.add(name + "_" + column, ofPlane);
       continue;
     }
-    line.add(name + "_displacement", "[m]", {value[0], value[1], value[2]});
-    line.add(name + "_velocity", "[m/s]", {value[3], value[4], value[5]});
+    const int other = options_.probes[p].relativeTo;
+    Vec3 displacement{value[0], value[1], value[2]}, velocity{value[3], value[4], value[5]};
+    if (other >= 0)
+    {
+      const Real* from = &probes[std::size_t(6 * other)];
+      displacement -= Vec3{from[0], from[1], from[2]};
+      velocity -= Vec3{from[3], from[4], from[5]};
+    }
+    line.add(name + "_displacement", "[m]", displacement);
+    line.add(name + "_velocity", "[m/s]", velocity);
+    if (other >= 0)
+      line.add(name + "_drift", "",
+               (1 / norm(places_[p] - places_[std::size_t(other)])) * displacement);
     if (options_.probes[p].reaction)
       line.add(name + "_reaction", "[N]", reactionsOf[p]);
     for (const auto& [column, value] : variablesOf(solver, p))
@@ -436,17 +488,20 @@ void HistoryObserver::write(const Solver& solver)
   }
   if (options_.stateHash)
     line.add("state_hash", fmt::format("{:016x}", solver.stateHash()));
+  return line;
+}
 
+void HistoryObserver::write(const Solver& solver)
+{
+  TimedRegion region("coplane::output::history");
+  const HistoryColumns line = columnsOf(solver);
   solver.comm().together(
       [&]
       {
         if (!solver.comm().isRoot())
           return;
-        if (const std::string name = hasHeader_ ? "" : line.repeated(); !name.empty())
-          fail(ExitCode::Deck,
-               "history: two columns would be called '{}'. Give the probe, or the joint card of "
-               "history.joints, another name, or leave one of them out.",
-               name);
+        if (!hasHeader_)
+          line.demandNamesOnce();
         table_.add((hasHeader_ ? "" : line.names + "\n") + line.values + "\n");
         hasHeader_ = true;
       });

@@ -13,6 +13,8 @@
 
 namespace coplane
 {
+class HistoryColumns;
+
 /// A place whose motion is recorded: the mean over a node set, the mass-weighted mean over the
 /// nodes of an element block, or the node nearest to a point. Or the plane nearest to a point that
 /// goes with that node.
@@ -27,6 +29,7 @@ struct Probe
   std::vector<std::string> variables = {};
   bool plane = false;     ///< of the point: the nearest plane, in place of the motion
   std::string joint = {}; ///< of the plane; empty: any
+  int relativeTo = -1;    ///< position of the probe from whose motion this one's is counted
 };
 
 /// Variables of nodes of which a probe can have the extremes over a node set: names of the results,
@@ -55,6 +58,10 @@ public:
   /// Creates the file. Collective.
   HistoryObserver(const Comm& comm, HistoryOptions options);
 
+  /// Throws what a run with these options would throw at its start: variables that a law has not,
+  /// two columns of one name. Writes nothing. Collective.
+  static void demandPossible(const Solver& solver, HistoryOptions options);
+
   void start(const Solver& solver) override;
   void endOfCycle(const Solver& solver) override;
   void endOfStage(const Solver& solver) override;
@@ -73,6 +80,8 @@ private:
 
   // Collective.
   void findShares(const Solver& solver);
+  void demandDistances(const Comm& comm) const;
+  HistoryColumns columnsOf(const Solver& solver) const;
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;
   void findElements(const Solver& solver);
@@ -91,6 +100,7 @@ private:
   Real initialKinetic_ = 0;                  ///< [J]
   std::vector<std::vector<Share>> shares_;   ///< per probe, owned nodes
   std::vector<Real> totalWeight_;            ///< per probe, over all ranks
+  std::vector<Vec3> places_;                 ///< per probe, its mean place at the start [m]
   std::vector<std::pair<int, int>> nearest_; ///< per probe, block and element here, or -1
 };
 } // namespace coplane

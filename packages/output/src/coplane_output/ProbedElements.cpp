@@ -1,8 +1,10 @@
+#include <coplane_element/LogarithmicStrain.hpp>
 #include <coplane_output/HistoryObserver.hpp>
 #include <coplane_output/detail/NodalContact.hpp>
 #include <coplane_output/detail/ProbedElements.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,6 +14,8 @@ namespace
 {
 const std::vector<std::string> stresses{"stress_xx", "stress_yy", "stress_zz",
                                         "stress_xy", "stress_yz", "stress_zx"};
+const std::vector<std::string> strains{"strain_xx", "strain_yy", "strain_zz",
+                                       "strain_xy", "strain_yz", "strain_zx"};
 
 /// Mean of the corners.
 template <class PlaceOf>
@@ -33,8 +37,33 @@ bool isNearest(const Comm& comm, Real distance, GlobalId id)
 }
 } // namespace
 
-std::optional<Real> elementVariable(const ElementBlock& block, int element, const std::string& name)
+SymTensor strainOf(const Solver& solver, int b, int element)
 {
+  const ElementBlock& block = solver.blocks()[std::size_t(b)];
+  if (!block.isAlive(element))
+    return {};
+  std::array<Vec3, 8> reference, present;
+  for (int k = 0; k < topology(block.type()).nodes; ++k)
+  {
+    const int node = block.connectivity()(element, k);
+    reference[std::size_t(k)] = at(solver.state().reference, node);
+    present[std::size_t(k)] = at(solver.state().x, node);
+  }
+  return logarithmicStrain(block.type(), reference.data(), present.data(),
+                           block.options().geometry == Geometry::Axisymmetric);
+}
+
+std::optional<Real> elementVariable(const Solver& solver, int b, int element,
+                                    const std::string& name)
+{
+  const ElementBlock& block = solver.blocks()[std::size_t(b)];
+  const auto strain = std::find(strains.begin(), strains.end(), name);
+  if (strain != strains.end())
+  {
+    const SymTensor all = strainOf(solver, b, element);
+    return std::array{
+        all.xx, all.yy, all.zz, all.xy, all.yz, all.zx}[std::size_t(strain - strains.begin())];
+  }
   const auto stress = std::find(stresses.begin(), stresses.end(), name);
   if (stress != stresses.end())
     return block.stress()(stress - stresses.begin(), element);
@@ -169,7 +198,7 @@ std::vector<Extreme> extremesOf(const Solver& solver, int b,
       solver.comm(), part.elements(), variables.size(),
       [&](int e) { return part.owned[std::size_t(e)] && block.isAlive(e); },
       [&](std::size_t variable, int e)
-      { return elementVariable(block, e, variables[variable]).value_or(0); },
+      { return elementVariable(solver, b, e, variables[variable]).value_or(0); },
       [&](int e) { return part.elementIds[std::size_t(e)]; },
       [&](int e)
       { return middleOf(part, e, [&](int node) { return at(solver.state().x, node); }); });

@@ -1,3 +1,4 @@
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 #include <coplane_output/detail/ProbedPlanes.hpp>
 
@@ -52,7 +53,7 @@ std::vector<PlaneValues> nearestPlanes(const Solver& solver, const std::vector<W
     for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
     {
       const Plane& plane = contact.planesNow()[p];
-      if (!contact.isWrittenHere(plane) || !(plane.overlap > 0))
+      if (!contact.isWrittenHere(plane) || !isPartOfJoint(contact, plane, solver.state().x))
         continue;
       for (std::size_t w = 0; w < wanted.size(); ++w)
       {

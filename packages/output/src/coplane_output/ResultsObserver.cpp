@@ -6,6 +6,7 @@
 #include <coplane_output/Fragments.hpp>
 #include <coplane_output/ResultsObserver.hpp>
 #include <coplane_output/detail/NodalContact.hpp>
+#include <coplane_output/detail/ProbedElements.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -36,12 +37,13 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
   for (const char* name :
        {"contact_pressure", "contact_closure", "contact_gap", "contact_slip", "contact_state"})
     names.nodal.push_back(name);
-  // The six stresses stand together in this order, which the reader takes for a symmetric tensor.
+  // Six stresses, and six strains, stand together in this order, which the reader takes for a
+  // symmetric tensor.
   // Body ids are an attribute of the blocks; the reader shows it, and refuses a variable of the
   // same name.
-  names.element = {"stress_xx", "stress_yy", "stress_zz",
-                   "stress_xy", "stress_yz", "stress_zx",
-                   "von_mises", "pressure",  "equivalent_plastic_strain",
+  names.element = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz",
+                   "stress_zx", "strain_xx", "strain_yy", "strain_zz", "strain_xy",
+                   "strain_yz", "strain_zx", "von_mises", "pressure",  "equivalent_plastic_strain",
                    "density",   "alive"};
   names.element.insert(names.element.end(), history.begin(), history.end());
   if (fragments)
@@ -61,7 +63,7 @@ ResultsVariables variablesOf(int dimension, const std::vector<std::string>& hist
 std::string wholeOf(const std::string& name)
 {
   for (const char* stem :
-       {"displacement", "velocity", "contact_force", "contact_traction", "stress"})
+       {"displacement", "velocity", "contact_force", "contact_traction", "stress", "strain"})
     if (name.rfind(stem + std::string("_"), 0) == 0)
       return stem;
   return "";
@@ -426,7 +428,7 @@ void ResultsObserver::writeNodes(const Solver& solver)
 
 void ResultsObserver::writeElements(const Solver& solver)
 {
-  constexpr int fixed = 11;
+  constexpr int fixed = 17;
   const ConnectedBodies* const bodies = options_.bodies ? &options_.bodies->at(solver) : nullptr;
   const int columns = fixed + int(history_.size()) + int(bodies != nullptr);
   const RankMesh& mesh = solver.mesh();
@@ -452,13 +454,17 @@ void ResultsObserver::writeElements(const Solver& solver)
     {
       if (!part.owned[e])
         continue;
+      const SymTensor strain = strainOf(solver, int(b), e);
+      int column = 0;
       for (int c = 0; c < 6; ++c)
-        mine(row, c) = stress(c, e);
-      mine(row, 6) = block.vonMises(e);
-      mine(row, 7) = block.pressure(e);
-      mine(row, 8) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
-      mine(row, 9) = block.density(e);
-      mine(row, 10) = block.isAlive(e);
+        mine(row, column++) = stress(c, e);
+      for (const Real value : {strain.xx, strain.yy, strain.zz, strain.xy, strain.yz, strain.zx})
+        mine(row, column++) = value;
+      mine(row, column++) = block.vonMises(e);
+      mine(row, column++) = block.pressure(e);
+      mine(row, column++) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
+      mine(row, column++) = block.density(e);
+      mine(row, column++) = block.isAlive(e);
       for (std::size_t k = 0; k < history_.size(); ++k)
         mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history()(rowOf[k], e);
       if (bodies)

@@ -79,7 +79,7 @@ struct PairTables
   Activity* activity;
   const JointLaw* laws;
   bool incremental;  ///< closures are sums of increments
-  Changes* passedOn; ///< of what planes pass on
+  PassedOnChanges* passedOn; ///< of what planes pass on
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;
   const PairDistances* distances = nullptr; ///< null: all pairs are looked at

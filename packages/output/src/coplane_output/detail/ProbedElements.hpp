@@ -9,9 +9,13 @@
 
 namespace coplane
 {
-/// A variable of an element by its name in the results, such as stress_yy; nothing: its law has
-/// none of this name.
-std::optional<Real> elementVariable(const ElementBlock& block, int element,
+/// Logarithmic strain of an element of this rank at its middle, against the places from which
+/// displacements count; 0 of dead ones, whose nodes no longer tell it [-].
+SymTensor strainOf(const Solver& solver, int block, int element);
+
+/// A variable of an element of this rank by its name in the results, such as stress_yy; nothing:
+/// its law has none of this name.
+std::optional<Real> elementVariable(const Solver& solver, int block, int element,
                                     const std::string& name);
 /// "[Pa]" and the like; empty for variables of laws.
 std::string unitOfVariable(const std::string& name);
