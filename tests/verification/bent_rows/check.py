@@ -91,7 +91,7 @@ def turned(name, faces, joint, last, same_bits=False):
         case.same_bits(name, row(faces), one, run)
         fracture = run.history["contact_fracture"]
         softening = run.history["time"][fracture < 0.5 * fracture[-1]][-1]
-        case.restarts(name, row(faces), one, run, softening)
+        case.restarts(name, row(faces), one, run, softening, ranks=2)
     t = run.history["time"]
     return run, spin * numpy.where(t < grows, t**2 / (2 * grows), t - grows / 2)
 

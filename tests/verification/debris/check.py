@@ -59,7 +59,7 @@ for dimension in (2, 3):
         case.same_bits(name, recipe, one, run)
         case.same_bits(f"{name}_three", recipe, one, run, ranks=3, backend="serial")
         touched = run.history["time"][run.history["debris_touching"] > 0]
-        case.restarts(name, recipe, one, run, touched[20])
+        case.restarts(name, recipe, one, run, touched[20], ranks=2)
 
 # --- an elastic block that nothing holds: all momenta, and the energy that goes into waves --------------------------------
 recipe, one = scene(3)
