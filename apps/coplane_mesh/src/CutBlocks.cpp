@@ -361,10 +361,9 @@ private:
       tools.assign(objects.begin() + 1, objects.end());
       objects.resize(1);
     }
-    if (tools.empty())
-      refuseJoint(result_.joints.size() - 1);
-    std::vector<Entities> parts;
-    occ::fragment(objects, tools, all, parts);
+    std::vector<Entities> parts{objects};
+    if (!tools.empty())
+      occ::fragment(objects, tools, all, parts);
     demandApart(parts);
     blocks_.clear();
     isSupport_.clear();
