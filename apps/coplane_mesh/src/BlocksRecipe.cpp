@@ -450,8 +450,8 @@ Key sliversKey()
                      .defaultIs("a tenth of the element size")
                      .like("0.05")
                      .means("the same of blocks whose volume over their largest face is less; "
-                            "3D: joints leave their planes by up to this much where elements "
-                            "would be flat otherwise"),
+                            "joints, and surfaces of a file, leave their lines or planes by up to "
+                            "this much where elements would be flat otherwise"),
                  number("stub", &SliverCard::stub)
                      .in("m")
                      .atLeast(0)
@@ -552,6 +552,25 @@ void checkNames(const BlocksRecipe& recipe, Problems& problems)
                                set.name));
 }
 } // namespace
+
+SliverLimits limitsOf(const BlocksRecipe& recipe)
+{
+  const Real size = recipe.elements.size;
+  const SliverCard& card = recipe.slivers;
+  return {card.volume >= 0 ? card.volume : std::pow(size / 2, recipe.dimension),
+          card.thickness >= 0 ? card.thickness : size / 10, card.stub >= 0 ? card.stub : size / 2};
+}
+
+Real leastSizeOf(const BlocksRecipe& recipe)
+{
+  Real least = recipe.elements.size;
+  for (const ElementSizeCard& region : recipe.elements.regions)
+    least = std::min(least, region.size);
+  for (const OpeningCard& opening : recipe.openings)
+    if (opening.elementSize > 0)
+      least = std::min(least, opening.elementSize);
+  return least;
+}
 
 const Key& blocksRecipeSchema()
 {
