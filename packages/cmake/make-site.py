@@ -53,7 +53,7 @@ FILES = {
 WEIGHTS = {"docs/user/": 3, "docs/keys": 2, "docs/glossary": 2, "docs/developer/": 0.5, "docs/CHANGELOG": 0.5, "tests/": 0.3, "packages/": 0.3, "apps/": 0.5}
 TOPICS = {
     "The problem": ["deck: title mesh geometry define"],
-    "Meshes": ["recipe: title define dimension parts", "blocks-recipe: title define dimension seed up north domain openings joints elements slivers"],
+    "Meshes": ["recipe: title define dimension parts meshes", "blocks-recipe: title define dimension seed up north domain openings joints elements slivers"],
     "Sets of nodes and faces": ["recipe: node_sets side_sets", "blocks-recipe: node_sets side_sets"],
     "Materials": ["deck: materials blocks", "point-deck: title define materials material_paths"],
     "Joints and contact": ["deck: joints contact", "joint-recipe: define joints", "point-deck: joints joint_paths elements"],

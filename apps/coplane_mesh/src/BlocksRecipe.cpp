@@ -1,5 +1,6 @@
 #include "BlocksRecipe.hpp"
 
+#include "PlanePolygon.hpp"
 #include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -30,48 +31,10 @@ void checkBox(DomainCard::Box& box, const CardPlace& place)
                                        box.max[axis], "xyz"[axis], box.min[axis]));
 }
 
-/// Whether two sides of a plane polygon cross. @param normal of any length
-bool crossesItself(const std::vector<Vec3>& corners, const Vec3& normal)
-{
-  const std::size_t count = corners.size();
-  const auto side = [&](const Vec3& a, const Vec3& b, const Vec3& c)
-  { return dot(cross(b - a, c - a), normal); };
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = i + 2; j < count; ++j)
-    {
-      if ((j + 1) % count == i)
-        continue;
-      const Vec3 &a = corners[i], &b = corners[i + 1], &c = corners[j],
-                 &d = corners[(j + 1) % count];
-      if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0)
-        return true;
-    }
-  return false;
-}
-
-/// Gmsh makes nonsense of polygons that are none, without a word.
 void checkPolygon(const std::vector<std::vector<Real>>& polygon, const CardPlace& place)
 {
-  const std::vector<Vec3> corners = toPoints(polygon);
-  const std::size_t count = corners.size();
-  Vec3 twiceArea{};
-  Real longest = 0;
-  for (std::size_t k = 0; k < count; ++k)
-  {
-    const Vec3 &a = corners[k], &b = corners[(k + 1) % count];
-    if (norm(b - a) == 0)
-      return place.problem("polygon", fmt::format("has the corner {} twice running; each stands "
-                                                  "once, also the first, which is not repeated "
-                                                  "at the end.",
-                                                  k + 1));
-    longest = std::max(longest, norm(b - a));
-    twiceArea = twiceArea + cross(a - corners[0], b - corners[0]);
-  }
-  // The halves of a figure of eight cancel.
-  if (!(norm(twiceArea) > 1e-9 * longest * longest))
-    place.problem("polygon", "has no area: its corners lie on a line, or it crosses itself.");
-  else if (crossesItself(corners, twiceArea))
-    place.problem("polygon", "crosses itself.");
+  if (const std::string problem = problemOfPolygon(toPoints(polygon)); !problem.empty())
+    place.problem("polygon", problem);
 }
 
 void checkDomain(DomainCard& domain, const CardPlace& place)
@@ -367,7 +330,7 @@ Key jointsKey()
                        .like("fractures.csv")
                        .means("table of fractures, beside the recipe; columns by their names: x1, "
                               "y1, x2, y2 (2D); x, y, z, radius and dip, dip_direction or nx, ny, "
-                              "nz (3D), discs"),
+                              "nz (3D), discs; or polygons.dat of dfnWorks (3D)"),
                    group("voronoi", &JointsCard::voronoi,
                          {integer("cells", &VoronoiCard::cells)
                               .needed()
@@ -387,7 +350,8 @@ Key jointsKey()
                })
       .exactlyOneOf({"set", "planes", "file", "voronoi"})
       .means("joints by the names of the side sets that hold both faces of each; where several lie "
-             "on each other, the first in the file has the place");
+             "on each other, the first in the file has the place. Without any, the domain is "
+             "meshed in one piece");
 }
 
 void checkElements(BlockElementsCard& elements, const CardPlace& place)
@@ -486,8 +450,8 @@ Key sliversKey()
                      .defaultIs("a tenth of the element size")
                      .like("0.05")
                      .means("the same of blocks whose volume over their largest face is less; "
-                            "3D: joints leave their planes by up to this much where elements "
-                            "would be flat otherwise"),
+                            "joints, and surfaces of a file, leave their lines or planes by up to "
+                            "this much where elements would be flat otherwise"),
                  number("stub", &SliverCard::stub)
                      .in("m")
                      .atLeast(0)
@@ -589,6 +553,25 @@ void checkNames(const BlocksRecipe& recipe, Problems& problems)
 }
 } // namespace
 
+SliverLimits limitsOf(const BlocksRecipe& recipe)
+{
+  const Real size = recipe.elements.size;
+  const SliverCard& card = recipe.slivers;
+  return {card.volume >= 0 ? card.volume : std::pow(size / 2, recipe.dimension),
+          card.thickness >= 0 ? card.thickness : size / 10, card.stub >= 0 ? card.stub : size / 2};
+}
+
+Real leastSizeOf(const BlocksRecipe& recipe)
+{
+  Real least = recipe.elements.size;
+  for (const ElementSizeCard& region : recipe.elements.regions)
+    least = std::min(least, region.size);
+  for (const OpeningCard& opening : recipe.openings)
+    if (opening.elementSize > 0)
+      least = std::min(least, opening.elementSize);
+  return least;
+}
+
 const Key& blocksRecipeSchema()
 {
   static const Key schema = makeSchema();
@@ -617,10 +600,6 @@ BlocksRecipe parseBlocksRecipe(const std::string& text, const std::string& file,
     problems.add(nodeAt(recipe.root, {"north"}), "north is parallel to up, so no azimuth is told.");
   if (problems.empty())
     checkNames(recipe, problems);
-  if (problems.empty() && recipe.joints.empty() && recipe.domain.joint.empty())
-    problems.add(recipe.root, "the recipe has no joints: nothing would be cut. Accepted: joints: "
-                              "{bedding: {set: {...}}}; coplane_mesh --help-blocks joints lists "
-                              "the keys.");
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
   return recipe;

@@ -129,6 +129,18 @@ struct BlocksRecipe : Recipe
   SliverCard slivers;
 };
 
+/// What counts as a sliver, with the defaults that go with the size of elements.
+struct SliverLimits
+{
+  Real volume = 0;    ///< [m^3, 2D: m^2]
+  Real thickness = 0; ///< [m]
+  Real stub = 0;      ///< [m]
+};
+SliverLimits limitsOf(const BlocksRecipe& recipe);
+
+/// The least size of elements that the recipe asks for anywhere [m].
+Real leastSizeOf(const BlocksRecipe& recipe);
+
 const Key& blocksRecipeSchema();
 const FileKind& blocksRecipeFile();
 

@@ -34,7 +34,12 @@ void cutIntoCubes(GmshFile& mesh)
   for (const GmshFile::Element& whole : mesh.elements)
   {
     const auto& n = whole.nodes;
-    if (whole.type == 2)
+    if (whole.type == 1)
+    {
+      add(whole, 1, {n[0], middleOf({n[0], n[1]})});
+      add(whole, 1, {middleOf({n[0], n[1]}), n[1]});
+    }
+    else if (whole.type == 2)
       for (std::size_t k = 0; k < 3; ++k)
       {
         const int a = n[k], b = n[(k + 1) % 3], c = n[(k + 2) % 3];

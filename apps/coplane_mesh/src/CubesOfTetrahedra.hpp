@@ -6,8 +6,9 @@
 
 namespace coplane
 {
-/// Cuts every tetrahedron of a mesh into four hexahedra, every triangle into three quadrilaterals,
-/// at the middles of edges, faces and elements, which become nodes after all others.
+/// Cuts every tetrahedron of a mesh into four hexahedra, every triangle into three quadrilaterals
+/// and every line in two, at the middles of edges, faces and elements, which become nodes after all
+/// others.
 void cutIntoCubes(GmshFile& mesh);
 
 /// How well a hexahedron serves an explicit computation, as worthOf says of a tetrahedron: the

@@ -1,11 +1,10 @@
 #include "CutBlocks.hpp"
 
-#include "CubesOfTetrahedra.hpp"
 #include "CutEstimate.hpp"
 #include "ElementSizes.hpp"
+#include "GmshModel.hpp"
 #include "JointSurfaces.hpp"
-#include "MeasureOfElements.hpp"
-#include "MendTetrahedra.hpp"
+#include "MeshDomain.hpp"
 #include "OpeningSection.hpp"
 #include "ShapeModel.hpp"
 #include "SolidFile.hpp"
@@ -27,8 +26,6 @@ namespace coplane
 namespace
 {
 namespace occ = gmsh::model::occ;
-using Entity = std::pair<int, int>; ///< dimension and tag, as Gmsh has them
-using Entities = std::vector<Entity>;
 
 /// Gmsh as long as one mesh is made: silent, and with the same result every time.
 class Session
@@ -103,13 +100,9 @@ public:
   Cutter(const BlocksRecipe& recipe, const std::string& recipeFile, const MeshingWay& way,
          Stages& stages)
       : recipe_(recipe), recipeFile_(recipeFile), way_(way), stages_(stages),
-        dimension_(recipe.dimension)
+        dimension_(recipe.dimension), limits_(limitsOf(recipe))
   {
     size_ = recipe.elements.size;
-    leastVolume_ =
-        recipe.slivers.volume >= 0 ? recipe.slivers.volume : std::pow(size_ / 2, dimension_);
-    leastStub_ = recipe.slivers.stub >= 0 ? recipe.slivers.stub : size_ / 2;
-    leastThickness_ = recipe.slivers.thickness >= 0 ? recipe.slivers.thickness : size_ / 10;
   }
 
   CutDomain cut()
@@ -127,7 +120,8 @@ public:
       fragment();
     removeOpenings();
     nameEntities();
-    mesh();
+    meshDomain(recipe_, recipeFile_, way_, stages_,
+               {low_, high_, pieces_, walls_, sized_, groupOfJoint_}, result_);
     return std::move(result_);
   }
 
@@ -223,8 +217,8 @@ private:
            "least size anywhere {:.6g} m, the domain has {:.4g} {}), and up to elements.most = "
            "{:.6g} are meshed. All lengths are in metres. Make elements larger, or raise "
            "elements.most.",
-           recipeFile_, elements, size_, leastSize(), domain + supports, flat ? "m^2" : "m^3",
-           recipe_.elements.most);
+           recipeFile_, elements, size_, leastSizeOf(recipe_), domain + supports,
+           flat ? "m^2" : "m^3", recipe_.elements.most);
   }
 
   void addOpening(const OpeningCard& card)
@@ -267,7 +261,7 @@ private:
     std::vector<JointSurface> surfaces = jointSurfaces(recipe_, recipeFile_, low_, high_, problems);
     if (!problems.empty())
       throw Error(ExitCode::Deck, problems.text());
-    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, leastThickness_);
+    demandFewParts(recipe_, recipeFile_, surfaces, low_, high_, limits_.thickness);
     for (std::size_t j = 0; j < recipe_.joints.size(); ++j)
     {
       result_.joints.push_back(recipe_.joints[j].name);
@@ -361,10 +355,9 @@ private:
       tools.assign(objects.begin() + 1, objects.end());
       objects.resize(1);
     }
-    if (tools.empty())
-      refuseJoint(result_.joints.size() - 1);
-    std::vector<Entities> parts;
-    occ::fragment(objects, tools, all, parts);
+    std::vector<Entities> parts{objects};
+    if (!tools.empty())
+      occ::fragment(objects, tools, all, parts);
     demandApart(parts);
     blocks_.clear();
     isSupport_.clear();
@@ -446,33 +439,12 @@ private:
         for (const Entity& part : parts[b])
           solidOf.insert({part.second, b});
     for (const auto& [block, opening] : blocks_)
-      for (const int face : facesOf(block))
+      for (const int face : bordersOf(block))
       {
-        const std::vector<int> sides = blocksAt(face);
+        const std::vector<int> sides = blocksAt({dimension_ - 1, face});
         if (sides.size() == 2 && solidOf[sides[0]] != solidOf[sides[1]])
           pieces_.insert({{dimension_ - 1, face}, int(recipe_.joints.size())});
       }
-  }
-
-  std::vector<int> facesOf(const Entity& block) const
-  {
-    std::vector<int> above, below;
-    gmsh::model::getAdjacencies(block.first, block.second, above, below);
-    return below;
-  }
-
-  std::vector<int> blocksAt(int face) const
-  {
-    std::vector<int> above, below;
-    gmsh::model::getAdjacencies(dimension_ - 1, face, above, below);
-    return above;
-  }
-
-  static Real measureOf(const Entity& entity)
-  {
-    double measure = 0;
-    occ::getMass(entity.first, entity.second, measure);
-    return measure;
   }
 
   bool isRemoved(const Entity& block) const
@@ -485,9 +457,9 @@ private:
   {
     const Real volume = measureOf(block);
     Real largest = 0;
-    for (const int face : facesOf(block))
+    for (const int face : bordersOf(block))
       largest = std::max(largest, measureOf({dimension_ - 1, face}));
-    return volume < leastVolume_ || volume < leastThickness_ * largest;
+    return volume < limits_.volume || volume < limits_.thickness * largest;
   }
 
   /// Faces of joints that end inside of blocks.
@@ -511,11 +483,11 @@ private:
   {
     const Real measure = measureOf({dimension_ - 1, face});
     if (dimension_ == 2)
-      return measure < leastStub_;
+      return measure < limits_.stub;
     Real longest = 0;
-    for (const int curve : facesOf({2, face}))
+    for (const int curve : bordersOf({2, face}))
       longest = std::max(longest, measureOf({1, curve}));
-    return measure < leastStub_ * longest;
+    return measure < limits_.stub * longest;
   }
 
   /// Takes the joints away between slivers and their neighbours, and all bodies, which are then
@@ -538,8 +510,8 @@ private:
     {
       std::map<int, Real> borderOf; // by the neighbour
       std::map<int, std::vector<Entity>> facesTo;
-      for (const int face : facesOf(block))
-        for (const int other : blocksAt(face))
+      for (const int face : bordersOf(block))
+        for (const int other : blocksAt({dimension_ - 1, face}))
           if (other != block.second && pieces_.count({dimension_ - 1, face}) &&
               blocks_.at({dimension_, other}) == blocks_.at(block))
           {
@@ -568,7 +540,7 @@ private:
     for (const auto& [block, opening] : blocks_)
     {
       blocks.push_back(block);
-      for (const int face : facesOf(block))
+      for (const int face : bordersOf(block))
         if (!pieces_.count({dimension_ - 1, face}))
           faces.push_back({dimension_ - 1, face});
     }
@@ -584,12 +556,15 @@ private:
     Entities removed;
     for (const auto& [block, opening] : blocks_)
     {
-      if (opening >= 0 && recipe_.openings[std::size_t(opening)].elementSize > 0)
-        for (const int face : facesOf(block))
+      if (opening >= 0)
+        for (const int face : bordersOf(block))
         {
-          const std::vector<int> sides = blocksAt(face);
-          if (sides.size() == 2 &&
-              blocks_.at({dimension_, sides[0]}) != blocks_.at({dimension_, sides[1]}))
+          const std::vector<int> sides = blocksAt({dimension_ - 1, face});
+          if (sides.size() != 2 ||
+              blocks_.at({dimension_, sides[0]}) == blocks_.at({dimension_, sides[1]}))
+            continue;
+          walls_.insert({dimension_ - 1, face});
+          if (recipe_.openings[std::size_t(opening)].elementSize > 0)
             sized_.walls[opening].push_back(face);
         }
       if (isRemoved(block))
@@ -616,7 +591,7 @@ private:
     for (auto piece = pieces_.begin(); piece != pieces_.end();)
     {
       const bool exists = there.count(piece->first) > 0;
-      if (exists && (inside.count(piece->first.second) || !blocksAt(piece->first.second).empty()))
+      if (exists && (inside.count(piece->first.second) || !blocksAt(piece->first).empty()))
       {
         ++piece;
         continue;
@@ -645,7 +620,7 @@ private:
       addGroup(dimension_, tags, name);
     std::vector<std::vector<int>> faces(result_.joints.size());
     for (const auto& [piece, joint] : pieces_)
-      if (inside.count(piece.second) || blocksAt(piece.second).size() == 2)
+      if (inside.count(piece.second) || blocksAt(piece).size() == 2)
         faces[std::size_t(joint)].push_back(piece.second);
     for (std::size_t j = 0; j < faces.size(); ++j)
     {
@@ -674,272 +649,21 @@ private:
     return number;
   }
 
-  void mesh()
-  {
-    const bool cubes = recipe_.elements.shape == BlockElements::Cubes;
-    begin("sizes of elements were set");
-    setElementSizes(recipe_, recipeFile_, sized_, // each cube is cut in half along its edges
-                    way_.sizeFactor * (cubes ? 2 : 1));
-    if (cubes && dimension_ == 2)
-      gmsh::option::setNumber("Mesh.SubdivisionAlgorithm", 1);
-    gmsh::option::setNumber("Mesh.Algorithm", way_.faceAlgorithm);
-    gmsh::option::setNumber("Mesh.RandomSeed", way_.seed);
-    begin(meshingStage);
-    gmsh::model::mesh::generate(dimension_);
-    readNodes();
-    GlobalId next = 0;
-    for (int d = dimension_; d >= dimension_ - 1; --d)
-      for (const auto& [entity, groups] : result_.mesh.physicalsOfEntity)
-        if (entity.first == d)
-          readElements(entity, next);
-    demandFilled();
-    begin("flat elements were mended");
-    const bool whole = cubes && dimension_ == 3; // as long as they are tetrahedra
-    const Real size = (whole ? 2 : 1) * leastSize();
-    result_.worstBefore = findWorst(size);
-    if (dimension_ == 3)
-      mendElements(size);
-    demandWorth();
-    if (!whole)
-      return;
-    cutIntoCubes(result_.mesh);
-    findWorst(leastSize());
-    demandWorth();
-  }
-
-  /// Gmsh has left gaps, and put elements on each other, without a word.
-  void demandFilled() const
-  {
-    const Real filled = measureOfElements(result_.mesh, dimension_);
-    const Real volume =
-        std::accumulate(result_.blockVolumes.begin(), result_.blockVolumes.end(), 0.0);
-    if (!(std::abs(filled - volume) <= 1e-6 * volume))
-      throw Error(ExitCode::Computation,
-                  fmt::format("its elements fill {:.9g} of {:.9g} {}", filled, volume,
-                              dimension_ == 2 ? "m^2" : "m^3"));
-  }
-
-  /// The least size of elements that the recipe asks for anywhere.
-  Real leastSize() const
-  {
-    Real least = size_;
-    for (const ElementSizeCard& region : recipe_.elements.regions)
-      least = std::min(least, region.size);
-    for (const OpeningCard& opening : recipe_.openings)
-      if (opening.elementSize > 0)
-        least = std::min(least, opening.elementSize);
-    return least;
-  }
-
-  /// The least worth of an element, and its place.
-  Real findWorst(Real size)
-  {
-    Real least = infinity;
-    for (const GmshFile::Element& element : result_.mesh.elements)
-    {
-      if (element.entity.first != dimension_)
-        continue;
-      std::array<Vec3, 8> x{};
-      const std::size_t count = std::size_t(nodesOfGmshType(element.type));
-      for (std::size_t k = 0; k < count; ++k)
-        x[k] = result_.mesh.coordinates[std::size_t(element.nodes[k])];
-      Real worth = infinity;
-      if (count == 8)
-        worth = worthOf(x, size);
-      else if (dimension_ == 3)
-        worth = worthOf(std::array<Vec3, 4>{x[0], x[1], x[2], x[3]}, size);
-      else
-        for (std::size_t k = 0; k < count; ++k) // the corners of a quadrilateral
-          worth = std::min(worth, worthOf(std::array<Vec3, 3>{x[(k + count - 1) % count], x[k],
-                                                              x[(k + 1) % count]},
-                                          size));
-      if (worth < least)
-      {
-        least = worth;
-        result_.worstPlace = (1 / Real(count)) * std::accumulate(x.begin(), x.end(), Vec3{});
-      }
-    }
-    result_.worst = least;
-    return least;
-  }
-
-  /// What is flat makes a step that nobody can pay.
-  void demandWorth() const
-  {
-    if (result_.worst >= recipe_.slivers.shape)
-      return;
-    fail(ExitCode::Mesh,
-         "{}: the element at {} m is worth {:.2g} (1: regular and of the "
-         "size asked for, 0: flat), which would make the time step about {} times shorter; "
-         "accepted: slivers.shape = {:.6g} or more. Joints or borders nearly meet there. Larger "
-         "slivers.thickness (here {:.3g} m) or slivers.stub (here {:.3g} m), another seed, or "
-         "joints somewhat elsewhere help; slivers.shape: 0 writes the mesh as it is.",
-         recipeFile_, placeText(result_.worstPlace, leastSize() / 10), result_.worst,
-         result_.worst > 1e-6 ? fmt::format("{:.0f}", 1 / result_.worst) : "infinitely many",
-         recipe_.slivers.shape, leastThickness_, leastStub_);
-  }
-
-  /// Mends tetrahedra that are nearly flat, if there are any.
-  void mendElements(Real size)
-  {
-    MendLimits limits;
-    limits.size = size;
-    limits.worth = 0.1;
-    limits.tolerance = leastThickness_;
-    limits.reach = leastStub_;
-    TetrahedraWithSurfaces mesh = tetrahedra();
-    result_.changes = mendTetrahedra(mesh, limits);
-    if (result_.changes == 0)
-      return;
-    takeOver(mesh);
-    findWorst(size);
-  }
-
-  /// The tetrahedra, with the surfaces of joints and borders.
-  TetrahedraWithSurfaces tetrahedra() const
-  {
-    TetrahedraWithSurfaces mesh;
-    mesh.points = result_.mesh.coordinates;
-    const auto groupOf = [&](const Entity& entity)
-    { return result_.mesh.physicalsOfEntity.at(entity).front(); };
-    for (const GmshFile::Element& element : result_.mesh.elements)
-      if (element.entity.first == 3)
-      {
-        const auto& n = element.nodes;
-        mesh.tetrahedra.push_back({{n[0], n[1], n[2], n[3]}, groupOf(element.entity)});
-      }
-    Entities faces;
-    gmsh::model::getEntities(faces, 2);
-    for (const Entity& face : faces)
-    {
-      TetrahedraWithSurfaces::Surface surface;
-      const std::vector<int> sides = blocksAt(face.second);
-      if (const auto piece = pieces_.find(face); piece != pieces_.end())
-        surface.joint = piece->second;
-      surface.exact = sides.size() == 1 ||
-                      (sides.size() == 2 && groupOf({3, sides[0]}) != groupOf({3, sides[1]}));
-      if (!surface.exact && surface.joint < 0)
-        continue;
-      std::vector<int> types;
-      std::vector<std::vector<std::size_t>> tags, nodes;
-      gmsh::model::mesh::getElements(types, tags, nodes, 2, face.second);
-      Real area = 0;
-      for (const std::vector<std::size_t>& all : nodes)
-        for (std::size_t k = 0; k + 2 < all.size(); k += 3)
-        {
-          TetrahedraWithSurfaces::Face corners;
-          for (std::size_t i = 0; i < 3; ++i)
-            corners[i] = nodeOfTag_.at(all[k + i]);
-          const auto x = [&](std::size_t i) { return mesh.points[std::size_t(corners[i])]; };
-          const Vec3 normal = cross(x(1) - x(0), x(2) - x(0));
-          surface.normal += normal;
-          surface.point += norm(normal) * ((1.0 / 3) * (x(0) + x(1) + x(2)));
-          area += norm(normal);
-          std::sort(corners.begin(), corners.end());
-          mesh.surfaceOf[corners] = int(mesh.surfaces.size());
-        }
-      if (!(area > 0))
-        continue;
-      surface.point = (1 / area) * surface.point;
-      surface.normal = normalised(surface.normal);
-      mesh.surfaces.push_back(surface);
-    }
-    return mesh;
-  }
-
-  /// The mesh that was mended, in place of that of Gmsh.
-  void takeOver(const TetrahedraWithSurfaces& mesh)
-  {
-    GmshFile& result = result_.mesh;
-    std::map<std::pair<int, int>, Entity> entityOf; // one of each group, by dimension and number
-    for (const auto& [entity, groups] : result.physicalsOfEntity)
-      entityOf.insert({{entity.first, groups.front()}, entity});
-    result.coordinates = mesh.points;
-    while (result.nodeIds.size() < mesh.points.size())
-      result.nodeIds.push_back(GlobalId(result.nodeIds.size()) + 1);
-    result.elements.clear();
-    const auto add = [&](const Entity& entity, int type, const auto& nodes)
-    {
-      GmshFile::Element element{entity, type, GlobalId(result.elements.size()) + 1, {}};
-      std::copy(nodes.begin(), nodes.end(), element.nodes.begin());
-      result.elements.push_back(element);
-    };
-    std::map<TetrahedraWithSurfaces::Face, int> sides;
-    for (const auto& element : mesh.tetrahedra)
-    {
-      add(entityOf.at({3, element.group}), 4, element.nodes);
-      for (std::size_t k = 0; k < 4; ++k)
-      {
-        TetrahedraWithSurfaces::Face face{element.nodes[(k + 1) % 4], element.nodes[(k + 2) % 4],
-                                          element.nodes[(k + 3) % 4]};
-        std::sort(face.begin(), face.end());
-        ++sides[face];
-      }
-    }
-    for (const auto& [face, surface] : mesh.surfaceOf)
-      if (const int joint = mesh.surfaces[std::size_t(surface)].joint;
-          joint >= 0 && sides[face] == 2)
-        add(entityOf.at({2, groupOfJoint_.at(joint)}), 2, face);
-  }
-
-  void readNodes()
-  {
-    std::vector<std::size_t> tags;
-    std::vector<double> places, parameters;
-    gmsh::model::mesh::getNodes(tags, places, parameters);
-    std::map<std::size_t, Vec3> sorted;
-    for (std::size_t n = 0; n < tags.size(); ++n)
-      sorted[tags[n]] = {places[3 * n], places[3 * n + 1], places[3 * n + 2]};
-    for (const auto& [tag, place] : sorted)
-    {
-      for (int axis = 0; axis < dimension_; ++axis)
-        if (const Real x = place[axis], slack = 1e-3 * size_;
-            !(x >= low_[axis] - slack && x <= high_[axis] + slack))
-          throw Error(ExitCode::Computation, "it has made nodes outside of the domain");
-      nodeOfTag_[tag] = int(result_.mesh.nodeIds.size());
-      result_.mesh.nodeIds.push_back(GlobalId(result_.mesh.nodeIds.size()) + 1);
-      result_.mesh.coordinates.push_back(place);
-    }
-  }
-
-  void readElements(const Entity& entity, GlobalId& next)
-  {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> tags, nodes;
-    gmsh::model::mesh::getElements(types, tags, nodes, entity.first, entity.second);
-    for (std::size_t k = 0; k < types.size(); ++k)
-    {
-      const std::size_t perElement = nodesOfGmshType(types[k]);
-      if (perElement == 0)
-        fail(ExitCode::Mesh, "Gmsh has made elements of its type {}, which cannot be used.",
-             types[k]);
-      for (std::size_t e = 0; e < tags[k].size(); ++e)
-      {
-        GmshFile::Element element;
-        element.entity = entity;
-        element.type = types[k];
-        element.id = ++next;
-        for (std::size_t n = 0; n < perElement; ++n)
-          element.nodes[n] = nodeOfTag_.at(nodes[k][e * perElement + n]);
-        result_.mesh.elements.push_back(element);
-      }
-    }
-  }
-
   const BlocksRecipe& recipe_;
   const std::string& recipeFile_;
   const MeshingWay& way_;
   Stages& stages_;
   int dimension_;
-  Real size_, leastVolume_, leastThickness_, leastStub_;
+  Real size_;
+  SliverLimits limits_;
   Vec3 low_{}, high_{};
   std::vector<Body> bodies_;
   std::map<Entity, int> pieces_;     ///< parts of joints, and whose
   std::map<Entity, int> blocks_;     ///< and the opening they are in; -1: none
   std::map<Entity, bool> isSupport_; ///< blocks of the domain
+  std::set<Entity> walls_;           ///< faces of openings
   SizedParts sized_;
   std::vector<int> groupOfJoint_; ///< numbers of Gmsh
-  std::map<std::size_t, int> nodeOfTag_;
   CutDomain result_;
 };
 } // namespace

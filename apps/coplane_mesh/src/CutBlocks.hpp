@@ -21,7 +21,7 @@ struct CutDomain
   int joined = 0;                  ///< slivers that became part of a neighbour
   int stubs = 0;                   ///< ends of joints that were left out
   int slivers = 0;                 ///< those that have stayed, without a joint to be left out
-  int changes = 0;                 ///< 3D: by which flat tetrahedra were mended
+  int changes = 0;                 ///< by which flat elements were mended
   Real worstBefore = 1, worst = 1; ///< the least worth of an element before and after mending
   Vec3 worstPlace{};               ///< the middle of that one [m]
 };

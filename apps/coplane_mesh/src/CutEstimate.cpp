@@ -123,13 +123,17 @@ void demandFewParts(const BlocksRecipe& recipe, const std::string& recipeFile,
     return;
   std::vector<std::string> each;
   for (std::size_t j = 0; j < recipe.joints.size(); ++j)
-    each.push_back(fmt::format("{} of joints.{}",
-                               std::count_if(surfaces.begin(), surfaces.end(),
-                                             [&](const JointSurface& surface)
-                                             { return surface.joint == int(j); }),
-                               recipe.joints[j].name));
+  {
+    const JointsCard& card = recipe.joints[j];
+    const auto count =
+        std::count_if(surfaces.begin(), surfaces.end(),
+                      [&](const JointSurface& surface) { return surface.joint == int(j); });
+    each.push_back(card.voronoi.cells > 0
+                       ? fmt::format("{} cells of joints.{}", card.voronoi.cells, card.name)
+                       : fmt::format("{} surfaces of joints.{}", count, card.name));
+  }
   fail(ExitCode::Deck,
-       "{}: the joints cut the domain into about {:.2g} parts (surfaces: {}), and up to "
+       "{}: the joints cut the domain into about {:.2g} parts ({}), and up to "
        "elements.most_parts = {:.6g} are cut. All lengths are in metres. Make spacings or "
        "fractures larger or fewer, or raise elements.most_parts: cutting takes long.",
        recipeFile, parts, fmt::join(each, ", "), recipe.elements.mostParts);

@@ -1,5 +1,6 @@
 #include "ElementSizes.hpp"
 
+#include "GmshModel.hpp"
 #include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -8,15 +9,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <gmsh.h>
 #include <set>
 
 namespace coplane
 {
 namespace
 {
-using Entity = std::pair<int, int>; ///< dimension and tag, as Gmsh has them
-
 /// A field of Gmsh: a size at faces, growing with the distance from them.
 double sizeFrom(const std::vector<int>& faces, int dimension, Real size, Real growth)
 {
@@ -58,13 +56,6 @@ struct RegionSizes
     return size < infinity ? size : 1e22; // what Gmsh takes for no limit
   }
 };
-
-std::vector<int> bordersOf(const Entity& entity)
-{
-  std::vector<int> above, below;
-  gmsh::model::getAdjacencies(entity.first, entity.second, above, below);
-  return below;
-}
 } // namespace
 
 void setElementSizes(const BlocksRecipe& recipe, const std::string& recipeFile,

@@ -1,5 +1,6 @@
 #include "JointSurfaces.hpp"
 
+#include "FractureFile.hpp"
 #include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -7,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <sstream>
 
 namespace coplane
 {
@@ -73,13 +72,6 @@ std::vector<Vec3> discOf(const Vec3& centre, const Vec3& normal, Real radius)
         centre + reach * (std::cos(2 * pi * k / count) * u + std::sin(2 * pi * k / count) * v));
   return corners;
 }
-
-/// One row of a table.
-struct Fracture
-{
-  int line = 0;                       ///< of the file, from 1
-  std::map<std::string, Real> values; ///< by the names of the columns
-};
 
 /// The surfaces of one joint.
 class JointMaker
@@ -159,6 +151,8 @@ public:
     const auto& values = fracture.values;
     const auto at = [&](const char* name) { return values.at(name); };
     source_ = fmt::format("line {}", fracture.line);
+    if (!fracture.corners.empty())
+      return add(fracture.corners);
     if (recipe_.dimension == 2)
       return add({{at("x1"), at("y1"), 0}, {at("x2"), at("y2"), 0}});
     const Vec3 normal =
@@ -240,87 +234,6 @@ private:
   std::string source_;
   Draws draws_;
 };
-
-std::vector<std::string> fieldsOf(const std::string& line)
-{
-  std::vector<std::string> fields;
-  std::stringstream stream(line);
-  for (std::string field; std::getline(stream, field, ',');)
-  {
-    const auto first = field.find_first_not_of(" \t\r"), last = field.find_last_not_of(" \t\r");
-    field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
-    if (field.size() > 1 && field.front() == '"' && field.back() == '"')
-      field = field.substr(1, field.size() - 2);
-    fields.push_back(field);
-  }
-  return fields;
-}
-
-/// What is wrong with the columns; empty: nothing.
-std::string problemOfColumns(const std::vector<std::string>& columns, int dimension)
-{
-  const auto has = [&](std::initializer_list<const char*> names)
-  {
-    return std::all_of(names.begin(), names.end(),
-                       [&](const char* name)
-                       { return std::count(columns.begin(), columns.end(), name) == 1; });
-  };
-  if (dimension == 2)
-    return has({"x1", "y1", "x2", "y2"}) ? "" : "x1, y1, x2, y2";
-  const bool oriented = has({"dip", "dip_direction"}) || has({"nx", "ny", "nz"});
-  return has({"x", "y", "z", "radius"}) && oriented
-             ? ""
-             : "x, y, z, radius and dip, dip_direction or nx, ny, nz";
-}
-
-/// The rows of a table of numbers. Throws Error(Deck) with the line.
-std::vector<Fracture> readFractures(const std::string& file, int dimension)
-{
-  std::stringstream text(readTextFile(file, {"the table of fractures", "", "", infinity}));
-  std::vector<std::string> columns;
-  std::vector<Fracture> rows;
-  int number = 0;
-  for (std::string line; std::getline(text, line);)
-  {
-    if (++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // a byte order mark
-      line.erase(0, 3);
-    if (line.find_first_not_of(" \t\r") == std::string::npos || line[0] == '#')
-      continue;
-    const std::vector<std::string> fields = fieldsOf(line);
-    if (columns.empty())
-    {
-      columns = fields;
-      if (const std::string wanted = problemOfColumns(columns, dimension); !wanted.empty())
-        fail(ExitCode::Deck,
-             "{}:{}: the columns are '{}'; a table of fractures in {} dimensions "
-             "has {}.",
-             file, number, fmt::join(columns, ", "), dimension == 2 ? "two" : "three", wanted);
-      continue;
-    }
-    if (fields.size() != columns.size())
-      fail(ExitCode::Deck, "{}:{}: {} values for {} columns.", file, number, fields.size(),
-           columns.size());
-    rows.push_back({number, {}});
-    auto& row = rows.back().values;
-    for (std::size_t k = 0; k < fields.size(); ++k)
-    {
-      char* end = nullptr;
-      row[columns[k]] = std::strtod(fields[k].c_str(), &end);
-      if (end == fields[k].c_str() || *end != '\0' || !std::isfinite(row[columns[k]]))
-        fail(ExitCode::Deck, "{}:{}: '{}' in column {} is no number.", file, number, fields[k],
-             columns[k]);
-    }
-    if (dimension == 2 && row.at("x1") == row.at("x2") && row.at("y1") == row.at("y2"))
-      fail(ExitCode::Deck, "{}:{}: the trace has no length.", file, number);
-    if (row.count("radius") && !(row.at("radius") > 0))
-      fail(ExitCode::Deck, "{}:{}: the radius {} is not positive.", file, number, row.at("radius"));
-    if (row.count("nx") && !(std::hypot(row.at("nx"), row.at("ny"), row.at("nz")) > 0))
-      fail(ExitCode::Deck, "{}:{}: the normal is zero.", file, number);
-  }
-  if (rows.empty())
-    fail(ExitCode::Deck, "{}: no fracture in the table.", file);
-  return rows;
-}
 } // namespace
 
 std::vector<JointSurface> jointSurfaces(const BlocksRecipe& recipe, const std::string& recipeFile,

@@ -1,5 +1,6 @@
 #include "MakeMesh.hpp"
 
+#include "MergeMeshes.hpp"
 #include "Recipe.hpp"
 #include "Selection.hpp"
 #include "ShapeModel.hpp"
@@ -7,6 +8,7 @@
 #include <coplane_core/Error.hpp>
 #include <coplane_core/Version.hpp>
 #include <coplane_exodus/Provenance.hpp>
+#include <coplane_exodus/ReadMesh.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,16 +19,21 @@ namespace coplane
 {
 namespace
 {
-/// One entry of `parts`: bodies in the part's own coordinates, and where they go.
-struct Part
+/// Where what has own coordinates goes.
+struct Placement
 {
-  std::string block;
-  std::vector<Body> bodies;
   Mat3 rotation; ///< about `centre`
   Vec3 centre{}; ///< in own coordinates [m]
   Vec3 offset{}; ///< added last [m]
 
   Vec3 place(const Vec3& own) const { return rotation * (own - centre) + centre + offset; }
+};
+
+/// One entry of `parts`: bodies in the part's own coordinates, and where they go.
+struct Part : Placement
+{
+  std::string block;
+  std::vector<Body> bodies;
 };
 
 /// Right-handed rotation about one axis, angle in degrees. Quarter turns are exact.
@@ -48,7 +55,7 @@ Mat3 rotationAbout(int axis, Real degrees)
   return r;
 }
 
-Mat3 rotationOf(const PartCard& card)
+Mat3 rotationOf(const PlacementCard& card)
 {
   if (card.dimension == 2)
     return rotationAbout(2, card.rotate.empty() ? 0.0 : card.rotate[0]);
@@ -57,17 +64,32 @@ Mat3 rotationOf(const PartCard& card)
          (rotationAbout(1, degrees[1]) * rotationAbout(0, degrees[0]));
 }
 
-Vec3 middleOf(const std::vector<Body>& bodies)
+/// The middle of the bounding box. @param points lists of them
+Vec3 middleOf(const std::vector<const std::vector<Vec3>*>& points)
 {
   Vec3 lowest{infinity, infinity, infinity}, highest = -lowest;
-  for (const Body& body : bodies)
-    for (const Vec3& p : body.points)
+  for (const std::vector<Vec3>* list : points)
+    for (const Vec3& p : *list)
       for (int axis = 0; axis < 3; ++axis)
       {
         lowest[axis] = std::min(lowest[axis], p[axis]);
         highest[axis] = std::max(highest[axis], p[axis]);
       }
   return 0.5 * (lowest + highest);
+}
+
+/// @param points in own coordinates, lists of them
+Placement placementOf(const PlacementCard& card,
+                      const std::vector<const std::vector<Vec3>*>& points)
+{
+  Placement placement;
+  placement.rotation = rotationOf(card);
+  // Without a rotation, rounding of (p - centre) + centre must not move touching bodies apart.
+  if (!card.rotate.empty())
+    placement.centre = card.about.empty() ? middleOf(points) : toVec3(card.about);
+  if (!card.offset.empty())
+    placement.offset = toVec3(card.offset);
+  return placement;
 }
 
 Part makePart(const PartCard& card)
@@ -78,12 +100,10 @@ Part makePart(const PartCard& card)
   if (card.split != "none")
     for (Body& body : part.bodies)
       body = inSimplices(body);
-  part.rotation = rotationOf(card);
-  // Without a rotation, rounding of (p - centre) + centre must not move touching bodies apart.
-  if (!card.rotate.empty())
-    part.centre = card.about.empty() ? middleOf(part.bodies) : toVec3(card.about);
-  if (!card.offset.empty())
-    part.offset = toVec3(card.offset);
+  std::vector<const std::vector<Vec3>*> points;
+  for (const Body& body : part.bodies)
+    points.push_back(&body.points);
+  static_cast<Placement&>(part) = placementOf(card, points);
   return part;
 }
 
@@ -166,6 +186,37 @@ Mesh assemble(const std::vector<Part>& parts, int dimension, std::vector<Vec3>& 
       block.elementIds.push_back(++element);
   return mesh;
 }
+
+std::string fileOf(const MeshCard& card, const std::string& recipeFile)
+{
+  return std::filesystem::path(recipeFile).parent_path() / card.file;
+}
+
+/// Puts the meshes of files beside that of the parts. @param own the coordinates that nodes had
+/// before they were placed; grows @param recipeFile files stand beside it
+Mesh withMeshes(const Recipe& recipe, const std::string& recipeFile, const Mesh& parts,
+                std::vector<Vec3>& own)
+{
+  std::vector<MeshToMerge> all;
+  if (parts.nodes() > 0)
+    all.push_back({parts, recipeFile, {}, false});
+  for (const MeshCard& card : recipe.meshes)
+  {
+    const std::string file = fileOf(card, recipeFile);
+    Mesh mesh = readMesh(file);
+    if (mesh.dimension != recipe.dimension)
+      fail(ExitCode::Mesh, "{}: {}.file = {} has {} dimensions and the recipe {}.", recipeFile,
+           card.where, file, mesh.dimension, recipe.dimension);
+    for (Vec3& x : mesh.coordinates)
+      x = card.scale * x;
+    own.insert(own.end(), mesh.coordinates.begin(), mesh.coordinates.end());
+    const Placement placement = placementOf(card, {&mesh.coordinates});
+    for (Vec3& x : mesh.coordinates)
+      x = placement.place(x);
+    all.push_back({std::move(mesh), file, card.prefix, card.join});
+  }
+  return mergeMeshes(all).mesh;
+}
 } // namespace
 
 std::array<std::string, 4> qaRecord()
@@ -190,6 +241,8 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name,
     throw Error(ExitCode::Deck, problems.text()); // sets are made of all parts
   std::vector<Vec3> ownCoordinates;
   Mesh mesh = assemble(parts, recipe.dimension, ownCoordinates);
+  if (!recipe.meshes.empty())
+    mesh = withMeshes(recipe, name, mesh, ownCoordinates);
   mesh.title =
       recipe.title.empty() ? std::filesystem::path(name).filename().string() : recipe.title;
   mesh.qaRecords.push_back(qaRecord());
@@ -202,5 +255,15 @@ Mesh makeMeshFromText(const std::string& text, const std::string& name,
 Mesh makeMesh(const std::string& recipeFile, const std::vector<std::string>& overrides)
 {
   return makeMeshFromText(readTextFile(recipeFile, coplane::recipeFile()), recipeFile, overrides);
+}
+
+std::vector<std::string> meshFilesOf(const std::string& recipeFile,
+                                     const std::vector<std::string>& overrides)
+{
+  std::vector<std::string> files;
+  const std::string text = readTextFile(recipeFile, coplane::recipeFile());
+  for (const MeshCard& card : parseRecipe(text, recipeFile, overrides).meshes)
+    files.push_back(fileOf(card, recipeFile));
+  return files;
 }
 } // namespace coplane

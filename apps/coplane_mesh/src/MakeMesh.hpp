@@ -17,6 +17,10 @@ Mesh makeMesh(const std::string& recipeFile, const std::vector<std::string>& ove
 Mesh makeMeshFromText(const std::string& recipe, const std::string& name,
                       const std::vector<std::string>& overrides = {});
 
+/// The files of meshes that a recipe puts among its parts; errors as above.
+std::vector<std::string> meshFilesOf(const std::string& recipeFile,
+                                     const std::vector<std::string>& overrides = {});
+
 /// Program, version, date and time, for the file.
 std::array<std::string, 4> qaRecord();
 } // namespace coplane

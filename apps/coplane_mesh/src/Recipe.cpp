@@ -26,6 +26,16 @@ std::string problemOfShape(const std::string& name, int dimension)
                            shape.otherwise);
 }
 
+void checkRotation(const PlacementCard& card, const CardPlace& place)
+{
+  const std::size_t angles = card.dimension == 2 ? 1 : 3;
+  if (!card.rotate.empty() && card.rotate.size() != angles)
+    place.problem("rotate", card.dimension == 2
+                                ? "must be one number in two dimensions: the angle about z."
+                                : "must be a list of 3 numbers in three dimensions: the angles "
+                                  "about x, y and z.");
+}
+
 void checkPart(PartCard& part, const CardPlace& place)
 {
   if (part.dimension == 0)
@@ -35,15 +45,58 @@ void checkPart(PartCard& part, const CardPlace& place)
     place.problem("split", fmt::format("= '{}' needs {} dimensions; use {}.", part.split,
                                        word(part.dimension == 2 ? 3 : 2),
                                        part.dimension == 2 ? "triangles" : "tetrahedra"));
-  const std::size_t angles = part.dimension == 2 ? 1 : 3;
-  if (!part.rotate.empty() && part.rotate.size() != angles)
-    place.problem("rotate", part.dimension == 2
-                                ? "must be one number in two dimensions: the angle about z."
-                                : "must be a list of 3 numbers in three dimensions: the angles "
-                                  "about x, y and z.");
+  checkRotation(part, place);
   shape.setDimension(part.parameters.get(), part.dimension);
   if (shape.check)
     shape.check(part.parameters.get(), place);
+}
+
+void checkMesh(MeshCard& mesh, const CardPlace& place)
+{
+  if (mesh.dimension > 0)
+    checkRotation(mesh, place);
+}
+
+/// Keys of a PlacementCard. @param what is placed, with its article
+template <class Card>
+std::vector<Key> placementKeys(const std::string& what)
+{
+  using Numbers = std::vector<Real>;
+  return {
+      numbers<Card, Numbers>("rotate", &Card::rotate, 3)
+          .orOneAlone()
+          .in("degrees")
+          .defaultIs("0")
+          .like("[0, 30, 0]")
+          .means("2D: one number, about z; 3D: about x, then y, then z"),
+      numbers<Card, Numbers>("about", &Card::about)
+          .byDimension()
+          .in("m")
+          .defaultIs("the middle of " + what + "'s bounding box")
+          .like("[0.3, 0]")
+          .means("point that stays in place"),
+      numbers<Card, Numbers>("offset", &Card::offset)
+          .byDimension()
+          .in("m")
+          .defaultIs("none")
+          .like("[0, 0.05]")
+          .means("added last"),
+  };
+}
+
+/// A list of placed cards, which know the dimension of the recipe.
+template <class Card>
+KeyBuilder placed(const std::string& name, std::vector<Card> Recipe::*member,
+                  const std::vector<Key>& keys)
+{
+  Key key = list(name, member, keys);
+  key.enter = [enter = key.enter](void* recipe, const std::string& own, const std::string& where)
+  {
+    void* const card = enter(recipe, own, where);
+    static_cast<Card*>(card)->dimension = static_cast<Recipe*>(recipe)->dimension;
+    return card;
+  };
+  return KeyBuilder(key);
 }
 
 Key parts()
@@ -53,47 +106,51 @@ Key parts()
   for (const ShapeModel& shape : shapeModels())
     meaning += fmt::format(" {}: {}.", shape.name, shape.meaning);
   keys[0] = KeyBuilder(keys[0]).needed().means(meaning.substr(0, meaning.size() - 1));
-  const std::vector<Key> common{
-      text("block", &PartCard::block)
-          .needed()
-          .like("wall")
-          .means("element block of the mesh; parts that name the same one share it"),
-      text("split", &PartCard::split)
-          .oneOf({"none", "triangles", "tetrahedra"})
-          .like("triangles")
-          .means("every quadrilateral into 2 triangles, every hexahedron into 5 tetrahedra"),
-      numbers("rotate", &PartCard::rotate, 3)
-          .orOneAlone()
-          .in("degrees")
-          .defaultIs("0")
-          .like("[0, 30, 0]")
-          .means("2D: one number, about z; 3D: about x, then y, then z"),
-      numbers("about", &PartCard::about)
-          .byDimension()
-          .in("m")
-          .defaultIs("the middle of the part's bounding box")
-          .like("[0.3, 0]")
-          .means("point that stays in place"),
-      numbers("offset", &PartCard::offset)
-          .byDimension()
-          .in("m")
-          .defaultIs("none")
-          .like("[0, 0.05]")
-          .means("added last"),
-  };
+  std::vector<Key> common = placementKeys<PartCard>("the part");
+  common.insert(
+      common.begin(),
+      {text("block", &PartCard::block)
+           .needed()
+           .like("wall")
+           .means("element block of the mesh; parts that name the same one share it"),
+       text("split", &PartCard::split)
+           .oneOf({"none", "triangles", "tetrahedra"})
+           .like("triangles")
+           .means("every quadrilateral into 2 triangles, every hexahedron into 5 tetrahedra")});
   keys.insert(keys.begin() + 1, common.begin(), common.end());
-  Key key = list("parts", &Recipe::parts, keys)
-                .needed()
-                .decidedBy("shape")
-                .checkedBy(checkPart)
-                .means("bodies, each with nodes of its own");
-  key.enter = [enter = key.enter](void* recipe, const std::string& name, const std::string& where)
-  {
-    void* const part = enter(recipe, name, where);
-    static_cast<PartCard*>(part)->dimension = static_cast<Recipe*>(recipe)->dimension;
-    return part;
-  };
-  return key;
+  return placed("parts", &Recipe::parts, keys)
+      .decidedBy("shape")
+      .checkedBy(checkPart)
+      .means("bodies, each with nodes of its own");
+}
+
+Key meshes()
+{
+  std::vector<Key> keys = placementKeys<MeshCard>("the mesh");
+  keys.insert(keys.begin(),
+              {text("file", &MeshCard::file)
+                   .needed()
+                   .like("projectile.e")
+                   .means("Exodus II file, beside the recipe"),
+               text("prefix", &MeshCard::prefix)
+                   .defaultIs("none")
+                   .like("bar_")
+                   .means("put before the names of its blocks and sets"),
+               flag("join", &MeshCard::join)
+                   .like("true")
+                   .means("its blocks and sets go into those before them that have their names; "
+                          "otherwise such names are refused"),
+               number("scale", &MeshCard::scale)
+                   .in("-")
+                   .above(0)
+                   .like("0.001")
+                   .means("its lengths are times this, before all else: 0.001 where they are in "
+                          "millimetres")});
+  return placed("meshes", &Recipe::meshes, keys)
+      .orOneAlone()
+      .checkedBy(checkMesh)
+      .means("meshes of files, put beside the parts with their blocks, node sets and side sets; "
+             "they share no nodes");
 }
 
 void checkPlaces(PlacesCard& places, const CardPlace& place)
@@ -172,6 +229,7 @@ Key makeSchema()
                   .like("2")
                   .means("of space; lists by dimension have as many numbers"),
               parts(),
+              meshes(),
               named("node_sets", &Recipe::nodeSets, nodeSetKeys())
                   .means("node sets of the mesh, by a name of your choice"),
               named("side_sets", &Recipe::sideSets, sideSetKeys())
@@ -239,6 +297,10 @@ Recipe parseRecipe(const std::string& text, const std::string& file,
         { return problemOfShape(shape, axes); };
   };
   recipe.root = readBySchema(schema, text, file, overrides, &recipe, problems, fit, recipeFile());
+  if (problems.empty() && recipe.parts.empty() && recipe.meshes.empty())
+    problems.add(recipe.root, "the recipe has no parts and no meshes. Accepted: parts: [{shape: "
+                              "box, ...}], meshes: [{file: wall.e}] or both; coplane_mesh "
+                              "--help-recipe parts lists the keys.");
   if (!problems.empty())
     throw Error(ExitCode::Deck, problems.text());
   return recipe;

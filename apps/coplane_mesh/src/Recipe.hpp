@@ -9,17 +9,31 @@
 
 namespace coplane
 {
+/// Where something goes.
+struct PlacementCard
+{
+  int dimension = 0;               ///< of the recipe
+  std::vector<Real> rotate;        ///< [degrees]; empty: not turned
+  std::vector<Real> about, offset; ///< [m]; empty: none given
+};
+
 /// One entry of `parts`, as written.
-struct PartCard
+struct PartCard : PlacementCard
 {
   std::string where;
   std::string model; ///< its shape
   std::shared_ptr<void> parameters;
-  int dimension = 0; ///< of the recipe
   std::string block;
   std::string split = "none";
-  std::vector<Real> rotate;        ///< [degrees]; empty: not turned
-  std::vector<Real> about, offset; ///< [m]; empty: none given
+};
+
+/// One entry of `meshes`.
+struct MeshCard : PlacementCard
+{
+  std::string where;
+  std::string file, prefix;
+  bool join = false;
+  Real scale = 1; ///< of its lengths [-]
 };
 
 /// Values or ranges that places must meet; empty: any.
@@ -44,6 +58,7 @@ struct Recipe
   std::string title;
   int dimension = 0;
   std::vector<PartCard> parts;
+  std::vector<MeshCard> meshes;
   std::vector<SetCard> nodeSets, sideSets;
   DeckNode root; ///< for messages
 };

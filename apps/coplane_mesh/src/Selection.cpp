@@ -94,9 +94,23 @@ Filter filterOf(const Mesh& mesh, const SetCard& card, Real tolerance, const Car
   return filter;
 }
 
+/// Sets of the meshes of files have names already.
+template <class Set>
+bool isTaken(const std::vector<Set>& sets, const SetCard& card, const CardPlace& place)
+{
+  if (std::none_of(sets.begin(), sets.end(), [&](const Set& set) { return set.name == card.name; }))
+    return false;
+  place.problems.add(place.node, fmt::format("{} has the name of a set of a mesh; name it "
+                                             "otherwise, or give the mesh a prefix.",
+                                             place.path));
+  return true;
+}
+
 void addNodeSet(Mesh& mesh, const std::vector<Vec3>& own, const SetCard& card, Real tolerance,
                 const CardPlace& place)
 {
+  if (isTaken(mesh.nodeSets, card, place))
+    return;
   const std::size_t before = place.problems.size();
   const Filter filter = filterOf(mesh, card, tolerance, place);
   std::set<int> nodes;
@@ -117,6 +131,8 @@ void addSideSet(Mesh& mesh, const std::vector<Vec3>& own, const SetCard& card, R
                 const std::vector<MeshFace>& faces, const std::vector<ElementPlace>& places,
                 const CardPlace& place)
 {
+  if (isTaken(mesh.sideSets, card, place))
+    return;
   const std::size_t before = place.problems.size();
   const Filter filter = filterOf(mesh, card, tolerance, place);
   const bool anyNormal = card.normal.empty();

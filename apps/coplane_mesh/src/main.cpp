@@ -4,6 +4,7 @@
 #include "ExampleFile.hpp"
 #include "JointRecipe.hpp"
 #include "MakeMesh.hpp"
+#include "MergeMeshes.hpp"
 #include "MeshCommand.hpp"
 #include "Recipe.hpp"
 #include "RecipeReference.hpp"
@@ -54,7 +55,10 @@ void make(const std::string& recipe, const std::vector<std::string>& overrides,
 {
   if (isOfBlocks(recipe))
     startBlocks(argv);
-  demandDistinct({{recipe, "the recipe"}}, output);
+  std::vector<std::pair<std::string, std::string>> inputs{{recipe, "the recipe"}};
+  for (const std::string& file : meshFilesOf(recipe, overrides))
+    inputs.push_back({file, "a mesh of the recipe"});
+  demandDistinct(inputs, output);
   reportAndWrite(makeMesh(recipe, overrides), recipe, output);
 }
 
@@ -85,6 +89,35 @@ void split(const std::string& file, const std::string& recipe,
                     result.bodies));
   result.mesh.qaRecords.push_back(qaRecord());
   reportAndWrite(result.mesh, file, output);
+}
+
+/// @param prefixes one a file, or none; weld: nodes no farther apart become one [m], 0: none do
+void merge(const std::vector<std::string>& files, const std::vector<std::string>& prefixes,
+           bool join, Real weld, const std::string& output)
+{
+  if (!prefixes.empty() && prefixes.size() != files.size())
+    fail(ExitCode::Usage,
+         "--prefix stands {} times for {} meshes. Accepted: once for each, in their order; \"\" "
+         "leaves names as they are.",
+         prefixes.size(), files.size());
+  std::vector<std::pair<std::string, std::string>> inputs;
+  std::vector<MeshToMerge> meshes;
+  for (const std::string& file : files)
+    inputs.push_back({file, "a mesh to merge"});
+  demandDistinct(inputs, output);
+  for (std::size_t f = 0; f < files.size(); ++f)
+    meshes.push_back(
+        {readMesh(files[f]), files[f], prefixes.empty() ? std::string() : prefixes[f], join});
+  MergedMesh merged = mergeMeshes(meshes, weld);
+  for (std::size_t f = 0; f < files.size(); ++f)
+    print(fmt::format("{}: {} nodes, {} elements{}", files[f], meshes[f].mesh.nodes(),
+                      meshes[f].mesh.elements(),
+                      weld > 0 && f > 0 ? fmt::format("; {} nodes welded", merged.welded[f]) : ""));
+  for (const std::string& note : merged.notes)
+    print("note: " + note);
+  merged.mesh.title = std::filesystem::path(output).filename().string();
+  merged.mesh.qaRecords.push_back(qaRecord());
+  reportAndWrite(merged.mesh, output, output);
 }
 
 bool isOfAbaqus(const std::string& file)
@@ -126,7 +159,9 @@ void showExample(const std::string& file)
 struct Arguments
 {
   std::string recipe, output, file;
-  std::vector<std::string> overrides;
+  std::vector<std::string> overrides, files, prefixes;
+  bool join = false;
+  Real weld = 0; ///< [m]
 };
 
 struct Command
@@ -170,6 +205,22 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
   splitting->add_option("recipe", given.recipe, "recipe of joints, a YAML file")->required();
   takeOverrides(splitting, given, "joints.fault.planes.tolerance=0.01");
   takeOutput(splitting, given);
+  CLI::App* merging = app.add_subcommand("merge", "Put several meshes into one file");
+  merging->add_option("meshes", given.files, "Exodus II files, two or more")
+      ->required()
+      ->expected(2, CLI::detail::expected_max_vector_size);
+  merging
+      ->add_option("--prefix", given.prefixes,
+                   "Put before the names of blocks and sets; once for each mesh, in their order")
+      ->allow_extra_args(false);
+  merging->add_flag("--join", given.join,
+                    "Blocks and sets of one name become one; otherwise such names are refused");
+  merging
+      ->add_option("--weld", given.weld,
+                   "Nodes of different meshes become one when they are no farther apart [m]; "
+                   "otherwise none do, and bodies that touch are in contact")
+      ->check(CLI::PositiveNumber);
+  takeOutput(merging, given);
   app.add_subcommand("blocks", "Cut a domain into blocks by joints, with openings, and mesh it");
   CLI::App* converting =
       app.add_subcommand("convert", "Write a mesh of Gmsh, Abaqus or CalculiX as Exodus II");
@@ -180,17 +231,20 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
   CLI::App* showing = app.add_subcommand(
       "example", "Check an example.yaml of exodus_inputs and print what it says as JSON");
   showing->add_option("file", given.file, "example.yaml")->required();
-  return {{making, [&, argv] { make(given.recipe, given.overrides, given.output, argv); }},
-          {checking, [&] { check(given.file); }},
-          {probing, [&] { probeMeshFile(given.file); }},
-          {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
-          {converting, [&] { convert(given.file, given.output); }},
-          {showing, [&] { showExample(given.file); }}};
+  return {
+      {making, [&, argv] { make(given.recipe, given.overrides, given.output, argv); }},
+      {checking, [&] { check(given.file); }},
+      {probing, [&] { probeMeshFile(given.file); }},
+      {splitting, [&] { split(given.file, given.recipe, given.overrides, given.output); }},
+      {merging, [&] { merge(given.files, given.prefixes, given.join, given.weld, given.output); }},
+      {converting, [&] { convert(given.file, given.output); }},
+      {showing, [&] { showExample(given.file); }}};
 }
 
 int run(int argc, char** argv)
 {
-  CLI::App app{"Writes Exodus II meshes from recipes, opens joints, converts and checks meshes."};
+  CLI::App app{"Writes Exodus II meshes from recipes, opens joints, merges, converts and checks "
+               "meshes."};
   app.set_version_flag("--version",
                        fmt::format("coplane_mesh {} ({})", version().number, version().revision));
   const std::vector<Reference>& references = recipeReferences();

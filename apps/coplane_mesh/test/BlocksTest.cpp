@@ -182,9 +182,59 @@ TEST(FractureTables, areRefusedWithTheirLine)
   contains(problemOf("x,y,z,radius,nx,ny,nz\n1,2,3,1,0,0,0\n"), "csv:2: the normal is zero");
   contains(problemOf("x,y,z,radius,nx,ny,nz\n1,2,3,-1,0,0,1\n"), "csv:2: the radius -1");
   contains(problemOf("x,y,z,radius,nx,ny,nz\n"), "no fracture");
+  contains(problemOf("x,y,z,radius,dip,dip_direction\n5,5,5,2,90,0\n5,5,5,2,95,0\n"),
+           "csv:3: dip = 95 is not between 0 and 90 degrees");
+  contains(problemOf("x,y,z,radius,dip,dip_direction\n5,5,5,2,-5,0\n"), "csv:2: dip = -5 is not");
+  contains(problemOf("x,y,z,radius,dip,dip_direction\n5,5,5,2,5,400\n"),
+           "csv:2: dip_direction = 400 is not between -360 and 360 degrees");
+  EXPECT_EQ(problemOf("x,y,z,radius,dip,dip_direction\n5,5,5,2,0,360\n5,5,5,2,90,-90\n"), "");
   // Byte order mark, quotes, spaces and the line ends of Windows.
   EXPECT_EQ(problemOf("\xEF\xBB\xBF\"x\", \"y\", z,radius,nx,ny,nz\r\n5, \"5\" ,5,2,0,0,1\r\n"),
             "");
+}
+
+TEST(PolygonsOfDfnWorks, areRead)
+{
+  const std::string file = "blocks_test_polygons.dat";
+  const auto problemOf = [&](const std::string& text, int dimension = 3)
+  {
+    std::ofstream(file) << text;
+    Problems problems;
+    const BlocksRecipe recipe = recipeOf("{file: " + file + "}", dimension);
+    jointSurfaces(recipe, "blocks.yaml", {0, 0, 0}, {10, 10, 10}, problems);
+    return problems.text();
+  };
+  const std::string two = "4 {1, 1, 5} {9, 1, 5} {9, 9, 5} {1, 9, 5} \n"
+                          "3 {2, 2, 1.5} {8, 2, 1.5} {5, 2, 8e0} \n";
+  EXPECT_EQ(problemOf("nPolygons: 2\n" + two), "");
+  const auto surfaces = surfacesOf(recipeOf("{file: " + file + "}"));
+  ASSERT_EQ(surfaces.size(), 2u);
+  EXPECT_EQ(surfaces[0].corners.size(), 4u);
+  EXPECT_EQ(surfaces[0].source, "line 2");
+  EXPECT_LT(norm(surfaces[1].corners[2] - Vec3{5, 2, 8}), 1e-12);
+  EXPECT_LT(norm(cross(normalOf(surfaces[1]), {0, 1, 0})), 1e-15);
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  contains(problemOf("nPolygons: 3\n" + two),
+           "2 polygons, and nPolygons: 3: the file is not whole");
+  contains(problemOf("nPolygons: two\n" + two), "dat:1: 'two' is no number");
+  contains(problemOf("nPolygons: 1\n4 {1, 1, 5} {9, 1, 5} {9, 9, 5}\n"),
+           "dat:2: 9 numbers follow for 4 corners");
+  contains(problemOf("nPolygons: 1\n3 {1, 1, 5} {9, x, 5} {9, 9, 5}\n"), "dat:2: 'x' is no number");
+  contains(problemOf("nPolygons: 1\n3 {1, 1, 1} {2, 2, 2} {3, 3, 3}\n"),
+           "dat:2: the polygon has no area");
+  contains(problemOf("nPolygons: 1\n4 {1, 1, 5} {9, 1, 5} {9, 9, 6} {1, 9, 5}\n"),
+           "dat:2: the polygon is not plane");
+  contains(problemOf("nPolygons: 2\n" + two, 2), "need dimension: 3");
+  std::filesystem::remove(file);
+}
+
+TEST(BlocksRecipes, mayHaveNoJoints)
+{
+  EXPECT_TRUE(parseBlocksRecipe("{dimension: 2, domain: {box: {min: [0, 0], max: [9, 9]}}, "
+                                "elements: {size: 1}}",
+                                "blocks.yaml")
+                  .joints.empty());
 }
 
 TEST(BlocksRecipes, areRefusedInClearWords)

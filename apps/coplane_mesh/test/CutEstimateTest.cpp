@@ -82,7 +82,12 @@ TEST(JointsInWrongUnits, areRefusedBeforeAnythingIsCut)
                               "spacing: 0.001, count: 4}}")),
            "joints.a.planes: spacing = 0.001 m");
   contains(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid)),
-           "about 2e+04 parts (surfaces: 87 of joints.a, 35 of joints.b, 35 of joints.c)");
+           "about 2e+04 parts (87 surfaces of joints.a, 35 surfaces of joints.b, 35 surfaces of "
+           "joints.c)");
+  const std::string cells = "grains: {voronoi: {cells: 6000}}";
+  contains(refusalOf(recipeOf(cells + ", " + setOf("a", 0, 0, 2))),
+           "about 6e+03 parts (6000 cells of joints.grains, 9 surfaces of joints.a)");
+  EXPECT_EQ(refusalOf(recipeOf(cells, ", most_parts: 7000")), "accepted");
   EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid, ", most_parts: 1e5")),
             "accepted");
 }

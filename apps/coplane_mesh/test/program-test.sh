@@ -29,6 +29,24 @@ expect 0 convert "$model" -o converted.e
 expect 0 check converted.e
 expect 4 convert missing.msh -o converted.e
 expect 4 convert "$recipe" -o converted.e
+expect 0 merge mesh.e mesh.e --prefix a_ --prefix b_ -o all.e
+expect 0 check all.e
+grep -q "a_slab" output.txt && grep -q "b_slab_top" output.txt || { cat output.txt; exit 1; }
+expect 0 merge mesh.e mesh.e --prefix "" --prefix b_ -o all.e
+expect 0 merge mesh.e mesh.e --join -o all.e
+expect 4 merge mesh.e mesh.e -o all.e
+expect 2 merge mesh.e mesh.e --prefix a_ -o all.e
+expect 2 merge mesh.e mesh.e --join --weld 0 -o all.e
+expect 2 merge mesh.e split.e -o mesh.e
+expect 2 merge mesh.e -o all.e
+expect 4 merge mesh.e missing.e -o all.e
+cat > placed.yaml <<'END'
+{dimension: 2, meshes: [{file: mesh.e, prefix: a_}, {file: mesh.e, prefix: b_, offset: [0, 3]}]}
+END
+expect 0 make placed.yaml -o placed.e
+expect 0 check placed.e
+expect 3 make placed.yaml -o placed.e --set meshes.0.scale=0
+expect 2 make placed.yaml -o mesh.e
 expect 0 --version
 expect 0 --help-recipe
 for option in --help-example --help-recipe-markdown --recipe-schema --split-schema --example-schema; do expect 0 $option; done

@@ -114,6 +114,55 @@ made = cut("nearly_met_cubes", {**broken, "elements": {"size": 1.2, "shape": "cu
 close("the same of cubes: volume, faces without partner", [made["blocks"]["rock"], lone_faces(made)], [1000, 0], 1e-9)
 pressed = {**flat, "joints": {"a": {"planes": [{"point": [4, 0], "normal": [1, 0]}, {"point": [4.001, 0], "normal": [1, 0]}]}}, "slivers": {"volume": 0, "thickness": 0}}
 
+# --- in the plane, too: a tunnel between two sets with scatter, whatever the seed ----------------------------------
+tunnel_2d = {key: value for key, value in case.load("exodus_inputs/tunnel_2d/mesh.yaml").items() if key != "seed"}
+volumes, worths, before, lone = [], [], [], 0
+for seed in range(1, 21):
+    made = cut("tunnel_2d", {**tunnel_2d, "seed": seed})
+    volumes.append(sum(made["blocks"].values()))
+    worths.append(min(float(worth) for worth in re.findall(r"worst shape (\S+)", made["said"])))
+    before.append(float(re.search(r"is worth \S+, was (\S+)", made["said"])[1]))
+    lone += lone_faces(made)
+case.check_within("tunnel, 20 seeds: worst shape", min(worths), 0.09, 1)
+case.check_within("tunnel, 20 seeds: worst worth without mending", min(before), 0, 0.003)  # such a mesh is refused
+case.check("tunnel, 20 seeds: area over that of the box", max(volumes, key=lambda area: abs(area - 1440)) / 1440, 1, 2e-6)
+case.check_equal("tunnel, 20 seeds: faces without partner", lone, 0)
+made = cut("tunnel_2d_cubes", {**tunnel_2d, "seed": 6, "elements": {**tunnel_2d["elements"], "shape": "cubes"}})
+case.check("tunnel of quadrilaterals: area over that of the box", sum(made["blocks"].values()) / 1440, 1, 2e-6)
+case.check_equal("tunnel of quadrilaterals: faces without partner", lone_faces(made), 0)
+
+# --- an adit into a hill: its walls meet the facets of the ground anywhere ---------------------------------------
+def ground(x, y):
+    """The height of a slope [m]."""
+    return 10 * (1 + math.tanh((x - 14) / 5)) + 0.5 * math.sin(y / 4)
+
+
+def hill(file, along, across, base):
+    """A solid below the slope, in STL: squares of 3 m, each two triangles."""
+    def top(i, j):
+        return (3 * i, 3 * j, ground(3 * i, 3 * j))
+
+    def bottom(i, j):
+        return (3 * i, 3 * j, base)
+
+    facets = []
+    for i in range(along):
+        for j in range(across):
+            facets += [(top(i, j), top(i + 1, j), top(i + 1, j + 1)), (top(i, j), top(i + 1, j + 1), top(i, j + 1))]
+            facets += [(bottom(i, j), bottom(i + 1, j + 1), bottom(i + 1, j)), (bottom(i, j), bottom(i, j + 1), bottom(i + 1, j + 1))]
+    border = [(i, 0) for i in range(along)] + [(along, j) for j in range(across)] + [(i, across) for i in range(along, 0, -1)] + [(0, j) for j in range(across, 0, -1)]
+    for start, end in zip(border, border[1:] + border[:1]):
+        facets += [(bottom(*start), bottom(*end), top(*end)), (bottom(*start), top(*end), top(*start))]
+    rows = [f"facet normal 0 0 0\nouter loop\n" + "\n".join("vertex {:.6f} {:.6f} {:.6f}".format(*x) for x in facet) + "\nendloop\nendfacet" for facet in facets]
+    pathlib.Path(file).write_text("solid hill\n" + "\n".join(rows) + "\nendsolid hill\n")
+
+
+hill("hill.stl", 12, 10, -8)
+made = cut("adit", {"dimension": 3, "domain": {"file": str(pathlib.Path("hill.stl").resolve())}, "elements": {"size": 2}, "node_sets": {"base": {"where": {"z": -8}}},
+                    "openings": {"adit": {"horseshoe": [4, 4], "path": [[2, 15, 3.1], [30, 15, 3.1]]}}})
+case.check_within("adit into a hill: worst shape", worst_shape(made), 0.05, 1)
+case.check("adit into a hill: volume of elements over that of the solid", made["blocks"]["rock"] / made["most"], 1, 1e-3)
+
 # --- cells -------------------------------------------------------------------------------------------------------
 for name, recipe, total in (("cells_2d", flat, 48), ("cells_3d", {**solid, "elements": {"size": 1.5}}, 192)):
     made = cut(name, {**recipe, "joints": {"grains": {"voronoi": {"cells": 20, "relaxations": 5}}}, "slivers": {"volume": 0, "thickness": 0}})
@@ -136,6 +185,24 @@ made = cut("stones_cut", {**stones, "joints": {"crack": {"planes": {"point": [1,
 case.check_equal("stones with a crack: bodies", made["bodies"], 4)
 close("stones with a crack: areas", [made["joints"]["crack"], made["joints"]["mortar"]], [2, 2], 1e-6)
 
+
+# --- without joints: a solid of a file, a box with an opening ---------------------------------------------------
+pathlib.Path("one.obj").write_text("\n".join(lines[: 1 + 8 + 6]) + "\n")
+made = cut("whole", {"dimension": 3, "domain": {"file": str(pathlib.Path("one.obj").resolve())}, "elements": {"size": 0.5}})
+case.check_equal("a solid without joints: parts, bodies", [made["parts"], made["bodies"]], [1, 1])
+case.check("a solid without joints: volume", made["blocks"]["rock"], 2, 1e-6)
+for shape in ("simplices", "cubes"):
+    made = cut(f"bored_{shape}", {"dimension": 2, "domain": flat["domain"], "elements": {"size": 0.5, "shape": shape}, "openings": {"hole": {"circle": 1, "at": [4, 3]}}})
+    case.check(f"a hole without joints, {shape}: area", made["blocks"]["rock"], 48 - math.pi, 1e-3)
+made = cut("kept", {"dimension": 3, "domain": solid["domain"], "elements": {"size": 1}, "openings": {"tunnel": {"circle": 1, "path": [[-1, 3, 2], [9, 3, 2]], "keep": True}}})
+case.check_equal("an opening that is kept, without joints: bodies", made["bodies"], 1)
+case.check("an opening that is kept, without joints: volume", made["blocks"]["rock"] + made["blocks"]["tunnel"], 192, 1e-3)
+
+# --- polygons of a code for fracture networks --------------------------------------------------------------------
+pathlib.Path("polygons.dat").write_text("nPolygons: 2\n4 {-1, -1, 2} {9, -1, 2} {9, 7, 2} {-1, 7, 2} \n3 {4, -20, 0} {4, 3, 30} {4, 26, 0} \n")
+made = cut("polygons", {**solid, "joints": {"network": {"file": str(pathlib.Path("polygons.dat").resolve())}}})
+case.check_equal("polygons of a network: bodies", made["bodies"], 4)
+case.check("polygons of a network: area", made["joints"]["network"], 48 + 24, 1e-3)
 
 # --- an assembly of COMPAS, its support a block of its own ----------------------------------------------------
 def block_of(group):

@@ -6,6 +6,7 @@ import re
 
 import numpy
 from coplanetest import Case
+from coplanetools import program
 
 case = Case("cut rock", __file__)
 example = "exodus_inputs/cut_rock_2d/"
@@ -76,6 +77,24 @@ named["contact"]["pairs"] = [
 ]
 by_set = still("by joint set", recipe, joints, named, 24, 5 * 16 + 3 * 24)
 case.check_equal("by joint set: planes that exist", int(by_set.history["planes"][0]), 5 * 16 + 3 * 24)
+
+# The cut rock twice in one mesh, side by side: both keep their joints, blocks and sets by name.
+cut = str(pathlib.Path("cut.e").resolve())
+program.make_mesh(recipe, str(pathlib.Path("whole.e").resolve()))
+program.split_mesh(str(pathlib.Path("whole.e").resolve()), joints, cut)
+both = {"dimension": 2, "meshes": [{"file": cut, "prefix": "near_"}, {"file": cut, "prefix": "far_", "offset": [20, 0]}]}
+twins = copy.deepcopy(named)
+names = ("near_", "far_")
+twins["blocks"] = {name + "rock": card for name in names for card in named["blocks"].values()}
+twins["contact"]["pairs"] = [{**pair, "joint_set": name + pair["joint_set"]} for name in names for pair in named["contact"]["pairs"]]
+twins["initial"] = [{**card, "block": name + card["block"]} for name in names for card in named["initial"]]
+twins["conditions"] = [{**card, "node_set": name + card["node_set"]} for name in names for card in named["conditions"]]
+checked = case.attempt("merged, looked at", both, twins, options=("--check",))
+case.check_equal("merged: exit code of --check", checked.code, 0)
+merged = case.attempt("merged", both, twins)
+case.check_equal("merged: exit code", merged.code, 0)
+case.check_equal("merged: planes that exist, missed contacts", [int(merged.history["planes"][0]), int(numpy.max(merged.history["missed"]))], [2 * (5 * 16 + 3 * 24), 0])
+case.check("merged: largest displacement [m]", moved(merged), 0, 1e-12)
 
 # A joint of 4 m that ends inside the rock: the faces at its tips share the tips' nodes.
 straight = copy.deepcopy(recipe)

@@ -1,4 +1,4 @@
-#include "MendTetrahedra.hpp"
+#include "MendSimplices.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,26 +9,20 @@ namespace coplane
 {
 namespace
 {
-using Face = TetrahedraWithSurfaces::Face;
-using Nodes = std::array<int, 4>;
-
-Real volumeOf(const std::array<Vec3, 4>& x)
-{
-  return dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
-}
-
-Face faceOf(int a, int b, int c)
-{
-  Face face{a, b, c};
-  std::sort(face.begin(), face.end());
-  return face;
-}
-
+template <class Nodes>
 bool has(const Nodes& nodes, int node)
 {
   return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
 }
 
+template <class Nodes>
+Nodes sorted(Nodes nodes)
+{
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+template <class Nodes>
 Nodes with(Nodes nodes, int from, int to)
 {
   std::replace(nodes.begin(), nodes.end(), from, to);
@@ -53,17 +47,23 @@ bool isWithin(Real share)
 /// All changes are made of three: an edge or a face is split at a point, and a node moves onto
 /// another one. An edge that turns, say, is split, and the new node moves to a neighbour. What
 /// makes nothing better is undone.
+template <class Mesh>
 class Mender
 {
+  static constexpr std::size_t dimension = Mesh::dimension, corners = Mesh::corners;
+  using Face = typename Mesh::Face;
+  using Nodes = std::array<int, corners>;
+  using Corners = std::array<Vec3, corners>;
+
 public:
-  Mender(TetrahedraWithSurfaces& mesh, const MendLimits& limits)
+  Mender(Mesh& mesh, const MendLimits& limits)
       : mesh_(mesh), limits_(limits), at_(mesh.points.size())
   {
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (std::size_t t = 0; t < mesh.simplices.size(); ++t)
     {
       alive_.push_back(true);
-      worth_.push_back(worth(mesh.tetrahedra[t].nodes));
-      for (const int node : mesh.tetrahedra[t].nodes)
+      worth_.push_back(worth(mesh.simplices[t].nodes));
+      for (const int node : mesh.simplices[t].nodes)
         at_[std::size_t(node)].push_back(int(t));
     }
   }
@@ -95,12 +95,29 @@ private:
   using Change = std::function<bool()>; ///< false: not allowed
 
   const Vec3& point(int node) const { return mesh_.points[std::size_t(node)]; }
-  const Nodes& nodesOf(int t) const { return mesh_.tetrahedra[std::size_t(t)].nodes; }
-  std::array<Vec3, 4> cornersOf(const Nodes& n) const
+  const Nodes& nodesOf(int t) const { return mesh_.simplices[std::size_t(t)].nodes; }
+  Corners cornersOf(const Nodes& nodes) const
   {
-    return {point(n[0]), point(n[1]), point(n[2]), point(n[3])};
+    Corners x;
+    for (std::size_t k = 0; k < corners; ++k)
+      x[k] = point(nodes[k]);
+    return x;
   }
-  Real worth(const Nodes& nodes) const { return worthOf(cornersOf(nodes), limits_.size); }
+  Real worth(const Nodes& nodes) const
+  {
+    const Corners x = cornersOf(nodes);
+    return std::copysign(worthOf(x, limits_.size), volumeOf(x));
+  }
+  /// The face that lies opposite to a corner.
+  static Face faceWithout(const Nodes& nodes, int corner)
+  {
+    Face face{};
+    std::size_t k = 0;
+    for (const int node : nodes)
+      if (node != corner)
+        face[k++] = node;
+    return sorted(face);
+  }
 
   // --- what can be undone -----------------------------------------------------------------------
   void remove(int t)
@@ -117,7 +134,7 @@ private:
   void add(const Nodes& nodes, int group)
   {
     const int t = int(alive_.size());
-    mesh_.tetrahedra.push_back({nodes, group});
+    mesh_.simplices.push_back({nodes, group});
     alive_.push_back(true);
     worth_.push_back(worth(nodes));
     for (const int node : nodes)
@@ -157,29 +174,29 @@ private:
       const auto rank = [&](int s)
       {
         const auto& place = mesh_.surfaces[std::size_t(s)];
-        return std::make_pair(!place.exact, place.joint);
+        return std::make_pair(place.border == Border::None, place.joint);
       };
       surface = rank(there) <= rank(surface) ? there : surface;
     }
     setSurface(face, surface);
   }
 
-  void undo(std::size_t tetrahedra, std::size_t nodes)
+  void undo(std::size_t simplices, std::size_t nodes)
   {
-    while (alive_.size() > tetrahedra)
+    while (alive_.size() > simplices)
     {
       if (alive_.back())
-        for (const int node : mesh_.tetrahedra.back().nodes)
+        for (const int node : mesh_.simplices.back().nodes)
         {
           auto& at = at_[std::size_t(node)];
           at.erase(std::find(at.begin(), at.end(), int(alive_.size()) - 1));
         }
-      mesh_.tetrahedra.pop_back();
+      mesh_.simplices.pop_back();
       alive_.pop_back();
       worth_.pop_back();
     }
     for (const int t : removed_)
-      if (std::size_t(t) < tetrahedra)
+      if (std::size_t(t) < simplices)
       {
         alive_[std::size_t(t)] = true;
         for (const int node : nodesOf(t))
@@ -198,37 +215,38 @@ private:
   /// better. It is undone unless it is to stay.
   Real attempt(const Change& change, bool stays)
   {
-    const std::size_t tetrahedra = alive_.size(), nodes = mesh_.points.size();
+    const std::size_t simplices = alive_.size(), nodes = mesh_.points.size();
     removed_.clear();
     faces_.clear();
+    slack_ = 0;
     std::vector<Real> before, after;
     const bool allowed = change();
     std::map<int, std::array<Real, 2>> volumes; // by group: now, and in all
     const auto count = [&](std::size_t t, Real sign)
     {
-      const Real volume = volumeOf(cornersOf(mesh_.tetrahedra[t].nodes));
-      auto& sum = volumes[mesh_.tetrahedra[t].group];
+      const Real volume = volumeOf(cornersOf(mesh_.simplices[t].nodes));
+      auto& sum = volumes[mesh_.simplices[t].group];
       sum[0] += sign * volume;
       sum[1] += std::abs(volume);
     };
     for (const int t : removed_)
-      if (std::size_t(t) < tetrahedra)
+      if (std::size_t(t) < simplices)
       {
         before.push_back(std::min(limits_.worth, worth_[std::size_t(t)]));
         count(std::size_t(t), -1);
       }
-    for (std::size_t t = tetrahedra; t < alive_.size(); ++t)
+    for (std::size_t t = simplices; t < alive_.size(); ++t)
       if (alive_[t])
       {
         after.push_back(std::min(limits_.worth, worth_[t]));
         count(t, 1);
       }
-    const bool filled = std::all_of(volumes.begin(), volumes.end(),
-                                    [](const auto& sum)
-                                    { return std::abs(sum.second[0]) <= 1e-9 * sum.second[1]; });
+    const bool filled = std::all_of(
+        volumes.begin(), volumes.end(),
+        [&](const auto& sum) { return std::abs(sum.second[0]) <= 1e-9 * sum.second[1] + slack_; });
     const bool better = allowed && filled && isBetter(after, before);
     if (!better || !stays)
-      undo(tetrahedra, nodes);
+      undo(simplices, nodes);
     return better ? std::max(1e-300, after.empty() ? limits_.worth : after.front()) : 0;
   }
 
@@ -263,21 +281,24 @@ private:
   int splitEdge(int a, int b, const Vec3& x)
   {
     const int middle = addNode(x);
+    std::set<Face> faces; // that have the edge, or are it
     for (const int t : around(a, b))
     {
-      const auto [nodes, group] = mesh_.tetrahedra[std::size_t(t)];
+      const auto [nodes, group] = mesh_.simplices[std::size_t(t)];
       for (const int c : nodes)
-        if (c != a && c != b)
-          if (const int surface = surfaceAt(faceOf(a, b, c)); surface >= 0)
-          {
-            setSurface(faceOf(a, b, c), -1);
-            setSurface(faceOf(a, middle, c), surface);
-            setSurface(faceOf(middle, b, c), surface);
-          }
+        if (const Face face = faceWithout(nodes, c); has(face, a) && has(face, b))
+          faces.insert(face);
       remove(t);
       add(with(nodes, a, middle), group);
       add(with(nodes, b, middle), group);
     }
+    for (const Face& face : faces)
+      if (const int surface = surfaceAt(face); surface >= 0)
+      {
+        setSurface(face, -1);
+        setSurface(sorted(with(face, b, middle)), surface);
+        setSurface(sorted(with(face, a, middle)), surface);
+      }
     return middle;
   }
 
@@ -285,7 +306,7 @@ private:
   {
     const int middle = addNode(x);
     for (const int t : around(face[0], face[1]))
-      if (const auto [nodes, group] = mesh_.tetrahedra[std::size_t(t)]; has(nodes, face[2]))
+      if (const auto [nodes, group] = mesh_.simplices[std::size_t(t)]; has(nodes, face[2]))
       {
         remove(t);
         for (const int corner : face)
@@ -294,9 +315,8 @@ private:
     if (const int surface = surfaceAt(face); surface >= 0)
     {
       setSurface(face, -1);
-      setSurface(faceOf(face[0], face[1], middle), surface);
-      setSurface(faceOf(face[1], face[2], middle), surface);
-      setSurface(faceOf(face[2], face[0], middle), surface);
+      for (const int corner : face)
+        setSurface(sorted(with(face, corner, middle)), surface);
     }
     return middle;
   }
@@ -308,62 +328,103 @@ private:
       for (const int left : nodesOf(t))
         if (left != node)
         {
-          Face face{};
-          std::size_t k = 0;
-          for (const int other : nodesOf(t))
-            if (other != left)
-              face[k++] = other;
-          std::sort(face.begin(), face.end());
+          const Face face = faceWithout(nodesOf(t), left);
           if (const int surface = surfaceAt(face); surface >= 0)
             all[face] = surface;
         }
     return all;
   }
 
-  /// Whether a node may go to a place, for all the surfaces that it is on.
-  bool mayGo(int node, const Vec3& place, const std::map<Face, int>& faces) const
+  bool isBorder(int surface, Border border) const
   {
+    return mesh_.surfaces[std::size_t(surface)].border == border;
+  }
+
+  /// Whether a node may go to a place, for all the surfaces that it is on. @param slack by how much
+  /// borders that give way may change volumes [m^3]
+  bool mayGo(int node, const Vec3& place, const std::map<Face, int>& faces, Real& slack) const
+  {
+    const bool drawn =
+        std::any_of(faces.begin(), faces.end(),
+                    [&](const auto& face) { return isBorder(face.second, Border::Drawn); });
+    bool gives = false;
+    Real area = 0;
     for (const auto& [face, s] : faces)
     {
       const auto& surface = mesh_.surfaces[std::size_t(s)];
       const Real away = std::abs(dot(surface.normal, place - surface.point));
-      if (away > (surface.exact ? 1e-9 * limits_.size : limits_.tolerance))
+      const bool fixed =
+          surface.border == Border::Fixed || (surface.border == Border::Wall && !drawn);
+      if (away > (fixed ? 1e-9 * limits_.size : limits_.tolerance))
         return false;
+      if (surface.border == Border::None)
+        continue;
+      gives = gives || away > 1e-9 * limits_.size;
+      area += areaOf(face);
     }
+    if (gives)
+      slack += limits_.tolerance * area;
     return faces.empty() || norm(place - point(node)) <= limits_.reach;
+  }
+
+  Real areaOf(const Face& face) const
+  {
+    const Vec3 along = point(face[1]) - point(face[0]);
+    if constexpr (dimension == 2)
+      return norm(along);
+    else
+      return norm(cross(along, point(face[2]) - point(face[0]))) / 2;
+  }
+
+  std::set<int> neighboursOf(int node) const
+  {
+    std::set<int> neighbours;
+    for (const int t : at_[std::size_t(node)])
+      for (const int other : nodesOf(t))
+        if (other != node)
+          neighbours.insert(other);
+    return neighbours;
+  }
+
+  /// Whether what is near both ends of an edge is around it: otherwise it holds something apart.
+  bool isAlone(int a, int b) const
+  {
+    std::set<int> ring;
+    for (const int t : around(a, b))
+      ring.insert(nodesOf(t).begin(), nodesOf(t).end());
+    const std::set<int> others = neighboursOf(b);
+    for (const int node : neighboursOf(a))
+      if (others.count(node) && !ring.count(node))
+        return false;
+    return true;
   }
 
   /// A node becomes another one.
   bool collapse(int node, int onto)
   {
     const std::map<Face, int> faces = surfacesAt(node);
-    if (!mayGo(node, point(onto), faces))
+    Real slack = 0;
+    if (!mayGo(node, point(onto), faces, slack))
       return false;
-    const auto isExact = [&](const auto& face)
-    { return mesh_.surfaces[std::size_t(face.second)].exact; };
+    const auto isExact = [&](const auto& face) { return !isBorder(face.second, Border::None); };
     const bool isNew = at_[std::size_t(onto)].empty();
+    if (slack > 0 && !isNew && !isAlone(node, onto))
+      return false;
+    slack_ += slack;
     if (!isNew && std::any_of(faces.begin(), faces.end(), isExact) &&
         std::none_of(faces.begin(), faces.end(),
-                     [&](const auto& face) {
-                       return isExact(face) &&
-                              std::count(face.first.begin(), face.first.end(), onto);
-                     }))
+                     [&](const auto& face) { return isExact(face) && has(face.first, onto); }))
       return false; // it would leave the border, or pinch it
     for (const auto& [face, surface] : faces)
       setSurface(face, -1);
     for (const auto& [face, surface] : faces)
-      if (std::find(face.begin(), face.end(), onto) == face.end())
-      {
-        Face now = face;
-        std::replace(now.begin(), now.end(), node, onto);
-        std::sort(now.begin(), now.end());
-        mergeSurface(now, surface);
-      }
+      if (!has(face, onto))
+        mergeSurface(sorted(with(face, node, onto)), surface);
     std::vector<int> there = at_[std::size_t(node)];
     std::sort(there.begin(), there.end());
     for (const int t : there)
     {
-      const auto [nodes, group] = mesh_.tetrahedra[std::size_t(t)];
+      const auto [nodes, group] = mesh_.simplices[std::size_t(t)];
       remove(t);
       if (!has(nodes, onto))
         add(with(nodes, node, onto), group);
@@ -386,7 +447,7 @@ private:
       Vec3 normal = mesh_.surfaces[std::size_t(s)].normal;
       for (const Vec3& other : normals)
         normal = normal - dot(normal, other) * other;
-      if (norm(normal) > 1e-3 && normals.size() < 3)
+      if (norm(normal) > 1e-3 && normals.size() < dimension)
         normals.push_back(normalised(normal));
     }
     Vec3 way = wish - point(node);
@@ -399,11 +460,7 @@ private:
   {
     for (const int node : nodesOf(t))
     {
-      std::set<int> neighbours;
-      for (const int other : at_[std::size_t(node)])
-        for (const int n : nodesOf(other))
-          if (n != node)
-            neighbours.insert(n);
+      const std::set<int> neighbours = neighboursOf(node);
       Vec3 middle{};
       for (const int n : neighbours)
         middle += (1.0 / Real(neighbours.size())) * point(n);
@@ -411,7 +468,10 @@ private:
       for (const int n : nodesOf(t))
         if (n != node)
           others.push_back(point(n));
-      const Vec3 normal = cross(others[1] - others[0], others[2] - others[0]);
+      const Vec3 along = others[1] - others[0];
+      Vec3 normal{-along.y, along.x, 0};
+      if constexpr (dimension == 3)
+        normal = cross(along, others[2] - others[0]);
       std::vector<Vec3> wishes{middle, point(node) + 0.3 * (middle - point(node))};
       if (norm(normal) > 0)
         for (const Real step : {-0.1, 0.1, -0.3, 0.3})
@@ -422,55 +482,77 @@ private:
     }
   }
 
+  /// The place on an edge nearest to a node, as a share of it.
+  Real shareOf(int a, int b, int node) const
+  {
+    const Vec3 along = point(b) - point(a);
+    return dot(point(node) - point(a), along) / dot(along, along);
+  }
+
+  /// An edge becomes a point, turns away, or goes through a node that is near.
+  void addEdge(int a, int b, const Vec3& x, const std::array<int, dimension - 1>& near,
+               std::vector<Change>& changes)
+  {
+    changes.push_back([this, a, b] { return collapse(a, b); });
+    changes.push_back([this, a, b] { return collapse(b, a); });
+    std::set<int> ring;
+    for (const int other : around(a, b))
+      for (const int node : nodesOf(other))
+        if (node != a && node != b)
+          ring.insert(node);
+    for (const int node : ring)
+    {
+      changes.push_back([this, a, b, x, node] { return collapse(splitEdge(a, b, x), node); });
+      const Real share = shareOf(a, b, node);
+      const Vec3 foot = point(a) + share * (point(b) - point(a));
+      if (isWithin(share) && has(near, node))
+        changes.push_back(
+            [this, a, b, foot, node]
+            {
+              const int middle = splitEdge(a, b, foot);
+              return collapse(node, middle);
+            });
+    }
+    changes.push_back([this, a, b, x] { return splitEdge(a, b, x) >= 0; });
+  }
+
   void addEdges(int t, std::vector<Change>& changes)
   {
     const Nodes n = nodesOf(t);
-    constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
-                                 {2, 3, 0, 1}, {1, 3, 0, 2}, {1, 2, 0, 3}};
-    for (int e = 0; e < 6; ++e)
-    {
-      const int a = n[std::size_t(edges[e][0])], b = n[std::size_t(edges[e][1])],
-                c = n[std::size_t(edges[e][2])], d = n[std::size_t(edges[e][3])];
-      changes.push_back([this, a, b] { return collapse(a, b); });
-      changes.push_back([this, a, b] { return collapse(b, a); });
-      const auto [s, r] = nearest(point(a), point(b), point(c), point(d));
-      const Vec3 x = point(a) + (isWithin(s) ? s : 0.5) * (point(b) - point(a));
-      std::set<int> ring;
-      for (const int other : around(a, b))
-        for (const int node : nodesOf(other))
-          if (node != a && node != b)
-            ring.insert(node);
-      for (const int node : ring)
+    if constexpr (dimension == 2)
+      for (std::size_t k = 0; k < 3; ++k)
       {
-        // The edge turns away, or goes through a node that is near.
-        changes.push_back([this, a, b, x, node] { return collapse(splitEdge(a, b, x), node); });
-        const Vec3 along = point(b) - point(a);
-        const Real share = dot(point(node) - point(a), along) / dot(along, along);
-        const Vec3 foot = point(a) + share * along;
-        if (isWithin(share) && (node == c || node == d))
-          changes.push_back(
-              [this, a, b, foot, node]
-              {
-                const int middle = splitEdge(a, b, foot);
-                return collapse(node, middle);
-              });
+        const int a = n[k], b = n[(k + 1) % 3], c = n[(k + 2) % 3];
+        const Real share = shareOf(a, b, c);
+        const Vec3 x = point(a) + (isWithin(share) ? share : 0.5) * (point(b) - point(a));
+        addEdge(a, b, x, {c}, changes);
       }
-      changes.push_back([this, a, b, x] { return splitEdge(a, b, x) >= 0; });
-      changes.push_back(
-          [this, a, b, c, d, x]
-          {
-            const int middle = splitEdge(a, b, x);
-            return collapse(c, middle) && collapse(d, middle);
-          });
-      if (isWithin(s) && isWithin(r))
+    else
+    {
+      constexpr std::size_t edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
+                                           {2, 3, 0, 1}, {1, 3, 0, 2}, {1, 2, 0, 3}};
+      for (const auto& edge : edges)
       {
-        const Vec3 y = point(c) + r * (point(d) - point(c));
+        const int a = n[edge[0]], b = n[edge[1]], c = n[edge[2]], d = n[edge[3]];
+        const auto [s, r] = nearest(point(a), point(b), point(c), point(d));
+        const Vec3 x = point(a) + (isWithin(s) ? s : 0.5) * (point(b) - point(a));
+        addEdge(a, b, x, {c, d}, changes);
         changes.push_back(
-            [this, a, b, c, d, x, y]
+            [this, a, b, c, d, x]
             {
-              const int onto = splitEdge(a, b, x);
-              return collapse(splitEdge(c, d, y), onto);
+              const int middle = splitEdge(a, b, x);
+              return collapse(c, middle) && collapse(d, middle);
             });
+        if (isWithin(s) && isWithin(r))
+        {
+          const Vec3 y = point(c) + r * (point(d) - point(c));
+          changes.push_back(
+              [this, a, b, c, d, x, y]
+              {
+                const int onto = splitEdge(a, b, x);
+                return collapse(splitEdge(c, d, y), onto);
+              });
+        }
       }
     }
   }
@@ -481,7 +563,7 @@ private:
     for (std::size_t k = 0; k < 4; ++k)
     {
       const int top = n[k];
-      const Face face = faceOf(n[(k + 1) % 4], n[(k + 2) % 4], n[(k + 3) % 4]);
+      const Face face = faceWithout(n, top);
       const Vec3 a = point(face[0]), b = point(face[1]), c = point(face[2]);
       const Vec3 normal = cross(b - a, c - a);
       const Real square = dot(normal, normal);
@@ -503,19 +585,20 @@ private:
       for (const int other : around(face[0], face[1]))
         if (has(nodesOf(other), face[2]))
           for (const int node : nodesOf(other))
-            if (std::find(face.begin(), face.end(), node) == face.end())
+            if (!has(face, node))
               tops.insert(node);
       for (const int node : tops)
         changes.push_back([this, face, x, node] { return collapse(splitFace(face, x), node); });
     }
   }
 
-  /// Makes the best of the changes that help a tetrahedron.
+  /// Makes the best of the changes that help a simplex.
   bool improve(int t)
   {
     std::vector<Change> changes;
     addEdges(t, changes);
-    addFaces(t, changes);
+    if constexpr (dimension == 3)
+      addFaces(t, changes);
     addMoves(t, changes);
     Real best = 0;
     const Change* chosen = nullptr;
@@ -533,19 +616,30 @@ private:
     std::size_t kept = 0;
     for (std::size_t t = 0; t < alive_.size(); ++t)
       if (alive_[t])
-        mesh_.tetrahedra[kept++] = mesh_.tetrahedra[t];
-    mesh_.tetrahedra.resize(kept);
+        mesh_.simplices[kept++] = mesh_.simplices[t];
+    mesh_.simplices.resize(kept);
   }
 
-  TetrahedraWithSurfaces& mesh_;
+  Mesh& mesh_;
   MendLimits limits_;
-  std::vector<std::vector<int>> at_; ///< tetrahedra by node
+  std::vector<std::vector<int>> at_; ///< simplices by node
   std::vector<bool> alive_;
   std::vector<Real> worth_;
   std::vector<int> removed_;                ///< since the attempt began
+  Real slack_ = 0;                          ///< of volumes, since then [m^3]
   std::vector<std::pair<Face, int>> faces_; ///< and the surfaces that faces had
 };
 } // namespace
+
+Real volumeOf(const std::array<Vec3, 3>& x)
+{
+  return cross(x[1] - x[0], x[2] - x[0]).z / 2;
+}
+
+Real volumeOf(const std::array<Vec3, 4>& x)
+{
+  return dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
+}
 
 Real worthOf(const std::array<Vec3, 4>& x, Real size)
 {
@@ -572,7 +666,12 @@ Real worthOf(const std::array<Vec3, 3>& x, Real size)
   return std::min(area * shortest / (a * b * c), area / longest / size) / regular;
 }
 
-int mendTetrahedra(TetrahedraWithSurfaces& mesh, const MendLimits& limits)
+int mend(TrianglesWithSurfaces& mesh, const MendLimits& limits)
+{
+  return Mender(mesh, limits).mend();
+}
+
+int mend(TetrahedraWithSurfaces& mesh, const MendLimits& limits)
 {
   return Mender(mesh, limits).mend();
 }
