@@ -19,6 +19,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <deque>
 #include <filesystem>
@@ -219,7 +220,13 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
       ->add_option("--weld", given.weld,
                    "Nodes of different meshes become one when they are no farther apart [m]; "
                    "otherwise none do, and bodies that touch are in contact")
-      ->check(CLI::PositiveNumber);
+      ->check(
+          [](const std::string& text)
+          {
+            return std::string(std::strtod(text.c_str(), nullptr) > 0
+                                   ? ""
+                                   : "'" + text + "'; accepted: a length above 0, in metres");
+          });
   takeOutput(merging, given);
   app.add_subcommand("blocks", "Cut a domain into blocks by joints, with openings, and mesh it");
   CLI::App* converting =
