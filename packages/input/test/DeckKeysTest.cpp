@@ -98,7 +98,7 @@ conditions:
 initial: [{block: a, stress_gradient: [1, 0, 0, 0, 0, 0]}]
 damping: {local: 0.5, until_energy_ratio: 1e-9}
 time: {end: 1}
-history: {probes: [{name: a, node_set: a}, {name: b, block: b}, {name: c, point: [0, 0, 0]},
+history: {probes: [{name: a, node_set: a}, {name: foot, block: b}, {name: c, point: [0, 0, 0]},
     {name: d, plane: [0, 0, 0]}, {name: e, between: [[0, 0, 0], [1, 0, 0]]}]}
 )";
 // What needs stages, and what does not go with them.
@@ -234,8 +234,8 @@ std::string show(const Deck& d)
   {
     for (const auto& point : p.between)
       showAll(out, point);
-    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.point, p.plane, p.joint, p.count,
-            fmt::format("{}", fmt::join(p.variables, " ")));
+    showAll(out, p.name, p.nodeSet, p.block, p.reaction, p.relativeTo, p.point, p.plane, p.joint,
+            p.count, fmt::format("{}", fmt::join(p.variables, " ")));
   }
   for (const auto& s : d.stages)
     showAll(out, s.name, s.until, s.atRest, fmt::format("{}", fmt::join(s.remove, " ")),

@@ -4,7 +4,7 @@ namespace coplane
 {
 NodalState::NodalState(const RankMesh& mesh)
     : x("x", mesh.nodes()), v("v", mesh.nodes()), mass("mass", mesh.nodes()),
-      reference("reference", mesh.ownedNodes), vPrevious("vPrevious", mesh.ownedNodes),
+      reference("reference", mesh.nodes()), vPrevious("vPrevious", mesh.ownedNodes),
       force("force", mesh.ownedNodes), contactForce("contactForce", mesh.ownedNodes),
       external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
       localDamping("localDamping", mesh.ownedNodes), impulse("impulse", mesh.ownedNodes),
@@ -17,9 +17,10 @@ NodalState::NodalState(const RankMesh& mesh)
       contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes)
 {
   for (int n = 0; n < mesh.nodes(); ++n)
+  {
     set(x, n, mesh.coordinates[n]);
-  for (int n = 0; n < mesh.ownedNodes; ++n)
     set(reference, n, mesh.coordinates[n]);
+  }
 }
 
 void NodalState::resize(const NodeLayout& layout)

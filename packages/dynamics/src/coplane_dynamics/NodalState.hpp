@@ -7,14 +7,14 @@
 
 namespace coplane
 {
-/// What every node knows. x, v and mass exist for all nodes of the layout (owned first); the rest
-/// for owned nodes only.
+/// What every node knows. x, v and mass exist for all nodes of the layout (owned first), reference
+/// for those of the rank's mesh; the rest for owned nodes only.
 struct NodalState
 {
   NodeVectors x;                ///< position at n [m]
   NodeVectors v;                ///< velocity at n + 1/2: the kick closes a cycle [m/s]
   Array<Real> mass;             ///< lumped, of inertia [kg]
-  NodeVectors reference;        ///< position at the start [m]
+  NodeVectors reference;        ///< from which displacements count [m]
   NodeVectors vPrevious;        ///< velocity at n - 1/2 [m/s]
   NodeVectors force;            ///< of elements, contact and lines at n [N]
   NodeVectors contactForce;     ///< part of it [N]

@@ -27,6 +27,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,6 +90,9 @@ public:
   const RankMesh& mesh() const { return model_.mesh; }
   const NodeLayout& layout() const { return layout_; }
   const NodalState& state() const { return state_; }
+  /// Place from which the strain of an element block of the mesh counts at a node of it: that from
+  /// which displacements do, or where the block came in if that was later [m].
+  Vec3 strainReference(int block, int node) const;
   /// In the order of the mesh file.
   const std::vector<ElementBlock>& blocks() const { return elements_.blocks(); }
   bool hasContact() const { return contact_ != nullptr; }
@@ -259,6 +263,7 @@ private:
   StageState stage_;
   bool displacementsZeroed_ = false;      ///< state_.reference is not the mesh
   std::map<int, std::vector<Vec3>> came_; ///< by block that has come in: places of the nodes then
+  std::set<int> cameBeforeZero_; ///< of these blocks, before displacements were zeroed last
   // Done in the next cycle.
   std::vector<int> leaving_;
   ComingBlocks coming_;

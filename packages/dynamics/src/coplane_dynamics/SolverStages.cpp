@@ -64,8 +64,10 @@ void Solver::beginStage(Stage stage)
   if (stage.zeroDisplacements)
   {
     displacementsZeroed_ = true;
-    for (int n = 0; n < layout_.owned(); ++n)
+    for (int n = 0; n < mesh().nodes(); ++n)
       set(state_.reference, n, at(state_.x, n));
+    for (const auto& [b, places] : came_)
+      cameBeforeZero_.insert(b);
     motion_->zeroDisplacements();
   }
   coming_ = {std::move(stage.add), conditions};
@@ -163,6 +165,7 @@ bool Solver::comeIn(const ComingBlocks& coming)
   for (const int b : blocks)
   {
     std::vector<Vec3>& places = came_[b];
+    cameBeforeZero_.erase(b);
     places.assign(std::size_t(mesh().nodes()), {});
     for (const int node : nodesOfBlock(mesh().blocks[std::size_t(b)]))
       places[std::size_t(node)] = at(state_.x, node);
@@ -243,7 +246,15 @@ namespace
 {
 constexpr const char* stageNumbers = "solver/stage";
 constexpr const char* zeroPlaces = "nodes/zero_displacement";
+constexpr const char* beforeZero = "solver/came_before_zero_displacement";
 } // namespace
+
+Vec3 Solver::strainReference(int block, int node) const
+{
+  const auto came = came_.find(block);
+  return came == came_.end() || cameBeforeZero_.count(block) > 0 ? at(state_.reference, node)
+                                                                 : came->second[std::size_t(node)];
+}
 
 StageState Solver::stageIn(const StateSource& in)
 {
@@ -287,6 +298,7 @@ void Solver::saveStage(StateTables& out) const
       row[c] = state_.reference(n, c);
   }
   out.rows(zeroPlaces, rows);
+  out.numbers(beforeZero, std::vector<Real>(cameBeforeZero_.begin(), cameBeforeZero_.end()));
   motion_->saveZero(out);
 }
 
@@ -298,6 +310,7 @@ void Solver::restoreStage(const StateSource& in)
   stage_ = stageIn(in);
   displacementsZeroed_ = numbers.at(2) != 0;
   came_.clear();
+  cameBeforeZero_.clear();
   for (std::size_t i = 3; i < numbers.size(); ++i)
   {
     const int b = int(numbers[i]);
@@ -320,10 +333,12 @@ void Solver::restoreStage(const StateSource& in)
   }
   if (!displacementsZeroed_)
     return;
+  for (const Real b : in.numbers(beforeZero))
+    cameBeforeZero_.insert(int(b));
   const KeyedRows rows = in.rowsOf(
       zeroPlaces, placeColumns,
-      std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + layout_.owned()));
-  for (int n = 0; n < layout_.owned(); ++n)
+      std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + mesh().nodes()));
+  for (int n = 0; n < mesh().nodes(); ++n)
     for (int c = 0; c < 3; ++c)
       state_.reference(n, c) = rows.row(std::size_t(n))[c];
   motion_->restoreZero(in);

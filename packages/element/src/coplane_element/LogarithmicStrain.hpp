@@ -13,8 +13,8 @@ namespace coplane
 /// @param reference, present corners, as many as topology(type).nodes, in its order [m]
 /// @param revolved bodies of revolution about the y axis: zz is the hoop strain; else, in two
 ///        dimensions, zero
-/// @return xx, yy, zz, xy, yz, zx, of the tensor, longer positive [-]; not a number where one of
-///         the maps has no inverse
+/// @return xx, yy, zz, xy, yz, zx, of the tensor, longer positive [-]; not a number where the
+///         reference has no volume, or nothing is left of the present one
 SymTensor logarithmicStrain(ElementType type, const Vec3* reference, const Vec3* present,
                             bool revolved);
 } // namespace coplane

@@ -46,7 +46,7 @@ SymTensor strainOf(const Solver& solver, int b, int element)
   for (int k = 0; k < topology(block.type()).nodes; ++k)
   {
     const int node = block.connectivity()(element, k);
-    reference[std::size_t(k)] = at(solver.state().reference, node);
+    reference[std::size_t(k)] = solver.strainReference(b, node);
     present[std::size_t(k)] = at(solver.state().x, node);
   }
   return logarithmicStrain(block.type(), reference.data(), present.data(),

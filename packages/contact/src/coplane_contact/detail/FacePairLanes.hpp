@@ -78,7 +78,7 @@ struct PairTables
   const SlotFaces* slots;
   Activity* activity;
   const JointLaw* laws;
-  bool incremental;  ///< closures are sums of increments
+  bool incremental;          ///< closures are sums of increments
   PassedOnChanges* passedOn; ///< of what planes pass on
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;

@@ -9,8 +9,8 @@
 
 namespace coplane
 {
-/// Logarithmic strain of an element of this rank at its middle, against the places from which
-/// displacements count; 0 of dead ones, whose nodes no longer tell it [-].
+/// Logarithmic strain of an element of this rank at its middle, counted as strainReference() of the
+/// solver says; 0 of dead ones, whose nodes no longer tell it [-].
 SymTensor strainOf(const Solver& solver, int block, int element);
 
 /// A variable of an element of this rank by its name in the results, such as stress_yy; nothing:
