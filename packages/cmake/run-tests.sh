@@ -59,8 +59,8 @@ finish() {
 get_dependencies() {
   COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview --with-browser | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
 }
-# What keeps memory of its own and what reads files; --slow: the programs of all packages.
-sanitized_packages=(core checkpoint geometry joint material mesh exodus partition element contact dynamics)
+# What keeps memory of its own and what reads files; laws and elements run within dynamics. --slow: the programs of all packages.
+sanitized_packages=(core checkpoint mesh exodus contact dynamics)
 build_sanitized() {
   local targets=(coplane_fuzz)
   for package in "${sanitized_packages[@]}"; do targets+=("coplane_${package}_test"); done

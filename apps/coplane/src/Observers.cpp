@@ -68,12 +68,27 @@ Vec3 placeOf(const std::vector<Real>& numbers)
   return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0};
 }
 
+/// `stress` and `strain` as their six components.
+std::vector<std::string> byComponent(const std::vector<std::string>& variables)
+{
+  std::vector<std::string> names;
+  for (const std::string& name : variables)
+    if (name == "stress" || name == "strain")
+      for (const char* component : {"xx", "yy", "zz", "xy", "yz", "zx"})
+        names.push_back(fmt::format("{}_{}", name, component));
+    else
+      names.push_back(name);
+  return names;
+}
+
 HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSettings& settings)
 {
   HistoryOptions history;
   history.file = deck.history.file;
   history.every = deck.history.every;
   history.position = positionOfOutput(settings, "history");
+  for (const StageCard& stage : deck.stages)
+    history.leaving.insert(history.leaving.end(), stage.remove.begin(), stage.remove.end());
   for (const ProbeCard& card : deck.history.probes)
   {
     Probe probe;
@@ -84,7 +99,7 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.point = card.plane ? card.plane : card.point;
     probe.plane = card.plane.has_value();
     probe.joint = card.joint;
-    probe.variables = card.variables;
+    probe.variables = byComponent(card.variables);
     for (int k = 0; k < card.count && !card.between.empty(); ++k)
     {
       Probe one = probe;

@@ -32,7 +32,7 @@ std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mes
 /// Variables that outputs ask for and that are not there, a line for each. Laws have been checked.
 std::vector<std::string> problemsOfOutputs(const Deck& deck, int dimension);
 
-/// Throws what the outputs of a run would throw at its start, and writes nothing. Collective.
+/// Throws what the history of a run would throw at its start, and writes nothing. Collective.
 void demandPossibleOutputs(const Deck& deck, const MeshSlice& mesh, const Solver& solver);
 
 /// Adds everything that a deck asks to be written: results, planes, history, progress, run record,

@@ -84,7 +84,7 @@ std::vector<Fracture> readTable(std::istream& text, const std::string& file, int
     }
     if (dimension == 2 && row.at("x1") == row.at("x2") && row.at("y1") == row.at("y2"))
       fail(ExitCode::Deck, "{}:{}: the trace has no length.", file, number);
-    if (row.count("radius") && !(row.at("radius") > 0))
+    if (dimension == 3 && row.count("radius") && !(row.at("radius") > 0))
       fail(ExitCode::Deck, "{}:{}: the radius {} is not positive.", file, number, row.at("radius"));
     const auto demandDegrees = [&](const char* column, Real least, Real most)
     {
@@ -95,8 +95,11 @@ std::vector<Fracture> readTable(std::istream& text, const std::string& file, int
                        : "the steepest descent below the horizontal; a plane that descends beyond "
                          "the vertical has 180 less that, and the opposite dip_direction");
     };
-    demandDegrees("dip", 0, 90);
-    demandDegrees("dip_direction", -360, 360);
+    if (dimension == 3 && !row.count("nx"))
+    {
+      demandDegrees("dip", 0, 90);
+      demandDegrees("dip_direction", -360, 360);
+    }
     if (row.count("nx") && !(std::hypot(row.at("nx"), row.at("ny"), row.at("nz")) > 0))
       fail(ExitCode::Deck, "{}:{}: the normal is zero.", file, number);
   }

@@ -205,8 +205,8 @@ Mesh withMeshes(const Recipe& recipe, const std::string& recipeFile, const Mesh&
     const std::string file = fileOf(card, recipeFile);
     Mesh mesh = readMesh(file);
     if (mesh.dimension != recipe.dimension)
-      fail(ExitCode::Mesh, "{}: {}.file = {} has {} dimensions and the recipe {}.", recipeFile,
-           card.where, file, mesh.dimension, recipe.dimension);
+      fail(ExitCode::Mesh, "{}: the mesh {} has {} dimensions and the recipe {}.", card.where, file,
+           mesh.dimension, recipe.dimension);
     for (Vec3& x : mesh.coordinates)
       x = card.scale * x;
     own.insert(own.end(), mesh.coordinates.begin(), mesh.coordinates.end());

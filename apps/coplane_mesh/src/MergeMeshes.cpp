@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace coplane
 {
@@ -153,6 +154,7 @@ private:
         refuse(fmt::format("node {} of {}", added.mesh.nodeIds[place->second], added.source), own,
                textOf(near[0]));
       nodeOf_[node] = near[0];
+      welded_.insert(near[0]);
       ++result_.welded.back();
     }
   }
@@ -278,14 +280,30 @@ private:
     }
   }
 
-  /// Sides of which welding has made faces between two elements.
+  /// Sides of which welding has made faces between two elements; and nodes that join nothing but
+  /// themselves, since the meshes do not match there: bodies that hang together like that are
+  /// hinges.
   void noteFacesInside()
   {
     std::map<std::pair<int, int>, std::array<int, 2>> inside;
+    std::set<int> hinges = welded_;
+    const auto isWelded = [&](int node) { return node < 0 || welded_.count(node) > 0; };
     for (const MeshFace& face : facesOf(result_.mesh))
       if (face.count == 2)
+      {
         for (int k = 0; k < 2; ++k)
           inside[{face.elements[std::size_t(k)], face.sides[std::size_t(k)]}] = face.elements;
+        if (std::all_of(face.nodes.begin(), face.nodes.end(), isWelded))
+          for (const int node : face.nodes)
+            hinges.erase(node);
+      }
+    if (!hinges.empty())
+      result_.notes.push_back(fmt::format(
+          "{} of {} welded nodes lie on no face that two elements share, the first at {} m: the "
+          "meshes do not match there and hang together by nodes only. Mesh both sides alike, or "
+          "leave --weld out and let a joint hold them",
+          hinges.size(), welded_.size(),
+          placeText(result_.mesh.coordinates[std::size_t(*hinges.begin())], resolution())));
     for (const Mesh::SideSet& set : result_.mesh.sideSets)
     {
       std::size_t count = 0;
@@ -304,6 +322,7 @@ private:
   std::vector<std::pair<int, GlobalId>> origins_; ///< by node: the mesh it has come with, its id
   std::map<std::string, std::string> blocks_, nodeSets_, sideSets_; ///< names, and from where
   std::map<std::string, std::vector<ElementPlace>> elementsOfSideSet_;
+  std::set<int> welded_;
   std::vector<int> nodeOf_;                 ///< of the mesh that is being added
   std::vector<ElementPlace> elementPlaces_; ///< of its elements
   MergedMesh result_;

@@ -187,7 +187,8 @@ public:
     Vec3 low, high;
     gmsh::model::getBoundingBox(face.first, face.second, low.x, low.y, low.z, high.x, high.y,
                                 high.z);
-    const Real slack = 1e-5 * norm(geometry_.high - geometry_.low); // Gmsh widens boxes
+    constexpr Real widened = 1e-6; // Gmsh widens boxes by 1e-7 on each side
+    const Real slack = std::max(widened, 1e-5 * norm(geometry_.high - geometry_.low));
     for (int axis = 0; axis < 3; ++axis)
       for (const Real side : {geometry_.low[axis], geometry_.high[axis]})
         if (std::abs(low[axis] - side) < slack && std::abs(high[axis] - side) < slack)
@@ -204,6 +205,7 @@ public:
     std::vector<std::vector<std::size_t>> tags, nodes;
     gmsh::model::mesh::getElements(types, tags, nodes, face.first, face.second);
     Real area = 0;
+    std::vector<typename Simplices::Face> onSurface;
     for (const std::vector<std::size_t>& all : nodes)
       for (std::size_t k = 0; k + count <= all.size(); k += count)
       {
@@ -223,10 +225,12 @@ public:
         surface.point += norm(normal) * ((1.0 / count) * sum);
         area += norm(normal);
         std::sort(corners.begin(), corners.end());
-        mesh.surfaceOf[corners] = int(mesh.surfaces.size());
+        onSurface.push_back(corners);
       }
     if (!(area > 0))
       return;
+    for (const typename Simplices::Face& corners : onSurface)
+      mesh.surfaceOf[corners] = int(mesh.surfaces.size());
     surface.point = (1 / area) * surface.point;
     surface.normal = normalised(surface.normal);
     mesh.surfaces.push_back(surface);

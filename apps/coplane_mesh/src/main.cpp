@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -223,7 +224,8 @@ std::vector<Command> commandsOf(CLI::App& app, Arguments& given, char** argv)
       ->check(
           [](const std::string& text)
           {
-            return std::string(std::strtod(text.c_str(), nullptr) > 0
+            const Real length = std::strtod(text.c_str(), nullptr);
+            return std::string(length > 0 && std::isfinite(length)
                                    ? ""
                                    : "'" + text + "'; accepted: a length above 0, in metres");
           });

@@ -58,6 +58,19 @@ Mesh cutBox(Real y, const std::string& name)
 }
 } // namespace
 
+TEST(MergedMeshes, thatDoNotMatchAreToldToHangTogetherByNodes)
+{
+  const Mesh above = makeMeshFromText(
+      "{dimension: 2, parts: [{shape: box, block: bar, min: [0, 1], size: [2, 1], divisions: [3, "
+      "1]}]}",
+      "bar.yaml");
+  const MergedMesh merged =
+      mergeMeshes({{boxAt(0, 0, "wall"), "a.e", "", false}, {above, "b.e", "", false}}, 1e-3);
+  ASSERT_FALSE(merged.notes.empty());
+  expectIn(merged.notes[0], "2 of 2 welded nodes lie on no face that two elements share, the first "
+                            "at (0, 1, 0) m");
+}
+
 TEST(MergedMeshes, keepBlocksSetsAndVolumes)
 {
   const MergedMesh merged =

@@ -14,6 +14,7 @@ from .planes import Planes
 # Ends of the columns that each of these has in the history (docs/user/outputs.md).
 _MOTION = [f"{what}_{axis}" for what in ("displacement", "velocity") for axis in "xyz"]
 _REACTION = [f"reaction_{axis}" for axis in "xyz"]
+_DRIFT = [f"drift_{axis}" for axis in "xyz"]
 _BODY = _MOTION + [f"{what}_{axis}" for what in ("spin", "reaction", "reaction_moment") for axis in "xyz"]
 _JOINT = ["open_area", "stick_area", "slip_area", "mean_closure", "largest_slip", "normal_force", "stored", "friction", "hysteresis", "fracture"]
 _RECORD = re.compile(r"(.+)\.run(?:-s([0-9]+))?\.json")
@@ -287,8 +288,8 @@ class Run:
 
     @property
     def probes(self):
-        """Motion of every probe: displacement_x..z, velocity_x..z, and reaction_x..z where the deck asks for it, as DataFrames."""
-        return self._of(self.probe_names, _MOTION, "probe", "history.probes", also=_REACTION)
+        """Motion of every probe: displacement_x..z, velocity_x..z, and where the deck asks for them reaction_x..z and drift_x..z, as DataFrames."""
+        return self._of(self.probe_names, _MOTION, "probe", "history.probes", also=_REACTION + _DRIFT)
 
     @property
     def joint_names(self):

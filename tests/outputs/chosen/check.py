@@ -102,10 +102,10 @@ for name, values in (("displacement_y", moved[nodes, 1]), ("velocity", numpy.lin
 
 # --- chosen variables ----------------------------------------------------------------------------------------------------------------
 few = copy.deepcopy(deck)
-few["output"]["variables"] = ["stress", "velocity_x", "contact_slip"]
+few["output"]["variables"] = ["stress", "strain", "velocity_x", "contact_slip"]
 some = case.run("few", recipe, few, energy=2e-2)
 case.check_equal("few: variables of nodes", sorted(some.results.nodal_names), sorted(["displacement_x", "displacement_y", "velocity_x", "contact_slip"]))
-case.check_equal("few: variables of elements", sorted(some.results.element_names), sorted(["alive", *(f"stress_{c}" for c in ("xx", "yy", "zz", "xy", "yz", "zx"))]))
+case.check_equal("few: variables of elements", sorted(some.results.element_names), sorted(["alive", *(f"{tensor}_{c}" for tensor in ("stress", "strain") for c in ("xx", "yy", "zz", "xy", "yz", "zx"))]))
 case.check_equal("few: their values are those of the whole file", bool((some.results.nodal("contact_slip") == results.nodal("contact_slip")).all()), True)
 case.check_equal("few: stress", bool((some.results.element("upper", "stress_yy") == results.element("upper", "stress_yy")).all()), True)
 case.check_equal("few: state hash", some.state_hash, run.state_hash)
@@ -139,7 +139,7 @@ for name, probes, told in (("law", [{"name": "a", "block": "upper", "variables":
     wrong["history"]["probes"] = probes
     if name == "one_name":
         wrong["joints"]["contact"] = wrong["joints"].pop("unused")
-    ends = [case.attempt(f"check_{name}_{len(options)}", recipe, wrong, options=options) for options in ([], ["--check"])]
+    ends = [case.attempt(f"check_{name}_{len(options)}", recipe, wrong, ranks=2, options=options) for options in ([], ["--check"])]
     case.check_equal(f"{name}: exit codes of the run and of --check", [end.code for end in ends], [3, 3])
     case.check_equal(f"{name}: both say '{told}'", [told in end.output for end in ends], [True, True])
     left = sorted(os.listdir(ends[1].folder))

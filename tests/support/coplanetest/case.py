@@ -84,6 +84,8 @@ class Case(Checks):
         else:
             options = ["--set", f"time.end={float(run.history['time'][at])!r}", "--set", "checkpoint.at_end=true"]
         first = self.attempt(f"{name}_restarted", recipe, deck, options=options, **how)
+        kept = "same bits after a restart"
+        self.check_equal(f"{name}: exit code of the run to be gone on with", first.code, 0, kept)
         code, output = program.run_program(["run.yaml", "--restart", "--backend", "threads"], first.folder, ranks)
         pathlib.Path(first.path("output-restart.txt")).write_text(output)
         kept = "same bits after a restart"

@@ -139,7 +139,7 @@ exact_times, exact = rocking(lambda t: float(numpy.interp(t, ground.times, groun
 late = run.history["time"] > begin
 turn = angles(run, 0)[late]
 exact = numpy.interp(run.history["time"][late] - begin, exact_times, exact)
-case.check_within("record: impacts", int(numpy.sum(exact[1:] * exact[:-1] < 0)), 5, 20)
+case.check_within("record: impacts", int(numpy.sum(turn[1:] * turn[:-1] < 0)), 5, 20)
 case.check("record: largest tilt over alpha", numpy.max(numpy.abs(turn)) / alpha, numpy.max(numpy.abs(exact)) / alpha, 0.03, relative=True)
 case.check("record: tilt, largest difference over the largest tilt", numpy.max(numpy.abs(turn - exact)) / numpy.max(numpy.abs(exact)), 0, 0.06)
 

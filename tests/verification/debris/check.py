@@ -31,7 +31,6 @@ def corners(run, step):
     return r.coordinates[dust, r.dimension - 1], r.nodal("velocity", step)[dust, : r.dimension]
 
 
-
 # --- a rigid floor that does not move: half a period of a mass on a spring ------------------------------------------------
 for dimension in (2, 3):
     name = f"rigid_{dimension}d"

@@ -1,4 +1,5 @@
 #include <coplane_contact/Census.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_core/OrderStatistics.hpp>
 
 #include <algorithm>
@@ -134,9 +135,11 @@ private:
     if (plane.declared)
       closed[a] = closed[b] = 1;
     if (plane.countedHere)
-      count(plane, joint);
+      count(plane, joint, contact.opposition(plane) > opposedAcrossJoint);
   }
-  void count(const Plane& plane, bool joint)
+  /// Faces that do not lie on each other, as those of two joints that meet at a corner, may have
+  /// area in common and lie far behind each other: that is no overlap of bodies.
+  void count(const Plane& plane, bool joint, bool lieOnEachOther)
   {
     ++n[Pairs];
     n[Open] += plane.state == PlaneState::Open;
@@ -156,7 +159,7 @@ private:
     else if (std::abs(plane.gap) <= roundOff &&
              (plane.overlap > 0 || plane.sighting == Sighting::FoundLate))
       ++n[Touching];
-    else if (plane.sighting == Sighting::FoundLate)
+    else if (plane.sighting == Sighting::FoundLate && lieOnEachOther)
     {
       ++n[Overlapping];
       overlaps.push_back({{{pair.faceId[0], pair.faceId[1]}, -plane.gap}, -plane.gap});
@@ -164,7 +167,7 @@ private:
     else
     {
       ++n[Apart];
-      if (plane.overlap > 0)
+      if (plane.overlap > 0 && plane.sighting != Sighting::FoundLate)
         gaps.push_back({pair, -plane.gap});
     }
   }

@@ -36,8 +36,8 @@ struct ContactCensus
   std::int64_t bonded = 0;                 ///< of them
   std::int64_t declaredWithoutOverlap = 0; ///< pairs of such joints that only neighbour each other
   std::int64_t touching = 0;               ///< other pairs whose faces meet, but for round-off
-  std::int64_t overlapping = 0;            ///< other pairs whose faces overlap
-  std::int64_t apart = 0;                  ///< other pairs that are apart
+  std::int64_t overlapping = 0; ///< others that lie on each other (26 degrees) and overlap
+  std::int64_t apart = 0;       ///< other pairs that are apart
   std::int64_t open = 0, stick = 0, slip = 0; ///< planes by state, declared or not
 
   CensusLengths joints;   ///< gaps that declared joints absorb; the largest sizes first

@@ -164,10 +164,13 @@ public:
 
   /// Whether the faces of a candidate pair opposed each other in the last update. With the
   /// potential those that may begin to before the next search are candidates, too.
-  bool isOpposed(const Plane& plane) const
+  bool isOpposed(const Plane& plane) const { return opposition(plane) > options_.cosOpposed; }
+  /// Cosine of the angle by which the faces of a candidate pair miss being parallel in the last
+  /// update: 1 where they look straight at each other [-].
+  Real opposition(const Plane& plane) const
   {
     const HalfStepFace* const faces = pairedFaces_.data();
-    return -dot(faces[plane.face[0]].normal, faces[plane.face[1]].normal) > options_.cosOpposed;
+    return -dot(faces[plane.face[0]].normal, faces[plane.face[1]].normal);
   }
 
   /// This rank's planes to count and to write: those whose lower face it owns, that exist and

@@ -333,8 +333,9 @@ void Solver::restoreStage(const StateSource& in)
   }
   if (!displacementsZeroed_)
     return;
-  for (const Real b : in.numbers(beforeZero))
-    cameBeforeZero_.insert(int(b));
+  if (in.has(beforeZero))
+    for (const Real b : in.numbers(beforeZero))
+      cameBeforeZero_.insert(int(b));
   const KeyedRows rows = in.rowsOf(
       zeroPlaces, placeColumns,
       std::vector<GlobalId>(layout_.ids().begin(), layout_.ids().begin() + mesh().nodes()));

@@ -7,7 +7,7 @@ namespace coplane
 {
 /// Strain of an element at its middle: ln V, where F = V R is the gradient of its map from the
 /// reference places to the present ones (the logarithmic, or Hencky, strain on spatial axes). It
-/// does not see rotations, its trace is ln(volume / reference volume), and where strains are small
+/// does not see rotations, its trace is ln det F there, and where strains are small
 /// it is the engineering one with half of the shear angles. An output only: laws go by rates.
 /// Places far from the origin cost digits: one of 1 km with elements of 0.1 m leaves 1e-12.
 /// @param reference, present corners, as many as topology(type).nodes, in its order [m]

@@ -134,7 +134,8 @@ Key historyKeys()
                               .means("of between: how many points"),
                           texts("variables", &ProbeCard::variables)
                               .like("[stress_yy, equivalent_plastic_strain]")
-                              .means("variables by their names in the results. At points those of "
+                              .means("variables by their names in the results, stress and strain "
+                                     "whole or by component. At points those of "
                                      "the element whose middle is nearest at t = 0; of a block the "
                                      "least and the largest over its elements, of a node set over "
                                      "its nodes (displacement and velocity, whole or as _x, _y, "

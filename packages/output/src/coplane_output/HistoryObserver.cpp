@@ -1,5 +1,6 @@
 #include <coplane_contact/ContactTables.hpp>
 #include <coplane_core/ExactSum.hpp>
+#include <coplane_core/Log.hpp>
 #include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
@@ -186,6 +187,7 @@ void HistoryObserver::demandPossible(const Solver& solver, HistoryOptions option
   options.file.clear();
   HistoryObserver trial(solver.comm(), std::move(options));
   trial.findShares(solver);
+  trial.warnOfLeaving(solver);
   const HistoryColumns line = trial.columnsOf(solver);
   solver.comm().together([&] { line.demandNamesOnce(); });
 }
@@ -194,6 +196,7 @@ void HistoryObserver::start(const Solver& solver)
 {
   initialKinetic_ = solver.initialEnergy().kinetic;
   findShares(solver);
+  warnOfLeaving(solver);
   schedule_.startAt(solver.clock().time);
   if (options_.position.empty())
     write(solver);
@@ -286,17 +289,38 @@ void HistoryObserver::findShares(const Solver& solver)
 
 void HistoryObserver::demandDistances(const Comm& comm) const
 {
+  constexpr Real roundOff = 1e-9; // of the places
   for (std::size_t p = 0; p < options_.probes.size(); ++p)
     if (const int other = options_.probes[p].relativeTo; other >= 0)
       comm.together(
           [&]
           {
-            if (norm(places_[p] - places_[std::size_t(other)]) == 0)
+            const Vec3 &here = places_[p], &there = places_[std::size_t(other)];
+            if (!(norm(here - there) > roundOff * (norm(here) + norm(there))))
               fail(ExitCode::Deck,
                    "history.probes: '{}' and '{}', to which it is relative, are in one place at "
                    "t = 0, so there is no drift between them. Accepted: two places.",
                    options_.probes[p].name, options_.probes[std::size_t(other)].name);
           });
+}
+
+/// A point at the wall of an opening is as near to what will be dug as to what stays.
+void HistoryObserver::warnOfLeaving(const Solver& solver) const
+{
+  const std::vector<std::string>& leaving = options_.leaving;
+  for (std::size_t p = 0; p < options_.probes.size() && !leaving.empty(); ++p)
+  {
+    const auto block = solver.comm().max(std::int64_t(nearest_[p].first));
+    if (block < 0)
+      continue;
+    const std::string& name = solver.model().blocks[std::size_t(block)].name;
+    if (std::find(leaving.begin(), leaving.end(), name) != leaving.end())
+      logWarning("probes in what leaves",
+                 fmt::format("history.probes: '{}' takes its variables from an element of '{}', "
+                             "which a stage removes; they are 0 from then on. Give a point inside "
+                             "of what stays.",
+                             options_.probes[p].name, name));
+  }
 }
 
 /// Elements at points; and whether the laws have the variables.

@@ -45,6 +45,8 @@ struct HistoryOptions
   bool stateHash = false; ///< one more column: the hash of the whole state, for comparing runs
   /// Rigid blocks (positions in Mesh::blocks) whose bodies are recorded in columns.
   std::vector<int> rigidBlocks = {};
+  std::vector<std::string> leaving =
+      {};                    ///< blocks that stages take out: probes there are warned of
   std::string position = {}; ///< savePosition() of the run that is continued; empty: a new run
 };
 
@@ -59,7 +61,8 @@ public:
   HistoryObserver(const Comm& comm, HistoryOptions options);
 
   /// Throws what a run with these options would throw at its start: variables that a law has not,
-  /// two columns of one name. Writes nothing. Collective.
+  /// two columns of one name, no distance to what a probe is relative to. Writes nothing.
+  /// Collective.
   static void demandPossible(const Solver& solver, HistoryOptions options);
 
   void start(const Solver& solver) override;
@@ -81,6 +84,7 @@ private:
   // Collective.
   void findShares(const Solver& solver);
   void demandDistances(const Comm& comm) const;
+  void warnOfLeaving(const Solver& solver) const;
   HistoryColumns columnsOf(const Solver& solver) const;
   void write(const Solver& solver);
   std::vector<Real> probeValues(const Solver& solver) const;

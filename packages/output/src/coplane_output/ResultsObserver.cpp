@@ -428,7 +428,10 @@ void ResultsObserver::writeNodes(const Solver& solver)
 
 void ResultsObserver::writeElements(const Solver& solver)
 {
-  constexpr int fixed = 17;
+  constexpr int fixed = 17, firstStrain = 6, lastStrain = 11;
+  const bool strained =
+      std::any_of(element_.begin(), element_.end(),
+                  [](int column) { return column >= firstStrain && column <= lastStrain; });
   const ConnectedBodies* const bodies = options_.bodies ? &options_.bodies->at(solver) : nullptr;
   const int columns = fixed + int(history_.size()) + int(bodies != nullptr);
   const RankMesh& mesh = solver.mesh();
@@ -454,7 +457,7 @@ void ResultsObserver::writeElements(const Solver& solver)
     {
       if (!part.owned[e])
         continue;
-      const SymTensor strain = strainOf(solver, int(b), e);
+      const SymTensor strain = strained ? strainOf(solver, int(b), e) : SymTensor();
       int column = 0;
       for (int c = 0; c < 6; ++c)
         mine(row, column++) = stress(c, e);
