@@ -109,6 +109,7 @@ public:
   {
     begin("the domain was read");
     addDomain();
+    demandFewSides(recipe_, recipeFile_, low_, high_);
     demandFewElements();
     begin("Gmsh cut the domain");
     for (const OpeningCard& opening : recipe_.openings)
@@ -322,8 +323,8 @@ private:
       result_.notes.push_back(note);
   }
 
-  /// Each opening has a part of the domain of its own.
-  void checkOpenings() const
+  /// Each opening has a part of the domain of its own; notes which take most of it.
+  void checkOpenings()
   {
     std::set<int> there;
     for (const auto& [block, opening] : blocks_)
@@ -334,6 +335,18 @@ private:
              "{}: openings.{} has no part of the domain, or only such that openings before it "
              "have.",
              recipeFile_, recipe_.openings[o].name);
+    std::vector<Real> shares(recipe_.openings.size(), 0);
+    Real all = 0;
+    for (const auto& [block, opening] : blocks_)
+    {
+      all += measureOf(block);
+      if (opening >= 0)
+        shares[std::size_t(opening)] += measureOf(block);
+    }
+    for (Real& share : shares)
+      share /= all;
+    for (const std::string& note : notesOfLargeOpenings(recipe_, shares))
+      result_.notes.push_back(note);
   }
 
   static int addPoint(const Vec3& x) { return occ::addPoint(x.x, x.y, x.z); }

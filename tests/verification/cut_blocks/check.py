@@ -304,6 +304,10 @@ refused("a joint outside", {**flat, "joints": {"a": {"planes": {"point": [0, 9],
 level = {"planes": {"point": [0, 4], "normal": [0, 1]}}
 refused("two joints in one place", {**flat, "joints": {"a": level, "b": level}}, "joints.b lies wholly on joints that stand before it", "exit code 3")
 refused("an opening outside", {**hole, "openings": {"far": {"circle": 1, "at": [50, 0]}}}, "openings.far has no part of the domain", "exit code 3")
+refused("an opening in millimetres", {**hole, "openings": {"tunnel": {"circle": 3000, "at": [10, 5]}}}, "openings.tunnel is 6000 m wide and 6000 m high", "25.61 m from corner to corner", "All lengths are in metres", "exit code 3")
+refused("a fine opening", {**hole, "openings": {"tunnel": {"circle": 3, "at": [10, 5], "size": 0.003}}}, "about 6284 sides", "elements.most_parts = 5000", "exit code 3")
+made = cut("large_opening", {**flat, "openings": {"hall": {"polygon": [[0.5, 0.5], [7.5, 0.5], [7.5, 5.5], [0.5, 5.5]], "at": [0, 0]}}})
+case.check_equal("an opening that takes most of the domain is told", "openings.hall, 7 m wide and 5 m high, takes 72.9 % of the domain" in made["said"], True)
 refused("nothing left", {**flat, "openings": {"all": {"polygon": [[-1, -1], [9, -1], [9, 7], [-1, 7]], "at": [0, 0]}}}, "leave nothing", "exit code 3")
 refused("two dimensions with a file", {**flat, "domain": {"file": "x.obj"}}, "domain.file", "exit code 3")
 
