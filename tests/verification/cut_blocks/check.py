@@ -93,9 +93,12 @@ case.check("tunnel: volume, with the area of the circle", made["blocks"]["rock"]
 near = {**flat, "joints": {"a": {"planes": [{"point": [4, 0], "normal": [1, 0]}, {"point": [4.03, 0], "normal": [1, 0]}]}}}
 made = cut("slivers", near)
 case.check_equal("slivers: parts, joined", [made["parts"], "1 slivers joined" in made["said"]], [2, True])
+case.check_equal("slivers: the bridge is told with its place and meaning", [words in made["said"] for words in (
+    "note: joint 'a': 6 of 12 m are not open (where slivers were joined to neighbours), the largest piece, of 6 m, at (4", "both sides hang together: rock bridges", "joint 'a': 6 m of 12 m asked for")], [True] * 3)
 made = cut("slivers_kept", {**near, "slivers": {"volume": 0, "thickness": 0}})
 case.check_equal("slivers kept: parts", made["parts"], 3)
 case.check("slivers kept: the thin one", made["least"], 0.18, 1e-4)
+case.check_equal("slivers kept: no bridge is told", ["are not open" in made["said"], "joint 'a': 12 m of 12 m asked for" in made["said"]], [False, True])
 
 # --- joints that nearly meet: no flat elements ---------------------------------------------------------------------
 broken = {"dimension": 3, "seed": 1, "domain": {"box": {"min": [0, 0, 0], "max": [10, 10, 10]}}, "elements": {"size": 1.2},
