@@ -395,8 +395,9 @@ Key elementsKey()
                      .in("parts")
                      .above(0)
                      .like("2e4")
-                     .means("a recipe whose joints cut the domain into more is refused before "
-                            "anything is cut; the number is estimated from the areas of joints"),
+                     .means("a recipe whose joints cut the domain into more, or whose openings "
+                            "have more sides, is refused before anything is cut; the number is "
+                            "estimated from the areas of joints"),
                  number("time_limit", &BlockElementsCard::timeLimit)
                      .in("s")
                      .above(0)

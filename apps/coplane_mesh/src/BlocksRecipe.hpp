@@ -104,7 +104,7 @@ struct BlockElementsCard
   BlockElements shape = BlockElements::Simplices;
   Real growth = 0.3;     ///< of the size with the distance from openings and regions [-]
   Real most = 5e6;       ///< elements, by an estimate
-  Real mostParts = 5000; ///< between joints, by an estimate
+  Real mostParts = 5000; ///< between joints, and sides of openings, by an estimate
   Real timeLimit = 3600; ///< of each step of cutting and meshing [s]
   std::vector<ElementSizeCard> regions;
 };

@@ -109,6 +109,7 @@ public:
   {
     begin("the domain was read");
     addDomain();
+    demandFewSides(recipe_, recipeFile_, low_, high_);
     demandFewElements();
     begin("Gmsh cut the domain");
     for (const OpeningCard& opening : recipe_.openings)
@@ -116,6 +117,7 @@ public:
     addJoints();
     fragment();
     checkOpenings();
+    measureJoints();
     for (int round = 0; round < 20 && joinSlivers(); ++round)
       fragment();
     removeOpenings();
@@ -322,8 +324,8 @@ private:
       result_.notes.push_back(note);
   }
 
-  /// Each opening has a part of the domain of its own.
-  void checkOpenings() const
+  /// Each opening has a part of the domain of its own; notes which take most of it.
+  void checkOpenings()
   {
     std::set<int> there;
     for (const auto& [block, opening] : blocks_)
@@ -334,6 +336,51 @@ private:
              "{}: openings.{} has no part of the domain, or only such that openings before it "
              "have.",
              recipeFile_, recipe_.openings[o].name);
+    std::vector<Real> shares(recipe_.openings.size(), 0);
+    Real all = 0;
+    for (const auto& [block, opening] : blocks_)
+    {
+      all += measureOf(block);
+      if (opening >= 0)
+        shares[std::size_t(opening)] += measureOf(block);
+    }
+    for (Real& share : shares)
+      share /= all;
+    for (const std::string& note : notesOfLargeOpenings(recipe_, shares))
+      result_.notes.push_back(note);
+  }
+
+  static Vec3 middleOf(const Entity& entity)
+  {
+    Vec3 x;
+    occ::getCenterOfMass(entity.first, entity.second, x.x, x.y, x.z);
+    return x;
+  }
+
+  /// How much of each joint is inside of what stays, before anything is left out.
+  void measureJoints()
+  {
+    const std::set<int> loose = loosePieces(false);
+    result_.measures.assign(result_.joints.size(), {});
+    for (const auto& [piece, joint] : pieces_)
+    {
+      const std::vector<int> sides = blocksAt(piece); // those of bodies_, too, on the border
+      const auto stay = std::count_if(
+          sides.begin(), sides.end(),
+          [&](int side) {
+            return blocks_.count({dimension_, side}) > 0 && !isRemoved({dimension_, side});
+          });
+      if (loose.count(piece.second) || stay == 2)
+        result_.measures[std::size_t(joint)].asked += measureOf(piece);
+    }
+  }
+
+  /// A part of a joint that will not be cut. @param sum of its kind, in the measures of joints
+  void leaveOut(const Entity& piece, Real JointMeasure::*sum)
+  {
+    JointMeasure& measure = result_.measures[std::size_t(pieces_.at(piece))];
+    measure.*sum += measureOf(piece);
+    measure.leaveOut(measureOf(piece), middleOf(piece));
   }
 
   static int addPoint(const Vec3& x) { return occ::addPoint(x.x, x.y, x.z); }
@@ -462,12 +509,15 @@ private:
     return volume < limits_.volume || volume < limits_.thickness * largest;
   }
 
-  /// Faces of joints that end inside of blocks.
-  std::set<int> loosePieces() const
+  /// Faces of joints that end inside of blocks. @param removed those in openings that are cut out,
+  /// too
+  std::set<int> loosePieces(bool removed = true) const
   {
     std::set<int> loose;
     for (const auto& [block, opening] : blocks_)
     {
+      if (!removed && isRemoved(block))
+        continue;
       Entities embedded;
       gmsh::model::mesh::getEmbedded(block.first, block.second, embedded);
       for (const Entity& entity : embedded)
@@ -501,9 +551,15 @@ private:
     std::sort(slivers.begin(), slivers.end());
     std::set<int> touched;
     std::set<Entity> dropped;
+    const std::set<int> told = loosePieces(false);
     for (const int face : loosePieces())
       if (isStub(face))
-        dropped.insert({dimension_ - 1, face});
+      {
+        const Entity piece{dimension_ - 1, face};
+        dropped.insert(piece);
+        if (told.count(face) && pieces_.count(piece))
+          leaveOut(piece, &JointMeasure::stubs);
+      }
     result_.stubs += int(dropped.size());
     result_.slivers = 0;
     for (const auto& [volume, block] : slivers)
@@ -530,7 +586,9 @@ private:
         continue; // next round
       touched.insert({block.second, largest->first});
       ++result_.joined;
-      dropped.insert(facesTo[largest->first].begin(), facesTo[largest->first].end());
+      for (const Entity& piece : facesTo[largest->first])
+        if (dropped.insert(piece).second)
+          leaveOut(piece, &JointMeasure::slivers);
     }
     if (dropped.empty())
       return false;

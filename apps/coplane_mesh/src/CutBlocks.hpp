@@ -2,6 +2,7 @@
 
 #include "BlocksRecipe.hpp"
 #include "GmshFile.hpp"
+#include "LeftOut.hpp"
 #include "RunApart.hpp"
 
 #include <string>
@@ -16,14 +17,15 @@ struct CutDomain
   GmshFile mesh;
   std::vector<std::string>
       joints; ///< their names, by the order of the recipe; then that between solids
-  std::vector<Real> blockVolumes;  ///< [m^3; 2D: m^2]
-  std::vector<std::string> notes;  ///< what was odd, for the user
-  int joined = 0;                  ///< slivers that became part of a neighbour
-  int stubs = 0;                   ///< ends of joints that were left out
-  int slivers = 0;                 ///< those that have stayed, without a joint to be left out
-  int changes = 0;                 ///< by which flat elements were mended
-  Real worstBefore = 1, worst = 1; ///< the least worth of an element before and after mending
-  Vec3 worstPlace{};               ///< the middle of that one [m]
+  std::vector<JointMeasure> measures; ///< by joint
+  std::vector<Real> blockVolumes;     ///< [m^3; 2D: m^2]
+  std::vector<std::string> notes;     ///< what was odd, for the user
+  int joined = 0;                     ///< slivers that became part of a neighbour
+  int stubs = 0;                      ///< ends of joints that were left out
+  int slivers = 0;                    ///< those that have stayed, without a joint to be left out
+  int changes = 0;                    ///< by which flat elements were mended
+  Real worstBefore = 1, worst = 1;    ///< the least worth of an element before and after mending
+  Vec3 worstPlace{};                  ///< the middle of that one [m]
 };
 
 /// How Gmsh meshes; where one way fails another one often works.

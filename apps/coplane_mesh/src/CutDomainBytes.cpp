@@ -138,8 +138,9 @@ void visitMembers(Domain& domain, Visit& visit)
 {
   auto& mesh = domain.mesh;
   visit(mesh.physicalNames, mesh.physicalsOfEntity, mesh.nodeIds, mesh.coordinates, mesh.elements,
-        domain.joints, domain.blockVolumes, domain.notes, domain.joined, domain.stubs,
-        domain.slivers, domain.changes, domain.worstBefore, domain.worst, domain.worstPlace);
+        domain.joints, domain.measures, domain.blockVolumes, domain.notes, domain.joined,
+        domain.stubs, domain.slivers, domain.changes, domain.worstBefore, domain.worst,
+        domain.worstPlace);
 }
 } // namespace
 

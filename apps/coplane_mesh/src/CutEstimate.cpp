@@ -1,5 +1,6 @@
 #include "CutEstimate.hpp"
 
+#include "OpeningSection.hpp"
 #include "ShapeModel.hpp"
 
 #include <coplane_core/Error.hpp>
@@ -137,6 +138,53 @@ void demandFewParts(const BlocksRecipe& recipe, const std::string& recipeFile,
        "elements.most_parts = {:.6g} are cut. All lengths are in metres. Make spacings or "
        "fractures larger or fewer, or raise elements.most_parts: cutting takes long.",
        recipeFile, parts, fmt::join(each, ", "), recipe.elements.mostParts);
+}
+
+void demandFewSides(const BlocksRecipe& recipe, const std::string& recipeFile, const Vec3& low,
+                    const Vec3& high)
+{
+  const Real diagonal = norm(high - low);
+  Problems problems;
+  Real sides = 0;
+  std::vector<std::string> each;
+  for (const OpeningCard& card : recipe.openings)
+  {
+    const auto [width, height] = extentOf(card);
+    if (std::max(width, height) > 2 * diagonal)
+      problems.add(
+          nodeAt(recipe.root, {"openings", card.name}),
+          fmt::format("openings.{} is {:.6g} m wide and {:.6g} m high, and the domain measures "
+                      "{:.4g} m from corner to corner. All lengths are in metres; accepted: a "
+                      "section that is not wider or higher than twice that.",
+                      card.name, width, height, diagonal));
+    const Real size = card.elementSize > 0 ? card.elementSize : recipe.elements.size;
+    sides += cornersOf(card, size);
+    each.push_back(fmt::format("{:.6g} of openings.{} with elements of {:.6g} m",
+                               cornersOf(card, size), card.name, size));
+  }
+  if (!problems.empty())
+    throw Error(ExitCode::Deck, problems.text());
+  if (sides > recipe.elements.mostParts)
+    fail(ExitCode::Deck,
+         "{}: the sections of openings have about {:.6g} sides ({}), and up to "
+         "elements.most_parts = {:.6g} are cut. All lengths are in metres. Make the sizes of "
+         "elements at openings larger, or raise elements.most_parts: cutting takes long.",
+         recipeFile, sides, fmt::join(each, ", "), recipe.elements.mostParts);
+}
+
+std::vector<std::string> notesOfLargeOpenings(const BlocksRecipe& recipe,
+                                              const std::vector<Real>& shares)
+{
+  std::vector<std::string> notes;
+  for (std::size_t o = 0; o < shares.size(); ++o)
+    if (shares[o] > 0.5)
+    {
+      const auto [width, height] = extentOf(recipe.openings[o]);
+      notes.push_back(fmt::format("openings.{}, {:.6g} m wide and {:.6g} m high, takes {:.3g} % of "
+                                  "the domain. All lengths are in metres",
+                                  recipe.openings[o].name, width, height, 100 * shares[o]));
+    }
+  return notes;
 }
 
 std::vector<std::string> notesOfSizes(const BlocksRecipe& recipe, const Vec3& low, const Vec3& high)

@@ -21,6 +21,15 @@ void demandFewParts(const BlocksRecipe& recipe, const std::string& recipeFile,
                     const std::vector<JointSurface>& surfaces, const Vec3& low, const Vec3& high,
                     Real thickness);
 
+/// Refuses openings in a wrong unit before anything is cut: wider or higher than twice the diagonal
+/// of the domain's box, or with more sides together than elements.most_parts.
+void demandFewSides(const BlocksRecipe& recipe, const std::string& recipeFile, const Vec3& low,
+                    const Vec3& high);
+
+/// Which openings take more than half of the domain. @param shares by opening [-]
+std::vector<std::string> notesOfLargeOpenings(const BlocksRecipe& recipe,
+                                              const std::vector<Real>& shares);
+
 /// Which spacings are larger than the domain, and which regions of elements lie outside of it.
 std::vector<std::string> notesOfSizes(const BlocksRecipe& recipe, const Vec3& low,
                                       const Vec3& high);

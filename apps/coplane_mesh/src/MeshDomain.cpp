@@ -130,11 +130,32 @@ public:
     limits.tolerance = limits_.thickness;
     limits.reach = limits_.stub;
     Simplices mesh = simplices<Simplices>();
+    const std::vector<Real> before = areasOfSurfaces(mesh);
     result_.changes = mend(mesh, limits);
     if (result_.changes == 0)
       return;
+    const std::vector<Real> after = areasOfSurfaces(mesh);
+    for (std::size_t s = 0; s < before.size(); ++s)
+      if (const auto& surface = mesh.surfaces[s]; surface.joint >= 0)
+        result_.measures[std::size_t(surface.joint)].leaveOut(before[s] - after[s], surface.point);
     takeOver(mesh);
     findWorst(size);
+  }
+
+  template <class Simplices>
+  static std::vector<Real> areasOfSurfaces(const Simplices& mesh)
+  {
+    std::vector<Real> areas(mesh.surfaces.size(), 0);
+    for (const auto& [face, surface] : mesh.surfaceOf)
+    {
+      const auto x = [&, &corners = face](std::size_t i)
+      { return mesh.points[std::size_t(corners[i])]; };
+      if constexpr (Simplices::dimension == 2)
+        areas[std::size_t(surface)] += norm(x(1) - x(0));
+      else
+        areas[std::size_t(surface)] += norm(cross(x(1) - x(0), x(2) - x(0))) / 2;
+    }
+    return areas;
   }
 
   /// The elements, with the surfaces of joints and borders.

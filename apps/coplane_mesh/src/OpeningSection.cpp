@@ -28,6 +28,32 @@ std::array<Real, 2> measuresOf(const OpeningCard& card)
   return {perimeter, norm(twiceArea) / 2};
 }
 
+std::array<Real, 2> extentOf(const OpeningCard& card)
+{
+  if (card.circle > 0)
+    return {2 * card.circle, 2 * card.circle};
+  if (!card.horseshoe.empty())
+    return {card.horseshoe[0], card.horseshoe[1]};
+  std::array<Real, 2> extent{};
+  for (std::size_t axis = 0; axis < 2; ++axis)
+  {
+    const auto [least, most] =
+        std::minmax_element(card.polygon.begin(), card.polygon.end(),
+                            [&](const auto& a, const auto& b) { return a[axis] < b[axis]; });
+    extent[axis] = (*most)[axis] - (*least)[axis];
+  }
+  return extent;
+}
+
+Real cornersOf(const OpeningCard& card, Real size)
+{
+  if (card.circle > 0)
+    return std::max(6.0, std::ceil(2 * pi * card.circle / size));
+  if (!card.horseshoe.empty())
+    return 3 + std::max(18.0, std::ceil(pi * card.horseshoe[0] / 2 / size));
+  return Real(card.polygon.size());
+}
+
 std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
 {
   std::vector<std::array<Real, 2>> corners;
@@ -36,7 +62,7 @@ std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
   };
   if (card.circle > 0)
   {
-    const int sides = std::max(6, int(std::ceil(2 * pi * card.circle / size)));
+    const int sides = int(cornersOf(card, size));
     const Real turn = 2 * pi / sides;
     for (int k = 0; k < sides; ++k) // the area is that of the circle
       add(card.circle * std::sqrt(turn / std::sin(turn)), 0, turn * k);
@@ -47,7 +73,7 @@ std::vector<std::array<Real, 2>> sectionOf(const OpeningCard& card, Real size)
     corners.push_back({-half, 0});
     corners.push_back({half, 0});
     // The roof lacks up to 0.51 % of the area of its half circle.
-    const int sides = std::max(18, int(std::ceil(pi * half / size)));
+    const int sides = int(cornersOf(card, size)) - 3;
     for (int k = 0; k <= sides; ++k)
       add(half, card.horseshoe[1] - half, pi * k / sides);
   }

@@ -199,6 +199,11 @@ private:
             nodesOfSide(face.elements[1], face.sides[1]))
         {
           ++report.closed;
+          if (const Real area = areaOf(before_, face); area > report.largestClosed)
+          {
+            report.largestClosed = area;
+            report.closedPlace = centreOf(before_, face);
+          }
           continue;
         }
         ++report.opened;

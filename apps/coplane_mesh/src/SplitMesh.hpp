@@ -18,9 +18,11 @@ struct Cut
 struct CutReport
 {
   std::string name;
-  int opened = 0; ///< faces that became two
-  Real area = 0;  ///< of those [m^2; 2D: m]
-  int closed = 0; ///< faces that stay one: all their nodes are on the rim of the joint
+  int opened = 0;         ///< faces that became two
+  Real area = 0;          ///< of those [m^2; 2D: m]
+  int closed = 0;         ///< faces that stay one: all their nodes are on the rim of the joint
+  Real largestClosed = 0; ///< area of the largest of those [m^2; 2D: m]
+  Vec3 closedPlace{};     ///< its middle [m]
 };
 
 struct SplitMesh

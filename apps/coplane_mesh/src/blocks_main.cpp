@@ -107,12 +107,20 @@ void printBlocks(const CutDomain& domain, const BlocksRecipe& recipe, const Spli
         "{} nodes were doubled, the first at {} m. An opening, a joint or a border "
         "ends askew there; move it if the parts are to hold together",
         result.hinges.size(), placeText(result.hinges.front(), recipe.elements.size / 10)));
-  for (const CutReport& joint : result.cuts)
-    print(fmt::format("joint '{}': {:.6g} {}, mean spacing {:.4g} m; {} faces opened{}", joint.name,
-                      joint.area, area, total / joint.area, joint.opened,
+  for (const std::string& note :
+       notesOfLeftOut(domain.measures, result.cuts, recipe.dimension, recipe.elements.size / 10))
+    print("note: " + note);
+  for (std::size_t j = 0; j < result.cuts.size(); ++j)
+  {
+    const CutReport& joint = result.cuts[j];
+    print(fmt::format("joint '{}': {:.6g} {} of {:.6g} {} asked for, mean spacing {:.4g} m; {} "
+                      "faces opened{}",
+                      joint.name, joint.area, area, domain.measures[j].asked, area,
+                      total / joint.area, joint.opened,
                       joint.closed > 0
                           ? fmt::format(", {} closed: all their nodes are on the rim", joint.closed)
                           : ""));
+  }
 }
 
 void makeBlocks(const std::string& file, const std::vector<std::string>& overrides,

@@ -18,6 +18,7 @@ CutDomain someDomain()
   domain.mesh.coordinates = {{0, -0.0, 1e-300}, {0.1, 512340.375, -2}, {1, 2, 3}};
   domain.mesh.elements = {{{3, 4}, 4, 11, {0, 1, 2, 1}}, {{2, 5}, 2, 12, {2, 1, 0}}};
   domain.joints = {"bedding", std::string("with \0 zero", 11), ""};
+  domain.measures = {{5, 1, 2, 3, {4, 5, 6}}, {7, 0, 0.5, 0, {}}};
   domain.blockVolumes = {1.5, 1.0 / 3};
   domain.notes = {"odd"};
   domain.joined = 1;
@@ -55,6 +56,16 @@ TEST(CutDomains, areTheSameOnTheOtherSide)
     EXPECT_EQ(a.nodes, b.nodes);
   }
   EXPECT_EQ(got.joints, sent.joints);
+  ASSERT_EQ(got.measures.size(), sent.measures.size());
+  for (std::size_t j = 0; j < sent.measures.size(); ++j)
+  {
+    const JointMeasure &a = got.measures[j], &b = sent.measures[j];
+    EXPECT_EQ(a.asked, b.asked);
+    EXPECT_EQ(a.slivers, b.slivers);
+    EXPECT_EQ(a.stubs, b.stubs);
+    EXPECT_EQ(a.largest, b.largest);
+    expectSame(a.place, b.place);
+  }
   EXPECT_EQ(got.blockVolumes, sent.blockVolumes);
   EXPECT_EQ(got.notes, sent.notes);
   EXPECT_EQ(got.joined, sent.joined);

@@ -2,6 +2,7 @@
 
 #include "CubesOfTetrahedra.hpp"
 #include "MeasureOfElements.hpp"
+#include "OpeningSection.hpp"
 
 #include <coplane_core/Error.hpp>
 #include <coplane_exodus/MeshReport.hpp>
@@ -90,6 +91,75 @@ TEST(JointsInWrongUnits, areRefusedBeforeAnythingIsCut)
   EXPECT_EQ(refusalOf(recipeOf(cells, ", most_parts: 7000")), "accepted");
   EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid, ", most_parts: 1e5")),
             "accepted");
+}
+
+BlocksRecipe openingsOf(const std::string& openings, const std::string& more = "")
+{
+  return parseBlocksRecipe("{dimension: 2, domain: {box: {min: [-20, -20], max: [20, 20]}}, "
+                           "elements: {size: 1" +
+                               more + "}, openings: {" + openings + "}}",
+                           "blocks.yaml");
+}
+
+std::string refusalOfOpenings(const BlocksRecipe& recipe)
+{
+  try
+  {
+    demandFewSides(recipe, "blocks.yaml", {-20, -20, 0}, {20, 20, 0});
+  }
+  catch (const Error& error)
+  {
+    EXPECT_EQ(error.code(), ExitCode::Deck);
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(OpeningsInWrongUnits, areRefusedBeforeAnythingIsCut)
+{
+  const auto contains = [](const std::string& text, const std::string& part)
+  { EXPECT_NE(text.find(part), std::string::npos) << text; };
+  EXPECT_EQ(refusalOfOpenings(openingsOf("t: {circle: 3, at: [0, 0]}")), "accepted");
+  EXPECT_EQ(refusalOfOpenings(openingsOf("t: {circle: 56, at: [0, 0]}")), "accepted");
+  for (const char* radius : {"57", "3000", "3e11"})
+    contains(refusalOfOpenings(
+                 openingsOf(fmt::format("t: {{circle: {}, at: [0, 0], size: 0.6}}", radius))),
+             "and the domain measures 56.57 m from corner to corner. All lengths are in metres");
+  contains(refusalOfOpenings(
+               openingsOf("a: {circle: 3, at: [0, 0]}, t: {horseshoe: [8, 5000], at: [0, 0]}")),
+           "openings.t is 8 m wide and 5000 m high");
+  contains(
+      refusalOfOpenings(openingsOf("t: {polygon: [[-100, 0], [100, 0], [0, 50]], at: [0, 0]}")),
+      "openings.t is 200 m wide and 50 m high");
+  const std::string fine = "a: {circle: 3, at: [0, 0]}, t: {circle: 10, at: [5, 0], size: 0.01}";
+  contains(refusalOfOpenings(openingsOf(fine)),
+           "about 6303 sides (19 of openings.a with elements of 1 m, 6284 of openings.t with "
+           "elements of 0.01 m), and up to elements.most_parts = 5000");
+  EXPECT_EQ(refusalOfOpenings(openingsOf(fine, ", most_parts: 6400")), "accepted");
+}
+
+TEST(CornersOfOpenings, areAsManyAsTheSectionHas)
+{
+  const BlocksRecipe recipe =
+      openingsOf("a: {circle: 3, at: [0, 0]}, b: {circle: 0.1, at: [9, 0]}, c: {horseshoe: [8, 5], "
+                 "at: [0, 9]}, d: {horseshoe: [2, 5], at: [0, 9]}, e: {polygon: [[0, 0], [1, 0], "
+                 "[0, 2]], at: [0, 0]}");
+  ASSERT_EQ(recipe.openings.size(), 5u);
+  for (const OpeningCard& card : recipe.openings)
+    for (const Real size : {0.01, 0.3, 1.0})
+      EXPECT_EQ(cornersOf(card, size), Real(sectionOf(card, size).size())) << card.name;
+}
+
+TEST(OpeningsThatTakeMostOfTheDomain, areNoted)
+{
+  const BlocksRecipe recipe =
+      openingsOf("a: {circle: 19, at: [0, 0]}, b: {horseshoe: [8, 5], at: [0, 9]}");
+  EXPECT_TRUE(notesOfLargeOpenings(recipe, {0.5, 0.1}).empty());
+  const auto notes = notesOfLargeOpenings(recipe, {0.7088, 0.1});
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0],
+            "openings.a, 38 m wide and 38 m high, takes 70.9 % of the domain. All lengths "
+            "are in metres");
 }
 
 TEST(WhatLiesOutside, isNamed)

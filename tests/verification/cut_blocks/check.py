@@ -93,9 +93,12 @@ case.check("tunnel: volume, with the area of the circle", made["blocks"]["rock"]
 near = {**flat, "joints": {"a": {"planes": [{"point": [4, 0], "normal": [1, 0]}, {"point": [4.03, 0], "normal": [1, 0]}]}}}
 made = cut("slivers", near)
 case.check_equal("slivers: parts, joined", [made["parts"], "1 slivers joined" in made["said"]], [2, True])
+case.check_equal("slivers: the bridge is told with its place and meaning", [words in made["said"] for words in (
+    "note: joint 'a': 6 of 12 m are not open (where slivers were joined to neighbours), the largest piece, of 6 m, at (4", "both sides hang together: rock bridges", "joint 'a': 6 m of 12 m asked for")], [True] * 3)
 made = cut("slivers_kept", {**near, "slivers": {"volume": 0, "thickness": 0}})
 case.check_equal("slivers kept: parts", made["parts"], 3)
 case.check("slivers kept: the thin one", made["least"], 0.18, 1e-4)
+case.check_equal("slivers kept: no bridge is told", ["are not open" in made["said"], "joint 'a': 12 m of 12 m asked for" in made["said"]], [False, True])
 
 # --- joints that nearly meet: no flat elements ---------------------------------------------------------------------
 broken = {"dimension": 3, "seed": 1, "domain": {"box": {"min": [0, 0, 0], "max": [10, 10, 10]}}, "elements": {"size": 1.2},
@@ -304,6 +307,10 @@ refused("a joint outside", {**flat, "joints": {"a": {"planes": {"point": [0, 9],
 level = {"planes": {"point": [0, 4], "normal": [0, 1]}}
 refused("two joints in one place", {**flat, "joints": {"a": level, "b": level}}, "joints.b lies wholly on joints that stand before it", "exit code 3")
 refused("an opening outside", {**hole, "openings": {"far": {"circle": 1, "at": [50, 0]}}}, "openings.far has no part of the domain", "exit code 3")
+refused("an opening in millimetres", {**hole, "openings": {"tunnel": {"circle": 3000, "at": [10, 5]}}}, "openings.tunnel is 6000 m wide and 6000 m high", "25.61 m from corner to corner", "All lengths are in metres", "exit code 3")
+refused("a fine opening", {**hole, "openings": {"tunnel": {"circle": 3, "at": [10, 5], "size": 0.003}}}, "about 6284 sides", "elements.most_parts = 5000", "exit code 3")
+made = cut("large_opening", {**flat, "openings": {"hall": {"polygon": [[0.5, 0.5], [7.5, 0.5], [7.5, 5.5], [0.5, 5.5]], "at": [0, 0]}}})
+case.check_equal("an opening that takes most of the domain is told", "openings.hall, 7 m wide and 5 m high, takes 72.9 % of the domain" in made["said"], True)
 refused("nothing left", {**flat, "openings": {"all": {"polygon": [[-1, -1], [9, -1], [9, 7], [-1, 7]], "at": [0, 0]}}}, "leave nothing", "exit code 3")
 refused("two dimensions with a file", {**flat, "domain": {"file": "x.obj"}}, "domain.file", "exit code 3")
 
