@@ -23,8 +23,8 @@ CHECKED = ["bars_2d", "cut_rock_2d", "perforation", "penetration", "rocking_bloc
 case = Case("new", __file__)
 
 
-def called(command, folder="."):
-    done = subprocess.run(list(map(str, command)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+def called(command, folder=".", env=None):
+    done = subprocess.run(list(map(str, command)), cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
@@ -103,6 +103,25 @@ case.check_equal("a run beside its folder: exit code", code, 0)
 one = coplane.open(place / "bars")
 case.check_equal("a run beside its folder, by the name of both", (str(one.folder), one.name), (str(place), "bars"))
 case.check_equal("watch", called([program.binary("coplane"), "watch", "bars"], place)[0], 0)
+
+# --- scripts of examples, in the copies --------------------------------------------------------------------
+
+alone = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+for example, name, size, scripts in (
+    ("rock_slope_2d", "slope", "coarse", [("safety.py", ["safe", 1], "| 1 | 0.9")]),
+    ("shaken_stones_2d", "stones", "coarse", [("motion.py", [], ""), ("survival.py", ["survive", 0.5], "| 0.5 |")]),
+):
+    made(name, "--like", example, "--size", size)
+    before = documents.load(place / name / f"{name}.yaml")
+    for script, arguments, words in scripts:
+        code, said = called([place / name / script, *arguments], place, env=alone)
+        if not case.check_equal(f"{name}/{script}: exit code, what it says", (code, words in said), (0, True)):
+            print(said)
+    case.check_equal(f"{name}: the deck says the same", documents.load(place / name / f"{name}.yaml"), before)
+text = (place / "stones/stones.yaml").read_text()
+(place / "stones/stones.yaml").write_text(re.sub(r"times: \[[^]]*\]", "times: [0, 1]", text))
+called([place / "stones/motion.py"], place, env=alone)
+case.check_equal("motion.py wrote into the deck of its folder", documents.load(place / "stones/stones.yaml"), documents.parse(text))
 
 # --- run.py on folders outside the tree --------------------------------------------------------------------
 
