@@ -46,7 +46,14 @@ try:
     from coplanetools import documents, program
     from coplane import pictures, report
 except ImportError as error:
-    sys.exit(f"run.py: {error}. Install python3-yaml, python3-numpy and python3-netcdf4, and start this with Debian's /usr/bin/python3.")
+    what = (error.name or "").partition(".")[0]
+    if what in ("coplane", "coplanetools"):
+        folders = {"coplane": "packages/python of the source tree, or share/coplane/python of the installation", "coplanetools": "exodus_inputs of both"}
+        sys.exit(f"run.py: the Python package {what} is not where a run.py in {INPUTS} seeks it. It is in {folders[what]}: start the run.py there, "
+                 f"on a folder anywhere (`coplane new` makes one like an example), or put that folder on PYTHONPATH.")
+    debian = {"yaml": "python3-yaml", "numpy": "python3-numpy", "netCDF4": "python3-netcdf4"}.get(what)
+    sys.exit(f"run.py: {error}. {f'Install {debian}' if debian else 'It needs python3-yaml, python3-numpy and python3-netcdf4'}, and start this with "
+             "Debian's /usr/bin/python3.")
 
 
 def fail(message):

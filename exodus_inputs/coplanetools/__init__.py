@@ -16,4 +16,11 @@ from . import waves  # noqa: E402
 from .ended import EndedRun  # noqa: E402
 from .example import Example  # noqa: E402
 
-__all__ = ["EndedRun", "Example", "Results", "differences", "documents", "program", "series_differences", "tables", "waves"]
+
+
+def deck_of(folder):
+    """Path of the deck in the folder of an example, or in one that `coplane new` has made like it: its example.yaml says which."""
+    return folder / documents.load(folder / "example.yaml").get("deck", "deck.yaml")
+
+
+__all__ = ["EndedRun", "Example", "Results", "deck_of", "differences", "documents", "program", "series_differences", "tables", "waves"]

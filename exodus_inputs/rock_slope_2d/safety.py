@@ -14,7 +14,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from coplanetools import program  # finds the Python package
+from coplanetools import deck_of, program  # finds the Python package
 
 from coplane import Deck, capacity
 
@@ -56,7 +56,7 @@ def strength_reduction(share, folder):
     mesh = folder / "mesh.e"
     if not mesh.exists():
         program.make_mesh(str(HERE / "mesh.yaml"), str(mesh))
-    deck = Deck.read(HERE / "deck.yaml")
+    deck = Deck.read(deck_of(HERE))
     deck["mesh"] = str(mesh.resolve())
     deck["define.filled"] = share
     slides = capacity.Moves("brow", limit=2e-3, since=1.0)

@@ -12,7 +12,7 @@ import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from coplanetools import program  # noqa: F401  finds the Python package
+from coplanetools import deck_of  # finds the Python package
 
 from coplane import record
 
@@ -36,9 +36,12 @@ def table():
 
 def main():
     times, values = table()
-    text = (HERE / "deck.yaml").read_text()
-    line = "      times: [" + ", ".join(f"{t:.9g}" for t in times) + "]\n      values: [" + ", ".join(f"{a:g}" for a in values) + "]\n"
-    (HERE / "deck.yaml").write_text(re.sub(r" {6}times: .*\n {6}values: .*\n", line, text))
+    deck = deck_of(HERE)
+    line = r"\1times: [" + ", ".join(f"{t:.9g}" for t in times) + r"]\n\1values: [" + ", ".join(f"{a:g}" for a in values) + "]\n"
+    text, count = re.subn(r"( +)times: \[[^]]*\]\n +values: \[[^]]*\]\n", line, deck.read_text())
+    if count != 1:
+        sys.exit(f"{deck}: {count} tables of times and values, in brackets, are there; one is accepted, which is replaced.")
+    deck.write_text(text)
 
 
 if __name__ == "__main__":

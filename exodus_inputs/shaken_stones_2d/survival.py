@@ -14,7 +14,7 @@ import numpy
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
-from coplanetools import program  # finds the Python package
+from coplanetools import deck_of, program  # finds the Python package
 
 import coplane
 
@@ -35,7 +35,7 @@ def run(acceleration, folder):
     mesh = folder / "mesh.e"
     if not mesh.exists():
         program.make_mesh(str(HERE / "mesh.yaml"), str(mesh))
-    deck = coplane.Deck.read(HERE / "deck.yaml")
+    deck = coplane.Deck.read(deck_of(HERE))
     deck["mesh"] = str(mesh.resolve())
     deck["define.a"] = acceleration
     return coplane.run(deck, folder / f"a_{acceleration:g}").columns

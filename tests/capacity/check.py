@@ -1,6 +1,7 @@
 """coplane.capacity and times of records, without runs (README.md)."""
 
 import pathlib
+import re
 
 import numpy
 from coplanetest import Case
@@ -14,9 +15,10 @@ def told(what, call, *words):
     try:
         call()
         text = "no error"
-    except ValueError as error:
-        text = str(error)
+    except (ValueError, KeyError) as error:
+        text = str(error.args[0])
     case.check_equal(f"{what}: told of", [word for word in words if word not in text], [])
+    case.check_equal(f"{what}: no name from within", re.findall(r"^(weakened|tilted|bracket|factor_of_safety): ", text), [])
 
 
 def curve(load):
@@ -37,6 +39,27 @@ case.check_equal("stages: a whole card", half["stages"][2]["set"], {"joints.j": 
 case.check_equal("the card, and dilation below all frictions", [half["joints.j.friction"], half["joints.j.dilation"]], [0.4, 0.2])
 for name in ("brick", "name"):
     told(f"library: {name}", lambda name=name: capacity.weakened(deck, 2.0, materials=[name]), f"materials.{name}", "clay_brick", "Write")
+
+# What a run would not find is told before one is made: the deck has no mesh.
+deck["joints.j2"] = {"model": "penalty", "friction": 0.5}
+deck["define"] = {"end": 1.5}
+deck["time"] = {"end": "end"}
+deck["blocks"] = {"stone": {"material": "brick", "rigid": True}}
+deck["history"] = {"probes": [{"name": "brow", "node_set": "brow"}, {"name": "line", "between": [[0, 0, 0], [1, 0, 0]], "count": "end"}], "rigid": ["*"]}
+told("no card", lambda: capacity.weakened(deck, 2.0, joints=["jj"]), "joints.jj", "no such card", "j, j2", "Did you mean j?")
+told("no card: of materials", lambda: capacity.weakened(deck, 2.0, materials=["stone"]), "materials.stone", "brick, name")
+told("no cards", lambda: capacity.weakened(deck, 2.0), "name the joint cards", "joints=['plane']")
+for what, criterion, words in (
+    ("no probe", capacity.Moves("brown", 1e-3), ["'brown'", "brow, line_1, stone", "Did you mean brow?"]),
+    ("no probe: one of two", capacity.Moves(["brow", "line"], 1e-3), ["'line'", "line_1"]),
+    ("since beyond the end", capacity.Moves("brow", 1e-3, since=1.5), ["since = 1.5 s", "time.end = 1.5 s"]),
+    ("since in a deck that fits", capacity.Moves(["brow", "line_2", "stone", "stone_3"], 1e-3, since=1.4), []),
+):
+    told(what, lambda criterion=criterion: criterion.demand(deck), *words)
+    if words:
+        told(f"{what}: before a run", lambda criterion=criterion: capacity.factor_of_safety(deck, criterion, joints=["j"], folder="none"), *words)
+case.check_equal("nothing was run", pathlib.Path("none").exists(), False)
+told("ends", lambda: capacity.bracket(lambda factor: deck, capacity.Moves("brow", 1e-3), 2.0, 1.0), "low = 2.0, high = 1.0")
 
 case.check_equal("tilted from z", capacity.tilted(deck, 1.0)["gravity"][1], 0.0)
 for what, path, value, words in (

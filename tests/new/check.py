@@ -23,8 +23,8 @@ CHECKED = ["bars_2d", "cut_rock_2d", "perforation", "penetration", "rocking_bloc
 case = Case("new", __file__)
 
 
-def called(command, folder="."):
-    done = subprocess.run(list(map(str, command)), cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+def called(command, folder=".", env=None):
+    done = subprocess.run(list(map(str, command)), cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode, done.stdout
 
 
@@ -104,6 +104,25 @@ one = coplane.open(place / "bars")
 case.check_equal("a run beside its folder, by the name of both", (str(one.folder), one.name), (str(place), "bars"))
 case.check_equal("watch", called([program.binary("coplane"), "watch", "bars"], place)[0], 0)
 
+# --- scripts of examples, in the copies --------------------------------------------------------------------
+
+bare = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+for example, name, size, scripts in (
+    ("rock_slope_2d", "slope", "coarse", [("safety.py", ["safe", 1], "| 1 | 0.9")]),
+    ("shaken_stones_2d", "stones", "coarse", [("motion.py", [], ""), ("survival.py", ["survive", 0.5], "| 0.5 |")]),
+):
+    made(name, "--like", example, "--size", size)
+    before = documents.load(place / name / f"{name}.yaml")
+    for script, arguments, words in scripts:
+        code, said = called([place / name / script, *arguments], place, env=bare)
+        if not case.check_equal(f"{name}/{script}: exit code, what it says", (code, words in said), (0, True)):
+            print(said)
+    case.check_equal(f"{name}: the deck says the same", documents.load(place / name / f"{name}.yaml"), before)
+text = (place / "stones/stones.yaml").read_text()
+(place / "stones/stones.yaml").write_text(re.sub(r"times: \[[^]]*\]", "times: [0, 1]", text))
+called([place / "stones/motion.py"], place, env=bare)
+case.check_equal("motion.py wrote into the deck of its folder", documents.load(place / "stones/stones.yaml"), documents.parse(text))
+
 # --- run.py on folders outside the tree --------------------------------------------------------------------
 
 code, said = called([*RUN, "bars", "--no-pictures", "--set", "time.end=5e-4"], place)
@@ -135,6 +154,20 @@ case.check_equal("run.py: what example.yaml changes is told", (code, [word for w
 code, said = called([*RUN, "bars", "--set", "blocks.lfet.rigid=true", "-o", place / "misspelt"], place)
 case.check_equal("run.py: a card that the deck has not", (code, "blocks.lfet.rigid: the deck has no blocks.lfet; it has left, right." in said, (place / "misspelt").exists()),
                  (1, True, False))  # fmt: skip
+for name, gone, words in (
+    ("a copy beside its tools", None, ["package coplane is not", "packages/python", "PYTHONPATH", "coplane new"]),
+    ("a copy alone", "coplanetools", ["package coplanetools is not", "exodus_inputs", "PYTHONPATH"]),
+):
+    shutil.copytree(SOURCE / "exodus_inputs/coplanetools", place / "copy/coplanetools", dirs_exist_ok=True)
+    shutil.copy(SOURCE / "exodus_inputs/run.py", place / "copy")
+    if gone:
+        shutil.rmtree(place / "copy" / gone)
+    code, said = called([sys.executable, place / "copy/run.py", "--list"], env=bare)
+    case.check_equal(f"run.py: {name}", (code, [word for word in words if word not in said], "python3-numpy" in said), (1, [], False))
+(place / "without").mkdir()
+(place / "without/netCDF4.py").write_text("raise ModuleNotFoundError('taken away', name='netCDF4')\n")
+code, said = called([*RUN, "--list"], env={**bare, "PYTHONPATH": str(place / "without")})
+case.check_equal("run.py: names the package that is missing", (code, "Install python3-netcdf4" in said, "python3-numpy" in said), (1, True, False))
 code, said = called([*RUN, "nothing"], place)
 case.check_equal("run.py: no such folder", (code, [word for word in ("no example 'nothing'", "bars_2d", "coplane new") if word not in said]), (1, []))
 case.finish()

@@ -93,6 +93,10 @@ for name, text in (("new", head.format("G") + f"NPTS=     13, DT=   .0050 SEC,\n
     differs(f"AT2, {name} header: values", read.acceleration, G * values, 1e-15)
 told("AT2 that was cut off", lambda: record.read(written("short.AT2", head.format("G") + f"NPTS= 14, DT= .005 SEC\n{body}\n")), "NPTS = 14", "13 values")
 told("AT2 of a velocity", lambda: record.read(written("v.AT2", "a\nb\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 1, DT= 1 SEC\n1\n")), "ACCELERATION")
+told("AT2 in a unit that is none of acceleration", lambda: record.read(written("cm.AT2", head.format("CM") + f"NPTS= 13, DT= .005 SEC\n{body}\n")), "cm.AT2:3", "'CM'", "cm/s^2")
+told("AT2 without a unit", lambda: record.read(written("none.AT2", head.replace(" IN UNITS OF {}", "") + f"NPTS= 13, DT= .005 SEC\n{body}\n")), "UNITS OF", "cm/s^2")
+for unit, size in (("CM/S/S", 0.01), ("G.", G), ("M/S2, filtered", 1.0)):
+    differs(f"AT2 in {unit}", record.read(written("u.AT2", head.format(unit) + f"NPTS= 13, DT= .005 SEC\n{body}\n")).acceleration, size * values, 1e-15)
 told("AT2 with a unit of the caller", lambda: record.read("new.AT2", unit="g"), "leave out unit")
 
 csv = "time[s],ns[cm/s^2],ew[cm/s^2]\n0,1,4\n0.1,2,5\n0.3,3,7\n"

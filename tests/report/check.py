@@ -75,7 +75,7 @@ for name in ("after_5", "after_10"):
 deck = case.load("exodus_inputs/jointed_rock_2d/deck.yaml")
 TITLE = 'a wave through "jointed" rock </script> <!--<script> & more'
 deck.update(title=TITLE, mesh="mesh.e", time={"end": 3e-3}, output={"every": 1e-3},
-            history={"every": 0, "joints": ["*"], "tables": ["pairs"], "probes": [{"name": "near", "node_set": "near"}]})  # fmt: skip
+            history={"every": 0, "joints": ["*"], "tables": ["pairs"], "probes": [{"name": "near", "node_set": "near", "relative_to": "foot"}, {"name": "foot", "node_set": "left", "reaction": True}]})  # fmt: skip
 for folder, changes in (("a", {}), ("b", {"joints.tight.normal_stiffness": 1e10, "time.end": 2e-3})):
     shutil.rmtree(folder, ignore_errors=True)
     os.mkdir(folder)
@@ -133,6 +133,13 @@ for title, name in (("Energies", "kinetic"), ("Energies", "external work"), ("En
     exact = run.columns[column]
     case.check(f"{title}, {name}: largest value", max(drawn), exact.max(), 1e-5 * abs(exact).max())
     case.check(f"{title}, {name}: last value", drawn[-1], exact[-1], 1e-5 * abs(exact).max())
+for title, column, label in (("near: drift", "near_drift_x", "largest near_drift_x"), ("foot: reaction", "foot_reaction_x", "largest foot_reaction_x [N]")):
+    exact, drawn = run.columns[column], one.curves(title)["x"]["y"]
+    most = numpy.argmax(abs(exact))
+    case.check_within(f"{column}: there is one", abs(exact[most]), 1e-9, 1e12)
+    case.check(f"{title}: largest value drawn", max(drawn, key=abs), exact[most], 1e-5 * abs(exact[most]))
+    says(f"{title}: the largest", one, f"{label} {exact[most]:.6g} at {run.columns['time'][most]:.6g} s")
+case.check_equal("no drift of what has none", ["foot: drift" in one.titled, "near: reaction" in one.titled], [False, False])
 says("what limited the step", one, "what limited the step", "at node")
 says("planes", one, f"{len(run.planes[-1])} planes at t", "deepest", "largest remainders")
 worst = run.planes[-1].sort_values("closure").iloc[-1]

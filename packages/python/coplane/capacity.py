@@ -7,8 +7,10 @@
 """
 
 import dataclasses
+import difflib
 import math
 import pathlib
+import re
 
 import numpy
 
@@ -19,6 +21,12 @@ from .running import RunFailed, run
 STRENGTHS = ("friction", "dynamic_friction", "cohesion", "residual_cohesion", "frictions", "cohesions", "joint_friction", "joint_cohesion")
 # Bounded by a friction that falls.
 _DILATIONS = {"dilation": ("friction", "dynamic_friction", "frictions"), "joint_dilation": ("joint_friction",)}
+
+
+def _listed(name, names):
+    """The names that there are, and the one that is meant, perhaps."""
+    near = difflib.get_close_matches(name, names, 1, 0.5)
+    return f"{', '.join(names) or 'none'}.{f' Did you mean {near[0]}?' if near else ''}"
 
 
 @dataclasses.dataclass
@@ -36,8 +44,27 @@ class Moves:
     since: float = 0.0
 
     def __str__(self):
-        names = [self.probe] if isinstance(self.probe, str) else self.probe
-        return f"{' or '.join(names)} moves by more than {self.limit:g} m after t = {self.since:g} s"
+        return f"{' or '.join(self.probes)} moves by more than {self.limit:g} m after t = {self.since:g} s"
+
+    @property
+    def probes(self):
+        return [self.probe] if isinstance(self.probe, str) else list(self.probe)
+
+    def demand(self, deck):
+        """Raises KeyError or ValueError, before anything is run, where a run of the deck has no such probe or ends before `since`."""
+        probes, rigid = deck.get("history.probes") or [], [str(name) for name in deck.get("history.rigid") or []]
+        if "*" in rigid:
+            rigid = [str(name) for name in deck.get("blocks") or {}]
+        lines = [str(probe.get("name")) for probe in probes if "between" in probe]
+        names = [*(str(probe.get("name")) for probe in probes if "between" not in probe), *(f"{line}_1" for line in lines), *rigid]
+        for name in self.probes:
+            numbered = re.fullmatch(r"(.*)_[1-9][0-9]*", name)  # of the points of a line, of the bodies of a block
+            if name not in names and not (numbered and numbered[1] in lines + rigid):
+                raise KeyError(f"the deck has no probe '{name}' in history.probes; it has {_listed(name, names)} Name one of them, or add one on what will fall.")
+        end = deck.get("time.end")
+        end = (deck.get("define") or {}).get(end, end)
+        if isinstance(end, (int, float)) and self.since >= end:
+            raise ValueError(f"since = {self.since:g} s is not before the end of the run, time.end = {end:g} s. Give an earlier since, or a later time.end.")
 
     def paths(self, ended):
         """Time [s] after `since` and displacement from there [m], of each probe; of the columns that the run has written."""
@@ -47,7 +74,7 @@ class Moves:
         if not late.any():
             raise ValueError(f"the run ends at {times[-1]:g} s, before since = {self.since:g} s.")
         found = {}
-        for name in [self.probe] if isinstance(self.probe, str) else self.probe:
+        for name in self.probes:
             if f"{name}_displacement_x" not in columns:
                 raise KeyError(f"the history has no probe '{name}'; it has {', '.join(ended.probe_names) or 'none'}. history.probes in the deck names them.")
             place = numpy.stack([columns[f"{name}_displacement_{axis}"][late] for axis in "xyz"])
@@ -117,8 +144,9 @@ def bracket(deck_of, criterion, low, high, tolerance=0.01, folder=None, ranks=1,
     It has to hold below the factor and collapse above it. Raises ValueError when the ends do not enclose one.
     """
     if not 0 < low < high:
-        raise ValueError(f"bracket: low = {low}, high = {high}; accepted: 0 < low < high.")
+        raise ValueError(f"low = {low}, high = {high}; accepted: 0 < low < high.")
     first = deck_of(low)
+    criterion.demand(first)
     folder = pathlib.Path(folder or first.folder / f"{first.path.stem}-capacity")
     trials = []
 
@@ -166,7 +194,12 @@ def weakened(deck, factor, joints=(), materials=()):
     changed = deck.copy()
     cards = [f"joints.{name}" for name in joints] + [f"materials.{name}" for name in materials]
     if not cards:
-        raise ValueError("weakened: name the joint cards or the materials that are to be weakened: joints=['plane'].")
+        raise ValueError("there is no strength to divide: name the joint cards or the materials that are to be weakened: joints=['plane'].")
+    for group, given in (("joints", joints), ("materials", materials)):
+        there = [str(name) for name in changed.get(group) or {}]
+        for name in given:
+            if name not in there:
+                raise KeyError(f"{group}.{name}: the deck has no such card; its {group} are {_listed(name, there)}")
     for card in cards:
         _written_out(changed[card], card)
         keys = [key for key in STRENGTHS if changed[card].get(key)]
@@ -248,19 +281,19 @@ def tilted(deck, rate, down=None, towards=(1, 0, 0), start=0.0):
     try:
         gravity = [float(value) for value in deck["gravity"]]
     except (TypeError, ValueError):
-        raise ValueError(f"tilted: gravity: {deck['gravity']} is not a list of numbers. Give its final components as numbers, such as [0, -9.81, 0].") from None
+        raise ValueError(f"gravity: {deck['gravity']} is not a list of numbers. Give its final components as numbers, such as [0, -9.81, 0].") from None
     gravity += [0.0] * (3 - len(gravity))
     size = math.sqrt(sum(value**2 for value in gravity))
     if size == 0:
-        raise ValueError("tilted: gravity: it is zero, and has no direction. Give its components, such as [0, -9.81, 0].")
+        raise ValueError("gravity: it is zero, and has no direction. Give its components, such as [0, -9.81, 0].")
     for number, stage in enumerate(deck.get("stages") or []):
         for path in stage.get("set") or {}:
             if path.split(".")[0] == "gravity":
-                raise ValueError(f"tilted: stages.{number}.set.{path}: it would undo the tilt. Take it out, and give gravity to the deck.")
+                raise ValueError(f"stages.{number}.set.{path}: it would undo the tilt. Take it out, and give gravity to the deck.")
     down = gravity if down is None else down
     down, towards = (numpy.array(v, float) / numpy.linalg.norm(v) for v in (down, towards))
     if abs(numpy.dot(down, towards)) > 1e-9:
-        raise ValueError(f"tilted: down {down.tolist()} and towards {towards.tolist()} are not at right angles; give towards=(x, y, z).")
+        raise ValueError(f"down {down.tolist()} and towards {towards.tolist()} are not at right angles; give towards=(x, y, z).")
     angle = f"({math.radians(rate)!r}*max(0, t - {start!r}))"
     changed = deck.copy()
     changed["gravity"] = [f"{size * d!r}*cos{angle} + {size * s!r}*sin{angle}" if d or s else 0.0 for d, s in zip(down.tolist(), towards.tolist())]

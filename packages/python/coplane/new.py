@@ -76,6 +76,9 @@ def renamed(texts, settings, example, name):
     for file, text in texts.items():
         text = re.sub(r"(?<![\w-])" + re.escape(example) + r"(?![\w-])", name, text)
         texts[file] = re.sub(r"\$schema=\S*/([\w-]+)\.json", lambda found: f"$schema={program.schema(found[1])}", text)
+    for file in [file for file in texts if file.endswith(".py")]:
+        text = texts[file].replace("sys.path.insert(0, str(HERE.parent))", f"sys.path.insert(0, {str(EXAMPLES)!r})")  # of coplanetools
+        texts[file] = re.sub(r"(?<![\w-])" + re.escape(settings["deck"]) + r"(?![\w-])", f"{name}.yaml", text)
     texts[f"{name}.yaml"] = re.sub(r"^mesh: .*$", "mesh: mesh.e", texts.pop(settings["deck"]), count=1, flags=re.M)
     texts["example.yaml"] = re.sub(r"^deck: .*$", f"deck: {name}.yaml", texts["example.yaml"], flags=re.M)
     return texts
@@ -105,6 +108,8 @@ def new(folder, example, size=None):
     try:
         for file, text in texts.items():
             (folder / file).write_text(text, encoding="utf-8")
+            if text.startswith("#!"):
+                (folder / file).chmod(0o755)
         for command in mesh_commands(folder, documents.parse(texts["example.yaml"])):
             program.mesh_program(*command)
     except BaseException:

@@ -209,8 +209,10 @@ def _read_at2(path, lines):
     head = " ".join(lines[:3]).upper()
     if "ACCELERATION" not in head:
         raise ValueError(f"{path}: the header does not say ACCELERATION; files of velocity (VT2) and displacement (DT2) are not read.")
-    units = re.search(r"UNITS OF\s+(G|CM/S/S|CM/S\^2|CM/S2|M/S/S|M/S\^2|M/S2)\b", head)
-    size = _unit(units.group(1) if units else "?", f"{path}:3")
+    units = re.search(r"UNITS OF\s+([^\s,;]+?)\.?(?:[\s,;]|$)", head)
+    if not units:
+        raise ValueError(f"{path}: the first three lines do not say UNITS OF ...; accepted: UNITS OF G, or of {', '.join(UNITS)}.")
+    size = _unit(units.group(1), f"{path}:{1 + ['UNITS OF' in line.upper() for line in lines[:3]].index(True)}")
     line = lines[3].upper()
     number = r"(\d*\.?\d+(?:E[+-]?\d+)?)"
     found = re.search(rf"NPTS\s*=\s*(\d+).*?DT\s*=\s*{number}", line) or re.match(rf"\s*(\d+)\s+{number}", line)

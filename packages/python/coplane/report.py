@@ -344,8 +344,26 @@ class Report:
         names = list(dict.fromkeys(name for run in self.runs for name in [*run.probe_names, *run.body_names]))
         if not names:
             raise Missing("The history has no probes (history.probes, history.rigid).")
-        self.page.grid(*(self.curves(f"{name}: {what}", [f"{name}_{what}_{axis}" for axis in "xyz"], unit, lambda text: text[-1])
-                         for name in names for what, unit in (("velocity", "m/s"), ("displacement", "m"))))  # fmt: skip
+        if any(self.shears(run, names) for run in self.runs):
+            self.page.add(self.each(lambda run: self.shears(run, names)))
+        self.page.grid(*(self.curves(f"{name}: {what}", [f"{name}_{what}_{axis}" for axis in "xyz"], unit, lambda text: text[-1], optional=what in self.SHEARS)
+                         for name in names for what, unit in (("velocity", "m/s"), ("displacement", "m"), *self.SHEARS.items())))  # fmt: skip
+
+    # Columns that only some probes and bodies have, with their units.
+    SHEARS = {"drift": "over the distance", "reaction": "N"}
+
+    @classmethod
+    def shears(cls, run, names):
+        """The value of each drift and reaction that is largest in size, with its time."""
+        found = {}
+        for name in names:
+            for column in [f"{name}_{what}_{axis}" for what in cls.SHEARS for axis in "xyz"]:
+                values = run.columns.get(column)
+                if values is not None and numpy.any(values):
+                    place = numpy.argmax(abs(values))
+                    unit = run.units.get(column)
+                    found[f"largest {column}" + (f" [{unit}]" if unit else "")] = f"{number(float(values[place]))} at {number(float(run.columns['time'][place]))} s"
+        return found
 
     def images(self):
         for which, run in enumerate(self.runs):
