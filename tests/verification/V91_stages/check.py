@@ -5,7 +5,7 @@ import math
 import pathlib
 
 import numpy
-from coplanetest import Case, conforming, documents, program
+from coplanetest import Case, conforming, differences, documents, program
 
 case = Case("V91", __file__)
 density, gravity, modulus = 2000.0, 10.0, 1e10
@@ -53,7 +53,7 @@ def deck(mesh, stages, height, blocks=("base", "middle", "top"), **changes):
         "time": {"end": 1, "fixed_step": 2e-5},
         "stages": stages,
         "history": {"probes": [{"name": "foot", "node_set": "floor", "reaction": True}, {"name": "upper", "node_set": "base_top"}]
-                    + [{"name": block, "block": block, "variables": ["stress_yy"]} for block in ("base", "middle", "top")]
+                    + [{"name": block, "block": block, "variables": ["stress_yy", "strain_yy"]} for block in ("base", "middle", "top")]
                     + [{"name": "low", "point": [0.5, 0.1, 0], "variables": ["stress_yy", "density"]}]},
         **changes,
     }
@@ -116,8 +116,16 @@ stress = {block: results.element(block, "stress_yy") for block in ("base", "midd
 for block, above in (("base", 2.0), ("middle", 1.0), ("top", 0.0)):
     exact = [-weight * (above + 1 - (row + 0.5) / 4) for row in range(4)]
     case.check(f"{name}: stress of {block}, farthest from its weight [Pa]", numpy.max(numpy.abs(stress[block] - exact)), 0, 1e-5 * weight)
+# So are their strains; the one above has counted since it came in, free of stress and after displacements were zeroed.
+strain = {block: results.element(block, "strain_yy") for block in ("base", "middle", "top")}
+for block in ("base", "middle"):
+    case.check(f"{name}: strain of {block} under the last block, farthest", numpy.max(numpy.abs(strain[block] * modulus / weight + 1)), 0, 2e-5)
+case.check(f"{name}: strain of the last block, farthest from that of its stress", numpy.max(numpy.abs(strain["top"] * modulus - stress["top"])) / weight, 0, 2e-5)
+case.check_equal(f"{name}: a block that is not there has no strain", bool((results.element("top", "strain_yy", 0) == 0).all()), True)
 ends_at_rest(name, run, ("first", "second"))
 same_bits(name, problem, run)
+again = case.attempt(f"{name}_results", None, problem, ranks=2)
+case.check_equal(f"{name}: differences of the results on 2 ranks", differences(run.path("run.e"), again.path("run.e")), [])
 
 # Probes: the element nearest to a point, and the least and the largest of a block with their places.
 case.check_equal(f"{name}: stress at a point is that of the lowest element", float(h["low_stress_yy"][-1]), float(stress["base"][0]))
@@ -141,6 +149,11 @@ ends_at_rest(name, run_loaded, ("filled",))
 begins = numpy.flatnonzero(run_loaded.history["time"] <= 2e-3 * (1 + 1e-9))[-1]
 case.check(f"{name}: force of the floor before [N]", run_loaded.history["foot_reaction_y"][begins], weight, 1e-12, relative=True)
 case.check(f"{name}: force of the floor at the end [N]", run_loaded.history["foot_reaction_y"][-1], 3 * weight + load, 1e-5, relative=True)
+# Without zeroing the base counts from the start, where its own weight was on it; the others since they came in.
+for block, before in (("base", 1.0), ("middle", 0.0), ("top", 0.0)):
+    exact = run_loaded.results.element(block, "stress_yy") + before * weight * (1 - (numpy.arange(4) + 0.5) / 4)
+    found = run_loaded.results.element(block, "strain_yy") * modulus
+    case.check(f"{name}: strain of {block}, farthest from that of what has come upon it", numpy.max(numpy.abs(found - exact)) / (3 * weight + load), 0, 2e-5)
 same_bits(name, loaded, run_loaded)
 
 # --- a block a thousand times as stiff comes in while the others vibrate: it limits the step from the start on ------------------
