@@ -68,19 +68,6 @@ Vec3 placeOf(const std::vector<Real>& numbers)
   return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : 0};
 }
 
-/// `stress` and `strain` as their six components.
-std::vector<std::string> byComponent(const std::vector<std::string>& variables)
-{
-  std::vector<std::string> names;
-  for (const std::string& name : variables)
-    if (name == "stress" || name == "strain")
-      for (const char* component : {"xx", "yy", "zz", "xy", "yz", "zx"})
-        names.push_back(fmt::format("{}_{}", name, component));
-    else
-      names.push_back(name);
-  return names;
-}
-
 HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSettings& settings)
 {
   HistoryOptions history;
@@ -99,7 +86,7 @@ HistoryOptions historyOptions(const Deck& deck, const Mesh& mesh, const RunSetti
     probe.point = card.plane ? card.plane : card.point;
     probe.plane = card.plane.has_value();
     probe.joint = card.joint;
-    probe.variables = byComponent(card.variables);
+    probe.variables = card.variables;
     for (int k = 0; k < card.count && !card.between.empty(); ++k)
     {
       Probe one = probe;

@@ -91,7 +91,7 @@ TEST(LogarithmicStrain, ofAStretchThenATurnIsTheLogarithmOnTurnedAxes)
 
 TEST(LogarithmicStrain, ofSimpleShearHasItsClosedForm)
 {
-  // Lambda = (gamma/2)^2 ...: stretches are exp(+-e) with sinh e = gamma / 2, and the axis of the
+  // Stretches are exp(+-e) with sinh e = gamma / 2, and the axis of the
   // longer lies at the angle atan2(2, gamma) / 2 to the direction of the shear.
   for (const ElementType type : allTypes)
     for (const Real gamma : {1e-6, 0.3, 2.0})

@@ -45,6 +45,17 @@ case.check("plane: slip [m]", h["near_slip"][-1], speed * t - friction * pressur
 case.check_equal("plane of a joint without planes: state", sorted(set(h["none_state"].tolist())), [0.0])
 case.check_equal("plane of a joint without planes: distance", bool(numpy.isnan(h["none_distance"]).all()), True)
 
+# --- slivers: the upper block reaches over the next face below by less than a thousandth of it --------------------------------------------
+wide, corner = copy.deepcopy(recipe), copy.deepcopy(deck)
+wide["parts"][0].update(max=[2, 1], divisions=[8, 4])
+wide["parts"][1].update(max=[1.0001, 2], divisions=[4, 4])
+corner["conditions"][2]["value"] = [0, 0, 0]
+corner["history"]["probes"] = [{"name": "corner", "plane": [1, 1, 0]}]
+beside = case.run("sliver", wide, corner, energy=2e-2)
+slivers = beside.planes(-1)
+case.check_equal("sliver: there is one, nearer than any other plane", bool(numpy.min(numpy.abs(slivers["Points"][:, 0] - 1)) < 1e-3), True)
+case.check_within("sliver: the probe passes over it, to the middle of a face [m]", float(beside.history["corner_distance"][-1]), 0.1, 0.2)
+
 # --- points on a line ------------------------------------------------------------------------------------------------------------
 results = run.results
 top = numpy.flatnonzero(results.coordinates[:, 1] == 2)

@@ -90,6 +90,7 @@ class Case(Checks):
         pathlib.Path(first.path("output-restart.txt")).write_text(output)
         kept = "same bits after a restart"
         self.check_equal(f"{name}: exit code of the restart", code, 0, kept)
+        self.check_equal(f"{name}: it went on from there", f": cycle {int(run.history['cycle'][at])}, t = " in output, True, kept)
         if code == 0:
             again = json.loads(pathlib.Path(first.path("run.run-s0002.json")).read_text())["state_hash"]
             self.check_equal(f"{name}: state hash after a restart on {ranks} ranks, with threads", again, run.state_hash, kept)

@@ -7,9 +7,9 @@ namespace coplane
 {
 /// Strain of an element at its middle: ln V, where F = V R is the gradient of its map from the
 /// reference places to the present ones (the logarithmic, or Hencky, strain on spatial axes). It
-/// does not see rotations, its trace is ln det F there, and where strains are small
-/// it is the engineering one with half of the shear angles. An output only: laws go by rates.
-/// Places far from the origin cost digits: one of 1 km with elements of 0.1 m leaves 1e-12.
+/// does not see rotations, its trace is ln det F there, and where strains are small it is the
+/// engineering one with half of the shear angles. An output only: laws go by rates. It is as exact
+/// as the places are: round-off of them over the size of the element.
 /// @param reference, present corners, as many as topology(type).nodes, in its order [m]
 /// @param revolved bodies of revolution about the y axis: zz is the hoop strain; else, in two
 ///        dimensions, zero

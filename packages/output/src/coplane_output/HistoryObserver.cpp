@@ -170,6 +170,8 @@ void addJoint(HistoryColumns& line, const std::string& name, const JointSummary&
 HistoryObserver::HistoryObserver(const Comm& comm, HistoryOptions options)
     : options_(std::move(options)), schedule_(OutputTimes{options_.every, {}})
 {
+  for (Probe& probe : options_.probes)
+    probe.variables = byComponent(probe.variables);
   comm.together(
       [&]
       {

@@ -25,7 +25,8 @@ struct Probe
   int block = -1;                 ///< position in Mesh::blocks
   bool reaction = false;          ///< also the sum of the reactions on the nodes of the set
   std::optional<Vec3> point = {}; ///< or that, at the start [m]
-  /// Of the element nearest to the point, or least and largest of the block or node set.
+  /// Of the element nearest to the point, or least and largest of the block or node set; stress and
+  /// strain stand for their components.
   std::vector<std::string> variables = {};
   bool plane = false;     ///< of the point: the nearest plane, in place of the motion
   std::string joint = {}; ///< of the plane; empty: any

@@ -79,6 +79,19 @@ std::optional<Real> elementVariable(const Solver& solver, int b, int element,
   return block.history()(row, element);
 }
 
+std::vector<std::string> byComponent(const std::vector<std::string>& variables)
+{
+  std::vector<std::string> names;
+  for (const std::string& name : variables)
+    if (name == "stress")
+      names.insert(names.end(), stresses.begin(), stresses.end());
+    else if (name == "strain")
+      names.insert(names.end(), strains.begin(), strains.end());
+    else
+      names.push_back(name);
+  return names;
+}
+
 std::string unitOfVariable(const std::string& name)
 {
   if (name == "density")

@@ -17,6 +17,8 @@ SymTensor strainOf(const Solver& solver, int block, int element);
 /// its law has none of this name.
 std::optional<Real> elementVariable(const Solver& solver, int block, int element,
                                     const std::string& name);
+/// The names, with `stress` and `strain` as their six components.
+std::vector<std::string> byComponent(const std::vector<std::string>& variables);
 /// "[Pa]" and the like; empty for variables of laws.
 std::string unitOfVariable(const std::string& name);
 
