@@ -56,7 +56,7 @@ function(coplane_package name)
 endfunction()
 
 # Every header compiles alone: one generated source per header, compiled with what the package declares and the precompiled
-# header, which has none of ours.
+# header, which has none of ours. Target coplane_headers, which is not in `all`: it takes a tenth of the time of everything.
 function(_coplane_headers_stand_alone name)
   file(GLOB_RECURSE _headers CONFIGURE_DEPENDS RELATIVE "${CMAKE_CURRENT_SOURCE_DIR}/src" "${CMAKE_CURRENT_SOURCE_DIR}/src/*.hpp")
   set(_sources "")
@@ -67,7 +67,11 @@ function(_coplane_headers_stand_alone name)
     list(APPEND _sources "${_source}")
   endforeach()
   if(_sources)
-    add_library(coplane_${name}_headers OBJECT ${_sources})
+    add_library(coplane_${name}_headers OBJECT EXCLUDE_FROM_ALL ${_sources})
+    if(NOT TARGET coplane_headers)
+      add_custom_target(coplane_headers)
+    endif()
+    add_dependencies(coplane_headers coplane_${name}_headers)
     target_link_libraries(coplane_${name}_headers PRIVATE coplane::${name} ${_D_PRIVATE_LIBRARIES})
     target_compile_options(coplane_${name}_headers PRIVATE -fsyntax-only)
     coplane_precompile(coplane_${name}_headers)

@@ -3,7 +3,8 @@
 #
 #   packages/cmake/run-tests.sh [--slow] [--no-sanitizers]
 #
-# --slow            also the tests labelled slow: the full product of ranks x threads x back ends; sanitizers on all packages
+# --slow            also the tests labelled slow: the full product of ranks x threads x back ends; each header compiled alone; sanitizers on
+#                   all packages
 # --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers
 # What is installed and built already is not done again.
 set -uo pipefail
@@ -81,7 +82,9 @@ sanitized_tests() {
 
 stage dependencies get_dependencies || { failed=1; finish; exit 1; }
 COPLANE_CMAKE_OPTIONS=-DCOPLANE_WARNINGS_AS_ERRORS=ON
-stage build coplane_configure_and_build all || { failed=1; finish; exit 1; }
+targets=(all)
+[ $slow = no ] || targets+=(coplane_headers)
+stage build coplane_configure_and_build "${targets[@]}" || { failed=1; finish; exit 1; }
 for label in unit verification metamorphic validation parallel paper; do
   stage $label tests "$top/build" $label
 done

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace coplane
@@ -32,6 +33,52 @@ void printLengths(const CensusLengths& lengths, const char* what, const char* ex
   for (const CensusLengths::Pair& pair : lengths.extreme)
     logInfo("      {} {:.3e} m: {} and {}", extreme, pair.length, faceName(pair.faceId[0]),
             faceName(pair.faceId[1]));
+}
+
+/// Overlaps of what is there, the deepest first. Collective.
+std::vector<InitialOverlap> overlapsNow(const Solver& solver)
+{
+  std::vector<Real> there;
+  for (const ElementBlock& block : solver.blocks())
+  {
+    bool any = false;
+    for (int e = 0; e < block.count() && !any; ++e)
+      any = !block.isTakenOut(e);
+    there.push_back(any ? 1 : 0);
+  }
+  solver.comm().max(there);
+  std::vector<InitialOverlap> overlaps = initialOverlaps(
+      solver.contact(), solver.state().x,
+      bodyLabels(solver.mesh(), std::vector<char>(there.begin(), there.end()), solver.comm()));
+  std::sort(overlaps.begin(), overlaps.end(),
+            [](const InitialOverlap& a, const InitialOverlap& b) {
+              return std::tie(b.depth, a.block[0], a.block[1]) <
+                     std::tie(a.depth, b.block[0], b.block[1]);
+            });
+  return overlaps;
+}
+
+/// A line for each of the first few pairs of blocks.
+std::string linesOf(const std::vector<InitialOverlap>& overlaps, const Solver& solver)
+{
+  const RankMesh& mesh = solver.mesh();
+  constexpr std::size_t named = 10;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < std::min(named, overlaps.size()); ++i)
+  {
+    const InitialOverlap& overlap = overlaps[i];
+    const auto name = [&](int side) { return solver.model().blocks[overlap.block[side]].name; };
+    lines.push_back(fmt::format(
+        "  {}: {} faces up to {:.3g} m deep ({} behind {}), about {:.3g} {}",
+        overlap.block[0] == overlap.block[1]
+            ? fmt::format("bodies of block '{}' in each other", name(0))
+            : fmt::format("blocks '{}' and '{}' in each other", name(0), name(1)),
+        overlap.faces, overlap.depth, faceName(overlap.faceId[0]), faceName(overlap.faceId[1]),
+        overlap.volume, mesh.dimension == 2 && !solver.model().axisymmetric() ? "m^2" : "m^3"));
+  }
+  if (overlaps.size() > named)
+    lines.push_back(fmt::format("  and {} more pairs of blocks", overlaps.size() - named));
+  return fmt::format("{}", fmt::join(lines, "\n"));
 }
 } // namespace
 
@@ -71,35 +118,11 @@ void reportCensus(const Contact& contact)
 
 void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bool allowed)
 {
-  const RankMesh& mesh = solver.mesh();
-  std::vector<InitialOverlap> overlaps =
-      initialOverlaps(solver.contact(), solver.state().x,
-                      bodyLabels(mesh, std::vector<char>(mesh.blocks.size(), 1), solver.comm()));
+  const std::vector<InitialOverlap> overlaps = overlapsNow(solver);
   if (overlaps.empty())
     return;
-  std::sort(overlaps.begin(), overlaps.end(),
-            [](const InitialOverlap& a, const InitialOverlap& b) {
-              return std::tie(b.depth, a.block[0], a.block[1]) <
-                     std::tie(a.depth, b.block[0], b.block[1]);
-            });
-  constexpr std::size_t named = 10;
-  std::vector<std::string> lines;
-  for (std::size_t i = 0; i < std::min(named, overlaps.size()); ++i)
-  {
-    const InitialOverlap& overlap = overlaps[i];
-    const auto name = [&](int side) { return solver.model().blocks[overlap.block[side]].name; };
-    lines.push_back(fmt::format(
-        "  {}: {} faces up to {:.3g} m deep ({} behind {}), about {:.3g} {}",
-        overlap.block[0] == overlap.block[1]
-            ? fmt::format("bodies of block '{}' in each other", name(0))
-            : fmt::format("blocks '{}' and '{}' in each other", name(0), name(1)),
-        overlap.faces, overlap.depth, faceName(overlap.faceId[0]), faceName(overlap.faceId[1]),
-        overlap.volume, mesh.dimension == 2 && !solver.model().axisymmetric() ? "m^2" : "m^3"));
-  }
-  if (overlaps.size() > named)
-    lines.push_back(fmt::format("  and {} more pairs of blocks", overlaps.size() - named));
   const std::string found = fmt::format("{}: bodies overlap before the first step:\n{}", meshFile,
-                                        fmt::join(lines, "\n"));
+                                        linesOf(overlaps, solver));
   if (!allowed)
     failOnAllRanks(ExitCode::Mesh,
                    "{}\nRepair the mesh, or declare the joint where faces lie on each other "
@@ -107,5 +130,27 @@ void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bo
                    "allow starts all the same, without force between them until they press deeper.",
                    found);
   logWarning("overlaps at the start", found);
+}
+
+void reportOverlapsOfAdded(const Solver& solver, const std::vector<int>& added,
+                           const std::string& where)
+{
+  std::vector<InitialOverlap> overlaps = overlapsNow(solver);
+  const auto isOfAdded = [&](const InitialOverlap& overlap)
+  {
+    return std::any_of(added.begin(), added.end(),
+                       [&](int block)
+                       { return block == overlap.block[0] || block == overlap.block[1]; });
+  };
+  overlaps.erase(std::remove_if(overlaps.begin(), overlaps.end(), std::not_fn(isOfAdded)),
+                 overlaps.end());
+  if (!overlaps.empty())
+    logWarning(
+        "overlaps of added blocks",
+        fmt::format("{}: bodies overlap where blocks come in:\n{}\nThere is no force between "
+                    "them until they press deeper, and none at all where faces lie deep in "
+                    "the other body, until they part. Leave a gap in the mesh, or exclude "
+                    "the pair.",
+                    where, linesOf(overlaps, solver)));
 }
 } // namespace coplane

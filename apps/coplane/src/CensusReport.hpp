@@ -3,6 +3,7 @@
 #include <coplane_dynamics/Solver.hpp>
 
 #include <string>
+#include <vector>
 
 namespace coplane
 {
@@ -11,4 +12,10 @@ void reportCensus(const Contact& contact);
 /// Prints which bodies lie in each other before the first step; an error unless that is allowed.
 /// Collective.
 void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bool allowed);
+/// Warns of bodies in which blocks lie that a stage has just added; call after the cycle in which
+/// they came in. Collective.
+/// @param added in the order of the mesh
+/// @param where of the stage
+void reportOverlapsOfAdded(const Solver& solver, const std::vector<int>& added,
+                           const std::string& where);
 } // namespace coplane

@@ -1,5 +1,6 @@
 #include "Observers.hpp"
 
+#include "CensusReport.hpp"
 #include "FilesOfRun.hpp"
 #include "Restart.hpp"
 
@@ -18,6 +19,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace coplane
 {
@@ -166,6 +168,34 @@ CheckpointOptions checkpointOptions(const Deck& deck, const MeshSlice& mesh, con
   checkpoint.begin = settings.begin;
   return checkpoint;
 }
+
+/// Tells of bodies in which blocks lie that a stage adds, once they have come.
+class AddedBlocksObserver : public Observer
+{
+public:
+  AddedBlocksObserver(const Deck& deck, const Mesh& mesh) : deck_(deck), mesh_(mesh) {}
+
+  void start(const Solver& solver) override { told_ = solver.stage().index; }
+
+  void endOfCycle(const Solver& solver) override
+  {
+    if (std::exchange(told_, solver.stage().index) == solver.stage().index)
+      return;
+    const StageCard& stage = deck_.stages[std::size_t(told_)];
+    std::vector<int> added;
+    for (const std::string& name : stage.add)
+      added.push_back(indexOf(mesh_.blocks, name));
+    if (!added.empty() && solver.hasContact())
+      reportOverlapsOfAdded(solver, added, stage.where);
+  }
+
+  void finish(const Solver&, const Ending&) override {}
+
+private:
+  const Deck& deck_;
+  const Mesh& mesh_;
+  int told_ = 0;
+};
 } // namespace
 
 std::vector<std::string> historyVariables(const Deck& deck, const MeshSlice& mesh)
@@ -249,6 +279,7 @@ void addObservers(MultiObserver& observers, const Deck& deck, const MeshSlice& m
                         deck.output.planesFormat == "vtkhdf" ? PlanesFormat::VtkHdf
                                                              : PlanesFormat::Vtp}));
   }
+  observers.add(std::make_unique<AddedBlocksObserver>(deck, mesh.mine));
   observers.add(std::make_unique<ProgressObserver>(ProgressOptions{5, settings.end}, ofRun));
   // The last: it asks the others where they stand.
   observers.add(std::make_unique<CheckpointObserver>(

@@ -1,7 +1,10 @@
 #include "WallOfTwo.hpp"
 
+#include <coplane_core/Log.hpp>
 #include <coplane_setup/ConditionsOfDeck.hpp>
 #include <coplane_setup/DeckProblems.hpp>
+
+#include <array>
 
 namespace coplane
 {
@@ -139,6 +142,36 @@ TEST(DeckProblems, probesBesideAllBodies) // elements of 0.5 m, with diagonals o
       << problemsOf("point: [1, 3, 0]")[0];
   EXPECT_NE(problemsOf("point: [1, 3, 0]")[0].find("at (1, 2, 0) m, where elements are 0.707 m"),
             std::string::npos);
+}
+
+TEST(DeckProblems, unusualSizesAndInitialStress) // a wall of 2 m, a P-wave modulus of 1.2 GPa
+{
+  const Comm comm;
+  const Mesh mesh = wallOfTwo();
+  const auto warningsOf = [&](Real scale, const std::string& stress)
+  {
+    const auto count = []
+    {
+      auto counts = logWarningCounts();
+      return std::array<long, 2>{counts["size"], counts["initial stress"]};
+    };
+    RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
+    for (Vec3& x : part.coordinates)
+      x = scale * x;
+    const Deck deck = parseDeck(deckOfTwo + blocksOfTwo + "initial: [{block: upper, stress: [0, " +
+                                    stress + ", 0, 0, 0, 0]}]\n",
+                                "wall.yaml");
+    const auto before = count();
+    warnOfUnusualSizes(deck, part, comm);
+    const auto after = count();
+    return std::array<long, 2>{after[0] - before[0], after[1] - before[1]};
+  };
+  using Counts = std::array<long, 2>;
+  EXPECT_EQ(warningsOf(1, "-11e6"), (Counts{0, 0}));
+  EXPECT_EQ(warningsOf(1, "-13e6"), (Counts{0, 1}));
+  EXPECT_EQ(warningsOf(1.01e4, "0"), (Counts{1, 0}));
+  EXPECT_EQ(warningsOf(0.99e4, "0"), (Counts{0, 0}));
+  EXPECT_EQ(warningsOf(4e-5, "0"), (Counts{1, 0}));
 }
 
 TEST(ConditionsOfDeck, blastWaveOfACharge)

@@ -14,8 +14,8 @@ weight = density * gravity  # of one block of 1 m x 1 m, per metre [N]
 # --- meshes: three blocks of 1 m, one above the other, four elements high ---------------------------------------------------
 
 
-def column(name, shared):
-    """With common nodes or each with nodes of its own."""
+def column(name, shared, sunk=0.0):
+    """With common nodes or each with nodes of its own; the upper block lies so deep in the middle one [m]."""
     points, quads, sides = [], {}, {"floor": [], "base_top": [], "crest": []}
     for b, block in enumerate(("base", "middle", "top")):
         first = len(points)
@@ -23,7 +23,7 @@ def column(name, shared):
             first -= 2  # the upper two nodes of the block below
         for row in range(5):
             if row or not (shared and b):
-                points += [(0.0, b + row / 4), (1.0, b + row / 4)]
+                points += [(x, b + row / 4 - (sunk if block == "top" else 0)) for x in (0.0, 1.0)]
         quads[block] = [(first + 2 * r, first + 2 * r + 1, first + 2 * r + 3, first + 2 * r + 2) for r in range(4)]
         if b == 0:
             sides["floor"], sides["base_top"] = [(first, first + 1)], [(first + 8, first + 9)]
@@ -33,6 +33,8 @@ def column(name, shared):
 
 column("shared.e", True)
 column("apart.e", False)
+for sunk in (0.02, 0.2):  # of elements of 0.25 m
+    column(f"sunk_{sunk:g}.e", False, sunk)
 
 relax = {"kinetic": True, "until_force_ratio": 1e-9}
 
@@ -168,6 +170,18 @@ h = run_stiff.history
 first = numpy.flatnonzero(h["eroded"] != 0)[0]  # the cycle in which it comes, without forces of its own
 through = 0.25 / math.sqrt(1e3 * modulus / density)  # a wave through one of its elements [s]
 case.check_equal(f"{name}: steps after that are shorter than a wave takes through an element", bool(numpy.max(h["dt"][first + 1 :]) < through), True)
+
+# --- a block comes in where another one is: that is told, once, with how deep; where faces only meet nothing is -----------------
+
+for mesh, deep in (("apart", 0), ("sunk_0.02", 0.02), ("sunk_0.2", 0.2)):
+    for ranks in (1, 3):
+        meeting = deck(mesh, [still, {"name": "meets", "until": 3e-3, "add": ["top"]}], 2, ("base", "middle"), contact={"default_joint": "bed"}, damping={}, time={"end": 3e-3})
+        name = f"{mesh}_{ranks}_ranks"
+        met = case.attempt(name, None, meeting, ranks=ranks)
+        told = [line for line in met.output.splitlines() if "in each other" in line]
+        case.check_equal(f"{name}: exit code, times told", [met.code, len(told)], [0, 1 if deep else 0])
+        if told:
+            case.check_equal(f"{name}: what is told", [words in told[0] for words in ("blocks 'middle' and 'top'", f"up to {deep:g} m deep")], [True, True])
 
 # --- restarts in the middle of a stage and at its border, with what is to come changed -----------------------------------------
 

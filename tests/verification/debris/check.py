@@ -1,5 +1,7 @@
 """Debris: corners of a cube that dies bounce off a rigid floor in closed form, and off a free elastic block with all momenta."""
 
+import sys
+
 import numpy
 from coplanetest import Case
 
@@ -55,7 +57,8 @@ for dimension in (2, 3):
     case.check(f"{name}: time in contact [s]", first[-1] - first[0], numpy.pi * numpy.sqrt(mass / stiffness), 0.02, relative=True)
     case.check(f"{name}: what is not stored, over that", numpy.abs(h["debris_remainder"]).max() / most, 0, 1e-3)
     if dimension == 3:
-        case.same_bits(name, recipe, one, run)
+        if "all" in sys.argv[1:]:
+            case.same_bits(name, recipe, one, run)
         case.same_bits(f"{name}_three", recipe, one, run, ranks=3, backend="serial")
         touched = run.history["time"][run.history["debris_touching"] > 0]
         case.restarts(name, recipe, one, run, touched[20], ranks=2)

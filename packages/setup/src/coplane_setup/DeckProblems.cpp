@@ -1,10 +1,12 @@
 #include <coplane_core/Log.hpp>
 #include <coplane_input/MaterialCards.hpp>
+#include <coplane_schema/UsualRanges.hpp>
 #include <coplane_setup/DeckProblems.hpp>
 #include <coplane_setup/Lookups.hpp>
 #include <coplane_setup/detail/BlocksOfDeck.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace coplane
 {
@@ -172,5 +174,43 @@ std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part
     }
   }
   return problems;
+}
+
+void warnOfUnusualSizes(const Deck& deck, const RankMesh& part, const Comm& comm)
+{
+  std::vector<Real> reach(6, -infinity); // largest coordinates, and least ones with the other sign
+  for (const Vec3& x : part.coordinates)
+    for (int c = 0; c < 3; ++c)
+    {
+      reach[std::size_t(c)] = std::max(reach[std::size_t(c)], x[c]);
+      reach[std::size_t(c) + 3] = std::max(reach[std::size_t(c) + 3], -x[c]);
+    }
+  comm.max(reach);
+  Real across = 0;
+  for (std::size_t c = 0; c < 3; ++c)
+    across = std::max(across, reach[c] + reach[c + 3]);
+  const UsualRange& usually = usual::length;
+  if (across > usually.largest || across < usually.least)
+    logWarning("size",
+               fmt::format("{}: the bodies reach over {:g} m. Usual: {:g} to {:g} m. {}", deck.mesh,
+                           across, usually.least, usually.largest, usually.slip));
+  for (const InitialCard& card : deck.initial)
+  {
+    const int block = indexOf(deck.blocks, card.block);
+    if (block < 0 || deck.blocks[std::size_t(block)].rigid)
+      continue;
+    const BlockCard& of = deck.blocks[std::size_t(block)];
+    const Real modulus = pWaveModulus(materialOf(materialCardOf(deck, of)));
+    Real most = 0;
+    for (const Real one : card.stress)
+      most = std::max(most, std::abs(one));
+    if (constexpr Real share = 0.01; modulus > 0 && most > share * modulus)
+      logWarning(
+          "initial stress",
+          fmt::format("{}: initial stress of {:g} Pa in block '{}' is {:.3g} % of the P-wave "
+                      "modulus of material '{}', {:g} Pa. Usual: up to {:g} %. {}",
+                      card.where, most, card.block, 100 * most / modulus, of.material, modulus,
+                      100 * share, usual::ofPressure));
+  }
 }
 } // namespace coplane

@@ -26,4 +26,9 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice
 /// ranks. Collective.
 /// @param part with every node of this rank
 std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part, const Comm& comm);
+
+/// Warns of what is most often a slip of units: bodies that reach farther than usual, or over next
+/// to nothing, and initial stress of more than a hundredth of the P-wave modulus. Collective.
+/// @param part with every node of this rank
+void warnOfUnusualSizes(const Deck& deck, const RankMesh& part, const Comm& comm);
 } // namespace coplane
