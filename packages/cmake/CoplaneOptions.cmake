@@ -15,9 +15,14 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG" CACHE STRING "" FORCE)
-# Kernels are inlined whole, and with every check compiling takes three times as long. Left out: virtual tables, object sizes, use after
-# scope, null pointers (they end the program anyway), alignment and overflow of pointers.
-set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fsanitize=address,undefined -fno-sanitize=vptr,object-size,null,alignment,pointer-overflow,nonnull-attribute,returns-nonnull-attribute -fno-sanitize-address-use-after-scope -fno-omit-frame-pointer -fno-sanitize-recover=undefined")
+# Kernels are inlined whole, and with every check compiling takes three times as long. Left out, unless COPLANE_SANITIZE_ALL: virtual
+# tables, object sizes, use after scope, null pointers (they end the program anyway), alignment and overflow of pointers.
+option(COPLANE_SANITIZE_ALL "With CMAKE_BUILD_TYPE=Sanitize: with the checks that multiply the time of compiling" OFF)
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g1 -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=undefined")
+if(NOT COPLANE_SANITIZE_ALL)
+  string(APPEND CMAKE_CXX_FLAGS_SANITIZE " -fno-sanitize=vptr,object-size,null,alignment,pointer-overflow,nonnull-attribute,returns-nonnull-attribute"
+    " -fno-sanitize-address-use-after-scope")
+endif()
 set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "-fsanitize=address,undefined")
 set(CMAKE_CXX_FLAGS_FUZZ "-O1 -g1 -fsanitize=fuzzer-no-link")
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")

@@ -53,3 +53,5 @@ endfunction()
 
 # `ninja unit_tests` builds the unit tests only (for the sanitizers).
 add_custom_target(unit_tests)
+# `ninja coplane_headers` compiles each header alone.
+add_custom_target(coplane_headers)

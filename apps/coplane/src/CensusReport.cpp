@@ -36,7 +36,7 @@ void printLengths(const CensusLengths& lengths, const char* what, const char* ex
 }
 
 /// Overlaps of what is there, the deepest first. Collective.
-std::vector<InitialOverlap> overlapsNow(const Solver& solver)
+std::vector<InitialOverlap> overlapsNow(const Solver& solver, bool declaredAbsorb)
 {
   std::vector<Real> there;
   for (const ElementBlock& block : solver.blocks())
@@ -49,7 +49,8 @@ std::vector<InitialOverlap> overlapsNow(const Solver& solver)
   solver.comm().max(there);
   std::vector<InitialOverlap> overlaps = initialOverlaps(
       solver.contact(), solver.state().x,
-      bodyLabels(solver.mesh(), std::vector<char>(there.begin(), there.end()), solver.comm()));
+      bodyLabels(solver.mesh(), std::vector<char>(there.begin(), there.end()), solver.comm()),
+      declaredAbsorb);
   std::sort(overlaps.begin(), overlaps.end(),
             [](const InitialOverlap& a, const InitialOverlap& b) {
               return std::tie(b.depth, a.block[0], a.block[1]) <
@@ -118,7 +119,7 @@ void reportCensus(const Contact& contact)
 
 void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bool allowed)
 {
-  const std::vector<InitialOverlap> overlaps = overlapsNow(solver);
+  const std::vector<InitialOverlap> overlaps = overlapsNow(solver, true);
   if (overlaps.empty())
     return;
   const std::string found = fmt::format("{}: bodies overlap before the first step:\n{}", meshFile,
@@ -135,7 +136,7 @@ void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bo
 void reportOverlapsOfAdded(const Solver& solver, const std::vector<int>& added,
                            const std::string& where)
 {
-  std::vector<InitialOverlap> overlaps = overlapsNow(solver);
+  std::vector<InitialOverlap> overlaps = overlapsNow(solver, false);
   const auto isOfAdded = [&](const InitialOverlap& overlap)
   {
     return std::any_of(added.begin(), added.end(),
@@ -144,13 +145,15 @@ void reportOverlapsOfAdded(const Solver& solver, const std::vector<int>& added,
   };
   overlaps.erase(std::remove_if(overlaps.begin(), overlaps.end(), std::not_fn(isOfAdded)),
                  overlaps.end());
-  if (!overlaps.empty())
-    logWarning(
-        "overlaps of added blocks",
-        fmt::format("{}: bodies overlap where blocks come in:\n{}\nThere is no force between "
-                    "them until they press deeper, and none at all where faces lie deep in "
-                    "the other body, until they part. Leave a gap in the mesh, or exclude "
-                    "the pair.",
-                    where, linesOf(overlaps, solver)));
+  if (overlaps.empty())
+    return;
+  // A kind for each stage: none is counted only.
+  logWarning(
+      "overlaps of added blocks, " + where,
+      fmt::format("{}: bodies overlap where blocks come in:\n{}\nUp to contact.depth_max ({:g}) of "
+                  "an element there is no force now, and contact from this depth on: nothing is to "
+                  "be done where that is meant, as with a lining in rock that has moved. What lies "
+                  "deeper carries nothing until it has left: leave a gap in the mesh.",
+                  where, linesOf(overlaps, solver), solver.contact().options().depthMax));
 }
 } // namespace coplane

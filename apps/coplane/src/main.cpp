@@ -319,7 +319,7 @@ void checkTogether(const Deck& deck, const MeshSlice& mesh, const RankMesh& home
         for (const std::string& note : meshProblems(report))
           logWarning("mesh", fmt::format("{}: {}", deck.mesh, note));
       });
-  warnOfUnusualSizes(deck, home, comm);
+  warnOfInitialStress(deck, known, home, comm);
 }
 
 /// What only the mesh shows of the decks of later stages. Collective.

@@ -4,8 +4,6 @@
 #include <coplane_setup/ConditionsOfDeck.hpp>
 #include <coplane_setup/DeckProblems.hpp>
 
-#include <array>
-
 namespace coplane
 {
 namespace
@@ -144,34 +142,41 @@ TEST(DeckProblems, probesBesideAllBodies) // elements of 0.5 m, with diagonals o
             std::string::npos);
 }
 
-TEST(DeckProblems, unusualSizesAndInitialStress) // a wall of 2 m, a P-wave modulus of 1.2 GPa
+TEST(DeckProblems, initialStressOfATenthOfTheModulus) // a P-wave modulus of 1.2 GPa
 {
   const Comm comm;
   const Mesh mesh = wallOfTwo();
-  const auto warningsOf = [&](Real scale, const std::string& stress)
+  const RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
+  const auto warningsOf = [&](const std::string& keys)
   {
     const auto count = []
     {
       auto counts = logWarningCounts();
-      return std::array<long, 2>{counts["size"], counts["initial stress"]};
+      return counts["initial stress"];
     };
-    RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
-    for (Vec3& x : part.coordinates)
-      x = scale * x;
-    const Deck deck = parseDeck(deckOfTwo + blocksOfTwo + "initial: [{block: upper, stress: [0, " +
-                                    stress + ", 0, 0, 0, 0]}]\n",
-                                "wall.yaml");
-    const auto before = count();
-    warnOfUnusualSizes(deck, part, comm);
-    const auto after = count();
-    return std::array<long, 2>{after[0] - before[0], after[1] - before[1]};
+    const Deck deck = parseDeck(
+        deckOfTwo + blocksOfTwo + "initial: [{block: upper, " + keys + "}]\n", "wall.yaml");
+    const long before = count();
+    warnOfInitialStress(deck, mesh, part, comm);
+    return count() - before;
   };
-  using Counts = std::array<long, 2>;
-  EXPECT_EQ(warningsOf(1, "-11e6"), (Counts{0, 0}));
-  EXPECT_EQ(warningsOf(1, "-13e6"), (Counts{0, 1}));
-  EXPECT_EQ(warningsOf(1.01e4, "0"), (Counts{1, 0}));
-  EXPECT_EQ(warningsOf(0.99e4, "0"), (Counts{0, 0}));
-  EXPECT_EQ(warningsOf(4e-5, "0"), (Counts{1, 0}));
+  EXPECT_EQ(warningsOf("stress: [0, -119e6, 0, 0, 0, 0]"), 0);
+  EXPECT_EQ(warningsOf("stress: [0, 0, 0, -121e6, 0, 0]"), 1);
+  // The upper block reaches from y = 1 m to 2 m; at the origin there is nothing.
+  const std::string gradient = "stress: [-4e8, 0, 0, 0, 0, 0], stress_gradient: [";
+  EXPECT_EQ(warningsOf(gradient + "2.9e8, 0, 0, 0, 0, 0]"), 1);
+  EXPECT_EQ(warningsOf(gradient + "2.85e8, 0, 0, 0, 0, 0], stress_point: [0, 0.1, 0]"), 1);
+  EXPECT_EQ(warningsOf("stress: [-119e6, 0, 0, 0, 0, 0], stress_gradient: [100e6, 0, 0, 0, 0, 0], "
+                       "stress_point: [0, 1, 0]"),
+            0);
+  const Deck gas = parseDeck("mesh: wall.e\nmaterials: {air: {model: ideal_gas, density: 1.2, "
+                             "heat_ratio: 1.4, pressure: 1e5}}\ntime: {end: 1}\n"
+                             "blocks: {lower: {material: air}, upper: {material: air}}\n"
+                             "initial: [{block: upper, stress: [-1e5, -1e5, -1e5, 0, 0, 0]}]\n",
+                             "wall.yaml");
+  const auto before = logWarningCounts();
+  warnOfInitialStress(gas, mesh, part, comm);
+  EXPECT_EQ(logWarningCounts(), before);
 }
 
 TEST(ConditionsOfDeck, blastWaveOfACharge)

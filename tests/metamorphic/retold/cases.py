@@ -17,6 +17,7 @@ class Retold:
     bounds: dict = dataclasses.field(default_factory=dict)  # another bound of the motion; None: it is only reported
     other: dict = dataclasses.field(default_factory=dict)  # words in which the checks of the case are reported only, with the reason
     apart: dict = dataclasses.field(default_factory=dict)  # runs whose motion is not compared, with the reason
+    long: bool = False  # with `all` its long form is told
     base: bool = True  # whether the original runs as well without `all`, to compare motions
 
     def words(self, everything):
@@ -68,7 +69,7 @@ CASES = {
     "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
     "rigid_motion": Retold(["mirrored", "renumbered", "turned"], other=dict.fromkeys(["millimetres", "powers_of_two"], "its check reads a table of the run as it is, in the units of the run")),
     "V39_gas_shocks": Retold(["mirrored", "turned"]),
-    "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], base=False),
+    "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], long=True, base=False),
     "column_3d": Retold(["turned", "declared"]),
     "cut_rock_2d": Retold(["mirrored", "renumbered"]),
     "explosion_3d": Retold(["mirrored", "restarted"]),

@@ -20,6 +20,8 @@ words = known.words(True) if rest == ["all"] else rest or known.often
 case = Case(name, __file__)
 verification = case.source.parents[1] / "verification" / name / "check.py"
 command = [str(verification)] if verification.exists() else [str(case.source / "example.py"), name]
+if known.long and rest == ["all"]:
+    command.append("all")
 
 
 def ask(word):

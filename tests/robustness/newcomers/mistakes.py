@@ -67,6 +67,8 @@ warned("cohesion in MPa", {"friction: 0.6": "friction: 0.6, cohesion: 2"}, "join
 warned("yield stress in MPa", {"linear_elastic": "j2", "0.25}": "0.25, yield_stress: 250}"}, "materials.granite.yield_stress = 250 Pa", "1 MPa 1e6")
 warned("pressure in MPa", {"{type: fixed, node_set: base}": "{type: pressure, side_set: roof, value: 5}"}, "conditions.0.value = 5 Pa", "1 MPa 1e6")
 warned("initial stress in MPa", {"gravity:": "initial: [{block: upper, stress: [-5, -5, -5, 0, 0, 0]}]\ngravity:"}, "initial.0.stress = -5 Pa")
+warned("initial stress a thousand times too large", {"gravity:": "initial: [{block: upper, stress: [-1e10, -1e10, -1e10, 0, 0, 0]}]\ngravity:"},
+       "initial stress of up to 1e+10 Pa in block 'upper' is 13.9 % of the P-wave modulus", "Usual: up to 10 %", "1 MPa 1e6", two_ranks=True)
 warned("velocity in mm/s", {"[0, -0.1, 0]": "[0, -1e5, 0]"}, "conditions.1.value = -100000 m/s", "mm/s", "too fast for the waves", code=COMPUTATION)  # in the trial
 warned("gravity in mm/s^2", {"-9.81": "-9810"}, "run.yaml:14:10: gravity = -9810 m/s^2", "9.81, not 9810")
 warned("gravity upwards", {"-9.81": "9.81"}, "gravity.1 = 9.81 m/s^2 pulls along +y, upwards", "-9.81")

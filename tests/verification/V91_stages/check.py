@@ -174,8 +174,9 @@ case.check_equal(f"{name}: steps after that are shorter than a wave takes throug
 # --- a block comes in where another one is: that is told, once, with how deep; where faces only meet nothing is -----------------
 
 for mesh, deep in (("apart", 0), ("sunk_0.02", 0.02), ("sunk_0.2", 0.2)):
-    for ranks in (1, 3):
-        meeting = deck(mesh, [still, {"name": "meets", "until": 3e-3, "add": ["top"]}], 2, ("base", "middle"), contact={"default_joint": "bed"}, damping={}, time={"end": 3e-3})
+    for ranks, declared in ((1, False), (3, False), (2, True)):
+        meeting = deck(mesh, [still, {"name": "meets", "until": 3e-3, "add": ["top"]}], 2, ("base", "middle"), damping={}, time={"end": 3e-3})
+        meeting["contact"]["pairs"][0]["declared"] = declared
         name = f"{mesh}_{ranks}_ranks"
         met = case.attempt(name, None, meeting, ranks=ranks)
         told = [line for line in met.output.splitlines() if "in each other" in line]

@@ -128,10 +128,10 @@ for seed in range(1, seeds + 1):
     worths.append(min(float(worth) for worth in re.findall(r"worst shape (\S+)", made["said"])))
     before.append(float(re.search(r"is worth \S+, was (\S+)", made["said"])[1]))
     lone += lone_faces(made)
-case.check_within(f"tunnel, {seeds} seeds: worst shape", min(worths), 0.09, 1)
-case.check_within(f"tunnel, {seeds} seeds: worst worth without mending", min(before), 0, 0.003)  # such a mesh is refused
-case.check(f"tunnel, {seeds} seeds: area over that of the box", max(volumes, key=lambda area: abs(area - 1440)) / 1440, 1, 2e-6)
-case.check_equal(f"tunnel, {seeds} seeds: faces without partner", lone, 0)
+case.check_within("tunnel, over seeds: worst shape", min(worths), 0.09, 1)
+case.check_within("tunnel, over seeds: worst worth without mending", min(before), 0, 0.003)  # such a mesh is refused
+case.check("tunnel, over seeds: area over that of the box", max(volumes, key=lambda area: abs(area - 1440)) / 1440, 1, 2e-6)
+case.check_equal("tunnel, over seeds: faces without partner", lone, 0)
 made = cut("tunnel_2d_cubes", {**tunnel_2d, "seed": 6, "elements": {**tunnel_2d["elements"], "shape": "cubes"}})
 case.check("tunnel of quadrilaterals: area over that of the box", sum(made["blocks"].values()) / 1440, 1, 2e-6)
 case.check_equal("tunnel of quadrilaterals: faces without partner", lone_faces(made), 0)

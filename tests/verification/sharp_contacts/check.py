@@ -81,7 +81,7 @@ def near_end(end, tilt):
     return recipe, deck, place
 
 
-for tilt in (-80, -60, -40, -20, -8, 8, 20, 40) if full else (-60, -40, -8, 20):
+for tilt in (-80, -60, -40, -20, -8, 8, 20, 40) if full else (-60, -40, -20, 20):
     after = []
     for end in (0.4, 0.02, 9e-3, 3e-3):
         name = f"corner {tilt} degrees, {1e3 * end:g} mm from the end"
@@ -214,7 +214,7 @@ def roofs(angle, crossing):
 for angle, crossing in (
     (120, 50), (90, 90), (90, 60), (90, 30), (90, 16), (75, 90), (75, 60), (60, 90), (60, 60), (60, 40), (60, 20), (50, 90), (45, 75), (38, 45),
     (30, 90), (20, 90), (10, 90)
-) if full else ((120, 50), (90, 16), (75, 60), (60, 20), (50, 90), (38, 45), (20, 90)):
+) if full else ((120, 50), (90, 16), (60, 90), (60, 20), (50, 90), (38, 45), (10, 90)):
     recipe, deck, place = roofs(angle, crossing)
     run = case.run(f"roofs_{angle}_{crossing}", recipe, deck, change_mesh=place)
     h = run.history

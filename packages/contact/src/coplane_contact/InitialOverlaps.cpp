@@ -306,7 +306,7 @@ bool comesBefore(const Inside& a, const Inside& b)
 /// In which other bodies a sample lies, and the least way out of each, from what the rays along all
 /// axes met.
 void findBodies(const Sample& sample, int ownBody, const std::vector<Crossing>* rays, int count,
-                const Contact& contact, std::vector<Inside>& inside)
+                const Contact& contact, bool declaredAbsorb, std::vector<Inside>& inside)
 {
   std::map<int, std::pair<int, Inside>> others; // rays that say inside, way out
   for (int i = 0; i < count; ++i)
@@ -345,7 +345,8 @@ void findBodies(const Sample& sample, int ownBody, const std::vector<Crossing>* 
           if (crossing.faceId == found.second.faceId[1])
             group = crossing.group;
       const ContactRule& rule = contact.rules().between(sample.face->group, group);
-      if (rule.excluded || (rule.declared && found.second.depth <= widestJoint * sample.size))
+      const bool isJoint = rule.declared && found.second.depth <= widestJoint * sample.size;
+      if (rule.excluded || (declaredAbsorb && isJoint))
         continue;
       inside.push_back(found.second);
     }
@@ -424,7 +425,7 @@ std::vector<InitialOverlap> byBlocks(const std::vector<Inside>& inside,
 } // namespace
 
 std::vector<InitialOverlap> initialOverlaps(const Contact& contact, const ConstNodeVectors& x,
-                                            const std::vector<int>& bodyOfNode)
+                                            const std::vector<int>& bodyOfNode, bool declaredAbsorb)
 {
   const Comm& comm = contact.comm();
   const Surfaces surfaces(contact, x, bodyOfNode);
@@ -466,7 +467,7 @@ std::vector<InitialOverlap> initialOverlaps(const Contact& contact, const ConstN
   std::vector<Inside> inside;
   for (std::size_t s = 0; s < suspects.size(); ++s)
     findBodies(*suspects[s], surfaces.body(*suspects[s]->face),
-               &crossings[s * std::size_t(raysEach)], raysEach, contact, inside);
+               &crossings[s * std::size_t(raysEach)], raysEach, contact, declaredAbsorb, inside);
   inside = comm.allGather(inside);
   std::sort(inside.begin(), inside.end(), comesBefore);
 

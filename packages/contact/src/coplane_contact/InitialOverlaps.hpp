@@ -6,7 +6,8 @@
 
 namespace coplane
 {
-/// Bodies of two blocks, or of one, that lie in each other before the first step.
+/// Bodies of two blocks, or of one, that lie in each other before the first step, or when a stage
+/// has added blocks.
 struct InitialOverlap
 {
   int block[2] = {0, 0};  ///< in the order of the mesh
@@ -22,13 +23,15 @@ struct InitialOverlap
 constexpr Real smallestOverlap = 1e-3;
 
 /// All overlaps of bodies, sorted by blocks: also of those that lie wholly in another one, which
-/// step 5 does not see. Not of faces that rules exclude, and not what declared joints absorb.
+/// step 5 does not see. Not of faces that rules exclude.
 ///
 /// Rays from points just below each face count through how many surfaces they leave bodies: a
 /// body's surface is closed, so that tells in how many of them the point lies, wherever they are.
 /// @param bodyOfNode for every node of this rank's elements a number of its body, the same on all
 ///        ranks
-/// The same on all ranks, for any number of them. Collective.
+/// @param declaredAbsorb without what declared joints absorb as they are closed, before the first
+/// step The same on all ranks, for any number of them. Collective.
 std::vector<InitialOverlap> initialOverlaps(const Contact& contact, const ConstNodeVectors& x,
-                                            const std::vector<int>& bodyOfNode);
+                                            const std::vector<int>& bodyOfNode,
+                                            bool declaredAbsorb = true);
 } // namespace coplane

@@ -13,7 +13,7 @@ namespace
 // Beyond these a mesh is told of, though it can be used.
 constexpr Real poorQuality = 0.03;                         // a corner of 2 degrees in a rectangle
 constexpr Real shortEdge = 1.0 / 300;                      // of the longest
-constexpr Real largestExtent = 1e5, smallestExtent = 1e-5; // [m]
+constexpr Real largestExtent = 2e4, smallestExtent = 1e-5; // [m]
 
 /// With digits that tell elements apart, however far from the origin.
 std::string at(const MeshReport& report, const Vec3& x)

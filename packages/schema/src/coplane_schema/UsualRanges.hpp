@@ -29,9 +29,6 @@ inline const UsualRange poisson{
     0, 0.495,
     "Almost nothing is left to compress: elements lock and steps are short. "
     "0.49 is enough for nearly incompressible solids."};
-inline const UsualRange length{
-    1e-4, 2e4, // [m]
-    "Metres are meant: a mesh in mm is read by a recipe with `scale: 0.001` (meshes.md)."};
 inline const UsualRange speed{0, 2e4, "m/s are meant: 1 mm/s is 1e-3, 1 km/s 1000."};
 inline const UsualRange acceleration{1e-3, 5e3,
                                      "m/s^2 are meant: the weight on earth is 9.81, not 9810."};

@@ -176,41 +176,41 @@ std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part
   return problems;
 }
 
-void warnOfUnusualSizes(const Deck& deck, const RankMesh& part, const Comm& comm)
+void warnOfInitialStress(const Deck& deck, const Mesh& mesh, const RankMesh& part, const Comm& comm)
 {
-  std::vector<Real> reach(6, -infinity); // largest coordinates, and least ones with the other sign
-  for (const Vec3& x : part.coordinates)
-    for (int c = 0; c < 3; ++c)
-    {
-      reach[std::size_t(c)] = std::max(reach[std::size_t(c)], x[c]);
-      reach[std::size_t(c) + 3] = std::max(reach[std::size_t(c) + 3], -x[c]);
-    }
-  comm.max(reach);
-  Real across = 0;
-  for (std::size_t c = 0; c < 3; ++c)
-    across = std::max(across, reach[c] + reach[c + 3]);
-  const UsualRange& usually = usual::length;
-  if (across > usually.largest || across < usually.least)
-    logWarning("size",
-               fmt::format("{}: the bodies reach over {:g} m. Usual: {:g} to {:g} m. {}", deck.mesh,
-                           across, usually.least, usually.largest, usually.slip));
-  for (const InitialCard& card : deck.initial)
+  constexpr Real share = 0.1;                     // of the modulus
+  std::vector<Real> most(deck.initial.size(), 0); // by card [Pa]
+  for (std::size_t i = 0; i < most.size(); ++i)
   {
+    const InitialCard& card = deck.initial[i];
+    const Vec3 axis = normalised(card.stressAxis);
+    for (const RankMesh::Block& block : part.blocks)
+      if (block.meshBlock == indexOf(mesh.blocks, card.block))
+        for (const int node : block.connectivity)
+        {
+          const Real along = dot(axis, part.coordinates[std::size_t(node)] - card.stressPoint);
+          for (std::size_t c = 0; c < 6; ++c)
+            most[i] = std::max(most[i], std::abs(card.stress[c] + along * card.stressGradient[c]));
+        }
+  }
+  comm.max(most);
+  for (std::size_t i = 0; i < most.size(); ++i)
+  {
+    const InitialCard& card = deck.initial[i];
     const int block = indexOf(deck.blocks, card.block);
-    if (block < 0 || deck.blocks[std::size_t(block)].rigid)
+    if (block < 0 || most[i] == 0)
       continue;
     const BlockCard& of = deck.blocks[std::size_t(block)];
-    const Real modulus = pWaveModulus(materialOf(materialCardOf(deck, of)));
-    Real most = 0;
-    for (const Real one : card.stress)
-      most = std::max(most, std::abs(one));
-    if (constexpr Real share = 0.01; modulus > 0 && most > share * modulus)
-      logWarning(
-          "initial stress",
-          fmt::format("{}: initial stress of {:g} Pa in block '{}' is {:.3g} % of the P-wave "
-                      "modulus of material '{}', {:g} Pa. Usual: up to {:g} %. {}",
-                      card.where, most, card.block, 100 * most / modulus, of.material, modulus,
-                      100 * share, usual::ofPressure));
+    const Material material = materialOf(materialCardOf(deck, of));
+    // The initial stress of a fluid is its state.
+    if (const Real modulus = pWaveModulus(material);
+        elasticity(material).shearModulus > 0 && most[i] > share * modulus)
+      logWarning("initial stress",
+                 fmt::format("{}: initial stress of up to {:.4g} Pa in block '{}' is {:.3g} % of "
+                             "the P-wave modulus of material '{}', {:.4g} Pa. Usual: up to {:g} %. "
+                             "{}",
+                             card.where, most[i], card.block, 100 * most[i] / modulus, of.material,
+                             modulus, 100 * share, usual::ofPressure));
   }
 }
 } // namespace coplane

@@ -27,8 +27,10 @@ std::vector<std::string> problemsOfRigidBlocks(const Deck& deck, const MeshSlice
 /// @param part with every node of this rank
 std::vector<std::string> problemsOfProbes(const Deck& deck, const RankMesh& part, const Comm& comm);
 
-/// Warns of what is most often a slip of units: bodies that reach farther than usual, or over next
-/// to nothing, and initial stress of more than a hundredth of the P-wave modulus. Collective.
+/// Warns of initial stress of more than a tenth of the P-wave modulus, somewhere in its block: most
+/// often a slip of units. Not in fluids, whose stress at the start is their state. Collective.
+/// @param mesh of which names count
 /// @param part with every node of this rank
-void warnOfUnusualSizes(const Deck& deck, const RankMesh& part, const Comm& comm);
+void warnOfInitialStress(const Deck& deck, const Mesh& mesh, const RankMesh& part,
+                         const Comm& comm);
 } // namespace coplane
