@@ -60,8 +60,8 @@ finish() {
 get_dependencies() {
   COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview --with-browser | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
 }
-# What keeps memory of its own and what reads files; contact, laws and elements run within dynamics. --slow: the programs of all packages.
-sanitized_packages=(core checkpoint mesh exodus dynamics)
+# What keeps memory of its own by keys and ranks, and what reads files. --slow: the programs of all packages.
+sanitized_packages=(core checkpoint mesh exodus contact)
 build_sanitized() {
   local targets=(coplane_fuzz)
   for package in "${sanitized_packages[@]}"; do targets+=("coplane_${package}_test"); done
@@ -73,7 +73,7 @@ build_sanitized() {
 sanitized_tests() {
   local packages
   packages=$(IFS='|'; echo "${sanitized_packages[*]}")
-  local without='^unit[.]dynamics[.]1ranks'
+  local without='^unit[.]contact[.]1ranks'
   [ $slow = no ] || packages='.*' without='^$'
   build_sanitized &&
     # Open MPI keeps memory until exit, and Trilinos is not instrumented. Two ranks of threads run what one rank, or more of them, do.
