@@ -106,7 +106,8 @@ void search(benchmark::State& state, Backend backend, Scene (*make)(int))
   for (auto _ : state)
   {
     const Bins bins = step1_globalSpaceLimits(scene.faces, x, rules, comm);
-    pairs = step5_candidatePairs(bins, scene.faces, x, 3, rules).size();
+    const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, x, 3, rules);
+    pairs = step5_candidatePairs(sorted, scene.faces, x, rules).size();
   }
   const auto rate = [](std::size_t count)
   { return benchmark::Counter(Real(count), benchmark::Counter::kIsIterationInvariantRate); };

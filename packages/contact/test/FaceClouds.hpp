@@ -221,8 +221,9 @@ inline Found search(const Scene& scene, RankPart part, const CandidateRules& rul
       set(part.x, int(ghost.nodes[k]), scene.x[ghost.nodes[k]]);
   }
   Pair last{-1, -1};
-  for (const CandidatePair& pair :
-       step5_candidatePairs(found.bins, faces, part.x, scene.dimension, rules))
+  const SortedFaces withGhosts =
+      step2_sortIntoBins(found.bins, faces, part.x, scene.dimension, rules);
+  for (const CandidatePair& pair : step5_candidatePairs(withGhosts, faces, part.x, rules))
   {
     const Pair ids{faces[pair.lower].id, faces[pair.higher].id};
     EXPECT_LT(ids.first, ids.second);

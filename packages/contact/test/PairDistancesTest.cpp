@@ -34,12 +34,16 @@ TEST(PairDistances, whatIsFarNeitherTouchesNorMaySoon)
       {
         pairs.goOn(since);
         distances.follow(pairs.now, pairs.nowV, since, lookAhead);
+        std::vector<std::uint8_t> areFar(count);
+        for (int first = 0; first < count; first += 333)
+          distances.areFar(first, std::min(333, count - first), &areFar[std::size_t(first)]);
         int far = 0, farAndOpposed = 0, acting = 0;
         for (int p = 0; p < count; ++p)
         {
           const HalfStepFace a = pairs.faceNow(2 * p), b = pairs.faceNow(2 * p + 1);
           const bool acts = actsOrMay(looked(a, b));
           acting += acts;
+          EXPECT_EQ(areFar[std::size_t(p)] != 0, distances.isFar(p)) << p;
           if (!distances.isFar(p))
             continue;
           EXPECT_FALSE(acts) << "pair " << p << " after " << since << " s";
@@ -74,6 +78,19 @@ TEST(PairDistances, facesThatAreApartNeitherTouchNorMaySoon)
   }
   EXPECT_GT(apart, count / 50);
   EXPECT_GT(acting, count / 20);
+}
+
+TEST(PairDistances, slotsWithoutFacesAreNotFar)
+{
+  MovingPairs pairs(20, 11, 0.3, 1e-3);
+  for (int f = 0; f < 2; ++f)
+    pairs.slots(7).face[f] = -1;
+  PairDistances distances = measured(pairs);
+  pairs.goOn(0);
+  distances.follow(pairs.now, pairs.nowV, 0, lookAhead);
+  std::uint8_t far[20];
+  distances.areFar(0, 20, far);
+  EXPECT_EQ(far[7], 0);
 }
 
 TEST(PairDistances, reachesTakeOffWhatPlanesAreOffset)

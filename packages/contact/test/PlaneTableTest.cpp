@@ -1,4 +1,5 @@
 #include <coplane_contact/PlaneTable.hpp>
+#include <coplane_contact/detail/FacePairLanes.hpp>
 
 #include <gtest/gtest.h>
 
@@ -83,6 +84,39 @@ TEST(PlaneTable, slotsGetTheirPlanesWhenTheyWake)
     EXPECT_EQ(&table.planes()[p], woken[last - p]);
     EXPECT_EQ(table.planes()[p].faceId[1], known(int(p) + 1).id);
   }
+}
+TEST(PlaneTable, gainIsThatOfThePlanesThatThereAre)
+{
+  const ContactRules rules = oneJoint();
+  PlaneTable table(rules, 0.5);
+  const Array<Face> known = faces(700);
+  table.take(slotsWithADormantPlane(known), known, {});
+  const auto bear = [&](std::size_t slot, Real gain)
+  {
+    Plane& plane = table.wake(slot);
+    plane.state = PlaneState::Open;
+    plane.countedHere = true;
+    plane.frictionWork = 3;
+    plane.work = 3 - gain;
+  };
+  const auto evaluate = [&](std::size_t slot)
+  { table.forKernels(false).setActivity(int(slot), Activity::Loaded); };
+  bear(5, 1);
+  bear(600, 20);
+  EXPECT_EQ(table.gain(), 21);
+  bear(300, 400); // made since
+  EXPECT_EQ(table.gain(), 421);
+  Plane& fifth = *table.slots().plane[5];
+  fifth.work -= 8000;
+  evaluate(5);
+  EXPECT_EQ(table.gain(), 8421);
+  fifth.countedHere = false;
+  EXPECT_EQ(table.gain(), 420);
+  table.listWoken();
+  table.drop({600});
+  EXPECT_EQ(table.gain(), 400);
+  table.take(slotsWithADormantPlane(known), known, {});
+  EXPECT_EQ(table.gain(), 0);
 }
 } // namespace
 } // namespace coplane

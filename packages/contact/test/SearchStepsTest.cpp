@@ -51,6 +51,49 @@ TEST(Step1GlobalSpaceLimits, facesOfOneSizeShareOneLevelAndEachFaceFitsItsBins)
   }
 }
 
+TEST(FacePlanes, areThoseOfSingleFaces)
+{
+  for (const int dimension : {2, 3})
+  {
+    Cloud cloud;
+    cloud.count = 1003; // in no number of lanes without a rest
+    cloud.dimension = dimension;
+    cloud.corners = [](Random& random) { return random() % 8 == 0 ? 3 : 4; };
+    Scene scene = cloud.make();
+    Random random(3);
+    const NodeVectors v("v", scene.x.size());
+    for (int n = 0; n < int(scene.x.size()); ++n)
+    {
+      scene.x[std::size_t(n)] +=
+          0.01 * Vec3{unit(random), unit(random), dimension == 3 ? unit(random) : 0};
+      set(v, n, {unit(random), unit(random), dimension == 3 ? unit(random) : 0});
+    }
+    for (int k = 1; k < 4; ++k) // a face without area
+      scene.x[std::size_t(scene.faces[9].nodes[k])] = scene.x[std::size_t(scene.faces[9].nodes[0])];
+    const NodeVectors x = positions(scene);
+    CandidateRules rules = rulesWithSkin(0.02);
+    rules.turning = 0.1;
+    for (const Real ahead : {0.0, 1e-3, 0.2})
+    {
+      rules.motion = {v, ahead, {0.1, 0, 0}};
+      const Array<FacePlane> planes =
+          facePlanes(scene.faces.data(), scene.faces.size(), x, dimension, rules);
+      for (std::size_t f = 0; f < scene.faces.size(); ++f)
+      {
+        const FacePlane one = rules.planeOf(scene.faces[f], x, dimension);
+        for (int c = 0; c < 3; ++c)
+        {
+          ASSERT_EQ(planes(f).center[c], one.center[c]) << f;
+          ASSERT_EQ(planes(f).normal[c], one.normal[c]) << f;
+        }
+        ASSERT_EQ(planes(f).turning, one.turning) << f;
+        ASSERT_EQ(planes(f).warp, one.warp) << f;
+        ASSERT_EQ(one.turning > 0, ahead > 0) << f;
+      }
+    }
+  }
+}
+
 TEST(Step2SortIntoBins, aFaceOnABinBorderIsInBoth)
 {
   //  bins of 1 m along x:  | 0 | 1 | 2 |     the limits begin in the middle of bin 0, so the face

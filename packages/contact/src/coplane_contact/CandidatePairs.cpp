@@ -1,5 +1,4 @@
 #include <coplane_contact/Search.hpp>
-#include <coplane_contact/detail/NodesOfFace.hpp>
 #include <coplane_contact/detail/RadixSort.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
@@ -10,37 +9,6 @@
 
 namespace coplane
 {
-namespace
-{
-FacePlane planeOf(const FaceNodes& nodes, int dimension)
-{
-  const HalfStepFace face = stepA_halfStepFace(nodes, 0, dimension);
-  Real warp = 0;
-  if (nodes.count == 4)
-    warp = 0.25 * std::abs(dot(face.normal, face.x[0] - face.x[1] + face.x[2] - face.x[3]));
-  return {face.center, face.normal, 0, warp};
-}
-} // namespace
-
-FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
-{
-  return coplane::planeOf(nodesOf(face, x), dimension);
-}
-
-FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const
-{
-  FacePlane plane = facePlane(face, x, dimension);
-  if (!(turning > 0 && motion.ahead > 0))
-    return plane;
-  FaceNodes ahead = nodesOf(face, x);
-  for (int k = 0; k < face.count; ++k)
-    ahead.x[k] += way(face.nodes[k], infinity);
-  const FacePlane then = coplane::planeOf(ahead, dimension);
-  plane.turning = std::min(mostTurningAhead, norm(then.normal - plane.normal));
-  plane.warp = std::max(plane.warp, then.warp);
-  return plane;
-}
-
 namespace
 {
 /// Whether the elements behind two faces have a node in common.
@@ -301,11 +269,11 @@ std::vector<CandidatePair> together(const std::vector<std::vector<CandidatePair>
 }
 } // namespace
 
-std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
-                                                const ConstNodeVectors& x, int dimension,
+std::vector<CandidatePair> step5_candidatePairs(const SortedFaces& sorted,
+                                                const std::vector<Face>& faces,
+                                                const ConstNodeVectors& x,
                                                 const CandidateRules& rules)
 {
-  const SortedFaces sorted = step2_sortIntoBins(bins, faces, x, dimension, rules);
   const std::vector<std::int32_t> order = orderById(faces);
   std::vector<std::int32_t> rankOf(faces.size());
   for (std::size_t i = 0; i < order.size(); ++i)
@@ -330,7 +298,7 @@ std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vec
                   });
     found[share] = std::move(mine);
   };
-  parallelFor("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
+  parallelForUneven("coplane::contact::step5_candidatePairs", shares, pairsOfShare);
 
   std::vector<CandidatePair> pairs = together(found);
   const int bits = bitsFor(faces.size());

@@ -144,7 +144,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
     return;
   }
   constexpr int stretch = PairLanes::stretch;
-  parallelFor(
+  parallelForUneven(
       "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
       KOKKOS_LAMBDA(const int s) {
         const int first = s * stretch;
@@ -245,46 +245,45 @@ ContactEnergy Contact::energy() const
   PlaneEnergySums mine;
   for (const auto& [kind, sums] : ended_.byKind())
     mine.add(sums);
-  for (std::size_t p = 0; p < planes().size(); ++p)
-    if (const Plane& plane = planes()[p]; plane.countedHere && plane.isBorn())
-      mine.add(plane, plane.stored);
+  mine.add(sumInParts("coplane::contact::energy", planes().size(), PlaneEnergySums{},
+                      [&](PlaneEnergySums& sums, std::size_t p)
+                      {
+                        const Plane& plane = planes()[p];
+                        if (plane.countedHere && plane.isBorn())
+                          sums.add(plane, plane.stored);
+                      }));
   std::vector<ExactSum> sums(mine.sums.begin(), mine.sums.end());
   return PlaneEnergySums::energyOf(ExactSum::overRanks(sums, *comm_).data());
 }
 
 ContactCounts Contact::counts() const
 {
-  ContactCounts counts;
+  ContactCounts counts =
+      sumInParts("coplane::contact::counts", planes_.count(), ContactCounts{},
+                 [&](ContactCounts& mine, std::size_t slot)
+                 {
+                   const int lower = planes_.slots().faces(slot).face[0];
+                   mine.lookedAt += lower >= 0 && faces()[lower].ownedHere &&
+                                    !(planes_.carriesNothing(slot) && distances_.isFar(int(slot)));
+                   const Plane* const plane = planes_.slots().plane[slot];
+                   if (plane == nullptr || !plane->countedHere)
+                     return;
+                   mine.carrying += plane->area > 0;
+                   mine.planes += plane->isBorn();
+                   mine.open += plane->state == PlaneState::Open;
+                   mine.stick += plane->state == PlaneState::Stick;
+                   mine.slip += plane->state == PlaneState::Slip;
+                   mine.tooDeep += plane->tooDeep;
+                   mine.released += plane->refusal == Refusal::Deep;
+                 });
   counts.slots = planes_.countedHere();
   counts.missed = searches_.missed;
-  for (std::size_t slot = 0; slot < planes_.count(); ++slot)
-  {
-    const int lower = planes_.slots().faces(slot).face[0];
-    counts.lookedAt += lower >= 0 && faces()[lower].ownedHere &&
-                       !(planes_.carriesNothing(slot) && distances_.isFar(int(slot)));
-  }
-  for (std::size_t p = 0; p < planes().size(); ++p)
-  {
-    const Plane& plane = planes()[p];
-    if (!plane.countedHere)
-      continue;
-    counts.carrying += plane.area > 0;
-    counts.planes += plane.isBorn();
-    counts.open += plane.state == PlaneState::Open;
-    counts.stick += plane.state == PlaneState::Stick;
-    counts.slip += plane.state == PlaneState::Slip;
-    counts.tooDeep += plane.tooDeep;
-    counts.released += plane.refusal == Refusal::Deep;
-  }
-  std::int64_t* const all[] = {
-      &counts.slots, &counts.lookedAt, &counts.carrying, &counts.planes,   &counts.open,
-      &counts.stick, &counts.slip,     &counts.tooDeep,  &counts.released, &counts.missed};
   std::vector<std::int64_t> sums;
-  for (const std::int64_t* number : all)
+  for (const std::int64_t* number : counts.all())
     sums.push_back(*number);
   comm_->sum(sums);
   for (std::size_t i = 0; i < sums.size(); ++i)
-    *all[i] = sums[i];
+    *counts.all()[i] = sums[i];
   return counts;
 }
 } // namespace coplane

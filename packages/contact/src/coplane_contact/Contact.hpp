@@ -18,6 +18,7 @@
 #include <coplane_core/NodeViews.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
+#include <array>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -31,6 +32,17 @@ struct ContactCounts
   std::int64_t lookedAt = 0; ///< slots that are not left out because their faces are far apart
   std::int64_t carrying = 0; ///< planes with traction
   std::int64_t planes = 0, open = 0, stick = 0, slip = 0, tooDeep = 0, released = 0, missed = 0;
+
+  std::array<std::int64_t*, 10> all()
+  {
+    return {&slots, &lookedAt, &carrying, &planes,   &open,
+            &stick, &slip,     &tooDeep,  &released, &missed};
+  }
+  void add(ContactCounts others)
+  {
+    for (std::size_t i = 0; i < all().size(); ++i)
+      *all()[i] += *others.all()[i];
+  }
 };
 
 /// Simple Common Plane contact between all exterior faces of this rank and their neighbours
@@ -156,6 +168,9 @@ public:
   ContactEnergy energy() const;
   ContactCounts counts() const;
 
+  /// What the planes of this rank have gained by their remainders, in bits that depend on ranks and
+  /// threads [J].
+  Real gainHere() const { return planes_.gain(); }
   /// Energies of the planes that have ended and were counted on this rank.
   const EndedPlanes& ended() const { return ended_; }
 

@@ -292,8 +292,8 @@ void Contact::measureDistances(const ConstNodeVectors& x, const ConstNodeVectors
   CandidateRules rules = reach_.rules();
   Motion& motion = rules.motion;
   motion.ahead *= longer;
-  distances_.take(slots, faces_.forKernels(), facePlanes(faces_.forKernels(), x, rules, dimension_),
-                  mayReach,
+  distances_.take(slots, faces_.forKernels(),
+                  facePlanes(faces().data(), faces().size(), x, dimension_, rules), mayReach,
                   {x, motion.ahead > 0 ? copyOf(v) : ConstNodeVectors(), motion.ahead, motion.frame,
                    reach_.offset(), leastOpposed(options_)});
 }
@@ -314,10 +314,7 @@ Motion Contact::motionAhead(const ConstNodeVectors& v, Real ahead) const
 
 Heritage::Place Contact::placeOfFaces(const ConstNodeVectors& x, const NodeLayout& layout) const
 {
-  const Array<Face>& faces = faces_.forKernels();
-  const ConstNodeVectors copy = copyOf(x);
-  return {faces,        copy,       facePlanes(faces, copy, reach_.rules(), dimension_),
-          layout.ids(), dimension_, reach_.leastSkin()};
+  return {faces_.forKernels(), copyOf(x), layout.ids(), dimension_, reach_.leastSkin()};
 }
 
 void Contact::passOnAnew(const ConstNodeVectors& x, const NodeLayout& layout)
@@ -368,11 +365,12 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   firstHalf_.ghosts.donors = {};
   faces_.list(firstHalf_.ghosts.faces, layout);
   reach_.takeVelocities(v);
-  Slots slots = slotsOf(
-      step5_candidatePairs(firstHalf_.bins, faces(), x, dimension_, reach_.rulesWith(rules_)),
-      planes_, faces_, ended_);
+  const SortedFaces sorted =
+      step2_sortIntoBins(firstHalf_.bins, faces(), x, dimension_, reach_.rules());
+  Slots slots = slotsOf(step5_candidatePairs(sorted, faces(), x, reach_.rulesWith(rules_)), planes_,
+                        faces_, ended_);
   const Heritage::Place place = placeOfFaces(x, layout);
-  Preparation preparation({slots.pairs, slots.source, localFaces().size()}, place,
+  Preparation preparation({slots.pairs, slots.source, localFaces().size()}, place, sorted.planes,
                           std::make_shared<const Heritage>(place, std::move(donors)), layout);
   PlaneTable::Slots made =
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();

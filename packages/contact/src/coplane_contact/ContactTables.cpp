@@ -36,22 +36,37 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     Energies,
     PerJoint = Energies + PlaneEnergySums::Terms
   };
-  const std::size_t joints = contact.rules().joints.size();
-  std::vector<ExactSum> sums(PerJoint * joints);
-  std::vector<Real> largestSlip(joints, 0);
-  std::vector<PlaneEnergySums> energies(joints);
-  for (const auto& [kind, ended] : contact.ended().byKind())
-    energies[kind.joint].add(ended);
-  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
+  struct Sums
   {
-    const Plane& plane = contact.planesNow()[p];
+    ExactSums sums; ///< PerJoint of each joint
+    std::vector<Real> largestSlip;
+    std::vector<PlaneEnergySums> energies;
+
+    void add(const Sums& other)
+    {
+      sums.add(other.sums);
+      for (std::size_t j = 0; j < energies.size(); ++j)
+      {
+        largestSlip[j] = std::max(largestSlip[j], other.largestSlip[j]);
+        energies[j].add(other.energies[j]);
+      }
+    }
+  };
+  const std::size_t joints = contact.rules().joints.size();
+  const Sums none{{std::vector<ExactSum>(PerJoint * joints)},
+                  std::vector<Real>(joints, 0),
+                  std::vector<PlaneEnergySums>(joints)};
+  const PlaneList& planes = contact.planesNow();
+  const auto take = [&](Sums& all, std::size_t p)
+  {
+    const Plane& plane = planes[p];
     if (!plane.countedHere || !plane.isBorn())
-      continue;
-    energies[plane.joint].add(plane, plane.stored);
-    ExactSum* mine = &sums[PerJoint * plane.joint];
+      return;
+    all.energies[plane.joint].add(plane, plane.stored);
+    ExactSum* mine = &all.sums[PerJoint * plane.joint];
     mine[Force].add(plane.area * plane.normalTraction);
     if (!isPartOfJoint(contact, plane, x))
-      continue;
+      return;
     mine[Open].add(plane.overlap);
     if (plane.state != PlaneState::Open)
     {
@@ -59,12 +74,16 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
       mine[plane.state == PlaneState::Slip ? Slip : Stick].add(plane.area);
       mine[Closure].add(plane.area * plane.closure);
     }
-    largestSlip[plane.joint] = std::max(largestSlip[plane.joint], plane.history.slip);
-  }
+    all.largestSlip[plane.joint] = std::max(all.largestSlip[plane.joint], plane.history.slip);
+  };
+  Sums all = sumInParts("coplane::contact::jointSummaries", planes.size(), none, take);
+  for (const auto& [kind, ended] : contact.ended().byKind())
+    all.energies[kind.joint].add(ended);
   for (std::size_t j = 0; j < joints; ++j)
-    std::copy(energies[j].sums.begin(), energies[j].sums.end(), &sums[PerJoint * j + Energies]);
-  const std::vector<Real> totals = ExactSum::overRanks(sums, contact.comm());
-  contact.comm().max(largestSlip);
+    std::copy(all.energies[j].sums.begin(), all.energies[j].sums.end(),
+              &all.sums[PerJoint * j + Energies]);
+  const std::vector<Real> totals = ExactSum::overRanks(all.sums.each, contact.comm());
+  contact.comm().max(all.largestSlip);
 
   std::vector<JointSummary> summaries(joints);
   for (std::size_t j = 0; j < joints; ++j)
@@ -76,7 +95,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     summary.slipArea = total[Slip];
     const Real closed = summary.stickArea + summary.slipArea;
     summary.meanClosure = closed > 0 ? total[Closure] / closed : 0;
-    summary.largestSlip = largestSlip[j];
+    summary.largestSlip = all.largestSlip[j];
     summary.normalForce = total[Force];
     summary.energy = PlaneEnergySums::energyOf(total + Energies);
   }

@@ -20,17 +20,6 @@ std::vector<std::pair<GlobalId, std::size_t>> byFace(const std::vector<Donor>& d
 }
 } // namespace
 
-Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x,
-                            const CandidateRules& rules, int dimension)
-{
-  const Array<FacePlane> planes(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.extent(0));
-  parallelFor("coplane::contact::facePlanes", int(planes.extent(0)),
-              [&](const int f)
-              { new (&planes(f)) FacePlane(rules.planeOf(faces(f), x, dimension)); });
-  return planes;
-}
-
 ConstNodeVectors copyOf(const ConstNodeVectors& x)
 {
   const NodeVectors copy(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::positions"),
@@ -47,8 +36,9 @@ Heritage::Heritage(Place place, std::vector<Donor> donors)
 void Heritage::passOn(Plane& plane, Real sharedBefore) const
 {
   forgetPassed(plane);
-  const Vec3 normal =
-      normalised(place_.planes(plane.face[0]).normal - place_.planes(plane.face[1]).normal);
+  const auto normalOf = [&](int face)
+  { return facePlane(place_.faces(face), place_.x, place_.dimension).normal; };
+  const Vec3 normal = normalised(normalOf(plane.face[0]) - normalOf(plane.face[1]));
   std::vector<Donor> donors;
   for (const int f : plane.face)
     addDonors(f, plane, normal, donors);

@@ -22,7 +22,6 @@ public:
   {
     Array<Face> faces; ///< local, then ghost
     ConstNodeVectors x;
-    Array<FacePlane> planes; ///< of the faces
     std::vector<GlobalId> nodeIds;
     int dimension = 3;
     Real reach = 0; ///< how far faces move until the next time [m]
@@ -45,10 +44,6 @@ private:
   const std::vector<Donor> donors_;
   std::vector<std::pair<GlobalId, std::size_t>> donorsOfFace_; ///< by id of the face, sorted
 };
-
-/// The planes of faces at x.
-Array<FacePlane> facePlanes(const Array<Face>& faces, const ConstNodeVectors& x,
-                            const CandidateRules& rules, int dimension);
 
 /// The positions now: those of the run go on.
 ConstNodeVectors copyOf(const ConstNodeVectors& x);

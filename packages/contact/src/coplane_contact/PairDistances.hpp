@@ -53,11 +53,27 @@ public:
     const SlotFaces& faces = slots_(slot);
     return gap_(slot) + closing_(slot) * later_ > strayed_(faces.face[0]) + strayed_(faces.face[1]);
   }
+  /// isFar() of the slots from `first` on; those without faces are not far. Only if known().
+  /// @param far by slot from the first on: 1 or 0
+  void areFar(int first, int count, std::uint8_t* far) const
+  {
+    const SlotFaces* const faces = slots_.data() + first;
+    const float *const gap = gap_.data() + first, *const closing = closing_.data() + first;
+    const float* const strayed = strayed_.data();
+    const float later = later_;
+    for (int i = 0; i < count; ++i)
+    {
+      // Without faces the gap is negative: any face will do.
+      const std::int32_t a = faces[i].face[0] < 0 ? 0 : faces[i].face[0],
+                         b = faces[i].face[1] < 0 ? 0 : faces[i].face[1];
+      far[i] = gap[i] + closing[i] * later > strayed[a] + strayed[b];
+    }
+  }
   /// Whether a pair may be left out while its faces are apart by more than reach().
   bool mayBeLeftOut(int slot) const { return known() && mayReach_(slot) == 0; }
   Real reach() const { return seen_.offset; } ///< [m]
   /// Whether anything is known.
-  bool known() const { return gap_.extent(0) > 0; }
+  bool known() const { return gap_.extent(0) > 0 && strayed_.extent(0) > 0; }
 
 private:
   SlotTable slots_;

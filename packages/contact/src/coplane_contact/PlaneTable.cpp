@@ -37,6 +37,7 @@ void PlaneList::add(std::size_t slot, Plane* plane)
 PlaneTable::Slots::Slots(std::size_t count, std::size_t planes)
     : faces("coplane::contact::slotFaces", count), plane(count, nullptr),
       activity("coplane::contact::activity", count), todo("coplane::contact::todo", count),
+      evaluated("coplane::contact::evaluated", count),
       stored(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), planes)
 {
 }
@@ -107,8 +108,10 @@ bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
 
 PairTables PlaneTable::forKernels(bool incremental)
 {
-  return {this,         slots_.plane.data(), slots_.faces.data(), slots_.activity.data(),
-          laws_.data(), incremental,         &passedOn_};
+  PairTables pairs{this,         slots_.plane.data(), slots_.faces.data(), slots_.activity.data(),
+                   laws_.data(), incremental,         &passedOn_};
+  pairs.evaluated = slots_.evaluated.data();
+  return pairs;
 }
 
 void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation preparation)
@@ -117,6 +120,7 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation prepara
   faces_ = faces;
   preparation_ = std::move(preparation);
   passedOn_.forget();
+  gains_ = {};
   woken_.clear();
   wokenCount_ = 0;
   parallelFor("coplane::contact::slots", int(count()),
@@ -167,12 +171,56 @@ void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
               });
 }
 
+namespace
+{
+/// A sum that is rounded in the order of threads.
+struct LooseSum
+{
+  Real value = 0;
+
+  void add(const LooseSum& other) { value += other.value; }
+};
+
+Real gainOf(const Plane* plane)
+{
+  return plane != nullptr && plane->countedHere && plane->isBorn() ? -plane->remainder() : 0;
+}
+} // namespace
+
+Real PlaneTable::gain() const
+{
+  if (!gains_.known)
+  {
+    // Of all, as they are now; differences from that afterwards.
+    Kokkos::deep_copy(slots_.evaluated, std::uint8_t(0));
+    gains_.ofSlot =
+        Array<Real>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::gains"), count());
+    gains_.all = sumInParts("coplane::contact::gains", count(), LooseSum{},
+                            [&](LooseSum& sum, std::size_t slot)
+                            {
+                              gains_.ofSlot(slot) = gainOf(slots_.plane[slot]);
+                              sum.value += gains_.ofSlot(slot);
+                            })
+                     .value;
+    gains_.known = true;
+  }
+  const LooseSum since = sumInParts("coplane::contact::gain", count(), LooseSum{},
+                                    [&](LooseSum& sum, std::size_t slot)
+                                    {
+                                      if (slots_.evaluated(slot) != 0)
+                                        sum.value +=
+                                            gainOf(slots_.plane[slot]) - gains_.ofSlot(slot);
+                                    });
+  return gains_.all + since.value;
+}
+
 void PlaneTable::drop(const std::vector<std::size_t>& slots)
 {
   for (const std::size_t slot : slots)
   {
     slots_.plane[slot] = nullptr;
     slots_.activity(slot) = Activity::Awake;
+    slots_.evaluated(slot) = 1;
   }
   list();
 }
@@ -195,6 +243,7 @@ Plane& PlaneTable::wake(std::size_t slot)
     *place = freshPlane(slot);
     plane = place;
   }
+  slots_.evaluated(slot) = 1;
   if (std::uint8_t& todo = slots_.todo(slot); todo != 0)
   {
     preparation_.prepare(slot, todo, *plane);

@@ -68,6 +68,8 @@ public:
     std::vector<Plane*> plane; ///< null: none yet
     Array<Activity> activity;  ///< without a plane: not Awake once it has been looked at
     Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
+    Array<std::uint8_t>
+        evaluated; ///< 1: its plane may have changed since gain() was first asked for
     Kokkos::View<Plane*, Kokkos::HostSpace> stored; ///< those that there are at once; to be made
     /// Of a checkpoint, for slots without a plane; empty: the preparation tells.
     std::vector<EdgesOfPair> edges;
@@ -80,6 +82,10 @@ public:
   const Slots& slots() const { return slots_; }
   const PlaneList& planes() const { return planes_; }
   std::int64_t countedHere() const { return countedHere_; } ///< slots
+  /// Minus the remainders of the born planes that are counted here, in bits that depend on ranks
+  /// and threads [J]. After the first time since the slots were made it looks only at planes that
+  /// have been evaluated since then.
+  Real gain() const;
   /// Whether the pair of a slot has been looked at, and carries nothing.
   bool carriesNothing(std::size_t slot) const
   {
@@ -141,5 +147,13 @@ private:
   std::vector<std::unique_ptr<Plane[]>> woken_;
   std::size_t wokenCount_ = 0, wokenListed_ = 0;
   PassedOnChanges passedOn_; ///< since pairs last learned what others pass on
+  /// When gain() was first asked for since the slots were made.
+  struct Gains
+  {
+    Array<Real> ofSlot; ///< minus the remainder of the plane [J]
+    Real all = 0;       ///< [J]
+    bool known = false;
+  };
+  mutable Gains gains_;
 };
 } // namespace coplane

@@ -9,17 +9,19 @@ struct Preparation::Edges
   const Search search;
   const EdgesOfSurfaces ofSurfaces; ///< refers to the pairs
 
-  Edges(Search made, const Heritage::Place& place, const NodeLayout& layout)
-      : search(std::move(made)), ofSurfaces(search.pairs, place.faces, search.localFaces,
-                                            place.planes, place.x, place.dimension, layout)
+  Edges(Search made, const Heritage::Place& place, const Array<FacePlane>& planes,
+        const NodeLayout& layout)
+      : search(std::move(made)), ofSurfaces(search.pairs, place.faces, search.localFaces, planes,
+                                            place.x, place.dimension, layout)
   {
   }
   Edges(const Edges&) = delete;
 };
 
 Preparation::Preparation(Search search, const Heritage::Place& place,
-                         std::shared_ptr<const Heritage> heritage, const NodeLayout& layout)
-    : edges_(std::make_shared<const Edges>(std::move(search), place, layout)),
+                         const Array<FacePlane>& planes, std::shared_ptr<const Heritage> heritage,
+                         const NodeLayout& layout)
+    : edges_(std::make_shared<const Edges>(std::move(search), place, planes, layout)),
       heritage_(std::move(heritage))
 {
 }

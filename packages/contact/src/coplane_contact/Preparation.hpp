@@ -33,9 +33,9 @@ public:
 
   /// Nothing is left to do for any pair.
   Preparation() = default;
-  /// @param heritage at the search. Collective.
-  Preparation(Search search, const Heritage::Place& place, std::shared_ptr<const Heritage> heritage,
-              const NodeLayout& layout);
+  /// @param planes of the faces, heritage: at the search. Collective.
+  Preparation(Search search, const Heritage::Place& place, const Array<FacePlane>& planes,
+              std::shared_ptr<const Heritage> heritage, const NodeLayout& layout);
 
   /// From now on pairs take over what living planes have to give now.
   void renew(std::shared_ptr<const Heritage> heritage) { heritage_ = std::move(heritage); }

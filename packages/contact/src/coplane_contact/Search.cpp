@@ -142,8 +142,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
   SortedFaces sorted;
   sorted.bins = bins;
   sorted.boxes.resize(faces.size());
-  sorted.planes = decltype(sorted.planes)(
-      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::facePlanes"), faces.size());
+  sorted.planes = facePlanes(faces.data(), faces.size(), x, dimension, rules);
   std::vector<std::uint8_t> levelOf(faces.size());
   const int levels = int(bins.levels.size());
   const int chunks = faces.size() < 1024 ? 1 : threadCount();
@@ -158,9 +157,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                  {
                    levelOf[f] = std::uint8_t(bins.levelOf(boxOf(faces[f], x).longestSide() +
                                                           rules.depthInto(faces[f], {})));
-                   const FacePlane plane = rules.planeOf(faces[f], x, dimension);
-                   sorted.planes(f) = plane;
-                   const Box box = contactBox(faces[f], plane, x, rules);
+                   const Box box = contactBox(faces[f], sorted.planes(f), x, rules);
                    sorted.boxes[f] = box;
                    together.include(box);
                    for (int level = levelOf[f]; level < levels; ++level)

@@ -85,6 +85,10 @@ private:
   }
 };
 
+/// The planes of many faces, with what motion makes of them: those of CandidateRules::planeOf().
+Array<FacePlane> facePlanes(const Face* faces, std::size_t count, const ConstNodeVectors& x,
+                            int dimension, const CandidateRules& rules);
+
 /// Where the face may be in contact before the next search: the face, the same at the largest depth
 /// of a contact inside its body, both where its motion takes it, and around them half the reach and
 /// what its plane lies beyond its nodes. Two
@@ -122,7 +126,7 @@ struct CandidatePair
 Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVectors& x,
                              const CandidateRules& rules, const Comm& comm);
 
-/// Step 2: local faces into bins.
+/// Step 2: faces into bins, by rules of which `excluded` and `declared` do not matter.
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                                const ConstNodeVectors& x, int dimension,
                                const CandidateRules& rules);
@@ -171,7 +175,9 @@ bool hadToBeFound(const Face& a, const Face& b, const FacePlane& planeA, const F
                   const CandidateRules& rules, Real moved, Real turned);
 
 /// Step 5: all pairs of local and ghost faces that may touch before the next search, sorted by key.
-std::vector<CandidatePair> step5_candidatePairs(const Bins& bins, const std::vector<Face>& faces,
-                                                const ConstNodeVectors& x, int dimension,
+/// @param sorted all of these faces, by the same reach and motion
+std::vector<CandidatePair> step5_candidatePairs(const SortedFaces& sorted,
+                                                const std::vector<Face>& faces,
+                                                const ConstNodeVectors& x,
                                                 const CandidateRules& rules);
 } // namespace coplane

@@ -5,6 +5,8 @@
 #include <Kokkos_Core.hpp>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace coplane
 {
@@ -43,6 +45,46 @@ void parallelFor(const std::string& label, int n, const Body& body)
   else
     Kokkos::parallel_for(label, Kokkos::RangePolicy<HostParallel>(0, n), body);
   Kokkos::fence();
+}
+
+/// The same where some i take far longer than others: threads take one i after the other.
+template <class Body>
+void parallelForUneven(const std::string& label, int n, const Body& body)
+{
+  using OneAfterTheOther = Kokkos::RangePolicy<HostParallel, Kokkos::Schedule<Kokkos::Dynamic>>;
+  if (currentBackend() == Backend::Serial)
+    Kokkos::parallel_for(label, Kokkos::RangePolicy<Kokkos::Serial>(0, n), body);
+  else
+    Kokkos::parallel_for(label, OneAfterTheOther(0, n, Kokkos::ChunkSize(1)), body);
+  Kokkos::fence();
+}
+
+/// Calls body(chunk, begin, end) for `chunks` equal parts of [0, n).
+template <class Body>
+void forEachChunk(const char* label, std::size_t n, int chunks, const Body& body)
+{
+  parallelFor(label, chunks, [&](const int c) { body(c, n * c / chunks, n * (c + 1) / chunks); });
+}
+
+/// What take(sum, i) adds for all i in [0, n): each thread begins with `none`, and add() brings
+/// them together. The order depends on the number of threads: sums have to be exact, or their bits
+/// must not matter.
+template <class Sum, class Take>
+Sum sumInParts(const char* label, std::size_t n, const Sum& none, const Take& take)
+{
+  const int chunks = n < 512 ? 1 : threadCount();
+  std::vector<Sum> parts(chunks);
+  forEachChunk(label, n, chunks,
+               [&](int chunk, std::size_t begin, std::size_t end)
+               {
+                 Sum mine = none; // no memory that threads share
+                 for (std::size_t i = begin; i < end; ++i)
+                   take(mine, i);
+                 parts[chunk] = std::move(mine);
+               });
+  for (int chunk = 1; chunk < chunks; ++chunk)
+    parts[0].add(parts[chunk]);
+  return std::move(parts[0]);
 }
 
 /// The smallest of body(i), infinity when n is 0. Exact, hence the same on any back end.

@@ -94,24 +94,6 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes absolute(const Lanes& a)
   return stdx::fabs(a);
 }
 
-KOKKOS_FORCEINLINE_FUNCTION Real exponential(Real a)
-{
-  return std::exp(a);
-}
-inline Lanes exponential(const Lanes& a)
-{
-  return Lanes([&](auto lane) { return std::exp(Real(a[lane])); });
-}
-
-KOKKOS_FORCEINLINE_FUNCTION Real logarithm(Real a)
-{
-  return std::log(a);
-}
-inline Lanes logarithm(const Lanes& a)
-{
-  return Lanes([&](auto lane) { return std::log(Real(a[lane])); });
-}
-
 KOKKOS_FORCEINLINE_FUNCTION Real power(Real a, Real b)
 {
   return std::pow(a, b);
@@ -128,24 +110,6 @@ KOKKOS_FORCEINLINE_FUNCTION Real cubeRoot(Real a)
 inline Lanes cubeRoot(const Lanes& a)
 {
   return Lanes([&](auto lane) { return std::cbrt(Real(a[lane])); });
-}
-
-KOKKOS_FORCEINLINE_FUNCTION Real cosine(Real a)
-{
-  return std::cos(a);
-}
-inline Lanes cosine(const Lanes& a)
-{
-  return Lanes([&](auto lane) { return std::cos(Real(a[lane])); });
-}
-
-KOKKOS_FORCEINLINE_FUNCTION Real arcCosine(Real a)
-{
-  return std::acos(a);
-}
-inline Lanes arcCosine(const Lanes& a)
-{
-  return Lanes([&](auto lane) { return std::acos(Real(a[lane])); });
 }
 
 /// max(a, 0). A value that is not a number gives 0.

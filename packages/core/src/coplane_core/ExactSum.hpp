@@ -46,4 +46,17 @@ private:
   std::int64_t additions_ = 0;
   std::int64_t notFinite_ = 0;
 };
+
+/// Several of them; as many on both sides of add().
+struct ExactSums
+{
+  std::vector<ExactSum> each;
+
+  ExactSum& operator[](std::size_t i) { return each[i]; }
+  void add(const ExactSums& others)
+  {
+    for (std::size_t i = 0; i < each.size(); ++i)
+      each[i].add(others.each[i]);
+  }
+};
 } // namespace coplane

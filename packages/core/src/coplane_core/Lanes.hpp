@@ -7,10 +7,10 @@
 
 namespace coplane
 {
-/// Number of elements that a kernel treats side by side. Four doubles measured best on AVX2; every
-/// lane does the same IEEE operations as a scalar would, so results do not depend on an element's
-/// lane or batch.
-constexpr int laneCount = 4;
+/// Number of elements that a kernel treats side by side (CMake's COPLANE_LANES). Four doubles
+/// measured best on AVX2, eight on AVX-512; every lane does the same IEEE operations as a scalar
+/// would, so results do not depend on an element's lane or batch, nor on this number.
+constexpr int laneCount = COPLANE_LANES;
 namespace stdx = std::experimental;
 using Lanes = stdx::simd<Real, stdx::simd_abi::deduce_t<Real, laneCount>>;
 using LaneMask = Lanes::mask_type;

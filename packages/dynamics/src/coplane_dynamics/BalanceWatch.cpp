@@ -1,4 +1,3 @@
-#include <coplane_core/Backend.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_core/Log.hpp>
 #include <coplane_dynamics/BalanceWatch.hpp>
@@ -62,21 +61,7 @@ Real BalanceWatch::gainHere(const Contact& contact)
       ended_.gain -= PlaneEnergySums::energyOf(totals.data()).remainder();
     }
   }
-  const PlaneList& planes = contact.planes();
-  const auto add = [&planes](const int p, Real& sum)
-  {
-    const Plane& plane = planes[std::size_t(p)];
-    if (plane.countedHere && plane.isBorn())
-      sum -= plane.remainder();
-  };
-  const int count = int(planes.size());
-  const char* const label = "coplane::dynamics::gainHere";
-  Real gain = 0; // rounded in an order that the back end chooses
-  if (currentBackend() == Backend::Serial)
-    Kokkos::parallel_reduce(label, Kokkos::RangePolicy<Kokkos::Serial>(0, count), add, gain);
-  else
-    Kokkos::parallel_reduce(label, Kokkos::RangePolicy<HostParallel>(0, count), add, gain);
-  return gain + ended_.gain;
+  return contact.gainHere() + ended_.gain;
 }
 
 bool BalanceWatch::mayHaveGained(const Parts& parts)

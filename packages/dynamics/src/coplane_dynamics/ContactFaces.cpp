@@ -36,12 +36,12 @@ void putFarNodes(const RankMesh::Block& part, int element, Face& face)
 /// crushed, and may have a side without area, its size.
 Real thicknessBehind(const ElementBlock& block, int element, Real area, int dimension)
 {
-  Real volume = block.volume()(element);
+  Real volume = block.volume(element);
   if (block.options().geometry == Geometry::Axisymmetric)
   {
     // Of one metre along the hoop.
     const Real length = block.referenceLength()(element);
-    volume *= length * length / block.referenceVolume()(element);
+    volume *= length * length / block.referenceVolume(element);
   }
   const Real thickness = volume / area;
   const Real size = dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));

@@ -182,7 +182,7 @@ Real ElementForces::leastStepAround(int node) const
 {
   Real least = infinity;
   forEachAround(node,
-                [&](std::size_t b, int e) { least = std::min(least, blocks_[b].stableStep()(e)); });
+                [&](std::size_t b, int e) { least = std::min(least, blocks_[b].stableStep(e)); });
   return least;
 }
 
@@ -196,7 +196,7 @@ Real ElementForces::massOverSquaredSteps(int node) const
     const int corners = topology(blocks_[b].type()).nodes;
     for (const int entry : gathers_[b][node])
     {
-      const Real step = blocks_[b].stableStep()(entry / corners);
+      const Real step = blocks_[b].stableStep(entry / corners);
       sum += blocks_[b].cornerMass(entry / corners, entry % corners) / (step * step);
     }
   }
@@ -210,7 +210,7 @@ GlobalId ElementForces::limitingElement(const RankMesh& mesh, int node) const
   forEachAround(node,
                 [&](std::size_t b, int e)
                 {
-                  const Real step = blocks_[b].stableStep()(e);
+                  const Real step = blocks_[b].stableStep(e);
                   const GlobalId id = mesh.blocks[b].elementIds[e];
                   if (step < least || (step == least && id < limiting))
                   {
@@ -232,7 +232,7 @@ void ElementForces::throwIfInverted(const Model& model, const Clock& clock) cons
            "that is not finite; its volume is {:.3e} m^3. Refine the mesh there, lower "
            "time.step_factor, or raise blocks.<name>.hourglass.stiffness.",
            clock.cycle, clock.time, model.mesh.blocks[b].elementIds[e], model.blocks[b].name,
-           blocks_[b].volume()(e));
+           blocks_[b].volume(e));
   }
 }
 

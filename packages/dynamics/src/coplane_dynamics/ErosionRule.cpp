@@ -35,30 +35,29 @@ bool ErosionRule::exceedsLimit(const ElementBlock& block, int e) const
 {
   for (std::size_t i = 0; i < rows_.size(); ++i)
   {
-    const Real value = block.history()(rows_[i], e);
+    const Real value = block.history(rows_[i], e);
     if (!(value <= criteria_.variables[i].above && value >= criteria_.variables[i].below))
       return true;
   }
   if (criteria_.volumeRatio)
   {
-    const Real ratio = block.volume()(e) / block.referenceVolume()(e);
+    const Real ratio = block.volume(e) / block.referenceVolume(e);
     if (!(ratio >= (*criteria_.volumeRatio)[0] && ratio <= (*criteria_.volumeRatio)[1]))
       return true;
     // With full integration a corner may have turned inside out while the volume is still positive.
     // Stresses that are no numbers have no stable step either, and are no reason to go on.
     bool finite = true;
     for (int c = 0; c < 6; ++c)
-      finite = finite && std::isfinite(block.stress()(c, e));
-    if (finite && !(block.stableStep()(e) > 0))
+      finite = finite && std::isfinite(block.stress(c, e));
+    if (finite && !(block.stableStep(e) > 0))
       return true;
   }
-  return criteria_.stableStep && !(block.stableStep()(e) >= *criteria_.stableStep);
+  return criteria_.stableStep && !(block.stableStep(e) >= *criteria_.stableStep);
 }
 
 bool ErosionRule::kills(const ElementBlock& block, int e) const
 {
-  if (!block.isAlive(e) ||
-      (damageRow_ >= 0 && !(block.history()(damageRow_, e) > *criteria_.damage)))
+  if (!block.isAlive(e) || (damageRow_ >= 0 && !(block.history(damageRow_, e) > *criteria_.damage)))
     return false;
   return !criteria_.hasLimits() || exceedsLimit(block, e);
 }

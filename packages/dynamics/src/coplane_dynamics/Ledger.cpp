@@ -1,3 +1,4 @@
+#include <coplane_core/Backend.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/Ledger.hpp>
 #include <coplane_dynamics/Parts.hpp>
@@ -33,25 +34,22 @@ enum Term
   Nodal,
   Terms
 };
-using EnergySums = std::vector<ExactSum>; // by Term
+using EnergySums = ExactSums; // by Term
 
 /// Works are booked to n + 1/2: what lies ahead of n is taken off.
-void addNodes(const Parts& parts, EnergySums& sums)
+void addNode(const Parts& parts, int n, EnergySums& sums)
 {
   const NodalState& state = parts.state;
-  for (int n = 0; n < parts.layout.owned(); ++n)
-  {
-    if (!parts.motion.followsBody(n))
-      sums[Kinetic].add(0.5 * state.mass(n) * dot(at(state.vPrevious, n), at(state.v, n)));
-    const Vec3 ahead = (0.5 * parts.clock.nextStep) * at(state.v, n);
-    const Vec3 external = at(state.external, n), damping = at(state.damping, n),
-               localDamping = at(state.localDamping, n);
-    sums[Damping].add(state.dampingWork(n) + dot(damping, ahead));
-    sums[LocalDamping].add(state.localDampingWork(n) + dot(localDamping, ahead));
-    sums[External].add(state.externalWork(n) - dot(external, ahead));
-    sums[Nodal].add(state.totalWork(n) -
-                    dot(at(state.force, n) + external + damping + localDamping, ahead));
-  }
+  if (!parts.motion.followsBody(n))
+    sums[Kinetic].add(0.5 * state.mass(n) * dot(at(state.vPrevious, n), at(state.v, n)));
+  const Vec3 ahead = (0.5 * parts.clock.nextStep) * at(state.v, n);
+  const Vec3 external = at(state.external, n), damping = at(state.damping, n),
+             localDamping = at(state.localDamping, n);
+  sums[Damping].add(state.dampingWork(n) + dot(damping, ahead));
+  sums[LocalDamping].add(state.localDampingWork(n) + dot(localDamping, ahead));
+  sums[External].add(state.externalWork(n) - dot(external, ahead));
+  sums[Nodal].add(state.totalWork(n) -
+                  dot(at(state.force, n) + external + damping + localDamping, ahead));
 }
 
 void addElements(const Parts& parts, EnergySums& sums)
@@ -62,13 +60,19 @@ void addElements(const Parts& parts, EnergySums& sums)
                                                       {Hourglass, ElementEnergy::Hourglass},
                                                       {Viscous, ElementEnergy::Viscous}};
   for (std::size_t b = 0; b < parts.blocks().size(); ++b)
-    for (int e = 0; e < parts.blocks()[b].count(); ++e)
-      if (parts.mesh().blocks[b].owned[e])
-      {
-        for (const auto& [term, kind] : kinds)
-          sums[term].add(parts.blocks()[b].energy(e, kind));
-        sums[Chemical].add(parts.blocks()[b].chemicalEnergy(e));
-      }
+  {
+    const ElementBlock& block = parts.blocks()[b];
+    sums.add(sumInParts("coplane::dynamics::energies", std::size_t(block.count()),
+                        EnergySums{std::vector<ExactSum>(Terms)},
+                        [&](EnergySums& mine, std::size_t e)
+                        {
+                          if (!parts.mesh().blocks[b].owned[e])
+                            return;
+                          for (const auto& [term, kind] : kinds)
+                            mine[term].add(block.energy(int(e), kind));
+                          mine[Chemical].add(block.chemicalEnergy(int(e)));
+                        }));
+  }
   for (const ExactSum& block : parts.erosion.energies())
     sums[Eroded].add(block);
 }
@@ -86,12 +90,14 @@ void addBodies(const RigidBodies& bodies, EnergySums& sums)
 
 EnergyBalance Ledger::energy(const Parts& parts, const RelaxationState& relaxation) const
 {
-  EnergySums sums(Terms);
-  addNodes(parts, sums);
+  EnergySums sums =
+      sumInParts("coplane::dynamics::energies", std::size_t(parts.layout.owned()),
+                 EnergySums{std::vector<ExactSum>(Terms)},
+                 [&](EnergySums& mine, std::size_t n) { addNode(parts, int(n), mine); });
   addElements(parts, sums);
   if (parts.comm.isRoot()) // every rank has all bodies
     addBodies(parts.bodies(), sums);
-  const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
+  const std::vector<Real> totals = ExactSum::overRanks(sums.each, parts.comm);
   EnergyBalance balance;
   balance.kinetic = totals[Kinetic];
   balance.chemical = totals[Chemical];
@@ -118,14 +124,15 @@ EnergyBalance Ledger::energy(const Parts& parts, const RelaxationState& relaxati
 Momenta Ledger::momenta(const Parts& parts) const
 {
   const NodalState& state = parts.state;
-  std::vector<ExactSum> sums(13);
-  for (int n = 0; n < parts.layout.owned(); ++n)
+  const auto addNode = [&](ExactSums& sums, std::size_t node)
   {
+    const int n = int(node);
     const Vec3 p = state.mass(n) * at(state.v, n);
     const Vec3 l = cross(at(state.x, n), p);
+    const bool isOwn = !parts.motion.followsBody(n);
     for (int c = 0; c < 3; ++c)
     {
-      if (!parts.motion.followsBody(n))
+      if (isOwn)
       {
         sums[c].add(p[c]);
         sums[3 + c].add(l[c]);
@@ -133,9 +140,11 @@ Momenta Ledger::momenta(const Parts& parts) const
       sums[6 + c].add(state.impulse(n, c));
       sums[9 + c].add(state.angularImpulse(n, c));
     }
-    if (!parts.motion.followsBody(n))
+    if (isOwn)
       sums[12].add(norm(p));
-  }
+  };
+  ExactSums sums = sumInParts("coplane::dynamics::momenta", std::size_t(parts.layout.owned()),
+                              ExactSums{std::vector<ExactSum>(13)}, addNode);
   for (int b = 0; b < parts.bodies().count() && parts.comm.isRoot();
        ++b) // every rank has all bodies
   {
@@ -149,7 +158,7 @@ Momenta Ledger::momenta(const Parts& parts) const
     }
     sums[12].add(body.magnitude);
   }
-  const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
+  const std::vector<Real> totals = ExactSum::overRanks(sums.each, parts.comm);
   Momenta momenta;
   momenta.linear = {totals[0], totals[1], totals[2]};
   momenta.angular = {totals[3], totals[4], totals[5]};

@@ -164,7 +164,7 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
       Vec3 x[8];
       for (int k = 0; k < corners; ++k)
         x[k] = at(state.x, nodes[k]) - bodies_[body].center;
-      const Real rho = blocks[b].mass(e) / blocks[b].referenceVolume()(e);
+      const Real rho = blocks[b].mass(e) / blocks[b].referenceVolume(e);
       integrate(part.type, x, [&](const Vec3& r, Real volume) { add(body, rho * volume, r); });
     }
   }

@@ -1,3 +1,4 @@
+#include <coplane_core/Backend.hpp>
 #include <coplane_core/Error.hpp>
 #include <coplane_dynamics/SearchPlan.hpp>
 
@@ -20,6 +21,24 @@ struct Extent
   {
     bounds[axis] = std::max(bounds[axis], value);
     bounds[3 + axis] = std::max(bounds[3 + axis], -value);
+  }
+  void add(const Extent& other)
+  {
+    for (std::size_t i = 0; i < bounds.size(); ++i)
+      bounds[i] = std::max(bounds[i], other.bounds[i]);
+  }
+};
+
+struct Extents
+{
+  Extent way, unforeseen, sincePassing, velocity;
+
+  void add(const Extents& other)
+  {
+    way.add(other.way);
+    unforeseen.add(other.unforeseen);
+    sincePassing.add(other.sincePassing);
+    velocity.add(other.velocity);
   }
 };
 
@@ -65,19 +84,26 @@ bool SearchPlan::look(const Parts& parts, bool trouble)
   const NodalState& state = parts.state;
   const Clock& clock = parts.clock;
   const Real foreseen = foresees_ ? std::min(timeSince(clock.time + clock.nextStep), ahead_) : 0;
-  Extent way, unforeseen, sincePassing, velocity;
-  for (int n = 0; n < parts.layout.owned() && parts.contact; ++n)
-    for (int c = 0; c < 3 && !parts.erosion.isFree(n); ++c)
+  const auto take = [&](Extents& all, std::size_t node)
+  {
+    const int n = int(node);
+    if (parts.erosion.isFree(n))
+      return;
+    for (int c = 0; c < 3; ++c)
     {
       const Real next = state.x(n, c) + clock.nextStep * state.v(n, c);
       const Real gone = next - state.atSearch(n, c);
-      way.take(c, gone);
-      unforeseen.take(c, gone - foreseen * state.velocityAtSearch(n, c));
-      sincePassing.take(c, next - state.atPassing(n, c));
-      velocity.take(c, state.v(n, c));
+      all.way.take(c, gone);
+      all.unforeseen.take(c, gone - foreseen * state.velocityAtSearch(n, c));
+      all.sincePassing.take(c, next - state.atPassing(n, c));
+      all.velocity.take(c, state.v(n, c));
     }
+  };
+  const Extents all =
+      sumInParts("coplane::dynamics::extents",
+                 parts.contact ? std::size_t(parts.layout.owned()) : 0, Extents{}, take);
   std::vector<Real> range;
-  for (const Extent* extent : {&way, &unforeseen, &sincePassing, &velocity})
+  for (const Extent* extent : {&all.way, &all.unforeseen, &all.sincePassing, &all.velocity})
     range.insert(range.end(), extent->bounds.begin(), extent->bounds.end());
   range.push_back(parts.contact && parts.contact->passedOnHasChanged());
   range.push_back(parts.contact && parts.contact->depthsHaveChanged());

@@ -86,7 +86,7 @@ std::string worstEntities(const Parts& parts)
     for (int e = 0; e < parts.blocks()[b].count(); ++e)
       if (parts.mesh().blocks[b].owned[e] && parts.blocks()[b].isAlive(e))
       {
-        const Real ratio = parts.blocks()[b].volume()(e) / parts.blocks()[b].referenceVolume()(e);
+        const Real ratio = parts.blocks()[b].volume(e) / parts.blocks()[b].referenceVolume(e);
         elements.push_back({std::isnan(ratio) ? infinity : std::abs(ratio - 1), ratio,
                             parts.mesh().blocks[b].elementIds[e], 0});
       }

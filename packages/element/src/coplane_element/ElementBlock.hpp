@@ -82,16 +82,20 @@ public:
                                             : arrays_.mass(element) / topology(type_).nodes;
   }
   ConstArray<Real> stableStep() const { return arrays_.stableStep; } ///< [s]; 0 when inverted
+  Real stableStep(int element) const { return arrays_.stableStep(element); }
   ConstArray<Real> volume() const
   {
     return arrays_.volume;
   } ///< [m^3]; area times unit thickness in plane strain
+  Real volume(int element) const { return arrays_.volume(element); }
   ConstArray<Real> referenceVolume() const { return arrays_.referenceVolume; }
+  Real referenceVolume(int element) const { return arrays_.referenceVolume(element); }
   /// V^(1/3), in two dimensions the root of the area [m].
   ConstArray<Real> referenceLength() const { return arrays_.referenceLength; }
   /// xx, yy, zz, xy, yz, zx; tension positive, without bulk viscosity; the mean over the points; zz
   /// is the hoop stress of bodies of revolution [Pa]
   ConstValues stress() const { return arrays_.stress; }
+  Real stress(int component, int element) const { return arrays_.stress(component, element); }
   Real pressure(int element) const; ///< -tr(stress)/3 [Pa]
   Real vonMises(int element) const; ///< sqrt(3/2 s:s) [Pa]
   Real density(int element) const
@@ -100,6 +104,7 @@ public:
   } ///< now [kg/m^3]
   /// The law's variables, a row each, means over the points; names in the order of the rows.
   ConstValues history() const { return arrays_.history; }
+  Real history(int row, int element) const { return arrays_.history(row, element); }
   const std::vector<std::string>& historyVariables() const { return historyNames_; }
   int historyRow(const std::string& name) const; ///< -1 when the law has no such variable
   ConstArray<Real> viscousPressure() const;      ///< q of the last update, not negative [Pa]

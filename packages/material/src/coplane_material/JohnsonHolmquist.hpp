@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
 

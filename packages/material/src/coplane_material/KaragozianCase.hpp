@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/ConcreteSurfaces.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
@@ -276,8 +277,7 @@ private:
   template <class T>
   KOKKOS_INLINE_FUNCTION T lodeFactorOf(const SymTensorOf<T>& deviator, const T& p) const
   {
-    const T cosTheta = branchFree::cosine(
-        T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(deviator, vonMisesOf(deviator))));
+    const T cosTheta = branchFree::cosineOfThird(cosineOfLode(deviator, vonMisesOf(deviator)));
     return ConcreteSurfaces::lodeFactor(cosTheta, surfaces.meridianRatio(p));
   }
 };

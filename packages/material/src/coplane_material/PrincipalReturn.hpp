@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/LinearElastic.hpp>
 #include <coplane_material/Principal.hpp>
 

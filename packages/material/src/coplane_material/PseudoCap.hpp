@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/ConcreteSurfaces.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
@@ -296,8 +297,7 @@ private:
     Shear<T> shear;
     shear.s = deviatorOf(sumOf(point.stress, T(2.0 * elastic.shearModulus), point.strainIncrement));
     shear.q = vonMisesOf(shear.s, point.bendingSquared);
-    shear.cosTheta = branchFree::cosine(
-        T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(shear.s, vonMisesOf(shear.s))));
+    shear.cosTheta = branchFree::cosineOfThird(cosineOfLode(shear.s, vonMisesOf(shear.s)));
     shear.partOfMean = partOfMean(shear.q, point.bendingSquared);
     if (rates.counts())
     {

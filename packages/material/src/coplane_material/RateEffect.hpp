@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/Invariants.hpp>
 
 namespace coplane
@@ -54,9 +55,12 @@ KOKKOS_INLINE_FUNCTION T largestPrincipal(const SymTensorOf<T>& d)
 {
   const SymTensorOf<T> deviator = deviatorOf(d);
   const T mean = meanOf(d), q = vonMisesOf(deviator);
-  const T angle = T(1.0 / 3.0) * branchFree::arcCosine(cosineOfLode(deviator, q));
-  const T most = mean + T(2.0 / 3.0) * q * branchFree::cosine(angle);
-  const T least = mean + T(2.0 / 3.0) * q * branchFree::cosine(angle + T(2.0 / 3.0 * pi));
+  const T one(1.0), half(0.5), halfRootOf3(0.86602540378443864676);
+  // Of an angle between 0 and 60 degrees, and of that and 120 degrees.
+  const T cosine = branchFree::cosineOfThird(cosineOfLode(deviator, q));
+  const T sine = branchFree::squareRoot((one - cosine) * (one + cosine));
+  const T most = mean + T(2.0 / 3.0) * q * cosine;
+  const T least = mean - T(2.0 / 3.0) * q * (half * cosine + halfRootOf3 * sine);
   return branchFree::larger(branchFree::absolute(most), branchFree::absolute(least));
 }
 } // namespace coplane

@@ -110,7 +110,7 @@ private:
       connects_.emplace_back();
       for (int e = 0; e < part.elements(); ++e)
       {
-        const bool whole = block.isAlive(e) && !(row >= 0 && block.history()(row, e) >= damage);
+        const bool whole = block.isAlive(e) && !(row >= 0 && block.history(row, e) >= damage);
         connects_[b].push_back(whole);
         if (!whole)
           continue;

@@ -66,7 +66,7 @@ std::optional<Real> elementVariable(const Solver& solver, int b, int element,
   }
   const auto stress = std::find(stresses.begin(), stresses.end(), name);
   if (stress != stresses.end())
-    return block.stress()(stress - stresses.begin(), element);
+    return block.stress(stress - stresses.begin(), element);
   if (name == "von_mises")
     return block.vonMises(element);
   if (name == "pressure")
@@ -76,7 +76,7 @@ std::optional<Real> elementVariable(const Solver& solver, int b, int element,
   const int row = block.historyRow(name);
   if (row < 0)
     return std::nullopt;
-  return block.history()(row, element);
+  return block.history(row, element);
 }
 
 std::vector<std::string> byComponent(const std::vector<std::string>& variables)

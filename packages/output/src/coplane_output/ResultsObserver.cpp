@@ -465,11 +465,11 @@ void ResultsObserver::writeElements(const Solver& solver)
         mine(row, column++) = value;
       mine(row, column++) = block.vonMises(e);
       mine(row, column++) = block.pressure(e);
-      mine(row, column++) = plasticStrain < 0 ? 0 : block.history()(plasticStrain, e);
+      mine(row, column++) = plasticStrain < 0 ? 0 : block.history(plasticStrain, e);
       mine(row, column++) = block.density(e);
       mine(row, column++) = block.isAlive(e);
       for (std::size_t k = 0; k < history_.size(); ++k)
-        mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history()(rowOf[k], e);
+        mine(row, fixed + int(k)) = rowOf[k] < 0 ? 0 : block.history(rowOf[k], e);
       if (bodies)
         mine(row, columns - 1) = Real(bodies->ofElement[b][e]);
       ++row;

@@ -83,6 +83,7 @@ struct PairTables
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;
   const PairDistances* distances = nullptr; ///< null: all pairs are looked at
+  std::uint8_t* evaluated = nullptr;        ///< by slot: set to 1; null: nobody asks
 
   PassedOn passedBy(int p) const { return {*planes[p], laws[planes[p]->joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
@@ -147,6 +148,8 @@ struct PairTables
       for (const std::int32_t face : slots[p].face)
         __atomic_store_n(&changedFaces[face], std::uint8_t(1), __ATOMIC_RELAXED); // by any thread
     activity[p] = now;
+    if (evaluated != nullptr)
+      evaluated[p] = 1;
   }
   /// Before a pair is evaluated that its faces have just brought near.
   void prepare(int p) const
@@ -222,10 +225,17 @@ private:
   /// Those of a stretch of slots that have to be looked at. @returns how many
   int listNear(int first, int last)
   {
+    std::uint8_t far[stretch] = {};
+    if (pairs_.distances != nullptr && pairs_.distances->known())
+      pairs_.distances->areFar(first, last - first, far);
     int count = 0;
     for (int p = first; p < last; ++p)
-      if (slots_[p].face[0] >= 0 && !pairs_.leaveOut(p))
+    {
+      if (far[p - first] != 0 && pairs_.carriesNothing(p))
+        pairs_.putApart(p);
+      else if (slots_[p].face[0] >= 0)
         near_[count++] = p;
+    }
     return count;
   }
 

@@ -17,13 +17,6 @@ inline int bitsFor(std::uint64_t largest)
   return bits;
 }
 
-/// Calls body(chunk, begin, end) for equal parts of [0, n), one per thread.
-template <class Body>
-void forEachChunk(const char* label, std::size_t n, int chunks, const Body& body)
-{
-  parallelFor(label, chunks, [&](const int c) { body(c, n * c / chunks, n * (c + 1) / chunks); });
-}
-
 /// Sorts items by code(item), a number below 2^bits; items with the same code keep their order. The
 /// time grows linearly with their number. The result does not depend on the number of threads.
 template <class Item, class Code>
