@@ -1,6 +1,6 @@
 # coplane_unit_test(<package> SOURCES <file> ... [RANKS 1 2 4] [LIBRARIES <target> ...])
 #   One GoogleTest program per package; it runs once for every number of ranks on both back ends. Label: unit; with threads on more than
-#   two ranks also slow.
+#   two ranks, and on more than four ranks, also slow.
 # coplane_program_test(<name> LABELS <label> ... COMMAND <command> ... [PROCESSORS n] [TIMEOUT s])
 #   A whole-program check. Its working folder is made fresh for it.
 if(COPLANE_TESTS)
@@ -28,7 +28,7 @@ function(coplane_unit_test package)
       endif()
       add_test(NAME ${_test} COMMAND ${_launch} $<TARGET_FILE:${_target}> --backend ${_backend} --threads 2)
       set(_labels unit)
-      if(_ranks GREATER 2 AND _backend STREQUAL threads)
+      if(_ranks GREATER 4 OR (_ranks GREATER 2 AND _backend STREQUAL threads))
         list(APPEND _labels slow)
       endif()
       set_tests_properties(${_test} PROPERTIES LABELS "${_labels}" PROCESSORS ${_ranks} TIMEOUT 900 ENVIRONMENT "${COPLANE_MPI_ENVIRONMENT}")

@@ -68,8 +68,9 @@ TEST(FacePlanes, areThoseOfSingleFaces)
           0.01 * Vec3{unit(random), unit(random), dimension == 3 ? unit(random) : 0};
       set(v, n, {unit(random), unit(random), dimension == 3 ? unit(random) : 0});
     }
-    for (int k = 1; k < 4; ++k) // a face without area
-      scene.x[std::size_t(scene.faces[9].nodes[k])] = scene.x[std::size_t(scene.faces[9].nodes[0])];
+    const Face& point = scene.faces[9]; // without area
+    for (int k = 1; k < point.count; ++k)
+      scene.x[std::size_t(point.nodes[k])] = scene.x[std::size_t(point.nodes[0])];
     const NodeVectors x = positions(scene);
     CandidateRules rules = rulesWithSkin(0.02);
     rules.turning = 0.1;
