@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <initializer_list>
 #include <limits>
 #include <random>
 #include <vector>
@@ -83,21 +83,32 @@ const std::vector<Real> oddNumbers{0.0,
                                    3.0};
 
 constexpr int draws = 400000;
-} // namespace
 
-TEST(ElementaryFunctions, exponentialIsExactToOneUnitInTheLastPlace)
+/// The worst of function(x), x = numberAt(draw) with draws between -range and range.
+template <class NumberAt, class Function, class Exact>
+Worst worstOver(std::initializer_list<Real> ranges, const NumberAt& numberAt,
+                const Function& function, const Exact& exact)
 {
   std::mt19937_64 random(1);
   Worst worst;
-  for (const Real range : {1e-8, 0.4, 5.0, 700.0})
+  for (const Real range : ranges)
   {
     std::uniform_real_distribution<Real> draw(-range, range);
     for (int i = 0; i < draws; ++i)
     {
-      const Real x = draw(random);
-      worst.take(x, branchFree::exponential(x), std::exp(static_cast<long double>(x)));
+      const Real x = numberAt(draw(random));
+      worst.take(x, function(x), exact(static_cast<long double>(x)));
     }
   }
+  return worst;
+}
+} // namespace
+
+TEST(ElementaryFunctions, exponentialIsExactToOneUnitInTheLastPlace)
+{
+  const Worst worst = worstOver(
+      {1e-8, 0.4, 5.0, 700.0}, [](Real draw) { return draw; },
+      [](Real x) { return branchFree::exponential(x); }, [](long double x) { return std::exp(x); });
   EXPECT_LT(worst.units, 1.0) << worst.at;
   RecordProperty("unitsOff", std::to_string(worst.units));
 }
@@ -117,17 +128,9 @@ TEST(ElementaryFunctions, exponentialEndsAsThatOfTheLibraryDoes)
 
 TEST(ElementaryFunctions, logarithmIsExactToOneUnitInTheLastPlace)
 {
-  std::mt19937_64 random(2);
-  Worst worst;
-  for (const Real range : {1e-6, 0.6, 40.0, 700.0})
-  {
-    std::uniform_real_distribution<Real> draw(-range, range);
-    for (int i = 0; i < draws; ++i)
-    {
-      const Real x = std::exp(draw(random));
-      worst.take(x, branchFree::logarithm(x), std::log(static_cast<long double>(x)));
-    }
-  }
+  Worst worst = worstOver(
+      {1e-6, 0.6, 40.0, 700.0}, [](Real draw) { return std::exp(draw); },
+      [](Real x) { return branchFree::logarithm(x); }, [](long double x) { return std::log(x); });
   for (Real x = 1e-323; x < 1e-300; x *= 1.7)
     worst.take(x, branchFree::logarithm(x), std::log(static_cast<long double>(x)));
   EXPECT_LT(worst.units, 1.0) << worst.at;

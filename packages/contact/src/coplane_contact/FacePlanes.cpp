@@ -67,7 +67,9 @@ void putPlanes(const Face* faces, const ConstNodeVectors& x, const CandidateRule
 
 FacePlane facePlane(const Face& face, const ConstNodeVectors& x, int dimension)
 {
-  return CandidateRules().planeOf(face, x, dimension);
+  const FaceNodes nodes = nodesAt<Real>(&face, [&](int node) { return at(x, node); });
+  const MeanPlane<Real> plane = dimension == 2 ? meanPlane<2>(nodes) : meanPlane<3>(nodes);
+  return {plane.center, plane.normal, 0, plane.warp};
 }
 
 FacePlane CandidateRules::planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const

@@ -8,8 +8,8 @@
 namespace coplane
 {
 /// Number of elements that a kernel treats side by side (CMake's COPLANE_LANES). Four doubles
-/// measured best on AVX2, eight on AVX-512; every lane does the same IEEE operations as a scalar
-/// would, so results do not depend on an element's lane or batch, nor on this number.
+/// measured best on AVX2, eight on AVX-512 where contact in 3D sets the pace. Every lane does the
+/// IEEE operations of a scalar: no result depends on an element's lane or batch, nor on this.
 constexpr int laneCount = COPLANE_LANES;
 namespace stdx = std::experimental;
 using Lanes = stdx::simd<Real, stdx::simd_abi::deduce_t<Real, laneCount>>;

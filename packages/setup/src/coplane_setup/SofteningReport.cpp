@@ -23,7 +23,7 @@ void reportSoftening(const Deck& deck, const MeshSlice& mesh, const Solver& solv
     Real largest = 0;
     for (int e = 0; e < block.count(); ++e)
     {
-      const Real volume = block.referenceVolume()(e);
+      const Real volume = block.referenceVolume(e);
       largest = std::max(largest, flat ? std::sqrt(volume) : std::cbrt(volume));
     }
     largest = comm.max(largest);
