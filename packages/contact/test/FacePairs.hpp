@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-// Pairs of faces for the tests of steps A to H.
+// Pairs of faces for the tests of steps A to H. What takes long to compile is in FacePairs.cpp.
 
 namespace coplane::facepairs
 {
@@ -96,16 +96,7 @@ const ContactOptions alongCommonNormal = ContactOptions::with(ContactOptions::Fo
 /// Steps A to H by the forces of the options.
 template <int Dim>
 void updatePlane(PairPlane& plane, const FaceNodes& a, const FaceNodes& b, const ContactOptions& o,
-                 Real dt)
-{
-  const auto stepA = [&](const FaceNodes& face)
-  {
-    return o.forces == ContactOptions::Forces::Potential ? stepA_faceAtEnd<Dim>(face)
-                                                         : stepA_halfStepFace<Dim>(face, dt);
-  };
-  updateByForces<Dim>(plane, stepA(a), stepA(b), plane.law, o, dt);
-  std::copy(&plane.nodal[0][0], &plane.nodal[0][0] + 8, &plane.cornerForce[0][0]);
-}
+                 Real dt);
 
 /// Choices that forces along the common normal have.
 inline ContactOptions options(ContactOptions::Area area, ContactOptions::Weights weights)
@@ -239,19 +230,5 @@ struct Contact
 };
 
 template <int Dim>
-Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt = 0)
-{
-  Contact c;
-  c.a = stepA_halfStepFace<Dim>(a, dt);
-  c.b = stepA_halfStepFace<Dim>(b, dt);
-  c.trial = stepB_trialPointOfContact<Dim>(c.a, c.b);
-  if (!c.trial.opposed)
-    return c;
-  c.shadowA = stepC_projectOntoPlane<Dim>(c.trial, c.a, 0);
-  c.shadowB = stepC_projectOntoPlane<Dim>(c.trial, c.b, 0);
-  const AreaInUse use =
-      o.area == ContactOptions::Area::Full ? AreaInUse::Full : AreaInUse::Penetrating;
-  c.patch = stepD_areaOfContact<Dim>(c.shadowA, c.shadowB, 0, use, o.weights);
-  return c;
-}
+Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt = 0);
 } // namespace coplane::facepairs

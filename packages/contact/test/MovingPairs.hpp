@@ -94,19 +94,7 @@ private:
 };
 
 /// What a cycle makes of a pair that has never touched.
-inline Plane looked(const HalfStepFace& a, const HalfStepFace& b)
-{
-  PairPlane plane = touchingPlane();
-  plane.state = PlaneState::Slot;
-  plane.depthLimit = 1;
-  ContactOptions options;
-  options.lookAhead = lookAhead;
-  if (mayMeet<3>(a, b, options))
-    updateByForces<3>(plane, a, b, plane.law, options, dt);
-  else
-    passBy(plane, a, b, dt);
-  return plane;
-}
+Plane looked(const HalfStepFace& a, const HalfStepFace& b);
 
 inline bool actsOrMay(const Plane& plane)
 {

@@ -226,7 +226,9 @@ class ToldRun(EndedRun):
     """A run that was told in other words, seen by its check; `raw` is the run as it is, `deck` its deck."""
 
     def __init__(self, folder, code, output, told):
-        known = re.sub(r"mass (\S+) kg", lambda found: f"mass {float(found.group(1)) / told.factor('kg')!r} kg", output)
+        known = output
+        for before, unit in (("mass", "kg"), (r"\bt =", "s")):
+            known = re.sub(rf"({before}) (\S+) {unit}\b", lambda found, unit=unit: f"{found.group(1)} {float(found.group(2)) / told.factor(unit)!r} {unit}", known)
         super().__init__(folder, code, known)
         self.told, self.raw, self.deck = told, EndedRun(folder, code, output), told.deck
 

@@ -2,6 +2,8 @@
 
 import copy
 import math
+import pathlib
+import re
 import sys
 
 import numpy
@@ -174,5 +176,24 @@ for factor in (0.9, 1.2):
         case.check(f"{name}, {ranks} ranks: traction at the start [Pa]", numpy.max(numpy.abs(run.planes(0)["normal_traction"] - min(factor, 1) * f_m)), 0, 1e-9 * f_m)
         warned = f"{len(run.planes(0)['closure'])} planes of declared joints are under more initial compression"
         case.check_equal(f"{name}, {ranks} ranks: warning", warned in run.output, factor > 1)
+
+# --- an impact that crushes the joint within some cycles is told of, and is none in small steps ----------------------------------
+
+falling = {"dimension": 2, "node_sets": {"ground": {"block": "lower", "where": {"y": -0.1}}}, "parts": [
+    {"shape": "box", "block": "lower", "min": [-0.2, -0.1], "size": [0.4, 0.1], "divisions": [8, 2]},
+    {"shape": "box", "block": "upper", "min": [-0.1, 1e-4], "size": [0.2, 0.1], "divisions": [4, 2]}]}  # fmt: skip
+said = {}
+for factor, ranks in ((0.8, 1), (0.8, 2), (0.05, 1)):
+    name = f"a brick falls, step_factor {factor}, {ranks} ranks"
+    deck = {"materials": base["materials"], "blocks": base["blocks"], "initial": [{"block": "upper", "velocity": [0, -10, 0]}],
+            "conditions": [{"type": "fixed", "node_set": "ground"}], "joints": {"bed": {**card, "shear_in_crushing": 0}}, "contact": {"default_joint": "bed"},
+            "time": {"end": 1e-3, "step_factor": factor}}  # fmt: skip
+    run = case.attempt(f"falls_{factor}_{ranks}", falling, deck, ranks=ranks)
+    case.check_equal(f"{name}: exit code", run.code, 0)
+    said[factor, ranks] = re.findall(r"WARNING: .* to be crushed, .*(?:\n  plane between .*)+", run.output)
+    case.check_equal(f"{name}: warnings, with the worst planes", len(said[factor, ranks]), int(factor == 0.8))
+case.check_equal("a brick falls: the same warning on one rank and two", said[0.8, 1] == said[0.8, 2], True)
+warned = sorted(path.parent.name for path in pathlib.Path().glob("*/output.txt") if "to be crushed" in path.read_text())
+case.check_equal("other runs with this warning", [name for name in warned if not name.startswith("falls_0.8")], [])
 
 case.finish()

@@ -1,3 +1,4 @@
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
@@ -113,5 +114,31 @@ CappedPlanes cappedPlanes(const Parts& parts)
     capped.first +=
         fmt::format("\n  {}: closed by {:.3e} m, cap {:.3e} Pa/m", pairName(e), e.badness, e.value);
   return capped;
+}
+
+CrushedJoints crushedJoints(const Parts& parts)
+{
+  std::vector<Entry> planes;
+  std::vector<ExactSum> sums(2);
+  for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
+  {
+    const Plane& plane = parts.contact->planes()[p];
+    const JointLaw& law = parts.contact->lawOf(plane);
+    const Real face = std::min(plane.birthArea[0], plane.birthArea[1]);
+    if (!law.curve.crushing.acts() || !plane.countedHere ||
+        !(face > 0 && plane.overlap > 0.5 * face))
+      continue;
+    const Real lawful = face * law.hysteresis(plane.fit, plane.history.maximumClosure);
+    sums[0].add(plane.hysteresisWork);
+    sums[1].add(lawful);
+    const Real beyond = plane.hysteresisWork - lawful;
+    if (beyond > 0)
+      planes.push_back({beyond, plane.hysteresisWork / lawful, plane.faceId[0], plane.faceId[1]});
+  }
+  const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
+  CrushedJoints crushed{totals[0], totals[1], ""};
+  for (const Entry& e : worst(planes, parts.comm))
+    crushed.worst += fmt::format("\n  {}: {:.3g} times", pairName(e), e.value);
+  return crushed;
 }
 } // namespace coplane

@@ -2,6 +2,7 @@
 
 #include <coplane_dynamics/Parts.hpp>
 
+#include <cstdint>
 #include <string>
 
 namespace coplane
@@ -20,4 +21,15 @@ struct CappedPlanes
   std::string first;      ///< a line for each of the farthest closed
 };
 CappedPlanes cappedPlanes(const Parts& parts); ///< collective; with contact only
+
+/// What joints have taken to be crushed, over all ranks, with forces from a potential. In a cycle
+/// they resist with the strength of the cycle before and with what their faces have closed since:
+/// more than the law says, where that is much.
+struct CrushedJoints
+{
+  Real taken = 0;    ///< energy of joints that lie between faces, still, for most of a face [J]
+  Real lawful = 0;   ///< that their law takes at least for as much crushing [J]
+  std::string worst; ///< a line for each of those that took most beyond the law
+};
+CrushedJoints crushedJoints(const Parts& parts); ///< collective; with contact only
 } // namespace coplane
