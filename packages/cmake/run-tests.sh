@@ -60,14 +60,14 @@ finish() {
 get_dependencies() {
   COPLANE_TRILINOS=$("$top/packages/cmake/dependencies.sh" --with-paraview --with-browser | tail -n 1) && [ -n "$COPLANE_TRILINOS" ] && export COPLANE_TRILINOS
 }
-# What keeps memory of its own by keys and ranks, and what reads files. --slow: the programs of all packages. Four lanes: checks of eight
-# take twice as long to compile.
+# What keeps memory of its own by keys and ranks, and what reads files. Four lanes: checks of eight take twice
+# as long to compile. --slow: the programs of all packages, with as many lanes as the processor likes.
 sanitized_packages=(core checkpoint mesh exodus contact)
 build_sanitized() {
   local targets=(coplane_fuzz)
   for package in "${sanitized_packages[@]}"; do targets+=("coplane_${package}_test"); done
   [ $slow = no ] || targets=(unit_tests)
-  { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_LANES=4 -DCOPLANE_BENCHMARKS=OFF -DCOPLANE_SANITIZE_ALL=$([ $slow = yes ] && echo ON || echo OFF) \
+  { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_LANES=$([ $slow = yes ] || echo 4) -DCOPLANE_BENCHMARKS=OFF -DCOPLANE_SANITIZE_ALL=$([ $slow = yes ] && echo ON || echo OFF) \
       -DCOPLANE_TRILINOS="$COPLANE_TRILINOS" && ninja -C "$top/build-sanitize" "${targets[@]}"; } >"$top/build/sanitize.log" 2>&1 ||
     { grep -E 'error|FAILED' -A 8 "$top/build/sanitize.log" | head -n 40 >&2; return 1; }
 }

@@ -1,6 +1,7 @@
 #include "Rig.hpp"
 
 #include <coplane_dynamics/Dashpots.hpp>
+#include <coplane_partition/Partition.hpp>
 
 #include <gtest/gtest.h>
 

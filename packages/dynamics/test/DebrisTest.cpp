@@ -124,6 +124,38 @@ TEST(Debris, bouncesWithItsMomentaAndItsEnergy)
   EXPECT_GT(comm.max(highest), 1);
 }
 
+TEST(Debris, pointsThatComeFromWithinABodyFlyOutOfIt)
+{
+  // In the middle of the block no element has an exterior face.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
+  addBox(mesh, "cube", {1, 1, 1}, {0.87, 0.91, 0.93}, {0.2, 0.2, 0.2});
+  Model model = rockModel(mesh, comm);
+  const Vec3 velocity{30, 20, 10};
+  model.blocks[1].velocity = velocity;
+  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 1.03}; };
+  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  while (solver.clock().time < 0.06)
+  {
+    solver.advance();
+    ASSERT_EQ(solver.debris()->touching(), 0) << solver.clock().cycle;
+  }
+  EXPECT_EQ(solver.debris()->count(), 8);
+  EXPECT_LT(std::abs(solver.energy().debris.remainder()), 1e-12 * solver.energy().initial);
+  Real slowest = infinity;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    if (solver.layout().ids()[std::size_t(n)] > 125)
+    {
+      EXPECT_NEAR(solver.state().v(n, 0), velocity.x, 1e-9);
+      slowest = std::min(slowest, solver.state().x(n, 0));
+    }
+  EXPECT_GT(-comm.max(-slowest), 2); // all are out
+}
+
 TEST(Debris, aLightPointIsThrownBackWithItsSpeed)
 {
   // 0.125 kg on nodes of 30 to 125 kg, at a hundredth of the speed of waves, without friction.

@@ -1,5 +1,6 @@
 #include "Rig.hpp"
 
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_material/PseudoCap.hpp>
 
 #include <gtest/gtest.h>

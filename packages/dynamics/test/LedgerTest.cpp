@@ -1,5 +1,7 @@
 #include "Rig.hpp"
 
+#include <coplane_core/ExactSum.hpp>
+
 #include <gtest/gtest.h>
 
 namespace coplane

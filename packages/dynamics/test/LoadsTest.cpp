@@ -1,5 +1,7 @@
 #include "Rig.hpp"
 
+#include <coplane_partition/Partition.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>

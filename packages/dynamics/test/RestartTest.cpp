@@ -2,6 +2,7 @@
 
 #include <coplane_checkpoint/CheckpointReader.hpp>
 #include <coplane_checkpoint/CheckpointWriter.hpp>
+#include <coplane_core/ExactSum.hpp>
 
 #include <gtest/gtest.h>
 

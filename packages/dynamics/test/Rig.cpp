@@ -4,6 +4,8 @@
 #include <coplane_core/StateHash.hpp>
 #include <coplane_partition/Partition.hpp>
 
+#include <algorithm>
+
 namespace coplane
 {
 std::vector<int> ownersBy(const std::string& method, const Mesh& mesh, const Comm& comm)

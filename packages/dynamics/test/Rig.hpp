@@ -1,15 +1,14 @@
 #pragma once
 
-#include <coplane_core/ExactSum.hpp>
-#include <coplane_core/StateHash.hpp>
 #include <coplane_dynamics/Solver.hpp>
-#include <coplane_partition/Partition.hpp>
 
 #include <gtest/gtest.h>
 
 #include <BoxMesh.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace coplane
 {

@@ -1,5 +1,7 @@
 #include "Rig.hpp"
 
+#include <coplane_core/StateHash.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "Rig.hpp"
 
 #include <coplane_checkpoint/StateTables.hpp>
+#include <coplane_core/ExactSum.hpp>
 #include <coplane_material/J2Plasticity.hpp>
 
 #include <gtest/gtest.h>

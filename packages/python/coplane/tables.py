@@ -11,7 +11,7 @@ import numpy
 from .needs import needs
 
 # Columns of names; all others are numbers.
-TEXTS = {"block", "block_a", "block_b", "material_a", "material_b", "joint"}
+TEXTS = {"block", "block_a", "block_b", "material_a", "material_b", "joint", "line"}
 
 
 def split(header):

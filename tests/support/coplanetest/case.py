@@ -128,7 +128,7 @@ class Case(Checks):
             arguments.append("--restart")
         if code == 0:
             code, printed = program.run_program(arguments, folder, ranks, prefix)
-            output += re.sub(r".*block .*mass \S+ kg.*\n", "", printed) if output else printed  # masses are those of the start
+            output += re.sub(r"(?m)^ *block '.*mass \S+ kg.*\n", "", printed) if output else printed  # the start tells the blocks
         (folder / "output.txt").write_text(output)
         if not told:
             return EndedRun(folder, code, output)

@@ -14,9 +14,8 @@ namespace
 // When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
 // the energy in play that contact has lost or gained by the remainder.
 constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
-// Of joints that are crushed: at this fraction of the energy in play; at this one of what their law
-// takes.
-constexpr Real crushedToTell = 0.01, crushedToWarn = 0.1;
+/// Energy that joints have taken to be crushed too fast, over that in play.
+constexpr Real crushedToWarn = 0.01;
 
 std::string now(const Clock& clock)
 {
@@ -164,13 +163,13 @@ void BalanceWatch::warnOfPlanes(const Parts& parts)
                            "of the joint or lower time.step_factor. Worst:{}",
                            now(parts.clock), tooDeep, deepestPlanes(parts)));
   const CrushedJoints crushed = crushedJoints(parts);
-  if (crushed.taken > crushedToTell * inPlay_ &&
-      isWorse(crushed.taken / crushed.lawful - 1, crushedToWarn, warned_.crushed))
+  if (crushed.taken > crushedToWarn * inPlay_ &&
+      isWorse(crushed.taken / crushed.lawful - 1, 0, warned_.crushed))
     logWarning("joints crushed too fast",
                fmt::format(
                    "{}: joints with compressive_strength have taken {:.3e} J to be crushed, "
-                   "{:.3g} times what their law takes: their faces close too far in a "
-                   "step, and they resist too long. Lower time.step_factor. Worst:{}",
+                   "{:.3g} times what their law takes: their faces close too far in a step, and "
+                   "they resist too long. Lower time.step_factor. Worst:{}",
                    now(parts.clock), crushed.taken, crushed.taken / crushed.lawful, crushed.worst));
 }
 } // namespace coplane

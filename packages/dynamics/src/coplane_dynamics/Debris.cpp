@@ -18,6 +18,10 @@ namespace
 /// within a seventh of the element [-].
 constexpr Real stiffnessOfElement = 0.5;
 
+/// A point that comes to lie in an element deeper than this part of its way in the step has not
+/// come over the surface [-].
+constexpr Real ofItsWay = 1.1;
+
 /// Points sorted into cubes, so that those in a box are found without asking all.
 class PointGrid
 {
@@ -135,14 +139,15 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
   }
 }
 
-/// One rank has a point, the others add zeros: whole numbers have no rounding.
-std::vector<Vec3> Debris::places(const NodalState& state) const
+/// What a field of nodes has at the points. One rank has a point, the others add zeros: whole
+/// numbers have no rounding.
+std::vector<Vec3> Debris::ofPoints(const NodeVectors& field) const
 {
   std::vector<std::uint64_t> bits(3 * points_.size(), 0);
   for (std::size_t i = 0; i < points_.size(); ++i)
     if (points_[i].node >= 0)
       for (int c = 0; c < 3; ++c)
-        bits[3 * i + std::size_t(c)] = bitsOf(state.x(points_[i].node, c));
+        bits[3 * i + std::size_t(c)] = bitsOf(field(points_[i].node, c));
   comm_->sum(bits);
   std::vector<Vec3> x(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i)
@@ -214,6 +219,7 @@ std::vector<Debris::Near> Debris::findNearest(const std::vector<Inside>& inside,
   std::vector<Vec3> places;
   for (const Inside& one : inside)
     places.push_back(x[std::size_t(one.point)]);
+  const std::vector<Vec3> v = ofPoints(state.v);
   const Real edge = longestElement(mesh, state);
   if (edge > 0 && std::isfinite(edge))
   {
@@ -246,6 +252,11 @@ std::vector<Debris::Near> Debris::findNearest(const std::vector<Inside>& inside,
               return;
             here.outward = here.distance > 0 ? (1 / here.distance) * nearest.way : Vec3{};
             here.weights = nearest.weights;
+            Vec3 apart = v[std::size_t(one.point)];
+            for (int k = 0; k < face.nodeCount; ++k)
+              apart =
+                  apart - nearest.weights[std::size_t(k)] * at(state.v, face.nodes[std::size_t(k)]);
+            here.speed = norm(apart);
             const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
             const Real length =
                 mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
@@ -268,23 +279,29 @@ std::vector<Debris::Near> Debris::findNearest(const std::vector<Inside>& inside,
 }
 
 void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
-                        const NodalState& state)
+                        const NodalState& state, Real dt)
 {
   forces_.clear();
   stiffness_.clear();
   stored_ = 0;
   touching_ = 0;
-  const std::vector<Vec3> x = places(state);
+  const std::vector<Vec3> x = ofPoints(state.x);
   const std::vector<Near> nearest =
       findNearest(findInside(x, mesh, state), x, mesh, elements, state);
-  std::vector<Real> offsets(points_.size(), 0); // of a point that is outside
-  for (Point& point : points_)
-    point.inside = false;
+  std::vector<Real> offsets(points_.size(), 0); // of a point that is in no such element
+  std::vector<bool> wasInside(points_.size());
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    wasInside[i] = points_[i].inside;
+    points_[i].inside = false;
+  }
   for (const Near& one : nearest)
   {
     Point& point = points_[std::size_t(one.point)];
     point.inside = true;
-    const Real offset = std::min(point.offset, one.distance);
+    const bool cameFromWithin =
+        !wasInside[std::size_t(one.point)] && one.distance > ofItsWay * one.speed * dt;
+    const Real offset = cameFromWithin ? one.distance : std::min(point.offset, one.distance);
     offsets[std::size_t(one.point)] = offset;
     const Real depth = one.distance - offset;
     if (!(depth > 0))
@@ -329,7 +346,7 @@ void Debris::addForces(const RankMesh& mesh, const ElementForces& elements, Noda
   if (points_.empty()) // on all ranks
     return;
   TimedRegion region("coplane::dynamics::debris");
-  findForces(mesh, elements, state);
+  findForces(mesh, elements, state, dt);
   bookHalfStep(state, dt);
   for (const auto& [node, force] : forces_)
   {
@@ -374,8 +391,9 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
     points_[i].offset = numbers[ExactSum::digitCount + 2 * i];
     points_[i].mass = numbers[ExactSum::digitCount + 2 * i + 1];
   }
+  // Where they begin is known.
   if (!points_.empty())
-    findForces(mesh, elements, state);
+    findForces(mesh, elements, state, infinity);
 }
 
 void Debris::addTo(StateHash& hash, std::uint64_t field) const

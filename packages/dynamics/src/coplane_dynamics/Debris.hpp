@@ -19,8 +19,8 @@ namespace coplane
 /// Nodes that have lost all their elements go on as mass points that faces stop. A point in a
 /// living element that has an exterior face stores k d^2/2, with its distance d from the nearest
 /// point of the exterior faces of that body; d counts from what it was when the point was freed in
-/// there, as long as it has not come out. Force and counterforce are minus the gradient of that,
-/// on one line, so both momenta stay.
+/// there, or came in there from the inside of the body, as long as it has not come out. Force and
+/// counterforce are minus the gradient of that, on one line, so both momenta stay.
 ///
 /// Every rank has all points with the same bits: the owner of a node tells where it is, the owners
 /// of faces tell which is the nearest, and every rank adds to the nodes that it owns, point after
@@ -78,19 +78,22 @@ private:
     int point = 0, count = 0;
     GlobalId face = 0;
     Real distance = 0, stiffness = 0; ///< [m], [N/m]
+    Real speed = 0;                   ///< of the point against the face [m/s]
     Vec3 outward{};                   ///< from the point to the face, of length 1
     std::array<Real, 4> weights{};    ///< shape functions of the face's nodes
   };
   using NodeForces = std::vector<std::pair<int, Vec3>>;
 
   // Collective.
-  std::vector<Vec3> places(const NodalState& state) const;
+  std::vector<Vec3> ofPoints(const NodeVectors& field) const;
   std::vector<Inside> findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
                                  const NodalState& state) const;
   std::vector<Near> findNearest(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
                                 const RankMesh& mesh, const ElementForces& elements,
                                 const NodalState& state) const;
-  void findForces(const RankMesh& mesh, const ElementForces& elements, const NodalState& state);
+  /// @param dt in which points came to where they are [s]
+  void findForces(const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
+                  Real dt);
 
   void bookHalfStep(const NodalState& state, Real dt);
   Real longestElement(const RankMesh& mesh, const NodalState& state) const;

@@ -118,6 +118,12 @@ CappedPlanes cappedPlanes(const Parts& parts)
 
 CrushedJoints crushedJoints(const Parts& parts)
 {
+  const auto crushes = [](const JointLaw& law) { return law.curve.crushing.acts(); };
+  const std::vector<JointRecipe>& joints = parts.model.contactRules.joints;
+  if (std::none_of(joints.begin(), joints.end(),
+                   [&](const JointRecipe& joint) { return crushes(joint.law); }))
+    return {}; // on all ranks
+  constexpr Real tooMuch = 1.1;
   std::vector<Entry> planes;
   std::vector<ExactSum> sums(2);
   for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
@@ -125,20 +131,21 @@ CrushedJoints crushedJoints(const Parts& parts)
     const Plane& plane = parts.contact->planes()[p];
     const JointLaw& law = parts.contact->lawOf(plane);
     const Real face = std::min(plane.birthArea[0], plane.birthArea[1]);
-    if (!law.curve.crushing.acts() || !plane.countedHere ||
-        !(face > 0 && plane.overlap > 0.5 * face))
+    if (!crushes(law) || !plane.countedHere || !(plane.overlap > 0.45 * face))
       continue;
+    const Real taken = plane.hysteresisWork;
     const Real lawful = face * law.hysteresis(plane.fit, plane.history.maximumClosure);
-    sums[0].add(plane.hysteresisWork);
+    if (!(lawful > 0 && taken > tooMuch * lawful))
+      continue;
+    sums[0].add(taken);
     sums[1].add(lawful);
-    const Real beyond = plane.hysteresisWork - lawful;
-    if (beyond > 0)
-      planes.push_back({beyond, plane.hysteresisWork / lawful, plane.faceId[0], plane.faceId[1]});
+    planes.push_back({taken - lawful, taken / lawful, plane.faceId[0], plane.faceId[1]});
   }
   const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
   CrushedJoints crushed{totals[0], totals[1], ""};
   for (const Entry& e : worst(planes, parts.comm))
-    crushed.worst += fmt::format("\n  {}: {:.3g} times", pairName(e), e.value);
+    crushed.worst += fmt::format("\n  {}: {:.3e} J more, {:.3g} times what its law takes",
+                                 pairName(e), e.badness, e.value);
   return crushed;
 }
 } // namespace coplane

@@ -22,14 +22,14 @@ struct CappedPlanes
 };
 CappedPlanes cappedPlanes(const Parts& parts); ///< collective; with contact only
 
-/// What joints have taken to be crushed, over all ranks, with forces from a potential. In a cycle
-/// they resist with the strength of the cycle before and with what their faces have closed since:
-/// more than the law says, where that is much.
+/// Joints that have taken more energy to be crushed than their law says. A cycle resists with the
+/// strength of the cycle before, so that those do which close far in a step. With forces from a
+/// potential; of joints whose faces share half of their area or more, and judged as if it were all.
 struct CrushedJoints
 {
-  Real taken = 0;    ///< energy of joints that lie between faces, still, for most of a face [J]
-  Real lawful = 0;   ///< that their law takes at least for as much crushing [J]
-  std::string worst; ///< a line for each of those that took most beyond the law
+  Real taken = 0;    ///< by those that have taken at least a tenth more, over all ranks [J]
+  Real lawful = 0;   ///< what their law takes for as much crushing, at most [J]
+  std::string worst; ///< a line for each of those that took most beyond that
 };
 CrushedJoints crushedJoints(const Parts& parts); ///< collective; with contact only
 } // namespace coplane
