@@ -9,6 +9,7 @@ import subprocess
 import numpy
 from coplanetest import Case, documents, program
 
+import coplane
 from coplane.planes import planes as fields_of
 from coplane.planes import joint_names
 
@@ -52,6 +53,8 @@ steps = steps_of(run.folder)
 case.check_equal("steps are those of the results", [time for time, _ in steps], list(run.results.times))
 with open(pathlib.Path(run.folder, "run_lines.csv")) as file:
     table = list(csv.DictReader(file))
+frame = coplane.open(run.folder).tables["lines"]
+case.check_equal("the table as Python reads it: lines and segments", list(zip(frame.line, frame.segment)), [(row["line"], int(row["segment"])) for row in table])
 names = joint_names(steps[0][1], "line_names")
 case.check_equal("names of lines", names, ["bolt", "late", "gone"])
 shown = []
