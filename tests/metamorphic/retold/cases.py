@@ -66,7 +66,7 @@ CASES = {
     # Waves behind a joint that breaks. While the sheared plane loses its last strength, what differs grows from 1e-11 to 4e-5 of the kinetic energy within 5 ms, and fades.
     "V94_bonded_blocks": Retold([], bounds=dict.fromkeys(["mirrored", "renumbered", "turned"], WALL),
                                 apart={"strip": "round-off grows while a plane that is sheared loses its last strength, to 4e-5 of the kinetic energy"}),
-    "relaxation": Retold(["mirrored", "renumbered"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
+    "relaxation": Retold(["mirrored", "renumbered", "millimetres", "restarted", "split"], apart=dict.fromkeys(["local", "local_to_rest"], "local damping takes the sign of each component of a velocity, also of one that is round-off")),
     "rigid_motion": Retold(["mirrored", "renumbered", "turned"], other=dict.fromkeys(["millimetres", "powers_of_two"], "its check reads a table of the run as it is, in the units of the run")),
     "V39_gas_shocks": Retold(["mirrored", "turned"]),
     "sharp_contacts": Retold([], ["refined:slab", "refined:plate"], long=True, base=False),
