@@ -10,19 +10,27 @@ namespace coplane
 {
 namespace
 {
-/// A cube of 1 m that dies at once (its ends part by 1e-4 in the first steps) above a block of
-/// 2 x 2 x 2 m, and falls on it: its corners go on as eight points.
-Model fallingCorners(const Comm& comm, const Vec3& velocity = {0, 0, -20})
+/// A block of 2 x 2 x 2 m, and a cube of one element that dies at once (its ends part by 1e-4 in
+/// the first steps): its corners go on as eight points.
+Model dyingCube(const Comm& comm, const Vec3& corner, Real edge, const Vec3& velocity)
 {
   Mesh mesh;
   addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
-  addBox(mesh, "cube", {1, 1, 1}, {0.37, 0.41, 2.05}, {1, 1, 1});
+  addBox(mesh, "cube", {1, 1, 1}, corner, {edge, edge, edge});
   Model model = rockModel(mesh, comm);
   model.blocks[1].velocity = velocity;
-  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.55}; };
+  model.blocks[1].velocityField = [middle = corner.z + 0.5 * edge](const Vec3& x) {
+    return Vec3{0, 0, x.z - middle};
+  };
   model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
   model.debris = true;
   return model;
+}
+
+/// It is as wide as 1 m, above the block, and falls on it.
+Model fallingCorners(const Comm& comm, const Vec3& velocity = {0, 0, -20})
+{
+  return dyingCube(comm, {0.37, 0.41, 2.05}, 1, velocity);
 }
 
 /// Largest square of the distance that moving along an edge of the natural square can still gain.
@@ -128,16 +136,8 @@ TEST(Debris, pointsThatComeFromWithinABodyFlyOutOfIt)
 {
   // In the middle of the block no element has an exterior face.
   const Comm comm;
-  Mesh mesh;
-  addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
-  addBox(mesh, "cube", {1, 1, 1}, {0.87, 0.91, 0.93}, {0.2, 0.2, 0.2});
-  Model model = rockModel(mesh, comm);
   const Vec3 velocity{30, 20, 10};
-  model.blocks[1].velocity = velocity;
-  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 1.03}; };
-  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
-  model.debris = true;
-  Solver solver(std::move(model), comm);
+  Solver solver(dyingCube(comm, {0.87, 0.91, 0.93}, 0.2, velocity), comm);
   solver.prepare();
   while (solver.clock().time < 0.06)
   {
@@ -160,15 +160,7 @@ TEST(Debris, aLightPointIsThrownBackWithItsSpeed)
 {
   // 0.125 kg on nodes of 30 to 125 kg, at a hundredth of the speed of waves, without friction.
   const Comm comm;
-  Mesh mesh;
-  addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
-  addBox(mesh, "cube", {1, 1, 1}, {0.87, 0.91, 2.05}, {0.1, 0.1, 0.1});
-  Model model = rockModel(mesh, comm);
-  model.blocks[1].velocity = {0.5, 0.25, -10};
-  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.1}; };
-  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
-  model.debris = true;
-  Solver solver(std::move(model), comm);
+  Solver solver(dyingCube(comm, {0.87, 0.91, 2.05}, 0.1, {0.5, 0.25, -10}), comm);
   solver.prepare();
   while (solver.clock().time < 0.03)
     solver.advance();

@@ -123,7 +123,8 @@ CrushedJoints crushedJoints(const Parts& parts)
   if (std::none_of(joints.begin(), joints.end(),
                    [&](const JointRecipe& joint) { return crushes(joint.law); }))
     return {}; // on all ranks
-  constexpr Real tooMuch = 1.1;
+  // Rows that are half a face apart count, whatever rounding does.
+  constexpr Real tooMuch = 1.1, shared = 0.45;
   std::vector<Entry> planes;
   std::vector<ExactSum> sums(2);
   for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
@@ -131,7 +132,7 @@ CrushedJoints crushedJoints(const Parts& parts)
     const Plane& plane = parts.contact->planes()[p];
     const JointLaw& law = parts.contact->lawOf(plane);
     const Real face = std::min(plane.birthArea[0], plane.birthArea[1]);
-    if (!crushes(law) || !plane.countedHere || !(plane.overlap > 0.45 * face))
+    if (!crushes(law) || !plane.countedHere || !(plane.overlap > shared * face))
       continue;
     const Real taken = plane.hysteresisWork;
     const Real lawful = face * law.hysteresis(plane.fit, plane.history.maximumClosure);
