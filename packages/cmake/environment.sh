@@ -10,7 +10,7 @@ export OMP_WAIT_POLICY=passive                                       # spinning 
 coplane_configure_and_build() {
   mkdir -p "$top/build"
   # shellcheck disable=SC2086
-  { cmake -S "$top" -B "$top/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOPLANE_ARCH=native \
+  { cmake -S "$top" -B "$top/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOPLANE_ARCH=native -DCOPLANE_UNITY=ON \
       -DCOPLANE_TRILINOS="$COPLANE_TRILINOS" -DCOPLANE_TESTS=ON ${COPLANE_CMAKE_OPTIONS:-} &&
     ninja -C "$top/build" "$@"; } >"$top/build/build.log" 2>&1 ||
     { grep -E 'error|Error|FAILED' -A 8 "$top/build/build.log" | head -n 60 >&2; echo "the build failed, see build/build.log" >&2; return 1; }

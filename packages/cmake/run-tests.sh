@@ -3,8 +3,8 @@
 #
 #   packages/cmake/run-tests.sh [--slow] [--no-sanitizers]
 #
-# --slow            also the tests labelled slow: the full product of ranks x threads x back ends; each header compiled alone; sanitizers with
-#                   all checks on all packages
+# --slow            also the tests labelled slow: the full product of ranks x threads x back ends; each source and each header compiled alone;
+#                   sanitizers with all checks on all packages
 # --no-sanitizers   leave out the unit tests under address and undefined-behaviour sanitizers
 # What is installed and built already is not done again.
 set -uo pipefail
@@ -67,7 +67,7 @@ build_sanitized() {
   local targets=(coplane_fuzz)
   for package in "${sanitized_packages[@]}"; do targets+=("coplane_${package}_test"); done
   [ $slow = no ] || targets=(unit_tests)
-  { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_LANES=$([ $slow = yes ] || echo 4) -DCOPLANE_BENCHMARKS=OFF -DCOPLANE_SANITIZE_ALL=$([ $slow = yes ] && echo ON || echo OFF) \
+  { cmake -S "$top" -B "$top/build-sanitize" -G Ninja -DCMAKE_BUILD_TYPE=Sanitize -DCOPLANE_ARCH=native -DCOPLANE_UNITY=ON -DCOPLANE_LANES=$([ $slow = yes ] || echo 4) -DCOPLANE_BENCHMARKS=OFF -DCOPLANE_SANITIZE_ALL=$([ $slow = yes ] && echo ON || echo OFF) \
       -DCOPLANE_TRILINOS="$COPLANE_TRILINOS" && ninja -C "$top/build-sanitize" "${targets[@]}"; } >"$top/build/sanitize.log" 2>&1 ||
     { grep -E 'error|FAILED' -A 8 "$top/build/sanitize.log" | head -n 40 >&2; return 1; }
 }
@@ -84,6 +84,7 @@ sanitized_tests() {
 
 stage dependencies get_dependencies || { failed=1; finish; exit 1; }
 COPLANE_CMAKE_OPTIONS=-DCOPLANE_WARNINGS_AS_ERRORS=ON
+[ $slow = no ] || COPLANE_CMAKE_OPTIONS+=" -DCOPLANE_UNITY=OFF"
 stage build coplane_configure_and_build all $([ $slow = no ] || echo coplane_headers) || { failed=1; finish; exit 1; }
 for label in unit verification metamorphic validation parallel paper; do
   stage $label tests "$top/build" $label

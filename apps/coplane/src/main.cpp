@@ -26,6 +26,7 @@
 #include <coplane_setup/BuildModel.hpp>
 #include <coplane_setup/ConditionsOfDeck.hpp>
 #include <coplane_setup/DeckProblems.hpp>
+#include <coplane_setup/IdleLoads.hpp>
 #include <coplane_setup/PartitionPlan.hpp>
 #include <coplane_setup/SofteningReport.hpp>
 
@@ -484,6 +485,8 @@ int runDeck(const CommandLine& line, const Comm& comm, const std::string& comman
     reportModel(solver, mesh, decks.back());
     reportSoftening(deck, mesh, solver, comm);
     reportDamping(deck);
+    if (!checkpoint)
+      warnOfIdleLoads(decks, mesh, solver, comm);
     tellWhenRestCounts(solver.model(), deck, solver.clock().time);
     if (line.check)
     {

@@ -75,10 +75,10 @@ const Shape* shapeOf(const std::string& type)
   return nodes == '4' && alone ? &quad : nodes == '3' && alone ? &triangle : nullptr;
 }
 
-class Reader
+class AbaqusReader
 {
 public:
-  explicit Reader(const std::string& file) : file_(file) {}
+  explicit AbaqusReader(const std::string& file) : file_(file) {}
 
   AbaqusFile read()
   {
@@ -534,6 +534,6 @@ private:
 
 AbaqusFile readAbaqusFile(const std::string& file)
 {
-  return Reader(file).read();
+  return AbaqusReader(file).read();
 }
 } // namespace coplane

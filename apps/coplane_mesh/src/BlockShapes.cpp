@@ -43,7 +43,7 @@ struct RockParameters
 
 constexpr const char* halfBricks = "elements along a brick, and a half brick takes half of them";
 
-void checkOpening(WallOpeningCard& opening, const CardPlace& place)
+void checkWallOpening(WallOpeningCard& opening, const CardPlace& place)
 {
   if (!(opening.x[1] > opening.x[0]))
     place.problem(
@@ -159,7 +159,7 @@ ShapeModel wallModel()
                    }(),
                })
               .orOneAlone()
-              .checkedBy(checkOpening)
+              .checkedBy(checkWallOpening)
               .means("holes; bricks at their sides are trimmed. A lintel is a part of its own: "
                      "leave its courses out of the wall above the hole"),
       })

@@ -26,10 +26,10 @@ Vec3 placed(const Placement& m, const Vec3& x)
   return {row(0), row(1), row(2)};
 }
 
-class Reader
+class CompasReader
 {
 public:
-  explicit Reader(const std::string& file) : file_(file) {}
+  explicit CompasReader(const std::string& file) : file_(file) {}
 
   std::vector<Polyhedron> read()
   {
@@ -228,6 +228,6 @@ private:
 
 std::vector<Polyhedron> readCompasBlocks(const std::string& file)
 {
-  return Reader(file).read();
+  return CompasReader(file).read();
 }
 } // namespace coplane

@@ -60,10 +60,10 @@ private:
   }
 };
 
-class Reader
+class ByteReader
 {
 public:
-  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  explicit ByteReader(const std::string& bytes) : bytes_(bytes) {}
   template <class... Items>
   void operator()(Items&... items)
   {
@@ -154,7 +154,7 @@ std::string bytesOf(const CutDomain& domain)
 CutDomain cutDomainOf(const std::string& bytes)
 {
   CutDomain domain;
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   visitMembers(domain, reader);
   reader.demandEnd();
   return domain;

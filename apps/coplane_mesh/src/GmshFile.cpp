@@ -137,10 +137,10 @@ private:
   bool binary_ = false;
 };
 
-class Reader
+class GmshReader
 {
 public:
-  explicit Reader(Tokens tokens) : tokens_(std::move(tokens)) {}
+  explicit GmshReader(Tokens tokens) : tokens_(std::move(tokens)) {}
 
   GmshFile read()
   {
@@ -357,6 +357,6 @@ GmshFile readGmshFile(const std::string& name)
   std::stringstream text;
   if (!file || !(text << file.rdbuf()))
     fail(ExitCode::Mesh, "{}: the mesh cannot be read. Check its name and its permissions.", name);
-  return Reader(Tokens(name, text.str())).read();
+  return GmshReader(Tokens(name, text.str())).read();
 }
 } // namespace coplane

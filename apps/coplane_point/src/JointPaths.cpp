@@ -9,10 +9,10 @@ namespace coplane
 {
 namespace
 {
-using Record = std::function<void(const JointPoint&)>;
+using RecordJoint = std::function<void(const JointPoint&)>;
 
 /// From the present gap to another, without slip.
-void closeTo(JointPoint& point, Real gap, int steps, Real speed, const Record& record)
+void closeTo(JointPoint& point, Real gap, int steps, Real speed, const RecordJoint& record)
 {
   const Real from = point.gap();
   const Real dt = std::abs(gap - from) / steps / speed;
@@ -23,7 +23,7 @@ void closeTo(JointPoint& point, Real gap, int steps, Real speed, const Record& r
   }
 }
 
-void closing(const JointPathCard& card, JointPoint& point, const Record& record)
+void closing(const JointPathCard& card, JointPoint& point, const RecordJoint& record)
 {
   for (const Real closure : card.closures)
     closeTo(point, -closure, card.steps, card.speed, record);
@@ -32,7 +32,7 @@ void closing(const JointPathCard& card, JointPoint& point, const Record& record)
 /// One step of slip under the normal traction, which rises by the surroundings' stiffness times the
 /// opening from `start`.
 void slipTo(const JointPathCard& card, JointPoint& point, const Vec3& slip, Real start,
-            const Record& record)
+            const RecordJoint& record)
 {
   const Real dt = norm(slip - point.slip()) / card.speed;
   const Real gap =
@@ -41,7 +41,7 @@ void slipTo(const JointPathCard& card, JointPoint& point, const Vec3& slip, Real
   record(point);
 }
 
-void shear(const JointPathCard& card, JointPoint& point, const Record& record)
+void shear(const JointPathCard& card, JointPoint& point, const RecordJoint& record)
 {
   const Real start = point.gap();
   for (const Real target : card.slips)
@@ -54,7 +54,7 @@ void shear(const JointPathCard& card, JointPoint& point, const Record& record)
   }
 }
 
-void circle(const JointPathCard& card, JointPoint& point, const Record& record)
+void circle(const JointPathCard& card, JointPoint& point, const RecordJoint& record)
 {
   const Real start = point.gap();
   const int steps = std::max(1, int(std::lround(card.turns * card.steps)));
@@ -66,7 +66,7 @@ void circle(const JointPathCard& card, JointPoint& point, const Record& record)
   }
 }
 
-void points(const JointPathCard& card, JointPoint& point, const Record& record)
+void points(const JointPathCard& card, JointPoint& point, const RecordJoint& record)
 {
   for (std::size_t k = 0; k < card.times.size(); ++k)
   {
@@ -92,7 +92,7 @@ JointPoint pointOf(const PointDeck& deck, const JointPathCard& card)
   return JointPoint(law, law.fittedTo(h, M, h, M), card.declared);
 }
 
-void followPath(const JointPathCard& card, JointPoint point, const Record& record)
+void followPath(const JointPathCard& card, JointPoint point, const RecordJoint& record)
 {
   record(point);
   if (card.normalTraction > 0)

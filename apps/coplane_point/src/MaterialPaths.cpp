@@ -15,7 +15,7 @@ using namespace schema;
 namespace
 {
 constexpr const char* componentNames[6] = {"xx", "yy", "zz", "xy", "yz", "zx"};
-using Record = std::function<void(const MaterialProbe&)>;
+using RecordMaterial = std::function<void(const MaterialProbe&)>;
 
 std::array<Real, 6> componentsOf(const SymTensor& s)
 {
@@ -25,7 +25,8 @@ std::array<Real, 6> componentsOf(const SymTensor& s)
 /// From the present strains and stresses to the targets, in equal steps. A component is a stress
 /// where `stressGiven`.
 void leadTo(MaterialProbe& probe, const std::array<bool, 6>& stressGiven,
-            const std::array<Real, 6>& target, int steps, Real duration, const Record& record)
+            const std::array<Real, 6>& target, int steps, Real duration,
+            const RecordMaterial& record)
 {
   const auto strain = componentsOf(probe.strain()), stress = componentsOf(probe.stress());
   ProbeStep step;
@@ -42,7 +43,7 @@ void leadTo(MaterialProbe& probe, const std::array<bool, 6>& stressGiven,
 }
 
 /// Under pressure on all sides.
-void confine(const MaterialPathCard& card, MaterialProbe& probe, const Record& record)
+void confine(const MaterialPathCard& card, MaterialProbe& probe, const RecordMaterial& record)
 {
   const Real p = card.confinement;
   const Real duration = p / (pWaveModulus(probe.material()) * card.rate);
@@ -50,7 +51,7 @@ void confine(const MaterialPathCard& card, MaterialProbe& probe, const Record& r
          record);
 }
 
-void mixed(const MaterialPathCard& card, MaterialProbe& probe, const Record& record)
+void mixed(const MaterialPathCard& card, MaterialProbe& probe, const RecordMaterial& record)
 {
   std::array<bool, 6> stressGiven{};
   for (int k = 0; k < 6; ++k)
@@ -172,7 +173,7 @@ std::vector<Key> materialPathKeys()
   return keys;
 }
 
-void followPath(const MaterialPathCard& card, MaterialProbe probe, const Record& record)
+void followPath(const MaterialPathCard& card, MaterialProbe probe, const RecordMaterial& record)
 {
   record(probe);
   if (card.type == "mixed")
@@ -229,10 +230,9 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
     if (!std::isfinite(probe.pressure() + probe.vonMises() + probe.volumeRatio() + probe.energy() +
                        probe.dissipation()))
       fail(ExitCode::Computation,
-           "{}: at t = {:.6g} s stresses or energies are not finite: pressure {:g} Pa, von Mises "
-           "{:g} Pa, volume ratio {:g}, energy {:g} J/m^3. Look at the path and at the moduli.",
-           card.output, probe.time(), probe.pressure(), probe.vonMises(), probe.volumeRatio(),
-           probe.energy());
+           "at t = {:.6g} s stresses or energies are not finite: pressure {:g} Pa, von Mises {:g} "
+           "Pa, volume ratio {:g}, energy {:g} J/m^3. Look at the path and at the moduli.",
+           probe.time(), probe.pressure(), probe.vonMises(), probe.volumeRatio(), probe.energy());
     const SymTensor& s = probe.stress();
     compression = std::max({compression, -s.xx, -s.yy, -s.zz});
     tension = std::max({tension, s.xx, s.yy, s.zz});
@@ -240,7 +240,15 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
     energy = probe.energy();
     dissipation = probe.dissipation();
   };
-  followPath(card, MaterialProbe(material, card.size), write);
+  try
+  {
+    followPath(card, MaterialProbe(material, card.size), write);
+  }
+  catch (const Error& error)
+  {
+    throw Error(error.code(),
+                fmt::format("{}: material_paths.{}: {}", card.where, card.name, error.what()));
+  }
   draft.close();
   makeWayFor(placeOfFile(card.output),
              [&](const std::string& there) { return beginsWith(there, sameOfAll); });

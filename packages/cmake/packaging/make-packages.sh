@@ -22,7 +22,7 @@ for level in "${levels[@]}"; do
   build=$top/build-package/$level
   mkdir -p "$build"
   say "building for $level (log: $build/build.log)"
-  { cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOPLANE_LEVELS=ON "-DCOPLANE_ARCH=$level" "-DCOPLANE_OTHER_LEVELS=$others" \
+  { cmake -S "$top" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCOPLANE_UNITY=ON -DCOPLANE_LEVELS=ON "-DCOPLANE_ARCH=$level" "-DCOPLANE_OTHER_LEVELS=$others" \
       -DCOPLANE_TESTS=OFF -DCOPLANE_BENCHMARKS=OFF "-DCOPLANE_TRILINOS=$trilinos" -DCMAKE_INSTALL_PREFIX=/usr && ninja -C "$build"; } \
     >"$build/build.log" 2>&1 || { grep -E 'error|Error|FAILED' -A 8 "$build/build.log" | head -n 40 >&2; echo "make-packages: see $build/build.log" >&2; exit 1; }
 done

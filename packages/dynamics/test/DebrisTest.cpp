@@ -156,6 +156,72 @@ TEST(Debris, pointsThatComeFromWithinABodyFlyOutOfIt)
   EXPECT_GT(-comm.max(-slowest), 2); // all are out
 }
 
+namespace
+{
+/// A block in two halves with a gap between them at x = 1 m, and a small cube that dies above them.
+Model aboveTwoHalves(const Comm& comm, Real gap, Real x, const Vec3& velocity)
+{
+  Mesh mesh;
+  addBox(mesh, "left", {2, 4, 4}, {0, 0, 0}, {1, 2, 2});
+  addBox(mesh, "right", {2, 4, 4}, {1 + gap, 0, 0}, {1, 2, 2});
+  addBox(mesh, "cube", {1, 1, 1}, {x, 0.91, 2.05}, {0.1, 0.1, 0.1});
+  Model model = rockModel(mesh, comm);
+  model.blocks[2].velocity = velocity;
+  model.blocks[2].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.1}; };
+  model.blocks[2].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  return model;
+}
+} // namespace
+
+TEST(Debris, bouncesOffTwoHalvesAsOffTheWhole)
+{
+  // Half of the points come down 1 mm beside the seam, over which another half lies flush, or a
+  // hair apart: that is no way out, however near it is. Or they cross it while they are deep.
+  const Comm comm;
+  for (const Real gap : {0.0, 1e-4, -1e-4})
+    for (const auto& [x, along] : {std::pair(0.999, 0.0), std::pair(0.975, 5.0)})
+    {
+      Solver solver(aboveTwoHalves(comm, gap, x, {along, 0, -10}), comm);
+      solver.prepare();
+      while (solver.clock().time < 0.03)
+        solver.advance();
+      ASSERT_EQ(solver.debris()->count(), 8);
+      EXPECT_EQ(solver.debris()->touching(), 0);
+      for (int n = 0; n < solver.layout().owned(); ++n)
+        if (solver.layout().ids()[std::size_t(n)] > 150)
+        {
+          const Real before = 10 - (solver.state().reference(n, 2) - 2.1);
+          EXPECT_NEAR(solver.state().v(n, 2), before, 0.03 * before) << gap << " " << x;
+          EXPECT_NEAR(solver.state().v(n, 0), along, 0.05) << gap << " " << x;
+        }
+    }
+}
+
+TEST(Debris, getsNoEnergyFromAWayOutThatOpensAndCloses)
+{
+  // Bodies that are nearer to a face than 5 mm lie on it. The right half comes and goes over that
+  // limit, four times while points are in the left one, and takes what they have stored.
+  const Comm comm;
+  Model model = aboveTwoHalves(comm, 0.005, 0.998, {0, 0, -100});
+  model.blocks[1].rigid = true;
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {0, 1, 0}, comm);
+  const Real frequency = 2 * 3.14159265358979323846 / 5e-4;
+  RigidMotion motion;
+  motion.block = 1;
+  motion.components = {true, true, true};
+  motion.velocity = {[=](Real t) { return 5e-4 * frequency * std::cos(frequency * t); },
+                     [](Real) { return 0.0; }, [](Real) { return 0.0; }};
+  motion.spin = VectorOfTime(0, 0, 0);
+  model.conditions.rigidMotions = {std::move(motion)};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  while (solver.clock().time < 0.01)
+    solver.advance();
+  ASSERT_EQ(solver.debris()->count(), 8);
+  EXPECT_GT(solver.energy().debris.remainder(), 0.01 * solver.energy().initial);
+}
+
 TEST(Debris, aLightPointIsThrownBackWithItsSpeed)
 {
   // 0.125 kg on nodes of 30 to 125 kg, at a hundredth of the speed of waves, without friction.

@@ -3,6 +3,7 @@
 #include <coplane_checkpoint/StateTables.hpp>
 #include <coplane_core/ExactSum.hpp>
 #include <coplane_material/J2Plasticity.hpp>
+#include <coplane_material/Jwl.hpp>
 
 #include <gtest/gtest.h>
 
@@ -181,6 +182,45 @@ TEST(Stages, loadsOnFacesActFromWhenTheirBlockIsThere)
   solver.beginStage(stage(comm, {0}, {}, {1}));
   cycles(solver, 1);
   EXPECT_NEAR(pushed(solver), -2e4, 1e2);
+}
+
+TEST(Stages, aChargeThatComesInIsLitByTheClockOfTheRun)
+{
+  const Comm comm;
+  JwlParameters tnt;
+  tnt.density = 1630;
+  tnt.a = 371.2e9;
+  tnt.b = 3.231e9;
+  tnt.r1 = 4.15;
+  tnt.r2 = 0.95;
+  tnt.omega = 0.3;
+  tnt.detonationEnergy = 7e9;
+  tnt.detonationSpeed = 6930;
+  tnt.detonationPressure = 21e9;
+  tnt.lightingPoints = {{0.5, 0.5, 2}};
+  for (const Real lit : {5e-3, 1e-3}) // after it has come, and before
+  {
+    tnt.lightingTimes = {lit};
+    Model model = flying(comm, {1});
+    model.blocks[1].material = makeLaw(tnt);
+    Stage next = stage(comm, {}, {1}, {1});
+    next.model.blocks[1].material = makeLaw(tnt);
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    cycles(solver, 20);
+    solver.beginStage(std::move(next));
+    cycles(solver, 1);
+    Real soonest = infinity, latest = -infinity;
+    const ElementBlock& charge = solver.blocks()[1];
+    for (int e = 0; e < charge.count(); ++e)
+    {
+      soonest = std::min(soonest, charge.history(Jwl::TimeToBurn, e));
+      latest = std::max(latest, charge.history(Jwl::TimeToBurn, e));
+    }
+    const Real wait = std::max(lit - solver.clock().time, 0.0), length = 2;
+    EXPECT_GE(comm.min(soonest), wait);
+    EXPECT_LT(comm.max(latest), wait + length / tnt.detonationSpeed);
+  }
 }
 
 TEST(Stages, aStiffBlockThatComesInHasItsSayInTheStep)

@@ -166,6 +166,20 @@ TEST(Stages, addAndTakeOutSingleConditions)
   EXPECT_FALSE(decks[3].conditions[0].components[1]);
 }
 
+TEST(Stages, bringTheFirstConditionOfADeckWithoutAny)
+{
+  std::string bare = head;
+  bare.erase(bare.find("conditions:"), bare.find("damping:") - bare.find("conditions:"));
+  const auto decks =
+      parseStages(bare + "stages:\n"
+                         "  - {name: a, until: 1}\n"
+                         "  - {name: b, set: {conditions.0: {type: fixed, node_set: base}}}\n",
+                  "a.yaml");
+  EXPECT_TRUE(decks[0].conditions.empty());
+  ASSERT_EQ(decks[1].conditions.size(), 1u);
+  EXPECT_EQ(decks[1].conditions[0].set, "base");
+}
+
 TEST(Stages, changeNothingThatTheStateHolds)
 {
   const std::string first = "stages:\n  - {name: a, until: 1}\n  - ";

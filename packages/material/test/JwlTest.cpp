@@ -125,14 +125,27 @@ TEST(Jwl, productsExpandAlongTheirIsentrope)
 TEST(Jwl, theFirstFrontReachesAPlaceFirst)
 {
   JwlParameters p = tnt();
-  EXPECT_EQ(makeLaw(p).burnTime({1, 2, 3}), 0);
+  EXPECT_EQ(makeLaw(p).timeToBurn({1, 2, 3}), 0);
   p.lightingPoints = {{0, 0, 0}, {0.1, 0}};
-  EXPECT_DOUBLE_EQ(makeLaw(p).burnTime({0.07, 0, 0}), 0.03 / 6930);
-  EXPECT_DOUBLE_EQ(makeLaw(p).burnTime({0.03, 0.04, 0}), 0.05 / 6930);
+  EXPECT_DOUBLE_EQ(makeLaw(p).timeToBurn({0.07, 0, 0}), 0.03 / 6930);
+  EXPECT_DOUBLE_EQ(makeLaw(p).timeToBurn({0.03, 0.04, 0}), 0.05 / 6930);
   p.lightingTimes = {2e-6, 10e-6};
-  EXPECT_DOUBLE_EQ(makeLaw(p).burnTime({0.07, 0, 0}), 0.07 / 6930 + 2e-6);
-  EXPECT_DOUBLE_EQ(makeLaw(p).burnTime({0.1, 0, 0}), 10e-6);
+  EXPECT_DOUBLE_EQ(makeLaw(p).timeToBurn({0.07, 0, 0}), 0.07 / 6930 + 2e-6);
+  EXPECT_DOUBLE_EQ(makeLaw(p).timeToBurn({0.1, 0, 0}), 10e-6);
   EXPECT_DOUBLE_EQ(initialHistory(makeLaw(p), {}, {0.1, 0, 0})[Jwl::TimeToBurn], 10e-6);
+}
+
+TEST(Jwl, timesCountFromTheStartOfTheRunAlsoForAChargeThatComesLater)
+{
+  JwlParameters p = tnt();
+  EXPECT_EQ(makeLaw(p).timeToBurn({1, 2, 3}, 1), 0); // all of it, at once
+  p.lightingPoints = {{0, 0, 0}, {0.1, 0}};
+  p.lightingTimes = {2e-6, 10e-6};
+  const Jwl law = makeLaw(p);
+  EXPECT_DOUBLE_EQ(law.timeToBurn({0.1, 0, 0}, 4e-6), 6e-6);
+  // Lit before it came: when it comes.
+  EXPECT_DOUBLE_EQ(law.timeToBurn({0.01, 0, 0}, 4e-6), 0.01 / 6930);
+  EXPECT_DOUBLE_EQ(initialHistory(law, {}, {0.1, 0, 0}, 4e-6)[Jwl::TimeToBurn], 6e-6);
 }
 
 TEST(Jwl, theFrontTakesOneAndAHalfElementsToPass)

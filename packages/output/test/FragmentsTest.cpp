@@ -120,6 +120,30 @@ TEST(Fragments, ofABoxThatTumblesAreThoseOfItsCornerMasses)
   EXPECT_NEAR(box.angularMomentum.z, 0.3 * (x + y), 1e-9);
 }
 
+TEST(Fragments, ofARigidBoxHaveTheMomentsOfTheSolid)
+{
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "box", {2, 1, 1}, {0, 0, 0}, {1, 2, 3});
+  Model model = rock(mesh, comm);
+  model.blocks[0].rigid = true;
+  model.rigidBodyOfNode = rigidBodiesOf(model.mesh, {1}, comm);
+  model.blocks[0].angularVelocity = {0.1, -0.2, 0.3};
+  model.blocks[0].center = {0.5, 1, 1.5};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  const std::vector<Fragment> fragments = fragmentsOf(solver);
+  const Vec3 ofHistory = solver.momenta().angular;
+  if (!comm.isRoot())
+    return;
+  ASSERT_EQ(fragments.size(), 1u);
+  const Fragment& box = fragments[0];
+  EXPECT_LT(norm(box.spin - Vec3{0.1, -0.2, 0.3}), 1e-14);
+  const Vec3 solid{0.1 * 500 * (4 + 9), -0.2 * 500 * (9 + 1), 0.3 * 500 * (1 + 4)};
+  EXPECT_LT(norm(box.angularMomentum - solid), 1e-9);
+  EXPECT_LT(norm(ofHistory - solid), 1e-3 * norm(solid)); // half a step later
+}
+
 TEST(Fragments, keepTheirIdsWhenTheBodySplitsAgain)
 {
   // The third cube dies at once, the sixth, which is pulled slowly, later: what is left of a body

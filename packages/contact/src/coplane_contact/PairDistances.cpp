@@ -10,7 +10,7 @@ namespace
 /// More than rounding to float changes.
 constexpr Real up = 1 + 1e-6, down = 1 - 1e-6;
 /// Gaps over the size of a face, and cosines, below that are round-off.
-constexpr Real roundOff = 1e-7;
+constexpr Real unopposedRoundOff = 1e-7;
 /// A normal turns evenly on its way, or nearly so.
 constexpr Real onTheWay = 1.5;
 /// Heights of the mean plane of a warped face change with those of its nodes and, as much again
@@ -87,7 +87,7 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
                   return;
                 const Real unopposed = dot(planeA.normal, planeB.normal) + seen_.leastOpposed -
                                        onTheWay * (planeA.turning + planeB.turning);
-                if (unopposed > roundOff)
+                if (unopposed > unopposedRoundOff)
                 {
                   gap_(slot) = float(down * unopposed /
                                      std::max(firstA.turningPerMetre(), firstB.turningPerMetre()));
@@ -103,7 +103,7 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
                     seen_.offset + (planeA.warp + planeB.warp) / (0.5 * norm(apart) - turning);
                 const Real first = firstB.least(n) + firstA.least(-1.0 * n) - less;
                 const Real last = lastB.least(n) + lastA.least(-1.0 * n) - less;
-                const Real gap = down * first - roundOff * norm(firstA.x[1] - firstA.x[0]);
+                const Real gap = down * first - unopposedRoundOff * norm(firstA.x[1] - firstA.x[0]);
                 if (!(gap > 0))
                   return;
                 gap_(slot) = float(gap);

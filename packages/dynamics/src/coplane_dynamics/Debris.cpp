@@ -18,9 +18,19 @@ namespace
 /// within a seventh of the element [-].
 constexpr Real stiffnessOfElement = 0.5;
 
-/// A point that comes to lie in an element deeper than this part of its way in the step has not
-/// come over the surface [-].
+/// A point comes no deeper in a step than this part of its way; what is more is that the way out
+/// has changed [-].
 constexpr Real ofItsWay = 1.1;
+
+/// Another body that is as near to a face as this part of the element there lies on it [-].
+constexpr Real besideTheSurface = 0.01;
+
+/// Where that is asked, apart from the place in question: at the corners, this part of the way to
+/// them from the middle [-].
+constexpr Real nearlyAtTheCorner = 0.9;
+
+/// What a checkpoint has of a point.
+constexpr std::size_t numbersOfPoint = 6;
 
 /// Points sorted into cubes, so that those in a box are found without asking all.
 class PointGrid
@@ -99,6 +109,30 @@ Corners cornersBehind(const ExteriorFace& face, const RankMesh& mesh, const Node
   return corners;
 }
 
+/// Places a little beyond a face, over all of it: near its corners and beside one on it.
+std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* c,
+                                 const Vec3& place)
+{
+  Vec3 inside, middle;
+  for (int k = 0; k < element.count; ++k)
+    inside += (1.0 / element.count) * element.x[std::size_t(k)];
+  for (int k = 0; k < count; ++k)
+    middle += (1.0 / count) * c[k];
+  Vec3 normal = count == 2   ? cross(c[1] - c[0], Vec3{0, 0, 1})
+                : count == 3 ? cross(c[1] - c[0], c[2] - c[0])
+                             : cross(c[2] - c[0], c[3] - c[1]);
+  if (dot(normal, middle - inside) < 0)
+    normal = -normal;
+  const Real length = norm(normal);
+  const Vec3 off =
+      length > 0 ? (besideTheSurface * element.longestSide() / length) * normal : Vec3{};
+  std::array<Vec3, 5> places;
+  for (int k = 0; k < 4; ++k)
+    places[std::size_t(k)] = middle + nearlyAtTheCorner * (c[k < count ? k : 0] - middle) + off;
+  places[4] = place + besideTheSurface * (middle - place) + off;
+  return places;
+}
+
 std::uint64_t bitsOf(Real value)
 {
   std::uint64_t bits;
@@ -133,6 +167,9 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
     if (known != before.end() && known->id == id && known->inside)
     {
       point.offset = known->offset;
+      point.distance = known->distance;
+      point.speed = known->speed;
+      point.between = known->between;
       point.inside = true;
     }
     points_.push_back(point);
@@ -205,77 +242,160 @@ std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const
   return inside;
 }
 
-/// The nearest face of the body that each of these points is in; of equally near ones the lowest.
-std::vector<Debris::Near> Debris::findNearest(const std::vector<Inside>& inside,
-                                              const std::vector<Vec3>& x, const RankMesh& mesh,
-                                              const ElementForces& elements,
-                                              const NodalState& state) const
+/// The faces of the bodies that points are in, beside which these lie; by point, the nearest first,
+/// of equally near ones the lowest.
+std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& inside,
+                                                const std::vector<Vec3>& x, const RankMesh& mesh,
+                                                const ElementForces& elements,
+                                                const NodalState& state) const
 {
-  if (inside.empty()) // on all ranks
-    return {};
-  const auto isNearer = [](const Near& a, const Near& b)
-  { return std::tie(a.point, a.distance, a.face) < std::tie(b.point, b.distance, b.face); };
-  std::vector<Near> best(inside.size());
+  std::vector<WayOut> beside;
   std::vector<Vec3> places;
   for (const Inside& one : inside)
     places.push_back(x[std::size_t(one.point)]);
   const std::vector<Vec3> v = ofPoints(state.v);
+  const Real edge = longestElement(mesh, state);
+  if (!(edge > 0 && std::isfinite(edge)))
+    return beside;
+  const PointGrid grid(places, edge);
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+  {
+    const ExteriorFace& face = faces_[f];
+    const Corners corners = cornersBehind(face, mesh, state.x);
+    const Real reach = corners.longestSide();
+    const Vec3 margin{reach, reach, reach};
+    std::array<Vec3, 4> c{};
+    for (int k = 0; k < face.nodeCount; ++k)
+      c[std::size_t(k)] = at(state.x, face.nodes[std::size_t(k)]);
+    const auto look = [&](int i)
+    {
+      const Inside& one = inside[std::size_t(i)];
+      if (bodies_[f] != one.body)
+        return;
+      const NearestOnFace nearest = nearestOnFace(face.nodeCount, c.data(), places[std::size_t(i)]);
+      WayOut way;
+      way.point = one.point;
+      way.body = one.body;
+      way.count = face.nodeCount;
+      way.face = face.id;
+      way.distance = norm(nearest.way);
+      if (!std::isfinite(way.distance))
+        return;
+      way.outward = way.distance > 0 ? (1 / way.distance) * nearest.way : Vec3{};
+      way.beyond =
+          placesBeyond(corners, face.nodeCount, c.data(), places[std::size_t(i)] + nearest.way);
+      way.weights = nearest.weights;
+      Vec3 apart = v[std::size_t(one.point)];
+      for (int k = 0; k < face.nodeCount; ++k)
+        apart = apart - nearest.weights[std::size_t(k)] * at(state.v, face.nodes[std::size_t(k)]);
+      way.speed = norm(apart);
+      const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
+      const Real length =
+          mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
+      way.stiffness =
+          stiffnessOfElement * pWaveModulus(block.material()) * length *
+          std::min(Real(1), points_[std::size_t(one.point)].mass / block.mass(face.element));
+      beside.push_back(way);
+    };
+    grid.forEachIn(corners.low - margin, corners.high + margin, look);
+  }
+  std::sort(beside.begin(), beside.end());
+  return beside;
+}
+
+/// Which of these ways out end at other bodies that lie on the whole face. Collective.
+std::vector<char> Debris::areCovered(const std::vector<WayOut>& ways, const RankMesh& mesh,
+                                     const NodalState& state) const
+{
+  std::vector<Vec3> places;
+  for (const WayOut& way : ways)
+    places.insert(places.end(), way.beyond.begin(), way.beyond.end());
+  const std::size_t each = ways.empty() ? 1 : ways.front().beyond.size();
+  std::vector<std::uint64_t> taken(places.size(), 0);
   const Real edge = longestElement(mesh, state);
   if (edge > 0 && std::isfinite(edge))
   {
     const PointGrid grid(places, edge);
     for (std::size_t f = 0; f < faces_.size(); ++f)
     {
-      const ExteriorFace& face = faces_[f];
-      const Corners corners = cornersBehind(face, mesh, state.x);
-      const Real reach = corners.longestSide();
-      const Vec3 margin{reach, reach, reach};
-      std::array<Vec3, 4> c{};
-      for (int k = 0; k < face.nodeCount; ++k)
-        c[std::size_t(k)] = at(state.x, face.nodes[std::size_t(k)]);
-      grid.forEachIn(
-          corners.low - margin, corners.high + margin,
-          [&](int i)
-          {
-            const Inside& one = inside[std::size_t(i)];
-            if (bodies_[f] != one.body)
-              return;
-            const NearestOnFace nearest =
-                nearestOnFace(face.nodeCount, c.data(), places[std::size_t(i)]);
-            Near here;
-            here.point = one.point;
-            here.count = face.nodeCount;
-            here.face = face.id;
-            here.distance = norm(nearest.way);
-            Near& least = best[std::size_t(i)];
-            if (!std::isfinite(here.distance) || (least.count > 0 && !isNearer(here, least)))
-              return;
-            here.outward = here.distance > 0 ? (1 / here.distance) * nearest.way : Vec3{};
-            here.weights = nearest.weights;
-            Vec3 apart = v[std::size_t(one.point)];
-            for (int k = 0; k < face.nodeCount; ++k)
-              apart =
-                  apart - nearest.weights[std::size_t(k)] * at(state.v, face.nodes[std::size_t(k)]);
-            here.speed = norm(apart);
-            const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
-            const Real length =
-                mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
-            here.stiffness =
-                stiffnessOfElement * pWaveModulus(block.material()) * length *
-                std::min(Real(1), points_[std::size_t(one.point)].mass / block.mass(face.element));
-            least = here;
-          });
+      const Corners corners = cornersBehind(faces_[f], mesh, state.x);
+      const ElementType type = mesh.blocks[std::size_t(faces_[f].block)].type;
+      grid.forEachIn(corners.low, corners.high,
+                     [&](int i)
+                     {
+                       const Vec3& place = places[std::size_t(i)];
+                       if (bodies_[f] != ways[std::size_t(i) / each].body &&
+                           pointInElement(type, corners.x.data(), place).outside <= 0)
+                         taken[std::size_t(i)] = 1;
+                     });
     }
   }
-  std::vector<Near> mine;
-  std::copy_if(best.begin(), best.end(), std::back_inserter(mine),
-               [](const Near& one) { return one.count > 0; });
-  std::vector<Near> all = comm_->allGather(mine);
-  std::sort(all.begin(), all.end(), isNearer);
-  all.erase(std::unique(all.begin(), all.end(),
-                        [](const Near& a, const Near& b) { return a.point == b.point; }),
-            all.end());
-  return all;
+  comm_->sum(taken);
+  std::vector<char> covered;
+  for (std::size_t w = 0; w < ways.size(); ++w)
+    covered.push_back(std::all_of(taken.begin() + long(w * each),
+                                  taken.begin() + long((w + 1) * each),
+                                  [](std::uint64_t count) { return count > 0; }));
+  return covered;
+}
+
+/// For each of these points the nearest face of its body, and the nearest over which it can leave,
+/// if there is one: faces on which other bodies lie lead nowhere. Points that have come in over
+/// such a face, between two bodies, leave by it. Collective.
+std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& inside,
+                                                 const std::vector<Vec3>& x, const RankMesh& mesh,
+                                                 const ElementForces& elements,
+                                                 const NodalState& state) const
+{
+  if (inside.empty()) // on all ranks
+    return {};
+  const auto keepFirst = [](std::vector<WayOut>& ways)
+  {
+    ways.erase(std::unique(ways.begin(), ways.end(),
+                           [](const WayOut& a, const WayOut& b) { return a.point == b.point; }),
+               ways.end());
+  };
+  const std::vector<WayOut> beside = facesBeside(inside, x, mesh, elements, state);
+  std::vector<WayOut> mine = beside;
+  keepFirst(mine);
+  std::vector<WayOut> nearest = comm_->allGather(mine);
+  std::sort(nearest.begin(), nearest.end());
+  keepFirst(nearest);
+  const std::vector<char> covered = areCovered(nearest, mesh, state);
+  std::vector<WaysOut> ways;
+  bool isSought = false;
+  for (std::size_t i = 0; i < nearest.size(); ++i)
+  {
+    ways.push_back({nearest[i], nearest[i], true});
+    ways.back().isOpen = !covered[i] || points_[std::size_t(nearest[i].point)].between;
+    isSought = isSought || !ways.back().isOpen;
+  }
+  if (!isSought)
+    return ways;
+
+  const auto of = [&](int point)
+  {
+    return std::lower_bound(ways.begin(), ways.end(), point,
+                            [](const WaysOut& w, int wanted) { return w.nearest.point < wanted; });
+  };
+  std::vector<WayOut> others;
+  for (const WayOut& way : beside)
+    if (const auto found = of(way.point); !found->isOpen && found->nearest.face != way.face)
+      others.push_back(way);
+  others = comm_->allGather(others);
+  std::sort(others.begin(), others.end());
+  others.erase(std::unique(others.begin(), others.end(),
+                           [](const WayOut& a, const WayOut& b)
+                           { return a.point == b.point && a.face == b.face; }),
+               others.end());
+  const std::vector<char> lead = areCovered(others, mesh, state);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (const auto found = of(others[i].point); !lead[i] && !found->isOpen)
+    {
+      found->open = others[i];
+      found->isOpen = true;
+    }
+  return ways;
 }
 
 void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
@@ -286,24 +406,35 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
   stored_ = 0;
   touching_ = 0;
   const std::vector<Vec3> x = ofPoints(state.x);
-  const std::vector<Near> nearest =
-      findNearest(findInside(x, mesh, state), x, mesh, elements, state);
-  std::vector<Real> offsets(points_.size(), 0); // of a point that is in no such element
-  std::vector<bool> wasInside(points_.size());
-  for (std::size_t i = 0; i < points_.size(); ++i)
+  const std::vector<WaysOut> ways =
+      findWaysOut(findInside(x, mesh, state), x, mesh, elements, state);
+  const std::vector<Point> before = points_;
+  for (Point& point : points_)
+    point.goOnWithoutFace(ofItsWay * point.speed * dt);
+  for (const WaysOut& its : ways)
   {
-    wasInside[i] = points_[i].inside;
-    points_[i].inside = false;
-  }
-  for (const Near& one : nearest)
-  {
-    Point& point = points_[std::size_t(one.point)];
+    Point& point = points_[std::size_t(its.nearest.point)];
+    const Point& was = before[std::size_t(its.nearest.point)];
+    const auto isWithinItsWay = [&](const WayOut& way)
+    { return way.distance <= ofItsWay * way.speed * dt; };
+    const bool cameBetween =
+        !was.inside && !(its.isOpen && isWithinItsWay(its.open)) && isWithinItsWay(its.nearest);
+    if (!its.isOpen && !cameBetween)
+      continue;
+    const WayOut& one = cameBetween ? its.nearest : its.open;
     point.inside = true;
-    const bool cameFromWithin =
-        !wasInside[std::size_t(one.point)] && one.distance > ofItsWay * one.speed * dt;
-    const Real offset = cameFromWithin ? one.distance : std::min(point.offset, one.distance);
-    offsets[std::size_t(one.point)] = offset;
-    const Real depth = one.distance - offset;
+    point.between = was.between || cameBetween;
+    point.distance = one.distance;
+    point.speed = one.speed;
+    // A way out that has become longer than the point can have come is another one: no energy comes
+    // of that.
+    if (was.inside)
+      point.offset = std::min(
+          was.offset + std::max(one.distance - was.distance - ofItsWay * one.speed * dt, 0.0),
+          one.distance);
+    else // or the point came from the inside of the body
+      point.offset = isWithinItsWay(one) ? std::min(was.offset, one.distance) : one.distance;
+    const Real depth = one.distance - point.offset;
     if (!(depth > 0))
       continue;
     ++touching_;
@@ -326,8 +457,6 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
       if (const int node = face->nodes[std::size_t(k)]; node < mesh.ownedNodes)
         push(node, -one.weights[std::size_t(k)]);
   }
-  for (std::size_t i = 0; i < points_.size(); ++i)
-    points_[i].offset = offsets[i];
 }
 
 void Debris::bookHalfStep(const NodalState& state, Real dt)
@@ -370,7 +499,8 @@ void Debris::save(StateTables& out) const
   for (const Real digit : ExactSum::totals(sums, *comm_)[0].digits())
     numbers.push_back(digit);
   for (const Point& point : points_)
-    numbers.insert(numbers.end(), {point.offset, point.mass});
+    numbers.insert(numbers.end(), {point.offset, point.mass, point.distance, point.speed,
+                                   Real(point.inside), Real(point.between)});
   out.numbers("debris/state", numbers);
 }
 
@@ -378,22 +508,30 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
                      const NodalState& state)
 {
   const std::vector<Real> numbers = in.numbers("debris/state");
-  if (numbers.size() != ExactSum::digitCount + 2 * points_.size())
+  if (numbers.size() != ExactSum::digitCount + numbersOfPoint * points_.size())
     failOnAllRanks(ExitCode::Checkpoint,
                    "{}: it has {} points of debris and should have {}. Restart with the program "
                    "that wrote it ({}).",
-                   in.name(), (std::int64_t(numbers.size()) - ExactSum::digitCount) / 2,
+                   in.name(),
+                   (std::int64_t(numbers.size()) - ExactSum::digitCount) /
+                       std::int64_t(numbersOfPoint),
                    points_.size(), in.program());
   if (comm_->isRoot())
     work_ = ExactSum::fromDigits(numbers.data());
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    points_[i].offset = numbers[ExactSum::digitCount + 2 * i];
-    points_[i].mass = numbers[ExactSum::digitCount + 2 * i + 1];
+    Point& point = points_[i];
+    const Real* const of = &numbers[ExactSum::digitCount + numbersOfPoint * i];
+    point.offset = of[0];
+    point.mass = of[1];
+    point.distance = of[2];
+    point.speed = of[3];
+    point.inside = of[4] != 0;
+    point.between = of[5] != 0;
   }
-  // Where they begin is known.
+  // The forces where they are, which nothing has moved.
   if (!points_.empty())
-    findForces(mesh, elements, state, infinity);
+    findForces(mesh, elements, state, 0);
 }
 
 void Debris::addTo(StateHash& hash, std::uint64_t field) const

@@ -11,6 +11,7 @@
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <array>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,9 +19,10 @@ namespace coplane
 {
 /// Nodes that have lost all their elements go on as mass points that faces stop. A point in a
 /// living element that has an exterior face stores k d^2/2, with its distance d from the nearest
-/// point of the exterior faces of that body; d counts from what it was when the point was freed in
-/// there, or came in there from the inside of the body, as long as it has not come out. Force and
-/// counterforce are minus the gradient of that, on one line, so both momenta stay.
+/// point of the exterior faces of that body on which no other body lies; d counts from what it was
+/// when the point was freed in there, or came in there from the inside of the body, as long as it
+/// has not come out. Force and counterforce are minus the gradient of that, on one line, so both
+/// momenta stay.
 ///
 /// Every rank has all points with the same bits: the owner of a node tells where it is, the owners
 /// of faces tell which is the nearest, and every rank adds to the nodes that it owns, point after
@@ -65,22 +67,50 @@ private:
     Real mass = 0;          ///< at the last renew(): mass scaling may have raised it since [kg]
     int node = -1;          ///< local number where it is owned
     Real offset = infinity; ///< distance from the surface at which its force begins [m]
-    bool inside = false;    ///< in an element with an exterior face, at the last evaluation
+    bool inside = false;    ///< came over the surface, or from within, and has not come out
+    bool between = false;   ///< came in over a face on which another body lies
+    Real distance = 0;      ///< from the surface, while inside [m]
+    Real speed = 0;         ///< against it [m/s]
+
+    /// In no element from which it can leave: it has come out, or is in a hair between bodies if it
+    /// was too deep for that.
+    /// @param way that it can have come [m]
+    void goOnWithoutFace(Real way)
+    {
+      if (inside && distance > way)
+        distance -= way;
+      else
+      {
+        offset = 0;
+        inside = between = false;
+      }
+    }
   };
   /// A point that lies in an element.
   struct Inside
   {
     int point = 0, body = 0;
   };
-  /// A face that may be the nearest one of a point.
-  struct Near
+  /// Out of its body for a point: to the nearest place of a face.
+  struct WayOut
   {
-    int point = 0, count = 0;
+    int point = 0, body = 0, count = 0;
     GlobalId face = 0;
     Real distance = 0, stiffness = 0; ///< [m], [N/m]
     Real speed = 0;                   ///< of the point against the face [m/s]
     Vec3 outward{};                   ///< from the point to the face, of length 1
-    std::array<Real, 4> weights{};    ///< shape functions of the face's nodes
+    std::array<Vec3, 5> beyond{};  ///< a little beyond the face, beside the place and all over [m]
+    std::array<Real, 4> weights{}; ///< shape functions of the face's nodes
+
+    bool operator<(const WayOut& other) const
+    {
+      return std::tie(point, distance, face) < std::tie(other.point, other.distance, other.face);
+    }
+  };
+  struct WaysOut
+  {
+    WayOut nearest, open;
+    bool isOpen = false; ///< whether there is an open one
   };
   using NodeForces = std::vector<std::pair<int, Vec3>>;
 
@@ -88,9 +118,14 @@ private:
   std::vector<Vec3> ofPoints(const NodeVectors& field) const;
   std::vector<Inside> findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
                                  const NodalState& state) const;
-  std::vector<Near> findNearest(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
-                                const RankMesh& mesh, const ElementForces& elements,
-                                const NodalState& state) const;
+  std::vector<WayOut> facesBeside(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
+                                  const RankMesh& mesh, const ElementForces& elements,
+                                  const NodalState& state) const;
+  std::vector<char> areCovered(const std::vector<WayOut>& ways, const RankMesh& mesh,
+                               const NodalState& state) const;
+  std::vector<WaysOut> findWaysOut(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
+                                   const RankMesh& mesh, const ElementForces& elements,
+                                   const NodalState& state) const;
   /// @param dt in which points came to where they are [s]
   void findForces(const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
                   Real dt);

@@ -57,9 +57,9 @@ ElementForces::Gather ElementForces::gatherOf(const RankMesh::Block& part, int o
           }};
 }
 
-void ElementForces::initialise(std::size_t block, const ConstNodeVectors& x)
+void ElementForces::initialise(std::size_t block, const ConstNodeVectors& x, Real time)
 {
-  blocks_[block].initialise(x);
+  blocks_[block].initialise(x, time);
   const NodeVectors atRest("coplane::dynamics::atRest", x.extent(0));
   blocks_[block].update(x, atRest, 0, {});
 }

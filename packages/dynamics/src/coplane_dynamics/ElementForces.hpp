@@ -33,7 +33,8 @@ public:
   /// scaling has added [kg].
   void sumMasses(NodalState& state) const;
   /// A block as new, free of stress and force, with the nodes at x [m] and its stable steps there.
-  void initialise(std::size_t block, const ConstNodeVectors& x);
+  /// @param time when it comes [s]
+  void initialise(std::size_t block, const ConstNodeVectors& x, Real time);
 
   const std::vector<ElementBlock>& blocks() const { return blocks_; }
   ElementBlock& block(std::size_t b) { return blocks_[b]; }

@@ -2,6 +2,7 @@
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/detail/RigidInertia.hpp>
 #include <coplane_mesh/Bodies.hpp>
+#include <coplane_mesh/IntegrateSolid.hpp>
 
 #include <algorithm>
 
@@ -29,59 +30,6 @@ Mat3 inverseInertia(const Mat3& j, int dimension)
   r(2, 2) = 1 / j(2, 2);
   return r;
 }
-
-namespace
-{
-/// Calls f(point, volume) for points whose sum integrates second moments exactly.
-template <class F>
-void integrate(ElementType type, const Vec3* x, F&& f)
-{
-  constexpr Real point[3] = {-0.77459666924148337704, 0, 0.77459666924148337704};
-  constexpr Real weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
-  constexpr int xi[8] = {-1, 1, 1, -1, -1, 1, 1, -1}, eta[8] = {-1, -1, 1, 1, -1, -1, 1, 1},
-                zeta[8] = {-1, -1, -1, -1, 1, 1, 1, 1};
-  if (type == ElementType::Tri3)
-  {
-    // Midpoints of the sides: exact to the second degree.
-    const Real area = 0.5 * cross(x[1] - x[0], x[2] - x[0]).z;
-    for (int k = 0; k < 3; ++k)
-      f(0.5 * (x[k] + x[(k + 1) % 3]), area / 3);
-    return;
-  }
-  if (type == ElementType::Tet4)
-  {
-    // Four points, exact to the second degree (Keast 1986).
-    constexpr Real a = 0.58541019662496845446, b = 0.13819660112501051518;
-    const Real volume = dot(cross(x[1] - x[0], x[2] - x[0]), x[3] - x[0]) / 6;
-    const Vec3 sum = x[0] + x[1] + x[2] + x[3];
-    for (int k = 0; k < 4; ++k)
-      f((a - b) * x[k] + b * sum, volume / 4);
-    return;
-  }
-  const bool flat = type == ElementType::Quad4;
-  const int nodes = flat ? 4 : 8;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < (flat ? 1 : 3); ++k)
-      {
-        const Real p = point[i], q = point[j], r = flat ? -1 : point[k];
-        Vec3 at{}, g[3]{};
-        for (int n = 0; n < nodes; ++n)
-        {
-          const Real a = 0.5 * (1 + xi[n] * p), b = 0.5 * (1 + eta[n] * q),
-                     c = 0.5 * (1 + zeta[n] * r);
-          at += (a * b * c) * x[n];
-          g[0] += (0.5 * xi[n] * b * c) * x[n];
-          g[1] += (a * 0.5 * eta[n] * c) * x[n];
-          g[2] += (a * b * 0.5 * zeta[n]) * x[n];
-        }
-        if (flat)
-          f(at, weight[i] * weight[j] * cross(g[0], g[1]).z);
-        else
-          f(at, weight[i] * weight[j] * weight[k] * dot(cross(g[0], g[1]), g[2]));
-      }
-}
-} // namespace
 
 std::vector<int> rigidBodiesOf(const RankMesh& part, const std::vector<char>& rigidBlocks,
                                const Comm& comm)
@@ -165,7 +113,7 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
       for (int k = 0; k < corners; ++k)
         x[k] = at(state.x, nodes[k]) - bodies_[body].center;
       const Real rho = blocks[b].mass(e) / blocks[b].referenceVolume(e);
-      integrate(part.type, x, [&](const Vec3& r, Real volume) { add(body, rho * volume, r); });
+      integrateSolid(part.type, x, [&](const Vec3& r, Real volume) { add(body, rho * volume, r); });
     }
   }
   for (std::size_t b = 0; b < bodies; ++b)

@@ -191,7 +191,7 @@ void Solver::findElementForces()
 bool Solver::erode(Real dt)
 {
   const std::vector<int> leaving = std::exchange(leaving_, {});
-  const bool facesChange = comeIn(std::exchange(coming_, {}));
+  const bool facesChange = comeIn(std::exchange(coming_, {}), clock_.time + dt);
   const std::vector<GlobalId> dead =
       erosion_->erode(mesh(), elements_, state_.v, dt, leaving, *comm_);
   if (dead.empty() && !facesChange)
@@ -490,16 +490,17 @@ void Solver::judge(Observer& observer)
       throw;
     }
   if (contactCannotStop())
-    failAfter(observer,
-              computationFailed(fmt::format(
-                  "cycle {}, t = {:.6e} s: nodes move at up to {:.4g} m/s relative to each other, "
-                  "by {:.2g} of the thinnest element behind a face in a stable step, and faces lie "
-                  "deeper in bodies than contact.depth_max, or in each other before they were "
-                  "found: they are too fast for the waves that had to stop them, and contact "
-                  "cannot. Raise joints.<name>.stiffness_fraction, or use a material that stiffens "
-                  "under pressure. {}",
-                  clock_.cycle, clock_.time, searches_.relativeSpeed(),
-                  step_.motionInStableStep(searches_.relativeSpeed()), worstEntities())));
+    failAfter(
+        observer,
+        computationFailed(fmt::format(
+            "cycle {}, t = {:.6e} s: nodes move at up to {:.4g} m/s relative to each other, "
+            "by {:.2g} of the thinnest element behind a face in a stable step, and faces lie "
+            "deeper in bodies than contact.depth_max, or in each other before they were "
+            "found: they are too fast for the waves that had to stop them, and contact "
+            "cannot. Raise joints.<name>.stiffness_fraction, lower time.step_factor, or use a "
+            "material that stiffens under pressure. {}",
+            clock_.cycle, clock_.time, searches_.relativeSpeed(),
+            step_.motionInStableStep(searches_.relativeSpeed()), worstEntities())));
   const bool due = clock_.cycle % energyCheckEvery == 0 || isOver();
   if (!due && !contactMayHaveGained_)
     return;

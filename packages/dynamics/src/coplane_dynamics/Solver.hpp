@@ -198,7 +198,7 @@ private:
   bool goOn(Observer& observer, const NextStage& nextStage);
   void demandNoRigidNodes(const std::vector<int>& blocks) const;
   void demandThere(const std::vector<int>& blocks, bool there, int stage) const;
-  bool comeIn(const ComingBlocks& coming);
+  bool comeIn(const ComingBlocks& coming, Real time);
   void leaveAbsentBlocks();
   void takeMassAlong(const std::vector<int>& blocks);
   std::vector<GlobalId> facesThatGo() const;

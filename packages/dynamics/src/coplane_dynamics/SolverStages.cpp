@@ -157,7 +157,7 @@ void Solver::leaveAbsentBlocks()
 /// first with forces of theirs, and they have their say in its length. The mass that they bring to
 /// nodes that move has momentum and kinetic energy, which are booked as coming in with it at
 /// n + 1/2. Whether any did.
-bool Solver::comeIn(const ComingBlocks& coming)
+bool Solver::comeIn(const ComingBlocks& coming, Real time)
 {
   const std::vector<int>& blocks = coming.blocks;
   if (blocks.empty())
@@ -169,7 +169,7 @@ bool Solver::comeIn(const ComingBlocks& coming)
     places.assign(std::size_t(mesh().nodes()), {});
     for (const int node : nodesOfBlock(mesh().blocks[std::size_t(b)]))
       places[std::size_t(node)] = at(state_.x, node);
-    elements_.initialise(std::size_t(b), state_.x);
+    elements_.initialise(std::size_t(b), state_.x, time);
     forEachOwnedCorner(mesh(), b,
                        [&](int element, int corner, int node)
                        {
@@ -329,7 +329,7 @@ void Solver::restoreStage(const StateSource& in)
       places[std::size_t(nodes[k])] = {row[0], row[1], row[2]};
       set(x, nodes[k], {row[0], row[1], row[2]});
     }
-    elements_.initialise(std::size_t(b), x);
+    elements_.initialise(std::size_t(b), x, 0); // the history is restored with its element
   }
   if (!displacementsZeroed_)
     return;

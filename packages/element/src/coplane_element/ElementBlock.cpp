@@ -226,8 +226,9 @@ ElementBlock::ElementBlock(ElementType type, const Material& law, const Hourglas
       arrays_.connectivity(e, c) = connectivity[std::size_t(std::min(e, count_ - 1)) * nodes + c];
 }
 
-void ElementBlock::initialise(const ConstNodeVectors& x)
+void ElementBlock::initialise(const ConstNodeVectors& x, Real time)
 {
+  came_ = time;
   const bool flat = topology(type_).dimension == 2;
   const int nodes = topology(type_).nodes;
   centres_.assign(arrays_.mass.extent(0), {});
@@ -294,7 +295,7 @@ void ElementBlock::setInitialStress(int element, const SymTensor& s)
   const Real values[6] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.zx};
   for (int k = 0; k < 6; ++k)
     arrays_.stress(k, element) = values[k];
-  const auto start = initialHistory(law_, s, centres_[std::size_t(element)]);
+  const auto start = initialHistory(law_, s, centres_[std::size_t(element)], came_);
   const int rows = int(arrays_.history.extent(0));
   for (int k = 0; k < rows; ++k)
     arrays_.history(k, element) = start[std::size_t(k)];

@@ -36,7 +36,8 @@ public:
                const ElementOptions& options = {});
 
   /// Takes reference volumes and masses from the nodes' first positions [m] and clears the history.
-  void initialise(const ConstNodeVectors& x);
+  /// @param time when the elements come: 0, or when a stage adds them [s]
+  void initialise(const ConstNodeVectors& x, Real time = 0);
 
   /// Gives every element the same stress (tension positive) [Pa]. Call after initialise().
   void setInitialStress(const SymTensor& stress);
@@ -183,7 +184,8 @@ private:
   std::vector<std::string> historyNames_;
   ElementArrays arrays_;
   Values alive_;              // 1 alive, 0 eroded, -1 taken out
-  std::vector<Vec3> centres_; // of the elements at the start, means of their nodes [m]
+  std::vector<Vec3> centres_; // of the elements when they came, means of their nodes [m]
+  Real came_ = 0;             // when that was [s]
   std::vector<Eroded> eroded_;
 };
 } // namespace coplane

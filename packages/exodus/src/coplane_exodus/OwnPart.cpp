@@ -7,7 +7,7 @@ namespace coplane
 {
 namespace
 {
-struct Node
+struct PartNode
 {
   GlobalId id;
   Vec3 x;
@@ -105,12 +105,12 @@ OwnPart ownPartOf(const MeshSlice& slice, const Comm& comm)
   const auto partNode = [&](int node)
   { return int(std::lower_bound(positions.begin(), positions.end(), node) - positions.begin()); };
   Mesh& mesh = part.mesh;
-  std::vector<Node> here;
+  std::vector<PartNode> here;
   for (int i = 0; i < slice.mine.nodes(); ++i)
     here.push_back({slice.mine.nodeIds[i], slice.mine.coordinates[i]});
   mesh.nodeIds.clear();
   mesh.coordinates.clear();
-  for (const Node& node : part.nodes.values(here))
+  for (const PartNode& node : part.nodes.values(here))
   {
     mesh.nodeIds.push_back(node.id);
     mesh.coordinates.push_back(node.x);

@@ -16,7 +16,7 @@ BandisEstimate estimateOf(const BartonBandisParameters& p)
   return bandisEstimate(p.roughness, p.wallStrength, p.rockStrength.value_or(p.wallStrength));
 }
 
-void check(const BartonBandisParameters& p, const CardPlace& card)
+void checkBartonBandis(const BartonBandisParameters& p, const CardPlace& card)
 {
   checkCap(p.stiffnessCap, "initial_stiffness", p.initialStiffness, card);
   if (!estimated(p) || p.roughness <= 0 || p.wallStrength <= 0)
@@ -122,6 +122,6 @@ JointModel BartonBandisParameters::model()
               .means("slip at which the roughness is mobilised; about a hundredth of a block's "
                      "length"),
       })
-      .demands(check);
+      .demands(checkBartonBandis);
 }
 } // namespace coplane

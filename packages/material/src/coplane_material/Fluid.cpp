@@ -31,7 +31,7 @@ Fluid makeLaw(const FluidParameters& p)
 
 namespace
 {
-void check(const FluidParameters& p, const CardPlace& card)
+void checkFluid(const FluidParameters& p, const CardPlace& card)
 {
   const DeckNode* const given = card.node.find("eos");
   if (p.eos == EquationOfState::Kind::None && given && given->text != "none")
@@ -50,7 +50,7 @@ MaterialModel FluidParameters::model()
   return MaterialModelOf<P>("fluid", "an equation of state without strength")
       .has({schema::density<P>()})
       .has(schema::equationOfStateKeys<P>())
-      .demands(check);
+      .demands(checkFluid);
 }
 
 MaterialModel IdealGasParameters::model()

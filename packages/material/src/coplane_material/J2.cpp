@@ -76,7 +76,7 @@ Material makeLaw(const J2Parameters& p)
 
 namespace
 {
-void check(const J2Parameters& p, const CardPlace& card)
+void checkJ2(const J2Parameters& p, const CardPlace& card)
 {
   const bool table = card.gives("yield_stresses") || card.gives("plastic_strains");
   if (table == card.gives("yield_stress"))
@@ -131,7 +131,7 @@ MaterialModel J2Parameters::model()
               .means("uniaxial back stress over plastic strain (Prager)"),
       })
       .has(equationOfStateKeys<P>())
-      .demands(check)
+      .demands(checkJ2)
       .comesAs(R"(
 steel_generic: {model: j2, density: 7850, youngs_modulus: 200e9, poisson_ratio: 0.3,
                 yield_stress: 1e9, hardening_modulus: 1e9}

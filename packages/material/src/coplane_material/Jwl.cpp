@@ -8,11 +8,14 @@
 
 namespace coplane
 {
-Real Jwl::burnTime(const Vec3& place) const
+Real Jwl::timeToBurn(const Vec3& place, Real time) const
 {
   Real earliest = points > 0 ? infinity : 0;
   for (int i = 0; i < points; ++i)
-    earliest = std::min(earliest, norm(place - point[i]) / speed + delay[i]);
+  {
+    const Real wait = time > 0 ? std::max(delay[i] - time, 0.0) : delay[i];
+    earliest = std::min(earliest, norm(place - point[i]) / speed + wait);
+  }
   return earliest;
 }
 

@@ -53,11 +53,16 @@ struct Jwl
   {
     history[Offset] = -meanOf(stress);
   }
-  /// @param place centre of the element at the start [m]
-  void startAt(const Vec3& place, Real* history) const { history[TimeToBurn] = burnTime(place); }
+  /// @param place centre of the element when it comes [m]; time: of that [s]
+  void startAt(const Vec3& place, Real time, Real* history) const
+  {
+    history[TimeToBurn] = timeToBurn(place, time);
+  }
 
-  /// When the front that is first reaches a place: distance / D + delay, least of all points [s].
-  Real burnTime(const Vec3& place) const;
+  /// How long it takes from a time on until the front that is first reaches a place: distance / D
+  /// after its point is lit, least of all points. A charge that comes later than that is lit when
+  /// it comes [s].
+  Real timeToBurn(const Vec3& place, Real time = 0) const;
 
   /// p_g = a + b E.
   template <class T>

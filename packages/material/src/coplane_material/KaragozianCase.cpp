@@ -86,7 +86,7 @@ SofteningLimit largestElement(const KaragozianCaseParameters& given)
       "fracture_energy", "tensile_strength"};
 }
 
-void check(const KaragozianCaseParameters& p, const CardPlace& card)
+void checkKaragozianCase(const KaragozianCaseParameters& p, const CardPlace& card)
 {
   if (card.gives("largest_rate") && !p.rateEffects)
     card.problem("largest_rate",
@@ -200,7 +200,7 @@ MaterialModel KaragozianCaseParameters::model()
               .like("100")
               .means("strain rate from which rate_effects grow no more; tests go to about 300"),
       })
-      .demands(check)
+      .demands(checkKaragozianCase)
       .softensUpTo(largestElement)
       .comesAs(R"(
 concrete_kcc_45: {model: kcc, density: 2300, compressive_strength: 45.4e6}

@@ -50,18 +50,18 @@ std::vector<std::string> historyNames(const Material& material)
 }
 
 std::array<Real, maximumHistory> initialHistory(const Material& material, const SymTensor& stress,
-                                                const Vec3& place)
+                                                const Vec3& place, Real time)
 {
   std::array<Real, maximumHistory> history{};
   if (const auto* damped = std::get_if<MaxwellDamped>(&material))
-    return initialHistory(damped->held->law, stress, place); // no overstress yet
+    return initialHistory(damped->held->law, stress, place, time); // no overstress yet
   std::visit(
       [&](const auto& law)
       {
         if constexpr (startsFrom<std::decay_t<decltype(law)>>)
           law.startFrom(stress, history.data());
         if constexpr (startsAt<std::decay_t<decltype(law)>>)
-          law.startAt(place, history.data());
+          law.startAt(place, time, history.data());
       },
       material);
   return history;

@@ -52,10 +52,11 @@ Material withMaxwell(const Material& law, const MaxwellElements& elements, bool 
 /// Names of the law's history variables, in their order.
 std::vector<std::string> historyNames(const Material& material);
 
-/// The law's history at the start of a run, under the initial stress [Pa].
-/// @param place centre of the element [m]
-std::array<Real, maximumHistory>
-initialHistory(const Material& material, const SymTensor& stress = {}, const Vec3& place = {});
+/// The law's history of an element that comes, under the initial stress [Pa].
+/// @param place centre of the element [m]; time: 0, or when a stage adds it [s]
+std::array<Real, maximumHistory> initialHistory(const Material& material,
+                                                const SymTensor& stress = {},
+                                                const Vec3& place = {}, Real time = 0);
 
 /// The function refers to the material, which has to stay where it is.
 LawFunction lawFunction(const Material& material);

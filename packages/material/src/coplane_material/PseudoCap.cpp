@@ -84,7 +84,7 @@ void PseudoCap::startFrom(const SymTensor& stress, Real* history) const
 
 namespace
 {
-void check(const PseudoCapParameters& p, const CardPlace& card)
+void checkPseudoCap(const PseudoCapParameters& p, const CardPlace& card)
 {
   if (card.gives("largest_rate") && !p.rateEffects)
     card.problem("largest_rate",
@@ -176,7 +176,7 @@ MaterialModel PseudoCapParameters::model()
               .like("100")
               .means("strain rate from which rate_effects grow no more; tests go to about 300"),
       })
-      .demands(check)
+      .demands(checkPseudoCap)
       .softensUpTo(elementThatCracks)
       .comesAs(R"(
 concrete_c40: {model: pseudo_cap, density: 2300, youngs_modulus: 33e9, poisson_ratio: 0.2,

@@ -2,6 +2,7 @@
 #include <coplane_core/Text.hpp>
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Solver.hpp>
+#include <coplane_mesh/IntegrateSolid.hpp>
 #include <coplane_output/Fragments.hpp>
 
 #include <algorithm>
@@ -281,6 +282,45 @@ struct NodesNow
   }
 };
 
+Mat3 inertiaOf(const Real* s)
+{
+  const Real trace = s[0] + s[1] + s[2];
+  return {
+      {{trace - s[0], -s[3], -s[5]}, {-s[3], trace - s[1], -s[4]}, {-s[5], -s[4], trace - s[2]}}};
+}
+
+/// Angular velocity with which the moments turn; none where they are those of a line or a point.
+Vec3 spinOf(const Real* s, const Vec3& angular, bool flat)
+{
+  const Real trace = s[0] + s[1] + s[2];
+  if (flat)
+    return {0, 0, trace > 0 ? angular.z / trace : 0}; // in the plane of the mesh
+  const Mat3 inertia = inertiaOf(s);
+  const Vec3 first{inertia(0, 0), inertia(1, 0), inertia(2, 0)};
+  const Vec3 second{inertia(0, 1), inertia(1, 1), inertia(2, 1)};
+  const Vec3 third{inertia(0, 2), inertia(1, 2), inertia(2, 2)};
+  const Real determinant = dot(first, cross(second, third));
+  if (!(determinant > 1e-12 * trace * trace * trace))
+    return {};
+  return inverse(inertia) * angular;
+}
+
+/// A rigid body turns with the moments of the solid, not with those of masses at its nodes.
+void takeSolid(const RankMesh::Block& part, const ElementBlock& block, const NodesNow& motion,
+               int e, Share& share)
+{
+  const ElementTopology& shape = topology(part.type);
+  const Vec3 spin = spinOf(share.second, share.angular, shape.dimension == 2);
+  Vec3 x[8];
+  for (int k = 0; k < shape.nodes; ++k)
+    x[k] = at(motion.x, part.connectivity[std::size_t(e * shape.nodes + k)]) - share.center;
+  std::fill_n(share.second, 6, 0.0);
+  const Real density = share.mass / block.referenceVolume(e);
+  integrateSolid(part.type, x,
+                 [&](const Vec3& r, Real volume) { addSecond(share.second, density * volume, r); });
+  share.angular = inertiaOf(share.second) * spin;
+}
+
 Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e)
 {
   const RankMesh::Block& part = solver.mesh().blocks[b];
@@ -307,24 +347,9 @@ Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e
     share.angular += cross(r, p);
     addSecond(share.second, m, r);
   }
+  if (solver.model().blocks[b].rigid)
+    takeSolid(part, block, motion, e, share);
   return share;
-}
-
-/// Angular velocity with which the moments turn; none where they are those of a line or a point.
-Vec3 spinOf(const Real* s, const Vec3& angular, bool flat)
-{
-  const Real trace = s[0] + s[1] + s[2];
-  if (flat)
-    return {0, 0, trace > 0 ? angular.z / trace : 0}; // in the plane of the mesh
-  const Mat3 inertia{
-      {{trace - s[0], -s[3], -s[5]}, {-s[3], trace - s[1], -s[4]}, {-s[5], -s[4], trace - s[2]}}};
-  const Vec3 first{inertia(0, 0), inertia(1, 0), inertia(2, 0)};
-  const Vec3 second{inertia(0, 1), inertia(1, 1), inertia(2, 1)};
-  const Vec3 third{inertia(0, 2), inertia(1, 2), inertia(2, 2)};
-  const Real determinant = dot(first, cross(second, third));
-  if (!(determinant > 1e-12 * trace * trace * trace))
-    return {};
-  return inverse(inertia) * angular;
 }
 
 /// Sums over elements of a body, about a point; exact, so in any order.
@@ -404,7 +429,7 @@ Fragment fragmentOf(GlobalId id, const Vec3& reference, const Sums& sums, bool f
   return f;
 }
 
-/// An element of this rank.
+/// An element of this rank that is in the model.
 struct Place
 {
   GlobalId body, element;
@@ -423,7 +448,7 @@ std::vector<Place> placesOf(const Solver& solver, const ConnectedBodies& bodies)
   {
     const RankMesh::Block& part = solver.mesh().blocks[b];
     for (int e = 0; e < part.elements(); ++e)
-      if (part.owned[e])
+      if (part.owned[e] && !solver.blocks()[b].isTakenOut(e))
         places.push_back({bodies.ofElement[b][e], part.elementIds[e], b, e});
   }
   std::sort(places.begin(), places.end());

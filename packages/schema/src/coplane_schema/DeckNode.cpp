@@ -161,7 +161,7 @@ struct Found
 };
 
 /// The value at a path "a.b.0.c", new if it is not there.
-/// @param listsGrow the item after the last one of a list is new, too
+/// @param listsGrow the item after the last one of a list is new, too, and a list by its first item
 Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place, Problems& problems,
                  bool listsGrow = false)
 {
@@ -171,6 +171,12 @@ Found nodeOfPath(DeckNode& root, const std::string& path, const DeckNode& place,
   {
     word = rest.substr(0, rest.find('.'));
     parent = node;
+    if (listsGrow && node->kind == DeckNode::Kind::Nothing && word == "0")
+    {
+      node->kind = DeckNode::Kind::List;
+      node->where = place.where;
+      node->order = place.order;
+    }
     if (node->kind == DeckNode::Kind::List)
     {
       const auto index = listIndex(word);

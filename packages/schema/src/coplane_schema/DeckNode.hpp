@@ -93,7 +93,8 @@ void applyOverride(DeckNode& root, const std::string& assignment, int number, Pr
 
 /// The same with a value at hand, by a key "a.b.0.c" that stands somewhere in a file; a value that
 /// is nothing takes the key out, or leaves nothing in place of an item of a list, so that the
-/// others keep their numbers. The item after the last one is new.
+/// others keep their numbers. The item after the last one is new, also that of a list which is not
+/// there yet.
 void applyChange(DeckNode& root, const DeckNode& path, const DeckNode& value, Problems& problems);
 
 /// The tree as YAML text; reading it again gives the same tree.
