@@ -56,6 +56,14 @@ struct ContactMoments
   Vec2Of<T> areaMoment;   ///< of p [m^3]
   Vec2Of<T> volumeMoment; ///< of c p [m^4]
 
+  KOKKOS_FORCEINLINE_FUNCTION void add(const ContactMoments& part)
+  {
+    area += part.area;
+    volume += part.volume;
+    squares += part.squares;
+    areaMoment = areaMoment + part.areaMoment;
+    volumeMoment = volumeMoment + part.volumeMoment;
+  }
   /// The triangle between an apex and a side, with the closures of the three.
   KOKKOS_FORCEINLINE_FUNCTION void add(const Vec2Of<T>& apex, const Vec2Of<T>& from,
                                        const Vec2Of<T>& to, const T& c0, const T& ca, const T& cb)

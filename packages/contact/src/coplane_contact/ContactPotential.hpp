@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_contact/AffineFrame.hpp>
 #include <coplane_contact/AreaOfContact.hpp>
 #include <coplane_contact/ContactEnergy.hpp>
 #include <coplane_contact/FacePairSteps.hpp>
@@ -35,7 +36,7 @@ class PairPotential
 {
 public:
   using Mask = branchFree::MaskOf<T>;
-  static constexpr int maxPieces = branchFree::widthOf<T> == 1 ? 4 : 1;
+  static constexpr int maxPieces = branchFree::widthOf<T> == 1 ? 8 : 1;
 
   /// Faces at the time of the forces. `regular` tells the lanes where a shadow is not convex, which
   /// only T = Real can do.
@@ -84,11 +85,16 @@ public:
     size_ = least;
     edges_ = edges;
     findOverlap();
+    if constexpr (widthOf<T> == 1)
+      if (uneven_)
+        splitWhereCrushed();
     pressAll(whole);
     if constexpr (Dim == 3 && widthOf<T> == 1)
       if (!regular)
       {
         findPieces(whole);
+        if (uneven_)
+          splitWhereCrushed();
         pressAll(whole);
       }
     findStrip(whole);
@@ -200,6 +206,9 @@ public:
       for (int f = 0; f < 2; ++f)
         if (folded_[f].slope != 0)
           addFolded(f, rim);
+    if constexpr (widthOf<T> == 1)
+      if (uneven_)
+        addCrushing(density, rim);
 
     // Through the normal of the plane: turning it at fixed nodes is turning all nodes and normals
     // back.
@@ -288,6 +297,30 @@ public:
     return atPoint_ - (2.0 / kappa_) * dot(tilt_, p);
   }
 
+  // Joints that are crushed unevenly (ContactPotentialCrushing.hpp), T = Real only. The closure
+  // counts from where the joint is crushed to, max(0, L) with L linear over face 0, which carries
+  // it along.
+  /// Before meet(), whose offset then is that of the joint as it was made.
+  KOKKOS_INLINE_FUNCTION void beCrushed(const UnevenCrushing& crushing)
+  {
+    uneven_ = true;
+    frame_ = AffineFrame(shadow[0]);
+    crushed_ = frame_.onPlane(crushing);
+  }
+  KOKKOS_INLINE_FUNCTION void notCrushed() { uneven_ = false; }
+  /// How a joint is crushed that the closures of now crush further, after meet(). What each point
+  /// would be crushed to by itself, fitted by a linear function of the closure, or, where the joint
+  /// is crushed more than that in places, a chord of both that nowhere in contact is less.
+  /// @param law, stiffness of the joint [Pa/m]
+  /// @param even crushing, off the offset, of a joint that has not been crushed unevenly yet [m]
+  /// @returns whether it is crushed further
+  KOKKOS_INLINE_FUNCTION bool crushFurther(const Crushing& law, Real stiffness, Real even,
+                                           UnevenCrushing& to) const;
+  /// Of a joint that is crushed unevenly: mean of the crushing over the part in contact [m].
+  KOKKOS_INLINE_FUNCTION Real meanCrushing() const;
+  /// The most of it over the overlap [m].
+  KOKKOS_INLINE_FUNCTION Real mostCrushing() const;
+
   /// Least closure over the part in contact, which is the whole overlap of a bond; infinity without
   /// any [m].
   KOKKOS_INLINE_FUNCTION T leastClosure() const;
@@ -306,6 +339,15 @@ public:
 
 private:
   using Owned = detail::OwnedSides<T>;
+
+  /// The closure that counts in a piece: beyond what the joint is crushed to.
+  KOKKOS_FORCEINLINE_FUNCTION T closureIn(const Owned& q, const Vec2Of<T>& p) const
+  {
+    if constexpr (branchFree::widthOf<T> == 1)
+      if (q.crushed)
+        return closureAt(p) - crushed_.at(p);
+    return closureAt(p);
+  }
 
   KOKKOS_FORCEINLINE_FUNCTION Vec2Of<T> inPlane(const Vec3Of<T>& a) const
   {
@@ -360,6 +402,23 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const;
   /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
   KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole);
+
+  // Joints that are crushed unevenly (ContactPotentialCrushing.hpp).
+  /// Pieces that are crushed all over or nowhere, from what they are.
+  KOKKOS_INLINE_FUNCTION void splitWhereCrushed();
+  /// Adds the gradient by the crushing, which face 0 carries along.
+  KOKKOS_INLINE_FUNCTION void addCrushing(const EnergyDensity<T>& density, Vec2 (&rim)[2][4]) const;
+  /// The same of what hangs on the closure of crushed places by its sum over them: `push`, and
+  /// `first`, that times the place.
+  KOKKOS_INLINE_FUNCTION void carryCrushing(Real push, const Vec2& first, Vec2 (&rim)[2][4]) const;
+  /// Calls f(place) for the corners of a polygon.
+  template <class F>
+  KOKKOS_INLINE_FUNCTION void forEachCorner(const Owned& q, const F& f) const;
+  /// Calls f(closure, area) for places in a polygon that stand for all of it where `from` is
+  /// exceeded: by Gauss' rule between corners, along the slope of the closure.
+  template <class F>
+  KOKKOS_INLINE_FUNCTION void forEachSlice(const Owned& q, const LinearOnPlane& closure, Real from,
+                                           const F& f) const;
 
   // The gradient along the border of the part in contact (ContactPotentialRims.hpp).
   /// The gradient of the area in contact times the density there, side by side. A side belongs to
@@ -468,11 +527,17 @@ private:
   std::conditional_t<canFold, Folded, Nothing> folded_[2];
   /// Before what is not closed is cut off.
   std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
+  bool uneven_ = false; ///< crushed unevenly
+  std::conditional_t<branchFree::widthOf<T> == 1, AffineFrame, Nothing> frame_; ///< of face 0
+  std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
+  /// Of what is crushed of the part in contact.
+  std::conditional_t<branchFree::widthOf<T> == 1, ContactMoments<T>, Nothing> ofCrushed_;
   Mask strip_{false};
   T alongStrip_{}; ///< what the energy changes with the logarithm of the closure along its borders
                    ///< [J]
 };
 } // namespace coplane
 
+#include <coplane_contact/ContactPotentialCrushing.hpp>
 #include <coplane_contact/ContactPotentialRegion.hpp>
 #include <coplane_contact/ContactPotentialRims.hpp>

@@ -17,6 +17,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
     // A segment as a polygon without width: two "sides" that are its ends.
     pieces_ = 1;
     Owned& q = piece_[0];
+    q.crushed = false;
     q.sides.size = 2;
     T low[2], high[2];
     for (int f = 0; f < 2; ++f)
@@ -41,6 +42,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
     const detail::Outline<T> a(shadow[0], false), b(shadow[1], true);
     regular = isConvex(a.p, a.count) && isConvex(b.p, b.count);
     Owned& q = piece_[0];
+    q.crushed = false;
     q.sides.size = a.count;
     for (int i = 0; i < a.count; ++i)
     {
@@ -210,6 +212,8 @@ template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::pressAll(const Mask& whole)
 {
   moments = {};
+  if constexpr (branchFree::widthOf<T> == 1)
+    ofCrushed_ = {};
   ways[0] = ways[1] = T(0.0);
   for (int f = 0; f < 2; ++f)
     coveredSides_[f] = openSides_[f] = T(0.0);
@@ -241,9 +245,12 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& 
                                                                          const Mask& whole)
 {
   T &from = q.sides.from[0].x, &to = q.sides.from[1].x;
-  const T c0 = closureAt({from, 0}), c1 = closureAt({to, 0});
+  const T c0 = closureIn(q, {from, 0}), c1 = closureIn(q, {to, 0});
   if (!whole && !(c0 > 0 || c1 > 0))
+  {
+    q.sides.size = 0;
     return;
+  }
   const T cut = from + (to - from) * c0 / (c0 - c1);
   if (!whole && c0 < 0)
   {
@@ -255,18 +262,26 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& 
     to = cut;
     q.owner[1] = Owned::closureLine;
   }
-  const T u = closureAt({from, 0}), v = closureAt({to, 0}), width = to - from;
+  const T u = closureIn(q, {from, 0}), v = closureIn(q, {to, 0}), width = to - from;
   if (!(width > 0))
+  {
+    q.sides.size = 0;
     return;
-  moments.area = width;
-  moments.volume = 0.5 * width * (u + v);
-  moments.squares = width / 3.0 * (u * u + u * v + v * v);
-  moments.areaMoment.x = 0.5 * width * (from + to);
-  moments.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
+  }
+  ContactMoments<T> sum;
+  sum.area = width;
+  sum.volume = 0.5 * width * (u + v);
+  sum.squares = width / 3.0 * (u * u + u * v + v * v);
+  sum.areaMoment.x = 0.5 * width * (from + to);
+  sum.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
+  moments.add(sum);
+  if constexpr (branchFree::widthOf<T> == 1)
+    if (q.crushed)
+      ofCrushed_.add(sum);
   for (int k = 0; k < 2; ++k)
     if (const int owner = q.owner[k]; owner >= 0)
     {
-      ways[owner / 4] += edges_.exits[owner] * closureAt(q.sides.from[k]);
+      ways[owner / 4] += edges_.exits[owner] * closureIn(q, q.sides.from[k]);
       addSide(owner, true);
     }
 }
@@ -278,8 +293,8 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::cutPolygon(Owned& q, con
   T from[PolygonSides<T>::capacity], to[PolygonSides<T>::capacity];
   for (int k = 0; k < q.sides.size; ++k)
   {
-    from[k] = choose(whole, T(1.0), closureAt(q.sides.from[k]));
-    to[k] = choose(whole, T(1.0), closureAt(q.sides.to[k]));
+    from[k] = choose(whole, T(1.0), closureIn(q, q.sides.from[k]));
+    to[k] = choose(whole, T(1.0), closureIn(q, q.sides.to[k]));
   }
   if constexpr (widthOf<T> == 1)
   {
@@ -306,20 +321,20 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
   Vec2Of<T> apex;
   for (int k = 0; k < q.sides.size; ++k)
     apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
-  const T atApex = closureAt(apex);
+  const T atApex = closureIn(q, apex);
   ContactMoments<T> sum;
   T border[2]{};
   for (int k = 0; k < q.sides.size; ++k)
   {
     const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
-    sum.add(apex, p, r, atApex, closureAt(p), closureAt(r));
+    sum.add(apex, p, r, atApex, closureIn(q, p), closureIn(q, r));
     if (q.owner[k] >= 0)
     {
       addSide(q.owner[k], q.sides.isThere(k));
       const T& exit = edges_.exits[q.owner[k]];
       if (anyOf(exit > 0.0))
         border[q.owner[k] / 4] +=
-            0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureAt(p) + closureAt(r));
+            0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureIn(q, p) + closureIn(q, r));
     }
   }
   const auto there = sum.area > 0.0 && plane.opposed && (whole || sum.volume > 0.0);
@@ -333,6 +348,9 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
       moments.volumeMoment + coplane::choose(there, sum.volumeMoment, Vec2Of<T>{none, none});
   for (int f = 0; f < 2; ++f)
     ways[f] += choose(there, border[f], none);
+  if constexpr (widthOf<T> == 1)
+    if (q.crushed && there)
+      ofCrushed_.add(sum);
 }
 
 template <int Dim, class T>

@@ -34,14 +34,18 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addRimOfEnd(const Owned&
   { return density.constant + c * (density.linear + c * density.square); };
   const int f = q.owner[end] / 4, node = q.owner[end] % 4;
   const T x = q.sides.from[end].x;
-  const T whole = (end == 0 ? -1.0 : 1.0) * at(closureAt({x, 0}));
+  const T whole = (end == 0 ? -1.0 : 1.0) * at(closureIn(q, {x, 0}));
+  T change = 2 / kappa_ * tilt_.x * size_;
+  if constexpr (widthOf<T> == 1)
+    if (q.crushed)
+      change += crushed_.slope.x * size_;
   T kept = 1;
   for (int other = 0; other < 2; ++other)
   {
     const T near = absolute(shadow[1 - f].p[other].x - x);
     const bool upper = shadow[1 - f].p[other].x > shadow[1 - f].p[1 - other].x;
-    const SharedRim<T> shared = shareRim(q.owner[end], 4 * (1 - f) + other, upper == (end == 1),
-                                         2 / kappa_ * tilt_.x * size_);
+    const SharedRim<T> shared =
+        shareRim(q.owner[end], 4 * (1 - f) + other, upper == (end == 1), change);
     if (!(near < shared.reach))
       continue;
     const T given = shared.part * (1 - apartness(near / shared.reach));
@@ -62,7 +66,7 @@ PairPotential<Dim, T>::addRimOfSide(const Owned& q, int k, const EnergyDensity<T
   const auto there = q.sides.isThere(k) && moments.area > 0.0;
   if (!anyOf(there))
     return;
-  const T u = closureAt(from), v = closureAt(to);
+  const T u = closureIn(q, from), v = closureIn(q, to);
   const T total = density.square / 3.0 * (u * u + u * v + v * v) + density.linear / 2.0 * (u + v) +
                   density.constant;
   const T second = density.square / 12.0 * (u * u + 2.0 * u * v + 3.0 * v * v) +
@@ -79,9 +83,11 @@ PairPotential<Dim, T>::addRimOfSide(const Owned& q, int k, const EnergyDensity<T
       continue;
     const T along = dot(edge, d);
     const T longer = larger(dot(edge, edge), dot(own, own));
-    const SharedRim<T> shared =
-        shareRim(q.owner[k], 4 * g + o, along > 0.0,
-                 2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer));
+    T change = 2.0 / kappa_ * cross(tilt_, d) * size_ / squareRoot(dot(d, d) * longer);
+    if constexpr (widthOf<T> == 1)
+      if (q.crushed)
+        change += cross(crushed_.slope, d) * size_ / squareRoot(dot(d, d) * longer);
+    const SharedRim<T> shared = shareRim(q.owner[k], 4 * g + o, along > 0.0, change);
     const auto close =
         near < shared.reach && along * along > 0.5 * dot(edge, edge) * dot(d, d) && there;
     if (!anyOf(close))
@@ -166,10 +172,14 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
                                                              Real& push, Vec2& first,
                                                              Vec2 (&rim)[2][4]) const
 {
-  const Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
+  Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
+  if (q.crushed)
+    falls = falls + crushed_.slope;
   const int owner = q.owner[k];
   if constexpr (Dim == 2)
   {
+    if (q.crushed)
+      carryCrushing(slope, slope * q.sides.from[k], rim);
     push += slope;
     first = first + slope * q.sides.from[k];
     rim[owner / 4][owner % 4].x -= slope * falls.x;
@@ -183,6 +193,8 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
   const Vec2 middle = 0.5 * (q.sides.from[k] + q.sides.to[k]);
   push += slope * length;
   first = first + (slope * length) * middle;
+  if (q.crushed)
+    carryCrushing(slope * length, (slope * length) * middle, rim);
   pushEdge(owner, middle, (-slope * length * dot(falls, n)) * n, rim);
   for (int end = 0; end < 2; ++end)
   {
@@ -197,9 +209,10 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
       nearest = dot(r, r);
       next = j;
     }
-    if (next < 0 || q.owner[next] == Owned::closureLine)
+    // Where a joint ceases to be crushed, the two sides cancel.
+    if (next < 0 || q.owner[next] == Owned::closureLine || q.owner[next] == Owned::crushedLine)
       continue;
-    const Real further = (end == 0 ? -slope : slope) * closureAt(p);
+    const Real further = (end == 0 ? -slope : slope) * closureIn(q, p);
     if (q.owner[next] == Owned::noEdge)
     {
       // A diagonal: it ends at a node of its own face, and cuts the other face for both pieces.

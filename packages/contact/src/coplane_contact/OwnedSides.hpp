@@ -7,11 +7,13 @@ namespace coplane
 namespace detail
 {
 /// A polygon whose sides know whose edge they are: 0..3 an edge of the outline of face 0, 4..7 of
-/// face 1, closureLine: where the closure is zero, noEdge: none of these.
+/// face 1, closureLine: where the closure is zero, crushedLine: where a joint ceases to be crushed,
+/// noEdge: none of these.
 template <class T>
 struct OwnedSides
 {
-  static constexpr int noEdge = -1, closureLine = -2;
+  static constexpr int noEdge = -1, closureLine = -2, crushedLine = -3;
+  bool crushed = false; ///< the closure there counts from where the joint is crushed to
   PolygonSides<T> sides;
   int owner[PolygonSides<T>::capacity];
 };

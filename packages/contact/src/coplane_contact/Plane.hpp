@@ -4,7 +4,9 @@
 #include <coplane_core/Vec3.hpp>
 #include <coplane_joint/JointLaw.hpp>
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace coplane
 {
@@ -102,6 +104,26 @@ enum class Lineage : std::uint8_t
   SlidesOn   ///< from neighbours of which one touches the same surface: the face beside
 };
 
+/// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the
+/// affine coordinates of that face (AffineFrame).
+struct UnevenCrushing
+{
+  Real atCenter = 0;      ///< [m]
+  Real along[2] = {0, 0}; ///< for each coordinate [m]
+
+  /// As a plane keeps it, which has room for a number of single precision: nowhere less.
+  KOKKOS_INLINE_FUNCTION UnevenCrushing asKept() const
+  {
+    float center = float(atCenter);
+    if (Real(center) < atCenter)
+      center = std::nextafter(center, infinityOfFloat);
+    return {center, {along[0], along[1]}};
+  }
+
+private:
+  static constexpr float infinityOfFloat = std::numeric_limits<float>::infinity();
+};
+
 /// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
 /// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
 /// to face 1; force and shear traction act on face 1. Millions of these are read and written in
@@ -128,7 +150,8 @@ struct alignas(64) Plane
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
   std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
-  JointFit fit;             ///< stiffnesses of the law for this pair
+  bool crushedUnevenly = false;
+  JointFit fit; ///< stiffnesses of the law for this pair
 
   Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
   Real area = 0;         ///< that carries traction [m^2]
@@ -146,10 +169,10 @@ struct alignas(64) Plane
 
   Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
   Real stored = 0;            ///< recoverable energy now [J]
-  // Of a closure curve, potential only: the maximum closure of the cycle before, and half of what
-  // the rise since then costs with the area of that cycle.
-  Real maximumBefore = 0;  ///< [m]
-  Real halfHysteresis = 0; ///< [J]
+  /// Of a closure curve, potential only: the maximum closure of the cycle before [m], and half of
+  /// what the rise since then costs with the area of that cycle [J]. Of a joint that is crushed
+  /// unevenly: how its crushing changes with the affine coordinates of face 0 [m].
+  Real closureMemory[2] = {0, 0};
 
   // Energies since the plane was made [J].
   Real work = 0; ///< done on the plane by the nodes
@@ -157,6 +180,21 @@ struct alignas(64) Plane
   Real hysteresisWork = 0;
   Real fractureWork = 0;
   Real dampingWork = 0;
+
+  KOKKOS_INLINE_FUNCTION Real& maximumBefore() { return closureMemory[0]; }
+  KOKKOS_INLINE_FUNCTION Real& halfHysteresis() { return closureMemory[1]; }
+  /// How it is crushed, if unevenly.
+  KOKKOS_INLINE_FUNCTION UnevenCrushing crushing() const
+  {
+    return {history.crushedAtCenter, {closureMemory[0], closureMemory[1]}};
+  }
+  KOKKOS_INLINE_FUNCTION void crush(const UnevenCrushing& crushing)
+  {
+    crushedUnevenly = true;
+    history.crushedAtCenter = float(crushing.atCenter);
+    for (int i = 0; i < 2; ++i)
+      closureMemory[i] = crushing.along[i];
+  }
 
   /// Steps E and F: whether it is a plane.
   KOKKOS_INLINE_FUNCTION bool isBorn() const { return state != PlaneState::Slot; }

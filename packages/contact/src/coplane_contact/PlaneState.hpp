@@ -174,9 +174,11 @@ inline constexpr auto planeMembers = std::make_tuple(
         "stored", "J", [](auto& p) -> auto& { return p.stored; })
         .writtenAs("stored"),
     planeMember(
-        "maximum_before", "m", [](auto& p) -> auto& { return p.maximumBefore; }),
+        "closure_memory", "m, J", [](auto& p) -> auto& { return p.closureMemory; }),
     planeMember(
-        "half_hysteresis", "J", [](auto& p) -> auto& { return p.halfHysteresis; }),
+        "crushed_unevenly", "-", [](auto& p) -> auto& { return p.crushedUnevenly; }),
+    planeMember(
+        "crushed_at_center", "m", [](auto& p) -> auto& { return p.history.crushedAtCenter; }),
     planeMember(
         "work", "J", [](auto& p) -> auto& { return p.work; })
         .writtenAs("work"),

@@ -108,6 +108,14 @@ struct Crushing
     return peak + length + (z > 0 ? z : 0);
   }
 
+  /// Closure from which on a joint is crushed that has never been [m].
+  KOKKOS_INLINE_FUNCTION Real onset(Real stiffness) const { return initial * strength / stiffness; }
+  /// Closure of first loading that crushes it so much [m].
+  KOKKOS_INLINE_FUNCTION Real closureOf(Real k, Real stiffness) const
+  {
+    return k + strengthAt(k) / stiffness;
+  }
+
   /// Slope of unloading [Pa/m].
   KOKKOS_INLINE_FUNCTION Real unloading(Real k, Real stiffness) const
   {

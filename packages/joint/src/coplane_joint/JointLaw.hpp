@@ -65,6 +65,13 @@ struct JointLaw
     return fit;
   }
 
+  /// Whether what is pressed harder at one end is crushed more there, as far as forces come from a
+  /// potential and no bond holds: a stiffness that is lost with the crushing would be uneven, too.
+  KOKKOS_INLINE_FUNCTION bool crushesUnevenly() const
+  {
+    return curve.crushing.acts() && !(curve.crushing.loss > 0);
+  }
+
   /// Whether a declared joint with this law starts bonded.
   KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
   /// Whether faces may come to act on each other that are farther apart than any were when the

@@ -4,6 +4,7 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/detail/BentBonds.hpp>
 #include <coplane_contact/detail/LostEnergies.hpp>
+#include <coplane_contact/detail/UnevenlyCrushed.hpp>
 
 // Steps B to H of a pair of faces whose forces come from one potential
 // (docs/theory/contact-potential.md). Faces are those of the end of the step.
@@ -131,7 +132,13 @@ private:
       const JointLaw& law = *planes_.law[i];
       slopes_[i] = plane.fit.normalStiffness;
       permanents_[i] = 0;
-      if (!law.curve.straight() && !plane.history.bonded)
+      crushes_[i] = law.crushesUnevenly() && !plane.history.bonded;
+      if (crushes_[i])
+      {
+        if (!plane.crushedUnevenly)
+          permanents_[i] = law.curve.crushing.crushedAt(plane.history.maximumClosure, slopes_[i]);
+      }
+      else if (!law.curve.straight() && !plane.history.bonded)
       {
         const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
         slopes_[i] = top.stiffness;
@@ -154,15 +161,44 @@ private:
     const auto& opposed = pair_.plane.opposed;
     const T permanent = all(permanents_);
     const T offset = planes_.each([](const Plane& p) { return p.offset; });
+    if constexpr (width == 1)
+      if (opposed && planes_.plane[0]->crushedUnevenly)
+        pair_.beCrushed(planes_.plane[0]->crushing());
     if (branchFree::anyOf(opposed))
       pair_.meet(offset - permanent, bonded_, edgesOf(planes_));
     done_ = pair_.regular || !opposed || Mask(width == 1);
+    if constexpr (width != 1)
+      leaveCrushed(opposed);
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
     deepest_ = pair_.mostClosure + permanent;
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
+  }
+
+  /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
+  KOKKOS_FORCEINLINE_FUNCTION void leaveCrushed(const Mask& opposed)
+  {
+    bool any = false;
+    for (const bool crushes : crushes_)
+      any = any || crushes;
+    if (!any)
+      return;
+    done_ = done_ && !(branchFree::gathered<T>(
+                           [&](int i) -> Real
+                           {
+                             if (!crushes_[i] || !branchFree::lane(opposed, i))
+                               return 0;
+                             return planes_.plane[i]->crushedUnevenly ||
+                                    branchFree::lane(pair_.mostClosure, i) + permanents_[i] >
+                                        mostWithoutCrushing(i);
+                           }) > 0.0);
+  }
+  /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
+  KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const
+  {
+    return planes_.law[i]->curve.crushing.closureOf(permanents_[i], slopes_[i]);
   }
 
   /// Steps E and F. @returns the lanes that carry
@@ -206,7 +242,8 @@ private:
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
     if (late_[i] && leastGaps_[i] < plane.offset)
       plane.offset = leastGaps_[i];
-    plane.maximumBefore = plane.history.maximumClosure;
+    if (!plane.crushedUnevenly)
+      plane.maximumBefore() = plane.history.maximumClosure;
     return !late_[i] && plane.sighting != Sighting::Woken;
   }
 
@@ -226,7 +263,11 @@ private:
                                                                                        : 0) *
                                plane.closure;
     // The surface of a joint that has closed for good lies as deep as that.
-    const Real explained = carriedBeside > permanents_[i] ? carriedBeside : permanents_[i];
+    Real permanent = permanents_[i];
+    if constexpr (width == 1)
+      if (plane.crushedUnevenly)
+        permanent = pair_.mostCrushing();
+    const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
     if (branchFree::lane(deepest_, i) - explained > start)
       plane.refusal = Refusal::Deep;
   }
@@ -235,6 +276,11 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void stepGH_update(const Mask& touching)
   {
     using branchFree::choose;
+    Real lostBefore = 0;
+    bool crushed = false;
+    if constexpr (width == 1)
+      if (touching && crushes_[0])
+        crushed = crush(lostBefore);
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
     const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
@@ -272,6 +318,9 @@ private:
     T normalForce = pair_.differentiate(energy, density);
     T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
     if constexpr (width == 1)
+      if (crushed)
+        planes_.plane[0]->hysteresisWork += 0.5 * (lostBefore - normalEnergy);
+    if constexpr (width == 1)
       if (bent_.partly && touching)
         addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
                       normalEnergy);
@@ -286,6 +335,53 @@ private:
         plane.pointOfContact = branchFree::lane(point, i);
         plane.stored = branchFree::lane(normalEnergy, i) + plane.shearEnergy();
       }
+  }
+
+  /// Crushes a joint as far as the closures of now do, before the force; T = Real.
+  /// @param lost gets twice what that costs, but for the energy that it has then [J]
+  /// @returns whether it does
+  KOKKOS_INLINE_FUNCTION bool crush(Real& lost)
+  {
+    Plane& plane = *planes_.plane[0];
+    const Crushing& law = planes_.law[0]->curve.crushing;
+    const Real even = permanents_[0], offset = plane.offset;
+    const bool was = plane.crushedUnevenly;
+    UnevenCrushing to;
+    bool further =
+        pair_.mostClosure + even > (was ? law.onset(slopes_[0]) : mostWithoutCrushing(0)) &&
+        pair_.crushFurther(law, slopes_[0], even, to);
+    if (further)
+    {
+      // By the trapezoid rule: half of it where the faces were before the step, if it carried then.
+      const UnevenlyCrushed<Dim> now(plane, options_, edgesOf(planes_), placeOf(a_, 0),
+                                     placeOf(b_, 0));
+      const UnevenlyCrushed<Dim> before(plane, options_, edgesOf(planes_), faceBefore<Dim>(a_, dt_),
+                                        faceBefore<Dim>(b_, dt_));
+      const auto old = [&](const UnevenlyCrushed<Dim>& at)
+      { return was ? at.energyOf(plane.crushing()) : at.energyOf(even); };
+      const bool carried = plane.area > 0;
+      pair_.beCrushed(to);
+      pair_.meet(offset, false, edgesOf(planes_));
+      further = pair_.moments.volume > 0;
+      if (further)
+      {
+        lost = old(now) + (carried ? old(before) - before.energyOf(to) : 0);
+        plane.crush(to);
+      }
+      else if (was)
+      {
+        pair_.beCrushed(plane.crushing());
+        pair_.meet(offset, false, edgesOf(planes_));
+      }
+      else
+      {
+        pair_.notCrushed();
+        pair_.meet(offset - even, false, edgesOf(planes_));
+      }
+    }
+    if (plane.crushedUnevenly)
+      permanents_[0] = pair_.meanCrushing();
+    return further;
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Relative stepG_motion() const
@@ -351,9 +447,15 @@ private:
     const Real opposedness = branchFree::lane(pair_.opposedness, i);
     JointState state = plane.history;
     // Where a way out is open sideways the area stands for what is left of the pressure.
-    const Real closed = wasBonded  ? plane.closure
-                        : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
-                                   : permanents_[i];
+    Real closed = wasBonded  ? plane.closure
+                  : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
+                             : permanents_[i];
+    if (plane.crushedUnevenly && crushes_[i])
+    {
+      // The law sees an even crushing, the mean over the part in contact.
+      state.maximumClosure = mostWithoutCrushing(i);
+      closed = closed < state.maximumClosure ? closed : state.maximumClosure;
+    }
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
     const bool bends = branchFree::lane(bends_, i);
     const JointResponse response =
@@ -362,8 +464,10 @@ private:
     if (wasBonded)
     {
       plane.hysteresisWork += area * response.hysteresisWork;
-      plane.maximumBefore = state.maximumClosure;
+      plane.maximumBefore() = state.maximumClosure;
     }
+    else if (crushes_[i])
+      keepCrushing(plane, i, area, response, state);
     else if (!law.curve.straight())
       loadCurve(plane, i, area, energyShare, response, state);
     plane.history = state;
@@ -384,6 +488,38 @@ private:
           settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
   }
 
+  /// What others learn of a joint that may be crushed unevenly: the closure of first loading that
+  /// crushes it as much as it is in the mean. What shear crushes is added everywhere.
+  KOKKOS_FORCEINLINE_FUNCTION void keepCrushing(Plane& plane, int i, Real area,
+                                                const JointResponse& response,
+                                                JointState& state) const
+  {
+    const Crushing& law = planes_.law[i]->curve.crushing;
+    Real reached = mostWithoutCrushing(i);
+    if (response.crushedByShear)
+    {
+      plane.hysteresisWork += area * response.hysteresisWork;
+      reached = state.maximumClosure;
+      if (plane.crushedUnevenly)
+      {
+        UnevenCrushing more = plane.crushing();
+        more.atCenter += law.crushedAt(reached, slopes_[i]) - permanents_[i];
+        plane.crush(more.asKept());
+        state.crushedAtCenter = plane.history.crushedAtCenter;
+      }
+    }
+    else if (!plane.crushedUnevenly)
+    {
+      // Short of what would crush it, whatever round-off does.
+      const Real closed = permanents_[i] + branchFree::lane(pair_.moments.squares, i) /
+                                               branchFree::lane(pair_.moments.volume, i);
+      reached *= 1 - 1e-9;
+      reached = closed < reached ? closed : reached;
+    }
+    state.maximumClosure =
+        plane.history.maximumClosure > reached ? plane.history.maximumClosure : reached;
+  }
+
   /// The maximum closure of the next cycle; what it costs is booked half with the area of this
   /// cycle and half with that of the next.
   KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
@@ -395,18 +531,18 @@ private:
                squares = branchFree::lane(pair_.moments.squares, i),
                rising = branchFree::lane(pair_.rising(), i);
     const Real before = plane.history.maximumClosure;
-    if (plane.maximumBefore < before)
+    if (plane.maximumBefore() < before)
       plane.hysteresisWork +=
-          plane.halfHysteresis + 0.5 * energyShare *
-                                     lostByLoading(law, plane.fit, plane.maximumBefore, before,
-                                                   wholeArea, volume, squares, rising);
-    plane.maximumBefore = before;
-    plane.halfHysteresis = 0;
+          plane.halfHysteresis() + 0.5 * energyShare *
+                                       lostByLoading(law, plane.fit, plane.maximumBefore(), before,
+                                                     wholeArea, volume, squares, rising);
+    plane.maximumBefore() = before;
+    plane.halfHysteresis() = 0;
     if (response.crushedByShear)
     {
       // Crushed by shear, for which the law knows the work; part of it is in the offset.
       plane.hysteresisWork += area * response.hysteresisWork;
-      plane.maximumBefore = state.maximumClosure;
+      plane.maximumBefore() = state.maximumClosure;
       return;
     }
     state.maximumClosure = before;
@@ -416,7 +552,7 @@ private:
     const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
     const Real shift = reached - next.traction / next.stiffness - permanents_[i];
     state.maximumClosure = reached;
-    plane.halfHysteresis =
+    plane.halfHysteresis() =
         0.5 * energyShare *
         lostOfTangent(slopes_[i], squares, next.stiffness,
                       squares - 2 * shift * volume + shift * shift * wholeArea, rising);
@@ -545,6 +681,7 @@ private:
   Real dt_;
   PairPotential<Dim, T>& pair_; ///< apart from this, for what is here to stay in registers
   PerLane slopes_, permanents_; ///< of the linear kernel [Pa/m], [m]
+  bool crushes_[width] = {};    ///< may be crushed unevenly
   T slope_, hardening_;         ///< the same; one over the depth from which a penalty hardens [1/m]
   Mask bonded_, done_;
   Mask bends_;                             ///< bonds that resist bending

@@ -1,0 +1,254 @@
+#pragma once
+
+#include <coplane_contact/ContactPotential.hpp>
+
+#include <cmath>
+
+// Steps of PairPotential for joints that are crushed unevenly (docs/theory/joints.md, "Crushing").
+
+namespace coplane
+{
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::splitWhereCrushed()
+{
+  const int before = pieces_;
+  for (int i = 0; i < before; ++i)
+  {
+    Owned& q = piece_[i];
+    Real least = infinity, most = -infinity;
+    forEachCorner(q,
+                  [&](const Vec2& p)
+                  {
+                    least = branchFree::smaller(crushed_.at(p), least);
+                    most = branchFree::larger(crushed_.at(p), most);
+                  });
+    q.crushed = most > 0;
+    if (!(most > 0 && least < 0))
+      continue;
+    Owned& rest = piece_[pieces_++];
+    rest = q;
+    rest.crushed = false;
+    if constexpr (Dim == 2)
+    {
+      const Real from = q.sides.from[0].x, to = q.sides.from[1].x;
+      const Real u = crushed_.at({from, 0}), v = crushed_.at({to, 0});
+      const int end = u > 0 ? 1 : 0; // of q, where it is cut
+      const Real cut = from + (to - from) * u / (u - v);
+      q.sides.from[end] = q.sides.to[end] = {cut, 0};
+      rest.sides.from[1 - end] = rest.sides.to[1 - end] = {cut, 0};
+      q.owner[end] = rest.owner[1 - end] = Owned::crushedLine;
+    }
+    else
+      for (Owned* part : {&q, &rest})
+      {
+        const Real sign = part == &q ? 1 : -1;
+        Real from[PolygonSides<Real>::capacity], to[PolygonSides<Real>::capacity];
+        for (int k = 0; k < part->sides.size; ++k)
+        {
+          from[k] = sign * crushed_.at(part->sides.from[k]);
+          to[k] = sign * crushed_.at(part->sides.to[k]);
+        }
+        if (inOrder_)
+          detail::cutOwnedInOrder(*part, from, Owned::crushedLine);
+        else
+        {
+          detail::cutOwned(*part, from, to, Owned::crushedLine);
+          regular = regular && !part->sides.crossed;
+        }
+      }
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addCrushing(const EnergyDensity<T>& density,
+                                                               Vec2 (&rim)[2][4]) const
+{
+  const ContactMoments<Real>& m = ofCrushed_;
+  carryCrushing(2 * density.square * m.volume + density.linear * m.area,
+                (2 * density.square) * m.volumeMoment + density.linear * m.areaMoment, rim);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::carryCrushing(Real push, const Vec2& first,
+                                                                 Vec2 (&rim)[2][4]) const
+{
+  // At a fixed place L changes by minus its slope times the weighted motion of the nodes.
+  const Vec2 about = first - push * frame_.center;
+  for (int i = 0; i < frame_.count; ++i)
+  {
+    const Real part = push / frame_.count + dot(frame_.weightSlope(i), about);
+    rim[0][i] = rim[0][i] + part * crushed_.slope;
+  }
+}
+
+template <int Dim, class T>
+template <class F>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachCorner(const Owned& q, const F& f) const
+{
+  for (int k = 0; k < q.sides.size; ++k)
+    if (Dim == 2 || q.sides.isThere(k))
+      f(q.sides.from[k]);
+}
+
+template <int Dim, class T>
+template <class F>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachSlice(const Owned& q,
+                                                                const LinearOnPlane& closure,
+                                                                Real from, const F& f) const
+{
+  constexpr Real places[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                              0.8611363115940526};
+  constexpr Real weights[4] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                               0.3478548451374538};
+  const Real steepness = std::sqrt(dot(closure.slope, closure.slope));
+  const Vec2 up = (1 / steepness) * closure.slope;
+  // Corners by how far up they are.
+  Real at[PolygonSides<Real>::capacity];
+  int count = 0;
+  forEachCorner(q,
+                [&](const Vec2& p)
+                {
+                  const Real height = dot(up, p);
+                  int i = count++;
+                  for (; i > 0 && at[i - 1] > height; --i)
+                    at[i] = at[i - 1];
+                  at[i] = height;
+                });
+  const auto widthAt = [&](Real height)
+  {
+    if (Dim == 2)
+      return 1.0;
+    Real low = infinity, high = -infinity;
+    for (int k = 0; k < q.sides.size; ++k)
+    {
+      const Real a = dot(up, q.sides.from[k]), b = dot(up, q.sides.to[k]);
+      if ((a < height) == (b < height))
+        continue;
+      const Real ofA = cross(up, q.sides.from[k]), ofB = cross(up, q.sides.to[k]);
+      const Real across = ofA + (height - a) / (b - a) * (ofB - ofA);
+      low = branchFree::smaller(across, low);
+      high = branchFree::larger(across, high);
+    }
+    return high > low ? high - low : 0.0;
+  };
+  const Real start = (from - closure.atOrigin) / steepness;
+  for (int k = 0; k + 1 < count; ++k)
+  {
+    const Real low = branchFree::larger(at[k], start), high = at[k + 1];
+    if (!(high > low))
+      continue;
+    const Real middle = 0.5 * (low + high), half = 0.5 * (high - low);
+    for (int g = 0; g < 4; ++g)
+    {
+      const Real height = middle + half * places[g];
+      f(closure.atOrigin + steepness * height, weights[g] * half * widthAt(height));
+    }
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& law, Real stiffness,
+                                                                Real even, UnevenCrushing& to) const
+{
+  const Real onset = law.onset(stiffness);
+  const LinearOnPlane closure{atPoint_ + even, (-2 / kappa_) * tilt_};
+  Real least = infinity, most = -infinity;
+  for (int i = 0; i < pieces_; ++i)
+    forEachCorner(whole_[i],
+                  [&](const Vec2& p)
+                  {
+                    least = branchFree::smaller(closure.at(p), least);
+                    most = branchFree::larger(closure.at(p), most);
+                  });
+  if (!(most > onset))
+    return false;
+
+  // The line of least squares through what the points are crushed to, over their closures; both
+  // counted from those of the deepest point.
+  const Real deepest = law.crushedAt(most, stiffness), roundOff = 1e-9 * onset;
+  LinearOnPlane line{deepest, {}};
+  if (most - least > roundOff)
+  {
+    Real area = 0, ofClosure = 0, ofCrushed = 0, squares = 0, products = 0;
+    for (int i = 0; i < pieces_; ++i)
+      forEachSlice(whole_[i], closure, onset,
+                   [&](Real at, Real part)
+                   {
+                     const Real c = at - most, k = law.crushedAt(at, stiffness) - deepest;
+                     area += part;
+                     ofClosure += part * c;
+                     ofCrushed += part * k;
+                     squares += part * (c * c);
+                     products += part * (c * k);
+                   });
+    if (!(area > 0))
+      return false;
+    const Real c = ofClosure / area, k = ofCrushed / area;
+    const Real variance = squares / area - c * c;
+    const Real slope = variance > roundOff * roundOff ? (products / area - c * k) / variance : 0;
+    line = {deepest + k + slope * (closure.atOrigin - most - c), slope * closure.slope};
+  }
+
+  const LinearOnPlane old = uneven_ ? crushed_ : LinearOnPlane{even, {}};
+  bool further = false;
+  const auto compare = [&](const Vec2& p)
+  { further = further || line.at(p) > branchFree::positivePart(old.at(p)) + roundOff; };
+  for (int i = 0; i < pieces_; ++i)
+  {
+    const Owned& q = whole_[i];
+    for (int k = 0; k < (Dim == 2 ? 1 : q.sides.size); ++k)
+    {
+      const Vec2 p = q.sides.from[k], r = Dim == 2 ? q.sides.from[1] : q.sides.to[k];
+      const Real a = closure.at(p) - onset, b = closure.at(r) - onset;
+      if (a >= 0)
+        compare(p);
+      if (b >= 0)
+        compare(r);
+      if ((a < 0) != (b < 0))
+        compare(p + (a / (a - b)) * (r - p));
+    }
+  }
+  if (!further)
+    return false;
+  if (uneven_ || even > 0)
+  {
+    Real low = infinity, high = -infinity;
+    for (int i = 0; i < pieces_; ++i)
+      forEachCorner(piece_[i],
+                    [&](const Vec2& p)
+                    {
+                      const Real above = old.at(p) - line.at(p);
+                      low = branchFree::smaller(above, low);
+                      high = branchFree::larger(above, high);
+                    });
+    if (low >= 0)
+      return false;
+    if (high > 0)
+    {
+      const Real part = high / (high - low);
+      line = {line.atOrigin + part * (old.atOrigin - line.atOrigin - low),
+              line.slope + part * (old.slope - line.slope)};
+    }
+  }
+  to = AffineFrame(shadow[0]).onFace(line).asKept();
+  return true;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::meanCrushing() const
+{
+  const ContactMoments<Real>& m = ofCrushed_;
+  const Real sum = crushed_.atOrigin * m.area + dot(crushed_.slope, m.areaMoment);
+  return sum > 0 ? sum / moments.area : 0;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::mostCrushing() const
+{
+  Real most = 0;
+  for (int i = 0; i < pieces_; ++i)
+    forEachCorner(whole_[i],
+                  [&](const Vec2& p) { most = branchFree::larger(crushed_.at(p), most); });
+  return most;
+}
+} // namespace coplane
