@@ -414,6 +414,9 @@ private:
   /// Calls f(place) for the corners of a polygon.
   template <class F>
   KOKKOS_INLINE_FUNCTION void forEachCorner(const Owned& q, const F& f) const;
+  /// Calls f(from, to) for its sides; in two dimensions for the whole segment.
+  template <class F>
+  KOKKOS_INLINE_FUNCTION void forEachSide(const Owned& q, const F& f) const;
   /// Calls f(closure, area) for places in a polygon that stand for all of it where `from` is
   /// exceeded: by Gauss' rule between corners, along the slope of the closure.
   template <class F>

@@ -92,6 +92,17 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachCorner(const Owned& q,
 
 template <int Dim, class T>
 template <class F>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachSide(const Owned& q, const F& f) const
+{
+  if (Dim == 2 && q.sides.size > 0)
+    f(q.sides.from[0], q.sides.from[1]);
+  for (int k = 0; Dim == 3 && k < q.sides.size; ++k)
+    if (q.sides.isThere(k))
+      f(q.sides.from[k], q.sides.to[k]);
+}
+
+template <int Dim, class T>
+template <class F>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachSlice(const Owned& q,
                                                                 const LinearOnPlane& closure,
                                                                 Real from, const F& f) const
@@ -194,33 +205,45 @@ KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& 
   const auto compare = [&](const Vec2& p)
   { further = further || line.at(p) > branchFree::positivePart(old.at(p)) + roundOff; };
   for (int i = 0; i < pieces_; ++i)
-  {
-    const Owned& q = whole_[i];
-    for (int k = 0; k < (Dim == 2 ? 1 : q.sides.size); ++k)
-    {
-      const Vec2 p = q.sides.from[k], r = Dim == 2 ? q.sides.from[1] : q.sides.to[k];
-      const Real a = closure.at(p) - onset, b = closure.at(r) - onset;
-      if (a >= 0)
-        compare(p);
-      if (b >= 0)
-        compare(r);
-      if ((a < 0) != (b < 0))
-        compare(p + (a / (a - b)) * (r - p));
-    }
-  }
+    forEachSide(whole_[i],
+                [&](const Vec2& p, const Vec2& r)
+                {
+                  const Real a = closure.at(p) - onset, b = closure.at(r) - onset;
+                  if (a >= 0)
+                    compare(p);
+                  if (b >= 0)
+                    compare(r);
+                  if ((a < 0) != (b < 0))
+                    compare(p + (a / (a - b)) * (r - p));
+                });
   if (!further)
     return false;
   if (uneven_ || even > 0)
   {
+    // Where neither is positive nothing is crushed before or after.
     Real low = infinity, high = -infinity;
+    const auto include = [&](const Vec2& p)
+    {
+      const Real above = old.at(p) - line.at(p);
+      low = branchFree::smaller(above, low);
+      high = branchFree::larger(above, high);
+    };
     for (int i = 0; i < pieces_; ++i)
-      forEachCorner(piece_[i],
-                    [&](const Vec2& p)
-                    {
-                      const Real above = old.at(p) - line.at(p);
-                      low = branchFree::smaller(above, low);
-                      high = branchFree::larger(above, high);
-                    });
+    {
+      const Owned& q = piece_[i];
+      const bool all = q.crushed || !uneven_;
+      forEachSide(q,
+                  [&](const Vec2& p, const Vec2& r)
+                  {
+                    const Real a = line.at(p), b = line.at(r);
+                    if (all || a >= 0)
+                      include(p);
+                    if (all || b >= 0)
+                      include(r);
+                    if (!all && (a < 0) != (b < 0))
+                      include(p + (a / (a - b)) * (r - p));
+                  });
+    }
     if (low >= 0)
       return false;
     if (high > 0)
