@@ -51,7 +51,7 @@ struct PairTable
       plane.sighting = random() % 2 == 0 ? Sighting::New : Sighting::Known;
       plane.declared = random() % 5 == 0;
       plane.history.bonded = random() % 5 == 0;
-      plane.joint = std::uint16_t(random() % 3);
+      plane.joint = std::uint16_t(random() % 4);
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), u(random)});
       plane.depthLimit = 1;
@@ -89,8 +89,8 @@ struct PairTable
   }
 };
 
-/// The third is a bond that resists bending and breaks here and there.
-std::vector<JointLaw> threeLaws()
+/// The third is a bond that resists bending and breaks here and there, the last is crushed.
+std::vector<JointLaw> someLaws()
 {
   JointLaw law;
   law.friction = .3;
@@ -101,7 +101,12 @@ std::vector<JointLaw> threeLaws()
   bent.friction = .3;
   bent.bond = Bond::softening(Bond::Kind::Linear, 1, 1, .3, .3);
   bent.bond.resistsBending = true;
-  return {law, other, bent};
+  JointLaw crushed;
+  crushed.friction = .3;
+  crushed.curve.crushing.strength = .3;
+  crushed.curve.crushing.peak = .02;
+  crushed.curve.crushing.length = .1;
+  return {law, other, bent, crushed};
 }
 
 ContactOptions damped(ContactOptions o)
@@ -152,7 +157,7 @@ struct Slots
 
 TEST(PairLanes, haveTheBitsOfOnePairAtATime)
 {
-  const std::vector<JointLaw> laws = threeLaws();
+  const std::vector<JointLaw> laws = someLaws();
   std::vector<ContactOptions> all;
   for (const auto area : allAreas)
     for (const auto weights : allWeights)
@@ -164,7 +169,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     PairTable table(3000, 17);
     std::vector<Plane> alone = table.planes;
     Slots together(table.planes);
-    int carrying = 0, irregular = 0, woken = 0;
+    int carrying = 0, irregular = 0, woken = 0, uneven = 0, even = 0;
     for (int cycle = 0; cycle < 15; ++cycle, table.move())
     {
       const std::vector<HalfStepFace> faces = table.faces(o);
@@ -175,6 +180,8 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
           updateByForces<3>(plane, a, b, laws[plane.joint], o, dt);
           ASSERT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
           carrying += plane.area > 0;
+          uneven += plane.crushedUnevenly;
+          even += laws[plane.joint].crushesUnevenly() && !plane.crushedUnevenly && plane.area > 0;
           const TrialPlane trial = stepB_trialPointOfContact<3>(a, b);
           irregular +=
               trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
@@ -192,6 +199,11 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     EXPECT_GT(woken, 5);
     EXPECT_GT(carrying, 5000);
     EXPECT_GT(irregular, 100);
+    if (o.forces == ContactOptions::Forces::Potential)
+    {
+      EXPECT_GT(uneven, 1000);
+      EXPECT_GT(even, 1000);
+    }
   }
 }
 
@@ -199,7 +211,7 @@ namespace
 {
 void expectTheSameInAnotherOrder(const ContactOptions& o)
 {
-  const std::vector<JointLaw> laws = threeLaws();
+  const std::vector<JointLaw> laws = someLaws();
   PairTable table(2000, 5);
   const std::vector<HalfStepFace> faces = table.faces(o);
   std::vector<int> order(table.planes.size());

@@ -316,6 +316,10 @@ public:
   /// @returns whether it is crushed further
   KOKKOS_INLINE_FUNCTION bool crushFurther(const Crushing& law, Real stiffness, Real even,
                                            UnevenCrushing& to) const;
+  /// What it costs to crush it from one state to another one against the tractions of now, after
+  /// press() and growFrom() [J].
+  KOKKOS_INLINE_FUNCTION Real lostBy(const UnevenCrushing& from, const UnevenCrushing& to,
+                                     const EnergyDensity<T>& density) const;
   /// Of a joint that is crushed unevenly: mean of the crushing over the part in contact [m].
   KOKKOS_INLINE_FUNCTION Real meanCrushing() const;
   /// The most of it over the overlap [m].
@@ -406,6 +410,11 @@ private:
   // Joints that are crushed unevenly (ContactPotentialCrushing.hpp).
   /// Pieces that are crushed all over or nowhere, from what they are.
   KOKKOS_INLINE_FUNCTION void splitWhereCrushed();
+  /// What of a polygon, part in contact or not, has positive values.
+  KOKKOS_INLINE_FUNCTION void cutWhereNegative(Owned& q, const LinearOnPlane& f) const;
+  /// The slope of the energy, over gamma phi, times minus the closure, by max(0, crushing).
+  KOKKOS_INLINE_FUNCTION Real resisted(const LinearOnPlane& crushing,
+                                       const EnergyDensity<T>& density) const;
   /// Adds the gradient by the crushing, which face 0 carries along.
   KOKKOS_INLINE_FUNCTION void addCrushing(const EnergyDensity<T>& density, Vec2 (&rim)[2][4]) const;
   /// The same of what hangs on the closure of crushed places by its sum over them: `push`, and

@@ -28,34 +28,9 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::splitWhereCrushed()
     Owned& rest = piece_[pieces_++];
     rest = q;
     rest.crushed = false;
-    if constexpr (Dim == 2)
-    {
-      const Real from = q.sides.from[0].x, to = q.sides.from[1].x;
-      const Real u = crushed_.at({from, 0}), v = crushed_.at({to, 0});
-      const int end = u > 0 ? 1 : 0; // of q, where it is cut
-      const Real cut = from + (to - from) * u / (u - v);
-      q.sides.from[end] = q.sides.to[end] = {cut, 0};
-      rest.sides.from[1 - end] = rest.sides.to[1 - end] = {cut, 0};
-      q.owner[end] = rest.owner[1 - end] = Owned::crushedLine;
-    }
-    else
-      for (Owned* part : {&q, &rest})
-      {
-        const Real sign = part == &q ? 1 : -1;
-        Real from[PolygonSides<Real>::capacity], to[PolygonSides<Real>::capacity];
-        for (int k = 0; k < part->sides.size; ++k)
-        {
-          from[k] = sign * crushed_.at(part->sides.from[k]);
-          to[k] = sign * crushed_.at(part->sides.to[k]);
-        }
-        if (inOrder_)
-          detail::cutOwnedInOrder(*part, from, Owned::crushedLine);
-        else
-        {
-          detail::cutOwned(*part, from, to, Owned::crushedLine);
-          regular = regular && !part->sides.crossed;
-        }
-      }
+    cutWhereNegative(q, crushed_);
+    cutWhereNegative(rest, {-crushed_.atOrigin, -1 * crushed_.slope});
+    regular = regular && !q.sides.crossed && !rest.sides.crossed;
   }
 }
 
@@ -255,6 +230,89 @@ KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& 
   }
   to = AffineFrame(shadow[0]).onFace(line).asKept();
   return true;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::lostBy(const UnevenCrushing& from,
+                                                          const UnevenCrushing& to,
+                                                          const EnergyDensity<T>& density) const
+{
+  const AffineFrame frame(shadow[0]);
+  return materialArea * opposedness *
+         (resisted(frame.onPlane(to), density) - resisted(frame.onPlane(from), density));
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::resisted(const LinearOnPlane& crushing,
+                                                            const EnergyDensity<T>& density) const
+{
+  Real sum = 0;
+  for (int i = 0; i < pieces_; ++i)
+  {
+    Owned q = piece_[i];
+    Real least = infinity, most = -infinity;
+    forEachCorner(q,
+                  [&](const Vec2& p)
+                  {
+                    least = branchFree::smaller(crushing.at(p), least);
+                    most = branchFree::larger(crushing.at(p), most);
+                  });
+    if (!(most > 0))
+      continue;
+    if (least < 0)
+      cutWhereNegative(q, crushing);
+    const auto traction = [&](const Vec2& p)
+    { return 2 * density.square * closureIn(q, p) + density.linear; };
+    Vec2 apex;
+    forEachCorner(q, [&](const Vec2& p) { apex = p; });
+    const Real tApex = traction(apex), kApex = crushing.at(apex);
+    forEachSide(q,
+                [&](const Vec2& p, const Vec2& r)
+                {
+                  const Real t0 = traction(p), t1 = traction(r);
+                  const Real k0 = crushing.at(p), k1 = crushing.at(r);
+                  if (Dim == 2)
+                    sum += (r.x - p.x) / 6 * (2 * (t0 * k0 + t1 * k1) + t0 * k1 + t1 * k0);
+                  else
+                    sum +=
+                        0.5 * cross(p - apex, r - apex) / 12 *
+                        ((t0 + t1 + tApex) * (k0 + k1 + kApex) + t0 * k0 + t1 * k1 + tApex * kApex);
+                });
+    for (int k = 0; k < q.sides.size && alongStrip_ != 0; ++k)
+      if (const int owner = q.owner[k]; owner >= 0 && edges_.exits[owner] > 0)
+      {
+        const Vec2 along = q.sides.to[k] - q.sides.from[k];
+        const Real length = Dim == 2 ? 1 : std::sqrt(dot(along, along));
+        sum += alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])) * length *
+               crushing.at(0.5 * (q.sides.from[k] + q.sides.to[k]));
+      }
+  }
+  return sum;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::cutWhereNegative(Owned& q,
+                                                                    const LinearOnPlane& f) const
+{
+  if constexpr (Dim == 2)
+  {
+    const Real from = q.sides.from[0].x, to = q.sides.from[1].x;
+    const Real u = f.at({from, 0}), v = f.at({to, 0});
+    const int end = u > 0 ? 1 : 0;
+    q.sides.from[end] = q.sides.to[end] = {from + (to - from) * u / (u - v), 0};
+    q.owner[end] = Owned::crushedLine;
+    return;
+  }
+  Real from[PolygonSides<Real>::capacity], to[PolygonSides<Real>::capacity];
+  for (int k = 0; k < q.sides.size; ++k)
+  {
+    from[k] = f.at(q.sides.from[k]);
+    to[k] = f.at(q.sides.to[k]);
+  }
+  if (inOrder_)
+    detail::cutOwnedInOrder(q, from, Owned::crushedLine);
+  else
+    detail::cutOwned(q, from, to, Owned::crushedLine);
 }
 
 template <int Dim, class T>

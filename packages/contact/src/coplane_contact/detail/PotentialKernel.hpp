@@ -4,7 +4,6 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/detail/BentBonds.hpp>
 #include <coplane_contact/detail/LostEnergies.hpp>
-#include <coplane_contact/detail/UnevenlyCrushed.hpp>
 
 // Steps B to H of a pair of faces whose forces come from one potential
 // (docs/theory/contact-potential.md). Faces are those of the end of the step.
@@ -113,6 +112,14 @@ private:
     PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
     PerLane stored = {};    ///< energy of bonds per area [J/m^2]
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
+  };
+
+  /// How a joint was crushed before a cycle that crushes it further.
+  struct CrushedFrom
+  {
+    bool further = false;
+    UnevenCrushing from;
+    Real lostBefore = 0; ///< by the tractions before the step [J]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -276,11 +283,10 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void stepGH_update(const Mask& touching)
   {
     using branchFree::choose;
-    Real lostBefore = 0;
-    bool crushed = false;
+    CrushedFrom crushed;
     if constexpr (width == 1)
       if (touching && crushes_[0])
-        crushed = crush(lostBefore);
+        crush(crushed);
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
     const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
@@ -293,6 +299,13 @@ private:
     pair_.growFrom(planes_.each([](const Plane& p) { return p.birthArea[0]; }),
                    planes_.each([](const Plane& p) { return p.birthArea[1]; }));
     const T energyShare = pair_.materialArea * pair_.opposedness * share;
+    if constexpr (width == 1)
+      if (crushed.further)
+      {
+        Plane& plane = *planes_.plane[0];
+        plane.hysteresisWork +=
+            0.5 * (crushed.lostBefore + pair_.lostBy(crushed.from, plane.crushing(), density));
+      }
     Response response;
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
@@ -318,9 +331,6 @@ private:
     T normalForce = pair_.differentiate(energy, density);
     T normalEnergy = pair_.materialArea * pair_.opposedness * energy;
     if constexpr (width == 1)
-      if (crushed)
-        planes_.plane[0]->hysteresisWork += 0.5 * (lostBefore - normalEnergy);
-    if constexpr (width == 1)
       if (bent_.partly && touching)
         addClosedPart(pair_, *planes_.plane[0], slope_ - response.slopes[0], normalForce,
                       normalEnergy);
@@ -338,50 +348,65 @@ private:
   }
 
   /// Crushes a joint as far as the closures of now do, before the force; T = Real.
-  /// @param lost gets twice what that costs, but for the energy that it has then [J]
-  /// @returns whether it does
-  KOKKOS_INLINE_FUNCTION bool crush(Real& lost)
+  KOKKOS_INLINE_FUNCTION void crush(CrushedFrom& from)
   {
     Plane& plane = *planes_.plane[0];
     const Crushing& law = planes_.law[0]->curve.crushing;
     const Real even = permanents_[0], offset = plane.offset;
     const bool was = plane.crushedUnevenly;
     UnevenCrushing to;
-    bool further =
+    from.further =
         pair_.mostClosure + even > (was ? law.onset(slopes_[0]) : mostWithoutCrushing(0)) &&
         pair_.crushFurther(law, slopes_[0], even, to);
-    if (further)
+    if (from.further)
     {
-      // By the trapezoid rule: half of it where the faces were before the step, if it carried then.
-      const UnevenlyCrushed<Dim> now(plane, options_, edgesOf(planes_), placeOf(a_, 0),
-                                     placeOf(b_, 0));
-      const UnevenlyCrushed<Dim> before(plane, options_, edgesOf(planes_), faceBefore<Dim>(a_, dt_),
-                                        faceBefore<Dim>(b_, dt_));
-      const auto old = [&](const UnevenlyCrushed<Dim>& at)
-      { return was ? at.energyOf(plane.crushing()) : at.energyOf(even); };
-      const bool carried = plane.area > 0;
+      from.from = was ? plane.crushing() : UnevenCrushing{even, {0, 0}};
       pair_.beCrushed(to);
       pair_.meet(offset, false, edgesOf(planes_));
-      further = pair_.moments.volume > 0;
-      if (further)
+      from.further = pair_.moments.volume > 0;
+      if (from.further)
       {
-        lost = old(now) + (carried ? old(before) - before.energyOf(to) : 0);
+        if (plane.area > 0)
+          from.lostBefore = lostBefore(from.from, to);
         plane.crush(to);
-      }
-      else if (was)
-      {
-        pair_.beCrushed(plane.crushing());
-        pair_.meet(offset, false, edgesOf(planes_));
       }
       else
       {
-        pair_.notCrushed();
-        pair_.meet(offset - even, false, edgesOf(planes_));
+        if (was)
+          pair_.beCrushed(plane.crushing());
+        else
+          pair_.notCrushed();
+        pair_.meet(was ? offset : offset - even, false, edgesOf(planes_));
       }
     }
     if (plane.crushedUnevenly)
       permanents_[0] = pair_.meanCrushing();
-    return further;
+  }
+
+  /// What it costs to crush a joint further with the tractions that it had before the step [J].
+  KOKKOS_INLINE_FUNCTION Real lostBefore(const UnevenCrushing& from, const UnevenCrushing& to) const
+  {
+    const Plane& plane = *planes_.plane[0];
+    const HalfStepFace a = faceBefore(a_), b = faceBefore(b_);
+    PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options_.cosOpposed));
+    if (!pair.plane.opposed)
+      return 0;
+    pair.beCrushed(from);
+    pair.meet(plane.offset, false, edgesOf(planes_));
+    if (!(pair.moments.volume > 0))
+      return 0;
+    EnergyDensity<Real> density;
+    pair.press(slopes_[0], 0, density);
+    pair.growFrom(plane.birthArea[0], plane.birthArea[1]);
+    return pair.lostBy(from, to, density);
+  }
+  KOKKOS_INLINE_FUNCTION HalfStepFace faceBefore(const HalfStepFaceOf<T>& face) const
+  {
+    FaceNodes nodes;
+    nodes.count = face.count;
+    for (int i = 0; i < face.count; ++i)
+      nodes.x[i] = branchFree::lane(face.x[i], 0) - dt_ * branchFree::lane(face.v[i], 0);
+    return stepA_faceAtEnd<Dim>(nodes);
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Relative stepG_motion() const
