@@ -230,7 +230,7 @@ def motion(run):
 
 strikes = {2: [((0, 0.2), 4, 0.004), ((0, 1), 4, 0.004), ((0, 3), 4, 0.006), ((0, 1), 10, 0.005), ((0, 0.5), 2, 0.006)],
            3: [((0.2, 0.3), 4, 0.004), ((1, 2), 4, 0.005), ((2, 1), 10, 0.005)]}  # fmt: skip
-allowed = {2: {1: 1, 2: 1, 4: 1}, 3: {1: 1, 2: 1, 4: 1}}
+allowed = {2: {1: 0.06, 2: 0.03, 4: 0.02}, 3: {1: 0.18, 2: 0.05, 4: 0.02}}
 for dimension, runs in strikes.items():
     errors = {1: [], 2: [], 4: []}
     for tilt, velocity, end in runs:
@@ -238,24 +238,22 @@ for dimension, runs in strikes.items():
         expected = numpy.array([up, 0.5 * deep * about_x, 0.5 * wide * about_z])
         for faces in errors:
             name = f"strikes_{dimension}d_{tilt[0]}_{tilt[1]}_{velocity}_{faces}"
-            run = case.run(name, brick_over(dimension, faces, tilt), falling_brick(velocity, end), remainder=0.02)
+            run = case.run(name, brick_over(dimension, faces, tilt), falling_brick(velocity, end), remainder=2e-3)
             errors[faces].append(numpy.sum(numpy.abs(motion(run) - expected)) / (dimension * velocity))
-            if "show" in sys.argv:
-                print(name, errors[faces][-1], motion(run), expected, run.history["contact_remainder"][-1] / run.history["kinetic"][0])
     for faces, of in errors.items():
         case.check(f"bricks strike tilted, {dimension}d, {faces} faces a side: mean error of velocities over that of the impact", numpy.mean(of), 0, allowed[dimension][faces])
 
 for dimension, tilt, faces in ((2, (0, 1), 2), (3, (1, 2), 2)):
-    name, velocity, end = f"strikes_again_{dimension}d", 4, 0.004
-    recipe, deck = brick_over(dimension, faces, tilt), falling_brick(4, 0.004)
-    run = case.run(name, recipe, deck, remainder=0.02)
+    name, velocity = f"strikes_again_{dimension}d", 4
+    recipe, deck = brick_over(dimension, faces, tilt), falling_brick(velocity, 0.004)
+    run = case.run(name, recipe, deck, remainder=2e-3)
     case.same_bits(name, recipe, deck, run)
     case.restarts(name, recipe, deck, run, 0.002)
-    side = case.run(f"{name}_mirrored", brick_over(dimension, faces, tilt, side=-1), deck, remainder=0.02)
+    side = case.run(f"{name}_mirrored", brick_over(dimension, faces, tilt, side=-1), deck, remainder=2e-3)
     # A mirror keeps the spin about the axis across it and turns that along it over.
     case.check(f"{name}: mirrored, over the speed", numpy.max(numpy.abs(motion(side) - motion(run) * (1, 1, -1))) / velocity, 0, 1e-6)
-    other = case.run(f"{name}_other_order", brick_over(dimension, faces, tilt, blocks=("brick", "floor")), deck, remainder=0.02)
-    case.check(f"{name}: the brick carries the crushing, over the speed", numpy.max(numpy.abs(motion(other) - motion(run))) / velocity, 0, 1)
+    other = case.run(f"{name}_other_order", brick_over(dimension, faces, tilt, blocks=("brick", "floor")), deck, remainder=2e-3)
+    case.check(f"{name}: the brick carries the crushing, over the speed", numpy.max(numpy.abs(motion(other) - motion(run))) / velocity, 0, 0.01 if dimension == 2 else 0.04)
 
 # --- initial stress within the strength and beyond it ---------------------------------------------------------------------------
 
@@ -277,17 +275,17 @@ falling = {"dimension": 2, "node_sets": {"ground": {"block": "lower", "where": {
     {"shape": "box", "block": "lower", "min": [-0.2, -0.1], "size": [0.4, 0.1], "divisions": [8, 2]},
     {"shape": "box", "block": "upper", "min": [-0.1, 1e-4], "size": [0.2, 0.1], "divisions": [4, 2]}]}  # fmt: skip
 said = {}
-for factor, ranks in ((0.8, 1), (0.8, 2), (0.05, 1)):
-    name = f"a brick falls, step_factor {factor}, {ranks} ranks"
+for factor, ranks, loss in ((0.8, 1, 0.01), (0.8, 2, 0.01), (0.05, 1, 0.01), (0.8, 1, 0)):
+    name = f"a brick falls, stiffness_loss {loss}, step_factor {factor}, {ranks} ranks"
     deck = {"materials": base["materials"], "blocks": base["blocks"], "initial": [{"block": "upper", "velocity": [0, -10, 0]}],
-            "conditions": [{"type": "fixed", "node_set": "ground"}], "joints": {"bed": {**card, "shear_in_crushing": 0}}, "contact": {"default_joint": "bed"},
-            "time": {"end": 1e-3, "step_factor": factor}}  # fmt: skip
-    run = case.attempt(f"falls_{factor}_{ranks}", falling, deck, ranks=ranks)
+            "conditions": [{"type": "fixed", "node_set": "ground"}], "joints": {"bed": {**card, "shear_in_crushing": 0, "stiffness_loss": loss}},
+            "contact": {"default_joint": "bed"}, "time": {"end": 1e-3, "step_factor": factor}}  # fmt: skip
+    run = case.attempt(f"falls_{factor}_{loss}_{ranks}", falling, deck, ranks=ranks)
     case.check_equal(f"{name}: exit code", run.code, 0)
-    said[factor, ranks] = re.findall(r"WARNING: .* to be crushed, .*(?:\n  plane between .* times what its law takes)+", run.output)
-    case.check_equal(f"{name}: warnings, with the worst planes", len(said[factor, ranks]), int(factor == 0.8))
-case.check_equal("a brick falls: the same warning on one rank and two", said[0.8, 1] == said[0.8, 2], True)
+    said[factor, ranks, loss] = re.findall(r"WARNING: .* to be crushed, .*(?:\n  plane between .* times what its law takes)+", run.output)
+    case.check_equal(f"{name}: warnings, with the worst planes", len(said[factor, ranks, loss]), int(factor == 0.8 and loss > 0))
+case.check_equal("a brick falls: the same warning on one rank and two", said[0.8, 1, 0.01] == said[0.8, 2, 0.01], True)
 warned = sorted(path.parent.name for path in pathlib.Path().glob("*/output.txt") if "to be crushed" in path.read_text())
-case.check_equal("other runs with this warning", [name for name in warned if not name.startswith("falls_0.8")], [])
+case.check_equal("other runs with this warning", [name for name in warned if not name.startswith("falls_0.8_0.01")], [])
 
 case.finish()
