@@ -168,6 +168,30 @@ TEST(CrushedPair, gradientIsThatOfTheEnergy)
   }
 }
 
+TEST(CrushedPair, evenCrushingIsAnOffset)
+{
+  std::mt19937 random(22);
+  int pairs = 0;
+  while (pairs < 200)
+  {
+    const RandomPair pair = randomPair(random, .1);
+    const Crushed<3> offset(pair.a, pair.b, nullptr, -.03, 0, true);
+    if (!(offset.energy > 1e-5))
+      continue;
+    ++pairs;
+    const UnevenCrushing even{.03, {0, 0}};
+    const Crushed<3> crushed(pair.a, pair.b, &even, 0, 0, true);
+    EXPECT_NEAR(crushed.energy, offset.energy, 1e-12 * offset.energy);
+    Real largest = 0;
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < 4; ++i)
+        largest = std::max(largest, norm(offset.gradient[f][i]));
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < 4; ++i)
+        EXPECT_LT(norm(crushed.gradient[f][i] - offset.gradient[f][i]), 1e-12 * largest);
+  }
+}
+
 TEST(CrushedPair, gradientInTwoDimensions)
 {
   expectGradients<2>(0, false);
