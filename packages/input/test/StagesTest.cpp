@@ -171,7 +171,8 @@ TEST(Stages, bringTheFirstConditionOfADeckWithoutAny)
   std::string bare = head;
   bare.erase(bare.find("conditions:"), bare.find("damping:") - bare.find("conditions:"));
   const auto decks =
-      parseStages(bare + "stages:\n"
+      parseStages(bare + "gravity: [0, -p, 0]\n"
+                         "stages:\n"
                          "  - {name: a, until: 1}\n"
                          "  - {name: b, set: {conditions.0: {type: fixed, node_set: base}}}\n",
                   "a.yaml");
