@@ -322,8 +322,8 @@ public:
                                      const EnergyDensity<T>& density) const;
   /// Of a joint that is crushed unevenly: mean of the crushing over the part in contact [m].
   KOKKOS_INLINE_FUNCTION Real meanCrushing() const;
-  /// The most of it over the overlap [m].
-  KOKKOS_INLINE_FUNCTION Real mostCrushing() const;
+  /// Closure beyond what it is crushed to, the most of it over the overlap [m].
+  KOKKOS_INLINE_FUNCTION Real mostBeyondCrushing() const;
 
   /// Least closure over the part in contact, which is the whole overlap of a bond; infinity without
   /// any [m].

@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-// Steps of PairPotential for joints that are crushed unevenly (docs/theory/joints.md, "Crushing").
+// Steps of PairPotential for joints that are crushed unevenly (docs/theory/joints.md, "Uneven
+// crushing").
 
 namespace coplane
 {
@@ -205,8 +206,9 @@ KOKKOS_INLINE_FUNCTION bool PairPotential<Dim, T>::crushFurther(const Crushing& 
     };
     for (int i = 0; i < pieces_; ++i)
     {
-      const Owned& q = piece_[i];
-      const bool all = q.crushed || !uneven_;
+      // What is crushed stays so, also where the faces are apart now.
+      const bool all = whole_[i].crushed || !uneven_;
+      const Owned& q = all ? whole_[i] : piece_[i];
       forEachSide(q,
                   [&](const Vec2& p, const Vec2& r)
                   {
@@ -324,12 +326,16 @@ KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::meanCrushing() const
 }
 
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::mostCrushing() const
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::mostBeyondCrushing() const
 {
-  Real most = 0;
+  Real most = -infinity;
   for (int i = 0; i < pieces_; ++i)
     forEachCorner(whole_[i],
-                  [&](const Vec2& p) { most = branchFree::larger(crushed_.at(p), most); });
+                  [&](const Vec2& p)
+                  {
+                    const Real beyond = closureAt(p) - branchFree::positivePart(crushed_.at(p));
+                    most = branchFree::larger(beyond, most);
+                  });
   return most;
 }
 } // namespace coplane

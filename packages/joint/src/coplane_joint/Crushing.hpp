@@ -116,6 +116,21 @@ struct Crushing
     return k + strengthAt(k) / stiffness;
   }
 
+  /// The most crushing of up to so much that bears a compression; the peak where none does [m].
+  KOKKOS_INLINE_FUNCTION Real crushedUpTo(Real compression, Real most) const
+  {
+    if (most <= peak || strengthAt(most) >= compression)
+      return most;
+    // The strength falls from the peak on.
+    Real low = peak, high = most;
+    for (int i = 0; i < 60 && high - low > 1e-15 * most; ++i)
+    {
+      const Real middle = 0.5 * (low + high);
+      (strengthAt(middle) >= compression ? low : high) = middle;
+    }
+    return low;
+  }
+
   /// Slope of unloading [Pa/m].
   KOKKOS_INLINE_FUNCTION Real unloading(Real k, Real stiffness) const
   {

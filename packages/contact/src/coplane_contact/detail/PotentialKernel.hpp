@@ -112,6 +112,8 @@ private:
     PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
     PerLane stored = {};    ///< energy of bonds per area [J/m^2]
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
+    PerLane crushing = {};  ///< that the law saw of a joint that is crushed unevenly [m]
+    PerLane sheared = {};   ///< what shear has crushed of such a joint [m]
   };
 
   /// How a joint was crushed before a cycle that crushes it further.
@@ -273,7 +275,7 @@ private:
     Real permanent = permanents_[i];
     if constexpr (width == 1)
       if (plane.crushedUnevenly)
-        permanent = pair_.mostCrushing();
+        permanent = deepest_ - pair_.mostBeyondCrushing();
     const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
     if (branchFree::lane(deepest_, i) - explained > start)
       plane.refusal = Refusal::Deep;
@@ -319,6 +321,10 @@ private:
         plane.tooDeep = plane.tooDeep && branchFree::lane(share, i) > alongThePlane;
       }
 
+    if constexpr (width == 1)
+      if (response.sheared[0] > 0)
+        bookWhatIsLifted(response.sheared[0], density, loaded);
+
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
     const T sigma = all(response.tractions), perArea = all(response.stored);
@@ -345,6 +351,19 @@ private:
         plane.pointOfContact = branchFree::lane(point, i);
         plane.stored = branchFree::lane(normalEnergy, i) + plane.shearEnergy();
       }
+  }
+
+  /// The law takes what shear crushes for crushed all over. Where a joint is not, the dilation
+  /// lifts it and nothing gives way: the energy that it has more then is taken from the loss; T =
+  /// Real.
+  KOKKOS_INLINE_FUNCTION void bookWhatIsLifted(Real sheared, const EnergyDensity<Real>& density,
+                                               Real loaded) const
+  {
+    Plane& plane = *planes_.plane[0];
+    UnevenCrushing before = plane.crushing();
+    before.atCenter -= sheared;
+    plane.hysteresisWork += pair_.lostBy(before, plane.crushing(), density) -
+                            pair_.materialArea * pair_.opposedness * loaded * sheared;
   }
 
   /// Crushes a joint as far as the closures of now do, before the force; T = Real.
@@ -477,8 +496,12 @@ private:
                              : permanents_[i];
     if (plane.crushedUnevenly && crushes_[i])
     {
-      // The law sees an even crushing, the mean over the part in contact.
-      state.maximumClosure = mostWithoutCrushing(i);
+      // The law sees an even crushing that bears the mean of the compression.
+      const Crushing& crushing = law.curve.crushing;
+      const Real compression = slopes_[i] * (closed - permanents_[i]);
+      out.crushing[i] = crushing.crushedUpTo(compression, permanents_[i]);
+      state.maximumClosure = crushing.closureOf(out.crushing[i], slopes_[i]);
+      closed = out.crushing[i] + compression / slopes_[i];
       closed = closed < state.maximumClosure ? closed : state.maximumClosure;
     }
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
@@ -492,7 +515,7 @@ private:
       plane.maximumBefore() = state.maximumClosure;
     }
     else if (crushes_[i])
-      keepCrushing(plane, i, area, response, state);
+      keepCrushing(plane, i, area, response, state, out);
     else if (!law.curve.straight())
       loadCurve(plane, i, area, energyShare, response, state);
     plane.history = state;
@@ -516,8 +539,8 @@ private:
   /// What others learn of a joint that may be crushed unevenly: the closure of first loading that
   /// crushes it as much as it is in the mean. What shear crushes is added everywhere.
   KOKKOS_FORCEINLINE_FUNCTION void keepCrushing(Plane& plane, int i, Real area,
-                                                const JointResponse& response,
-                                                JointState& state) const
+                                                const JointResponse& response, JointState& state,
+                                                Response& out) const
   {
     const Crushing& law = planes_.law[i]->curve.crushing;
     Real reached = mostWithoutCrushing(i);
@@ -528,9 +551,11 @@ private:
       if (plane.crushedUnevenly)
       {
         UnevenCrushing more = plane.crushing();
-        more.atCenter += law.crushedAt(reached, slopes_[i]) - permanents_[i];
+        const Real before = more.atCenter;
+        more.atCenter += law.crushedAt(reached, slopes_[i]) - out.crushing[i];
         plane.crush(more.asKept());
         state.crushedAtCenter = plane.history.crushedAtCenter;
+        out.sheared[i] = plane.crushing().atCenter - before;
       }
     }
     else if (!plane.crushedUnevenly)
