@@ -1,4 +1,4 @@
-# coplane_package(<name> SOURCES <file> ...)
+# coplane_package(<name> [KERNELS] SOURCES <file> ...)
 #   Makes the library libcoplane_<name> (target coplane::<name>) from packages/<name>/src, linked with exactly what
 #   packages/<name>/cmake/Dependencies.cmake declares. Stops when a dependency is not earlier in packages/PackagesList.cmake.
 #   Headers in a folder detail/ are of this package only: they are not installed.
@@ -10,7 +10,7 @@ macro(coplane_dependencies)
 endmacro()
 
 function(coplane_package name)
-  cmake_parse_arguments(P "" "" "SOURCES" ${ARGN})
+  cmake_parse_arguments(P "KERNELS" "" "SOURCES" ${ARGN})
   include("${CMAKE_CURRENT_SOURCE_DIR}/cmake/Dependencies.cmake")
   list(FIND COPLANE_PACKAGES ${name} _mine)
   if(_mine LESS 0)
@@ -41,7 +41,11 @@ function(coplane_package name)
   target_link_libraries(${_library} ${_kind} coplane::flags ${_D_PACKAGES} ${_D_LIBRARIES})
   if(P_SOURCES)
     target_link_libraries(${_library} PRIVATE ${_D_PRIVATE_LIBRARIES})
-    coplane_precompile(${_library})
+    if(P_KERNELS)
+      coplane_precompile(${_library} KERNELS)
+    else()
+      coplane_precompile(${_library})
+    endif()
   endif()
 
   install(TARGETS ${_library} EXPORT CoplaneTargets COMPONENT development)
