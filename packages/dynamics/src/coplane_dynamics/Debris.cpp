@@ -109,9 +109,8 @@ Corners cornersBehind(const ExteriorFace& face, const RankMesh& mesh, const Node
   return corners;
 }
 
-/// Places a little beyond a face, over all of it: near its corners and beside one on it.
-std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* c,
-                                 const Vec3& place)
+/// Along the normal of a face of an element, out of it; of length 1, or 0 where it has no area.
+Vec3 outwardOf(const Corners& element, int count, const Vec3* c)
 {
   Vec3 inside, middle;
   for (int k = 0; k < element.count; ++k)
@@ -124,12 +123,21 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
   if (dot(normal, middle - inside) < 0)
     normal = -normal;
   const Real length = norm(normal);
-  const Vec3 off =
-      length > 0 ? (besideTheSurface * element.longestSide() / length) * normal : Vec3{};
+  return length > 0 ? (1 / length) * normal : Vec3{};
+}
+
+/// Places a little beyond a face, over all of it: near its corners and beside one on it.
+std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* c,
+                                 const Vec3& place)
+{
+  Vec3 middle;
+  for (int k = 0; k < count; ++k)
+    middle += (1.0 / count) * c[k];
+  const Vec3 off = (besideTheSurface * element.longestSide()) * outwardOf(element, count, c);
   std::array<Vec3, 5> places;
   for (int k = 0; k < 4; ++k)
     places[std::size_t(k)] = middle + nearlyAtTheCorner * (c[k < count ? k : 0] - middle) + off;
-  places[4] = place + besideTheSurface * (middle - place) + off;
+  places[4] = place + (1 - nearlyAtTheCorner) * (middle - place) + off;
   return places;
 }
 
@@ -242,8 +250,8 @@ std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const
   return inside;
 }
 
-/// The faces of the bodies that points are in, beside which these lie; by point, the nearest first,
-/// of equally near ones the lowest.
+/// The faces beside which points lie that are in bodies: those of these bodies, and others that
+/// look away from the point; by point, the nearest first, of equally near ones the lowest.
 std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& inside,
                                                 const std::vector<Vec3>& x, const RankMesh& mesh,
                                                 const ElementForces& elements,
@@ -270,16 +278,16 @@ std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& insid
     const auto look = [&](int i)
     {
       const Inside& one = inside[std::size_t(i)];
-      if (bodies_[f] != one.body)
-        return;
       const NearestOnFace nearest = nearestOnFace(face.nodeCount, c.data(), places[std::size_t(i)]);
       WayOut way;
       way.point = one.point;
-      way.body = one.body;
+      way.body = bodies_[f];
       way.count = face.nodeCount;
       way.face = face.id;
       way.distance = norm(nearest.way);
-      if (!std::isfinite(way.distance))
+      if (!std::isfinite(way.distance) ||
+          (way.body != one.body &&
+           !(dot(outwardOf(corners, face.nodeCount, c.data()), nearest.way) > 0)))
         return;
       way.outward = way.distance > 0 ? (1 / way.distance) * nearest.way : Vec3{};
       way.beyond =
@@ -340,7 +348,8 @@ std::vector<char> Debris::areCovered(const std::vector<WayOut>& ways, const Rank
 }
 
 /// For each of these points the nearest face of its body, and the nearest over which it can leave,
-/// if there is one: faces on which other bodies lie lead nowhere. Points that have come in over
+/// if there is one: faces on which other bodies lie lead nowhere, but behind them faces of these
+/// bodies may lead out. Points that have come in over
 /// such a face, between two bodies, leave by it. Collective.
 std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& inside,
                                                  const std::vector<Vec3>& x, const RankMesh& mesh,
@@ -356,7 +365,14 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
                ways.end());
   };
   const std::vector<WayOut> beside = facesBeside(inside, x, mesh, elements, state);
-  std::vector<WayOut> mine = beside;
+  const auto isOwn = [&](const WayOut& way)
+  {
+    const auto found = std::lower_bound(inside.begin(), inside.end(), way.point,
+                                        [](const Inside& a, int point) { return a.point < point; });
+    return found->body == way.body;
+  };
+  std::vector<WayOut> mine;
+  std::copy_if(beside.begin(), beside.end(), std::back_inserter(mine), isOwn);
   keepFirst(mine);
   std::vector<WayOut> nearest = comm_->allGather(mine);
   std::sort(nearest.begin(), nearest.end());

@@ -25,15 +25,24 @@ void warnOfLateBlast(const ConditionCard& card, const AirBlast& blast, Real end,
   last = comm.max(last);
   if (!(first <= last))
     return; // no faces
-  if (first >= std::min(end, blast.when.until))
+  if (first >= end)
     logWarning(topic, fmt::format("{}: the blast wave arrives at '{}' at {:.5g} s, after the end "
                                   "at {:.5g} s. Check detonation_time and charge_place, or raise "
                                   "time.end.",
-                                  card.where, card.set, first, std::min(end, blast.when.until)));
-  else if (last <= std::max(0.0, blast.when.from))
+                                  card.where, card.set, first, end));
+  else if (first >= blast.when.until)
+    logWarning(topic, fmt::format("{}: the blast wave arrives at '{}' at {:.5g} s, and the "
+                                  "condition acts until {:.5g} s. Check `until`, detonation_time "
+                                  "and charge_place.",
+                                  card.where, card.set, first, blast.when.until));
+  else if (last <= 0)
     logWarning(topic, fmt::format("{}: the blast wave has left '{}' at {:.5g} s, before the start "
-                                  "at {:.5g} s. Check detonation_time.",
-                                  card.where, card.set, last, std::max(0.0, blast.when.from)));
+                                  "at 0 s. Check detonation_time.",
+                                  card.where, card.set, last));
+  else if (last <= blast.when.from)
+    logWarning(topic, fmt::format("{}: the blast wave has left '{}' at {:.5g} s, and the condition "
+                                  "acts from {:.5g} s on. Check `from`.",
+                                  card.where, card.set, last, blast.when.from));
 }
 
 struct Lit
@@ -108,10 +117,15 @@ void warnOfIdleLoads(const std::vector<Deck>& decks, const MeshSlice& mesh, cons
 {
   const Deck& first = decks.front();
   const Real end = decks.back().time.end;
-  std::set<std::string> told; // a condition stands in the decks of all its stages
+  // A condition stands in the decks of all its stages, which may change when it acts.
+  std::set<std::string> doneWith;
   for (const Deck& deck : decks)
     for (const ConditionCard& card : deck.conditions)
-      if (card.from >= end && told.insert(card.where).second)
+      if (card.from < end)
+        doneWith.insert(card.where);
+  for (const Deck& deck : decks)
+    for (const ConditionCard& card : deck.conditions)
+      if (card.from >= end && doneWith.insert(card.where).second)
         logWarning(topic, fmt::format("{}: {} acts from {:.5g} s on, and the run ends at {:.5g} s. "
                                       "Check `from`, or raise time.end.",
                                       card.where, card.type, card.from, end));

@@ -122,6 +122,7 @@ private:
     bool further = false;
     UnevenCrushing from;
     Real lostBefore = 0; ///< by the tractions before the step [J]
+    Real energy = 0;     ///< that it would have where the faces are now [J]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -305,8 +306,12 @@ private:
       if (crushed.further)
       {
         Plane& plane = *planes_.plane[0];
-        plane.hysteresisWork +=
+        const Real lost =
             0.5 * (crushed.lostBefore + pair_.lostBy(crushed.from, plane.crushing(), density));
+        // Where the line rises by more than what is closed elastically the tractions fall on the
+        // way.
+        const Real most = crushed.energy - pair_.materialArea * pair_.opposedness * pressed;
+        plane.hysteresisWork += lost < most ? lost : most;
       }
     Response response;
     for (int i = 0; i < planes_.count; ++i)
@@ -387,6 +392,7 @@ private:
       {
         if (plane.area > 0)
           from.lostBefore = lostBefore(from.from, to);
+        from.energy = energyNow(from.from);
         plane.crush(to);
       }
       else
@@ -402,6 +408,20 @@ private:
       permanents_[0] = pair_.meanCrushing();
   }
 
+  /// Energy of the pair where the faces are now [J].
+  KOKKOS_INLINE_FUNCTION Real energyNow(const UnevenCrushing& crushing) const
+  {
+    const Plane& plane = *planes_.plane[0];
+    PairPotential<Dim, Real> pair(a_, b_, ContactPotentialScale(options_.cosOpposed));
+    pair.beCrushed(crushing);
+    pair.meet(plane.offset, false, edgesOf(planes_));
+    if (!(pair.moments.volume > 0))
+      return 0;
+    EnergyDensity<Real> density;
+    const Real stored = pair.press(slopes_[0], 0, density);
+    pair.growFrom(plane.birthArea[0], plane.birthArea[1]);
+    return pair.materialArea * pair.opposedness * stored;
+  }
   /// What it costs to crush a joint further with the tractions that it had before the step [J].
   KOKKOS_INLINE_FUNCTION Real lostBefore(const UnevenCrushing& from, const UnevenCrushing& to) const
   {
