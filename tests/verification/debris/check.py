@@ -73,6 +73,15 @@ for dimension in (2, 3):
         z, v = corners(run, -1)
         after = v[:, -1] / numpy.where(z < height + size / 2, low, high)
         case.check(f"halves {gap:g} m apart, {dimension}D: speed after the bounce, largest change", numpy.abs(after - 1).max(), 0, 1e-3)
+    for lean in (-0.25, 0.25) if dimension == 2 else ():
+        top, bottom = 0.3305, 0.3305 + lean  # a slanting seam, 0.5 mm beside corners
+        quadrilateral = lambda *corners: {"shape": "quadrilateral", "block": "floor", "corners": corners, "divisions": [1, 1], "split": "none"}
+        halves = {**recipe, "parts": [quadrilateral([0, -floor], [bottom, -floor], [top, 0], [0, 0]), quadrilateral([bottom, -floor], [2 * floor, -floor], [2 * floor, 0], [top, 0]),
+                                      recipe["parts"][1]]}  # fmt: skip
+        run = case.run(f"slanting_{lean:g}", halves, straight)
+        z, v = corners(run, -1)
+        after = v[:, -1] / numpy.where(z < height + size / 2, low, high)
+        case.check(f"seam that leans by {lean:g} m: speed after the bounce, largest change", numpy.abs(after - 1).max(), 0, 1e-3)
     if dimension == 3:
         case.same_bits("halves_3d_1e-05", halves, straight, run, ranks=2)
 
