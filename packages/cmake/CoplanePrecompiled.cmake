@@ -1,10 +1,9 @@
-# coplane_precompile(<target> ... [TESTS] [KERNELS]): compiles these with one precompiled header of what nearly every source includes: Kokkos, fmt,
+# coplane_precompile(<target> ... [TESTS] [ONE_BY_ONE]): compiles these with one precompiled header of what nearly every source includes: Kokkos, fmt,
 # MPI and the standard library; with TESTS also GoogleTest. Reading those took longer than compiling what is ours. Sources still include
 # what they use: the header of a package that leaves out another header of ours does not compile alone. -DCOPLANE_PRECOMPILED=OFF: without.
 # -DCOPLANE_UNITY=ON, as the commands of the README have it: sources of a library or program are compiled eight at a time, so what they
 # all include and instantiate is compiled once. In what follows a change more is compiled again, so it is off by default. Two of the eight
-# cannot have a name in anonymous namespaces in common: rename one. Tests, and packages with KERNELS, are compiled one by one: compilers
-# inline less in large units.
+# cannot have a name in anonymous namespaces in common: rename one. Tests, and with ONE_BY_ONE, are compiled one by one.
 option(COPLANE_UNITY "Compile sources of libraries and programs several at a time" OFF)
 
 option(COPLANE_PRECOMPILED "Compile with precompiled headers of Kokkos, fmt, MPI and the standard library" ON)
@@ -30,12 +29,12 @@ if(COPLANE_PRECOMPILED)
 endif()
 
 function(coplane_precompile)
-  cmake_parse_arguments(P "TESTS;KERNELS" "" "" ${ARGN})
+  cmake_parse_arguments(P "TESTS;ONE_BY_ONE" "" "" ${ARGN})
   set(_suffix "")
   if(P_TESTS)
     set(_suffix _tests)
   endif()
-  if(COPLANE_UNITY AND NOT P_TESTS AND NOT P_KERNELS)
+  if(COPLANE_UNITY AND NOT P_TESTS AND NOT P_ONE_BY_ONE)
     set_target_properties(${P_UNPARSED_ARGUMENTS} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
   endif()
   if(COPLANE_PRECOMPILED)

@@ -1,5 +1,5 @@
 // The energy of a pair of faces and its gradient.
-#include "FacePairs.hpp"
+#include "BalancedForces.hpp"
 
 #include <coplane_contact/detail/PotentialKernel.hpp>
 
@@ -453,18 +453,7 @@ TEST(ContactPotential, forcesAndMomentsSumToZero)
   {
     const RandomPair pair = randomPair(random, .3);
     const Evaluation<3> e(pair.a, pair.b, 1, .02, {1, 1}, random() & 255);
-    Vec3 force, moment;
-    Real size = 0;
-    const FaceNodes* faces[2] = {&pair.a, &pair.b};
-    for (int f = 0; f < 2; ++f)
-      for (int i = 0; i < faces[f]->count; ++i)
-      {
-        force += e.gradient[f][i];
-        moment += cross(faces[f]->x[i], e.gradient[f][i]);
-        size = std::max(size, norm(e.gradient[f][i]));
-      }
-    EXPECT_LE(norm(force), 1e-12 * size);
-    EXPECT_LE(norm(moment), 1e-11 * size);
+    expectBalanced(pair, e.gradient);
   }
 }
 

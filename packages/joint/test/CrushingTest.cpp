@@ -47,6 +47,24 @@ TEST(Crushing_Compression, followsThePublishedCurveWhateverTheSteps)
       }
 }
 
+TEST(Crushing_Compression, isNoMoreThanBearsACompression)
+{
+  const Crushing law = crushedMortar().law.curve.crushing;
+  for (const Real most : {0., 3e-5, kp, 3e-4, 7e-4, 3e-3})
+  {
+    EXPECT_EQ(law.crushedUpTo(0, most), most);
+    EXPECT_EQ(law.crushedUpTo(.999 * strengthAt(most), most), most);
+    EXPECT_NEAR(law.crushedUpTo(1.1 * fm, most), std::min(most, kp), 1e-15);
+    if (most > kp)
+    {
+      const Real compression = .5 * (strengthAt(most) + fm);
+      const Real k = law.crushedUpTo(compression, most);
+      EXPECT_LT(k, most);
+      EXPECT_NEAR(strengthAt(k), compression, 1e-9 * fm);
+    }
+  }
+}
+
 TEST(Crushing_Compression, isElasticUpToAThirdAndItsPeakIsTheStrength)
 {
   JointRun run(crushedMortar());

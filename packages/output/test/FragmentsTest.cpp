@@ -144,6 +144,26 @@ TEST(Fragments, ofARigidBoxHaveTheMomentsOfTheSolid)
   EXPECT_LT(norm(ofHistory - solid), 1e-3 * norm(solid)); // half a step later
 }
 
+TEST(Fragments, haveNoLineForWhatAStageAdds)
+{
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "first", {1, 1, 1}, {10, 0, 0}, {1, 1, 1});
+  addBox(mesh, "later", {2, 1, 1}, {0, 0, 0}, {2, 1, 1});
+  mesh.blocks.back().id = 2;
+  Model model = rock(mesh, comm);
+  model.inStages = model.blocksComeOrGo = true;
+  model.absentBlocks = {1};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  const std::vector<Fragment> fragments = fragmentsOf(solver);
+  if (!comm.isRoot())
+    return;
+  ASSERT_EQ(fragments.size(), 1u);
+  EXPECT_EQ(fragments[0].elements, 1);
+  EXPECT_EQ(fragments[0].mass, 1000);
+}
+
 TEST(Fragments, keepTheirIdsWhenTheBodySplitsAgain)
 {
   // The third cube dies at once, the sixth, which is pulled slowly, later: what is left of a body

@@ -64,7 +64,8 @@ for dimension in (2, 3):
         case.restarts(name, recipe, one, run, touched[20], ranks=2)
 
     # Cut in two 1 mm beside corners, which do not fly along it: the seam is no way out.
-    seam, box = 0.331, recipe["parts"][0]
+    side, box = recipe["parts"][1]["min"][0], recipe["parts"][0]
+    seam = side + 1e-3
     for gap in (0, 1e-5):
         part = lambda low, high: {**box, "min": [low, *box["min"][1:]], "size": [high - low, *box["size"][1:]], "divisions": [1, *box["divisions"][1:]]}
         halves = {**recipe, "parts": [part(0, seam), part(seam + gap, 2 * floor), recipe["parts"][1]]}
@@ -74,7 +75,7 @@ for dimension in (2, 3):
         after = v[:, -1] / numpy.where(z < height + size / 2, low, high)
         case.check(f"halves {gap:g} m apart, {dimension}D: speed after the bounce, largest change", numpy.abs(after - 1).max(), 0, 1e-3)
     for lean in (-0.25, 0.25) if dimension == 2 else ():
-        top, bottom = 0.3305, 0.3305 + lean  # a slanting seam, 0.5 mm beside corners
+        top, bottom = side + 5e-4, side + 5e-4 + lean  # a slanting seam, 0.5 mm beside corners
         quadrilateral = lambda *corners: {"shape": "quadrilateral", "block": "floor", "corners": corners, "divisions": [1, 1], "split": "none"}
         halves = {**recipe, "parts": [quadrilateral([0, -floor], [bottom, -floor], [top, 0], [0, 0]), quadrilateral([bottom, -floor], [2 * floor, -floor], [2 * floor, 0], [top, 0]),
                                       recipe["parts"][1]]}  # fmt: skip

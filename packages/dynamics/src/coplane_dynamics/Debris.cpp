@@ -349,8 +349,8 @@ std::vector<char> Debris::areCovered(const std::vector<WayOut>& ways, const Rank
 
 /// For each of these points the nearest face of its body, and the nearest over which it can leave,
 /// if there is one: faces on which other bodies lie lead nowhere, but behind them faces of these
-/// bodies may lead out. Points that have come in over
-/// such a face, between two bodies, leave by it. Collective.
+/// bodies may lead out. Points that have come in over such a face, between two bodies, leave by it.
+/// Collective.
 std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& inside,
                                                  const std::vector<Vec3>& x, const RankMesh& mesh,
                                                  const ElementForces& elements,
@@ -389,14 +389,18 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
   if (!isSought)
     return ways;
 
-  const auto of = [&](int point)
+  /// Null for a point that has one already.
+  const auto seeking = [&](int point) -> WaysOut*
   {
-    return std::lower_bound(ways.begin(), ways.end(), point,
-                            [](const WaysOut& w, int wanted) { return w.nearest.point < wanted; });
+    const auto found =
+        std::lower_bound(ways.begin(), ways.end(), point,
+                         [](const WaysOut& w, int wanted) { return w.nearest.point < wanted; });
+    return found != ways.end() && found->nearest.point == point && !found->isOpen ? &*found
+                                                                                  : nullptr;
   };
   std::vector<WayOut> others;
   for (const WayOut& way : beside)
-    if (const auto found = of(way.point); !found->isOpen && found->nearest.face != way.face)
+    if (const WaysOut* const its = seeking(way.point); its && its->nearest.face != way.face)
       others.push_back(way);
   others = comm_->allGather(others);
   std::sort(others.begin(), others.end());
@@ -404,12 +408,12 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
                            [](const WayOut& a, const WayOut& b)
                            { return a.point == b.point && a.face == b.face; }),
                others.end());
-  const std::vector<char> lead = areCovered(others, mesh, state);
+  const std::vector<char> leadNowhere = areCovered(others, mesh, state);
   for (std::size_t i = 0; i < others.size(); ++i)
-    if (const auto found = of(others[i].point); !lead[i] && !found->isOpen)
+    if (WaysOut* const its = leadNowhere[i] ? nullptr : seeking(others[i].point))
     {
-      found->open = others[i];
-      found->isOpen = true;
+      its->open = others[i];
+      its->isOpen = true;
     }
   return ways;
 }

@@ -1,5 +1,6 @@
 #include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_dynamics/detail/RigidInertia.hpp>
+#include <coplane_mesh/IntegrateSolid.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -8,19 +8,6 @@
 
 namespace coplane
 {
-Mat3 inertiaFromMoments(const Real* s) // xx yy zz xy yz zx of sum m r r^T
-{
-  Mat3 j;
-  const Real trace = s[0] + s[1] + s[2];
-  j(0, 0) = trace - s[0];
-  j(1, 1) = trace - s[1];
-  j(2, 2) = trace - s[2];
-  j(0, 1) = j(1, 0) = -s[3];
-  j(1, 2) = j(2, 1) = -s[4];
-  j(2, 0) = j(0, 2) = -s[5];
-  return j;
-}
-
 /// The inverse; in two dimensions of the part that turns.
 Mat3 inverseInertia(const Mat3& j, int dimension)
 {

@@ -56,4 +56,18 @@ void integrateSolid(ElementType type, const Vec3* x, F&& f)
           f(at, weight[i] * weight[j] * weight[k] * dot(cross(g[0], g[1]), g[2]));
       }
 }
+
+/// Moments of inertia from sum m r r^T: xx yy zz xy yz zx [kg m^2].
+inline Mat3 inertiaFromMoments(const Real* s)
+{
+  Mat3 j;
+  const Real trace = s[0] + s[1] + s[2];
+  j(0, 0) = trace - s[0];
+  j(1, 1) = trace - s[1];
+  j(2, 2) = trace - s[2];
+  j(0, 1) = j(1, 0) = -s[3];
+  j(1, 2) = j(2, 1) = -s[4];
+  j(2, 0) = j(0, 2) = -s[5];
+  return j;
+}
 } // namespace coplane

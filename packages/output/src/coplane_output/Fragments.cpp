@@ -282,20 +282,13 @@ struct NodesNow
   }
 };
 
-Mat3 inertiaOf(const Real* s)
-{
-  const Real trace = s[0] + s[1] + s[2];
-  return {
-      {{trace - s[0], -s[3], -s[5]}, {-s[3], trace - s[1], -s[4]}, {-s[5], -s[4], trace - s[2]}}};
-}
-
 /// Angular velocity with which the moments turn; none where they are those of a line or a point.
 Vec3 spinOf(const Real* s, const Vec3& angular, bool flat)
 {
   const Real trace = s[0] + s[1] + s[2];
   if (flat)
     return {0, 0, trace > 0 ? angular.z / trace : 0}; // in the plane of the mesh
-  const Mat3 inertia = inertiaOf(s);
+  const Mat3 inertia = inertiaFromMoments(s);
   const Vec3 first{inertia(0, 0), inertia(1, 0), inertia(2, 0)};
   const Vec3 second{inertia(0, 1), inertia(1, 1), inertia(2, 1)};
   const Vec3 third{inertia(0, 2), inertia(1, 2), inertia(2, 2)};
@@ -318,7 +311,7 @@ void takeSolid(const RankMesh::Block& part, const ElementBlock& block, const Nod
   const Real density = share.mass / block.referenceVolume(e);
   integrateSolid(part.type, x,
                  [&](const Vec3& r, Real volume) { addSecond(share.second, density * volume, r); });
-  share.angular = inertiaOf(share.second) * spin;
+  share.angular = inertiaFromMoments(share.second) * spin;
 }
 
 Share shareOf(const Solver& solver, const NodesNow& motion, std::size_t b, int e)

@@ -4,6 +4,7 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/detail/BentBonds.hpp>
 #include <coplane_contact/detail/LostEnergies.hpp>
+#include <coplane_contact/detail/UnevenlyCrushed.hpp>
 
 // Steps B to H of a pair of faces whose forces come from one potential
 // (docs/theory/contact-potential.md). Faces are those of the end of the step.
@@ -114,15 +115,6 @@ private:
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
     PerLane crushing = {};  ///< that the law saw of a joint that is crushed unevenly [m]
     PerLane sheared = {};   ///< what shear has crushed of such a joint [m]
-  };
-
-  /// How a joint was crushed before a cycle that crushes it further.
-  struct CrushedFrom
-  {
-    bool further = false;
-    UnevenCrushing from;
-    Real lostBefore = 0; ///< by the tractions before the step [J]
-    Real energy = 0;     ///< that it would have where the faces are now [J]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -289,7 +281,7 @@ private:
     CrushedFrom crushed;
     if constexpr (width == 1)
       if (touching && crushes_[0])
-        crush(crushed);
+        crushed = unevenly().crush(permanents_[0]);
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
     const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
@@ -304,15 +296,7 @@ private:
     const T energyShare = pair_.materialArea * pair_.opposedness * share;
     if constexpr (width == 1)
       if (crushed.further)
-      {
-        Plane& plane = *planes_.plane[0];
-        const Real lost =
-            0.5 * (crushed.lostBefore + pair_.lostBy(crushed.from, plane.crushing(), density));
-        // Where the line rises by more than what is closed elastically the tractions fall on the
-        // way.
-        const Real most = crushed.energy - pair_.materialArea * pair_.opposedness * pressed;
-        plane.hysteresisWork += lost < most ? lost : most;
-      }
+        planes_.plane[0]->hysteresisWork += unevenly().lost(crushed, density, pressed);
     Response response;
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
@@ -328,7 +312,7 @@ private:
 
     if constexpr (width == 1)
       if (response.sheared[0] > 0)
-        bookWhatIsLifted(response.sheared[0], density, loaded);
+        planes_.plane[0]->hysteresisWork -= unevenly().lifted(response.sheared[0], density, loaded);
 
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
@@ -358,94 +342,18 @@ private:
       }
   }
 
-  /// The law takes what shear crushes for crushed all over. Where a joint is not, the dilation
-  /// lifts it and nothing gives way: the energy that it has more then is taken from the loss; T =
-  /// Real.
-  KOKKOS_INLINE_FUNCTION void bookWhatIsLifted(Real sheared, const EnergyDensity<Real>& density,
-                                               Real loaded) const
+  /// What a joint that may be crushed unevenly has to do with its pair; T = Real.
+  KOKKOS_INLINE_FUNCTION UnevenlyCrushed<Dim> unevenly() const
   {
-    Plane& plane = *planes_.plane[0];
-    UnevenCrushing before = plane.crushing();
-    before.atCenter -= sheared;
-    plane.hysteresisWork += pair_.lostBy(before, plane.crushing(), density) -
-                            pair_.materialArea * pair_.opposedness * loaded * sheared;
-  }
-
-  /// Crushes a joint as far as the closures of now do, before the force; T = Real.
-  KOKKOS_INLINE_FUNCTION void crush(CrushedFrom& from)
-  {
-    Plane& plane = *planes_.plane[0];
-    const Crushing& law = planes_.law[0]->curve.crushing;
-    const Real even = permanents_[0], offset = plane.offset;
-    const bool was = plane.crushedUnevenly;
-    UnevenCrushing to;
-    from.further =
-        pair_.mostClosure + even > (was ? law.onset(slopes_[0]) : mostWithoutCrushing(0)) &&
-        pair_.crushFurther(law, slopes_[0], even, to);
-    if (from.further)
-    {
-      from.from = was ? plane.crushing() : UnevenCrushing{even, {0, 0}};
-      pair_.beCrushed(to);
-      pair_.meet(offset, false, edgesOf(planes_));
-      from.further = pair_.moments.volume > 0;
-      if (from.further)
-      {
-        if (plane.area > 0)
-          from.lostBefore = lostBefore(from.from, to);
-        from.energy = energyNow(from.from);
-        plane.crush(to);
-      }
-      else
-      {
-        if (was)
-          pair_.beCrushed(plane.crushing());
-        else
-          pair_.notCrushed();
-        pair_.meet(was ? offset : offset - even, false, edgesOf(planes_));
-      }
-    }
-    if (plane.crushedUnevenly)
-      permanents_[0] = pair_.meanCrushing();
-  }
-
-  /// Energy of the pair where the faces are now [J].
-  KOKKOS_INLINE_FUNCTION Real energyNow(const UnevenCrushing& crushing) const
-  {
-    const Plane& plane = *planes_.plane[0];
-    PairPotential<Dim, Real> pair(a_, b_, ContactPotentialScale(options_.cosOpposed));
-    pair.beCrushed(crushing);
-    pair.meet(plane.offset, false, edgesOf(planes_));
-    if (!(pair.moments.volume > 0))
-      return 0;
-    EnergyDensity<Real> density;
-    const Real stored = pair.press(slopes_[0], 0, density);
-    pair.growFrom(plane.birthArea[0], plane.birthArea[1]);
-    return pair.materialArea * pair.opposedness * stored;
-  }
-  /// What it costs to crush a joint further with the tractions that it had before the step [J].
-  KOKKOS_INLINE_FUNCTION Real lostBefore(const UnevenCrushing& from, const UnevenCrushing& to) const
-  {
-    const Plane& plane = *planes_.plane[0];
-    const HalfStepFace a = faceBefore(a_), b = faceBefore(b_);
-    PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options_.cosOpposed));
-    if (!pair.plane.opposed)
-      return 0;
-    pair.beCrushed(from);
-    pair.meet(plane.offset, false, edgesOf(planes_));
-    if (!(pair.moments.volume > 0))
-      return 0;
-    EnergyDensity<Real> density;
-    pair.press(slopes_[0], 0, density);
-    pair.growFrom(plane.birthArea[0], plane.birthArea[1]);
-    return pair.lostBy(from, to, density);
-  }
-  KOKKOS_INLINE_FUNCTION HalfStepFace faceBefore(const HalfStepFaceOf<T>& face) const
-  {
-    FaceNodes nodes;
-    nodes.count = face.count;
-    for (int i = 0; i < face.count; ++i)
-      nodes.x[i] = branchFree::lane(face.x[i], 0) - dt_ * branchFree::lane(face.v[i], 0);
-    return stepA_faceAtEnd<Dim>(nodes);
+    return {*planes_.plane[0],
+            planes_.law[0]->curve.crushing,
+            slopes_[0],
+            options_,
+            dt_,
+            a_,
+            b_,
+            edgesOf(planes_),
+            pair_};
   }
 
   KOKKOS_FORCEINLINE_FUNCTION Relative stepG_motion() const
