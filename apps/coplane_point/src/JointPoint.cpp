@@ -19,7 +19,7 @@ void JointPoint::moveTo(Real gap, const Vec3& slip, Real dt)
            0.5 * dot(shearBefore + state_.shearTraction, increment);
   friction_ += response_.frictionWork;
   fracture_ += response_.fractureWork;
-  hysteresis_ += response_.hysteresisWork;
+  hysteresis_ += response_.hysteresisWork(tractionBefore);
 }
 
 Real JointPoint::balancedGap(const Vec3& slip, Real dt, Real traction, Real stiffness,

@@ -51,7 +51,7 @@ struct PairTable
       plane.sighting = random() % 2 == 0 ? Sighting::New : Sighting::Known;
       plane.declared = random() % 5 == 0;
       plane.history.bonded = random() % 5 == 0;
-      plane.joint = std::uint16_t(random() % 4);
+      plane.joint = std::uint16_t(random() % 6);
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), u(random)});
       plane.depthLimit = 1;
@@ -89,7 +89,8 @@ struct PairTable
   }
 };
 
-/// The third is a bond that resists bending and breaks here and there, the last is crushed.
+/// The third is a bond that resists bending and breaks here and there, the last three are crushed:
+/// by compression, by shear more than by that, and with dilation.
 std::vector<JointLaw> someLaws()
 {
   JointLaw law;
@@ -106,7 +107,12 @@ std::vector<JointLaw> someLaws()
   crushed.curve.crushing.strength = .3;
   crushed.curve.crushing.peak = .02;
   crushed.curve.crushing.length = .1;
-  return {law, other, bent, crushed};
+  JointLaw sheared = crushed;
+  sheared.friction = .8;
+  sheared.curve.crushing.strength = 3;
+  JointLaw lifted = sheared;
+  lifted.dilation = .1;
+  return {law, other, bent, crushed, sheared, lifted};
 }
 
 ContactOptions damped(ContactOptions o)
@@ -169,7 +175,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     PairTable table(3000, 17);
     std::vector<Plane> alone = table.planes;
     Slots together(table.planes);
-    int carrying = 0, irregular = 0, woken = 0, uneven = 0, even = 0;
+    int carrying = 0, irregular = 0, woken = 0, uneven = 0, byShear = 0, even = 0;
     for (int cycle = 0; cycle < 15; ++cycle, table.move())
     {
       const std::vector<HalfStepFace> faces = table.faces(o);
@@ -177,10 +183,13 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
         if (plane.face[0] >= 0)
         {
           const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
+          const bool wasUneven = plane.crushedUnevenly;
           updateByForces<3>(plane, a, b, laws[plane.joint], o, dt);
           ASSERT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
           carrying += plane.area > 0;
           uneven += plane.crushedUnevenly;
+          byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
+                     plane.crushing().along[1] == 0;
           even += laws[plane.joint].crushesUnevenly() && !plane.crushedUnevenly && plane.area > 0;
           const TrialPlane trial = stepB_trialPointOfContact<3>(a, b);
           irregular +=
@@ -202,6 +211,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     if (o.forces == ContactOptions::Forces::Potential)
     {
       EXPECT_GT(uneven, 1000);
+      EXPECT_GT(byShear, 20);
       EXPECT_GT(even, 1000);
     }
   }

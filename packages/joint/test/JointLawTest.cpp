@@ -355,7 +355,7 @@ TEST(JointLaw_Energies, hysteresisOfStepsAddsUpToThatOfTheLargestClosure)
   JointState state;
   Real hysteresis = 0;
   for (const Real x : {.1, .3, .2, .05, .5, -.1, .4, .8, 0.})
-    hysteresis += joint.normal(x * maximum, state).hysteresisWork;
+    hysteresis += joint.normal(x * maximum, state).curveWork;
   const Real expected = 4000 * (-.8 - std::log1p(-.8)) - 1280;
   EXPECT_NEAR(hysteresis, expected, 1e-12 * expected);
 }

@@ -55,8 +55,9 @@ struct JointRun
     work -= .5 * dot(tau + state.shearTraction, increment);
     friction += last.frictionWork;
     fracture += last.fractureWork;
-    hysteresis += last.hysteresisWork;
-    for (const Real part : {last.frictionWork, last.fractureWork, last.hysteresisWork})
+    const Real closing = last.hysteresisWork(sigmaBefore);
+    hysteresis += closing;
+    for (const Real part : {last.frictionWork, last.fractureWork, closing})
       leastDissipation = std::fmin(leastDissipation, part);
   }
 

@@ -271,6 +271,7 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
     plane.closure -= opening;
   plane.tooDeep = plane.closure > plane.depthLimit;
   const JointResponse response = law(plane.fit, plane.limitedClosure(), sliding, dt, plane.history);
+  plane.hysteresisWork += plane.area * response.hysteresisWork(plane.normalTraction);
   plane.normalTraction = response.normalTraction;
   plane.state = !plane.history.bonded && response.normalTraction <= 0 ? PlaneState::Open
                 : response.slipping                                   ? PlaneState::Slip
@@ -279,7 +280,6 @@ KOKKOS_FORCEINLINE_FUNCTION JointResponse stepH_law(Plane& plane, const JointLaw
   plane.closure += response.dilation;
   plane.stored = plane.area * law.stored(plane.fit, plane.limitedClosure(), plane.history);
   plane.frictionWork += plane.area * response.frictionWork;
-  plane.hysteresisWork += plane.area * response.hysteresisWork;
   plane.fractureWork += plane.area * response.fractureWork;
   return response;
 }

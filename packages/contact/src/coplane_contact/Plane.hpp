@@ -169,8 +169,8 @@ struct alignas(64) Plane
 
   Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
   Real stored = 0;            ///< recoverable energy now [J]
-  /// Of a closure curve, potential only: the maximum closure of the cycle before [m], and half of
-  /// what the rise since then costs with the area of that cycle [J]. Of a joint that is crushed
+  /// Of a closure curve, potential only: the maximum closure of the cycle before [m], and what of
+  /// the cost of the rise since then is booked in this cycle [J]. Of a joint that is crushed
   /// unevenly: how its crushing changes with the affine coordinates of face 0 [m].
   Real closureMemory[2] = {0, 0};
 
@@ -182,7 +182,7 @@ struct alignas(64) Plane
   Real dampingWork = 0;
 
   KOKKOS_INLINE_FUNCTION Real& maximumBefore() { return closureMemory[0]; }
-  KOKKOS_INLINE_FUNCTION Real& halfHysteresis() { return closureMemory[1]; }
+  KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[1]; }
   /// How it is crushed, if unevenly.
   KOKKOS_INLINE_FUNCTION UnevenCrushing crushing() const
   {

@@ -140,6 +140,12 @@ struct Crushing
     return f / (f / stiffness + loss * k);
   }
 
+  /// By how much a joint is more compliant that is crushed further [m/Pa].
+  KOKKOS_INLINE_FUNCTION Real softened(Real from, Real to, Real stiffness) const
+  {
+    return loss > 0 ? 1 / unloading(to, stiffness) - 1 / unloading(from, stiffness) : 0;
+  }
+
   /// Closure under a compression that rises to it [m]; beyond the strength that of the strength.
   KOKKOS_INLINE_FUNCTION Real closureUnder(Real compression, Real stiffness) const
   {

@@ -209,10 +209,20 @@ private:
     response.normalStiffness = top.stiffness;
     const Real sigma = top.traction - top.stiffness * (state.maximumClosure - c);
     response.normalTraction = sigma > 0 ? sigma : 0;
-    if (loading && !curve.straight())
-      response.hysteresisWork +=
+    if (loading && curve.crushing.acts())
+      crush(fit.normalStiffness, curve.crushing.crushedAt(before, fit.normalStiffness),
+            curve.crushing.crushedAt(c, fit.normalStiffness), response);
+    else if (loading && curve.stiffens())
+      response.curveWork +=
           std::fmax(0.0, curve.hysteresis(fit, c) - curve.hysteresis(fit, before));
     return -sigma / top.stiffness;
+  }
+
+  /// Books that compression crushes the joint.
+  KOKKOS_INLINE_FUNCTION void crush(Real kn, Real from, Real to, JointResponse& response) const
+  {
+    response.crushed += (1 - curve.crushing.loss) * (to - from);
+    response.softened += curve.crushing.softened(from, to, kn);
   }
 
   /// Compression that a closure would give.
@@ -467,10 +477,8 @@ private:
 
     const Real crushed = before + x, strong = crushing.strengthAt(crushed);
     const Real normal = normalAt(x), shear = shearAt(x, normal);
-    const Real ratio = weak / strong; // of the tractions at the start to those at the end
-    response.hysteresisWork += 0.5 * (1 + ratio) * normal * (closing * x) +
-                               0.5 * crushing.loss * ratio * (normal * normal) *
-                                   std::fmax(crushed / strong - before / weak, 0.0);
+    response.crushed += closing * x;
+    response.softened += crushing.softened(before, crushed, kn);
     // Work of all slip of the step, less what of it is booked.
     const Real carried = dot(s.before, s.trial) / s.size;
     const Real more = (carried + shear) * (s.size - shear) - (carried + tau) * (s.size - tau);

@@ -59,11 +59,22 @@ struct JointResponse
   Real normalStiffness = 0; ///< slope of the branch in use [Pa/m]
   Real bondStiffness = 0;   ///< of a bond that resists bending: slope where it is open [Pa/m]
   bool slipping = false;
-  Real frictionWork = 0;   ///< [J/m^2]
-  Real fractureWork = 0;   ///< [J/m^2]
-  Real hysteresisWork = 0; ///< of the closure curve [J/m^2]
-  Real dilation = 0; ///< by which the plane's offset rises in this step [m]; the tractions are
-                     ///< those at the raised offset
+  Real frictionWork = 0; ///< [J/m^2]
+  Real fractureWork = 0; ///< [J/m^2]
+  Real curveWork = 0;    ///< hysteresis of a closure curve that stiffens [J/m^2]
+  Real crushed = 0;      ///< by how much crushing closes the joint for good [m]
+  Real softened = 0;     ///< by how much crushing makes it more compliant [m/Pa]
+  Real dilation = 0;     ///< by which the plane's offset rises in this step [m]; the tractions are
+                         ///< those at the raised offset
   bool crushedByShear = false; ///< and the maximum closure raised by it
+
+  /// Work of closing that does not come back [J/m^2]: of crushing, what the mean of the
+  /// compressions before and after the step does and does not store, to round-off.
+  /// @param before normal traction before the step [Pa]
+  KOKKOS_INLINE_FUNCTION Real hysteresisWork(Real before) const
+  {
+    const Real from = before > 0 ? before : 0, to = normalTraction > 0 ? normalTraction : 0;
+    return curveWork + 0.5 * ((from + to) * crushed + from * to * softened);
+  }
 };
 } // namespace coplane

@@ -113,8 +113,8 @@ private:
     PerLane tractions = {}; ///< normal, of bonds; compression positive [Pa]
     PerLane stored = {};    ///< energy of bonds per area [J/m^2]
     PerLane slopes = {};    ///< of bonds that resist bending, where they are open [Pa/m]
-    PerLane crushing = {};  ///< that the law saw of a joint that is crushed unevenly [m]
-    PerLane sheared = {};   ///< what shear has crushed of such a joint [m]
+    PerLane sheared = {};   ///< what shear has crushed of a joint that may be so unevenly [m]
+    PerLane parted = {};    ///< what of that did not close it [m]
   };
 
   /// The kernel is linear: a closure curve is its tangent at the largest closure so far, at which
@@ -187,15 +187,49 @@ private:
       any = any || crushes;
     if (!any)
       return;
+    const Mask here =
+        branchFree::gathered<T>([&](int i) -> Real { return crushes_[i]; }) > 0.0 && opposed;
     done_ = done_ && !(branchFree::gathered<T>(
                            [&](int i) -> Real
                            {
-                             if (!crushes_[i] || !branchFree::lane(opposed, i))
-                               return 0;
                              return planes_.plane[i]->crushedUnevenly ||
                                     branchFree::lane(pair_.mostClosure, i) + permanents_[i] >
                                         mostWithoutCrushing(i);
-                           }) > 0.0);
+                           }) > 0.0 &&
+                       here);
+    const auto byShear = [&](const T& shear)
+    {
+      return here &&
+             branchFree::gathered<T>([&](int i) -> Real
+                                     { return isCrushedBy(branchFree::lane(shear, i), i); }) > 0.0;
+    };
+    if (!branchFree::anyOf(byShear(T(infinity))))
+      return;
+    EnergyDensity<T> density;
+    pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
+    Vec3Of<T> increment;
+    const Vec3Of<T> tau =
+        shearAfter(pair_.opposedness * pair_.moments.area, stepG_motion(), increment);
+    const T stiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
+    const Vec3Of<T> trial = tau - stiffness * increment;
+    done_ = done_ && !byShear(branchFree::squareRoot(dot(trial, trial)));
+  }
+  /// Whether a joint in lanes, where no way out is near, may be crushed by its compression with a
+  /// shear traction, of which friction holds no more than it can.
+  KOKKOS_FORCEINLINE_FUNCTION bool isCrushedBy(Real shear, int i) const
+  {
+    const JointLaw& law = *planes_.law[i];
+    const Real volume = branchFree::lane(pair_.moments.volume, i);
+    if (!(volume > 0))
+      return false;
+    if (law.remembersSlip()) // slip lifts the faces, and presses them more
+      return true;
+    const Real sigma = slopes_[i] * volume / branchFree::lane(pair_.moments.area, i);
+    const Real friction = law.friction > law.dynamicFriction ? law.friction : law.dynamicFriction;
+    const Real most = law.cohesion + friction * sigma, tau = shear < most ? shear : most;
+    const Crushing& crushing = law.curve.crushing;
+    const Real strength = (1 - 1e-9) * crushing.strengthAt(permanents_[i]);
+    return sigma * sigma + crushing.shearWeight * (tau * tau) > strength * strength;
   }
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
   KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const
@@ -284,7 +318,7 @@ private:
         crushed = unevenly().crush(permanents_[0]);
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
-    const T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
+    T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
     const T share = choose(bonded_, T(1.0), pair_.wayOut);
     const T area = choose(touching, pair_.opposedness * share * m.area, T(0.0));
     const Relative relative = stepG_motion();
@@ -294,9 +328,6 @@ private:
     pair_.growFrom(planes_.each([](const Plane& p) { return p.birthArea[0]; }),
                    planes_.each([](const Plane& p) { return p.birthArea[1]; }));
     const T energyShare = pair_.materialArea * pair_.opposedness * share;
-    if constexpr (width == 1)
-      if (crushed.further)
-        planes_.plane[0]->hysteresisWork += unevenly().lost(crushed, density, pressed);
     Response response;
     for (int i = 0; i < planes_.count; ++i)
       if (branchFree::lane(touching, i))
@@ -305,14 +336,22 @@ private:
         plane.gap = branchFree::lane(relative.apart, i);
         stepH_law(plane, i, branchFree::lane(area, i), branchFree::lane(energyShare, i),
                   branchFree::lane(loaded, i), branchFree::lane(tau, i),
-                  branchFree::lane(increment, i), response);
+                  branchFree::lane(increment, i), branchFree::lane(relative.closing, i), response);
         // What can leave sideways is not deep.
         plane.tooDeep = plane.tooDeep && branchFree::lane(share, i) > alongThePlane;
       }
 
     if constexpr (width == 1)
+    {
       if (response.sheared[0] > 0)
-        planes_.plane[0]->hysteresisWork -= unevenly().lifted(response.sheared[0], density, loaded);
+      {
+        unevenly().crushByShear(crushed, permanents_[0], response.sheared[0], response.parted[0]);
+        pressed = pair_.press(slope_, T(0.0), density);
+        pair_.growFrom(planes_.plane[0]->birthArea[0], planes_.plane[0]->birthArea[1]);
+      }
+      if (crushed.further)
+        planes_.plane[0]->hysteresisWork += unevenly().lost(crushed, density, pressed);
+    }
 
     // A bond pulls evenly, by the mean closure, or by the closure at each point.
     const T mean = m.volume / m.area;
@@ -401,9 +440,10 @@ private:
   /// @param area in contact; energyShare: energy of the pair over what its closure stores [-];
   ///        loaded: force [N] over opposedness
   /// @param tau shear traction before the step [Pa]; increment: of sliding [m]
+  /// @param closing rate at which the faces close [m/s]
   KOKKOS_FORCEINLINE_FUNCTION void stepH_law(Plane& plane, int i, Real area, Real energyShare,
                                              Real loaded, const Vec3& tau, const Vec3& increment,
-                                             Response& out) const
+                                             Real closing, Response& out) const
   {
     const JointLaw& law = *planes_.law[i];
     const ContactMoments<T>& m = pair_.moments;
@@ -422,14 +462,14 @@ private:
     Real closed = wasBonded  ? plane.closure
                   : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
                              : permanents_[i];
+    Real crushing = permanents_[i];
     if (plane.crushedUnevenly && crushes_[i])
     {
       // The law sees an even crushing that bears the mean of the compression.
-      const Crushing& crushing = law.curve.crushing;
       const Real compression = slopes_[i] * (closed - permanents_[i]);
-      out.crushing[i] = crushing.crushedUpTo(compression, permanents_[i]);
-      state.maximumClosure = crushing.closureOf(out.crushing[i], slopes_[i]);
-      closed = out.crushing[i] + compression / slopes_[i];
+      crushing = law.curve.crushing.crushedUpTo(compression, permanents_[i]);
+      state.maximumClosure = law.curve.crushing.closureOf(crushing, slopes_[i]);
+      closed = crushing + compression / slopes_[i];
       closed = closed < state.maximumClosure ? closed : state.maximumClosure;
     }
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
@@ -439,13 +479,13 @@ private:
     out.slopes[i] = bends && bent_.lanes[i].opened > 0 ? response.bondStiffness : slopes_[i];
     if (wasBonded)
     {
-      plane.hysteresisWork += area * response.hysteresisWork;
+      plane.hysteresisWork += area * response.hysteresisWork(plane.normalTraction);
       plane.maximumBefore() = state.maximumClosure;
     }
     else if (crushes_[i])
-      keepCrushing(plane, i, area, response, state, out);
+      keepCrushing(plane, i, crushing, response, state, out);
     else if (!law.curve.straight())
-      loadCurve(plane, i, area, energyShare, response, state);
+      loadCurve(plane, i, energyShare, closing, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -465,26 +505,18 @@ private:
   }
 
   /// What others learn of a joint that may be crushed unevenly: the closure of first loading that
-  /// crushes it as much as it is in the mean. What shear crushes is added everywhere.
-  KOKKOS_FORCEINLINE_FUNCTION void keepCrushing(Plane& plane, int i, Real area,
+  /// crushes it as much as it is in the mean.
+  /// @param crushing that the law saw [m]
+  KOKKOS_FORCEINLINE_FUNCTION void keepCrushing(const Plane& plane, int i, Real crushing,
                                                 const JointResponse& response, JointState& state,
                                                 Response& out) const
   {
-    const Crushing& law = planes_.law[i]->curve.crushing;
     Real reached = mostWithoutCrushing(i);
     if (response.crushedByShear)
     {
-      plane.hysteresisWork += area * response.hysteresisWork;
       reached = state.maximumClosure;
-      if (plane.crushedUnevenly)
-      {
-        UnevenCrushing more = plane.crushing();
-        const Real before = more.atCenter;
-        more.atCenter += law.crushedAt(reached, slopes_[i]) - out.crushing[i];
-        plane.crush(more.asKept());
-        state.crushedAtCenter = plane.history.crushedAtCenter;
-        out.sheared[i] = plane.crushing().atCenter - before;
-      }
+      out.sheared[i] = planes_.law[i]->curve.crushing.crushedAt(reached, slopes_[i]) - crushing;
+      out.parted[i] = out.sheared[i] - response.crushed;
     }
     else if (!plane.crushedUnevenly)
     {
@@ -498,9 +530,9 @@ private:
         plane.history.maximumClosure > reached ? plane.history.maximumClosure : reached;
   }
 
-  /// The maximum closure of the next cycle; what it costs is booked half with the area of this
-  /// cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real area, Real energyShare,
+  /// The maximum closure of the next cycle; what it costs is booked there, half with the area of
+  /// this cycle and half with that of the next.
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare, Real closing,
                                              const JointResponse& response, JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
@@ -509,17 +541,27 @@ private:
                squares = branchFree::lane(pair_.moments.squares, i),
                rising = branchFree::lane(pair_.rising(), i);
     const Real before = plane.history.maximumClosure;
+    plane.hysteresisWork += plane.hysteresisDue();
+    plane.hysteresisDue() = 0;
     if (plane.maximumBefore() < before)
-      plane.hysteresisWork +=
-          plane.halfHysteresis() + 0.5 * energyShare *
-                                       lostByLoading(law, plane.fit, plane.maximumBefore(), before,
-                                                     wholeArea, volume, squares, rising);
+      plane.hysteresisWork += 0.5 * energyShare *
+                              lostByLoading(law, plane.fit, plane.maximumBefore(), before,
+                                            wholeArea, volume, squares, rising);
     plane.maximumBefore() = before;
-    plane.halfHysteresis() = 0;
     if (response.crushedByShear)
     {
-      // Crushed by shear, for which the law knows the work; part of it is in the offset.
-      plane.hysteresisWork += area * response.hysteresisWork;
+      // Part of what shear has crushed is in the offset. Half of the work is that of the closures
+      // of this cycle, half of those of the next, when the faces have closed on at the same rate.
+      const Real closed = response.crushed;
+      for (const Real ahead : {0.0, dt_ * closing})
+      {
+        const Real thenVolume = volume + ahead * wholeArea,
+                   thenSquares = squares + ahead * (volume + thenVolume);
+        plane.hysteresisDue() +=
+            0.5 * energyShare *
+            lostOfTangent(slopes_[i], thenSquares, response.normalStiffness,
+                          thenSquares - closed * (2 * thenVolume - closed * wholeArea), rising);
+      }
       plane.maximumBefore() = state.maximumClosure;
       return;
     }
@@ -530,7 +572,7 @@ private:
     const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
     const Real shift = reached - next.traction / next.stiffness - permanents_[i];
     state.maximumClosure = reached;
-    plane.halfHysteresis() =
+    plane.hysteresisDue() =
         0.5 * energyShare *
         lostOfTangent(slopes_[i], squares, next.stiffness,
                       squares - 2 * shift * volume + shift * shift * wholeArea, rising);

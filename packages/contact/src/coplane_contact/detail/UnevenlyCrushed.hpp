@@ -8,13 +8,14 @@
 
 namespace coplane::detail
 {
-/// How a joint was crushed before a cycle that crushes it further.
+/// What a cycle has done to such a joint.
 struct CrushedFrom
 {
   bool further = false;
-  UnevenCrushing from;
-  Real lostBefore = 0; ///< by the tractions before the step, of what it costs [J]
-  Real energy = 0;     ///< that the pair would have where the faces are now [J]
+  bool carried = false; ///< before the step
+  UnevenCrushing from;  ///< how it was crushed then
+  Real offset = 0;      ///< of its plane then [m]
+  Real parted = 0; ///< of what shear has crushed: what did not close it, but is in the offset [m]
 };
 
 /// The plane of such a joint in a cycle, with its pair, which has met.
@@ -35,36 +36,40 @@ struct UnevenlyCrushed
   ///        crushed evenly; gets the mean crushing of one that is crushed unevenly [m]
   KOKKOS_INLINE_FUNCTION CrushedFrom crush(Real& permanent) const
   {
-    const Real even = permanent, offset = plane.offset;
-    const bool was = plane.crushedUnevenly;
-    const Real least = was ? law.onset(stiffness) : law.closureOf(even, stiffness);
     CrushedFrom result;
+    result.carried = plane.area > 0;
+    result.from = crushing(permanent);
+    result.offset = plane.offset;
+    const Real least =
+        plane.crushedUnevenly ? law.onset(stiffness) : law.closureOf(permanent, stiffness);
     UnevenCrushing to;
-    if (pair.mostClosure + even > least && pair.crushFurther(law, stiffness, even, to))
-    {
-      result.from = was ? plane.crushing() : UnevenCrushing{even, {0, 0}};
-      pair.beCrushed(to);
-      pair.meet(offset, false, edges);
-      result.further = pair.moments.volume > 0;
-      if (result.further)
-      {
-        if (plane.area > 0)
-          result.lostBefore = lostBefore(result.from, to);
-        result.energy = energyNow(result.from);
-        plane.crush(to);
-      }
-      else
-      {
-        if (was)
-          pair.beCrushed(plane.crushing());
-        else
-          pair.notCrushed();
-        pair.meet(was ? offset : offset - even, false, edges);
-      }
-    }
+    if (pair.mostClosure + permanent > least && pair.crushFurther(law, stiffness, permanent, to))
+      result.further = crushTo(to, permanent);
     if (plane.crushedUnevenly)
       permanent = pair.meanCrushing();
     return result;
+  }
+
+  /// The same for what shear crushes, all over, after the law: the force is that of the tractions
+  /// that the law has brought back.
+  /// @param permanent as crush() leaves it [m]
+  /// @param more crushing [m]
+  /// @param parted what of it does not close the joint and is in the offset of the plane [m]
+  KOKKOS_INLINE_FUNCTION void crushByShear(CrushedFrom& crushed, Real permanent, Real more,
+                                           Real parted) const
+  {
+    UnevenCrushing to = crushing(permanent);
+    to.atCenter += more;
+    if (crushTo(to.asKept(), permanent))
+    {
+      crushed.further = true;
+      crushed.parted = parted;
+    }
+    else
+    {
+      plane.offset -= parted;
+      beAsBefore(permanent);
+    }
   }
 
   /// What it costs to crush the joint further [J]: by the trapezoid rule over the step, and no more
@@ -74,56 +79,78 @@ struct UnevenlyCrushed
   KOKKOS_INLINE_FUNCTION Real lost(const CrushedFrom& crushed, const EnergyDensity<Real>& density,
                                    Real pressed) const
   {
-    const Real byTractions =
-        0.5 * (crushed.lostBefore + pair.lostBy(crushed.from, plane.crushing(), density));
-    const Real most = crushed.energy - pair.materialArea * pair.opposedness * pressed;
+    const Real after = lostBy(pair, crushed, density);
+    EnergyDensity<Real> other;
+    Real before = 0;
+    if (crushed.carried)
+    {
+      const HalfStepFace faces[2] = {faceBefore(a), faceBefore(b)};
+      PairPotential<Dim, Real> then(faces[0], faces[1], ContactPotentialScale(options.cosOpposed));
+      press(then, crushed.from, crushed.offset, other);
+      before = then.moments.volume > 0 ? lostBy(then, crushed, other) : 0;
+    }
+    PairPotential<Dim, Real> now(a, b, ContactPotentialScale(options.cosOpposed));
+    const Real most = press(now, crushed.from, plane.offset - crushed.parted, other) -
+                      pair.materialArea * pair.opposedness * pressed;
+    const Real byTractions = 0.5 * (before + after);
     return byTractions < most ? byTractions : most;
   }
 
-  /// The law takes what shear crushes for crushed all over. Where the joint is not, the dilation
-  /// lifts it and nothing gives way: the energy that it has more then [J].
-  /// @param sheared what shear has crushed [m]; loaded: force [N] over opposedness
-  KOKKOS_INLINE_FUNCTION Real lifted(Real sheared, const EnergyDensity<Real>& density,
-                                     Real loaded) const
-  {
-    UnevenCrushing before = plane.crushing();
-    before.atCenter -= sheared;
-    return pair.materialArea * pair.opposedness * loaded * sheared -
-           pair.lostBy(before, plane.crushing(), density);
-  }
-
 private:
-  /// What it costs to crush the joint further with the tractions that it had before the step [J].
-  KOKKOS_INLINE_FUNCTION Real lostBefore(const UnevenCrushing& from, const UnevenCrushing& to) const
+  /// @param even where it is not crushed unevenly yet [m]
+  KOKKOS_INLINE_FUNCTION UnevenCrushing crushing(Real even) const
   {
-    const HalfStepFace faces[2] = {faceBefore(a), faceBefore(b)};
-    PairPotential<Dim, Real> before(faces[0], faces[1], ContactPotentialScale(options.cosOpposed));
-    EnergyDensity<Real> density;
-    press(before, from, density);
-    return before.moments.volume > 0 ? before.lostBy(from, to, density) : 0;
+    return plane.crushedUnevenly ? plane.crushing() : UnevenCrushing{even, {0, 0}};
   }
 
-  /// Energy of the pair where the faces are now [J].
-  KOKKOS_INLINE_FUNCTION Real energyNow(const UnevenCrushing& crushing) const
+  /// @returns whether the joint carries then; else it stays as it is
+  KOKKOS_INLINE_FUNCTION bool crushTo(const UnevenCrushing& to, Real even) const
   {
-    PairPotential<Dim, Real> now(a, b, ContactPotentialScale(options.cosOpposed));
-    EnergyDensity<Real> density;
-    const Real stored = press(now, crushing, density);
-    return now.materialArea * now.opposedness * stored;
+    pair.beCrushed(to);
+    pair.meet(plane.offset, false, edges);
+    const bool carries = pair.moments.volume > 0;
+    if (carries)
+      plane.crush(to);
+    else
+      beAsBefore(even);
+    return carries;
   }
 
-  /// @returns the energy without gamma and phi [J]; none where the faces are apart
+  KOKKOS_INLINE_FUNCTION void beAsBefore(Real even) const
+  {
+    if (plane.crushedUnevenly)
+      pair.beCrushed(plane.crushing());
+    else
+      pair.notCrushed();
+    pair.meet(plane.crushedUnevenly ? plane.offset : plane.offset - even, false, edges);
+  }
+
+  /// What it costs with the tractions of a pair [J]. What has parted the faces of what shear has
+  /// crushed gives back its work; where the joint is not crushed, that lifts it.
+  KOKKOS_INLINE_FUNCTION Real lostBy(const PairPotential<Dim, Real>& other,
+                                     const CrushedFrom& crushed,
+                                     const EnergyDensity<Real>& density) const
+  {
+    const ContactMoments<Real>& m = other.moments;
+    const Real force = 2 * density.square * m.volume + density.linear * m.area;
+    return other.lostBy(crushed.from, plane.crushing(), density) -
+           other.materialArea * other.opposedness * force * crushed.parted;
+  }
+
+  /// @param offset of the plane [m]
+  /// @returns the energy of a pair [J]; none where the faces are apart
   KOKKOS_INLINE_FUNCTION Real press(PairPotential<Dim, Real>& other, const UnevenCrushing& crushing,
-                                    EnergyDensity<Real>& density) const
+                                    Real offset, EnergyDensity<Real>& density) const
   {
     if (!other.plane.opposed)
       return 0;
     other.beCrushed(crushing);
-    other.meet(plane.offset, false, edges);
+    other.meet(offset, false, edges);
     if (!(other.moments.volume > 0))
       return 0;
+    const Real stored = other.press(stiffness, 0, density);
     other.growFrom(plane.birthArea[0], plane.birthArea[1]);
-    return other.press(stiffness, 0, density);
+    return other.materialArea * other.opposedness * stored;
   }
 
   KOKKOS_INLINE_FUNCTION HalfStepFace faceBefore(const HalfStepFace& face) const
