@@ -1,5 +1,7 @@
 #include "MaterialPaths.hpp"
 
+#include "ErrorsOfPaths.hpp"
+
 #include <coplane_core/Error.hpp>
 #include <coplane_core/FileRoles.hpp>
 #include <coplane_core/TextFile.hpp>
@@ -240,15 +242,8 @@ std::string runMaterialPath(const MaterialPathCard& card, const Material& materi
     energy = probe.energy();
     dissipation = probe.dissipation();
   };
-  try
-  {
-    followPath(card, MaterialProbe(material, card.size), write);
-  }
-  catch (const Error& error)
-  {
-    throw Error(error.code(),
-                fmt::format("{}: material_paths.{}: {}", card.where, card.name, error.what()));
-  }
+  withPlaceOf(card, "material_paths",
+              [&] { followPath(card, MaterialProbe(material, card.size), write); });
   draft.close();
   makeWayFor(placeOfFile(card.output),
              [&](const std::string& there) { return beginsWith(there, sameOfAll); });

@@ -43,11 +43,10 @@ void PathWriter::write(const JointPoint& point)
     put(value);
   draft_.add(line + "\n");
   if (!std::isfinite(sigma + shear + balance))
-    fail(
-        ExitCode::Computation,
-        "{}: at t = {:.6g} s tractions or energies are not finite: compression {:g} Pa, shear {:g} "
-        "Pa, balance {:g} J/m^2. Look at the path and at the stiffnesses.",
-        file_, point.time(), sigma, shear, balance);
+    fail(ExitCode::Computation,
+         "at t = {:.6g} s tractions or energies are not finite: compression {:g} Pa, shear {:g} "
+         "Pa, balance {:g} J/m^2. Look at the path and at the stiffnesses.",
+         point.time(), sigma, shear, balance);
   if (lines_++ == 0)
     startedBonded_ = state.bonded;
   bonded_ = state.bonded;

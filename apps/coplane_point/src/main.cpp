@@ -1,3 +1,4 @@
+#include "ErrorsOfPaths.hpp"
 #include "JointPaths.hpp"
 #include "PathWriter.hpp"
 #include "PointDeck.hpp"
@@ -30,7 +31,11 @@ void print(const std::string& text)
 void runPath(const PointDeck& deck, const JointPathCard& card)
 {
   PathWriter writer(card.output);
-  followPath(card, pointOf(deck, card), [&](const JointPoint& point) { writer.write(point); });
+  withPlaceOf(card, "joint_paths",
+              [&] {
+                followPath(card, pointOf(deck, card),
+                           [&](const JointPoint& point) { writer.write(point); });
+              });
   writer.finish();
   print(fmt::format("{}: {} of joint '{}'", card.name, card.type, card.joint));
   print(writer.summary());

@@ -46,6 +46,45 @@ TEST(Inheritance, givesTheMeansOfTheDonorsByTheirAreas)
   EXPECT_NEAR(plane.offset, -.07, 1e-15);
 }
 
+TEST(Inheritance, ofACrushedJointThatRestsWhereNoneCarries)
+{
+  Donor rests = planeOf10And(21, {1, 2, 3, 4}, 1, 0);
+  rests.rests = true;
+  rests.history.maximumClosure = .02;
+  Donor carries = planeOf10And(23, {7, 8, 9, 10}, 3, .04);
+  carries.history.maximumClosure = .05;
+  Plane plane = pairOf10And22();
+  std::vector<Donor> alone{rests};
+  EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, alone));
+  EXPECT_EQ(plane.history.maximumClosure, .02);
+  std::vector<Donor> both{rests, carries};
+  EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, both));
+  EXPECT_EQ(plane.history.maximumClosure, .05);
+  EXPECT_NE(plane.lineage, Lineage::SlidesOn);
+}
+
+TEST(Inheritance, areOfPlanesThatCarryOrAreCrushed)
+{
+  JointLaw law;
+  Plane plane;
+  plane.fit.normalStiffness = 1e11;
+  plane.history.maximumClosure = 1e-3;
+  EXPECT_FALSE(isDonor(plane, law)) << "never touched";
+  plane.state = PlaneState::Open;
+  EXPECT_FALSE(isDonor(plane, law));
+  law.curve.crushing.strength = 1e7;
+  law.curve.crushing.peak = 1e-4;
+  EXPECT_TRUE(isDonor(plane, law));
+  EXPECT_TRUE(donorOf(plane).rests);
+  EXPECT_EQ(donorOf(plane).area, 1);
+  plane.history.maximumClosure = 1e-5;
+  EXPECT_FALSE(isDonor(plane, law)) << "elastic until now";
+  plane.area = plane.overlap = .5;
+  EXPECT_TRUE(isDonor(plane, law));
+  EXPECT_FALSE(donorOf(plane).rests);
+  EXPECT_EQ(donorOf(plane).area, .5);
+}
+
 TEST(Inheritance, tellsTheSameSurfaceFromAnotherBody)
 {
   Plane plane = pairOf10And22();
@@ -122,7 +161,8 @@ struct Scene
   int dimension = 3;
   Real x0 = 1, gap = 0;
   bool sameSurface = true;
-  Real donorOffset = 0;
+  Real donorOffset = 0, donorGap = -1e-5;
+  bool donorRests = false;
   bool wideIsLower = true;
 
   static void put(int dimension, bool up, Real from, Real to, Real height, Vec3* corners)
@@ -154,7 +194,7 @@ struct Scene
     put(dimension, true, -5, 5, 0, pair.corners[wide]);
     put(dimension, true, -5, 5, 0, donor.corners[wide]);
     put(dimension, false, x0, x0 + 1, gap, pair.corners[1 - wide]);
-    put(dimension, false, 0, 1, -1e-5, donor.corners[1 - wide]);
+    put(dimension, false, 0, 1, donorGap, donor.corners[1 - wide]);
     for (int k = 0; k < count; ++k)
     {
       pair.nodes[wide][k] = donor.nodes[wide][k] = 101 + k;
@@ -164,6 +204,7 @@ struct Scene
     const Real up = wideIsLower ? 1 : -1;
     pair.normal = donor.normal = dimension == 2 ? Vec3{0, up, 0} : Vec3{0, 0, up};
     donor.offset = donorOffset;
+    donor.rests = donorRests;
     return continues(pair, donor, dimension, reach);
   }
 };
@@ -214,6 +255,20 @@ TEST(Continuation, isNoneForAnotherBodyThatHasComeDownBesideTheDonor)
 {
   EXPECT_FALSE(continued(at(1.0, -1e-5, false)));
   EXPECT_FALSE(continued(at(1.0, 0.01, false, 0.02))) << "below the gap that a joint has absorbed";
+}
+
+TEST(Continuation, ofWhatRestsOnlyWhileItsFacesLieInEachOther)
+{
+  Scene scene = at(1.0, -1e-5);
+  scene.donorRests = true;
+  EXPECT_TRUE(continued(scene));
+  scene.donorGap = 1e-5;
+  EXPECT_FALSE(continued(scene));
+  scene.donorOffset = 2e-5;
+  EXPECT_TRUE(continued(scene));
+  scene.donorRests = false;
+  scene.donorOffset = 0;
+  EXPECT_TRUE(continued(scene)) << "what carries is not asked";
 }
 
 TEST(Continuation, overASeamBetweenTwoBodies)

@@ -5,6 +5,7 @@ Usage: check.py [vtp]   planes in a file for each step in place of one
 
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -315,6 +316,9 @@ for command, code in (("coplane_mesh check missing.e 2>/dev/full", 4), ("coplane
     except subprocess.TimeoutExpired:
         found = "no end"
     case.check_equal(f"{command}: exit code", found, code)
+for path, values in (("material_paths.two", "strains=[1e200]"), ("joint_paths.one", "closures=[1e308, -1e308]")):
+    said = subprocess.run([program.binary("coplane_point"), "point.yaml", "--set", f"{path}.{values}"], cwd=folder, capture_output=True, text=True, timeout=60).stderr
+    case.check_equal(f"{path} that cannot be followed: file, line and path are named", bool(re.search(rf"point.yaml:\d+:\d+: {path}: ", said)), True)
 long = subprocess.Popen([program.binary("coplane_point"), "point.yaml", "--set", "joint_paths.one.steps=100000000"], cwd=folder,
                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 deadline = time.monotonic() + 30

@@ -99,4 +99,47 @@ case.check("elastic: what is not stored, over the energy at the start", numpy.ab
 z, v = corners(run, -1)
 case.check("elastic: speed of the corners after the bounce over that before, mean", (v[:, 2] / numpy.where(z < height + size / 2, 10 + size / 2, 10 - size / 2)).mean(), 1, 0.03)
 case.same_bits("elastic", recipe, one, run, ranks=3)
+
+
+# --- wherever points come down: half of a body and its image, simplices, a rigid body that asks for no step ---------------
+def rain(low, divisions, split="none", rigid=False, speed=100):
+    """A row of points, 17 mm from each other, that falls on a plate; the columns of the first row are x = 0, 17 mm, .."""
+    recipe = {"dimension": 2, "parts": [
+        {"shape": "box", "block": "floor", "min": [low, -0.12], "max": [0.3, 0], "divisions": [divisions, 3], "split": split},
+        {"shape": "box", "block": "dust", "min": [10 * 0.017 * low / 0.3, 0.002], "max": [0.17, 0.019], "divisions": [20 if low < 0 else 10, 1]}],
+        "node_sets": {"middle": {"where": {"x": 0}}}}  # fmt: skip
+    one = case.load()
+    one["initial"][0]["velocity_field"] = [0, f"-{speed} + 0.01 * {speed} * (y - 0.01)", 0]
+    if not rigid:
+        one["conditions"] = [{"type": "symmetry", "node_set": "middle", "normal": [1, 0, 0]}] if low == 0 else []
+        del one["blocks"]["floor"]["rigid"], one["history"]["rigid"]
+    one["blocks"]["dust"]["erosion"] = {"stable_step": 1}
+    one["time"] = {"end": 0.12 / speed, "step_factor": 0.8 if rigid else 0.3}
+    one["history"]["every"] = 1e-3 / speed
+    return recipe, one
+
+
+def fallen(run):
+    """Places along the floor at the start, velocities and heights of what was the row."""
+    r = run.results
+    dust = numpy.unique(r.connectivity("dust"))
+    start = r.coordinates[dust]
+    return start[:, 0], r.nodal("velocity", -1)[dust, 1], start[:, 1] + r.nodal("displacement", -1)[dust, 1]
+
+
+whole, half = (case.run(f"rain_{name}", *rain(low, divisions)) for name, low, divisions in (("whole", -0.3, 20), ("half", 0, 10)))
+x, v, _ = fallen(whole)
+x_half, v_half, _ = fallen(half)
+case.check("half of a plate: slowest of the points after the bounce, over 100 m/s", v_half.min() / 100, 0.7, 0.3)
+case.check("half of a plate: velocities over those of the whole one, largest difference", numpy.abs(v[x >= -1e-9] - v_half).max() / 100, 0, 1e-6)
+for split, low in (("triangles", -0.3), ("triangles", 0)):
+    run = case.run(f"rain_{split}_{low:g}", *rain(low, 10 if low == 0 else 20, split))
+    x, v, y = fallen(run)
+    case.check_equal(f"{split}, {'half of a' if low == 0 else 'whole'} plate: points that come through", int(numpy.sum((v < 0) & (y < 0))), 0)
+    case.check(f"{split}, {'half of a' if low == 0 else 'whole'} plate: what is not stored, over the energy at the start", numpy.abs(run.history["debris_remainder"]).max() / run.history["initial"][0], 0, 0.02)
+for speed in (1, 20):
+    run = case.run(f"rain_rigid_{speed}", *rain(-0.3, 20, rigid=True, speed=speed))
+    x, v, y = fallen(run)
+    case.check(f"rigid plate, {speed} m/s: speed after the bounce over that before, mean", v.mean() / speed, 1, 0.1)
+    case.check(f"rigid plate, {speed} m/s: what is not stored, over the energy at the start", numpy.abs(run.history["debris_remainder"]).max() / run.history["initial"][0], 0, 0.1)
 case.finish()

@@ -111,6 +111,7 @@ struct Donor
   int body[2] = {0, 0};      ///< of its faces
   Vec3 corners[2][4] = {};   ///< of its faces, now [m]
   int joint = 0;
+  bool rests = false; ///< carries nothing now
   // To the pair that looks for donors; not sent.
   bool flush = false;
   bool ofSameBodies = true; ///< the same two

@@ -9,9 +9,17 @@
 
 namespace coplane
 {
-bool isDonor(const Plane& plane)
+namespace
 {
-  return plane.isBorn() && (plane.area > 0 || (plane.declared && plane.isNew()));
+bool rests(const Plane& plane)
+{
+  return !(plane.area > 0) && !(plane.declared && plane.isNew());
+}
+} // namespace
+
+bool isDonor(const Plane& plane, const JointLaw& law)
+{
+  return plane.isBorn() && (!rests(plane) || law.isCrushed(plane.fit, plane.history));
 }
 
 Donor donorOf(const Plane& plane)
@@ -21,7 +29,9 @@ Donor donorOf(const Plane& plane)
   donor.faceId[1] = plane.faceId[1];
   donor.joint = plane.joint;
   donor.normal = plane.normal;
-  donor.area = plane.area > 0 ? plane.area : plane.overlap;
+  donor.rests = rests(plane);
+  // The overlap of what carries nothing is not looked at in every cycle: all of that count alike.
+  donor.area = plane.area > 0 ? plane.area : donor.rests ? 1 : plane.overlap;
   forEachPassed([&](const auto& member) { member.get(donor) = member.get(plane); });
   return donor;
 }
@@ -163,6 +173,14 @@ bool Continuation::isNear(const Donor& donor) const
 {
   const ConvexPolygon carried = intersection(view_.shadow(donor.corners[0], donor.count[0]),
                                              view_.shadow(donor.corners[1], donor.count[1]));
+  if (donor.rests)
+  {
+    const Vec2 middle = areaAndCentroid(carried).centroid;
+    const Real apart = view_.height(donor.corners[1], donor.count[1], middle) -
+                       view_.height(donor.corners[0], donor.count[0], middle);
+    if (carried.size == 0 || !(turned(donor.faceId, pair_.faceId) * apart < donor.offset))
+      return false;
+  }
   return anyCommonFace(pair_.faceId, donor,
                        [&](int mine, int)
                        { return isWithin(reach_, carried, shadows_[1 - mine]); });
@@ -238,12 +256,18 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
   const auto key = [](const Donor& d) { return std::make_pair(d.faceId[0], d.faceId[1]); };
   std::sort(donors.begin(), donors.end(),
             [&](const Donor& a, const Donor& b) { return key(a) < key(b); });
+  donors.erase(std::unique(donors.begin(), donors.end(),
+                           [&](const Donor& a, const Donor& b) { return key(a) == key(b); }),
+               donors.end());
+  const auto gives = [&](const Donor& donor) { return fits(donor, plane, normal); };
+  const bool carried =
+      std::any_of(donors.begin(), donors.end(),
+                  [&](const Donor& donor) { return gives(donor) && !donor.rests; });
   bool slidesOn = false;
   Inheritance all(plane, normal);
-  for (std::size_t i = 0; i < donors.size(); ++i)
+  for (const Donor& donor : donors)
   {
-    const Donor& donor = donors[i];
-    if (!fits(donor, plane, normal) || (i > 0 && key(donors[i - 1]) == key(donor)))
+    if (!gives(donor) || (carried && donor.rests))
       continue;
     slidesOn = slidesOn || isOnSameSurface(donor, plane.faceId, nodes);
     all.add(donor);

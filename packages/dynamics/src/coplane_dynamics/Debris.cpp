@@ -91,14 +91,16 @@ struct Corners
   Real longestSide() const { return std::max({high.x - low.x, high.y - low.y, high.z - low.z}); }
 };
 
-Corners cornersBehind(const ExteriorFace& face, const RankMesh& mesh, const NodeVectors& x)
+/// Of an ExteriorFace the element behind it, or an element.
+template <class Place>
+Corners cornersOf(const Place& place, const RankMesh& mesh, const NodeVectors& x)
 {
-  const RankMesh::Block& part = mesh.blocks[std::size_t(face.block)];
+  const RankMesh::Block& part = mesh.blocks[std::size_t(place.block)];
   Corners corners;
   corners.count = topology(part.type).nodes;
   for (int k = 0; k < corners.count; ++k)
   {
-    const Vec3 corner = at(x, part.connectivity[std::size_t(face.element * corners.count + k)]);
+    const Vec3 corner = at(x, part.connectivity[std::size_t(place.element * corners.count + k)]);
     corners.x[std::size_t(k)] = corner;
     for (int c = 0; c < 3; ++c)
     {
@@ -141,6 +143,18 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
   return places;
 }
 
+/// Whether a face lies in a mirror, but for round-off.
+bool liesIn(const Debris::Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh,
+            const NodeVectors& x)
+{
+  const Real roundOff = 1e-6 * cornersOf(face, mesh, x).longestSide();
+  for (int k = 0; k < face.nodeCount; ++k)
+    if (!(std::abs(dot(mirror.normal, at(x, face.nodes[std::size_t(k)])) - mirror.level) <=
+          roundOff))
+      return false;
+  return true;
+}
+
 std::uint64_t bitsOf(Real value)
 {
   std::uint64_t bits;
@@ -149,13 +163,62 @@ std::uint64_t bitsOf(Real value)
 }
 } // namespace
 
-void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-                   const std::vector<int>& bodyOfNode, const NodeLayout& layout)
+namespace
 {
+/// Stiffness of the contact of a point as heavy as the element behind the face, or heavier [N/m].
+Real stiffnessOf(const ExteriorFace& face, const RankMesh& mesh, const ElementForces& elements)
+{
+  const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
+  const Real length =
+      mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
+  return stiffnessOfElement * pWaveModulus(block.material()) * length;
+}
+} // namespace
+
+void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
+                   const std::vector<Mirror>& mirrors, const std::vector<int>& bodyOfNode,
+                   const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
+                   const NodeLayout& layout)
+{
+  // The owner of a node at the surface has the face there and all elements of the node.
+  std::vector<char> isAtSurface(std::size_t(mesh.nodes()), 0);
+  for (const ExteriorFace& face : exterior)
+    for (int k = 0; k < face.nodeCount; ++k)
+      isAtSurface[std::size_t(face.nodes[std::size_t(k)])] = 1;
+  near_.clear();
+  for (int b = 0; b < int(mesh.blocks.size()); ++b)
+  {
+    const RankMesh::Block& part = mesh.blocks[std::size_t(b)];
+    const int corners = topology(part.type).nodes;
+    for (int e = 0; e < part.elements(); ++e)
+    {
+      const int* const nodes = &part.connectivity[std::size_t(e * corners)];
+      if (elements.blocks()[std::size_t(b)].isAlive(e) &&
+          std::any_of(nodes, nodes + corners, [&](int n) { return isAtSurface[std::size_t(n)]; }))
+        near_.push_back({b, e, bodyOfNode[std::size_t(nodes[0])]});
+    }
+  }
+  exterior.erase(std::remove_if(exterior.begin(), exterior.end(),
+                                [&](const ExteriorFace& face)
+                                {
+                                  return std::any_of(mirrors.begin(), mirrors.end(),
+                                                     [&](const Mirror& mirror) {
+                                                       return liesIn(mirror, face, mesh, state.x);
+                                                     });
+                                }),
+                 exterior.end());
   faces_ = std::move(exterior);
   bodies_.clear();
+  std::vector<Real> stiffest{0};
   for (const ExteriorFace& face : faces_)
+  {
     bodies_.push_back(bodyOfNode[std::size_t(face.nodes[0])]);
+    stiffest[0] =
+        std::max(stiffest[0], stiffnessOf(face, mesh, elements) /
+                                  elements.blocks()[std::size_t(face.block)].mass(face.element));
+  }
+  comm_->max(stiffest);
+  stiffest_ = stiffest[0];
   std::vector<FreeNode> nodes = comm_->allGather(mine);
   std::sort(nodes.begin(), nodes.end(),
             [](const FreeNode& a, const FreeNode& b) { return a.id < b.id; });
@@ -201,48 +264,46 @@ std::vector<Vec3> Debris::ofPoints(const NodeVectors& field) const
   return x;
 }
 
-/// Longest side of the boxes of the elements behind this rank's faces [m].
+/// Longest side of the boxes of this rank's elements at the surface [m].
 Real Debris::longestElement(const RankMesh& mesh, const NodalState& state) const
 {
   Real longest = 0;
-  for (const ExteriorFace& face : faces_)
-    longest = std::max(longest, cornersBehind(face, mesh, state.x).longestSide());
+  for (const NearSurface& element : near_)
+    longest = std::max(longest, cornersOf(element, mesh, state.x).longestSide());
   return longest;
 }
 
-/// Points in elements behind exterior faces, each once, with the body of the element of the lowest
-/// face there.
+/// Points in elements at the surface, each once, with the body of the lowest element there.
 std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
                                                const NodalState& state) const
 {
   struct Found
   {
     int point, body;
-    GlobalId face;
+    GlobalId element;
   };
   const Real edge = longestElement(mesh, state);
   std::vector<Found> mine;
   if (edge > 0 && std::isfinite(edge))
   {
     const PointGrid grid(x, edge);
-    for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (const NearSurface& element : near_)
     {
-      const ExteriorFace& face = faces_[f];
-      const Corners corners = cornersBehind(face, mesh, state.x);
-      grid.forEachIn(corners.low, corners.high,
-                     [&](int point)
-                     {
-                       const ElementType type = mesh.blocks[std::size_t(face.block)].type;
-                       if (pointInElement(type, corners.x.data(), x[std::size_t(point)]).outside <=
-                           0)
-                         mine.push_back({point, bodies_[f], face.id});
-                     });
+      const Corners corners = cornersOf(element, mesh, state.x);
+      const RankMesh::Block& part = mesh.blocks[std::size_t(element.block)];
+      grid.forEachIn(
+          corners.low, corners.high,
+          [&](int point)
+          {
+            if (pointInElement(part.type, corners.x.data(), x[std::size_t(point)]).outside <= 0)
+              mine.push_back({point, element.body, part.elementIds[std::size_t(element.element)]});
+          });
     }
   }
   std::vector<Found> all = comm_->allGather(mine);
   std::sort(all.begin(), all.end(),
             [](const Found& a, const Found& b)
-            { return std::tie(a.point, a.face) < std::tie(b.point, b.face); });
+            { return std::tie(a.point, a.element) < std::tie(b.point, b.element); });
   std::vector<Inside> inside;
   for (const Found& found : all)
     if (inside.empty() || inside.back().point != found.point)
@@ -269,8 +330,8 @@ std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& insid
   for (std::size_t f = 0; f < faces_.size(); ++f)
   {
     const ExteriorFace& face = faces_[f];
-    const Corners corners = cornersBehind(face, mesh, state.x);
-    const Real reach = corners.longestSide();
+    const Corners corners = cornersOf(face, mesh, state.x);
+    const Real reach = 2 * corners.longestSide(); // also into the element beside the one behind
     const Vec3 margin{reach, reach, reach};
     std::array<Vec3, 4> c{};
     for (int k = 0; k < face.nodeCount; ++k)
@@ -297,12 +358,9 @@ std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& insid
       for (int k = 0; k < face.nodeCount; ++k)
         apart = apart - nearest.weights[std::size_t(k)] * at(state.v, face.nodes[std::size_t(k)]);
       way.speed = norm(apart);
-      const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
-      const Real length =
-          mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
-      way.stiffness =
-          stiffnessOfElement * pWaveModulus(block.material()) * length *
-          std::min(Real(1), points_[std::size_t(one.point)].mass / block.mass(face.element));
+      const Real heavy = elements.blocks()[std::size_t(face.block)].mass(face.element);
+      way.stiffness = stiffnessOf(face, mesh, elements) *
+                      std::min(Real(1), points_[std::size_t(one.point)].mass / heavy);
       beside.push_back(way);
     };
     grid.forEachIn(corners.low - margin, corners.high + margin, look);
@@ -324,15 +382,15 @@ std::vector<char> Debris::areCovered(const std::vector<WayOut>& ways, const Rank
   if (edge > 0 && std::isfinite(edge))
   {
     const PointGrid grid(places, edge);
-    for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (const NearSurface& element : near_)
     {
-      const Corners corners = cornersBehind(faces_[f], mesh, state.x);
-      const ElementType type = mesh.blocks[std::size_t(faces_[f].block)].type;
+      const Corners corners = cornersOf(element, mesh, state.x);
+      const ElementType type = mesh.blocks[std::size_t(element.block)].type;
       grid.forEachIn(corners.low, corners.high,
                      [&](int i)
                      {
                        const Vec3& place = places[std::size_t(i)];
-                       if (bodies_[f] != ways[std::size_t(i) / each].body &&
+                       if (element.body != ways[std::size_t(i) / each].body &&
                            pointInElement(type, corners.x.data(), place).outside <= 0)
                          taken[std::size_t(i)] = 1;
                      });
@@ -430,7 +488,14 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
       findWaysOut(findInside(x, mesh, state), x, mesh, elements, state);
   const std::vector<Point> before = points_;
   for (Point& point : points_)
+  {
     point.goOnWithoutFace(ofItsWay * point.speed * dt);
+    // A bound by rows on what its contact adds: the point and its place on the face move apart. At
+    // once, for the step has to be short enough when it meets a face; and four times as much, as of
+    // planes that bodies chatter on: elements ask for no less, but rigid bodies have no step.
+    if (point.node >= 0)
+      stiffness_.emplace_back(point.node, 4 * 2 * stiffest_ * point.mass);
+  }
   for (const WaysOut& its : ways)
   {
     Point& point = points_[std::size_t(its.nearest.point)];
@@ -460,14 +525,8 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
     ++touching_;
     stored_ += 0.5 * one.stiffness * depth * depth;
     const Vec3 force = (one.stiffness * depth) * one.outward;
-    // A bound by rows on what the contact adds: the point and its place on the face move apart.
-    const auto push = [&](int node, Real weight)
-    {
-      forces_.emplace_back(node, weight * force);
-      stiffness_.emplace_back(node, 2 * std::abs(weight) * one.stiffness);
-    };
     if (point.node >= 0)
-      push(point.node, 1);
+      forces_.emplace_back(point.node, force);
     const auto face =
         std::lower_bound(faces_.begin(), faces_.end(), one.face,
                          [](const ExteriorFace& f, GlobalId id) { return f.id < id; });
@@ -475,7 +534,11 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
       continue; // none of its nodes is owned here
     for (int k = 0; k < one.count; ++k)
       if (const int node = face->nodes[std::size_t(k)]; node < mesh.ownedNodes)
-        push(node, -one.weights[std::size_t(k)]);
+      {
+        const Real weight = one.weights[std::size_t(k)];
+        forces_.emplace_back(node, -weight * force);
+        stiffness_.emplace_back(node, 2 * std::abs(weight) * one.stiffness);
+      }
   }
 }
 

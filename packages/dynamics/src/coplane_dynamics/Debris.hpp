@@ -18,11 +18,11 @@
 namespace coplane
 {
 /// Nodes that have lost all their elements go on as mass points that faces stop. A point in a
-/// living element that has an exterior face stores k d^2/2, with its distance d from the nearest
-/// point of the exterior faces of that body on which no other body lies; d counts from what it was
-/// when the point was freed in there, or came in there from the inside of the body, as long as it
-/// has not come out. Force and counterforce are minus the gradient of that, on one line, so both
-/// momenta stay.
+/// living element that has a node at the surface stores k d^2/2, with its distance d from the
+/// nearest point of the exterior faces of that body on which no other body lies, nor its own mirror
+/// image; d counts from what it was when the point was freed in there, or came in there from the
+/// inside of the body, as long as it has not come out. Force and counterforce are minus the
+/// gradient of that, on one line, so both momenta stay.
 ///
 /// Every rank has all points with the same bits: the owner of a node tells where it is, the owners
 /// of faces tell which is the nearest, and every rank adds to the nodes that it owns, point after
@@ -38,12 +38,20 @@ public:
     GlobalId id = 0;
     Real mass = 0; ///< [kg]
   };
+  /// A plane in which bodies go on as their own image: their faces there lead nowhere.
+  struct Mirror
+  {
+    Vec3 normal{};
+    Real level = 0; ///< normal . x of its points [m]
+  };
 
   /// After elements have died or come: which nodes are points now, and which faces stop them.
   /// Collective.
   /// @param bodyOfNode number of the body of each node of this rank's elements
   void renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-             const std::vector<int>& bodyOfNode, const NodeLayout& layout);
+             const std::vector<Mirror>& mirrors, const std::vector<int>& bodyOfNode,
+             const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
+             const NodeLayout& layout);
 
   /// Forces at n + 1 and what they add to the stiffness of the owned nodes; books the work of the
   /// step with the mean of the forces at its ends. Collective.
@@ -85,6 +93,11 @@ private:
         inside = between = false;
       }
     }
+  };
+  /// A living element with a node at the surface.
+  struct NearSurface
+  {
+    int block = 0, element = 0, body = 0;
   };
   /// A point that lies in an element.
   struct Inside
@@ -135,8 +148,10 @@ private:
 
   const Comm* comm_;
   std::vector<Point> points_;       ///< sorted by id, the same on all ranks
-  std::vector<ExteriorFace> faces_; ///< local ones
+  std::vector<ExteriorFace> faces_; ///< local ones that lead somewhere
   std::vector<int> bodies_;         ///< of these
+  std::vector<NearSurface> near_;   ///< local ones
+  Real stiffest_ = 0;               ///< stiffness of a contact over the mass of its point [1/s^2]
   NodeForces forces_;               ///< on owned nodes, of the last evaluation
   std::vector<std::pair<int, Real>> stiffness_;
   Real stored_ = 0; ///< [J]

@@ -205,6 +205,28 @@ bool Solver::erode(Real dt)
   return true;
 }
 
+/// The symmetries that act in all of the run and hold nodes of a plane.
+std::vector<Debris::Mirror> Solver::mirrors() const
+{
+  std::vector<Debris::Mirror> mirrors;
+  for (const SymmetryPlane& plane : model_.conditions.symmetries)
+  {
+    std::vector<Real> bounds{-infinity, -infinity, 0};
+    for (const int node : plane.nodes)
+    {
+      const Vec3 x = at(state_.x, node);
+      const Real level = dot(plane.normal, x);
+      bounds = {std::max(bounds[0], level), std::max(bounds[1], -level),
+                std::max(bounds[2], norm(x))};
+    }
+    comm_->max(bounds);
+    constexpr Real roundOff = 1e-9;
+    if (plane.when.isAlways() && bounds[0] + bounds[1] <= roundOff * bounds[2])
+      mirrors.push_back({plane.normal, 0.5 * (bounds[0] - bounds[1])});
+  }
+  return mirrors;
+}
+
 /// Which nodes have mass and no element, and which faces may stop them.
 void Solver::renewDebris()
 {
@@ -214,7 +236,8 @@ void Solver::renewDebris()
   for (int n = 0; n < layout_.owned(); ++n)
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
       points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n)});
-  debris_->renew(points, erosion_->exterior(), bodyOfNode_, layout_);
+  debris_->renew(points, erosion_->exterior(), mirrors(), bodyOfNode_, mesh(), elements_, state_,
+                 layout_);
 }
 
 /// Ends the loads on elements that have died, and lays bare the faces behind them.

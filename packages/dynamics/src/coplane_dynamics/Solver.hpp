@@ -183,6 +183,7 @@ private:
   // Collective.
   void leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known);
   void renewDebris();
+  std::vector<Debris::Mirror> mirrors() const;
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
 

@@ -72,6 +72,12 @@ struct JointLaw
     return curve.crushing.acts() && !(curve.crushing.loss > 0);
   }
 
+  KOKKOS_INLINE_FUNCTION bool isCrushed(const JointFit& fit, const JointState& state) const
+  {
+    return curve.crushing.acts() &&
+           state.maximumClosure > curve.crushing.onset(fit.normalStiffness);
+  }
+
   /// Whether a declared joint with this law starts bonded.
   KOKKOS_INLINE_FUNCTION bool cohesive() const { return bond.kind != Bond::Kind::None; }
   /// Whether faces may come to act on each other that are farther apart than any were when the

@@ -11,8 +11,9 @@
 
 namespace coplane
 {
-/// Planes that carry something, and joints that have just been closed.
-bool isDonor(const Plane& plane);
+/// Planes that carry something, joints that have just been closed, and those that have been crushed
+/// and carry nothing now.
+bool isDonor(const Plane& plane, const JointLaw& law);
 
 /// What a plane has to give; without the nodes of its faces.
 Donor donorOf(const Plane& plane);
@@ -55,7 +56,8 @@ public:
   Continuation(const NewPair& pair, int dimension, Real reach);
 
   /// Whether the donor shares a face with the pair, and its area, which the faces have carried
-  /// along, lies within the reach of the pair's other face on the common plane.
+  /// along, lies within the reach of the pair's other face on the common plane. What rests has to
+  /// lie in the other face as well: it has not left the place that it was crushed to.
   bool isNear(const Donor& donor) const;
   /// Where the pair shared area already, it has to be closed at the donor's offset and go on over
   /// the same surface: then it has not come down beside the donor. Asked of donors that are near.
@@ -83,7 +85,7 @@ bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
 }
 
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
-/// their keys. Returns whether there were any that fit. A donor that has one face in common with
+/// their keys: of those that carry, if there are some. Returns whether there were any that fit. A donor that has one face in common with
 /// the plane, and whose other face shares a node with the plane's other one, shows that the plane
 /// only slides on over the same surface. The plane is bonded if most of the area is, between the
 /// same two bodies: a bond holds together what has been bonded, and a third body that comes to one

@@ -254,9 +254,21 @@ private:
                  leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
                  late_[i] = wasFoundLate(plane, inside);
                  if (!inside)
+                 {
                    plane.refusal = Refusal::None;
+                   rest(plane, i);
+                 }
                  return inside && carries(plane, i);
                }) > 0.0;
+  }
+
+  /// A pair that has taken over a joint which is crushed deeper than its faces lie in each other is
+  /// a plane from there on, with this crushing, whatever becomes of those that passed it on.
+  KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const
+  {
+    if (!plane.isBorn() && crushes_[i] && permanents_[i] > 0 && branchFree::lane(overlaps_, i) &&
+        branchFree::lane(deepest_, i) > 0)
+      stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
   }
 
   /// Of a plane in contact.
