@@ -85,10 +85,10 @@ bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
 }
 
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
-/// their keys: of those that carry, if there are some. Returns whether there were any that fit. A donor that has one face in common with
-/// the plane, and whose other face shares a node with the plane's other one, shows that the plane
-/// only slides on over the same surface. The plane is bonded if most of the area is, between the
-/// same two bodies: a bond holds together what has been bonded, and a third body that comes to one
-/// of them has not.
+/// their keys: of those that carry, if there are some. Returns whether there were any that fit. A
+/// donor that has one face in common with the plane, and whose other face shares a node with the
+/// plane's other one, shows that the plane only slides on over the same surface. The plane is
+/// bonded if most of the area is, between the same two bodies: a bond holds together what has been
+/// bonded, and a third body that comes to one of them has not.
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors);
 } // namespace coplane
