@@ -209,16 +209,18 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
                  exterior.end());
   faces_ = std::move(exterior);
   bodies_.clear();
-  std::vector<Real> stiffest{0};
+  std::vector<Real> most{0, 0};
   for (const ExteriorFace& face : faces_)
   {
     bodies_.push_back(bodyOfNode[std::size_t(face.nodes[0])]);
-    stiffest[0] =
-        std::max(stiffest[0], stiffnessOf(face, mesh, elements) /
-                                  elements.blocks()[std::size_t(face.block)].mass(face.element));
+    const Real stiffness = stiffnessOf(face, mesh, elements);
+    most[0] = std::max(most[0], stiffness);
+    most[1] = std::max(most[1],
+                       stiffness / elements.blocks()[std::size_t(face.block)].mass(face.element));
   }
-  comm_->max(stiffest);
-  stiffest_ = stiffest[0];
+  comm_->max(most);
+  stiffest_ = most[0];
+  stiffestPerMass_ = most[1];
   std::vector<FreeNode> nodes = comm_->allGather(mine);
   std::sort(nodes.begin(), nodes.end(),
             [](const FreeNode& a, const FreeNode& b) { return a.id < b.id; });
@@ -494,7 +496,8 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
     // once, for the step has to be short enough when it meets a face; and four times as much, as of
     // planes that bodies chatter on: elements ask for no less, but rigid bodies have no step.
     if (point.node >= 0)
-      stiffness_.emplace_back(point.node, 4 * 2 * stiffest_ * point.mass);
+      stiffness_.emplace_back(point.node,
+                              4 * 2 * std::min(stiffest_, stiffestPerMass_ * point.mass));
   }
   for (const WaysOut& its : ways)
   {

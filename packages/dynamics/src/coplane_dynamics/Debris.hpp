@@ -151,8 +151,9 @@ private:
   std::vector<ExteriorFace> faces_; ///< local ones that lead somewhere
   std::vector<int> bodies_;         ///< of these
   std::vector<NearSurface> near_;   ///< local ones
-  Real stiffest_ = 0;               ///< stiffness of a contact over the mass of its point [1/s^2]
-  NodeForces forces_;               ///< on owned nodes, of the last evaluation
+  /// Most that the contact of a point can have: stiffness [N/m], and that over its mass [1/s^2].
+  Real stiffest_ = 0, stiffestPerMass_ = 0;
+  NodeForces forces_; ///< on owned nodes, of the last evaluation
   std::vector<std::pair<int, Real>> stiffness_;
   Real stored_ = 0; ///< [J]
   std::int64_t touching_ = 0;
