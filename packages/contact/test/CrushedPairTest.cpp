@@ -104,11 +104,23 @@ RandomPair someStrip(std::mt19937& random)
     const Real width = .05 + .15 * u(random), turn = .05 * (u(random) - .5);
     return {face({{1, 0, 0}, {0, 0, 0}}), face({{1 - width, -.05, 0}, {2, -.05 + turn, 0}})};
   }
-  RandomPair pair = randomPair(random, .1 * u(random));
-  const Vec3 n = normalised(vectorArea<3>(pair.a.x, pair.a.count));
-  const Real deep = .3 * u(random);
-  for (int i = 0; i < pair.b.count; ++i)
-    pair.b.x[i] -= deep * n;
+  const auto outline = [&](std::initializer_list<Vec3> corners)
+  {
+    FaceNodes nodes = face(corners);
+    for (int i = 0; i < nodes.count; ++i)
+      nodes.x[i] += Vec3{.1 * u(random) - .05, .1 * u(random) - .05, .04 * u(random) - .02};
+    return nodes;
+  };
+  const Real low = .8 - .6 * u(random), from = .75 + .2 * u(random), deep = .05 + .25 * u(random);
+  RandomPair pair;
+  pair.a = u(random) < .5 ? outline({{1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 0}})
+                          : outline({{1, 0, 0}, {1, 1, 0}, {0, .5, 0}});
+  pair.b = u(random) < .5
+               ? outline({{from, low - 1, -deep},
+                          {from, low, -deep},
+                          {from + 1, low, -deep},
+                          {from + 1, low - 1, -deep}})
+               : outline({{from, low - 1, -deep}, {from, low, -deep}, {from + 1, low - .5, -deep}});
   return pair;
 }
 
@@ -467,6 +479,46 @@ TEST(CrushedPair, isCrushedOnceByWhatRocksAgainAndAgain)
     EXPECT_GT(afterOne, 0) << int(outlines);
     EXPECT_LT(end.hysteresisWork, 1.001 * afterOne) << int(outlines);
   }
+}
+
+TEST(CrushedPair, thatRestsOnWhatItTookOverIsAPlane)
+{
+  // The bed beside was crushed by 1 mm; here its surface is met for the first time, 0.4 mm deep.
+  for (const Outlines outlines : allOutlines)
+    for (const bool tookOver : {true, false})
+    {
+      PairPlane plane = mortar();
+      plane.state = PlaneState::Slot;
+      if (tookOver)
+      {
+        plane.lineage = Lineage::Inherited;
+        plane.history.maximumClosure =
+            1e-3 + plane.law.curve.crushing.strengthAt(1e-3) / plane.fit.normalStiffness;
+      }
+      const PairPlane rested = walked(
+          plane, outlines, 10,
+          [](Real t) {
+            return Pose{4e-4 * t, 0, 0};
+          },
+          [](const PairPlane&, const Pose&) {});
+      EXPECT_TRUE(rested.isBorn()) << int(outlines);
+      if (!tookOver)
+      {
+        EXPECT_GT(rested.hysteresisWork, 0) << int(outlines);
+        continue;
+      }
+      EXPECT_EQ(rested.stored, 0) << int(outlines);
+      EXPECT_EQ(rested.hysteresisWork, 0) << int(outlines);
+      // From there on it is its own: nobody passes anything on any more.
+      const PairPlane end = walked(
+          rested, outlines, 200,
+          [](Real t) {
+            return Pose{4e-4 + 8e-4 * t, 0, 0};
+          },
+          [](const PairPlane&, const Pose&) {});
+      EXPECT_GT(end.hysteresisWork, 0) << int(outlines);
+      EXPECT_LT(std::abs(end.remainder()), 1e-3 * end.work) << int(outlines);
+    }
 }
 
 TEST(CrushedPair, costsNoMoreThanItHas)

@@ -214,6 +214,28 @@ TEST(Crushing_Shear, longSlipIsBookedAtTheStrengthThatCrushingLeaves)
   EXPECT_NEAR(run.imbalance(), 0, 1e-3 * run.work);
 }
 
+TEST(Crushing_Shear, whatMayCrushIsForeseen)
+{
+  JointLaw law = crushedMortar(0).law;
+  Crushing& crushing = law.curve.crushing;
+  const Real strength = crushing.strengthAt(0), weight = crushing.shearWeight;
+  ASSERT_GT(weight, 0);
+  const Real sigma = .5 * strength, edge = std::sqrt(.75 / weight) * strength;
+  law.friction = 2 * edge / sigma;
+  EXPECT_TRUE(law.mayBeCrushed(0, 1.001 * strength, 0));
+  EXPECT_FALSE(law.mayBeCrushed(0, .999 * strength, 0));
+  EXPECT_TRUE(law.mayBeCrushed(0, sigma, 1.001 * edge));
+  EXPECT_FALSE(law.mayBeCrushed(0, sigma, .999 * edge));
+  law.cohesion = 0;
+  law.friction = .9 * edge / sigma; // holds no more than that
+  EXPECT_FALSE(law.mayBeCrushed(0, sigma, 10 * edge));
+  law.dynamicFriction = 1.1 * edge / sigma;
+  EXPECT_TRUE(law.mayBeCrushed(0, sigma, 10 * edge));
+  law.dynamicFriction = -1;
+  law.dilation = .1;
+  EXPECT_TRUE(law.mayBeCrushed(0, sigma, 0));
+}
+
 TEST(Crushing_Shear, withoutWeightShearDoesNotCrush)
 {
   Joint joint = crushedMortar(0, 50);

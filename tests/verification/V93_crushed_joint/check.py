@@ -149,6 +149,24 @@ for bonded in (True, False):
         case.check(f"{name}: shear beyond friction and cohesion, over the strength", max(beyond.max(), 0) / f_m, 0, 5e-3)
         loses_little(name, h, 1e-5)
 
+# --- pressed deep, lifted a little and slid on: the bed ahead is met nowhere anew ----------------------------------------------
+
+for far in (0.015, 0.1):
+    name = f"slid_{far}"
+    mesh = copy.deepcopy(meshes[2])
+    mesh["parts"][0].update(size=[0.28, 0.1], divisions=[7, 1])
+    deck = changed([(0, -0.05, 0.06), (0, 0.05, 0.008), (5, 0, far / 5), (0, -0.05, 0.014)], bonded=False, shear_in_crushing=0, friction=0, cohesion=0)
+    run = case.run(name, mesh, deck, **rounding)
+    h = run.history
+    loses_little(name, h, 1e-5)
+    sigma, _ = tractions(run, 2)
+    slides = (run.results.times > 0.068) & (run.results.times < 0.068 + far / 5)
+    case.check(f"{name}: traction while it slides, over the strength", numpy.max(numpy.abs(sigma[slides])) / f_m, 0, 1e-9)
+    case.check(f"{name}: traction at the end [Pa]", sigma[-1, 1], law([3e-3, 3.3e-3], 0)[-1], 1e-2, relative=True)
+    if far == 0.1:
+        case.same_bits(name, mesh, deck, run, ranks=3)
+        case.restarts(name, mesh, deck, run, 0.075)
+
 # --- a toe: the joint is pressed at one end -----------------------------------------------------------------------------------
 
 for dimension in (2, 3):

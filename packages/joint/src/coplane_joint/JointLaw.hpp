@@ -72,6 +72,20 @@ struct JointLaw
     return curve.crushing.acts() && !(curve.crushing.loss > 0);
   }
 
+  /// Whether compression may crush a joint further with a shear traction, of which friction holds
+  /// no more than it can.
+  /// @param crushed so far [m]
+  /// @param sigma compression, shear: size of the traction before friction limits it [Pa]
+  KOKKOS_INLINE_FUNCTION bool mayBeCrushed(Real crushed, Real sigma, Real shear) const
+  {
+    if (remembersSlip()) // slip lifts the faces, and presses them more
+      return true;
+    const Real mu = friction > dynamicFriction ? friction : dynamicFriction;
+    const Real most = cohesion + mu * sigma, tau = shear < most ? shear : most;
+    const Real strength = (1 - 1e-9) * curve.crushing.strengthAt(crushed);
+    return sigma * sigma + curve.crushing.shearWeight * (tau * tau) > strength * strength;
+  }
+
   KOKKOS_INLINE_FUNCTION bool isCrushed(const JointFit& fit, const JointState& state) const
   {
     return curve.crushing.acts() &&

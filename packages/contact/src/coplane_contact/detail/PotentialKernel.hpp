@@ -197,39 +197,29 @@ private:
                                         mostWithoutCrushing(i);
                            }) > 0.0 &&
                        here);
+    const ContactMoments<T>& m = pair_.moments;
     const auto byShear = [&](const T& shear)
     {
-      return here &&
-             branchFree::gathered<T>([&](int i) -> Real
-                                     { return isCrushedBy(branchFree::lane(shear, i), i); }) > 0.0;
+      return here && branchFree::gathered<T>(
+                         [&](int i) -> Real
+                         {
+                           const Real volume = branchFree::lane(m.volume, i);
+                           return volume > 0 &&
+                                  planes_.law[i]->mayBeCrushed(permanents_[i],
+                                                               slopes_[i] * volume /
+                                                                   branchFree::lane(m.area, i),
+                                                               branchFree::lane(shear, i));
+                         }) > 0.0;
     };
     if (!branchFree::anyOf(byShear(T(infinity))))
       return;
     EnergyDensity<T> density;
     pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
     Vec3Of<T> increment;
-    const Vec3Of<T> tau =
-        shearAfter(pair_.opposedness * pair_.moments.area, stepG_motion(), increment);
+    const Vec3Of<T> tau = shearAfter(pair_.opposedness * m.area, stepG_motion(), increment);
     const T stiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
     const Vec3Of<T> trial = tau - stiffness * increment;
     done_ = done_ && !byShear(branchFree::squareRoot(dot(trial, trial)));
-  }
-  /// Whether a joint in lanes, where no way out is near, may be crushed by its compression with a
-  /// shear traction, of which friction holds no more than it can.
-  KOKKOS_FORCEINLINE_FUNCTION bool isCrushedBy(Real shear, int i) const
-  {
-    const JointLaw& law = *planes_.law[i];
-    const Real volume = branchFree::lane(pair_.moments.volume, i);
-    if (!(volume > 0))
-      return false;
-    if (law.remembersSlip()) // slip lifts the faces, and presses them more
-      return true;
-    const Real sigma = slopes_[i] * volume / branchFree::lane(pair_.moments.area, i);
-    const Real friction = law.friction > law.dynamicFriction ? law.friction : law.dynamicFriction;
-    const Real most = law.cohesion + friction * sigma, tau = shear < most ? shear : most;
-    const Crushing& crushing = law.curve.crushing;
-    const Real strength = (1 - 1e-9) * crushing.strengthAt(permanents_[i]);
-    return sigma * sigma + crushing.shearWeight * (tau * tau) > strength * strength;
   }
   /// Closure up to which a joint that has been crushed evenly is crushed no further [m].
   KOKKOS_FORCEINLINE_FUNCTION Real mostWithoutCrushing(int i) const

@@ -44,7 +44,11 @@ struct UnevenlyCrushed
         plane.crushedUnevenly ? law.onset(stiffness) : law.closureOf(permanent, stiffness);
     UnevenCrushing to;
     if (pair.mostClosure + permanent > least && pair.crushFurther(law, stiffness, permanent, to))
-      result.further = crushTo(to, permanent);
+    {
+      result.further = crushTo(to);
+      if (!result.further)
+        beAsBefore(permanent);
+    }
     if (plane.crushedUnevenly)
       permanent = pair.meanCrushing();
     return result;
@@ -60,7 +64,7 @@ struct UnevenlyCrushed
   {
     UnevenCrushing to = crushing(permanent);
     to.atCenter += more;
-    if (crushTo(to.asKept(), permanent))
+    if (crushTo(to.asKept()))
     {
       crushed.further = true;
       crushed.parted = parted;
@@ -103,19 +107,18 @@ private:
     return plane.crushedUnevenly ? plane.crushing() : UnevenCrushing{even, {0, 0}};
   }
 
-  /// @returns whether the joint carries then; else it stays as it is
-  KOKKOS_INLINE_FUNCTION bool crushTo(const UnevenCrushing& to, Real even) const
+  /// @returns whether the joint carries then; else its plane stays as it is, but its pair does not
+  KOKKOS_INLINE_FUNCTION bool crushTo(const UnevenCrushing& to) const
   {
     pair.beCrushed(to);
     pair.meet(plane.offset, false, edges);
     const bool carries = pair.moments.volume > 0;
     if (carries)
       plane.crush(to);
-    else
-      beAsBefore(even);
     return carries;
   }
 
+  /// @param even where it is not crushed unevenly yet [m]
   KOKKOS_INLINE_FUNCTION void beAsBefore(Real even) const
   {
     if (plane.crushedUnevenly)
