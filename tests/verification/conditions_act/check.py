@@ -108,13 +108,18 @@ for key, (before, after) in damping.items():
 
 # What cannot act is told, before the run, too; each by words that no other has.
 words = {"late": "pressure acts from 1 s on", "blast late": "arrives at 'top' at 1.0", "blast early": "has left 'top' at -0.9",
-         "unlit": "reaches the explosive at ", "far": "m from the nearest middle of an element"}  # fmt: skip
+         "unlit": "reaches the explosive at ", "far": "m from the nearest middle of an element", "rigid": "'soft' is rigid: nothing is computed",
+         "die": "elements are beyond a limit of erosion at the start"}  # fmt: skip
 blast = {"type": "air_blast", "side_set": "top", "charge_mass": 0.1, "charge_place": [0.5, 3, 0]}
 charge = {**plain, "blocks": {**plain["blocks"], "soft": {"material": "tnt", "hourglass": {"stiffness": 0, "viscosity": 0.1}}}, "initial": []}
 
 
 def lit(**keys):
     return {**charge, "materials": {**plain["materials"], "tnt": {"set": "tnt", **keys}}}
+
+
+def with_erosion(step):
+    return {**plain, "blocks": {**plain["blocks"], "soft": {**plain["blocks"]["soft"], "erosion": {"stable_step": step}}}}
 
 
 for what, deck, told in (
@@ -126,6 +131,9 @@ for what, deck, told in (
     ("charge lit after the end", lit(lighting_points=[[0, 0]], lighting_times=[0.5]), ["unlit"]),
     ("charge lit in millimetres", lit(lighting_points=[[500, 500]]), ["unlit", "far"]),
     ("charge lit", lit(lighting_points=[[0, 0]]), []),
+    ("charge that is rigid", {**lit(lighting_points=[[0, 0]]), "blocks": {**plain["blocks"], "soft": {"material": "tnt", "rigid": True}}}, ["rigid"]),
+    ("elements beyond a limit", with_erosion(1), ["die"]),
+    ("elements within a limit", with_erosion(1e-12), []),
 ):
     for ranks in (1, 2):
         run = case.attempt(f"idle_{what.replace(' ', '_')}_{ranks}", recipe, deck, ranks=ranks, options=["--check"])

@@ -110,6 +110,27 @@ void warnOfUnlitBlock(const std::string& name, const Jwl& law, const Lit& lit, R
                                   "lighting_points and lighting_times, or raise time.end.",
                                   name, lit.burns, end));
 }
+
+/// Collective.
+void warnOfElementsThatDieAtOnce(const Solver& solver, std::size_t b, const Comm& comm)
+{
+  const ElementBlock& block = solver.blocks()[b];
+  const ErosionRule rule(solver.model().blocks[b].erosion, block);
+  std::vector<std::int64_t> counts(2, 0); // those that die, all
+  for (int e = 0; e < block.count(); ++e)
+    if (solver.mesh().blocks[b].owned[std::size_t(e)] && !block.isTakenOut(e))
+    {
+      counts[0] += rule.kills(block, e);
+      ++counts[1];
+    }
+  comm.sum(counts);
+  if (counts[0] > 0)
+    logWarning("elements that die at once",
+               fmt::format("block '{}': {} of {} elements are beyond a limit of erosion at the "
+                           "start, and die in the first cycle. Check blocks.{}.erosion.",
+                           solver.model().blocks[b].name, counts[0], counts[1],
+                           solver.model().blocks[b].name));
+}
 } // namespace
 
 void warnOfIdleLoads(const std::vector<Deck>& decks, const MeshSlice& mesh, const Solver& solver,
@@ -135,8 +156,16 @@ void warnOfIdleLoads(const std::vector<Deck>& decks, const MeshSlice& mesh, cons
     if (card.type == "air_blast")
       warnOfLateBlast(card, blasts.at(blast++), end, comm);
   for (std::size_t b = 0; b < mesh.mine.blocks.size(); ++b)
-    if (const auto* law = std::get_if<Jwl>(&solver.model().blocks[b].material);
-        law && law->points > 0)
-      warnOfUnlitBlock(mesh.mine.blocks[b].name, *law, litBlock(*law, solver, b, comm), end);
+  {
+    const BlockSetup& setup = solver.model().blocks[b];
+    if (setup.erosion.any())
+      warnOfElementsThatDieAtOnce(solver, b, comm);
+    if (std::holds_alternative<Jwl>(setup.material) && setup.rigid)
+      logWarning(topic, fmt::format("block '{}' is rigid: nothing is computed in its elements, so "
+                                    "the explosive does not burn. Leave out blocks.{}.rigid.",
+                                    setup.name, setup.name));
+    else if (const auto* law = std::get_if<Jwl>(&setup.material); law && law->points > 0)
+      warnOfUnlitBlock(setup.name, *law, litBlock(*law, solver, b, comm), end);
+  }
 }
 } // namespace coplane
