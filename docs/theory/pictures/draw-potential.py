@@ -88,14 +88,20 @@ class Chart:
 
 # --- the formulas of the page -------------------------------------------------------------------------------------------------
 def smooth(z):
-    """0 below 0, 1 above 1, between them z^2 (3 - 2 z)."""
+    """0 below 0, 1 above 1, between them z^2 (3 - 2 z): phi."""
     z = min(max(z, 0.0), 1.0)
     return z * z * (3 - 2 * z)
 
 
+def smoother(z):
+    """The same with two vanishing derivatives at both ends, z^3 (10 - 15 z + 6 z^2): chi."""
+    z = min(max(z, 0.0), 1.0)
+    return z**3 * (10 - 15 * z + 6 * z * z)
+
+
 def way_out(ratio):
     """chi of rho = V^2 / (S b), for an even closure w / 2c."""
-    return smooth((ratio - WAY_OUT_FROM) / (WAY_OUT_TO - WAY_OUT_FROM))
+    return smoother((ratio - WAY_OUT_FROM) / (WAY_OUT_TO - WAY_OUT_FROM))
 
 
 def opposition(xi, relative_depth):

@@ -402,6 +402,32 @@ TEST(ContactPotential, gradientInThreeDimensionsAlsoWhereAWayOutIsNear)
   }
 }
 
+TEST(ContactPotential, theNarrowestStripIsTheWayOut)
+{
+  // What two squares share at a corner of each: w x l, as deep as w. A strip is w / 2c = 1/2, and a
+  // square two of them.
+  const auto shareOf = [](Real w, Real l, unsigned exits)
+  {
+    return Evaluation<3>(face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}),
+                         face({{1 - w, 1 - l, -w}, {1 - w, 2, -w}, {2, 2, -w}, {2, 1 - l, -w}}), 1,
+                         0, {0, 0}, exits)
+        .share;
+  };
+  const auto chi = [](Real rho)
+  {
+    const Real z = (rho - .25) / .75;
+    return z * z * z * (10 - 15 * z + 6 * z * z);
+  };
+  constexpr unsigned across = 1u << 1 | 1u << 6, along = 1u << 2 | 1u << 7;
+  EXPECT_NEAR(shareOf(.1, .4, across), chi(.5), 1e-12);
+  EXPECT_NEAR(shareOf(.1, .4, across | along), chi(.5 / std::pow(1 + std::pow(.25, 4), .25)),
+              1e-12);
+  EXPECT_NEAR(shareOf(.1, .1, across | along), chi(.5 / std::pow(2, .25)), 1e-12);
+  // Edges at right angles bound none, and neither do two of one face.
+  EXPECT_EQ(shareOf(.1, .1, 1u << 1 | 1u << 7), 1);
+  EXPECT_EQ(shareOf(.1, .1, 1u << 1 | 1u << 2), 1);
+}
+
 TEST(ContactPotential, aStripBeginsWithoutAJump)
 {
   // A tilted face sinks into another one beside an edge of each. Where the closed part grows up to

@@ -190,8 +190,8 @@ TEST(RigidBodies, haveTheSameBitsOnAnyRanks)
 TEST(RigidBodies, stepIsThatOfTheWholeBodyOnItsSprings)
 {
   // Equal cubes of 1 m and 1000 kg lie on each other, a force along z between them: the upper one
-  // sees the springs of its whole base, k A. Nodes count twice that (Gershgorin's circles), and the
-  // overlap of a face up to 1.5 times.
+  // sees the springs of its whole base, k A. Nodes count twice that (Gershgorin's circles), the
+  // overlap of a face up to 1.5 times, and the plane between two rigid bodies fourfold.
   const Comm comm;
   Mesh mesh;
   addBox(mesh, "lower", {1, 1, 1}, {0, 0, 0}, {1, 1, 1});
@@ -208,8 +208,82 @@ TEST(RigidBodies, stepIsThatOfTheWholeBodyOnItsSprings)
   const Real k = comm.max(stiffness);
   ASSERT_GT(k, 0);
   const Real both = 2 / std::sqrt(2 * k / 1000.0); // of two bodies against each other
-  EXPECT_LT(control.stableStep, both);
-  EXPECT_GT(control.stableStep, both / 3);
+  EXPECT_LT(control.stableStep, both / 2);
+  EXPECT_GT(control.stableStep, both / 6);
+}
+
+TEST(RigidBodies, stepsSeeThemMeetWithAnEdge)
+{
+  // Prisms that come with an edge on each other share nothing, and have no stiffness by which a
+  // step could be told, before they lie in each other.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "lower", {3, 3, 3}, {0, 0, 0}, {1, 1, 1});
+  addBox(mesh, "upper", {3, 3, 3}, {0, 0, 2}, {1, 1, 1});
+  for (std::size_t n = 0; n < mesh.coordinates.size(); ++n)
+  {
+    Vec3& x = mesh.coordinates[n];
+    const bool upper = x.z > 1.5;
+    const Real y = x.y - .5, z = x.z - (upper ? 2.5 : .5), c = std::sqrt(.5);
+    x = {x.x, c * (y - z), c * (y + z) + (upper ? 1.001 : -1) * c};
+  }
+  Model model = rockModel(mesh, comm);
+  makeRigid(model, comm, {1, 1});
+  const Real speed = 10;
+  model.blocks[1].velocity = {0, 0, -speed};
+  model.time.end = .2 / speed;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  const StepControl control = solver.stepControl();
+  EXPECT_TRUE(control.meeting);
+  EXPECT_NE(control.text().find("meet with an edge"), std::string::npos);
+  const Real start = solver.energy().kinetic;
+  while (solver.clock().time < .2 / speed)
+    solver.advance();
+  const EnergyBalance end = solver.energy();
+  EXPECT_LT(std::abs(end.contact.remainder()), 2e-3 * start);
+  EXPECT_LT(end.kinetic + end.contact.stored, 1.003 * start);
+  EXPECT_NEAR(solver.rigidBodies().motion(0).velocity.z, -speed, 3e-3 * speed);
+}
+
+TEST(RigidBodies, countFourfoldInTheStepWhereTheyTouchEachOther)
+{
+  const Comm comm;
+  for (const bool both : {true, false})
+  {
+    Solver solver(falling(comm, both), comm);
+    solver.prepare();
+    std::int64_t planes = 0;
+    for (std::size_t p = 0; p < solver.contact().planes().size(); ++p)
+      if (const Plane& plane = solver.contact().planes()[p]; plane.face[0] >= 0)
+      {
+        ++planes;
+        EXPECT_EQ(plane.stiff, both);
+      }
+    EXPECT_GT(comm.max(planes), 0);
+  }
+}
+
+TEST(RigidBodies, giveWayWithWhatIsNotGiven)
+{
+  const Comm comm;
+  const auto massOf = [&](const std::vector<RigidMotion>& motions)
+  {
+    Model model = tumbling(comm, 1e-3);
+    model.conditions.rigidMotions = motions;
+    Solver solver(std::move(model), comm);
+    return solver.rigidBodies().massThatYields(0);
+  };
+  RigidMotion motion;
+  motion.block = 0;
+  EXPECT_NEAR(massOf({}), 8000, 1e-9);
+  motion.components = {true, true, false};
+  EXPECT_NEAR(massOf({motion}), 8000, 1e-9);
+  // What turns: J / r^2 about the long axis.
+  motion.components = {true, true, true};
+  EXPECT_NEAR(massOf({motion}), 8000 * (1 + 4) / 12.0 / (0.25 * (1 + 4 + 16)), 1e-9);
+  motion.spin.emplace();
+  EXPECT_EQ(massOf({motion}), infinity);
 }
 
 TEST(RigidBodies, fallFreelyAndStandOnWhatHoldsThem)

@@ -1,6 +1,7 @@
 """Corners beside seams, edges that cross, needles, bonds that break while tilted: nothing of it makes energy or depends on a cut."""
 
 import math
+import random
 import sys
 
 import numpy
@@ -139,6 +140,103 @@ for off, turns in (
     if off == (0.004, 0.006):
         case.same_bits(folder, recipe, deck, run, ranks=3, threads=2, change_mesh=place)
 
+
+# --- Boxes that meet tip on tip: each pair of their faces shares a small square beside two edges, and the way out along the normal is as
+# long as those over the edges. Something has to hold them, and no step may be so long that it misses where their shadows begin to meet.
+diagonal = math.degrees(math.atan(math.sqrt(0.5)))  # after 45 degrees about x a cube stands on a corner
+
+
+def rotation(angles):
+    if numpy.ndim(angles) == 0:
+        return numpy.array([[math.cos(math.radians(angles)), -math.sin(math.radians(angles))], [math.sin(math.radians(angles)), math.cos(math.radians(angles))]])
+    result = numpy.eye(3)
+    for (i, j), degrees in zip(((1, 2), (2, 0), (0, 1)), angles):
+        one = numpy.eye(3)
+        one[numpy.ix_([i, j], [i, j])] = rotation(degrees)
+        result = one @ result
+    return result
+
+
+def tip_on_tip(sizes, angles, rigid, miss, speed):
+    """`miss`: of the upper tip over 0.1 m along x; half of that along y."""
+    dimension = len(sizes[0])
+    parts, tips = [], []
+    for block, size, turns, side in zip(("lower", "upper"), sizes, angles, (1, -1)):
+        corners = 0.5 * numpy.array(numpy.meshgrid(*[(-x, x) for x in size])).reshape(dimension, -1).T @ rotation(turns).T
+        tips.append(corners[numpy.argmax(side * corners[:, -1])])
+        parts.append({"shape": "box", "block": block, "min": [-x / 2 for x in size], "size": size, "divisions": [1] * dimension, "about": [0] * dimension, "rotate": turns})
+    offset = tips[0] - tips[1] + ([0.1 * miss, 1e-4] if dimension == 2 else [0.1 * miss, 0.05 * miss, 1e-4])
+    parts[1]["offset"] = [float(x) for x in offset]
+    deck = {"materials": {"stone": {"model": "linear_elastic", "density": 2300, "youngs_modulus": 30e9, "poisson_ratio": 0.2}},
+            "blocks": {block: {"material": "stone", "rigid": bool(of)} for block, of in zip(("lower", "upper"), rigid)},
+            "initial": [{"block": "upper", "velocity": [0, -speed, 0] if dimension == 2 else [0, 0, -speed]}], "viscosity": quiet,
+            "time": {"end": 0.06 / speed}, "output": {"every": 0.002 / speed}, "history": {"probes": [{"name": block, "block": block} for block in ("lower", "upper")]}}  # fmt: skip
+    return {"dimension": dimension, "parts": parts}, deck
+
+
+def within(run, sizes, angles):
+    """Most of the smaller box that was within the other one, by places that move with the upper one."""
+    r, dimension = run.results, len(sizes[0])
+    start = r.coordinates[:, :dimension]
+    of = [numpy.unique(r.connectivity(block)) for block in ("lower", "upper")]
+    places = numpy.random.default_rng(1).random((4000, dimension)) - 0.5
+    most = 0
+    for step in range(len(r.times)):
+        now = start + r.nodal("displacement", step)[:, :dimension]
+        middles = [now[nodes].mean(axis=0) for nodes in of]
+        maps = [numpy.linalg.lstsq(start[nodes] - start[nodes].mean(axis=0), now[nodes] - middle, rcond=None)[0] for nodes, middle in zip(of, middles)]
+        moved = places * sizes[1] @ rotation(angles[1]).T @ maps[1] + middles[1]
+        seen = (moved - middles[0]) @ numpy.linalg.inv(maps[0]) @ rotation(angles[0])
+        most = max(most, (numpy.abs(seen) < numpy.array(sizes[0]) / 2).all(axis=1).mean())
+    return most * numpy.prod(sizes[1]) / min(numpy.prod(size) for size in sizes)
+
+
+cube, plank, brick = [0.1] * 3, [0.05, 0.1, 0.2], [0.2, 0.1, 0.1]
+tip, turned_tip = [45, diagonal, 0], [45, diagonal, 60]
+scenes = [([size] * 2, angles, (1, 1), miss, speed) for size, angles in (([0.1] * 2, [45, 45]), (cube, [tip, tip]), (cube, [tip, turned_tip]))
+          for miss in (0, 1e-3, 1e-2) for speed in (1, 20)]  # fmt: skip
+scenes += [([cube] * 2, [tip, tip], (0, 0), miss, 5) for miss in (0, 1e-2)]
+scenes += [([plank, cube], [tip, tip], (1, 0), 0, 5), ([brick, [0.1, 0.1, 0.05]], [tip, tip], (1, 1), 0, 5), ([[0.2, 0.1, 0.05], cube], [tip, tip], (0, 0), 5e-4, 5)]
+chosen = len(scenes)
+if full:
+    draw = random.Random(7)
+    for _ in range(60):
+        dimension = draw.choice((2, 3, 3))
+        some = [45, draw.uniform(0, 90)] if dimension == 2 else [tip, turned_tip, [45, 0, draw.choice((0, 90, 37))], [draw.uniform(0, 90) for _ in range(3)]]
+        scenes.append(([[draw.choice((0.05, 0.1, 0.2)) for _ in range(dimension)] for _ in range(2)], [draw.choice(some) for _ in range(2)],
+                       draw.choice(((1, 1), (1, 0), (0, 0))), draw.choice((0, 1e-4, 1e-3, 1e-2, 0.03)), draw.choice((0.5, 5, 20))))  # fmt: skip
+compared = [([cube] * 2, [tip, tip], (1, 1), 1e-2, 20), ([plank, cube], [tip, tip], (1, 0), 0, 5)]
+for number, scene in enumerate(scenes):
+    sizes, angles, rigid, miss, speed = scene
+    dimension, drawn = len(sizes[0]), number >= chosen
+    recipe, deck = tip_on_tip(*scene)
+    if drawn:
+        deck["time"]["step_factor"] = 0.4
+    kind = " and ".join(("elastic", "rigid")[of] for of in rigid)
+    folder = f"tips_{number}"
+    run = case.run(folder, recipe, deck, energy=5e-3)  # the step falls and rises while they touch
+    h = run.history
+    name = f"tip on tip {number}, {sizes[0]} m on {sizes[1]} m, {kind}, {miss:g} off, {speed} m/s"
+    case.check(f"{name}: contact remainder", numpy.max(numpy.abs(h["contact_remainder"])) / h["kinetic"][0], 0, 3e-2 if drawn else 1e-2 if miss or dimension == 2 else 2e-3)
+    case.check(f"{name}: part of one within the other", within(run, sizes, angles), 0, 0.01)
+    if not drawn and sizes[0] == sizes[1] and rigid == (1, 1) and not miss:  # they change their velocities
+        axis = "y" if dimension == 2 else "z"
+        case.check(f"{name}: velocity of the lower one over the speed", -h[f"lower_velocity_{axis}"][-1] / speed, 1, 2e-3)
+    if scene in compared:
+        case.same_bits(folder, recipe, deck, run, ranks=3, threads=2)
+        case.restarts(folder, recipe, deck, run, 5e-5 / speed, ranks=2)  # before they meet
+
+# The paper's forces keep corners apart as well, though they make and lose energy.
+for dimension, angles in ((2, [45, 45]), (3, [tip, tip]), (3, [[45, 0, 0], [45, 0, 0]])):
+    for speed in (1, 20):
+        scene = [[0.1] * dimension] * 2, angles, (1, 1), 0, speed
+        recipe, deck = tip_on_tip(*scene)
+        deck["contact"] = {"forces": "common_normal"}
+        deck["time"]["contact_gain_tolerance"] = 10
+        run = case.attempt(f"common_normal_{dimension}_{angles[0] == tip}_{speed}", recipe, deck)
+        name = f"tip on tip along the common normal, {dimension}D, {angles[0]}, {speed} m/s"
+        case.check_equal(f"{name}: exit code", run.code, 0)
+        case.check(f"{name}: part of one within the other", within(run, scene[0], angles), 0, 0.05)
 
 # --- The seam of two blocks over a line of the mesh, all of it symmetric -------------------------------------
 # Corners pass each other and the line below them by round-off only, which must not decide what they feel.

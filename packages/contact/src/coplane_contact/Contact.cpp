@@ -105,12 +105,21 @@ void Contact::listSlotsOfFaces(int ownedNodes)
   forceSums_.listFaces(localFaces(), ownedNodes);
 }
 
-Real Contact::thinnestElement() const
+Real Contact::stiffestOn(const Face& face) const
 {
-  Real least = infinity;
-  for (const Face& face : localFaces())
-    least = std::min(least, face.thickness);
-  return least;
+  const std::size_t kinds = std::size_t(rules_.kinds),
+                    kind = std::size_t(rules_.kindOf[std::size_t(face.group)]);
+  Real most = 0;
+  for (std::size_t other = 0; other < kinds; ++other)
+  {
+    const ContactRule& rule = rules_.table[kind * kinds + other];
+    if (rule.excluded)
+      continue;
+    const JointLaw& law = rules_.joints[std::size_t(rule.joint)].law;
+    const JointFit fit = law.fittedTo(face.thickness, face.modulus, 0, face.modulus);
+    most = std::max(most, law.curve.stiffens() ? fit.stiffnessCap : fit.normalStiffness);
+  }
+  return most;
 }
 
 namespace

@@ -151,8 +151,8 @@ public:
   /// Whether the last search foresees the motion in all of that time.
   bool foresees() const { return reach_.foresees(); }
   void setSkin(Real skin) { reach_.setSkin(skin); } ///< [m]
-  /// Of the elements behind this rank's faces the least thickness; infinity without faces [m].
-  Real thinnestElement() const;
+  /// Largest stiffness that contact of a face with any other can begin with, or stiffen to [Pa/m].
+  Real stiffestOn(const Face& face) const;
   int dimension() const { return dimension_; }
   const Comm& comm() const { return *comm_; }
   /// Whether since pairs last learned what planes have to give, planes of this rank have changed

@@ -63,7 +63,6 @@ public:
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
   Mask hidden{false};        ///< the part in contact begins at covered edges only
-  T ways[2]{};               ///< closure along the border over which each body can be left [m^2]
   T opposedness{};           ///< phi
   T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
   Vec3Of<T> gradient[2][4];  ///< of the energy [N]
@@ -137,6 +136,7 @@ public:
     const T hard = 1.0 + PenaltyHardening::part * grown;
     const T hardSlope = 4.0 * PenaltyHardening::part * grown * (1.0 - grown);
     wayOut = T(1.0);
+    alongStrip_ = T(0.0);
     T slope(0.0);
     if constexpr (widthOf<T> == 1)
       if (strip_)
@@ -401,8 +401,29 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void cutPolygon(Owned& q, const Mask& whole);
   KOKKOS_FORCEINLINE_FUNCTION void integratePolygon(const Owned& q, const Mask& whole);
   KOKKOS_FORCEINLINE_FUNCTION void addSide(int owner, const Mask& isThere);
-  /// Closure along the edges that bound a strip, the harmonic mean of both faces, twice; faces that
-  /// share most of what they have are no strip, however deep they lie in each other [m^2].
+  /// Where the closure along the border of an edge is added up, in ways_.
+  static KOKKOS_FORCEINLINE_FUNCTION int wayOf(int owner)
+  {
+    return branchFree::widthOf<T> == 1 ? owner : owner / 4;
+  }
+  /// Two borders across from each other, one of each face, bound a strip.
+  struct Strip
+  {
+    Real facing = 0;  ///< 1 where they face away from each other, 0 from a right angle on
+    Real closure = 0; ///< along both: twice their harmonic mean [m^2]
+  };
+  KOKKOS_INLINE_FUNCTION Strip stripBetween(int ownerOf0, int ownerOf1) const;
+  /// Minus the cosine between the normals of two borders.
+  KOKKOS_FORCEINLINE_FUNCTION Real facing(int ownerOf0, int ownerOf1) const;
+  /// Of all strips the fourth root of the sum of the fourth powers: what gets away over the nearer
+  /// borders needs no others, so the narrowest strip counts, and of two alike both, smoothly.
+  KOKKOS_INLINE_FUNCTION void joinStrips();
+  /// What the energy changes with the closure along a border [N/m].
+  KOKKOS_INLINE_FUNCTION Real slopeOfWay(int owner) const;
+  /// Adds the gradient of what hangs on how borders face each other.
+  KOKKOS_INLINE_FUNCTION void addFacing(Vec2 (&rim)[2][4]) const;
+  /// Closure along the edges that bound strips; faces that share most of what they have are no
+  /// strip, however deep they lie in each other. Lanes have a bound of it [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T acrossStrip() const;
   /// Whether sideways is the shorter way out. Rare: lanes leave such pairs to T = Real.
   KOKKOS_INLINE_FUNCTION void findStrip(const Mask& whole);
@@ -517,6 +538,10 @@ private:
   T birth_[2]{}; ///< areas [m^2]
   Mask bonded_{false};
   EdgesOf<T> edges_;
+  /// Closure along the borders over which each body can be left: of each edge; lanes have the sums
+  /// of each face, by which they ask whether a strip may be near [m^2].
+  T ways_[branchFree::widthOf<T> == 1 ? 8 : 2]{};
+  T strips_{};          ///< closure along the borders of strips [m^2]; not in lanes
   T coveredSides_[2]{}; ///< number of sides on covered edges of each face
   T openSides_[2]{};    ///< and on others at which its surface turns
   Vec2Of<T> tilt_, apart_;

@@ -285,8 +285,7 @@ KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::resisted(const LinearOnPlane&
       {
         const Vec2 along = q.sides.to[k] - q.sides.from[k];
         const Real length = Dim == 2 ? 1 : std::sqrt(dot(along, along));
-        sum += alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])) * length *
-               crushing.at(0.5 * (q.sides.from[k] + q.sides.to[k]));
+        sum += slopeOfWay(owner) * length * crushing.at(0.5 * (q.sides.from[k] + q.sides.to[k]));
       }
   }
   return sum;

@@ -214,7 +214,8 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::pressAll(const Mask& whole)
   moments = {};
   if constexpr (branchFree::widthOf<T> == 1)
     ofCrushed_ = {};
-  ways[0] = ways[1] = T(0.0);
+  for (T& way : ways_)
+    way = T(0.0);
   for (int f = 0; f < 2; ++f)
     coveredSides_[f] = openSides_[f] = T(0.0);
   for (int i = 0; i < pieces_; ++i)
@@ -223,6 +224,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::pressAll(const Mask& whole)
       whole_[i] = piece_[i];
     cutAndIntegrate(piece_[i], whole);
   }
+  joinStrips();
 }
 
 template <int Dim, class T>
@@ -281,7 +283,8 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& 
   for (int k = 0; k < 2; ++k)
     if (const int owner = q.owner[k]; owner >= 0)
     {
-      ways[owner / 4] += edges_.exits[owner] * closureIn(q, q.sides.from[k]);
+      if (edges_.exits[owner] > 0)
+        ways_[wayOf(owner)] += closureIn(q, q.sides.from[k]);
       addSide(owner, true);
     }
 }
@@ -323,7 +326,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
     apex = coplane::choose(q.sides.isThere(k), q.sides.from[k], apex);
   const T atApex = closureIn(q, apex);
   ContactMoments<T> sum;
-  T border[2]{};
+  T border[widthOf<T> == 1 ? 8 : 2]{};
   for (int k = 0; k < q.sides.size; ++k)
   {
     const Vec2Of<T>&p = q.sides.from[k], &r = q.sides.to[k];
@@ -333,7 +336,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
       addSide(q.owner[k], q.sides.isThere(k));
       const T& exit = edges_.exits[q.owner[k]];
       if (anyOf(exit > 0.0))
-        border[q.owner[k] / 4] +=
+        border[wayOf(q.owner[k])] +=
             0.5 * exit * squareRoot(dot(r - p, r - p)) * (closureIn(q, p) + closureIn(q, r));
     }
   }
@@ -346,11 +349,76 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integratePolygon(const O
       moments.areaMoment + coplane::choose(there, sum.areaMoment, Vec2Of<T>{none, none});
   moments.volumeMoment =
       moments.volumeMoment + coplane::choose(there, sum.volumeMoment, Vec2Of<T>{none, none});
-  for (int f = 0; f < 2; ++f)
-    ways[f] += choose(there, border[f], none);
+  for (int i = 0; i < int(sizeof border / sizeof *border); ++i)
+    ways_[i] += choose(there, border[i], none);
   if constexpr (widthOf<T> == 1)
     if (q.crushed && there)
       ofCrushed_.add(sum);
+}
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION Real PairPotential<Dim, T>::facing(int ownerOf0, int ownerOf1) const
+{
+  if constexpr (Dim == 2)
+    return 1; // both ends of a segment, or they would not be there both
+  else
+    return -dot(outwardOf(ownerOf0), outwardOf(ownerOf1));
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION typename PairPotential<Dim, T>::Strip
+PairPotential<Dim, T>::stripBetween(int ownerOf0, int ownerOf1) const
+{
+  const Real a = ways_[ownerOf0], b = ways_[ownerOf1];
+  Strip strip;
+  if (!(a > 0 && b > 0))
+    return strip;
+  const Real cosine = facing(ownerOf0, ownerOf1);
+  strip.facing = cosine > 0 ? cosine * cosine : 0;
+  strip.closure = 4 * a * b / (a + b);
+  return strip;
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::joinStrips()
+{
+  if constexpr (branchFree::widthOf<T> == 1)
+  {
+    strips_ = 0;
+    Real each[16], most = 0;
+    for (int i = 0; i < 16; ++i)
+    {
+      const Strip strip = stripBetween(i / 4, 4 + i % 4);
+      each[i] = strip.facing * strip.closure;
+      most = branchFree::larger(each[i], most);
+    }
+    if (!(most > 0))
+      return;
+    Real sum = 0;
+    for (const Real closure : each)
+    {
+      const Real part = closure / most, square = part * part;
+      sum += square * square;
+    }
+    strips_ = most * std::sqrt(std::sqrt(sum));
+  }
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::slopeOfWay(int owner) const
+{
+  Real slope = 0; // of the logarithm
+  for (int e = 0; e < 4; ++e)
+  {
+    const int other = owner < 4 ? 4 + e : e;
+    const Strip strip = stripBetween(owner < 4 ? owner : other, owner < 4 ? other : owner);
+    const Real part = strip.facing * strip.closure / strips_;
+    if (!(part > 0))
+      continue;
+    const Real share = 2 * ways_[other] / (ways_[owner] + ways_[other]);
+    slope += part * part * part * strip.facing * share * share / strips_;
+  }
+  return alongStrip_ * slope;
 }
 
 template <int Dim, class T>
@@ -366,15 +434,23 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addSide(int owner, const
 template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::acrossStrip() const
 {
-  return 4.0 * ways[0] * ways[1] / (ways[0] + ways[1]) *
-         (1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value);
+  const T apart = 1.0 - SmoothStep<T>(4.0 * overlap / size_ - 2.0).value;
+  if constexpr (branchFree::widthOf<T> == 1)
+    return strips_ * apart;
+  else // all of one face against all of the other; one border against several would be 1.42 times
+       // that
+    return 1.5 * (4.0 * ways_[0] * ways_[1] / (ways_[0] + ways_[1])) * apart;
 }
 
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findStrip(const Mask& whole)
 {
   const T& v = moments.volume;
-  const auto between = !whole && ways[0] > 0.0 && ways[1] > 0.0 && v > 0.0;
+  Mask between = !whole && v > 0.0;
+  if constexpr (branchFree::widthOf<T> == 1)
+    between = between && strips_ > 0;
+  else
+    between = between && ways_[0] > 0.0 && ways_[1] > 0.0;
   strip_ = between && v * v < scale_.wayOutTo * moments.squares * acrossStrip();
   if constexpr (branchFree::widthOf<T> != 1)
     regular = regular && !strip_;

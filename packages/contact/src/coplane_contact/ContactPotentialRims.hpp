@@ -145,8 +145,8 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addStrip(const Real& scale, R
   for (int i = 0; i < pieces_; ++i)
     for (int k = 0; k < piece_[i].sides.size; ++k)
       if (const int owner = piece_[i].owner[k]; owner >= 0 && edges_.exits[owner] > 0)
-        addBorder(piece_[i], k, alongStrip_ * (1 / ways[owner / 4] - 1 / (ways[0] + ways[1])), push,
-                  first, rim);
+        addBorder(piece_[i], k, slopeOfWay(owner), push, first, rim);
+  addFacing(rim);
   const Real shared = overlap / size_;
   const SmoothStep<Real> together(4 * shared - 2);
   if (!(together.slope > 0))
@@ -156,6 +156,30 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addStrip(const Real& scale, R
     addRims(whole_[i], {0, 0, perShare / size_}, rim);
   const int smallest = face_[0]->area < face_[1]->area ? 0 : 1;
   byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
+}
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addFacing(Vec2 (&rim)[2][4]) const
+{
+  if constexpr (Dim == 3)
+    for (int i = 0; i < 16; ++i)
+    {
+      const int owners[2] = {i / 4, 4 + i % 4};
+      const Strip strip = stripBetween(owners[0], owners[1]);
+      const Real part = strip.facing * strip.closure / strips_, square = part * part;
+      if (!(part > 0))
+        continue;
+      const Real slope = 2 * alongStrip_ * square * square / facing(owners[0], owners[1]);
+      for (int f = 0; f < 2; ++f)
+      {
+        const int i0 = nodeOfEdge(f, owners[f] % 4, 0), i1 = nodeOfEdge(f, owners[f] % 4, 1);
+        const Vec2 along = shadow[f].p[i1] - shadow[f].p[i0];
+        const Vec2 turn = (slope * dot(along, outwardOf(owners[1 - f])) / dot(along, along)) *
+                          outwardOf(owners[f]);
+        rim[f][i1] = rim[f][i1] + turn;
+        rim[f][i0] = rim[f][i0] - turn;
+      }
+    }
 }
 
 namespace detail

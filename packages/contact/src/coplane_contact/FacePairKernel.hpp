@@ -578,6 +578,13 @@ constexpr Real opposedForWayOut = 1e-3;
 /// PairPotential::wayOut falls from 1, where the least way out leads along the normal, to 0, where
 /// it leads along the plane: below the middle it is the one along the plane [-].
 constexpr Real alongThePlane = 0.5;
+/// PairPotential::wayOut where all ways out are as long: cubes that meet corner on corner share a
+/// square as deep as it is wide, two strips, rho = 2^(-5/4) = 0.4204. From here on the way along
+/// the normal is no longer than the others, so one of the pairs of a corner always holds [-].
+KOKKOS_INLINE_FUNCTION Real wayOutOfCorners(const ContactPotentialScale& scale)
+{
+  return SmoothStep<Real>((0.42 - scale.wayOutFrom) / (scale.wayOutTo - scale.wayOutFrom)).value;
+}
 
 /// Whether what the faces in lane i share is so narrow between edges over which their bodies can
 /// part that the least way out leads along the plane: the front of a slider behind the hidden side
@@ -589,7 +596,8 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
   if (plane.exits == 0)
     return false;
   const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
-  PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(opposedForWayOut));
+  const ContactPotentialScale scale(opposedForWayOut);
+  PairPotential<Dim, Real> pair(faces[0], faces[1], scale);
   if (!pair.plane.opposed)
     return false;
   EdgesOf<Real> edges;
@@ -598,7 +606,7 @@ KOKKOS_INLINE_FUNCTION bool leavesSideways(const Plane& plane, const HalfStepFac
   pair.meet(plane.offset, false, edges);
   EnergyDensity<Real> density;
   pair.press(1, 0, density);
-  return pair.wayOut < alongThePlane;
+  return pair.wayOut < wayOutOfCorners(scale);
 }
 
 /// A pair whose shadows share nothing in this cycle.

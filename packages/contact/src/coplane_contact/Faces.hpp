@@ -26,6 +26,7 @@ struct Face
   bool ownedHere =
       false;          ///< this rank owns the node with the lowest id: it sends the face to others
   bool young = false; ///< was inside the body until now: planes on it inherit nothing
+  bool rigid = false; ///< the element behind it is never computed
 };
 
 /// A face on its way to another rank.
@@ -42,6 +43,7 @@ struct GhostFace
   Real modulus = 0;
   Real pressure = 0;
   bool young = false;
+  bool rigid = false;
 };
 
 /// The face with this id among faces, or ghost faces, that are sorted by id; `last`: not there.
@@ -71,6 +73,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.modulus = face.modulus;
   ghost.pressure = face.pressure;
   ghost.young = face.young;
+  ghost.rigid = face.rigid;
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
   for (int k = 0; k < 4; ++k)
@@ -92,6 +95,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.modulus = ghost.modulus;
   face.pressure = ghost.pressure;
   face.young = ghost.young;
+  face.rigid = ghost.rigid;
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);
   // A rank that owns a node of a face knows all nodes of the element: those that the elements of a

@@ -144,7 +144,7 @@ struct alignas(64) Plane
   bool countedHere = false; ///< this rank books the plane's energy: it owns face 0
   bool declared = false;    ///< a joint that was closed at the start
   bool tooDeep = false;     ///< deeper than the limit
-  bool stiff = false;       ///< stiffer than the elements behind its faces: they chatter on it
+  bool stiff = false;       ///< counts fourfold in the step, see weightInStep()
   bool unseen = false;      ///< while its faces are apart nobody looks whether they share area
   // Bit 4 f + e: of edge e of the outline of face f.
   std::uint8_t exits = 0;   ///< bodies can part over it
@@ -205,8 +205,9 @@ struct alignas(64) Plane
   /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a
   /// spring k, or leaves it, up to k (v dt)^2 / 8 of energy is made or lost. Nodes meet a soft
   /// spring once; on a stiff one they bounce many times, so it has to be resolved: omega dt is
-  /// halved, also while it carries, since a step that rises under load costs energy as well. A
-  /// declared joint is closed from the start.
+  /// halved, also while it carries, since a step that rises under load costs energy as well. So it
+  /// is between rigid bodies, where nothing but the plane takes up energy. A declared joint is
+  /// closed from the start.
   KOKKOS_INLINE_FUNCTION Real weightInStep() const { return stiff && !declared ? 4 : 1; }
 
   /// Closure that the law sees: beyond the depth limit the force is frozen [m].

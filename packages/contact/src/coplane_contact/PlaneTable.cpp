@@ -9,7 +9,8 @@ namespace coplane
 namespace
 {
 /// A plane more than this times as stiff as the elements behind its faces chatters: their nodes
-/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md).
+/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md). It does
+/// between rigid bodies, which have nothing else that gives way.
 constexpr Real stiffestCalm = 2.5;
 
 constexpr std::size_t wokenAtOnce = 128; ///< planes for which there is memory at once
@@ -77,8 +78,9 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   plane.unseen = slots_.activity(slot) == Activity::Apart;
   plane.fit =
       rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
-  plane.stiff = plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
-                stiffestCalm;
+  plane.stiff = (a.rigid && b.rigid) ||
+                plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
+                    stiffestCalm;
   plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);

@@ -176,6 +176,29 @@ Real RigidBodies::stableStep() const
   return largest > 0 ? 2 / std::sqrt(largest) : infinity;
 }
 
+Real RigidBodies::massThatYields(int body) const
+{
+  const Body& of = bodies_[std::size_t(body)];
+  // Directions that are given, each beside those before it.
+  std::vector<Vec3> given;
+  for (const Constraint& constraint : of.constraints)
+  {
+    Vec3 beside = constraint.direction;
+    for (const Vec3& one : given)
+      beside = beside - dot(one, beside) * one;
+    if (norm(beside) > 1e-6)
+      given.push_back(normalised(beside));
+  }
+  if (int(given.size()) < dimension_)
+    return of.mass;
+  if (of.turning != Body::Turning::Free && of.turning != Body::Turning::AboutAxis)
+    return infinity;
+  Real least = of.inertia(2, 2);
+  for (int c = 0; c < 2 && dimension_ == 3; ++c)
+    least = std::min(least, of.inertia(c, c));
+  return least / (of.reach * of.reach);
+}
+
 GlobalId RigidBodies::nodeThatLimits(const NodeLayout& layout) const
 {
   std::size_t worst = 0;

@@ -90,6 +90,11 @@ public:
                  const std::function<Real(int)>& elementStep);
   /// Largest stable step of the bodies, from the last sums [s]; 0 when a force is not finite.
   Real stableStep() const;
+  /// Least mass that contact may feel: of the body, or, where the motion of its centre is given, of
+  /// what turns at its farthest node; infinity where that is given, too [kg].
+  Real massThatYields(int body) const;
+  /// Distance of the farthest node from the centre [m].
+  Real reach(int body) const { return bodies_[std::size_t(body)].reach; }
   /// Lowest id of a node of the body with the least stable step. Collective.
   GlobalId nodeThatLimits(const NodeLayout& layout) const;
 
@@ -180,6 +185,7 @@ private:
     Vec3 givenSpin{};        ///< of the present step [rad/s]
     bool isHeld() const { return !constraints.empty() || turning == Turning::Given; }
     Real gyration() const; ///< radius [m]
+    Real reach = 0;        ///< of its farthest node from the centre, at the start [m]
 
     Vec3 start{}; ///< the centre at first
     Vec3 center{}, nextCenter{};

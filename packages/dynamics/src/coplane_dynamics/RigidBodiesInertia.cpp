@@ -67,6 +67,13 @@ void RigidBodies::findInertia(const RankMesh& mesh, const std::vector<char>& rig
 {
   findCentres(state);
   const std::size_t bodies = bodies_.size(), blockCount = mesh.blocks.size();
+  std::vector<Real> reach(bodies, 0);
+  for (std::size_t b = 0; b < bodies; ++b)
+    for (const Vec3& arm : bodies_[b].arms)
+      reach[b] = std::max(reach[b], norm(arm));
+  comm_->max(reach);
+  for (std::size_t b = 0; b < bodies; ++b)
+    bodies_[b].reach = reach[b];
   std::vector<std::int64_t> held(bodies * blockCount, 0);
   std::vector<ExactSum> sums(6 * bodies);
   const auto add = [&](int body, Real m, const Vec3& r)

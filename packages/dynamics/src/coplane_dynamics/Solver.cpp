@@ -85,6 +85,37 @@ void Solver::makeContact()
                                        model_.contactRules, skin, smallest);
 }
 
+void Solver::replaceFaces(std::vector<Face> faces)
+{
+  contact_->replaceLocalFaces(std::move(faces));
+  motionLimits_.reset();
+}
+
+const MotionLimits& Solver::motionLimits() const
+{
+  if (motionLimits_)
+    return *motionLimits_;
+  MotionLimits& limits = motionLimits_.emplace();
+  if (!contact_)
+    return limits;
+  const RigidBodies& bodies = motion_->bodies();
+  for (const Face& face : contact_->localFaces())
+  {
+    limits.thinnest = std::min(limits.thinnest, face.thickness);
+    const int* const end = face.nodes + face.count;
+    const int* const owned =
+        std::find_if(face.nodes, end, [&](int node) { return node < layout_.owned(); });
+    if (!face.rigid || owned == end)
+      continue;
+    const int body = bodies.bodyOf(*owned);
+    const Real length = mesh().dimension == 2 ? 1 : 2 * bodies.reach(body);
+    limits.massOverStiffness =
+        std::min(limits.massOverStiffness,
+                 bodies.massThatYields(body) / (contact_->stiffestOn(face) * length));
+  }
+  return limits;
+}
+
 std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior)
 {
   std::vector<Face> faces = facesOf(exterior);
@@ -95,7 +126,11 @@ std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
                                   const std::vector<Face>* known) const
 {
-  return contactFaces(mesh(), blocks(), model_.faceGroups, bodyOfNode_, exterior, state_.x, known);
+  std::vector<Face> faces =
+      contactFaces(mesh(), blocks(), model_.faceGroups, bodyOfNode_, exterior, state_.x, known);
+  for (Face& face : faces)
+    face.rigid = model_.blocks[std::size_t(face.block)].rigid;
+  return faces;
 }
 
 void Solver::prepare()
@@ -205,7 +240,7 @@ bool Solver::erode(Real dt)
   return true;
 }
 
-/// The symmetries that act in all of the run and hold nodes of a plane.
+/// Collective. The symmetries that act in all of the run and hold nodes of a plane.
 std::vector<Debris::Mirror> Solver::mirrors() const
 {
   std::vector<Debris::Mirror> mirrors;
@@ -245,7 +280,7 @@ void Solver::leaveWithoutElements(const std::vector<GlobalId>& dead, const std::
 {
   model_.conditions.endLoadsOn(dead);
   if (contact_)
-    contact_->replaceLocalFaces(facesOf(erosion_->exterior(), known));
+    replaceFaces(facesOf(erosion_->exterior(), known));
 }
 
 void Solver::takeGhostNodes(const std::vector<GlobalId>& ghostNodes)
@@ -288,7 +323,9 @@ void Solver::openContact()
 {
   searches_.start(parts());
   findElementForces();
-  step_.boundFirst(comm_->min(elements_.smallestStep()), comm_->min(contact_->thinnestElement()),
+  const MotionLimits& limits = motionLimits();
+  step_.boundFirst(comm_->min(elements_.smallestStep()),
+                   {comm_->min(limits.thinnest), comm_->min(limits.massOverStiffness)},
                    searches_.relativeSpeed());
   search(0);
   const Contact::Overpressed pressed = contact_->closeDeclaredJoints(
@@ -361,22 +398,21 @@ void Solver::agreeOnMasses()
 std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
 {
   // One reduction decides everything that must not differ between ranks.
-  std::vector<Real> extremes{-step_.stable(parts()),
-                             Real(mine.results),
-                             Real(mine.checkpoint),
-                             Real(mine.stop),
-                             contact_ ? -contact_->thinnestElement() : -infinity,
-                             Real(massesRaised_),
-                             Real(watch_.mayHaveGained(parts()))};
+  const MotionLimits& limits = motionLimits();
+  std::vector<Real> extremes{-step_.stable(parts()), Real(mine.results),
+                             Real(mine.checkpoint),  Real(mine.stop),
+                             -limits.thinnest,       -limits.massOverStiffness,
+                             Real(massesRaised_),    Real(watch_.mayHaveGained(parts()))};
   comm_->max(extremes);
   failed_ = !(extremes[0] < 0);
   requests_ = {extremes[1] > 0, extremes[2] > 0, extremes[3] > 0};
-  contactMayHaveGained_ = extremes[6] > 0;
-  if (extremes[5] > 0 && !failed_)
+  contactMayHaveGained_ = extremes[7] > 0;
+  if (extremes[6] > 0 && !failed_)
     agreeOnMasses();
   if (failed_)
     return std::nullopt;
-  const Real step = step_.choose(-extremes[0], -extremes[4], searches_.relativeSpeed(), parts());
+  const Real step =
+      step_.choose(-extremes[0], {-extremes[4], -extremes[5]}, searches_.relativeSpeed(), parts());
   if (step * mostCycles < model_.time.end)
   {
     failed_ = true;

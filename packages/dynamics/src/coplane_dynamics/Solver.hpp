@@ -124,7 +124,10 @@ public:
   Momenta momenta() const { return ledger_.momenta(parts()); }
   bool scalesMass() const { return step_.scaling().acts(); }
   std::vector<AddedMass> addedMasses() const { return MassScaling::byBlock(parts()); } ///< by block
-  StepControl stepControl() const { return step_.control(parts(), searches_.relativeSpeed()); }
+  StepControl stepControl() const
+  {
+    return step_.control(parts(), motionLimits(), searches_.relativeSpeed());
+  }
   /// Positions, velocities, element and plane state, clock; independent of ranks, threads and back
   /// end.
   std::uint64_t stateHash() const;
@@ -175,6 +178,9 @@ private:
   bool erode(Real dt); ///< whether elements have died on some rank, or faces are others
   void search(Real time, bool again = false);
   void passOn(); ///< between searches
+  /// Of the faces of this rank, which they are found from when they are asked for first.
+  const MotionLimits& motionLimits() const;
+  void replaceFaces(std::vector<Face> faces); ///< of this rank, for contact
   /// The rows of owned nodes.
   NodeVectors ownedOf(const NodeVectors& all) const;
   void updatePlanes(Real dt);
@@ -246,8 +252,9 @@ private:
   std::optional<NodalMotion> motion_;
   std::optional<Lines> lines_;
   std::unique_ptr<Contact> contact_;
-  std::optional<Debris> debris_; ///< with contact only
-  std::vector<int> bodyOfNode_;  ///< number of the body, the same on all ranks; contact only
+  mutable std::optional<MotionLimits> motionLimits_; ///< of its faces; empty: not asked for yet
+  std::optional<Debris> debris_;                     ///< with contact only
+  std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
   Clock clock_;
   TimeStep step_;
   SearchPlan searches_;

@@ -143,7 +143,7 @@ void Solver::leaveAbsentBlocks()
   std::sort(absent.begin(), absent.end());
   model_.conditions.endLoadsOn(absent);
   if (contact_)
-    contact_->replaceLocalFaces(facesAtStart(erosion_->exterior()));
+    replaceFaces(facesAtStart(erosion_->exterior()));
   for (int n = 0; n < layout_.owned(); ++n)
     if (!(state_.mass(n) > 0))
     {

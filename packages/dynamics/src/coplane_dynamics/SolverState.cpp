@@ -129,6 +129,7 @@ void Solver::restore(const StateSource& in)
   if (contact_)
   {
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));
+    motionLimits_.reset();
     contact_->restorePlanes(in, layout_);
   }
   motion_->restore(layout_.ids(), in);

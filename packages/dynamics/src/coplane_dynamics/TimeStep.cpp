@@ -11,7 +11,7 @@ namespace coplane
 {
 std::string StepControl::text() const
 {
-  if (!(stableStep < infinity) && !motion)
+  if (!(stableStep < infinity) && !motion && !meeting)
     return "nothing: no element deforms and nothing touches";
   if (motion)
     return fmt::format(
@@ -19,6 +19,9 @@ std::string StepControl::text() const
         "more than a fraction of the thinnest element behind one, {:.4g} m, in a "
         "step",
         relativeSpeed, thinnest);
+  if (meeting)
+    return fmt::format("rigid bodies that may meet with an edge or a corner, at up to {:.4g} m/s",
+                       relativeSpeed);
   if (!freeField.empty())
     return fmt::format("the free-field column beside side set '{}'", freeField);
   if (scaledMass)
@@ -108,15 +111,17 @@ Real stepOfFreeBodies(const Parts& parts)
 }
 } // namespace
 
-Real TimeStep::choose(Real stable, Real thinnest, Real relativeSpeed, const Parts& parts)
+Real TimeStep::choose(Real stable, const MotionLimits& limits, Real relativeSpeed,
+                      const Parts& parts)
 {
   const Clock& clock = parts.clock;
   stable_ = stable;
-  thinnest_ = thinnest;
+  limits_ = limits;
   Real step = options_.stepFactor * stable;
   if (scaling_.acts() && stable == scaling_.target())
     step = options_.massScaling->step; // without rounding
-  step = std::min(step, motionStep(thinnest, relativeSpeed));
+  step = std::min({step, motionStep(limits.thinnest, relativeSpeed),
+                   meetingStep(limits.massOverStiffness, relativeSpeed)});
   if (options_.maximumStep)
     step = std::min(step, *options_.maximumStep);
   if (options_.fixedStep)
@@ -136,11 +141,13 @@ Real TimeStep::choose(Real stable, Real thinnest, Real relativeSpeed, const Part
   return step;
 }
 
-void TimeStep::boundFirst(Real elements, Real thinnest, Real relativeSpeed)
+void TimeStep::boundFirst(Real elements, const MotionLimits& limits, Real relativeSpeed)
 {
+  limits_ = limits;
   if (scaling_.acts())
     elements = std::max(elements, scaling_.target());
-  Real least = std::min(options_.stepFactor * elements, motionStep(thinnest, relativeSpeed));
+  Real least = std::min({options_.stepFactor * elements, motionStep(limits.thinnest, relativeSpeed),
+                         meetingStep(limits.massOverStiffness, relativeSpeed)});
   least = std::min(least, options_.maximumStep.value_or(infinity));
   least = options_.fixedStep.value_or(least);
   largestNext_ = least < infinity ? least : 0; // else nothing moves relative to anything
@@ -170,7 +177,8 @@ void namePlaneAt(const Contact& contact, int node, GlobalId* faceId)
 }
 } // namespace
 
-StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
+StepControl TimeStep::control(const Parts& parts, const MotionLimits& mine,
+                              Real relativeSpeed) const
 {
   const std::vector<GlobalId>& ids = parts.layout.ids();
   const Array<Real>&stiffness = parts.state.contactStiffness, &mass = parts.state.mass;
@@ -188,8 +196,8 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
       node = n;
     }
   }
-  const Real mine = control.stableStep, bodies = bodyStep(parts);
-  const Real least = parts.comm.min(mine);
+  const Real here = control.stableStep, bodies = bodyStep(parts);
+  const Real least = parts.comm.min(here);
   control.stableStep = std::min(least, bodies);
   if (scaling_.acts())
   {
@@ -207,9 +215,12 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
   if (parts.contact)
   {
     control.relativeSpeed = relativeSpeed;
-    control.thinnest = parts.comm.min(parts.contact->thinnestElement());
-    control.motion =
-        motionStep(control.thinnest, relativeSpeed) < options_.stepFactor * control.stableStep;
+    control.thinnest = parts.comm.min(mine.thinnest);
+    const Real motion = motionStep(control.thinnest, relativeSpeed),
+               meeting = meetingStep(parts.comm.min(mine.massOverStiffness), relativeSpeed),
+               waves = options_.stepFactor * control.stableStep;
+    control.motion = motion < waves && motion <= meeting;
+    control.meeting = meeting < waves && meeting < motion;
   }
   if (bodies < least)
   {
@@ -218,7 +229,7 @@ StepControl TimeStep::control(const Parts& parts, Real relativeSpeed) const
     return control;
   }
   constexpr GlobalId none = std::numeric_limits<GlobalId>::max();
-  const bool candidate = node >= 0 && mine == least;
+  const bool candidate = node >= 0 && here == least;
   control.node = parts.comm.min(candidate ? ids[node] : none);
   if (candidate && ids[node] == control.node)
   {
