@@ -9,8 +9,8 @@ namespace coplane
 namespace
 {
 /// A plane more than this times as stiff as the elements behind its faces chatters: their nodes
-/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md). It does
-/// between rigid bodies, which have nothing else that gives way.
+/// bounce on it many times. The penalty of the defaults, 2, does not (docs/user/contact.md). It
+/// does between rigid bodies, which have nothing else that gives way.
 constexpr Real stiffestCalm = 2.5;
 
 constexpr std::size_t wokenAtOnce = 128; ///< planes for which there is memory at once
