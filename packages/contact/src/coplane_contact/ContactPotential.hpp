@@ -63,9 +63,11 @@ public:
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
   Mask hidden{false};        ///< the part in contact begins at covered edges only
-  T opposedness{};           ///< phi
-  T materialArea = T(1.0);   ///< gamma: area of the faces at birth over area now
-  Vec3Of<T> gradient[2][4];  ///< of the energy [N]
+  /// Sideways is the shorter way out, or nearly: chi < 1. Of T = Real only.
+  KOKKOS_FORCEINLINE_FUNCTION const Mask& isStrip() const { return strip_; }
+  T opposedness{};          ///< phi
+  T materialArea = T(1.0);  ///< gamma: area of the faces at birth over area now
+  Vec3Of<T> gradient[2][4]; ///< of the energy [N]
 
   /// Overlap of the shadows, closures in it, the part in contact.
   /// @param offset gap at which the closure is zero [m]

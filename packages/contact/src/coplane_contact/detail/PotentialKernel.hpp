@@ -677,6 +677,9 @@ private:
   // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
   // on, by so many times the fraction beyond (docs/theory/contact-potential.md, "Stable step").
   static constexpr Real rimsCountFrom = 0.02, rimStiffening = 3;
+  /// The same of a strip, by its closure, width and length: its chi makes it up to 2.51 times as
+  /// stiff as its area, and at a tip one node has all of that.
+  static constexpr Real shareOfStrip = 2.51;
 
   /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
@@ -688,8 +691,11 @@ private:
     const T grown = branchFree::smaller(z2 * z2 / (1.0 + z2 * z2), T(PenaltyHardening::steepest));
     const T hardened =
         1.0 + PenaltyHardening::part * grown * (1.0 + (1.0 - grown) * (14.0 - 16.0 * grown));
-    return overlap_ * (1.0 + rimStiffening * deep) * hardened *
-           (rowSum * shareOfOverlap(a_.count, b_.count));
+    T share = (1.0 + rimStiffening * deep) * shareOfOverlap(a_.count, b_.count);
+    if constexpr (width == 1)
+      if (pair_.isStrip() && share < shareOfStrip)
+        share = shareOfStrip;
+    return overlap_ * hardened * (rowSum * share);
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
