@@ -58,6 +58,7 @@ struct PairTable
       plane.turns = std::uint8_t(random());
       plane.exits = std::uint8_t(plane.turns & random());
       plane.covered = std::uint8_t(random() & random() & random());
+      plane.seams = std::uint8_t(random() & random() & ~plane.turns);
       plane.fit.normalStiffness = 10;
       plane.fit.shearStiffness = 5;
       if (random() % 2 == 0)

@@ -26,7 +26,7 @@ struct SharedRim
 template <class T>
 struct EdgesOf
 {
-  T exits[8] = {}, turns[8] = {}, covered[8] = {};
+  T exits[8] = {}, turns[8] = {}, covered[8] = {}, seams[8] = {};
 };
 
 /// A pair of faces on its common plane, the part of it in contact, and the gradient of an energy
@@ -476,8 +476,10 @@ private:
   /// one, the mean of the gradients on both sides of it. What lies at such an edge beside a mesh
   /// line is shared evenly as long as the closure changes across a face by less than its mean, so
   /// that what is pressed evenly rests; at a corner that dips into a face all of it belongs to the
-  /// corner, for what pairs on both sides of a mesh line have there cancels. All of it is smooth,
-  /// so that round-off decides nothing.
+  /// corner, for what pairs on both sides of a mesh line have there cancels. At a seam it does not:
+  /// its edges belong to two bodies, which the corner drives apart. They share as edges of surfaces
+  /// do, beside such edges only what is pressed evenly. All of it is smooth, so that round-off
+  /// decides nothing.
   /// @param change of the closure over the size of a face, out over its edge, the same whichever of
   ///        both edges is the owner [m]
   KOKKOS_FORCEINLINE_FUNCTION SharedRim<T> shareRim(int mine, int its, const Mask& sameWay,

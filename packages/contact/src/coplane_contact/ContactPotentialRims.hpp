@@ -110,7 +110,8 @@ PairPotential<Dim, T>::shareRim(int mine, int its, const Mask& sameWay, const T&
   const T flatness =
       choose(closed > 0.0, 1.0 - SmoothStep<T>(2.0 * tilted / closed - 1.0).value, T(0.0));
   const T even = 0.5 * flatness;
-  const T ofLine = choose(turns, even, choose(itTurns, 1.0 - even, T(0.5)));
+  const auto isEdge = turns || edges_.seams[mine] > 0.0, itIs = itTurns || edges_.seams[its] > 0.0;
+  const T ofLine = choose(isEdge, even, choose(itIs, 1.0 - even, T(0.5)));
   const T wider = choose(border, flatness * (scale_.oneBorder - scale_.oneEdge), T(0.0));
   return {size_ * (scale_.oneEdge + wider),
           choose(border, choose(sameWay, T(0.5), T(0.0)), ofLine)};

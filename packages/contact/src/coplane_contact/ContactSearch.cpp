@@ -16,7 +16,7 @@ void makeDormant(Plane& plane)
   carryNothing(plane);
   plane.face[0] = plane.face[1] = -1;
   plane.overlap = plane.nodeStiffness = 0;
-  plane.exits = plane.turns = plane.covered = 0;
+  plane.exits = plane.turns = plane.covered = plane.seams = 0;
   plane.sighting = Sighting::Missed;
   plane.refusal = Refusal::None;
 }

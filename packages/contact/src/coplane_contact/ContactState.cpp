@@ -14,7 +14,7 @@ namespace coplane
 namespace
 {
 const std::vector<std::string> faceColumns{"thickness", "modulus"};
-const std::vector<std::string> pairColumns{"activity", "exits", "turns", "covered"};
+const std::vector<std::string> pairColumns{"activity", "exits", "turns", "covered", "seams"};
 
 /// A rank that looks after what belongs to a face while data find their way.
 int rankFor(GlobalId face, const Comm& comm)
@@ -112,8 +112,8 @@ void Contact::save(StateTables& out) const
       continue;
     if (planes_.isBare(p, plane))
     {
-      const std::array<Real, 4> numbers{Real(planes_.slots().activity(p)), Real(plane.exits),
-                                        Real(plane.turns), Real(plane.covered)};
+      const std::array<Real, 5> numbers{Real(planes_.slots().activity(p)), Real(plane.exits),
+                                        Real(plane.turns), Real(plane.covered), Real(plane.seams)};
       std::copy(numbers.begin(), numbers.end(), pairs.add({plane.faceId[0], plane.faceId[1]}));
       continue;
     }
@@ -146,9 +146,10 @@ void Contact::readSlots(const StateSource& in)
   for (std::size_t i = 0; i < bare.count(); ++i)
   {
     const Real* row = bare.row(i);
-    pairs.push_back({{bare.key(i)[0], bare.key(i)[1]},
-                     Activity(int(row[0])),
-                     {std::uint8_t(row[1]), std::uint8_t(row[2]), std::uint8_t(row[3])}});
+    pairs.push_back(
+        {{bare.key(i)[0], bare.key(i)[1]},
+         Activity(int(row[0])),
+         {std::uint8_t(row[1]), std::uint8_t(row[2]), std::uint8_t(row[3]), std::uint8_t(row[4])}});
   }
   const std::vector<Holder> all = holders(localFaces(), *comm_);
   firstHalf_.restored = withAFaceHere(planes, all, *comm_);

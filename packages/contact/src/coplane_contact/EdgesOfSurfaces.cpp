@@ -78,7 +78,7 @@ EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const 
                                  const ConstNodeVectors& x, int dimension, const NodeLayout& layout)
     : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
       lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size()),
-      goingOn_(layout.size()), oneLine_(layout.size())
+      goingOn_(layout.size())
 {
   for (std::size_t f = 0; f < localFaces; ++f)
     for (int k = 0; k < faces[f].count; ++k)
@@ -138,12 +138,12 @@ int EdgesOfSurfaces::hides(const int (&nodes)[2], const Vec3& normal, const Vec3
   return bodies[0] == bodies[1] ? bodies[0] : -1; // two may have a gap between them
 }
 
-EdgesOfSurfaces::Lying EdgesOfSurfaces::lieOn(int lower, int higher) const
+Real EdgesOfSurfaces::lieOn(int lower, int higher) const
 {
   const Face &a = faces_[lower], &b = faces_[higher];
   const FacePlane &planeA = planes_(lower), &planeB = planes_(higher);
   if (!(dot(planeA.normal, planeB.normal) < -DirectionsOfNodes::one))
-    return {};
+    return 0;
   const Vec3 normal = normalised(planeA.normal - planeB.normal);
   const View view(normal, at(x_, a.nodes[0]), dimension_);
   ConvexPolygon shadows[2];
@@ -163,14 +163,14 @@ EdgesOfSurfaces::Lying EdgesOfSurfaces::lieOn(int lower, int higher) const
       gap < flush * size && gap > -std::min(a.thickness, b.thickness) &&
       2 * sharedByBoxes(shadows[0], shadows[1]) > leastShare * smaller &&
       areaAndCentroid(intersection(shadows[0], shadows[1])).area > leastShare * smaller;
-  return near ? Lying{size, gap} : Lying{};
+  return near ? size : 0;
 }
 
 void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
 {
   for (std::size_t p = 0; p < pairs_.size(); ++p)
   {
-    const auto [size, gap] = lieOn_[p];
+    const Real size = lieOn_[p];
     if (!(size > 0))
       continue;
     const int places[2] = {pairs_[p].lower, pairs_[p].higher};
@@ -197,11 +197,8 @@ void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
               continue;
             hidden_.add(node, planes_(places[f]).normal, both[1 - f]->body);
             flush_.add(node, from.outward, 0);
-            if (!(dot(mine.beyond, its.beyond) > DirectionsOfNodes::one))
-              continue;
-            goingOn_.add(node, from.outward, 0);
-            if (std::abs(gap) < oneLine * size && std::abs(dot(off, to.outward)) < oneLine * size)
-              oneLine_.add(node, from.outward, 0);
+            if (dot(mine.beyond, its.beyond) > DirectionsOfNodes::one)
+              goingOn_.add(node, from.outward, 0);
           }
         }
       }
@@ -210,7 +207,6 @@ void EdgesOfSurfaces::findHidden(const NodeLayout& layout)
   hidden_.refresh(layout);
   flush_.refresh(layout);
   goingOn_.refresh(layout);
-  oneLine_.refresh(layout);
 }
 
 /// What lies beyond one of the edges of a pair.
@@ -220,7 +216,6 @@ struct EdgesOfSurfaces::Beyond
   Vec3 outward;               ///< on the common plane
   int covers = -1;            ///< body that lies on the face there, flush at the edge; -1: none
   int goesOn = -1;            ///< body on which the surface goes on over a seam; -1: none
-  bool isLine = false;        ///< of the surface that goes on, like one of a mesh
 };
 
 /// The edges lie across from each other: bodies on them can leave each other sideways.
@@ -241,7 +236,7 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
   const int places[2] = {pairs_[pair].lower, pairs_[pair].higher};
   const Vec3 normals[2] = {planes_(places[0]).normal, planes_(places[1]).normal};
   const Vec3 common = normalised(normals[0] - normals[1]);
-  const bool onEachOther = lieOn_[pair].size > 0, slanted = dot(normals[0], normals[1]) > -muchLess;
+  const bool onEachOther = lieOn_[pair] > 0, slanted = dot(normals[0], normals[1]) > -muchLess;
   Beyond all[8];
   for (int f = 0; f < 2; ++f)
   {
@@ -260,8 +255,6 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
       // A body that opposes a face just so, past the seam, does not press upon itself there.
       const int goesOn = hides(edge.nodes, edge.beyond, normals[f], goingOn_);
       here.goesOn = slanted && goesOn == other ? -1 : goesOn;
-      here.isLine =
-          here.goesOn >= 0 && hides(edge.nodes, edge.beyond, normals[f], oneLine_) == goesOn;
     }
   }
   const auto forEachWayOut = [&](const auto& action)
@@ -278,12 +271,9 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
       {
         Beyond &a = all[e], &b = all[o];
         if ((a.covers >= 0 && a.covers == b.goesOn) || (b.covers >= 0 && b.covers == a.goesOn))
-        {
           a.covers = a.goesOn = b.covers = b.goesOn = -1;
-          a.isLine = b.isLine = false;
-        }
       });
-  unsigned turns = 0, exits = 0, covered = 0;
+  unsigned turns = 0, exits = 0, covered = 0, seams = 0;
   forEachWayOut(
       [&](int e, int o)
       {
@@ -294,11 +284,12 @@ void EdgesOfSurfaces::look(std::size_t pair, Plane& plane) const
   {
     if (all[k].covers >= 0)
       covered |= 1u << k;
-    if (all[k].edge && !all[k].isLine)
-      turns |= 1u << k;
+    if (all[k].edge)
+      (all[k].goesOn < 0 ? turns : seams) |= 1u << k;
   }
   plane.exits = std::uint8_t(exits);
   plane.turns = std::uint8_t(turns);
   plane.covered = std::uint8_t(covered);
+  plane.seams = std::uint8_t(seams);
 }
 } // namespace coplane

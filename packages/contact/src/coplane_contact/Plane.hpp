@@ -150,6 +150,7 @@ struct alignas(64) Plane
   std::uint8_t exits = 0;   ///< bodies can part over it
   std::uint8_t turns = 0;   ///< the surface turns outwards there
   std::uint8_t covered = 0; ///< another body lies on the face there, flush at this edge
+  std::uint8_t seams = 0;   ///< the surface goes on there, on another body
   bool crushedUnevenly = false;
   JointFit fit; ///< stiffnesses of the law for this pair
 

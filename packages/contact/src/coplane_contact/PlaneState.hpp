@@ -116,6 +116,8 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember(
         "covered", "-", [](auto& p) -> auto& { return p.covered; }),
     planeMember(
+        "seams", "-", [](auto& p) -> auto& { return p.seams; }),
+    planeMember(
         "fit_normal_stiffness", "Pa/m", [](auto& p) -> auto& { return p.fit.normalStiffness; }),
     planeMember(
         "fit_stiffness_cap", "Pa/m", [](auto& p) -> auto& { return p.fit.stiffnessCap; }),

@@ -20,6 +20,7 @@ void putEdges(const EdgesOfPair& edges, Plane& plane)
   plane.exits = edges.exits;
   plane.turns = edges.turns;
   plane.covered = edges.covered;
+  plane.seams = edges.seams;
 }
 } // namespace
 
@@ -104,7 +105,7 @@ Plane PlaneTable::prepared(std::size_t slot) const
 bool PlaneTable::isBare(std::size_t slot, const Plane& prepared) const
 {
   Plane bare = freshPlane(slot);
-  putEdges({prepared.exits, prepared.turns, prepared.covered}, bare);
+  putEdges({prepared.exits, prepared.turns, prepared.covered, prepared.seams}, bare);
   return sameNumbers(prepared, bare);
 }
 

@@ -45,7 +45,7 @@ private:
 /// What the last search has seen at the edges of the faces of a pair, as in its plane.
 struct EdgesOfPair
 {
-  std::uint8_t exits = 0, turns = 0, covered = 0;
+  std::uint8_t exits = 0, turns = 0, covered = 0, seams = 0;
 };
 
 /// The slots of the last search, sorted by key, in tables that every cycle looks through. Most

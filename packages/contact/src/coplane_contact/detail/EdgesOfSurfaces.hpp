@@ -20,9 +20,6 @@ public:
   /// Lengths up to which bodies are flush: gap, step, and overhang of an edge, as a fraction of the
   /// size of the smaller face.
   static constexpr Real flush = 0.005;
-  /// Up to here the edges of both are one line, like one of a mesh: what contacts on both sides of
-  /// it have at their borders cancels. A wider seam has two edges, each with a border of its own.
-  static constexpr Real oneLine = 0.1 * flush;
 
   /// `pairs` are the candidates of this rank, among them all with a local face; of the faces, all
   /// that have an owned node come first, sorted by id. `planes` are those of the faces. All of this
@@ -31,7 +28,7 @@ public:
                   std::size_t localFaces, const Array<FacePlane>& planes, const ConstNodeVectors& x,
                   int dimension, const NodeLayout& layout);
 
-  /// Sets exits, turns and covered of the plane of a pair.
+  /// Sets exits, turns, covered and seams of the plane of a pair.
   void look(std::size_t pair, Plane& plane) const;
 
 private:
@@ -51,16 +48,11 @@ private:
   void findHidden(const NodeLayout& layout);
   /// The body that hides the face with this normal up to its edge, beyond which lies one with the
   /// other normal; -1: none, or several.
-  /// @param ends where hidden faces end: flush_, goingOn_ or oneLine_
+  /// @param ends where hidden faces end: flush_, or goingOn_
   int hides(const int (&nodes)[2], const Vec3& normal, const Vec3& beyond,
             const DirectionsOfNodes& ends) const;
-  /// Two faces that lie on each other.
-  struct Lying
-  {
-    Real size = 0; ///< of the smaller one [m]; 0 if they do not
-    Real gap = 0;  ///< [m]
-  };
-  Lying lieOn(int a, int b) const;
+  /// Size of the smaller one of two faces that lie on each other [m]; 0 if they do not.
+  Real lieOn(int a, int b) const;
 
   const std::vector<CandidatePair>& pairs_;
   Array<Face> faces_;
@@ -69,11 +61,10 @@ private:
   int dimension_;
   std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
   std::vector<Edge> edges_;
-  std::vector<Lying> lieOn_;  ///< by pair
+  std::vector<Real> lieOn_;   ///< by pair
   NormalsOfNodes normals_;    ///< of the faces around a node
   DirectionsOfNodes hidden_;  ///< normals of hidden faces that end at a node, and who lies on them
   DirectionsOfNodes flush_;   ///< out over the edges at which they end
   DirectionsOfNodes goingOn_; ///< out over those where both bodies turn the same way: one surface
-  DirectionsOfNodes oneLine_; ///< out over those of these that are one line with the other edge
 };
 } // namespace coplane

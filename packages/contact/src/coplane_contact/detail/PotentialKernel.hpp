@@ -33,12 +33,13 @@ KOKKOS_INLINE_FUNCTION EdgesOf<T> edgesOf(const PlaneBatch<T>& planes)
   EdgesOf<T> edges;
   unsigned any = 0;
   for (int i = 0; i < planes.count; ++i)
-    any |= planes.plane[i]->turns | planes.plane[i]->covered; // exits turn
+    any |= planes.plane[i]->turns | planes.plane[i]->covered | planes.plane[i]->seams; // exits turn
   for (int e = 0; e < 8 && any != 0; ++e)
   {
     edges.exits[e] = planes.each([&](const Plane& p) { return Real(p.exits >> e & 1); });
     edges.turns[e] = planes.each([&](const Plane& p) { return Real(p.turns >> e & 1); });
     edges.covered[e] = planes.each([&](const Plane& p) { return Real(p.covered >> e & 1); });
+    edges.seams[e] = planes.each([&](const Plane& p) { return Real(p.seams >> e & 1); });
   }
   return edges;
 }
