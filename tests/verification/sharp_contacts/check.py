@@ -238,6 +238,35 @@ for dimension, angles in ((2, [45, 45]), (3, [tip, tip]), (3, [[45, 0, 0], [45, 
         case.check_equal(f"{name}: exit code", run.code, 0)
         case.check(f"{name}: part of one within the other", within(run, scene[0], angles), 0, 0.05)
 
+# --- A corner that comes down on a seam, flush or a hair open: it drives two bodies apart, or is held ----------------------------
+def on_seam(gap, off, kind, elements):
+    """A square on its corner, `off` beside the middle of the seam of two others, the right one of so many elements a side."""
+    part = lambda block, low, divisions: {"shape": "box", "block": block, "min": low, "size": [1, 1], "divisions": [divisions] * 2}  # noqa: E731
+    parts = [part("left", [-1 - gap / 2, -1], 1), part("right", [gap / 2, -1], elements),
+             {**part("falling", [-0.5, -0.5], 1), "rotate": 45, "about": [0, 0], "offset": [off, 0.5 * math.sqrt(2) + 0.02]}]  # fmt: skip
+    names = ("left", "right", "falling")
+    deck = {"materials": {"rock": {"model": "linear_elastic", "density": 2600, "youngs_modulus": 50e9, "poisson_ratio": 0.25}},
+            "blocks": {name: {"material": "rock", "rigid": kind != "elastic"} for name in names}, "viscosity": quiet,
+            "initial": [{"block": "falling", "velocity": [0, -4, 0]}], "time": {"end": 0.02, "step_factor": 0.2}}  # fmt: skip
+    if kind == "held":
+        deck["conditions"] = [{"type": "rigid_motion", "block": name, "velocity": [0, 0, 0], "angular_velocity": [0, 0, 0]} for name in names[:2]]
+    return {"dimension": 2, "parts": parts}, deck
+
+
+seams = [(0, 0, "free", 1), (0, 0, "elastic", 1), (4.9e-3, 2e-3, "free", 1), (4e-4, 0, "elastic", 1), (0, 3e-3, "held", 4)]
+if full:
+    seams = [(gap, off, kind, elements) for gap in (0, 1e-4, 1e-3, 4.9e-3, 6e-3) for off in (0, 2e-3) for kind in ("held", "free", "elastic") for elements in (1, 4)]
+for gap, off, kind, elements in seams:
+    recipe, deck = on_seam(gap, off, kind, elements)
+    folder = f"seam_{gap:g}_{off:g}_{kind}_{elements}"
+    run = case.run(folder, recipe, deck)
+    h = run.history
+    name = f"corner {1e3 * off:g} mm beside a seam {1e3 * gap:g} mm open, {kind}, {elements} elements beyond"
+    case.check(f"{name}: contact remainder", numpy.max(numpy.abs(h["contact_remainder"])) / h["kinetic"][0], 0, 6e-3)
+    if (gap, kind, elements) == (0, "free", 1) and off == 0:
+        case.same_bits(folder, recipe, deck, run, ranks=3, threads=2)
+        case.restarts(folder, recipe, deck, run, 9e-3, ranks=2)  # while they touch
+
 # --- The seam of two blocks over a line of the mesh, all of it symmetric -------------------------------------
 # Corners pass each other and the line below them by round-off only, which must not decide what they feel.
 for friction in (0.0, 0.6):
