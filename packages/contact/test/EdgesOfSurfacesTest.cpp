@@ -203,10 +203,16 @@ TEST(EdgesOfSurfaces, aSurfaceGoesOnOverAFlushSeam)
   Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.5, 1, 0}, cube}});
   const Plane plane = scene.pair(0, up, 2, down);
   EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
+  EXPECT_EQ(scene.edgesIn(plane.seams, 0), "+x");
+  EXPECT_EQ(scene.edgesIn(plane.seams, 1), "");
+  // So it does where the seam is a hair open.
+  Scene open({{{-1, 0, 0}, cube}, {{0.004, 0, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  EXPECT_EQ(open.edgesIn(open.pair(0, up, 2, down).seams, 0), "+x");
   // A step of more than 0.005 of a face is an edge again.
   Scene stepped({{{-1, 0, 0}, cube}, {{0, -0.01, 0}, cube}, {{-0.5, 1, 0}, cube}});
   const Plane above = stepped.pair(0, up, 2, down);
   EXPECT_EQ(stepped.edgesIn(above.turns, 0), "+x +z -x -z");
+  EXPECT_EQ(stepped.edgesIn(above.seams, 0), "");
 }
 
 TEST(EdgesOfSurfaces, aThirdBodyDoesNotComeToASideThatIsHidden)
