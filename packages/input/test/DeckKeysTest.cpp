@@ -41,7 +41,7 @@ materials:
   pseudo_cap: {model: pseudo_cap, density: 1, youngs_modulus: 30e9, poisson_ratio: 0.2, compressive_strength: 45e6,
     tensile_strength: 3e6, fracture_energy: 100, porosity: 0.1, grain_modulus: 45e9, crush_pressure: 90e6,
     crush_hardening: 200e6}
-  fast: {set: concrete_c40, rate_effects: true, largest_rate: 200}
+  fast: {set: concrete_c40, rate_effects: true, largest_rate: 200, damage_exponent: 2, crack_closure: true}
   hjc: {model: hjc, density: 1, shear_modulus: 15e9, compressive_strength: 50e6, tensile_strength: 5e6, cohesive_factor: 0.8,
     pressure_factor: 1.5, pressure_exponent: 0.6, largest_strength: 6, least_fracture_strain: 0.02, damage_factor: 0.05,
     crush_pressure: 20e6, crush_compression: 0.002, lock_pressure: 900e6, lock_compression: 0.12,

@@ -191,6 +191,7 @@ TEST(KaragozianCase, aFastCrackTakesTheEnergyOfItsStrength)
   // r_f G_F, as in pseudo_cap: r_f = 10^(6 d) rate^(1/3) / 100 from 1/s on, d = 1 / (1 + 0.8 fc).
   KaragozianCaseParameters rated = published();
   rated.rateEffects = true;
+  rated.largestRate = 300;
   const Real rate = 10, energy = completed(published()).fractureEnergy;
   const Real factor = std::pow(10, 6 / (1 + 8 * fc / 10e6) - 2) * std::cbrt(rate / 1e-6);
   for (const Real width : {0.01, 0.05})

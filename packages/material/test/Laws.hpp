@@ -178,6 +178,10 @@ inline std::vector<NamedLaw> allLaws()
   };
   PseudoCapParameters fast = concreteC40();
   fast.rateEffects = true;
+  fast.largestRate = 300;
+  PseudoCapParameters closing = concreteC40();
+  closing.crackClosure = true;
+  closing.damageExponent = 2.3;
   MohrCoulombParameters table = rockOf(0, 0.2, 0, 0, 2e6, 0, 100);
   table.plasticShears = {0, 0.002, 0.01};
   table.cohesions = {5e6, 3e6, 1e6};
@@ -233,6 +237,7 @@ inline std::vector<NamedLaw> allLaws()
           {"johnsonCookMieGrueneisen", checked(hot), 0.05},
           {"pseudoCap", makeLaw(concreteC40()), 0.01},
           {"pseudoCapRates", makeLaw(fast), 0.01},
+          {"pseudoCapCloses", makeLaw(closing), 0.01},
           {"hjc", concreteHjc48(), 0.01},
           {"jh2", makeLaw(ductile), 0.02},
           {"kcc", makeLaw(plain), 0.01},

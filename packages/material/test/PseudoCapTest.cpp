@@ -331,10 +331,70 @@ TEST(PseudoCap, strengthConstantsReproduceTheUniaxialStrengthsExactly)
   // ft. r(0) = psi and r(60 deg) = 1.
   EXPECT_NEAR(c40.surfaces().intactStrength(40e6 / 3), 40e6,
               3e-5 * 40e6); // constants have four digits
-  EXPECT_NEAR(c40.meridian(-4e6 / 3, 0.0) * c40.surfaces().meridianRatio(-4e6 / 3), 4e6, 1e-6);
+  EXPECT_NEAR(c40.meridian(-4e6 / 3, 0.0, 0.0) * c40.surfaces().meridianRatio(-4e6 / 3), 4e6, 1e-6);
   EXPECT_NEAR(ConcreteSurfaces::lodeFactor(1.0, 0.65), 0.65, 1e-15);
   EXPECT_NEAR(ConcreteSurfaces::lodeFactor(0.5, 0.65), 1, 1e-15);
   EXPECT_NEAR(ConcreteSurfaces::lodeFactor(std::cos(pi / 6), 0.65), 0.73251, 5e-6);
+}
+
+TEST(PseudoCap, cracksThatCloseBearPressureAgain)
+{
+  PseudoCapParameters parameters = concreteC40();
+  parameters.crackClosure = true;
+  const PseudoCap closing = makeLaw(parameters);
+  MaterialProbe probe(closing, size);
+  Real peak = 0;
+  uniaxialStress(probe, 0.008, 20000, [](const MaterialProbe&) {});
+  const Real cracked = probe.history("damage");
+  EXPECT_GT(cracked, 0.9);
+  EXPECT_EQ(probe.history("crushing"), 0);
+  uniaxialStress(probe, -0.018, 20000,
+                 [&](const MaterialProbe& p) { peak = std::max(peak, axialCompression(p)); });
+  EXPECT_NEAR(peak, 40e6, 0.005 * 40e6);
+  EXPECT_GT(probe.history("crushing"), 0.2);
+  EXPECT_GT(probe.history("damage"), cracked);
+
+  // As long as nothing but crushing has damaged, the surface is that of cracks that do not close.
+  for (const Real damage : {0.0, 0.3, 1.0})
+    for (const Real p : {-1e6, 0.0, 1e5, 5e6, 100e6})
+      EXPECT_EQ(closing.meridian(p, damage, damage), c40.meridian(p, damage, damage)) << p;
+  // Uniaxial compression, q = 3 p, is inside of it whatever the cracks, and outside otherwise.
+  for (const Real p : {1e4, 1e6, 10e6})
+  {
+    EXPECT_GT(closing.meridian(p, 1.0, 0.0), 3 * p);
+    EXPECT_LT(c40.meridian(p, 1.0, 1.0), 3 * p);
+    // Shear stress over the normal stress is bounded.
+    EXPECT_LE(closing.meridian(p, 1.0, 0.0), 6 * p);
+  }
+  EXPECT_EQ(closing.meridian(0.0, 1.0, 0.0), 0);
+
+  // Pulled again, it bears what the crack has left.
+  MaterialProbe again(closing, size);
+  uniaxialStress(again, 0.003, 5000, [](const MaterialProbe&) {});
+  const Real left = (1 - again.history("damage")) * 4e6;
+  uniaxialStress(again, -0.0005, 5000, [](const MaterialProbe&) {});
+  EXPECT_LT(again.stress().xx, -10e6);
+  Real pulled = 0;
+  uniaxialStress(again, 0.004, 20000,
+                 [&](const MaterialProbe& p) { pulled = std::max(pulled, p.stress().xx); });
+  EXPECT_LT(pulled, 1.001 * left);
+  EXPECT_GT(pulled, 0.8 * left);
+}
+
+TEST(PseudoCap, crushingIsMoreDuctileWithALargerExponent)
+{
+  // Energy that uniaxial compression takes, per area, up to a shortening of 0.8.
+  const auto energyOf = [](Real exponent)
+  {
+    PseudoCapParameters parameters = concreteC40();
+    parameters.damageExponent = exponent;
+    MaterialProbe probe(makeLaw(parameters), 0.02);
+    uniaxialStress(probe, -0.8, 20000, [](const MaterialProbe&) {});
+    return probe.dissipation() * 0.02;
+  };
+  EXPECT_NEAR(energyOf(1.6), 13.6e3, 0.03 * 13.6e3);
+  EXPECT_NEAR(energyOf(2.2), 22.4e3, 0.03 * 22.4e3);
+  EXPECT_NEAR(energyOf(2.8), 40.3e3, 0.03 * 40.3e3);
 }
 
 TEST(PseudoCap, initialStressIsBorneWithoutStrain)
@@ -371,4 +431,5 @@ TEST(PseudoCap, badParametersAreRefusedWithTheNumber)
   refused([](auto& p) { p.fractureEnergy = 0; }, "fracture energy is 0 J/m^2");
   refused([](auto& p) { p.crushPressure = 20e6; }, "crush pressure is 20000000 Pa");
   refused([](auto& p) { p.largestRate = -1; }, "largest rate is -1 1/s");
+  refused([](auto& p) { p.damageExponent = 5; }, "damage exponent is 5");
 }

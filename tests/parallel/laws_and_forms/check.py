@@ -34,7 +34,7 @@ LAWS = {
     },
     "johnson_cook": {"model": "johnson_cook", "set": "copper_ofhc"},
     "pseudo_cap": {"model": "pseudo_cap", "set": "concrete_c40"},
-    "pseudo_cap_rates": {"model": "pseudo_cap", "set": "concrete_c40", "rate_effects": True},
+    "pseudo_cap_rates": {"model": "pseudo_cap", "set": "concrete_c40", "rate_effects": True, "crack_closure": True},
     "hjc": {"model": "hjc", "set": "concrete_hjc_48"},
     "jh2": {
         "model": "jh2", "density": 2350, "shear_modulus": 2.686e9, "bulk_moduli": [3.7356e9, 9e9, 22e9], "elastic_limit": 1.982e9,

@@ -118,13 +118,13 @@ KaragozianCase makeLaw(const KaragozianCaseParameters& given)
          "Pa", fmt::format("between 0 and 0.16 of the compressive strength ({:.6g} Pa)", most));
   demand(p.fractureEnergy > 0, "fracture energy", p.fractureEnergy, "J/m^2", "positive, e.g. 120");
   demand(p.largestRate >= 0 && std::isfinite(p.largestRate), "largest rate", p.largestRate, "1/s",
-         "0 (no effect of rates) or more, e.g. 300");
+         "0 (up to the knees of the curves) or more, e.g. 300");
   KaragozianCase law{};
   law.elastic = makeLinearElastic(p.youngsModulus, p.poissonRatio, p.density);
   law.surfaces = {p.compressiveStrength, p.tensileStrength};
   law.tensileExponent = tensileExponentOf(p.compressiveStrength);
   law.softeningGrowth = p.tensileStrength * tensionWork(law.tensileExponent) / p.fractureEnergy;
-  law.rates = rateEffectOf(p.compressiveStrength, p.rateEffects ? p.largestRate : 0);
+  law.rates = p.rateEffects ? rateEffectOf(p.compressiveStrength, p.largestRate) : RateEffect{};
   const Real scale = law.elastic.bulkModulus / publishedModulus;
   for (int i = 0; i < KaragozianCase::tableSize; ++i)
   {
@@ -197,8 +197,10 @@ MaterialModel KaragozianCaseParameters::model()
           number("largest_rate", &P::largestRate)
               .in("1/s")
               .above(0)
+              .defaultIs("1 in tension, 30 in compression")
               .like("100")
-              .means("strain rate from which rate_effects grow no more; tests go to about 300"),
+              .means("strain rate from which rate_effects grow no more. Beyond 1/s in tension and "
+                     "30/s in compression specimens show inertia, which elements have already"),
       })
       .demands(checkKaragozianCase)
       .softensUpTo(largestElement)

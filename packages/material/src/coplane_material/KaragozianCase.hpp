@@ -292,7 +292,7 @@ struct KaragozianCaseParameters
   Real tensileStrength = 0;     ///< ft [Pa]
   Real fractureEnergy = 0;      ///< G_F [J/m^2]
   bool rateEffects = false;
-  Real largestRate = 300; ///< of rate effects [1/s]
+  Real largestRate = 0; ///< of rate effects [1/s]; 0: where inertia begins
 
   static MaterialModel model();
 };

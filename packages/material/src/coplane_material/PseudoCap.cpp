@@ -51,8 +51,10 @@ PseudoCap makeLaw(const PseudoCapParameters& p)
   demand(p.crushHardening > 0, "crush hardening", p.crushHardening, "Pa", "positive, e.g. 300e6");
   demand(p.shearCompaction >= 0, "shear compaction", p.shearCompaction, "", "0 or more");
   demand(p.largestRate >= 0 && std::isfinite(p.largestRate), "largest rate", p.largestRate, "1/s",
-         "0 (no effect of rates) or more, e.g. 300");
-  law.rates = rateEffectOf(p.compressiveStrength, p.rateEffects ? p.largestRate : 0);
+         "0 (up to the knees of the curves) or more, e.g. 300");
+  demand(p.damageExponent >= 0 && p.damageExponent <= 4, "damage exponent", p.damageExponent, "",
+         "between 0 and 4, e.g. 1.6");
+  law.rates = p.rateEffects ? rateEffectOf(p.compressiveStrength, p.largestRate) : RateEffect{};
   law.strength = p.compressiveStrength;
   law.tensileStrength = p.tensileStrength;
   law.fractureEnergy = p.fractureEnergy;
@@ -63,6 +65,8 @@ PseudoCap makeLaw(const PseudoCapParameters& p)
   law.crushHardening = p.crushHardening;
   law.capRatio = p.capRatio;
   law.shearCompaction = p.shearCompaction;
+  law.damageExponent = p.damageExponent;
+  law.cracksClose = p.crackClosure;
   return law;
 }
 
@@ -166,6 +170,17 @@ MaterialModel PseudoCapParameters::model()
               .atLeast(0)
               .like("1.5")
               .means("volume strain per plastic shear strain at the crush pressure"),
+          number("damage_exponent", &P::damageExponent)
+              .in("-")
+              .atLeast(0)
+              .atMost(4)
+              .like("2")
+              .means("b1: the larger, the less bulking under pressure damages, and the more "
+                     "ductile is crushing"),
+          flag("crack_closure", &P::crackClosure)
+              .like("true")
+              .means("cracks that close bear pressure again; false: what tension damaged is weak "
+                     "under pressure, too"),
           flag("rate_effects", &P::rateEffects)
               .like("true")
               .means("strengths grow with the strain rate: in tension as Malvar and Ross say, in "
@@ -173,8 +188,10 @@ MaterialModel PseudoCapParameters::model()
           number("largest_rate", &P::largestRate)
               .in("1/s")
               .above(0)
+              .defaultIs("1 in tension, 30 in compression")
               .like("100")
-              .means("strain rate from which rate_effects grow no more; tests go to about 300"),
+              .means("strain rate from which rate_effects grow no more. Beyond 1/s in tension and "
+                     "30/s in compression specimens show inertia, which elements have already"),
       })
       .demands(checkPseudoCap)
       .softensUpTo(elementThatCracks)

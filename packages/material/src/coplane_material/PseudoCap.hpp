@@ -34,6 +34,7 @@ struct PseudoCap
   Real tensileDilation = 1.5; ///< opening per plastic shear strain under tension (mode I) [-]
   Real biaxialRatio = 1.15;   ///< biaxial over uniaxial compressive strength [-]
   Real damageExponent = 1.6;  ///< b1: dilation under pressure does less damage [-]
+  bool cracksClose = false;   ///< and bear pressure again
   RateEffect rates;           ///< by which fast strain raises the strengths
 
   enum
@@ -41,22 +42,28 @@ struct PseudoCap
     Damage,
     PlasticStrain,
     Porosity,
-    Compaction,    // e_c
-    Bulking,       // e_d
-    Opening,       // e_t
-    Precompression // of the stress-free reference volume [-]
+    Compaction,     // e_c
+    Bulking,        // e_d
+    Opening,        // e_t
+    Precompression, // of the stress-free reference volume [-]
+    Crushing        // damage without that of cracks, D_c; 0 where cracks do not close
   };
-  static constexpr int historyCount = 7;
-  static constexpr const char* historyNames[] = {"damage",        "equivalent_plastic_strain",
-                                                 "porosity",      "compaction",
-                                                 "bulking",       "crack_opening",
-                                                 "precompression"};
+  static constexpr int historyCount = 8;
+  static constexpr const char* historyNames[] = {"damage",         "equivalent_plastic_strain",
+                                                 "porosity",       "compaction",
+                                                 "bulking",        "crack_opening",
+                                                 "precompression", "crushing"};
   static constexpr bool usesVolume = true, changesTangent = true, hasStrength = true;
 
   /// Volume per plastic shear strain of intact material at p = fc / 3 [-].
   static constexpr Real kneeDilation = 0.6;
   /// Porosity that opens takes the modulus away, which is gone but for a rest at that much more.
   static constexpr Real openedPores = 0.3, leastOpened = 0.05;
+  /// q / p that a closed crack bears on the compression meridian; of normal and shear stress that
+  /// is a friction of 0.8.
+  static constexpr Real slopeOfClosedCracks = 6;
+  /// Pressure over fc from which strength does not grow with the rate; less so from fc on.
+  static constexpr Real confinedFrom = 3;
   /// 1 - s x of the grains stays above, so that their pressure stays finite.
   static constexpr Real leastRoom = 0.1;
 
@@ -126,28 +133,35 @@ struct PseudoCap
     return {strength, tensileStrength, biaxialRatio};
   }
 
-  /// Ys: strength on the compression meridian, without the cap.
+  /// Ys: strength on the compression meridian, without the cap. What cracks took counts under
+  /// tension; from p = 0 on, the strength rises as closed cracks slide, up to that of the
+  /// uncracked.
+  /// @param crushing D_c; D where cracks do not close
   template <class T>
-  KOKKOS_INLINE_FUNCTION T meridian(const T& p, const T& damage) const
+  KOKKOS_INLINE_FUNCTION T meridian(const T& p, const T& damage, const T& crushing) const
   {
     const T one(1.0), compression = branchFree::positivePart(p);
-    const T intact = one - damage;
+    const T intact = one - damage, uncrushed = one - crushing;
     const ConcreteSurfaces surface = surfaces();
-    const T sheared = intact * surface.intactStrength(compression) +
-                      damage * surface.residualStrength(compression);
-    return branchFree::positivePart(branchFree::smaller(surface.tensionLine(p, intact), sheared));
+    const T sheared = uncrushed * surface.intactStrength(compression) +
+                      crushing * surface.residualStrength(compression);
+    T line = surface.tensionLine(p, uncrushed);
+    if (cracksClose)
+      line = branchFree::smaller(line, surface.tensionLine(p - compression, intact) +
+                                           T(slopeOfClosedCracks) * compression);
+    return branchFree::positivePart(branchFree::smaller(line, sheared));
   }
 
   /// Y: von Mises stress that the material bears.
   template <class T>
   KOKKOS_INLINE_FUNCTION T shearStrength(const T& p, const T& pc, const T& damage,
-                                         const T& cosTheta) const
+                                         const T& crushing, const T& cosTheta) const
   {
     const T one(1.0), start = T(capRatio) * pc;
     const T reach = (p - start) / (pc - start);
     const T cap = branchFree::squareRoot(branchFree::positivePart(one - reach * reach));
     return ConcreteSurfaces::lodeFactor(cosTheta, surfaces().meridianRatio(p)) *
-           meridian(p, damage) *
+           meridian(p, damage, crushing) *
            branchFree::choose(p > start, branchFree::choose(p < pc, cap, T(0.0)), one);
   }
 
@@ -166,7 +180,10 @@ struct PseudoCap
     if (rates.counts())
       state.dissipation = workAtMeanStress(point, state, shear, inelasticBefore);
     T* const h = point.history;
-    h[Damage] = damageAfter(state, point.size);
+    const T share = shareThatDamages(state);
+    h[Damage] = weakened(state.intact, (state.dilated + state.opened) * share, point.size);
+    if (cracksClose)
+      h[Crushing] = weakened(state.uncrushed, state.dilated * share, point.size);
     h[PlasticStrain] += shear.plastic;
     h[Porosity] = porosityOf(state.v);
     h[Compaction] = state.ec;
@@ -189,6 +206,7 @@ private:
   struct State
   {
     T damage, intact;       ///< D and 1 - D at the start of the step
+    T crushing, uncrushed;  ///< D_c and 1 - D_c; D where cracks do not close
     T ebar;                 ///< ln(density / reference density)
     T ec, ed, et;           ///< compaction, bulking, opening
     T v;                    ///< ec - ed - et
@@ -236,6 +254,8 @@ private:
     State<T> state;
     state.damage = h[Damage];
     state.intact = T(1.0) - state.damage;
+    state.crushing = cracksClose ? h[Crushing] : h[Damage];
+    state.uncrushed = T(1.0) - state.crushing;
     state.ec = h[Compaction];
     state.ed = h[Bulking];
     state.et = h[Opening];
@@ -289,7 +309,7 @@ private:
 
   /// The elastic deviator, and what its rate of strain makes of the strength: fast strain makes the
   /// surface larger about the origin, r Y(p / r); r is that of tension up to no pressure, that of
-  /// compression from a third of fc on. The cap stays.
+  /// compression from a third of fc on, up to fc, and 1 from 3 fc on. The cap stays.
   template <class T>
   KOKKOS_INLINE_FUNCTION Shear<T> shearOf(const MaterialPoint<T>& point,
                                           const State<T>& state) const
@@ -303,9 +323,13 @@ private:
     {
       const T rate = largestPrincipal(point.strainIncrement) * T(1 / point.dt);
       shear.fasterTension = rates.tension(rate);
-      const T share =
-          branchFree::smaller(branchFree::positivePart(state.p) * T(3 / strength), T(1.0));
-      shear.faster = shear.fasterTension + share * (rates.compression(rate) - shear.fasterTension);
+      const T one(1.0), pressure = branchFree::positivePart(state.p) * T(1 / strength);
+      const T share = branchFree::smaller(pressure * T(3.0), one);
+      const T inTest =
+          shear.fasterTension + share * (rates.compression(rate) - shear.fasterTension);
+      const T confined = branchFree::smaller(
+          branchFree::positivePart(pressure - one) * T(1 / (confinedFrom - 1)), one);
+      shear.faster = inTest + confined * (one - inTest);
     }
     return shear;
   }
@@ -313,7 +337,7 @@ private:
   /// Volume strain v per plastic shear strain where there is no tension. It never falls with the
   /// pressure and is 0 where the cap begins.
   template <class T>
-  KOKKOS_INLINE_FUNCTION T volumePerShear(const T& p, const T& pc, const T& intact) const
+  KOKKOS_INLINE_FUNCTION T volumePerShear(const T& p, const T& pc, const T& uncrushed) const
   {
     using branchFree::choose;
     const T start = T(capRatio) * pc, knee(strength / 3);
@@ -322,7 +346,7 @@ private:
                T(kneeDilation) * (start - p) / (start - knee));
     const T compacting =
         T(shearCompaction) * branchFree::smaller((p - start) / (pc - start), T(1.0));
-    return choose(p > start, compacting, -intact * branchFree::positivePart(dilatant));
+    return choose(p > start, compacting, -uncrushed * branchFree::positivePart(dilatant));
   }
 
   /// Y of the step, at a pressure and a crush pressure.
@@ -331,9 +355,10 @@ private:
                                       const Shear<T>& shear) const
   {
     if (!rates.counts())
-      return shearStrength(p, pc, state.damage, shear.cosTheta);
+      return shearStrength(p, pc, state.damage, state.crushing, shear.cosTheta);
     const T& faster = shear.faster;
-    return faster * shearStrength(p / faster, pc / faster, state.damage, shear.cosTheta);
+    return faster *
+           shearStrength(p / faster, pc / faster, state.damage, state.crushing, shear.cosTheta);
   }
 
   /// Under tension cracks open, until there is none: against a pressure they would give work back.
@@ -349,8 +374,9 @@ private:
     Way<T> way;
     way.compacts = state.p > T(capRatio) * state.pc;
     way.opens = toNone > zero;
-    const T perShear = choose(
-        way.opens, opening, branchFree::absolute(volumePerShear(state.p, state.pc, state.intact)));
+    const T perShear =
+        choose(way.opens, opening,
+               branchFree::absolute(volumePerShear(state.p, state.pc, state.uncrushed)));
     way.lack = perShear * over;
     way.start = state.v;
     if (branchFree::anyOf(way.opens))
@@ -361,7 +387,7 @@ private:
       way.opens = way.opens && !passes;
       way.passed = choose(passes, toNone, zero);
       way.start = choose(passes, state.ebar, state.v);
-      way.lack = choose(passes, state.intact * opening * overAtNone - needed, way.lack);
+      way.lack = choose(passes, state.uncrushed * opening * overAtNone - needed, way.lack);
     }
     way.cracks = state.et + way.passed;
     // Strength does not fall while cracks open or the volume bulks; it may while pores close.
@@ -397,7 +423,7 @@ private:
     const auto lack = [&](const T& gone)
     {
       const T p = pressure(state.ebar, volumeAfter(gone)), pc = crushCurve(compactionAfter(gone));
-      const T follows = volumePerShear(p, pc, state.intact);
+      const T follows = volumePerShear(p, pc, state.uncrushed);
       const T perShear = choose(way.opens, T(tensileDilation),
                                 positivePart(choose(way.compacts, follows, -follows)));
       return perShear * (q - strengthAt(p, pc, state, shear)) - threeG * (way.passed + gone);
@@ -459,17 +485,22 @@ private:
     return branchFree::positivePart(T(0.5) * (ofShear + ofVolume));
   }
 
-  /// Opening takes strength away: exponentially, by the fracture energy per width of the element.
+  /// Under pressure the same bulking does less damage.
   template <class T>
-  KOKKOS_INLINE_FUNCTION T damageAfter(const State<T>& state, const T& size) const
+  KOKKOS_INLINE_FUNCTION T shareThatDamages(const State<T>& state) const
   {
-    const T one(1.0);
-    const T hindered =
-        branchFree::logarithm(one + branchFree::positivePart(state.p) * T(1.0 / tensileStrength));
-    const T grown =
-        (state.dilated + state.opened) * branchFree::exponential(T(-damageExponent) * hindered);
+    const T grown = branchFree::logarithm(T(1.0) + branchFree::positivePart(state.p) *
+                                                       T(1.0 / tensileStrength));
+    return branchFree::exponential(T(-damageExponent) * grown);
+  }
+
+  /// Damage: opening takes strength away, exponentially, by the fracture energy per width of the
+  /// element.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T weakened(const T& left, const T& opening, const T& size) const
+  {
     const T decay = T(tensileStrength / fractureEnergy) * size;
-    return one - state.intact * branchFree::exponential(-grown * decay);
+    return T(1.0) - left * branchFree::exponential(-opening * decay);
   }
 };
 
@@ -486,8 +517,10 @@ struct PseudoCapParameters : ElasticParameters
   Real crushHardening = 0;      ///< Ph [Pa]
   Real capRatio = 0.5;          ///< Rc [-]
   Real shearCompaction = 2;     ///< mu_c [-]
+  Real damageExponent = 1.6;    ///< b1 [-]
+  bool crackClosure = false;
   bool rateEffects = false;
-  Real largestRate = 300; ///< of rate effects [1/s]
+  Real largestRate = 0; ///< of rate effects [1/s]; 0: where inertia begins
 
   static MaterialModel model();
 };

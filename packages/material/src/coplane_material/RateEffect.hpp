@@ -10,30 +10,35 @@ namespace coplane
 /// both are exp(d x) up to x = ln 10^6, and grow with the third root of the rate from there:
 /// tension from 1e-6/s, d = 1 / (1 + 0.8 fc/MPa), knee at 1/s; compression from 3e-5/s, d = 1.026 /
 /// (5 + 0.9 fc/MPa), knee at 30/s. The branches meet at the knee. Rates are positive [1/s].
+/// Beyond the knees specimens resist by the inertia of what is beside the crack, or of the sides
+/// that bulge; elements have that by themselves, so a law should end there.
 struct RateEffect
 {
-  Real largest = 0;             ///< rate from which strength grows no more [1/s]; 0: no effect
+  // Rates from which strength grows no more [1/s]; 0: no effect.
+  Real largestTension = 0;
+  Real largestCompression = 0;
   Real tensileExponent = 0;     ///< d [-]
   Real compressiveExponent = 0; ///< d [-]
 
-  static constexpr Real slowTension = 1e-6, slowCompression = 3e-5; // [1/s]
+  static constexpr Real slowTension = 1e-6, slowCompression = 3e-5;    // [1/s]
+  static constexpr Real kneeOfTension = 1.0, kneeOfCompression = 30.0; // [1/s]
 
-  KOKKOS_INLINE_FUNCTION bool counts() const { return largest > 0; }
+  KOKKOS_INLINE_FUNCTION bool counts() const { return largestTension > 0; }
 
   template <class T>
   KOKKOS_INLINE_FUNCTION T tension(const T& rate) const
   {
-    return factor(rate, slowTension, tensileExponent);
+    return factor(rate, largestTension, slowTension, tensileExponent);
   }
   template <class T>
   KOKKOS_INLINE_FUNCTION T compression(const T& rate) const
   {
-    return factor(rate, slowCompression, compressiveExponent);
+    return factor(rate, largestCompression, slowCompression, compressiveExponent);
   }
 
 private:
   template <class T>
-  KOKKOS_INLINE_FUNCTION T factor(const T& rate, Real slow, Real exponent) const
+  KOKKOS_INLINE_FUNCTION T factor(const T& rate, Real largest, Real slow, Real exponent) const
   {
     const Real knee = 6 * std::log(10.0);
     const T capped = branchFree::smaller(rate, T(largest));
@@ -43,10 +48,12 @@ private:
   }
 };
 
-/// For a compressive strength [Pa], up to a rate [1/s].
+/// For a compressive strength [Pa], up to a rate [1/s]; 0: up to the knees.
 inline RateEffect rateEffectOf(Real strength, Real largest)
 {
-  return {largest, 1 / (1 + 0.8e-6 * strength), 1.026 / (5 + 0.9e-6 * strength)};
+  return {largest > 0 ? largest : RateEffect::kneeOfTension,
+          largest > 0 ? largest : RateEffect::kneeOfCompression, 1 / (1 + 0.8e-6 * strength),
+          1.026 / (5 + 0.9e-6 * strength)};
 }
 
 /// Largest principal value by its size: of a strain rate, that along the axis of a uniaxial test.
