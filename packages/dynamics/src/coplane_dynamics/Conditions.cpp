@@ -82,7 +82,7 @@ void Conditions::applyLoads(int dimension, int ownedNodes, Real t, Real dt, Noda
       for (int c = 0; c < 3 && varies; ++c)
         traction[c] = load.field[c](t, side.place);
       const std::array<Vec3, 4> areas = presentAreas(dimension, side, state.x, axisymmetric);
-      const Vec3 normal = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      const Vec3 normal = normalOf(areas);
       addToCorners(side, ownedNodes, external,
                    [&](int k) { return dot(areas[k], normal) * traction; });
     }

@@ -226,6 +226,14 @@ inline Vec3 dot(const SymTensor& s, const Vec3& n)
 std::array<Vec3, 4> cornerAreas(int dimension, const Vec3* corners, int count,
                                 bool axisymmetric = false);
 
+/// Outward normal of a face from the areas of its corners; none where it has no area, as on the
+/// axis of a body of revolution.
+inline Vec3 normalOf(const std::array<Vec3, 4>& areas)
+{
+  const Vec3 sum = areas[0] + areas[1] + areas[2] + areas[3];
+  return norm(sum) > 0 ? normalised(sum) : Vec3{};
+}
+
 struct Conditions
 {
   /// A direction along which a node does not move; several of one node are orthogonal to each

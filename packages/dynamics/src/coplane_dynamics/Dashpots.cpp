@@ -78,7 +78,7 @@ void Dashpots::act(int dimension, const Conditions& conditions, const FreeFields
     {
       const std::array<Vec3, 4> areas = cornerAreas(dimension, cornersAt(x, face.side).x,
                                                     face.side.count, conditions.axisymmetric);
-      const Vec3 n = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      const Vec3 n = normalOf(areas);
       const Vec3 along = dot(incident, n) * n;
       const Vec3 wave =
           2.0 * (face.normalImpedance * along + face.shearImpedance * (incident - along));
@@ -122,7 +122,7 @@ void Dashpots::addFreeFields(int dimension, const Conditions& conditions,
     {
       const std::array<Vec3, 4> areas =
           cornerAreas(dimension, cornersAt(x, face.side).x, face.side.count);
-      const Vec3 n = normalised(areas[0] + areas[1] + areas[2] + areas[3]);
+      const Vec3 n = normalOf(areas);
       for (int k = 0; k < face.side.count; ++k)
       {
         const int node = face.side.nodes[k];

@@ -136,6 +136,8 @@ void NodalMotion::kick(const Times& times, const Conditions& conditions, NodalSt
   dashpots_.drive(state.external);
   kickNodes(times, conditions, state);
   prescribe(times, conditions, state);
+  if (conditions.axisymmetric)
+    stopAtAxis(times, conditions, state);
   dashpots_.book(state.vPrevious, state.v, state.external);
   bodies_.kick(kickTimesOf(times), massDamping, localDamping, state);
   bookForces(times, massDamping, state);
@@ -217,6 +219,31 @@ void NodalMotion::prescribe(const Times& times, const Conditions& conditions, No
     set(reactions_, int(i), reaction);
     set(external, n, at(external, n) + reaction);
   }
+}
+
+/// Rings that close meet themselves on the axis of a body of revolution: a node comes to it and no
+/// further. What stops it is external, and takes the energy of its radial motion.
+void NodalMotion::stopAtAxis(const Times& times, const Conditions& conditions,
+                             NodalState& state) const
+{
+  const Real after = times.after, dt = kickOf(times);
+  const Real share = (1 + 0.5 * dt * conditions.massDampingAt(times.damping)) / dt;
+  if (!(after > 0))
+    return;
+  const NodeVectors v = state.v, external = state.external;
+  const ConstNodeVectors x = state.x;
+  const ConstArray<Real> mass = state.mass;
+  for (const int n : dashpots_.nodes())
+    if (const Real change = -x(n, 0) / after - v(n, 0); change > 0)
+      set(external, n, at(external, n) + 0.5 * dashpots_.drag(n, {change, 0, 0}));
+  parallelFor(
+      "coplane::dynamics::stopAtAxis", state.owned(), KOKKOS_LAMBDA(const int n) {
+        const Real inward = -x(n, 0) / after; // brings it to the axis in this step
+        if (v(n, 0) >= inward)
+          return;
+        external(n, 0) += share * mass(n) * (inward - v(n, 0));
+        v(n, 0) = inward;
+      });
 }
 
 void NodalMotion::bookForces(const Times& times, Real alpha, const NodalState& state)

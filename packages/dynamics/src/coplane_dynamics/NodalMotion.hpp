@@ -92,6 +92,7 @@ private:
   std::vector<Vec3> releasedReactions(const Conditions& conditions, Real middle,
                                       const NodalState& state);
   void prescribe(const Times& times, const Conditions& conditions, NodalState& state);
+  void stopAtAxis(const Times& times, const Conditions& conditions, NodalState& state) const;
   void bookForces(const Times& times, Real massDamping, const NodalState& state);
   void takeBackWorkAhead(Real step, const NodalState& state) const;
 

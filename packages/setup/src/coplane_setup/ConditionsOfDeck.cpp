@@ -154,9 +154,7 @@ AirBlast airBlastOf(const ConditionCard& card, const RankMesh& part,
     for (int k = 0; k < side.count; ++k)
       corners[k] = part.coordinates[side.nodes[k]];
     const std::array<Vec3, 4> areas = cornerAreas(part.dimension, corners, side.count);
-    blast.sides.push_back(
-        {side,
-         blastWaveOn(charge, side.place, normalised(areas[0] + areas[1] + areas[2] + areas[3]))});
+    blast.sides.push_back({side, blastWaveOn(charge, side.place, normalOf(areas))});
   }
   return blast;
 }
