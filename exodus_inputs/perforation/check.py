@@ -40,6 +40,7 @@ elif impact in MEASURED:
     late = speed[h["time"] > 0.95 * h["time"][-1]]
     example.check_within("change of speed in the last 5 % of the time [m/s]", float(late.max() - late.min()), 0, 3)
     print(f"{law}, {impact} m/s: residual speed {of['residual']:.0f} m/s, measured {MEASURED[impact]:.0f} m/s")
-    # Within 40 m/s from 434 m/s on was aimed at. What is reached is stated on the page; beyond these limits something has changed.
-    example.check_within("residual speed less the measured one [m/s]", of["residual"] - MEASURED[impact], -60, 160)
+    # The page has what is reached; beyond these limits something has changed.
+    low, high = (-60, 70) if law == "pseudo_cap" and not of["slow"] and not of["held"] and of["of"] == 1 else (-80, 160)
+    example.check_within("residual speed less the measured one [m/s]", of["residual"] - MEASURED[impact], low, high)
 example.finish()

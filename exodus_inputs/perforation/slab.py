@@ -23,7 +23,7 @@ def forrestal(speed, strength=40e6, density=2300, mass=0.5, radius=0.0127, calib
 
 
 def numbers(run, folder):
-    """Law, size of elements near the path [m] (0 in three dimensions), impact and residual speed [m/s], largest depth of the tip [m],
+    """Law, whether without effects of rate, whether the rim is held, size of elements near the path [m] (0 in three dimensions), impact and residual speed [m/s], largest depth of the tip [m],
     whether the slab is one that is perforated, how many such parts make the whole."""
     h = run.history
     deck, recipe = (documents.load(folder / name) for name in ("run.yaml", "mesh.yaml"))
@@ -33,6 +33,8 @@ def numbers(run, folder):
     size = (lines["ends"][1] - lines["ends"][0]) / lines["divisions"][0] if lines else 0
     law = deck["blocks"]["slab"]["material"]
     held = any(condition.get("node_set") == "rim" for condition in deck.get("conditions", []))
-    return {"law": law, "curve": law + (", rim held" if held else ""), "size": size, "impact": round(-float(h["projectile_velocity_y"][0])),
+    slow = law == "pseudo_cap" and not deck["materials"][law].get("rate_effects")
+    curve = law + (", slow strengths" if slow else "") + (", rim held" if held else "")
+    return {"law": law, "slow": slow, "held": held, "curve": curve, "size": size, "impact": round(-float(h["projectile_velocity_y"][0])),
             "residual": -float(h["projectile_velocity_y"][-1]), "depth": -float(h["tip_displacement_y"].min()),
             "slab": thickness < 0.2, "of": 4 if recipe["dimension"] == 3 else 1}

@@ -1,35 +1,14 @@
 """What is the same seen in a mirror stays so: a quarter of a ball on a quarter of a tile, by four laws."""
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, balls
 
 case = Case("symmetry", __file__)
 
 radius, size, thick = 0.02, 0.06, 0.02  # of the ball, half the width of the tile, its thickness [m]
 cells, across, deep = 4, 12, 4
 
-recipe = {
-    "dimension": 3,
-    "parts": [
-        {"shape": "box", "block": "ball", "min": [0, 99, 0], "size": [1, 2, 1], "divisions": [cells, 2 * cells, cells]},
-        {"shape": "box", "block": "tile", "min": [0, -thick, 0], "size": [size, thick, size], "divisions": [across, deep, across]},
-    ],
-    "node_sets": {"x": {"where": {"x": 0}}, "z": {"where": {"z": 0}}},
-}
-
-
-def to_quarter_ball(x):
-    """The box of the ball becomes a quarter of one, 0.1 mm above the tile. x and z are treated alike to the last bit."""
-    chosen = x[:, 1] > 50
-    p = x[chosen] - [0, 100, 0]
-    r = numpy.max(numpy.abs(p), axis=1, keepdims=True)
-    u = p / numpy.where(r > 0, r, 1)
-    q = u**2
-    y, z = q[:, [1, 2, 0]], q[:, [2, 0, 1]]
-    s = u * numpy.sqrt(1 - (y + z) / 2 + y * z / 3)
-    moved = x.copy()
-    moved[chosen] = [0, radius + 1e-4, 0] + radius * r * (r * s + 0.75 * (1 - r) * u)
-    return moved
+recipe = balls.on_tile(cells, across, deep, size, thick)
 
 
 def mirrored(places):
@@ -70,7 +49,7 @@ for name, law in laws.items():
         "output": {"every": 1e-5},
         "history": {"every": 1e-6, "probes": [{"name": block, "block": block} for block in ("ball", "tile")]},
     }
-    run = case.run(name.replace(" ", "_"), recipe, deck, change_mesh=to_quarter_ball)
+    run = case.run(name.replace(" ", "_"), recipe, deck, change_mesh=balls.rounded(radius))
     h, results = run.history, run.results
     nodes = mirrored(results.coordinates)
     for block in ("ball", "tile"):
