@@ -22,7 +22,7 @@ MARK = "<!-- made by tests/support/trust_page.py -->\n"
 
 # Against measurements: these decks are of experiments that were published, or of the charts and fits that stand for them. The other cases of tests/validation have a closed form or a solution of the equations for reference.
 EXPERIMENTS = ("verification.V49_taylor_anvil", "verification.V75_cylinder_test", "verification.V74_air_blast", "gallery.perforation", "gallery.penetration",
-               "validation.hypervelocity", "validation.penetration", "validation.perforation", "validation.shear_wall", "validation.spall", "validation.taylor_rods")  # fmt: skip
+               "validation.dropped_weight", "validation.hypervelocity", "validation.penetration", "validation.perforation", "validation.shear_wall", "validation.spall", "validation.taylor_rods")  # fmt: skip
 # A letter for each kind of evidence, the strongest first.
 EVIDENCE = {
     "X": "against an exact answer, a published solution or a balance that must hold (`tests/verification`, `tests/validation`)",
