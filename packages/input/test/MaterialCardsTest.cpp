@@ -147,15 +147,17 @@ TEST(MaterialCards, tablesOfMohrCoulombReplaceCohesionAndFriction)
 
 TEST(MaterialCards, ratesCountWhenAsked)
 {
-  const auto rateOf = [](const std::string& keys)
-  {
-    const RateEffect rates = std::get<PseudoCap>(lawOf("set: concrete_c40" + keys)).rates;
-    return std::pair(rates.largestTension, rates.largestCompression);
-  };
+  const auto endsOf = [](const RateEffect& rates)
+  { return std::pair(rates.largestTension, rates.largestCompression); };
+  const auto rateOf = [&](const std::string& keys)
+  { return endsOf(std::get<PseudoCap>(lawOf("set: concrete_c40" + keys)).rates); };
   EXPECT_EQ(rateOf(""), std::pair(0.0, 0.0));
   EXPECT_EQ(rateOf(", rate_effects: false"), std::pair(0.0, 0.0));
   EXPECT_EQ(rateOf(", rate_effects: true"), std::pair(1.0, 30.0));
   EXPECT_EQ(rateOf(", rate_effects: true, largest_rate: 50"), std::pair(50.0, 50.0));
+  const auto kcc =
+      std::get<KaragozianCase>(lawOf("set: concrete_kcc_45, rate_effects: true")).rates;
+  EXPECT_EQ(endsOf(kcc), std::pair(1.0, 30.0));
   expectPart(problemOf("set: concrete_c40, largest_rate: 50"),
              "materials.m.largest_rate has no effect without rate_effects: true");
   expectPart(problemOf("set: concrete_c40, rate_effects: true, largest_rate: 0"),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace coplane
 {
@@ -114,6 +115,13 @@ struct MaterialProbe::Search
         increment[k] = from.lastIncrement_[k];
         unknown[unknowns++] = k;
       }
+      else
+        most = std::max(most, 20 * std::abs(step.value[k]));
+    look();
+    if (std::isfinite(worst))
+      return;
+    for (int i = 0; i < unknowns; ++i)
+      increment[unknown[i]] = 0;
     look();
   }
 
@@ -135,6 +143,12 @@ struct MaterialProbe::Search
       residual[i] = step.value[unknown[i]] - s[unknown[i]];
       worst = std::max(worst, std::abs(residual[i]));
     }
+    for (const Real each : s)
+      if (!std::isfinite(each))
+        worst = std::numeric_limits<Real>::infinity();
+    for (int i = 0; i < unknowns; ++i)
+      if (std::abs(increment[unknown[i]]) > most) // another answer than the nearest
+        worst = std::numeric_limits<Real>::infinity();
   }
 
   void moveFrom(const std::array<Real, 6>& from, const Real (&move)[6], Real part)
@@ -190,27 +204,64 @@ struct MaterialProbe::Search
   const MaterialProbe& start;
   const ProbeStep& step;
   std::array<Real, 6> increment;
-  Real modulus;
+  Real modulus, most = 0.02; // most: of the strain increments that are looked at
   int unknown[6], unknowns = 0;
   MaterialProbe trial;
   Real residual[6] = {};
   Real worst = 0;
 };
 
-void MaterialProbe::advance(const ProbeStep& step)
+Real MaterialProbe::tryStep(const ProbeStep& step)
 {
   Search search(*this, step);
   const auto goodEnough = [&]
   { return search.worst <= 1e-9 * (vonMises() + std::abs(pressure())) + 1e-13 * search.modulus; };
-  for (int iteration = 0; iteration < 1000 && !goodEnough(); ++iteration)
+  for (int iteration = 0; iteration < 1000 && std::isfinite(search.worst) && !goodEnough();
+       ++iteration)
     search.improve();
   if (!(search.worst <= 1e-5 * (vonMises() + std::abs(pressure())) + 1e-9 * search.modulus))
-    fail(ExitCode::Computation,
-         "no strain increment gives the stresses asked for at t = {} s (off by {:.3g} Pa). The "
-         "material cannot bear them, or the step is too large: take more steps.",
-         time_ + step.dt, search.worst);
+    return search.worst;
   *this = search.trial;
   lastIncrement_ = search.increment;
+  return 0;
+}
+
+void MaterialProbe::advance(const ProbeStep& step)
+{
+  // What one step does not reach, some smaller ones may: behind a crack that closes, or a peak.
+  constexpr int mostParts = 64;
+  const auto from = componentsOf(stress_);
+  const Real end = time_ + step.dt;
+  Real off = 0;
+  for (int parts = 1; parts <= mostParts; parts *= 4)
+  {
+    MaterialProbe probe = *this;
+    ProbeStep part = step;
+    part.dt = step.dt / parts;
+    off = 0;
+    for (int i = 1; i <= parts && off == 0; ++i)
+    {
+      for (int k = 0; k < 6; ++k)
+        if (!step.stressGiven[k])
+          part.value[k] = step.value[k] / parts;
+        else if (i < parts)
+          part.value[k] = from[k] + (step.value[k] - from[k]) * i / parts;
+        else
+          part.value[k] = step.value[k];
+      off = probe.tryStep(part);
+    }
+    if (off == 0)
+    {
+      *this = probe;
+      return;
+    }
+  }
+  fail(
+      ExitCode::Computation,
+      "no strain increment gives the stresses asked for at t = {} s, in up to {} parts of the step "
+      "(off by {:.3g} Pa). The material cannot bear them, or the step is too large: take more "
+      "steps.",
+      end, mostParts, off);
 }
 
 Real MaterialProbe::pressure() const

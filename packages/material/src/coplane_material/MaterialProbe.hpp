@@ -28,7 +28,8 @@ public:
   void advance(const Mat3& displacementGradient, Real dt);
 
   /// Advances so that every component is what `step` asks for. The strains that are not given are
-  /// found by Newton's method. Throws Error(ExitCode::Computation) when there are none.
+  /// found by Newton's method, in smaller parts of the step where it does not reach them in one.
+  /// Throws Error(ExitCode::Computation) when there are none.
   void advance(const ProbeStep& step);
 
   const Material& material() const { return material_; }
@@ -46,6 +47,9 @@ public:
 
 private:
   struct Search;
+
+  /// @return 0, or by how much the stresses asked for are missed [Pa]; nothing has changed then
+  Real tryStep(const ProbeStep& step);
 
   Material material_;
   std::vector<std::string> names_;

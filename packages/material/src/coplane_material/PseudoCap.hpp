@@ -66,6 +66,8 @@ struct PseudoCap
   static constexpr Real confinedFrom = 3;
   /// 1 - s x of the grains stays above, so that their pressure stays finite.
   static constexpr Real leastRoom = 0.1;
+  /// s of their energy; below, its terms would cancel each other.
+  static constexpr Real leastSlope = 1e-3;
 
   /// Pores are full of grains from here on: 1 - ec/ecm = exp(-closedPores).
   static constexpr Real closedPores = 25;
@@ -94,6 +96,18 @@ struct PseudoCap
     return T(grainModulus) * branchFree::choose(ee > T(0.0), compressed, stretch);
   }
 
+  /// int p_s e^-ee d ee: energy that the grains store, per their volume without stress [J/m^3].
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T grainEnergy(const T& ee) const
+  {
+    const T one(1.0), half(0.5), s(branchFree::larger(grainSlope, leastSlope));
+    const T x = one - branchFree::exponential(-ee);
+    const T room = branchFree::larger(one - s * x, T(leastRoom)), smooth = (one - room) / s;
+    const T compressed = (branchFree::logarithm(room) + s * smooth / room) / (s * s) +
+                         half * (x * x - smooth * smooth) / (room * room);
+    return T(grainModulus) * branchFree::choose(ee > T(0.0), compressed, ee - x);
+  }
+
   /// Porosity after the inelastic volume strain v = ec - ed - et (positive: compaction).
   template <class T>
   KOKKOS_INLINE_FUNCTION T porosityOf(const T& v) const
@@ -118,6 +132,21 @@ struct PseudoCap
   KOKKOS_INLINE_FUNCTION T pressure(const T& ebar, const T& v) const
   {
     return poreFactor(porosityOf(v)) * grainPressure(ebar - v);
+  }
+
+  /// By which storedEnergy weighs that of the grains, per volume at the density of reference.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T stiffnessOfPores(const T& v) const
+  {
+    return poreFactor(porosityOf(v)) * branchFree::exponential(-v);
+  }
+
+  /// Energy that volume stores, per volume at the density of reference [J/m^3]: p is its derivative
+  /// by ebar, per volume now.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T storedEnergy(const T& ebar, const T& v) const
+  {
+    return stiffnessOfPores(v) * grainEnergy(ebar - v);
   }
 
   /// pc after the compaction ec.
@@ -175,10 +204,6 @@ struct PseudoCap
     Shear<T> shear = shearOf(point, state);
     returnShear(state, shear);
     openCracks(state, shear.fasterTension);
-    // A strength that falls with the rate lets the stress go at once, so the work of the inelastic
-    // strain is that at the mean stress of the step, as in the energy of the element.
-    if (rates.counts())
-      state.dissipation = workAtMeanStress(point, state, shear, inelasticBefore);
     T* const h = point.history;
     const T share = shareThatDamages(state);
     h[Damage] = weakened(state.intact, (state.dilated + state.opened) * share, point.size);
@@ -189,8 +214,8 @@ struct PseudoCap
     h[Compaction] = state.ec;
     h[Bulking] = state.ed;
     h[Opening] = state.et;
+    point.dissipation = dissipationOf(point, state, shear, inelasticBefore);
     point.stress = stressOf(shear.s, shear.scale, -state.p);
-    point.dissipation = state.dissipation;
     point.bendingScale = shear.scale;
     point.integrity = branchFree::larger(T(1.0) - h[Damage], T(leastStiffness));
     point.stiffening =
@@ -205,15 +230,14 @@ private:
   template <class T>
   struct State
   {
-    T damage, intact;       ///< D and 1 - D at the start of the step
-    T crushing, uncrushed;  ///< D_c and 1 - D_c; D where cracks do not close
-    T ebar;                 ///< ln(density / reference density)
-    T ec, ed, et;           ///< compaction, bulking, opening
-    T v;                    ///< ec - ed - et
-    T p, pc;                ///< pressure and crush pressure [Pa]
-    T dilated = T(0.0);     ///< increment of ed
-    T opened = T(0.0);      ///< increment of et that takes strength away
-    T dissipation = T(0.0); ///< [J/m^3]
+    T damage, intact;      ///< D and 1 - D at the start of the step
+    T crushing, uncrushed; ///< D_c and 1 - D_c; D where cracks do not close
+    T ebar;                ///< ln(density / reference density)
+    T ec, ed, et;          ///< compaction, bulking, opening
+    T v;                   ///< ec - ed - et
+    T p, pc;               ///< pressure and crush pressure [Pa]
+    T dilated = T(0.0);    ///< increment of ed
+    T opened = T(0.0);     ///< increment of et that takes strength away
   };
 
   /// The deviator on the way through a step.
@@ -304,7 +328,6 @@ private:
     state.v += crushed;
     state.p = choose(crushes, pressure(state.ebar, state.v), state.p);
     state.pc = choose(crushes, start + T(crushHardening) * root, state.pc);
-    state.dissipation += state.p * crushed;
   }
 
   /// The elastic deviator, and what its rate of strain makes of the strength: fast strain makes the
@@ -446,8 +469,6 @@ private:
     const T borne = smaller(strengthAt(state.p, state.pc, state, shear), q);
     shear.plastic = choose(yields, (q - borne) / threeG, zero);
     shear.scale = choose(yields, borne / q, one);
-    state.dissipation += choose(
-        yields, borne * shear.plastic * shear.partOfMean + state.p * (state.v - way.start), zero);
   }
 
   /// No mean tension above the strength: cracks open.
@@ -468,21 +489,35 @@ private:
     state.v -= cracked;
     state.opened += cracked;
     state.p = choose(cracks, pressure(state.ebar, state.v), state.p);
-    state.dissipation -= state.p * cracked;
   }
 
-  /// Of the inelastic strain of the step, at the mean of the stresses at its ends [J/m^3].
+  /// Work of the inelastic strain of the step at the mean of the stresses at its ends, as in the
+  /// energy of the element, less what pores that close make the grains store [J/m^3]. Where a large
+  /// step turns the stress round, that is less than nothing and counts as nothing.
   template <class T>
-  KOKKOS_INLINE_FUNCTION T workAtMeanStress(const MaterialPoint<T>& point, const State<T>& state,
-                                            const Shear<T>& shear, const T& inelasticBefore) const
+  KOKKOS_INLINE_FUNCTION T dissipationOf(const MaterialPoint<T>& point, const State<T>& state,
+                                         const Shear<T>& shear, const T& inelasticBefore) const
   {
+    const T zero(0.0), half(0.5), closed = state.v - inelasticBefore;
     const T ofShear =
-        branchFree::choose(shear.plastic > T(0.0),
+        branchFree::choose(shear.plastic > zero,
                            shear.plastic * (T(1.5) * contract(point.stress, shear.s) / shear.q +
                                             shear.scale * shear.q * shear.partOfMean),
-                           T(0.0));
-    const T ofVolume = (state.p - meanOf(point.stress)) * (state.v - inelasticBefore);
-    return branchFree::positivePart(T(0.5) * (ofShear + ofVolume));
+                           zero);
+    if (!branchFree::anyOf(branchFree::absolute(closed) > zero))
+      return half * branchFree::positivePart(ofShear);
+    const T ebarBefore = state.ebar + T(3.0) * meanOf(point.strainIncrement);
+    const T stored = (stiffnessOfPores(state.v) - stiffnessOfPores(inelasticBefore)) *
+                     (energyAt(state.ebar, state.v) + energyAt(ebarBefore, inelasticBefore));
+    return half *
+           branchFree::positivePart(ofShear + (state.p - meanOf(point.stress)) * closed - stored);
+  }
+
+  /// grainEnergy per volume now, times the volume at the density of reference.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T energyAt(const T& ebar, const T& v) const
+  {
+    return grainEnergy(ebar - v) * branchFree::exponential(ebar);
   }
 
   /// Under pressure the same bulking does less damage.
