@@ -356,6 +356,38 @@ TEST(Debris, carriesNothingWhereItIsFreedInside)
   EXPECT_LT(most, solver.energy().initial);
 }
 
+TEST(Debris, staysInTheMiddleBetweenFaces)
+{
+  // Corners fall on the edge of a wall and go on in its middle plane, as far from one side as from
+  // the other.
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "wall", {2, 4, 4}, {0.875, 0, 0}, {0.25, 2, 2});
+  addBox(mesh, "cube", {1, 1, 1}, {1, 0.5, 2.0625}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  model.blocks[1].velocity = {0, 0, -150};
+  model.blocks[1].velocityField = [](const Vec3& x) { return Vec3{0, 0, x.z - 2.5625}; };
+  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  Real deepest = infinity, sideways = 0, most = 0;
+  while (solver.clock().time < 3e-3)
+  {
+    solver.advance();
+    most = std::max(most, solver.energy().debris.stored);
+    for (int n = 0; n < solver.layout().owned(); ++n)
+      if (solver.layout().ids()[std::size_t(n)] > 75 && std::abs(solver.state().x(n, 0) - 1) < 0.1)
+      {
+        sideways = std::max(sideways, std::abs(solver.state().v(n, 0)));
+        deepest = std::min(deepest, solver.state().x(n, 2));
+      }
+  }
+  EXPECT_LT(-comm.max(-deepest), 2 - 0.15); // beyond where the sides are as near as the edge
+  EXPECT_GT(most, 0);
+  EXPECT_LT(comm.max(sideways), 1e-6);
+}
+
 TEST(Debris, hasTheSameBitsOnAnyRanks)
 {
   const Comm world, alone(MPI_COMM_SELF);

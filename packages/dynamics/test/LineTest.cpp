@@ -381,6 +381,36 @@ TEST(Line, losesWhatItsDeadHostsHeld)
   EXPECT_NEAR(line.energy().remainder(), 0, 1e-8 * energy.work);
 }
 
+TEST(Line, staysTornWhereTheHostBesideTheTearDies)
+{
+  LineSetup setup;
+  setup.section = {1e-4, 200e9, infinity, 0, 0.01, true};
+  for (int i = 0; i <= 4; ++i)
+    setup.points.push_back({{Real(i), 0, 0}, true, 0});
+  LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  for (const Real way : {0.004, 0.008, 0.012}) // the second segment tears, the third is pulled
+  {
+    hosts.x[2].x = 2 + way;
+    hosts.x[3].x = 3 + 1.5 * way;
+    hosts.x[4].x = 4 + 1.5 * way;
+    line.advance(hosts, way, 0.004, 0);
+  }
+  ASSERT_EQ(line.segments()[1].broken, 1);
+  ASSERT_GT(line.segments()[2].force, 0);
+  hosts.alive[2] = 0;
+  for (int step = 1; step <= 3; ++step)
+  {
+    hosts.x[3].x += 0.01;
+    hosts.x[4].x += 0.01;
+    line.advance(hosts, step, 1, 0);
+    EXPECT_EQ(line.segments()[1].broken, 1);
+    EXPECT_EQ(line.segments()[1].force, 0);
+    EXPECT_EQ(line.forces()[1].x, line.segments()[0].force == 0 ? 0 : -line.segments()[0].force);
+  }
+  EXPECT_NEAR(line.energy().remainder(), 0, 1e-9 * line.energy().work);
+}
+
 TEST(Line, isTakenOutWithWhatItStores)
 {
   LineSetup setup = boltOf(8);

@@ -39,6 +39,7 @@ Model boltedCubes(const Comm& comm, const std::string& method = "multijagged")
   model.lines = {boltFrom({0.4, 0.45, 1.9}, {0.6, 0.5, 0.2}, 9),
                  boltFrom({0.8, 0.8, 1.8}, {0.75, 0.7, 0.1}, 1)};
   model.lines[0].dowel = LineDowel{2e8, 1e4};
+  model.lines[0].section.diameter = 0.03; // bends, too
   model.lines[1].name = "cable";
   model.lines[1].points[1].tied = true;
   model.lines[1].pretension = 2e5;

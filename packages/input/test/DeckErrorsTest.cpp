@@ -155,6 +155,12 @@ TEST(DeckErrors, linesSayWhatDoesNotFit)
          "friction and perimeter go together");
   expect(grouted + "yield_stress: 1e8, pretension: 2e5, points: [[0, 0], [1, 0]]",
          "not more than yield_stress times area");
+  expect(grouted + "diameter: 0.02, compression: false, points: [[0, 0], [1, 0]]",
+         "a cable, which does not bend");
+  expect(grouted + "diameter: 0.2, points: [[0, 0], [1, 0]]", "one bar of it has 0.03142 m^2");
+  expect(grouted + "mirrored: start, free_length: 0.5, points: [[0, 0], [1, 0]]",
+         "the line has no grout at its start");
+  expect("attach: ends, diameter: 0.02, points: [[0, 0], [1, 0]]", "diameter");
   expect(grouted + "copies: 3, points: [[0, 0], [1, 0]]", "give copy_step");
   expect("segment_length: 1e-12, grout: {stiffness: 1e9}, points: [[0, 0], [1, 0]]",
          "makes 1e+12 segments");

@@ -234,6 +234,16 @@ TEST(JohnsonHolmquist, whatATornCeramicStoredIsLost)
   EXPECT_NEAR(lackOf(opened), 0, 0.01);
 }
 
+TEST(JohnsonHolmquist, losesNoMoreThanTheWorkInStepsOfAnySize)
+{
+  for (const int steps : {1, 5, 10, 50, 400})
+  {
+    MaterialProbe torn(makeLaw(ceramicJh2()), 0.01);
+    strainPath(torn, {0.01, 0, 0, 0, 0, 0}, steps, nobody);
+    EXPECT_NEAR(torn.dissipation(), torn.energy(), 1e-3 * torn.energy()) << steps;
+  }
+}
+
 TEST(JohnsonHolmquist, energyIsLostOrStored)
 {
   for (const char which : {'A', 'B', 'C'})

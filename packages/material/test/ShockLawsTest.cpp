@@ -259,6 +259,32 @@ TEST(HolmquistJohnsonCook, tensionEndsAtItsLimitWhichFallsWithDamage)
   EXPECT_NEAR(crushed.pressure(), -4e6 * (1 - crushed.history("damage")), 4e6 * 0.05);
 }
 
+TEST(HolmquistJohnsonCook, workThatIsNotStoredIsLost)
+{
+  // Torn: no stress is left.
+  for (const int steps : {50, 200, 4000})
+  {
+    MaterialProbe torn(concreteHjc48(), 0.01);
+    strainPath(torn, {0.02, 0, 0, 0, 0, 0}, steps, nobody);
+    ASSERT_EQ(torn.history("damage"), 1);
+    ASSERT_NEAR(torn.vonMises() + torn.pressure(), 0, 1);
+    EXPECT_NEAR(torn.dissipation(), torn.energy(), (steps < 1000 ? 0.02 : 0.002) * torn.energy())
+        << steps;
+  }
+  // Pores close, up to the locked curve and beyond, and all pressure is taken off again.
+  for (const Real volume : {0.02, 0.05, 0.1, 0.15})
+  {
+    MaterialProbe crushed(concreteHjc48(), 0.01);
+    const Real e = -volume / 3;
+    strainPath(crushed, {e, e, e, 0, 0, 0}, 2000, nobody);
+    const Real lost = crushed.dissipation();
+    for (Real back = e; crushed.pressure() > 0; back += 1e-6)
+      strainPath(crushed, {back, back, back, 0, 0, 0}, 1, nobody);
+    EXPECT_NEAR(crushed.dissipation(), lost, 1e-12 * lost);
+    EXPECT_NEAR(lost, crushed.energy(), 0.01 * crushed.energy()) << volume;
+  }
+}
+
 TEST(HolmquistJohnsonCook, badParametersAreRefused)
 {
   HolmquistJohnsonCook law = concreteHjc48();

@@ -57,6 +57,27 @@ lines:
     EXPECT_TRUE(point.tied);
 }
 
+TEST(LinesOfDeck, bendWithADiameterAndEndOnPlanesOfSymmetry)
+{
+  const Model model = modelOf(R"(
+blocks: {lower: {material: rock}, upper: {material: rock}}
+lines:
+  bar: {points: [[0.5, 1.5], [0.5, 0.5]], segment_length: 0.25, area: 1e-3, youngs_modulus: 200e9, spacing: 2,
+        grout: {stiffness: 1e9}, diameter: 0.02, mirrored: end}
+  whole: {points: [[0.2, 1.5], [0.2, 0.5]], segment_length: 0.25, area: 1e-3, youngs_modulus: 200e9,
+          grout: {stiffness: 1e9}, mirrored: both}
+)");
+  const LineSetup &bar = model.lines[0], &whole = model.lines[1];
+  EXPECT_EQ(bar.section.diameter, 0.02);
+  EXPECT_DOUBLE_EQ(bar.section.area, 5e-4);
+  EXPECT_FALSE(bar.mirrored[0]);
+  EXPECT_TRUE(bar.mirrored[1]);
+  EXPECT_FALSE(bar.points.front().tied);
+  EXPECT_TRUE(bar.points.back().tied);
+  EXPECT_EQ(whole.section.diameter, 0);
+  EXPECT_TRUE(whole.points.front().tied && whole.points.back().tied);
+}
+
 TEST(LinesOfDeck, haveGroutFromTheEndOfTheFreeLengthOnAlsoWhereThatIsACorner)
 {
   const Model model = modelOf(R"(

@@ -130,6 +130,30 @@ for frame, angle in (("", 0), ("_turned", 27)):
     case.check(f"{name}{frame}: lost [J]", run.history["line_dowel"][-1], 1e5 * (across[-1] - 1e5 / 1e8), 0.01, relative=True)
     case.check(f"{name}{frame}: remainder over what is lost", run.history["line_remainder"][-1] / run.history["line_dowel"][-1], 0, 1e-3)
 
+# --- a bar that bends: the same, with hinges at both ends of the segment over the gap -----------------------------------------------
+
+name, over, diameter, yield_stress = "bending", 0.15, 0.02, 400e6
+deck = pull(20, 1.5, grout={"stiffness": grout, "strength": 1e4}, plate=True, diameter=diameter, yield_stress=yield_stress)
+deck["lines"]["bolt"].pop("free_length")
+deck["lines"]["bolt"].update(points=[[-0.25, 0.17], [2, 0.17]], segment_length=over)
+deck["conditions"][0]["velocity"] = [0, 0.01, 0]
+for frame, angle in (("", 0), ("_turned", 27)):
+    problem = turned(mesh, deck, angle)
+    run = case.run(name + frame, problem[0], problem[1], angular=1e-10, load=5e4)
+    lines = table(run)["bolt", 2]  # from the face of the head into the rock
+    slid = 0.01 * lines["time"]
+    chord, turn = numpy.hypot(over, slid), numpy.arctan2(slid, over)
+    most = yield_stress * area * 2 * diameter / (3 * math.pi) * (1 - (lines["force"] / (yield_stress * area)) ** 2)
+    moment = numpy.minimum(EA * diameter**2 / 16 / over * turn, most)
+    for end in "ab":
+        case.check(f"{name}{frame}: moment over turn, then the plastic moment, at {end} [N m]", numpy.max(numpy.abs(lines[f"moment_{end}"] - moment)), 0, 1e-9 * most[-1])
+    head = numpy.array([run.history[f"head_reaction_{axis}"][-1] for axis in "xyz"]) @ problem[2]
+    case.check(f"{name}{frame}: what moves the head across [N]", head[1], lines["force"][-1] * slid[-1] / chord[-1] + 2 * moment[-1] * over / chord[-1] ** 2, 0.01, relative=True)
+    case.check(f"{name}{frame}: lost by bending [J]", run.history["line_plastic"][-1], 2 * numpy.trapz(moment, turn) - moment[-1] ** 2 * over / (EA * diameter**2 / 16), 0.002, relative=True)
+    case.check(f"{name}{frame}: remainder over what is lost", run.history["line_remainder"][-1] / run.history["line_plastic"][-1], 0, 1e-3)
+    if not angle:
+        case.same_bits(name, mesh, deck, run, ranks=2)
+
 # --- a block hangs from a roof by one bolt -----------------------------------------------------------------------------------------
 
 gravity = 10.0

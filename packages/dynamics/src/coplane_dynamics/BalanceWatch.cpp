@@ -135,16 +135,28 @@ void BalanceWatch::warnOfBalance(const EnergyBalance& balance, const Parts& part
                fmt::format("{}: the energy balance is off by {:.2e} of the energy in play; the run "
                            "stops at {} (time.energy_tolerance). {}",
                            now(parts.clock), error, tolerance, worstEntities(parts)));
-  // What contact gains is worse than what it loses.
-  const Real remainder = balance.contact.remainder() / scale;
-  if (isWorse(remainder > 0 ? remainder / lossToWarn : -remainder / gainToWarn, 1,
-              warned_.remainder))
-    logWarning("contact remainder",
-               fmt::format("{}: contact has {} {:.2e} J, {:.2e} of the energy in play, by areas "
-                           "that changed under load. Worst:{}",
-                           now(parts.clock), remainder > 0 ? "lost" : "gained",
-                           std::abs(balance.contact.remainder()), std::abs(remainder),
-                           worstByRemainder(parts)));
+  // What is gained is worse than what is lost.
+  const auto warnOf =
+      [&](const char* kind, const char* what, Real joules, const auto& why, Real& warned)
+  {
+    const Real share = joules / scale;
+    if (isWorse(share > 0 ? share / lossToWarn : -share / gainToWarn, 1, warned))
+      logWarning(kind, fmt::format("{}: {} {} {:.2e} J, {:.2e} of the energy in play, {}",
+                                   now(parts.clock), what, joules > 0 ? "lost" : "gained",
+                                   std::abs(joules), std::abs(share), why()));
+  };
+  warnOf(
+      "contact remainder", "contact has", balance.contact.remainder(),
+      [&] { return "by areas that changed under load. Worst:" + worstByRemainder(parts); },
+      warned_.remainder);
+  warnOf(
+      "debris remainder", "points of debris have", balance.debris.remainder(),
+      [] { return std::string("that no other term shows. Lower time.step_factor."); },
+      warned_.debris);
+  warnOf(
+      "line remainder", "lines have", balance.lines.remainder(),
+      [] { return std::string("that no other term shows. Lower time.step_factor."); },
+      warned_.lines);
 }
 
 void BalanceWatch::warnOfPlanes(const Parts& parts)

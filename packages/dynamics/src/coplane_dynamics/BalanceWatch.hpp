@@ -49,6 +49,8 @@ public:
     number(self.warned_.tooDeep);
     number(self.warned_.capped);
     number(self.warned_.crushed);
+    number(self.warned_.debris);
+    number(self.warned_.lines);
     number(self.inPlay_);
     number(self.roundOff_);
   }
@@ -64,7 +66,7 @@ private:
   /// What was warned of last.
   struct Warned
   {
-    Real error = 0, remainder = 0, tooDeep = 0, capped = 0, crushed = 0;
+    Real error = 0, remainder = 0, tooDeep = 0, capped = 0, crushed = 0, debris = 0, lines = 0;
   };
   Warned warned_;
   Real inPlay_ = 0; ///< energy in play at the last look [J]

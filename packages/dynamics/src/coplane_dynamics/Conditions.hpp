@@ -81,6 +81,7 @@ struct PrescribedVelocity
   std::array<OfTimeAndPlace, 3> field; ///< instead of `velocity` where it varies with the place
   std::vector<Vec3> places;            ///< of the nodes at the start, where there is a field [m]
   Window when{};
+  std::string where = "conditions"; ///< in the deck
 
   bool hasField() const { return field[0] || field[1] || field[2]; }
   /// Value of component c for the i-th node at t; zero without a function.
@@ -110,6 +111,7 @@ struct SymmetryPlane
   std::vector<int> nodes;
   Vec3 normal{}; ///< unit
   Window when{};
+  std::string where = "conditions"; ///< in the deck
 };
 
 /// Given velocity of the centre and given spin of the bodies of a rigid block.
@@ -119,6 +121,7 @@ struct RigidMotion
   std::array<bool, 3> components{}; ///< axes along which the velocity is given
   std::array<OfTime, 3> velocity;   ///< of these [m/s]
   std::optional<VectorOfTime> spin; ///< [rad/s]; not given: free
+  std::string where = "conditions"; ///< in the deck
 };
 
 /// A face of a held element that is loaded; outward normal by the right-hand rule. Each rank adds

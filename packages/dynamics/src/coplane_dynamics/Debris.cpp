@@ -314,7 +314,7 @@ std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const
 }
 
 /// The faces beside which points lie that are in bodies: those of these bodies, and others that
-/// look away from the point; by point, the nearest first, of equally near ones the lowest.
+/// look away from the point; by point, the nearest first.
 std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& inside,
                                                 const std::vector<Vec3>& x, const RankMesh& mesh,
                                                 const ElementForces& elements,
@@ -418,11 +418,21 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
 {
   if (inside.empty()) // on all ranks
     return {};
-  const auto keepFirst = [](std::vector<WayOut>& ways)
+  // Of points in the middle between faces all of them count, so that what is symmetric stays so.
+  constexpr Real roundOff = 1 + 1e-9;
+  const auto keepNearest = [](std::vector<WayOut>& ways)
   {
-    ways.erase(std::unique(ways.begin(), ways.end(),
-                           [](const WayOut& a, const WayOut& b) { return a.point == b.point; }),
-               ways.end());
+    std::vector<WayOut> kept;
+    Real first = 0;
+    for (const WayOut& way : ways)
+    {
+      const bool isNew = kept.empty() || kept.back().point != way.point;
+      if (isNew)
+        first = way.distance;
+      if (isNew || (way.distance <= roundOff * first && way.face != kept.back().face))
+        kept.push_back(way);
+    }
+    ways = kept;
   };
   const std::vector<WayOut> beside = facesBeside(inside, x, mesh, elements, state);
   const auto isOwn = [&](const WayOut& way)
@@ -433,34 +443,38 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
   };
   std::vector<WayOut> mine;
   std::copy_if(beside.begin(), beside.end(), std::back_inserter(mine), isOwn);
-  keepFirst(mine);
+  keepNearest(mine);
   std::vector<WayOut> nearest = comm_->allGather(mine);
   std::sort(nearest.begin(), nearest.end());
-  keepFirst(nearest);
+  keepNearest(nearest);
   const std::vector<char> covered = areCovered(nearest, mesh, state);
   std::vector<WaysOut> ways;
   bool isSought = false;
   for (std::size_t i = 0; i < nearest.size(); ++i)
   {
-    ways.push_back({nearest[i], nearest[i], true});
-    ways.back().isOpen = !covered[i] || points_[std::size_t(nearest[i].point)].between;
-    isSought = isSought || !ways.back().isOpen;
+    if (ways.empty() || ways.back().point() != nearest[i].point)
+      ways.emplace_back();
+    ways.back().nearest.push_back(nearest[i]);
+    if (!covered[i] || points_[std::size_t(nearest[i].point)].between)
+      ways.back().open.push_back(nearest[i]);
   }
+  for (const WaysOut& its : ways)
+    isSought = isSought || its.open.empty();
   if (!isSought)
     return ways;
 
-  /// Null for a point that has one already.
-  const auto seeking = [&](int point) -> WaysOut*
+  /// Null for a point without a face.
+  const auto waysOf = [&](int point) -> WaysOut*
   {
     const auto found =
         std::lower_bound(ways.begin(), ways.end(), point,
-                         [](const WaysOut& w, int wanted) { return w.nearest.point < wanted; });
-    return found != ways.end() && found->nearest.point == point && !found->isOpen ? &*found
-                                                                                  : nullptr;
+                         [](const WaysOut& w, int wanted) { return w.point() < wanted; });
+    return found != ways.end() && found->point() == point ? &*found : nullptr;
   };
   std::vector<WayOut> others;
   for (const WayOut& way : beside)
-    if (const WaysOut* const its = seeking(way.point); its && its->nearest.face != way.face)
+    if (const WaysOut* const its = waysOf(way.point);
+        its && its->open.empty() && its->nearest.front().face != way.face)
       others.push_back(way);
   others = comm_->allGather(others);
   std::sort(others.begin(), others.end());
@@ -470,11 +484,9 @@ std::vector<Debris::WaysOut> Debris::findWaysOut(const std::vector<Inside>& insi
                others.end());
   const std::vector<char> leadNowhere = areCovered(others, mesh, state);
   for (std::size_t i = 0; i < others.size(); ++i)
-    if (WaysOut* const its = leadNowhere[i] ? nullptr : seeking(others[i].point))
-    {
-      its->open = others[i];
-      its->isOpen = true;
-    }
+    if (std::vector<WayOut>& open = waysOf(others[i].point)->open;
+        !leadNowhere[i] && (open.empty() || others[i].distance <= roundOff * open.front().distance))
+      open.push_back(others[i]);
   return ways;
 }
 
@@ -501,15 +513,17 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
   }
   for (const WaysOut& its : ways)
   {
-    Point& point = points_[std::size_t(its.nearest.point)];
-    const Point& was = before[std::size_t(its.nearest.point)];
+    Point& point = points_[std::size_t(its.point())];
+    const Point& was = before[std::size_t(its.point())];
     const auto isWithinItsWay = [&](const WayOut& way)
     { return way.distance <= ofItsWay * way.speed * dt; };
-    const bool cameBetween =
-        !was.inside && !(its.isOpen && isWithinItsWay(its.open)) && isWithinItsWay(its.nearest);
-    if (!its.isOpen && !cameBetween)
+    const bool cameBetween = !was.inside &&
+                             !(!its.open.empty() && isWithinItsWay(its.open.front())) &&
+                             isWithinItsWay(its.nearest.front());
+    if (its.open.empty() && !cameBetween)
       continue;
-    const WayOut& one = cameBetween ? its.nearest : its.open;
+    const std::vector<WayOut>& by = cameBetween ? its.nearest : its.open;
+    const WayOut& one = by.front();
     point.inside = true;
     point.between = was.between || cameBetween;
     point.distance = one.distance;
@@ -526,23 +540,30 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
     if (!(depth > 0))
       continue;
     ++touching_;
-    stored_ += 0.5 * one.stiffness * depth * depth;
-    const Vec3 force = (one.stiffness * depth) * one.outward;
-    if (point.node >= 0)
-      forces_.emplace_back(point.node, force);
-    const auto face =
-        std::lower_bound(faces_.begin(), faces_.end(), one.face,
-                         [](const ExteriorFace& f, GlobalId id) { return f.id < id; });
-    if (face == faces_.end() || face->id != one.face)
-      continue; // none of its nodes is owned here
-    for (int k = 0; k < one.count; ++k)
-      if (const int node = face->nodes[std::size_t(k)]; node < mesh.ownedNodes)
-      {
-        const Real weight = one.weights[std::size_t(k)];
-        forces_.emplace_back(node, -weight * force);
-        stiffness_.emplace_back(node, 2 * std::abs(weight) * one.stiffness);
-      }
+    for (const WayOut& way : by)
+      push(point, way, depth, 1 / Real(by.size()), mesh);
   }
+}
+
+void Debris::push(const Point& point, const WayOut& by, Real depth, Real share,
+                  const RankMesh& mesh)
+{
+  const Real stiffness = share * by.stiffness;
+  stored_ += 0.5 * stiffness * depth * depth;
+  const Vec3 force = (stiffness * depth) * by.outward;
+  if (point.node >= 0)
+    forces_.emplace_back(point.node, force);
+  const auto face = std::lower_bound(faces_.begin(), faces_.end(), by.face,
+                                     [](const ExteriorFace& f, GlobalId id) { return f.id < id; });
+  if (face == faces_.end() || face->id != by.face)
+    return; // none of its nodes is owned here
+  for (int k = 0; k < by.count; ++k)
+    if (const int node = face->nodes[std::size_t(k)]; node < mesh.ownedNodes)
+    {
+      const Real weight = by.weights[std::size_t(k)];
+      forces_.emplace_back(node, -weight * force);
+      stiffness_.emplace_back(node, 2 * std::abs(weight) * stiffness);
+    }
 }
 
 void Debris::bookHalfStep(const NodalState& state, Real dt)

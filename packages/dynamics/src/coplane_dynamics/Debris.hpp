@@ -122,8 +122,9 @@ private:
   };
   struct WaysOut
   {
-    WayOut nearest, open;
-    bool isOpen = false; ///< whether there is an open one
+    std::vector<WayOut> nearest; ///< one, or several that are as near
+    int point() const { return nearest.front().point; }
+    std::vector<WayOut> open; ///< the nearest of those that lead out, likewise; or none
   };
   using NodeForces = std::vector<std::pair<int, Vec3>>;
 
@@ -143,6 +144,8 @@ private:
   void findForces(const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
                   Real dt);
 
+  /// A way out pushes a point by its share of the force, and the face back.
+  void push(const Point& point, const WayOut& by, Real depth, Real share, const RankMesh& mesh);
   void bookHalfStep(const NodalState& state, Real dt);
   Real longestElement(const RankMesh& mesh, const NodalState& state) const;
 

@@ -7,15 +7,6 @@
 
 namespace coplane
 {
-namespace
-{
-/// The part of v that is normal to a direction.
-Vec3 across(const Vec3& v, const Vec3& along)
-{
-  return v - dot(v, along) * along;
-}
-} // namespace
-
 bool Line::willChange(Real t, Real end, int stage) const
 {
   if (removed_ || stage_ > stage)
@@ -51,7 +42,7 @@ Line::Line(const LineSetup& setup, const std::vector<int>& dowels)
     : name_(setup.name), section_(setup.section), bond_(setup.bond),
       dowel_(setup.dowel.value_or(LineDowel{})), pretension_(setup.pretension),
       pretensionTime_(setup.pretensionTime), from_(setup.from), until_(setup.until),
-      stage_(setup.stage)
+      stage_(setup.stage), mirrored_(setup.mirrored), lastIndex_(int(setup.points.size()) - 1)
 {
   for (std::size_t i = 0; i < setup.points.size(); ++i)
   {
@@ -97,6 +88,11 @@ void Line::install(const LineHosts& hosts, Real time)
   for (std::size_t s = 0; s < segments_.size(); ++s)
     segments_[s].chord =
         norm(x_[std::size_t(points_[s + 1].index)] - x_[std::size_t(points_[s].index)]);
+  if (!segments_.empty())
+  {
+    ends_[0] = directionOf(0, x_);
+    ends_[1] = directionOf(segments_.size() - 1, x_);
+  }
   // What joints have slid before is nothing to a dowel.
   const std::size_t first = x_.size() - 2 * dowels_.size();
   for (std::size_t d = 0; d < dowels_.size(); ++d)
@@ -117,7 +113,10 @@ void Line::takeOut(const LineHosts& hosts)
   for (Segment& segment : segments_)
     segment.force = 0;
   for (Point& point : points_)
+  {
     point.bondForce = 0;
+    point.moment = {};
+  }
   for (Dowel& dowel : dowels_)
   {
     dowel.gone = 1;
@@ -149,8 +148,15 @@ void Line::remove(std::size_t point)
     a.strain = mean(a.strain, b.strain);
     a.plasticStrain = mean(a.plasticStrain, b.plasticStrain);
     a.hardening = mean(a.hardening, b.hardening);
-    a.force = mean(a.force, b.force);
     a.broken = std::max(a.broken, b.broken);
+    a.force = a.broken != 0 ? 0 : mean(a.force, b.force);
+    // Those beside it keep their elastic angles.
+    for (const std::size_t beside : {point - 1, point + 1})
+      if (bendsAt(beside))
+        points_[beside].moment =
+            (bendingLength(beside) /
+             (bendingLength(beside) + 0.5 * (beside < point ? b.length : a.length))) *
+            points_[beside].moment;
     a.length = whole;
   }
   if (!segments_.empty())
@@ -173,6 +179,12 @@ std::vector<Real> Line::chords(const std::vector<Vec3>& x) const
   for (std::size_t s = 0; s < segments_.size(); ++s)
     chords.push_back(norm(x[std::size_t(points_[s + 1].index)] - x[std::size_t(points_[s].index)]));
   return chords;
+}
+
+Vec3 Line::directionOf(std::size_t segment, const std::vector<Vec3>& x) const
+{
+  return normalised(x[std::size_t(points_[segment + 1].index)] -
+                    x[std::size_t(points_[segment].index)]);
 }
 
 Real Line::slipStrength(const Point& point, const LineHosts& hosts) const
@@ -349,13 +361,18 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
 {
   if (x_.empty())
     x_ = hosts.x;
+  if (directors_.empty())
+    directors_ = hosts.directors;
   if (!installed_)
   {
     const bool isBefore = !Window::isReached(from_, t) || stage < stage_;
     // A time is that of the end of a step; a stage begins with the step that is over now.
     const bool isNow = !Window::isReached(from_, t - dt);
     if (isBefore || isNow)
+    {
       x_ = hosts.x;
+      directors_ = hosts.directors;
+    }
     if (isBefore)
       return;
     install(hosts, isNow ? t : t - dt);
@@ -419,11 +436,13 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
   }
   const Real slidBefore = energy_.dowel;
   torn = slideDowels(hosts) || torn;
+  plastic += bend(hosts);
   findForces(hosts.x);
   findStiffness(hosts.x);
   work += hostWork(hosts.x);
   pretension += pretensionWork();
   x_ = hosts.x;
+  directors_ = hosts.directors;
   prestrain_ = prestrain;
   energy_.work += work + pretension;
   if (dt > 0)
@@ -506,6 +525,7 @@ void Line::findForces(const std::vector<Vec3>& x)
     forces_[a] += pull;
     forces_[b] -= pull;
   }
+  addBendingForces(x);
   const std::size_t first = x.size() - 2 * dowels_.size();
   for (std::size_t d = 0; d < dowels_.size(); ++d)
   {
@@ -543,12 +563,10 @@ void Line::findStiffness(const std::vector<Vec3>& x)
     }
   }
   // Where the line turns, what moves the point lengthens one of the segments beside it.
-  const auto along = [&](std::size_t s)
-  { return normalised(x[std::size_t(points_[s + 1].index)] - x[std::size_t(points_[s].index)]); };
   for (std::size_t i = 1; i + 1 < points_.size(); ++i)
     if (!points_[i].tied && segments_[i - 1].broken == 0 && segments_[i].broken == 0)
     {
-      const Vec3 turn = along(i) - along(i - 1);
+      const Vec3 turn = directionOf(i, x) - directionOf(i - 1, x);
       const Real k = dot(turn, turn) * ea / std::max(segments_[i - 1].length, segments_[i].length);
       still[std::size_t(points_[i].index)] += k;
       stiff[std::size_t(points_[i].index)] += k;
@@ -579,6 +597,7 @@ void Line::findStiffness(const std::vector<Vec3>& x)
     for (const std::size_t end : {a, b})
       stiffness_[end] += length > 0 ? 2 * std::abs(segments_[s].force) / length : 0;
   }
+  addBendingStiffness(x);
   const std::size_t first = x.size() - 2 * dowels_.size();
   for (std::size_t d = 0; d < dowels_.size(); ++d)
   {

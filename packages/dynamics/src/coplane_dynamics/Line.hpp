@@ -4,6 +4,7 @@
 #include <coplane_core/StateHash.hpp>
 #include <coplane_core/Vec3.hpp>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct LineSection
   Real hardeningModulus = 0;     ///< yield stress over plastic strain [Pa]
   Real ruptureStrain = infinity; ///< in tension, plastic and elastic together [-]
   bool compression = true;       ///< false: goes slack
+  Real diameter = 0;             ///< of round bars, which bend; 0: without stiffness across [m]
 };
 
 /// The grout between bar and host: force over slip, elastic and then constant.
@@ -53,13 +55,14 @@ struct LineSetup
   LineSection section;
   LineBond bond;
   std::optional<LineDowel> dowel;
-  std::vector<LinePoint> points; ///< two at least
-  int bare = 0;                  ///< segments from the first point on without grout, nor dowels
-  Real pretension = 0;           ///< [N]
-  Real pretensionTime = 0;       ///< over which it grows from the installation on [s]
-  Real from = 0;                 ///< installed at this time ... [s]
-  int stage = 0;                 ///< ... and in this stage
-  Real until = infinity;         ///< taken out at this time, with what it stores [s]
+  std::vector<LinePoint> points;  ///< two at least
+  std::array<bool, 2> mirrored{}; ///< the first, the last point lies on a plane of symmetry
+  int bare = 0;                   ///< segments from the first point on without grout, nor dowels
+  Real pretension = 0;            ///< [N]
+  Real pretensionTime = 0;        ///< over which it grows from the installation on [s]
+  Real from = 0;                  ///< installed at this time ... [s]
+  int stage = 0;                  ///< ... and in this stage
+  Real until = infinity;          ///< taken out at this time, with what it stores [s]
 };
 
 /// Energies of lines [J].
@@ -83,7 +86,15 @@ struct LineHosts
   std::vector<Vec3> x;        ///< [m]
   std::vector<char> alive;    ///< whether the element is there
   std::vector<Real> pressure; ///< on the bar; points only [Pa]
+  /// Across the bar, and turning with the host; points of lines that bend only, else empty.
+  std::vector<Vec3> directors;
 };
+
+/// The part of v that is normal to a direction.
+inline Vec3 across(const Vec3& v, const Vec3& along)
+{
+  return v - dot(v, along) * along;
+}
 
 /// One line without mass. Its points lie in elements, their hosts, and move with them; the bar
 /// slips along itself by an amount at each point that leaves it in equilibrium:
@@ -92,7 +103,8 @@ struct LineHosts
 ///
 /// That is the minimum of the energy of bar and grout over the slips, so that what the hosts get,
 /// +-T_i at the ends of every chord, is its derivative by their places. The forces of a line have
-/// no resultant and no moment.
+/// no resultant and no moment. With a diameter it bends at its points, elastic and plastic; then a
+/// moment is left where it is bent to another side than before.
 class Line
 {
 public:
@@ -111,6 +123,7 @@ public:
 
   const std::string& name() const { return name_; }
   const LineSection& section() const { return section_; }
+  bool bends() const { return section_.diameter > 0; }
   bool installed() const { return installed_; } ///< also when it has been taken out again
   bool removed() const { return removed_; }
   /// Whether it is installed, pulled on or taken out between t and `end`, in this stage [s].
@@ -124,6 +137,7 @@ public:
     Real slip = 0;   ///< of the bar in its host, along the line [m]
     Real plasticSlip = 0;
     Real bondForce = 0; ///< of the host against the slip [N]
+    Vec3 moment{};      ///< by which the bar resists being bent there [N m]
   };
   /// From a point that has a host to the next that has one.
   struct Segment
@@ -166,6 +180,7 @@ public:
 
 private:
   struct Trial;
+  struct Hinge;
   template <class Self, class F>
   static void forEachNumber(Self& self, F&& number);
   void install(const LineHosts& hosts, Real time);
@@ -173,6 +188,7 @@ private:
   bool detachFromDead(const LineHosts& hosts);
   void remove(std::size_t point);
   std::vector<Real> chords(const std::vector<Vec3>& x) const;
+  Vec3 directionOf(std::size_t segment, const std::vector<Vec3>& x) const;
   Real prestrainAt(Real t) const;
   Real slipStrength(const Point& point, const LineHosts& hosts) const;
   void evaluate(const std::vector<Real>& chords, const std::vector<Real>& strengths, Real prestrain,
@@ -181,6 +197,19 @@ private:
              Trial& trial);
   bool slideDowels(const LineHosts& hosts);
   std::optional<std::size_t> segmentOver(int index) const;
+  bool bendsAt(std::size_t point) const;
+  Hinge hingeAt(std::size_t point, const std::vector<Vec3>& x) const;
+  Real bendingLength(std::size_t point) const;    ///< of the bar, which bends there [m]
+  Real bendingStiffness(std::size_t point) const; ///< moment over angle [N m]
+  /// With the force that the bar has now [N m].
+  Real plasticMoment(std::size_t point) const;
+  Real spinOfHost(std::size_t index, const Vec3& before, const Vec3& now,
+                  const LineHosts& hosts) const;
+  /// Moments where the hosts are now. @returns what is lost [J]
+  Real bend(const LineHosts& hosts);
+  void addBendingForces(const std::vector<Vec3>& x);
+  void addBendingStiffness(const std::vector<Vec3>& x);
+  Real storedByBending() const; ///< [J]
   void findForces(const std::vector<Vec3>& x);
   void findStiffness(const std::vector<Vec3>& x);
   Real hostWork(const std::vector<Vec3>& x) const;
@@ -192,6 +221,8 @@ private:
   LineDowel dowel_;
   Real pretension_, pretensionTime_, from_, until_;
   int stage_;
+  std::array<bool, 2> mirrored_;
+  int lastIndex_; ///< of the last point in the setup
 
   bool installed_ = false, removed_ = false;
   Real installTime_ = 0; ///< [s]
@@ -200,6 +231,8 @@ private:
   std::vector<Segment> segments_; ///< one less
   std::vector<Dowel> dowels_;
   std::vector<Vec3> x_, forces_; ///< at the last time
+  std::vector<Vec3> directors_;  ///< of hosts, at the last time
+  std::array<Vec3, 2> ends_{};   ///< directions beyond planes of symmetry, from the installation on
   std::vector<Real> stiffness_;
   LineEnergy energy_; ///< but for `stored`
   Extremes extremes_;

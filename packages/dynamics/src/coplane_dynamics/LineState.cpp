@@ -12,6 +12,7 @@ LineEnergy Line::energy() const
   for (const Point& point : points_)
     if (!point.tied)
       energy.stored += 0.5 * point.bondForce * point.bondForce / (point.bonded * bond_.stiffness);
+  energy.stored += storedByBending();
   for (const Dowel& dowel : dowels_)
     if (dowel.gone == 0)
       energy.stored += 0.5 * dot(dowel.force, dowel.force) / dowel_.stiffness;
@@ -38,8 +39,12 @@ void Line::forEachNumber(Self& self, F&& number)
   number(self.prestrain_);
   number(self.unbalanced_);
   for (auto& point : self.points_)
+  {
     for (auto* value : {&point.slip, &point.plasticSlip, &point.bondForce})
       number(*value);
+    if (self.bends())
+      vector(point.moment);
+  }
   for (auto& s : self.segments_)
     for (auto* value :
          {&s.length, &s.chord, &s.strain, &s.plasticStrain, &s.hardening, &s.force, &s.broken})
@@ -53,6 +58,11 @@ void Line::forEachNumber(Self& self, F&& number)
   }
   for (auto& x : self.x_)
     vector(x);
+  for (auto& director : self.directors_)
+    vector(director);
+  for (auto& end : self.ends_)
+    if (self.bends())
+      vector(end);
   for (auto& force : self.forces_)
     vector(force);
   for (auto& stiffness : self.stiffness_)
@@ -70,6 +80,7 @@ void Line::save(std::vector<Real>& numbers) const
 {
   numbers.push_back(removed_ ? 2 : installed_);
   numbers.push_back(Real(x_.size()));
+  numbers.push_back(Real(directors_.size()));
   numbers.push_back(Real(points_.size()));
   for (const Point& point : points_)
     numbers.push_back(point.index);
@@ -81,6 +92,7 @@ void Line::restore(const Real*& numbers)
   removed_ = *numbers == 2;
   installed_ = *numbers++ != 0;
   x_.resize(std::size_t(*numbers++));
+  directors_.resize(std::size_t(*numbers++));
   std::vector<Point> points(std::size_t(*numbers++));
   for (Point& point : points)
     point = points_[std::size_t(*numbers++)];

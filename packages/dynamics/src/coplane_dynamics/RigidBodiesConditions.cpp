@@ -11,7 +11,8 @@ void RigidBodies::takeConditions(Conditions& conditions)
   if (empty())
     return;
   // Which bodies a condition holds, the same on all ranks.
-  const auto take = [&](std::vector<int>& nodes, const Window& when, const std::string& what)
+  const auto take = [&](std::vector<int>& nodes, const Window& when, const std::string& what,
+                        const std::string& where)
   {
     std::vector<std::int64_t> held(bodies_.size(), 0);
     for (const int n : nodes)
@@ -21,18 +22,18 @@ void RigidBodies::takeConditions(Conditions& conditions)
     for (std::size_t b = 0; b < held.size(); ++b)
       if (held[b] > 0 && held[b] < bodies_[b].allNodes)
         failOnAllRanks(ExitCode::Deck,
-                       "conditions: {} holds {} of the {} nodes of a rigid body with its centre at "
+                       "{}: {} holds {} of the {} nodes of a rigid body with its centre at "
                        "({}, {}, {}) m; accepted: all of them or none. Use a node set with the "
                        "whole block.",
-                       what, held[b], bodies_[b].allNodes, bodies_[b].center.x, bodies_[b].center.y,
-                       bodies_[b].center.z);
+                       where, what, held[b], bodies_[b].allNodes, bodies_[b].center.x,
+                       bodies_[b].center.y, bodies_[b].center.z);
     if (!when.isAlways() &&
         std::any_of(held.begin(), held.end(), [](std::int64_t count) { return count > 0; }))
       failOnAllRanks(ExitCode::Deck,
-                     "conditions: {} with `from` or `until` holds a rigid body; accepted on rigid "
+                     "{}: {} with `from` or `until` holds a rigid body; accepted on rigid "
                      "bodies: conditions for the whole run or stage. Use rigid_motion with "
                      "functions of t, or change the conditions in a stage.",
-                     what);
+                     where, what);
     nodes.erase(
         std::remove_if(nodes.begin(), nodes.end(), [&](int n) { return bodyOfNode_[n] >= 0; }),
         nodes.end());
@@ -40,7 +41,7 @@ void RigidBodies::takeConditions(Conditions& conditions)
   };
   for (SymmetryPlane& plane : conditions.symmetries)
   {
-    const auto held = take(plane.nodes, plane.when, "a symmetry plane");
+    const auto held = take(plane.nodes, plane.when, "a symmetry plane", plane.where);
     for (std::size_t b = 0; b < held.size(); ++b)
       if (held[b] > 0)
         constrain(bodies_[b], {plane.normal, {}});
@@ -48,7 +49,8 @@ void RigidBodies::takeConditions(Conditions& conditions)
   for (PrescribedVelocity& condition : conditions.velocities)
   {
     const std::size_t before = condition.nodes.size();
-    const auto held = take(condition.nodes, condition.when, "a condition on velocities");
+    const auto held =
+        take(condition.nodes, condition.when, "a condition on velocities", condition.where);
     for (std::size_t b = 0; b < held.size(); ++b)
       for (int c = 0; c < 3 && held[b] > 0; ++c)
         if (condition.components[c] && c < dimension_)
@@ -67,11 +69,11 @@ void RigidBodies::takeConditions(Conditions& conditions)
         }
     const bool lost = condition.hasField() && condition.nodes.size() < before;
     if (comm_->max(std::int64_t(lost)) > 0)
-      failOnAllRanks(
-          ExitCode::Deck,
-          "conditions: the motion of a rigid body is prescribed by an expression of x, y "
-          "or z; accepted: numbers, tables and expressions of t. Its points cannot move "
-          "apart.");
+      failOnAllRanks(ExitCode::Deck,
+                     "{}: the motion of a rigid body is prescribed by an expression of x, y "
+                     "or z; accepted: numbers, tables and expressions of t. Its points cannot move "
+                     "apart.",
+                     condition.where);
   }
   takeMotions(conditions.rigidMotions);
 }
@@ -96,10 +98,10 @@ void RigidBodies::takeMotions(const std::vector<RigidMotion>& motions)
         continue;
       if (body.isHeld())
         failOnAllRanks(ExitCode::Deck,
-                       "conditions: the rigid body with its centre at ({}, {}, {}) m has a given "
+                       "{}: the rigid body with its centre at ({}, {}, {}) m has a given "
                        "rigid_motion and another condition on its motion; accepted: one of them. "
                        "Take its nodes out of the node set, or leave out rigid_motion.",
-                       body.center.x, body.center.y, body.center.z);
+                       motion.where, body.center.x, body.center.y, body.center.z);
       for (int c = 0; c < dimension_; ++c)
         if (motion.components[c])
         {

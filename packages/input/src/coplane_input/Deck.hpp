@@ -172,6 +172,8 @@ struct LineCard
   Real hardeningModulus = 0;             ///< [Pa]
   std::optional<Real> ruptureStrain;     ///< [-]
   bool compression = true;
+  std::optional<Real> diameter;       ///< of bars that bend [m]
+  std::string mirrored = "none";      ///< none | start | end | both: ends on planes of symmetry
   Real groutStiffness = 0;            ///< force over slip and length [N/m^2]
   std::optional<Real> groutStrength;  ///< [N/m]
   Real groutFriction = 0;             ///< [-]

@@ -616,6 +616,21 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
     if ((card.groutFriction > 0) != (card.groutPerimeter > 0))
       problems.add(at("grout"), path + ".grout: friction and perimeter go together; accepted: "
                                        "both, or none of them.");
+    if (card.diameter && !card.compression)
+      problems.add(at("diameter"), path + ".diameter: a line without compression is a cable, which "
+                                          "does not bend; accepted: one of the two.");
+    if (card.diameter && pi * *card.diameter * *card.diameter > 4 * 1.01 * card.area)
+      problems.add(
+          at("diameter"),
+          fmt::format("{}.diameter = {:g} m: one bar of it has {:.4g} m^2, more than area, "
+                      "{:g} m^2; accepted: that of one bar, or of each of several that "
+                      "make up the area.",
+                      path, *card.diameter, pi / 4 * *card.diameter * *card.diameter, card.area));
+    if (card.mirrored != "none" && card.mirrored != "end" && card.freeLength > 0)
+      problems.add(at("mirrored"),
+                   fmt::format("{}.mirrored = '{}' with free_length: the line has no grout at its "
+                               "start; accepted: one of the two.",
+                               path, card.mirrored));
     if (card.yieldStress && card.pretension > *card.yieldStress * card.area)
       problems.add(at("pretension"),
                    fmt::format("{}.pretension = {} N; accepted: not more than yield_stress times "

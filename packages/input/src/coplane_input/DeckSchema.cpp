@@ -417,6 +417,20 @@ Key lines()
                  flag("compression", &LineCard::compression)
                      .like("false")
                      .means("false: it goes slack instead of being pressed, as a cable"),
+                 number("diameter", &LineCard::diameter)
+                     .onlyFor(divided)
+                     .in("m")
+                     .above(0)
+                     .defaultIs("no bending")
+                     .like("0.012")
+                     .means("of the round bar, or of each of those that make up `area`: it resists "
+                            "bending, elastic and plastic"),
+                 text("mirrored", &LineCard::mirrored)
+                     .oneOf({"none", "start", "end", "both"})
+                     .onlyFor(divided)
+                     .like("start")
+                     .means("ends that lie on a plane of symmetry, beyond which the line goes on: "
+                            "no slip there, and its direction is held"),
                  section("grout",
                          {
                              number("stiffness", &LineCard::groutStiffness)

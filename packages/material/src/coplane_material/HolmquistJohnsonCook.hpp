@@ -3,6 +3,7 @@
 #include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/TensionLimit.hpp>
 
 namespace coplane
 {
@@ -101,6 +102,13 @@ struct HolmquistJohnsonCook
     const T yield = yieldStress(p, intact, point.strainIncrement, point.dt);
     const auto yields = q > yield;
     const T plastic = choose(yields, (q - yield) * T(1 / (3 * elastic.shearModulus)), zero);
+    const T former = choose(yields, T(1.5) * contract(point.stress, trial) / q, zero);
+    const T ofShear = plastic * T(0.5) * (former + yield * partOfMean(q, point.bendingSquared));
+    const T mean = meanOf(point.stress), unlimited = -c.pressure - h[Offset];
+    const T torn = lostToTension(
+        mean, unlimited - c.back * (one + c.mu) * T(3.0) * meanOf(point.strainIncrement), unlimited,
+        intact * T(tension), c.back);
+    const T crushed = branchFree::positivePart(workOfPores(c, -mean, p, h[Offset]));
     point.stress = stressOf(trial, choose(yields, yield / q, one), -p);
     point.bendingScale = choose(yields, yield / q, one);
     h[PlasticStrain] += plastic;
@@ -109,8 +117,7 @@ struct HolmquistJohnsonCook
         branchFree::larger(T(damage1) * branchFree::power(reach, damage2), T(leastFracture));
     h[Damage] = branchFree::smaller(h[Damage] + (plastic + c.compaction) / ductility, one);
     // Volume per present volume is dmu (1 + mu)^-1.
-    point.dissipation = yield * plastic * partOfMean(q, point.bendingSquared) +
-                        branchFree::positivePart(workOfPores(c, p)) * point.volumeRatio;
+    point.dissipation = branchFree::positivePart(ofShear) + crushed * point.volumeRatio + torn;
     point.integrity = branchFree::larger(one - h[Damage], T(leastStiffness));
     point.stiffening = elastic.stiffeningOf(tangentOf(c));
   }
@@ -161,13 +168,18 @@ private:
     return T(strength) * branchFree::smaller(slow * fast, T(mostStrength));
   }
 
-  /// Pores that close take p dmu_p, less what the changed modulus stores, p^2 / 2K.
+  /// What pores that close lose, as an integral over mu: the work of the step at the mean of the
+  /// pressures at its ends, less what p^2 / 2K stores more.
+  /// @param before, now pressures at the ends; initial: that of the initial stress [Pa]
   template <class T>
-  KOKKOS_INLINE_FUNCTION T workOfPores(const Compressed<T>& c, const T& p) const
+  KOKKOS_INLINE_FUNCTION T workOfPores(const Compressed<T>& c, const T& before, const T& now,
+                                       const T& initial) const
   {
-    const T compression = branchFree::positivePart(p);
-    return compression * c.compaction -
-           T(0.5) * compression * compression * (c.back - c.former) / (c.back * c.former);
+    const T half(0.5), first = branchFree::positivePart(before),
+                       last = branchFree::positivePart(now),
+                       both = first * last - (first + last) * initial;
+    return half * (first + last) * c.compaction -
+           half * both * (c.back - c.former) / (c.back * c.former);
   }
 
   /// -V dp/dV [Pa].

@@ -3,6 +3,7 @@
 #include <coplane_core/ElementaryFunctions.hpp>
 #include <coplane_material/Invariants.hpp>
 #include <coplane_material/LinearElastic.hpp>
+#include <coplane_material/TensionLimit.hpp>
 
 namespace coplane
 {
@@ -117,9 +118,11 @@ struct JohnsonHolmquist
     const T borne = smaller(strength, intact + damage * (fractured - intact));
     const T released = (strength * strength - borne * borne) * part / (T(2.0) * threeG);
     const T kept = T(bulking) * confinement(confining) * released;
-    const T tension = positivePart(-ofVolume - h[BulkingPressure]);
+    const T bulk(elastic.bulkModulus), unlimited = -ofVolume - h[BulkingPressure];
     const T torn =
-        storedBy(tension, (one - before) * limit) - storedBy(tension, (one - damage) * limit);
+        lostToTension(meanOf(point.stress),
+                      unlimited - bulk * (one + mu) * T(3.0) * meanOf(point.strainIncrement),
+                      unlimited, (one - damage) * limit, bulk);
     h[BulkingPressure] += gained(confining + h[BulkingPressure], kept);
     h[Damage] = damage;
     const T plastic = choose(yields, (q - borne) / threeG, zero);
@@ -132,7 +135,7 @@ struct JohnsonHolmquist
     point.stress =
         stressOf(trial, scale, -larger(ofVolume + h[BulkingPressure], (damage - one) * limit));
     point.bendingScale = scale;
-    point.dissipation = ofShear + positivePart(torn);
+    point.dissipation = ofShear + torn;
     point.integrity = larger(one - damage, T(leastStiffness));
     const T pressed = positivePart(mu);
     point.stiffening = elastic.stiffeningOf(
@@ -161,15 +164,6 @@ private:
   {
     const T share = branchFree::smaller(p * T(1 / tension), T(1.0));
     return share * share;
-  }
-
-  /// Elastic energy per volume of a mean tension that ends at a limit.
-  /// @param tension without the limit
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T storedBy(const T& tension, const T& limit) const
-  {
-    const T borne = branchFree::smaller(tension, limit);
-    return borne * (tension - T(0.5) * borne) * T(1 / elastic.bulkModulus);
   }
 
   /// Pressure that an energy adds to another one: p^2 / 2K1 grows by it.

@@ -136,8 +136,8 @@ struct KaragozianCase
     const T least = left * fasterTension * T(surfaces.tensileStrength);
     const T cracked = positivePart(-least - volume.pressure) / volume.back;
     const T p = larger(volume.pressure, -least);
-    const T ofVolume = cracked * half * (least + larger(least, meanOf(point.stress))) +
-                       positivePart(workOfPores(volume, p));
+    const T ofVolume = positivePart(cracked * half * (least + meanOf(point.stress))) +
+                       positivePart(workOfPores(volume, -meanOf(point.stress)));
     if (rates.counts())
       faster = fasterTension + smaller(positivePart(p) * T(3 / surfaces.strength), one) *
                                    (rates.compression(rate) - fasterTension);
@@ -222,13 +222,16 @@ private:
     return v;
   }
 
-  /// Pores that close take p de, less what the changed modulus stores, p^2 / 2K.
+  /// What pores that close lose: the work of the step at the mean of the pressures at its ends,
+  /// less what p^2 / 2K stores more.
+  /// @param before pressure at its start [Pa]
   template <class T>
-  KOKKOS_INLINE_FUNCTION T workOfPores(const Volume<T>& v, const T& p) const
+  KOKKOS_INLINE_FUNCTION T workOfPores(const Volume<T>& v, const T& before) const
   {
-    const T former = modulusAt(v.before), compression = branchFree::positivePart(p);
-    return compression * (lostPores(v.largest) - lostPores(v.before)) -
-           T(0.5) * compression * compression * (v.back - former) / (v.back * former);
+    const T half(0.5), former = modulusAt(v.before), first = branchFree::positivePart(before),
+                       last = branchFree::positivePart(v.pressure);
+    return half * (first + last) * (lostPores(v.largest) - lostPores(v.before)) -
+           half * first * last * (v.back - former) / (v.back * former);
   }
 
   /// -V dp/dV [Pa].

@@ -144,7 +144,7 @@ struct MaterialProbe::Search
       worst = std::max(worst, std::abs(residual[i]));
     }
     for (const Real each : s)
-      if (!std::isfinite(each))
+      if (!std::isfinite(each)) // no number
         worst = std::numeric_limits<Real>::infinity();
     for (int i = 0; i < unknowns; ++i)
       if (std::abs(increment[unknown[i]]) > most) // another answer than the nearest

@@ -205,6 +205,7 @@ struct PseudoCap
     returnShear(state, shear);
     openCracks(state, shear.fasterTension);
     T* const h = point.history;
+    point.dissipation = dissipationOf(point, state, shear, inelasticBefore);
     const T share = shareThatDamages(state);
     h[Damage] = weakened(state.intact, (state.dilated + state.opened) * share, point.size);
     if (cracksClose)
@@ -214,7 +215,6 @@ struct PseudoCap
     h[Compaction] = state.ec;
     h[Bulking] = state.ed;
     h[Opening] = state.et;
-    point.dissipation = dissipationOf(point, state, shear, inelasticBefore);
     point.stress = stressOf(shear.s, shear.scale, -state.p);
     point.bendingScale = shear.scale;
     point.integrity = branchFree::larger(T(1.0) - h[Damage], T(leastStiffness));
@@ -506,9 +506,11 @@ private:
                            zero);
     if (!branchFree::anyOf(branchFree::absolute(closed) > zero))
       return half * branchFree::positivePart(ofShear);
+    const T* const h = point.history;
     const T ebarBefore = state.ebar + T(3.0) * meanOf(point.strainIncrement);
+    const T start = energyAt(ebarBefore, h[Compaction] - h[Bulking] - h[Opening]);
     const T stored = (stiffnessOfPores(state.v) - stiffnessOfPores(inelasticBefore)) *
-                     (energyAt(state.ebar, state.v) + energyAt(ebarBefore, inelasticBefore));
+                     (energyAt(state.ebar, state.v) + start);
     return half *
            branchFree::positivePart(ofShear + (state.p - meanOf(point.stress)) * closed - stored);
   }

@@ -15,7 +15,7 @@ namespace
 /// dimensions forces are those of one metre.
 std::string textOf(const Solver& solver, const std::string& comment)
 {
-  std::vector<Real> coordinates, slips, bonds;
+  std::vector<Real> coordinates, slips, bonds, moments;
   std::vector<Real> forces, stresses, strains, plasticStrains, broken;
   std::vector<std::int64_t> ends, lines, segments;
   std::vector<std::string> names;
@@ -31,6 +31,7 @@ std::string textOf(const Solver& solver, const std::string& comment)
       coordinates.insert(coordinates.end(), {place.x, place.y, place.z});
       slips.push_back(point.slip);
       bonds.push_back(point.bondForce);
+      moments.push_back(norm(point.moment));
     }
     for (std::size_t s = 0; s < line.segments().size(); ++s)
     {
@@ -49,6 +50,7 @@ std::string textOf(const Solver& solver, const std::string& comment)
   points.addNames("line_names", names);
   points.addScalar("slip", slips);
   points.addScalar("bond", bonds);
+  points.addScalar("moment", moments);
   points.addScalarOfCells("force", forces);
   points.addScalarOfCells("stress", stresses);
   points.addScalarOfCells("strain", strains);

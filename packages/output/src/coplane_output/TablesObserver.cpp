@@ -48,7 +48,8 @@ TablesObserver::TablesObserver(const Comm& comm, TablesOptions options)
         if (options_.lines)
           open(lines_, "lines",
                "time[s],cycle,line,segment,x[m],y[m],z[m],force[N],stress[Pa],strain,"
-               "plastic_strain,slip_a[m],slip_b[m],bond_a[N],bond_b[N],broken,sliding[m],dowel[N]");
+               "plastic_strain,slip_a[m],slip_b[m],bond_a[N],bond_b[N],broken,sliding[m],dowel[N],"
+               "moment_a[N*m],moment_b[N*m]");
       });
 }
 
@@ -270,7 +271,7 @@ std::string TablesObserver::segmentLines(const Solver& solver)
       for (const Real value :
            {middle.x, middle.y, middle.z, segment.force, segment.force / line.section().area,
             segment.strain, segment.plasticStrain, a.slip, b.slip, a.bondForce, b.bondForce,
-            segment.broken, sliding, dowels})
+            segment.broken, sliding, dowels, norm(a.moment), norm(b.moment)})
         text += fmt::format(",{:.17g}", value);
       text += "\n";
     }

@@ -162,6 +162,7 @@ AirBlast airBlastOf(const ConditionCard& card, const RankMesh& part,
 RigidMotion rigidMotionOf(const ConditionCard& card, const Mesh& mesh)
 {
   RigidMotion motion;
+  motion.where = card.where;
   motion.block = indexOf(mesh.blocks, card.set);
   for (int c = 0; c < 3 && card.translation; ++c)
     if (card.components[c])
@@ -178,6 +179,7 @@ PrescribedVelocity prescribedOf(const ConditionCard& card, const RankMesh& part,
                                 const std::vector<int>& nodes)
 {
   PrescribedVelocity condition;
+  condition.where = card.where;
   condition.when = windowOf(card);
   condition.nodes = nodes;
   condition.components = card.components;
@@ -230,7 +232,8 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
     {
       const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
       if (card.type == "symmetry")
-        conditions.symmetries.push_back({nodes, normalised(card.normal), windowOf(card)});
+        conditions.symmetries.push_back(
+            {nodes, normalised(card.normal), windowOf(card), card.where});
       else
         conditions.velocities.push_back(prescribedOf(card, part, nodes));
     }

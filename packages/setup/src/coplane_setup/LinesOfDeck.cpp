@@ -73,7 +73,8 @@ std::vector<LineSetup> linesOf(const Deck& deck)
                     card.yieldStress.value_or(infinity),
                     card.hardeningModulus,
                     card.ruptureStrain.value_or(infinity),
-                    card.compression};
+                    card.compression,
+                    card.diameter.value_or(0)};
     line.bond = {card.groutStiffness / card.spacing,
                  card.groutStrength.value_or(infinity) / card.spacing, card.groutFriction,
                  card.groutPerimeter / card.spacing};
@@ -87,6 +88,10 @@ std::vector<LineSetup> linesOf(const Deck& deck)
     line.stage = card.stage.empty() ? 0 : indexOf(deck.stages, card.stage);
     line.points = pointsOf(card);
     line.bare = card.freeLength > 0 ? 1 : 0;
+    const bool both = card.mirrored == "both";
+    line.mirrored = {both || card.mirrored == "start", both || card.mirrored == "end"};
+    line.points.front().tied |= line.mirrored[0];
+    line.points.back().tied |= line.mirrored[1];
     for (int copy = 0; copy < card.copies; ++copy)
     {
       line.name = card.copies == 1 ? card.name : card.name + "_" + std::to_string(copy + 1);

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <coplane_core/BranchFree.hpp>
+
+namespace coplane
+{
+/// Mean tension that is elastic up to a limit, which damage lowers: what was stored beyond the new
+/// limit is lost. Work of the step at the mean of the tensions at its ends, as in the energy of the
+/// element, less what is stored more. With a tension that is linear in mu an opening at a limit
+/// takes L (J - 1) / J, so that the integral over mu is per volume now [J/m^3].
+/// @param before borne at the start of the step; elasticBefore, elastic: without the limit, at its
+///        start and end; limit at its end [Pa]
+template <class T>
+KOKKOS_INLINE_FUNCTION T lostToTension(const T& before, const T& elasticBefore, const T& elastic,
+                                       const T& limit, const T& bulkModulus)
+{
+  using branchFree::choose, branchFree::positivePart, branchFree::smaller;
+  const T half(0.5), zero(0.0);
+  const auto stored = [&](const T& whole, const T& borne)
+  { return borne * (whole - half * borne); };
+  const T start = positivePart(elasticBefore), end = positivePart(elastic);
+  const T first = smaller(positivePart(before), start), last = smaller(end, limit);
+  const T work = half * (first + last) * (end - start);
+  return choose(before > limit && elastic > limit,
+                positivePart(work - stored(end, last) + stored(start, first)) / bulkModulus, zero);
+}
+} // namespace coplane
