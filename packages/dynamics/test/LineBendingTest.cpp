@@ -122,6 +122,11 @@ TEST(LineBending, clampedBetweenPlanesOfSymmetryShearsAsABeam)
     EXPECT_NEAR(line.points().back().moment.z, -exact / 2, exact / segments);
     for (int i = 2; i + 2 < segments; ++i)
       EXPECT_NEAR(line.forces()[std::size_t(i)].y, 0, 1e-6 * exact);
+    // Forces, and moments from beyond both planes, are in balance.
+    Vec3 moment = line.outerMoments()[0] + line.outerMoments()[1];
+    for (std::size_t i = 0; i < hosts.x.size(); ++i)
+      moment = moment - cross(hosts.x[i], forces[i]);
+    EXPECT_LT(norm(moment), 1e-9 * exact);
     // The lowest energy of all shapes with these ends.
     EXPECT_NEAR(line.energy().stored, exact * offset / 2, 0.01 * exact * offset);
   }

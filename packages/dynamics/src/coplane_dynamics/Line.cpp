@@ -123,6 +123,7 @@ void Line::takeOut(const LineHosts& hosts)
     dowel.force = {};
   }
   std::fill(forces_.begin(), forces_.end(), Vec3{});
+  outerMoments_ = {};
   std::fill(stiffness_.begin(), stiffness_.end(), 0);
   energy_.work += work;
   energy_.rupture += before + work;

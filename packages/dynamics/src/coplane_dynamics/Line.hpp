@@ -119,6 +119,8 @@ public:
   const std::vector<Vec3>& forces() const { return forces_; }
   /// Bound on the sum of the absolute values of a row of the stiffness, in the same order [N/m].
   const std::vector<Real>& stiffness() const { return stiffness_; }
+  /// Of what lies beyond planes of symmetry on the first and the last point [N m].
+  const std::array<Vec3, 2>& outerMoments() const { return outerMoments_; }
   LineEnergy energy() const;
 
   const std::string& name() const { return name_; }
@@ -232,7 +234,8 @@ private:
   std::vector<Dowel> dowels_;
   std::vector<Vec3> x_, forces_; ///< at the last time
   std::vector<Vec3> directors_;  ///< of hosts, at the last time
-  std::array<Vec3, 2> ends_{};   ///< directions beyond planes of symmetry, from the installation on
+  std::array<Vec3, 2> outerMoments_{};
+  std::array<Vec3, 2> ends_{}; ///< directions beyond planes of symmetry, from the installation on
   std::vector<Real> stiffness_;
   LineEnergy energy_; ///< but for `stored`
   Extremes extremes_;

@@ -140,6 +140,7 @@ Real Line::bend(const LineHosts& hosts)
 
 void Line::addBendingForces(const std::vector<Vec3>& x)
 {
+  outerMoments_ = {};
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
     if (!bendsAt(i))
@@ -156,6 +157,8 @@ void Line::addBendingForces(const std::vector<Vec3>& x)
       const Vec3 force = ((s == i ? -1 : 1) / dot(chord, chord)) * cross(points_[i].moment, chord);
       forces_[b] += force;
       forces_[a] -= force;
+      if (i == 0 || i + 1 == points_.size())
+        outerMoments_[i == 0 ? 0 : 1] = cross(chord, force);
     }
   }
 }

@@ -60,9 +60,10 @@ void Line::forEachNumber(Self& self, F&& number)
     vector(x);
   for (auto& director : self.directors_)
     vector(director);
-  for (auto& end : self.ends_)
-    if (self.bends())
-      vector(end);
+  for (auto* pair : {&self.ends_, &self.outerMoments_})
+    for (auto& one : *pair)
+      if (self.bends())
+        vector(one);
   for (auto& force : self.forces_)
     vector(force);
   for (auto& stiffness : self.stiffness_)

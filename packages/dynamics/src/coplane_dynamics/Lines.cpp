@@ -435,6 +435,22 @@ void Lines::addForces(const ElementForces& elements, NodalState& state, Real t, 
       });
 }
 
+void Lines::bookOuterMoments(NodalState& state, Real dt) const
+{
+  for (std::size_t l = 0; l < lines_.size(); ++l)
+    for (const int end : {0, 1})
+    {
+      const Vec3& moment = lines_[l].outerMoments()[std::size_t(end)];
+      const int point = firstPoints_[l] + (end == 0 ? 0 : pointsOf_[l] - 1);
+      for (auto one =
+               std::lower_bound(embedded_.begin(), embedded_.end(), point,
+                                [](const Embedded&e, int wanted) { return e.point < wanted; });
+           one != embedded_.end() && one->point == point; ++one)
+        if (const int node = one->nodes[0]; node < owned_) // any node: it is part of a sum
+          set(state.angularImpulse, node, at(state.angularImpulse, node) + dt * moment);
+    }
+}
+
 Real Lines::stiffnessAt(int node) const
 {
   std::vector<Real> stiffness;

@@ -28,6 +28,10 @@ public:
   void addForces(const ElementForces& elements, NodalState& state, Real t, Real dt, int stage,
                  bool alone);
 
+  /// Moments from beyond planes of symmetry come from outside: the angular impulse of a kick.
+  /// @param dt of the kick [s]
+  void bookOuterMoments(NodalState& state, Real dt) const;
+
   const std::vector<Line>& lines() const { return lines_; }
   LineEnergy energy() const; ///< the same bits on all ranks
   /// Stiffness of lines at an owned node [N/m].

@@ -17,14 +17,9 @@ std::vector<char> rigidBlocksOf(const Model& model)
   return rigid;
 }
 
-Real kickOf(const NodalMotion::Times& times)
-{
-  return 0.5 * (times.before + times.after);
-}
-
 KickTimes kickTimesOf(const NodalMotion::Times& times)
 {
-  return {times.t, kickOf(times), times.after};
+  return {times.t, NodalMotion::kickOf(times), times.after};
 }
 } // namespace
 

@@ -43,6 +43,8 @@ public:
     Real after;   ///< dt(n+1/2) [s]
     Real damping; ///< for the dampings; infinity: none acts any more [s]
   };
+  /// From n - 1/2 to n + 1/2 [s].
+  static Real kickOf(const Times& times) { return 0.5 * (times.before + times.after); }
   /// Free fields that begin to act with the next kick. Collective.
   void startFreeFields(const Times& times, const Conditions& conditions, const RankMesh& mesh,
                        const NodalState& state, const ElementForces& elements, const Comm& comm);

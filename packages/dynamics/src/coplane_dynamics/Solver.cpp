@@ -438,6 +438,7 @@ void Solver::kick(Real step)
                                  *comm_); // throws on all ranks or on none
         motion_->kick(kickTimes(step), model_.conditions, state_);
       });
+  lines_->bookOuterMoments(state_, NodalMotion::kickOf(kickTimes(step)));
   clock_.nextStep = step;
 }
 
