@@ -362,18 +362,13 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
 {
   if (x_.empty())
     x_ = hosts.x;
-  if (directors_.empty())
-    directors_ = hosts.directors;
   if (!installed_)
   {
     const bool isBefore = !Window::isReached(from_, t) || stage < stage_;
     // A time is that of the end of a step; a stage begins with the step that is over now.
     const bool isNow = !Window::isReached(from_, t - dt);
     if (isBefore || isNow)
-    {
       x_ = hosts.x;
-      directors_ = hosts.directors;
-    }
     if (isBefore)
       return;
     install(hosts, isNow ? t : t - dt);
@@ -437,13 +432,12 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
   }
   const Real slidBefore = energy_.dowel;
   torn = slideDowels(hosts) || torn;
-  plastic += bend(hosts);
+  plastic += bend(hosts.x);
   findForces(hosts.x);
   findStiffness(hosts.x);
   work += hostWork(hosts.x);
   pretension += pretensionWork();
   x_ = hosts.x;
-  directors_ = hosts.directors;
   prestrain_ = prestrain;
   energy_.work += work + pretension;
   if (dt > 0)

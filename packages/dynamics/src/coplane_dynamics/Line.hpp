@@ -86,8 +86,6 @@ struct LineHosts
   std::vector<Vec3> x;        ///< [m]
   std::vector<char> alive;    ///< whether the element is there
   std::vector<Real> pressure; ///< on the bar; points only [Pa]
-  /// Across the bar, and turning with the host; points of lines that bend only, else empty.
-  std::vector<Vec3> directors;
 };
 
 /// The part of v that is normal to a direction.
@@ -103,8 +101,7 @@ inline Vec3 across(const Vec3& v, const Vec3& along)
 ///
 /// That is the minimum of the energy of bar and grout over the slips, so that what the hosts get,
 /// +-T_i at the ends of every chord, is its derivative by their places. The forces of a line have
-/// no resultant and no moment. With a diameter it bends at its points, elastic and plastic; then a
-/// moment is left where it is bent to another side than before.
+/// no resultant and no moment. With a diameter it bends at its points, elastic and plastic.
 class Line
 {
 public:
@@ -205,10 +202,8 @@ private:
   Real bendingStiffness(std::size_t point) const; ///< moment over angle [N m]
   /// With the force that the bar has now [N m].
   Real plasticMoment(std::size_t point) const;
-  Real spinOfHost(std::size_t index, const Vec3& before, const Vec3& now,
-                  const LineHosts& hosts) const;
   /// Moments where the hosts are now. @returns what is lost [J]
-  Real bend(const LineHosts& hosts);
+  Real bend(const std::vector<Vec3>& x);
   void addBendingForces(const std::vector<Vec3>& x);
   void addBendingStiffness(const std::vector<Vec3>& x);
   Real storedByBending() const; ///< [J]
@@ -233,7 +228,6 @@ private:
   std::vector<Segment> segments_; ///< one less
   std::vector<Dowel> dowels_;
   std::vector<Vec3> x_, forces_; ///< at the last time
-  std::vector<Vec3> directors_;  ///< of hosts, at the last time
   std::array<Vec3, 2> outerMoments_{};
   std::array<Vec3, 2> ends_{}; ///< directions beyond planes of symmetry, from the installation on
   std::vector<Real> stiffness_;

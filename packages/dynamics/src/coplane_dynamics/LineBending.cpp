@@ -18,13 +18,6 @@ Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to)
   return cosine * v + cross(axis, v) + (dot(axis, v) / (1 + cosine)) * axis;
 }
 
-/// Rotates by an angle about a unit vector.
-Vec3 spun(const Vec3& v, const Vec3& about, Real angle)
-{
-  return std::cos(angle) * v + std::sin(angle) * cross(about, v) +
-         ((1 - std::cos(angle)) * dot(about, v)) * about;
-}
-
 /// Angle from one unit vector to another, about the axis of their rotation [rad].
 Vec3 angleBetween(const Vec3& a, const Vec3& b)
 {
@@ -88,52 +81,44 @@ Real Line::plasticMoment(std::size_t i) const
   return most;
 }
 
-/// The section turns with its host about the bar [rad].
-Real Line::spinOfHost(std::size_t index, const Vec3& before, const Vec3& now,
-                      const LineHosts& hosts) const
+Real Line::bend(const std::vector<Vec3>& x)
 {
-  if (directors_.empty())
-    return 0;
-  // One that lies nearly along the bar does not tell.
-  constexpr Real least = 0.3;
-  const Vec3 &first = directors_[index], &last = hosts.directors[index];
-  const Vec3 from = carried(across(first, before), before, now), to = across(last, now);
-  if (!(norm(from) > least * norm(first)) || !(norm(to) > least * norm(last)))
-    return 0;
-  return std::atan2(dot(now, cross(from, to)), dot(from, to));
-}
-
-Real Line::bend(const LineHosts& hosts)
-{
+  // A bar that has turned back on itself, or has no length there, has no mean direction.
+  constexpr Real folded = 1e-6;
+  const auto hasMean = [](const Hinge& hinge)
+  { return 1 + dot(hinge.before, hinge.behind) > folded; };
   Real lost = 0;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    Point& point = points_[i];
+    Vec3& moment = points_[i].moment;
     if (!bendsAt(i))
     {
-      point.moment = {}; // also of one that has become an end
+      moment = {}; // also of one that has become an end
       continue;
     }
-    const Hinge before = hingeAt(i, x_), now = hingeAt(i, hosts.x);
-    // A bar that has turned back on itself, or has no length there, has no mean direction.
-    constexpr Real folded = 1e-6;
-    const auto hasMean = [](const Hinge& hinge)
-    { return 1 + dot(hinge.before, hinge.behind) > folded; };
-    const Real most = plasticMoment(i), stiffness = bendingStiffness(i);
+    const Hinge before = hingeAt(i, x_), now = hingeAt(i, x);
+    const Real stiffness = bendingStiffness(i);
     if (!hasMean(before) || !hasMean(now) || !(1 + dot(before.mean(), now.mean()) > folded))
     {
-      lost += 0.5 * dot(point.moment, point.moment) / stiffness;
-      point.moment = {};
+      lost += 0.5 * dot(moment, moment) / stiffness;
+      moment = {};
       continue;
     }
-    const Real spin = spinOfHost(std::size_t(point.index), before.mean(), now.mean(), hosts);
-    const auto turned = [&](const Vec3& v)
-    { return spun(carried(v, before.mean(), now.mean()), now.mean(), spin); };
-    const Vec3 from = turned(point.moment);
-    const Vec3 trial = from + stiffness * (now.angle() - turned(before.angle()));
-    const Real size = norm(trial);
-    point.moment = size > most ? (most / size) * trial : trial;
-    lost += 0.5 / stiffness * dot(from + point.moment, trial - point.moment);
+    // The bar turns freely about itself: only the angle counts, about an axis that goes with it.
+    const Vec3 from = before.angle(), to = now.angle();
+    const auto axisOf = [](const Vec3& angle, const Vec3& otherwise)
+    { return norm(angle) > 0 ? normalised(angle) : otherwise; };
+    const Vec3 former = axisOf(from, norm(moment) > 0 ? normalised(moment) : Vec3{});
+    const Vec3 carriedOn = carried(former, before.mean(), now.mean());
+    Vec3 axis = axisOf(to, carriedOn);
+    if (dot(axis, carriedOn) < 0) // bent through straight, to the other side
+      axis = -1.0 * axis;
+    const Real start = std::copysign(norm(moment), dot(moment, former));
+    const Real trial = start + stiffness * (dot(to, axis) - norm(from));
+    const Real most = plasticMoment(i);
+    const Real end = std::min(std::max(trial, -most), most);
+    lost += 0.5 * (start + end) * (trial - end) / stiffness;
+    moment = end * axis;
   }
   return lost;
 }

@@ -58,8 +58,6 @@ void Line::forEachNumber(Self& self, F&& number)
   }
   for (auto& x : self.x_)
     vector(x);
-  for (auto& director : self.directors_)
-    vector(director);
   for (auto* pair : {&self.ends_, &self.outerMoments_})
     for (auto& one : *pair)
       if (self.bends())
@@ -81,7 +79,6 @@ void Line::save(std::vector<Real>& numbers) const
 {
   numbers.push_back(removed_ ? 2 : installed_);
   numbers.push_back(Real(x_.size()));
-  numbers.push_back(Real(directors_.size()));
   numbers.push_back(Real(points_.size()));
   for (const Point& point : points_)
     numbers.push_back(point.index);
@@ -93,7 +90,6 @@ void Line::restore(const Real*& numbers)
   removed_ = *numbers == 2;
   installed_ = *numbers++ != 0;
   x_.resize(std::size_t(*numbers++));
-  directors_.resize(std::size_t(*numbers++));
   std::vector<Point> points(std::size_t(*numbers++));
   for (Point& point : points)
     point = points_[std::size_t(*numbers++)];

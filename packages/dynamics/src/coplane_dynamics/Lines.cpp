@@ -2,7 +2,6 @@
 #include <coplane_core/Timers.hpp>
 #include <coplane_dynamics/Conditions.hpp>
 #include <coplane_dynamics/Lines.hpp>
-#include <coplane_geometry/PlaneAxes.hpp>
 #include <coplane_mesh/Bodies.hpp>
 #include <coplane_mesh/PointInElement.hpp>
 
@@ -284,9 +283,6 @@ Lines::Lines(const std::vector<LineSetup>& setups, const RankMesh& mesh, const C
       allHosts.push_back(hosts[point].element);
       axes_.push_back(normalised(points[std::min(i + 1, points.size() - 1)].place -
                                  points[i > 0 ? i - 1 : 0].place));
-      directors_.push_back(setups[l].section.diameter > 0 && mesh.dimension == 3
-                               ? planeAxes<3>(axes_.back()).e1
-                               : Vec3{});
     }
     std::vector<int> segments;
     for (const Crossing& crossing : crossings[l])
@@ -297,7 +293,6 @@ Lines::Lines(const std::vector<LineSetup>& setups, const RankMesh& mesh, const C
         allPlaces.push_back(crossing.place);
         allHosts.push_back(host);
         axes_.push_back({});
-        directors_.push_back({});
       }
     }
     pointsOf_.push_back(int(points.size()));
@@ -332,16 +327,8 @@ void Lines::embed(const std::vector<Vec3>& places, const std::vector<GlobalId>& 
         one.count = cornersOf(mesh, int(b), e, corners);
         for (int k = 0; k < one.count; ++k)
           one.nodes[std::size_t(k)] = part.connectivity[std::size_t(e * one.count + k)];
-        const Vec3& place = places[std::size_t(one.point)];
-        one.weights = pointInElement(part.type, corners.data(), place).weights;
-        if (const Vec3& across = directors_[std::size_t(one.point)]; norm(across) > 0)
-        {
-          constexpr Real small = 1e-3; // of the size of the element
-          const Vec3 beside = place + small * norm(corners[1] - corners[0]) * across;
-          one.director = pointInElement(part.type, corners.data(), beside).weights;
-          for (int k = 0; k < one.count; ++k)
-            one.director[std::size_t(k)] -= one.weights[std::size_t(k)];
-        }
+        one.weights =
+            pointInElement(part.type, corners.data(), places[std::size_t(one.point)]).weights;
         embedded_.push_back(one);
       }
     }
@@ -354,19 +341,15 @@ std::vector<LineHosts> Lines::gatherHosts(const ElementForces& elements,
                                           const NodalState& state) const
 {
   // One rank has the element of a point, the others add zeros: whole numbers have no rounding.
-  constexpr std::size_t words = 8;
+  constexpr std::size_t words = 5;
   std::vector<std::uint64_t> bits(words * std::size_t(points_), 0);
   for (const Embedded& one : embedded_)
   {
     if (!one.owned)
       continue;
-    Vec3 x{}, director{};
+    Vec3 x{};
     for (int k = 0; k < one.count; ++k)
-    {
-      const Vec3 node = at(state.x, one.nodes[std::size_t(k)]);
-      x += one.weights[std::size_t(k)] * node;
-      director += one.director[std::size_t(k)] * node;
-    }
+      x += one.weights[std::size_t(k)] * at(state.x, one.nodes[std::size_t(k)]);
     const ElementBlock& block = elements.blocks()[std::size_t(one.block)];
     const auto stress = block.stress();
     const SymTensor s{stress(0, one.element), stress(1, one.element), stress(2, one.element),
@@ -375,10 +358,7 @@ std::vector<LineHosts> Lines::gatherHosts(const ElementForces& elements,
     const Real pressure = -0.5 * (s.xx + s.yy + s.zz - dot(axis, dot(s, axis)));
     std::uint64_t* const mine = &bits[words * std::size_t(one.point)];
     for (int c = 0; c < 3; ++c)
-    {
       mine[c] = bitsOf(x[c]);
-      mine[5 + c] = bitsOf(director[c]);
-    }
     mine[3] = block.isAlive(one.element);
     mine[4] = bitsOf(pressure);
   }
@@ -392,11 +372,8 @@ std::vector<LineHosts> Lines::gatherHosts(const ElementForces& elements,
       const std::uint64_t* const one = &bits[words * std::size_t(i)];
       hosts[l].x.push_back({realOf(one[0]), realOf(one[1]), realOf(one[2])});
       hosts[l].alive.push_back(one[3] != 0);
-      if (i - first >= pointsOf_[l])
-        continue;
-      hosts[l].pressure.push_back(realOf(one[4]));
-      if (norm(directors_[std::size_t(i)]) > 0)
-        hosts[l].directors.push_back({realOf(one[5]), realOf(one[6]), realOf(one[7])});
+      if (i - first < pointsOf_[l])
+        hosts[l].pressure.push_back(realOf(one[4]));
     }
   }
   return hosts;

@@ -52,7 +52,6 @@ private:
     int count = 0;
     std::array<int, 8> nodes{};
     std::array<Real, 8> weights{};
-    std::array<Real, 8> director{}; ///< the same of a vector across the line, where it bends
   };
   void embed(const std::vector<Vec3>& places, const std::vector<GlobalId>& hosts,
              const RankMesh& mesh);
@@ -64,7 +63,6 @@ private:
   std::vector<Line> lines_;
   std::vector<int> firstPoints_, pointsOf_; ///< by line; dowels come behind its points
   std::vector<Vec3> axes_;                  ///< of points [-]
-  std::vector<Vec3> directors_;             ///< at t = 0, where lines bend [-]
   int points_ = 0;
   std::vector<Embedded> embedded_; ///< in the order of the points
 };

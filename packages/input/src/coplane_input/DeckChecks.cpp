@@ -619,12 +619,12 @@ void checkLines(const Deck& deck, const DeckNode& root, Problems& problems)
     if (card.diameter && !card.compression)
       problems.add(at("diameter"), path + ".diameter: a line without compression is a cable, which "
                                           "does not bend; accepted: one of the two.");
-    if (card.diameter && pi * *card.diameter * *card.diameter > 4 * 1.01 * card.area)
+    if (card.diameter && pi * *card.diameter * *card.diameter > 8 * 1.01 * card.area)
       problems.add(
           at("diameter"),
-          fmt::format("{}.diameter = {:g} m: one bar of it has {:.4g} m^2, more than area, "
-                      "{:g} m^2; accepted: that of one bar, or of each of several that "
-                      "make up the area.",
+          fmt::format("{}.diameter = {:g} m: one bar of it has {:.4g} m^2, more than twice "
+                      "area, {:g} m^2; accepted: that of one bar (or of half of one, in a plane "
+                      "of symmetry), or of each of several that make up the area.",
                       path, *card.diameter, pi / 4 * *card.diameter * *card.diameter, card.area));
     if (card.mirrored != "none" && card.mirrored != "end" && card.freeLength > 0)
       problems.add(at("mirrored"),
