@@ -10,21 +10,26 @@ namespace coplane
 {
 namespace
 {
-/// A block of 2 x 2 x 2 m, and a cube of one element that dies at once (its ends part by 1e-4 in
-/// the first steps): its corners go on as eight points.
+/// The second block dies at once: the ends of its element part by 1e-4 in the first steps.
+/// @param middle height of its middle [m]
+Model dying(const Mesh& mesh, const Comm& comm, const Vec3& velocity, Real middle)
+{
+  Model model = rockModel(mesh, comm);
+  model.blocks[1].velocity = velocity;
+  model.blocks[1].velocityField = [middle](const Vec3& x) { return Vec3{0, 0, x.z - middle}; };
+  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
+  model.debris = true;
+  return model;
+}
+
+/// A block of 2 x 2 x 2 m, and a cube of one element that dies at once: its corners go
+/// on as eight points.
 Model dyingCube(const Comm& comm, const Vec3& corner, Real edge, const Vec3& velocity)
 {
   Mesh mesh;
   addBox(mesh, "block", {4, 4, 4}, {0, 0, 0}, {2, 2, 2});
   addBox(mesh, "cube", {1, 1, 1}, corner, {edge, edge, edge});
-  Model model = rockModel(mesh, comm);
-  model.blocks[1].velocity = velocity;
-  model.blocks[1].velocityField = [middle = corner.z + 0.5 * edge](const Vec3& x) {
-    return Vec3{0, 0, x.z - middle};
-  };
-  model.blocks[1].erosion.volumeRatio = {0.5, 1 + 1e-6};
-  model.debris = true;
-  return model;
+  return dying(mesh, comm, velocity, corner.z + 0.5 * edge);
 }
 
 /// It is as wide as 1 m, above the block, and falls on it.
@@ -313,6 +318,30 @@ TEST(Debris, itsRemainderVanishesWithTheStep)
   EXPECT_EQ(solver.debris()->touching(), 0);
   const EnergyBalance energy = solver.energy();
   EXPECT_LT(std::abs(energy.debris.remainder()), 1e-3 * energy.initial);
+}
+
+TEST(Debris, onARidgeIsPushedByBothSidesOfTheRoof)
+{
+  const Comm comm;
+  Mesh mesh;
+  addBox(mesh, "block", {4, 4, 4}, {-1, -1, -1}, {2, 2, 2});
+  for (Vec3& x : mesh.coordinates)
+    x = {std::sqrt(0.5) * (x.x - x.z), x.y, std::sqrt(0.5) * (x.x + x.z)};
+  const Real ridge = std::sqrt(2.0);
+  addBox(mesh, "cube", {1, 1, 1}, {0, -0.6, ridge + 0.01}, {3, 1, 3}); // two edges over the ridge
+  const int first = 125;
+  Solver solver(dying(mesh, comm, {0, 0, -20}, ridge + 1.51), comm);
+  solver.prepare();
+  cycles(solver, 100);
+  ASSERT_EQ(solver.debris()->count(), 8);
+  int pushed = 0;
+  for (int n = 0; n < solver.layout().owned(); ++n)
+    if (solver.layout().ids()[std::size_t(n)] > first && solver.state().x(n, 0) < 1)
+    {
+      EXPECT_LT(std::abs(solver.state().v(n, 0)), 1e-9);
+      pushed += solver.state().v(n, 2) > -15;
+    }
+  EXPECT_EQ(comm.sum(pushed), 2);
 }
 
 TEST(Debris, fliesThroughWithoutTheOption)

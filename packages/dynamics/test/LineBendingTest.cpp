@@ -1,5 +1,5 @@
 // A line that bends, on hosts whose motion is given: moments, forces and energies in closed form.
-#include <coplane_dynamics/Line.hpp>
+#include "LineRig.hpp"
 
 #include <gtest/gtest.h>
 
@@ -26,23 +26,6 @@ LineSetup barOf(int segments)
   for (int i = 0; i <= segments; ++i)
     setup.points.push_back({{length * i / segments, 0, 0}, true, 0});
   return setup;
-}
-
-LineHosts hostsOf(const LineSetup& setup)
-{
-  LineHosts hosts;
-  for (const LinePoint& point : setup.points)
-    hosts.x.push_back(point.place);
-  hosts.alive.assign(hosts.x.size(), 1);
-  hosts.pressure.assign(hosts.x.size(), 0);
-  return hosts;
-}
-
-Line installed(const LineSetup& setup, const LineHosts& hosts)
-{
-  Line line(setup, {});
-  line.advance(hosts, 0, 0, 0);
-  return line;
 }
 
 /// Brings the points to `place(x, part)` while part goes from 0 to 1.

@@ -1,5 +1,5 @@
 // One line on hosts whose motion is given: forces in closed form, energies, momenta.
-#include <coplane_dynamics/Line.hpp>
+#include "LineRig.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,24 +25,6 @@ LineSetup boltOf(int segments)
                             false,
                             length / segments * (i == 0 || i == segments ? 0.5 : 1)});
   return setup;
-}
-
-LineHosts hostsOf(const LineSetup& setup)
-{
-  LineHosts hosts;
-  for (const LinePoint& point : setup.points)
-    hosts.x.push_back(point.place);
-  hosts.alive.assign(hosts.x.size(), 1);
-  hosts.pressure.assign(hosts.x.size(), 0);
-  return hosts;
-}
-
-/// Installed without force where the hosts are.
-Line installed(const LineSetup& setup, const LineHosts& hosts, const std::vector<int>& dowels = {})
-{
-  Line line(setup, dowels);
-  line.advance(hosts, 0, 0, 0);
-  return line;
 }
 
 /// Pulls the plate out by d [m].

@@ -71,6 +71,22 @@ TEST(Lines, bindBodiesWithoutAddingMomentum)
   EXPECT_EQ(solver.lines().lines()[0].unbalanced(), 0);
 }
 
+TEST(Lines, whatHoldsThemBeyondAPlaneOfSymmetryIsInTheBooks)
+{
+  const Comm comm;
+  Model model = boltedCubes(comm);
+  model.lines[0].points.front().tied = false;
+  model.lines[0].mirrored = {true, false};
+  Solver solver(std::move(model), comm);
+  solver.prepare();
+  while (solver.clock().time < 8e-3)
+    solver.advance();
+  EXPECT_GT(norm(solver.lines().lines()[0].outerMoments()[0]), 0);
+  const Momenta momenta = solver.momenta();
+  EXPECT_GT(norm(momenta.angularImpulse), 1e-4 * momenta.magnitude);
+  EXPECT_LT(norm(momenta.angularError()), 1e-6 * momenta.magnitude);
+}
+
 TEST(Lines, haveTheSameBitsForAnyPartition)
 {
   const Comm comm;

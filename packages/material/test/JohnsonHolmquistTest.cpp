@@ -244,6 +244,21 @@ TEST(JohnsonHolmquist, losesNoMoreThanTheWorkInStepsOfAnySize)
   }
 }
 
+TEST(JohnsonHolmquist, breaksWithoutLosingMoreThanTheWork)
+{
+  // Under uniaxial stress it breaks in steps in which its sides leap out: flow and tension
+  // together.
+  JohnsonHolmquistParameters tough = ceramicJh2();
+  tough.damageFactor = 0.05;
+  for (const int steps : {20, 50, 100, 200})
+  {
+    MaterialProbe probe(makeLaw(tough), 0.01);
+    uniaxialStress(probe, -0.01, steps, nobody);
+    EXPECT_EQ(probe.history("damage"), 1) << steps;
+    EXPECT_LT(probe.dissipation(), 1.02 * probe.energy()) << steps;
+  }
+}
+
 TEST(JohnsonHolmquist, energyIsLostOrStored)
 {
   for (const char which : {'A', 'B', 'C'})

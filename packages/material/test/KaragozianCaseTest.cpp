@@ -186,6 +186,17 @@ TEST(KaragozianCase, aCrackTakesTheFractureEnergyWhateverTheElement)
   }
 }
 
+TEST(KaragozianCase, tearsWithoutLosingMoreThanTheWorkInStepsOfAnySize)
+{
+  for (const int steps : {20, 50, 200, 2000})
+  {
+    MaterialProbe probe(law, 0.05);
+    strainPath(probe, {0.02, 0, 0, 0, 0, 0}, steps, [](const MaterialProbe&) {});
+    EXPECT_EQ(probe.history("damage"), 1) << steps;
+    EXPECT_NEAR(probe.dissipation(), probe.energy(), 1e-3 * probe.energy()) << steps;
+  }
+}
+
 TEST(KaragozianCase, aFastCrackTakesTheEnergyOfItsStrength)
 {
   // r_f G_F, as in pseudo_cap: r_f = 10^(6 d) rate^(1/3) / 100 from 1/s on, d = 1 / (1 + 0.8 fc).

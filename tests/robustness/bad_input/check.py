@@ -107,6 +107,7 @@ expect("negative modulus", DECK, ["youngs_modulus", "> 0"], changed(["materials"
 expect("modulus not a number", DECK, ["youngs_modulus"], changed(["materials", "soft", "youngs_modulus"], math.nan))
 expect("infinite end", DECK, ["time.end"], changed(["time", "end"], math.inf))
 expect("misspelt key", DECK, ["densty", "density"], changed(["materials", "soft", "densty"], 1))
+expect("condition on a part of a rigid block", DECK, ["run.yaml:", "a condition on velocities holds 3 of the 9 nodes of a rigid body"], changed(["blocks", "right", "rigid"], True))
 
 expect(
     "nodal pressure in quadrilaterals", DECK,

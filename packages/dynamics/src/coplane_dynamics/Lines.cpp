@@ -418,6 +418,8 @@ void Lines::bookOuterMoments(NodalState& state, Real dt) const
     for (const int end : {0, 1})
     {
       const Vec3& moment = lines_[l].outerMoments()[std::size_t(end)];
+      if (norm(moment) == 0)
+        continue;
       const int point = firstPoints_[l] + (end == 0 ? 0 : pointsOf_[l] - 1);
       for (auto one =
                std::lower_bound(embedded_.begin(), embedded_.end(), point,

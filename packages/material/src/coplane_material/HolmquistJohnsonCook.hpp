@@ -117,7 +117,7 @@ struct HolmquistJohnsonCook
         branchFree::larger(T(damage1) * branchFree::power(reach, damage2), T(leastFracture));
     h[Damage] = branchFree::smaller(h[Damage] + (plastic + c.compaction) / ductility, one);
     // Volume per present volume is dmu (1 + mu)^-1.
-    point.dissipation = branchFree::positivePart(ofShear) + crushed * point.volumeRatio + torn;
+    point.dissipation = branchFree::positivePart(ofShear + torn) + crushed * point.volumeRatio;
     point.integrity = branchFree::larger(one - h[Damage], T(leastStiffness));
     point.stiffening = elastic.stiffeningOf(tangentOf(c));
   }

@@ -129,13 +129,13 @@ struct JohnsonHolmquist
     h[PlasticStrain] += plastic;
     // The mean of the stresses before and after; kept is of those that damage took.
     const T former = choose(yields, T(1.5) * contract(point.stress, trial) / q, zero);
-    const T ofShear = positivePart(plastic * T(0.5) * (former + borne * part) - kept);
+    const T ofShear = plastic * T(0.5) * (former + borne * part) - kept;
 
     const T scale = choose(yields, borne / q, one);
     point.stress =
         stressOf(trial, scale, -larger(ofVolume + h[BulkingPressure], (damage - one) * limit));
     point.bendingScale = scale;
-    point.dissipation = ofShear + torn;
+    point.dissipation = positivePart(ofShear + torn);
     point.integrity = larger(one - damage, T(leastStiffness));
     const T pressed = positivePart(mu);
     point.stiffening = elastic.stiffeningOf(

@@ -136,8 +136,8 @@ struct KaragozianCase
     const T least = left * fasterTension * T(surfaces.tensileStrength);
     const T cracked = positivePart(-least - volume.pressure) / volume.back;
     const T p = larger(volume.pressure, -least);
-    const T ofVolume = positivePart(cracked * half * (least + meanOf(point.stress))) +
-                       positivePart(workOfPores(volume, -meanOf(point.stress)));
+    const T torn = cracked * half * (least + meanOf(point.stress)),
+            crushed = positivePart(workOfPores(volume, -meanOf(point.stress)));
     if (rates.counts())
       faster = fasterTension + smaller(positivePart(p) * T(3 / surfaces.strength), one) *
                                    (rates.compression(rate) - fasterTension);
@@ -177,7 +177,7 @@ struct KaragozianCase
     h[Opening] = volume.opening + cracked;
     point.stress = stressOf(trial, scale, -p);
     point.bendingScale = scale;
-    point.dissipation = ofVolume + positivePart(ofShear);
+    point.dissipation = crushed + positivePart(ofShear + torn);
     point.integrity = larger(one - h[Damage], T(leastStiffness));
     point.stiffening = elastic.stiffeningOf(tangentOf(volume));
   }

@@ -256,12 +256,13 @@ void MaterialProbe::advance(const ProbeStep& step)
       return;
     }
   }
+  const std::string lack =
+      std::isfinite(off) ? fmt::format("off by {:.3g} Pa", off) : "none near is a number";
   fail(
       ExitCode::Computation,
       "no strain increment gives the stresses asked for at t = {} s, in up to {} parts of the step "
-      "(off by {:.3g} Pa). The material cannot bear them, or the step is too large: take more "
-      "steps.",
-      end, mostParts, off);
+      "({}). The material cannot bear them, or the step is too large: take more steps.",
+      end, mostParts, lack);
 }
 
 Real MaterialProbe::pressure() const
