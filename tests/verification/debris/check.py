@@ -102,14 +102,15 @@ case.same_bits("elastic", recipe, one, run, ranks=3)
 
 
 # --- wherever points come down: half of a body and its image, simplices, a rigid body that asks for no step ---------------
-def rain(low, divisions, split="none", rigid=False, speed=100, dense=1):
-    """Two rows of points, 17 mm over `dense` from each other, that fall on a plate; its elements are 30 mm wide."""
+def rain(low, divisions, split="none", rigid=False, speed=100, dense=1, aside=0):
+    """Two rows of points, 17 mm over `dense` from each other, that fall on a plate, towards its middle with `aside`; its elements are 30 mm wide."""
     recipe = {"dimension": 2, "parts": [
         {"shape": "box", "block": "floor", "min": [low, -0.12], "max": [0.3, 0], "divisions": [divisions, 3], "split": split},
         {"shape": "box", "block": "dust", "min": [10 * 0.017 * low / 0.3, 0.002], "max": [0.17, 0.019], "divisions": [dense * (20 if low < 0 else 10), 1]}],
         "node_sets": {"middle": {"where": {"x": 0}}}}  # fmt: skip
     one = case.load()
-    one["initial"][0]["velocity_field"] = [0, f"-{speed} + 0.01 * {speed} * (y - 0.01)", 0]
+    inward = f"-{aside} * (x > 1e-9) + {aside} * (x < -1e-9)"
+    one["initial"][0]["velocity_field"] = [inward, f"-{speed} + 0.01 * {speed} * (y - 0.01)", 0]
     if not rigid:
         one["conditions"] = [{"type": "symmetry", "node_set": "middle", "normal": [1, 0, 0]}] if low == 0 else []
         del one["blocks"]["floor"]["rigid"], one["history"]["rigid"]
@@ -132,6 +133,12 @@ x, v, _ = fallen(whole)
 x_half, v_half, _ = fallen(half)
 case.check("half of a plate: slowest of the points after the bounce, over 100 m/s", v_half.min() / 100, 0.7, 0.3)
 case.check("half of a plate: velocities over those of the whole one, largest difference", numpy.abs(v[x >= -1e-9] - v_half).max() / 100, 0, 1e-6)
+aslant = [case.run(f"aslant_{name}", *rain(low, divisions, aside=500)) for name, low, divisions in (("whole", -0.3, 20), ("half", 0, 10))]
+(x, v, _), (x_half, v_half, _) = (fallen(run) for run in aslant)
+crossed = aslant[1].results.coordinates[:, 0] + aslant[1].results.nodal("displacement", -1)[:, 0] < -0.01
+case.check_within("half of a plate, rain aslant: points beyond the plane of symmetry that were stopped", int(numpy.sum(crossed & (aslant[1].results.nodal("velocity", -1)[:, 1] > 0))), 8, 20)
+case.check("half of a plate, rain aslant: velocities over those of the whole one, largest difference", numpy.abs(v[x >= -1e-9] - v_half).max() / 100, 0, 1e-6)
+case.same_bits("aslant_half", *rain(0, 10, aside=500), aslant[1], ranks=2)
 for split, low in (("triangles", -0.3), ("triangles", 0)):
     recipe, one = rain(low, 10 if low == 0 else 20, split, dense=6)  # some points come down in elements that have no face at the surface
     run = case.run(f"rain_{split}_{low:g}", recipe, one)
@@ -145,4 +152,28 @@ for speed in (1, 20):
     x, v, y = fallen(run)
     case.check(f"rigid plate, {speed} m/s: speed after the bounce over that before, mean", v.mean() / speed, 1, 0.1)
     case.check(f"rigid plate, {speed} m/s: what is not stored, over the energy at the start", numpy.abs(run.history["debris_remainder"]).max() / run.history["initial"][0], 0, 0.1)
+
+# --- a ring of dust goes through the axis of a body of revolution, and meets a tube from within ---------------------------
+recipe = {"dimension": 2, "parts": [{"shape": "box", "block": "floor", "min": [0.5, -0.1], "size": [0.1, 0.2], "divisions": [2, 4]},
+                                    {"shape": "box", "block": "dust", "min": [0.2, -0.013], "size": [0.02, 0.02], "divisions": [1, 1]}]}  # fmt: skip
+one = case.load()
+one["geometry"], one["conditions"] = "axisymmetric", []
+del one["blocks"]["floor"]["rigid"], one["history"]["rigid"]
+one["blocks"]["dust"]["erosion"] = {"stable_step": 1}
+one["initial"][0]["velocity_field"] = [-100, 0, 0]
+one["time"] = {"end": 0.012, "step_factor": 0.3}
+run = case.run("ring", recipe, one)
+r, h = run.results, run.history
+dust, tube = (numpy.unique(r.connectivity(block)) for block in ("dust", "floor"))
+before = r.nodal("velocity", 1)[dust, 0]  # beyond the axis, on the way to the tube
+case.check("ring: speed beyond the axis over that at the start, largest difference", numpy.abs(before / -100 - 1).max(), 0, 1e-12)
+case.check_within("ring: its places then, over the radius of the tube", (r.coordinates[dust, 0] + r.nodal("displacement", 1)[dust, 0]).max() / 0.5, -1, -0.5)
+after = r.nodal("velocity", -1)[dust, 0]
+case.check("ring: speed back from the tube over that before, mean", (-after / before).mean(), 0.9, 0.1)
+case.check("ring: work of what stops nodes at the axis, over the energy", numpy.abs(h["external_work"]).max() / h["initial"][0], 0, 1e-12)
+case.check("ring: what is not stored, over the energy", numpy.abs(h["debris_remainder"]).max() / h["initial"][0], 0, 0.02)
+pushed = h["debris_touching"] > 0
+case.check_within("ring: all of its points touch the tube", int(h["debris_touching"].max()), 2, 4)
+case.same_bits("ring", recipe, one, run, ranks=2)
+case.restarts("ring", recipe, one, run, h["time"][pushed][pushed.sum() // 2])
 case.finish()

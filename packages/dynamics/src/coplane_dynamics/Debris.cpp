@@ -166,17 +166,26 @@ std::uint64_t bitsOf(Real value)
 namespace
 {
 /// Stiffness of the contact of a point as heavy as the element behind the face, or heavier [N/m].
-Real stiffnessOf(const ExteriorFace& face, const RankMesh& mesh, const ElementForces& elements)
+Real stiffnessOf(const ExteriorFace& face, const RankMesh& mesh, const ElementForces& elements,
+                 bool ofRevolution)
 {
   const ElementBlock& block = elements.blocks()[std::size_t(face.block)];
-  const Real length =
-      mesh.dimension == 3 ? block.referenceLength()(face.element) : 1; // or thickness
+  Real length = 1; // thickness
+  if (mesh.dimension == 3)
+    length = block.referenceLength()(face.element);
+  else if (ofRevolution)
+  {
+    length = 0;
+    for (int k = 0; k < face.nodeCount; ++k)
+      length +=
+          2 * pi / face.nodeCount * mesh.coordinates[std::size_t(face.nodes[std::size_t(k)])].x;
+  }
   return stiffnessOfElement * pWaveModulus(block.material()) * length;
 }
 } // namespace
 
 void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-                   const std::vector<Mirror>& mirrors, const std::vector<int>& bodyOfNode,
+                   std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode,
                    const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
                    const NodeLayout& layout)
 {
@@ -208,12 +217,13 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
                                 }),
                  exterior.end());
   faces_ = std::move(exterior);
+  mirrors_ = std::move(mirrors);
   bodies_.clear();
   std::vector<Real> most{0, 0};
   for (const ExteriorFace& face : faces_)
   {
     bodies_.push_back(bodyOfNode[std::size_t(face.nodes[0])]);
-    const Real stiffness = stiffnessOf(face, mesh, elements);
+    const Real stiffness = stiffnessOf(face, mesh, elements, ofRevolution_);
     most[0] = std::max(most[0], stiffness);
     most[1] = std::max(most[1],
                        stiffness / elements.blocks()[std::size_t(face.block)].mass(face.element));
@@ -263,6 +273,45 @@ std::vector<Vec3> Debris::ofPoints(const NodeVectors& field) const
   for (std::size_t i = 0; i < points_.size(); ++i)
     for (int c = 0; c < 3; ++c)
       std::memcpy(&x[i][c], &bits[3 * i + std::size_t(c)], sizeof(Real));
+  return x;
+}
+
+Vec3 Debris::Image::of(Vec3 vector) const
+{
+  for (int i = 0; i < count; ++i)
+    vector -= 2 * dot(normals[std::size_t(i)], vector) * normals[std::size_t(i)];
+  return vector;
+}
+
+Vec3 Debris::Image::back(Vec3 vector) const
+{
+  for (int i = count; i-- > 0;)
+    vector -= 2 * dot(normals[std::size_t(i)], vector) * normals[std::size_t(i)];
+  return vector;
+}
+
+/// On the side of mirrors on which bodies are. Collective.
+std::vector<Vec3> Debris::placesOfPoints(const NodalState& state)
+{
+  std::vector<Vec3> x = ofPoints(state.x);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    Image& image = points_[i].image;
+    image.count = 0;
+    bool isHere = false;
+    while (!isHere && image.count < int(image.normals.size()))
+    {
+      isHere = true;
+      for (const Mirror& mirror : mirrors_)
+        if (const Real height = dot(mirror.normal, x[i]) - mirror.level;
+            mirror.side * height < 0 && image.count < int(image.normals.size()))
+        {
+          x[i] -= 2 * height * mirror.normal;
+          image.normals[std::size_t(image.count++)] = mirror.normal;
+          isHere = false;
+        }
+    }
+  }
   return x;
 }
 
@@ -356,12 +405,12 @@ std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& insid
       way.beyond =
           placesBeyond(corners, face.nodeCount, c.data(), places[std::size_t(i)] + nearest.way);
       way.weights = nearest.weights;
-      Vec3 apart = v[std::size_t(one.point)];
+      Vec3 apart = points_[std::size_t(one.point)].image.of(v[std::size_t(one.point)]);
       for (int k = 0; k < face.nodeCount; ++k)
         apart = apart - nearest.weights[std::size_t(k)] * at(state.v, face.nodes[std::size_t(k)]);
       way.speed = norm(apart);
       const Real heavy = elements.blocks()[std::size_t(face.block)].mass(face.element);
-      way.stiffness = stiffnessOf(face, mesh, elements) *
+      way.stiffness = stiffnessOf(face, mesh, elements, ofRevolution_) *
                       std::min(Real(1), points_[std::size_t(one.point)].mass / heavy);
       beside.push_back(way);
     };
@@ -494,10 +543,11 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
                         const NodalState& state, Real dt)
 {
   forces_.clear();
+  fromOutside_.clear();
   stiffness_.clear();
   stored_ = 0;
   touching_ = 0;
-  const std::vector<Vec3> x = ofPoints(state.x);
+  const std::vector<Vec3> x = placesOfPoints(state);
   const std::vector<WaysOut> ways =
       findWaysOut(findInside(x, mesh, state), x, mesh, elements, state);
   const std::vector<Point> before = points_;
@@ -541,18 +591,24 @@ void Debris::findForces(const RankMesh& mesh, const ElementForces& elements,
       continue;
     ++touching_;
     for (const WayOut& way : by)
-      push(point, way, depth, 1 / Real(by.size()), mesh);
+      push(point, x[std::size_t(its.point())], way, depth, 1 / Real(by.size()), mesh, state);
   }
 }
 
-void Debris::push(const Point& point, const WayOut& by, Real depth, Real share,
-                  const RankMesh& mesh)
+void Debris::push(const Point& point, const Vec3& place, const WayOut& by, Real depth, Real share,
+                  const RankMesh& mesh, const NodalState& state)
 {
   const Real stiffness = share * by.stiffness;
   stored_ += 0.5 * stiffness * depth * depth;
   const Vec3 force = (stiffness * depth) * by.outward;
   if (point.node >= 0)
-    forces_.emplace_back(point.node, force);
+  {
+    const Vec3 there = point.image.back(force);
+    forces_.emplace_back(point.node, there);
+    if (point.image.count > 0)
+      fromOutside_.push_back(
+          {point.node, there - force, cross(at(state.x, point.node), there) - cross(place, force)});
+  }
   const auto face = std::lower_bound(faces_.begin(), faces_.end(), by.face,
                                      [](const ExteriorFace& f, GlobalId id) { return f.id < id; });
   if (face == faces_.end() || face->id != by.face)
@@ -572,11 +628,21 @@ void Debris::bookHalfStep(const NodalState& state, Real dt)
     work_.add(-0.5 * dt * dot(force, at(state.v, node)));
 }
 
+void Debris::bookImages(NodalState& state, Real dt) const
+{
+  for (const auto& [node, force, moment] : fromOutside_)
+  {
+    set(state.impulse, node, at(state.impulse, node) + dt * force);
+    set(state.angularImpulse, node, at(state.angularImpulse, node) + dt * moment);
+  }
+}
+
 void Debris::addForces(const RankMesh& mesh, const ElementForces& elements, NodalState& state,
                        Real dt)
 {
   bookHalfStep(state, dt);
   forces_.clear();
+  fromOutside_.clear();
   stored_ = 0;
   touching_ = 0;
   if (points_.empty()) // on all ranks

@@ -22,7 +22,8 @@ namespace coplane
 /// nearest point of the exterior faces of that body on which no other body lies, nor its own mirror
 /// image; d counts from what it was when the point was freed in there, or came in there from the
 /// inside of the body, as long as it has not come out. Force and counterforce are minus the
-/// gradient of that, on one line, so both momenta stay.
+/// gradient of that, on one line, so both momenta stay. Beyond a plane of symmetry, or the axis of
+/// a body of revolution, where a point is a ring, it is its image on this side.
 ///
 /// Every rank has all points with the same bits: the owner of a node tells where it is, the owners
 /// of faces tell which is the nearest, and every rank adds to the nodes that it owns, point after
@@ -30,7 +31,8 @@ namespace coplane
 class Debris
 {
 public:
-  explicit Debris(const Comm& comm) : comm_(&comm) {}
+  /// @param ofRevolution bodies are turned about x = 0
+  Debris(const Comm& comm, bool ofRevolution) : comm_(&comm), ofRevolution_(ofRevolution) {}
 
   /// An owned node that has become a point.
   struct FreeNode
@@ -41,22 +43,27 @@ public:
   /// A plane in which bodies go on as their own image: their faces there lead nowhere.
   struct Mirror
   {
-    Vec3 normal{};
+    Vec3 normal{};  ///< of length 1
     Real level = 0; ///< normal . x of its points [m]
+    int side = 0;   ///< 1: bodies are where normal . x is larger, -1: smaller, 0: on both sides
   };
 
   /// After elements have died or come: which nodes are points now, and which faces stop them.
   /// Collective.
   /// @param bodyOfNode number of the body of each node of this rank's elements
   void renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-             const std::vector<Mirror>& mirrors, const std::vector<int>& bodyOfNode,
-             const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
-             const NodeLayout& layout);
+             std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode, const RankMesh& mesh,
+             const ElementForces& elements, const NodalState& state, const NodeLayout& layout);
 
   /// Forces at n + 1 and what they add to the stiffness of the owned nodes; books the work of the
   /// step with the mean of the forces at its ends. Collective.
   /// @param dt the step from n to n + 1 [s]
   void addForces(const RankMesh& mesh, const ElementForces& elements, NodalState& state, Real dt);
+
+  /// What points feel beyond planes of symmetry, faces do on this side: the difference comes from
+  /// outside, and is in the books as such.
+  /// @param dt of the kick [s]
+  void bookImages(NodalState& state, Real dt) const;
 
   std::int64_t count() const { return std::int64_t(points_.size()); }
   std::int64_t touching() const { return touching_; } ///< points that faces push now
@@ -69,6 +76,14 @@ public:
   void addTo(StateHash& hash, std::uint64_t field) const;
 
 private:
+  /// Reflections that bring a point to the side of mirrors on which bodies are.
+  struct Image
+  {
+    std::array<Vec3, 6> normals{};
+    int count = 0;
+    Vec3 of(Vec3 vector) const;   ///< here of one there
+    Vec3 back(Vec3 vector) const; ///< there of one here
+  };
   struct Point
   {
     GlobalId id = 0;
@@ -79,6 +94,7 @@ private:
     bool between = false;   ///< came in over a face on which another body lies
     Real distance = 0;      ///< from the surface, while inside [m]
     Real speed = 0;         ///< against it [m/s]
+    Image image;            ///< where it was looked at last
 
     /// In no element from which it can leave: it has come out, or is in a hair between bodies if it
     /// was too deep for that.
@@ -130,6 +146,7 @@ private:
 
   // Collective.
   std::vector<Vec3> ofPoints(const NodeVectors& field) const;
+  std::vector<Vec3> placesOfPoints(const NodalState& state);
   std::vector<Inside> findInside(const std::vector<Vec3>& x, const RankMesh& mesh,
                                  const NodalState& state) const;
   std::vector<WayOut> facesBeside(const std::vector<Inside>& inside, const std::vector<Vec3>& x,
@@ -145,11 +162,15 @@ private:
                   Real dt);
 
   /// A way out pushes a point by its share of the force, and the face back.
-  void push(const Point& point, const WayOut& by, Real depth, Real share, const RankMesh& mesh);
+  /// @param place where it is looked at [m]
+  void push(const Point& point, const Vec3& place, const WayOut& by, Real depth, Real share,
+            const RankMesh& mesh, const NodalState& state);
   void bookHalfStep(const NodalState& state, Real dt);
   Real longestElement(const RankMesh& mesh, const NodalState& state) const;
 
   const Comm* comm_;
+  bool ofRevolution_;
+  std::vector<Mirror> mirrors_;
   std::vector<Point> points_;       ///< sorted by id, the same on all ranks
   std::vector<ExteriorFace> faces_; ///< local ones that lead somewhere
   std::vector<int> bodies_;         ///< of these
@@ -157,6 +178,13 @@ private:
   /// Most that the contact of a point can have: stiffness [N/m], and that over its mass [1/s^2].
   Real stiffest_ = 0, stiffestPerMass_ = 0;
   NodeForces forces_; ///< on owned nodes, of the last evaluation
+  /// On an owned node that has crossed a mirror, what its image does not feel of that.
+  struct FromOutside
+  {
+    int node = 0;
+    Vec3 force{}, moment{}; ///< [N], about the origin [N m]
+  };
+  std::vector<FromOutside> fromOutside_;
   std::vector<std::pair<int, Real>> stiffness_;
   Real stored_ = 0; ///< [J]
   std::int64_t touching_ = 0;

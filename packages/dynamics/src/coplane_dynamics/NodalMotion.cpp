@@ -29,6 +29,7 @@ NodalMotion::NodalMotion(Model& model, const ElementForces& elements, const Noda
       bodies_(model.mesh, model.rigidBodyOfNode, rigidBlocksOf(model), elements.blocks(), state,
               comm),
       followsBody_("coplane::dynamics::followsBody", model.mesh.ownedNodes),
+      passesTheAxis_("coplane::dynamics::passesTheAxis", model.mesh.ownedNodes),
       freeFields_(model, comm), dashpots_(model.conditions, model.mesh.ownedNodes)
 {
   bodies_.takeConditions(model.conditions);
@@ -218,6 +219,13 @@ void NodalMotion::prescribe(const Times& times, const Conditions& conditions, No
 
 /// Rings that close meet themselves on the axis of a body of revolution: a node comes to it and no
 /// further. What stops it is external, and takes the energy of its radial motion.
+void NodalMotion::letThroughAxis(const std::vector<int>& nodes)
+{
+  Kokkos::deep_copy(passesTheAxis_, false);
+  for (const int n : nodes)
+    passesTheAxis_(n) = true;
+}
+
 void NodalMotion::stopAtAxis(const Times& times, const Conditions& conditions,
                              NodalState& state) const
 {
@@ -231,10 +239,11 @@ void NodalMotion::stopAtAxis(const Times& times, const Conditions& conditions,
   for (const int n : dashpots_.nodes())
     if (const Real change = -x(n, 0) / after - v(n, 0); change > 0)
       set(external, n, at(external, n) + 0.5 * dashpots_.drag(n, {change, 0, 0}));
+  const auto passes = passesTheAxis_;
   parallelFor(
       "coplane::dynamics::stopAtAxis", state.owned(), KOKKOS_LAMBDA(const int n) {
         const Real inward = -x(n, 0) / after; // brings it to the axis in this step
-        if (v(n, 0) >= inward)
+        if (v(n, 0) >= inward || passes(n))
           return;
         external(n, 0) += share * mass(n) * (inward - v(n, 0));
         v(n, 0) = inward;

@@ -25,6 +25,8 @@ public:
 
   const RigidBodies& bodies() const { return bodies_; }
   bool followsBody(int node) const { return followsBody_(node); } ///< an owned node
+  /// Bodies of revolution: these owned nodes, and no others, go through the axis.
+  void letThroughAxis(const std::vector<int>& nodes);
 
   /// Momenta of bodies from the velocities of their nodes.
   void start(NodalState& state) { bodies_.start(state); }
@@ -100,7 +102,8 @@ private:
 
   int dimension_;
   RigidBodies bodies_;
-  Array<bool> followsBody_; ///< owned nodes of rigid bodies
+  Array<bool> followsBody_;   ///< owned nodes of rigid bodies
+  Array<bool> passesTheAxis_; ///< owned nodes
   FreeFields freeFields_;
   Dashpots dashpots_;
   /// Owned nodes with conditions on velocities, and those of dashpots; sorted.

@@ -60,7 +60,7 @@ Solver::Solver(Model model, const Comm& comm)
   if (model_.contactEnabled)
     makeContact();
   if (contact_ && model_.debris)
-    debris_.emplace(comm);
+    debris_.emplace(comm, model_.axisymmetric());
 }
 
 /// Where blocks share nodes, the last one's velocity counts.
@@ -240,24 +240,38 @@ bool Solver::erode(Real dt)
   return true;
 }
 
-/// Collective. The symmetries that act in all of the run and hold nodes of a plane.
+/// Collective. The symmetries that act in all of the run and hold nodes of a plane, and the axis.
+/// Of the mesh as it was read: so they are the same after a restart.
 std::vector<Debris::Mirror> Solver::mirrors() const
 {
   std::vector<Debris::Mirror> mirrors;
+  if (model_.axisymmetric())
+    mirrors.push_back({{1, 0, 0}, 0, 1});
+  const std::vector<Vec3>& x = mesh().coordinates;
   for (const SymmetryPlane& plane : model_.conditions.symmetries)
   {
-    std::vector<Real> bounds{-infinity, -infinity, 0};
+    // Of the nodes of the plane, the largest of either sign and the farthest; then of all nodes.
+    std::vector<Real> bounds{-infinity, -infinity, 0, -infinity, -infinity};
     for (const int node : plane.nodes)
     {
-      const Vec3 x = at(state_.x, node);
-      const Real level = dot(plane.normal, x);
-      bounds = {std::max(bounds[0], level), std::max(bounds[1], -level),
-                std::max(bounds[2], norm(x))};
+      const Real level = dot(plane.normal, x[std::size_t(node)]);
+      bounds[0] = std::max(bounds[0], level);
+      bounds[1] = std::max(bounds[1], -level);
+      bounds[2] = std::max(bounds[2], norm(x[std::size_t(node)]));
+    }
+    for (int node = 0; node < mesh().ownedNodes; ++node)
+    {
+      const Real level = dot(plane.normal, x[std::size_t(node)]);
+      bounds[3] = std::max(bounds[3], level);
+      bounds[4] = std::max(bounds[4], -level);
     }
     comm_->max(bounds);
     constexpr Real roundOff = 1e-9;
-    if (plane.when.isAlways() && bounds[0] + bounds[1] <= roundOff * bounds[2])
-      mirrors.push_back({plane.normal, 0.5 * (bounds[0] - bounds[1])});
+    const Real level = 0.5 * (bounds[0] - bounds[1]), thickness = roundOff * bounds[2];
+    if (!plane.when.isAlways() || bounds[0] + bounds[1] > thickness)
+      continue;
+    const bool above = bounds[3] > level + thickness, below = bounds[4] > -level + thickness;
+    mirrors.push_back({plane.normal, level, int(above && !below) - int(below && !above)});
   }
   return mirrors;
 }
@@ -268,9 +282,14 @@ void Solver::renewDebris()
   if (!debris_ || !erosion_->acts())
     return;
   std::vector<Debris::FreeNode> points;
+  std::vector<int> nodes;
   for (int n = 0; n < layout_.owned(); ++n)
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
+    {
       points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n)});
+      nodes.push_back(n);
+    }
+  motion_->letThroughAxis(nodes);
   debris_->renew(points, erosion_->exterior(), mirrors(), bodyOfNode_, mesh(), elements_, state_,
                  layout_);
 }
@@ -439,6 +458,8 @@ void Solver::kick(Real step)
         motion_->kick(kickTimes(step), model_.conditions, state_);
       });
   lines_->bookOuterMoments(state_, NodalMotion::kickOf(kickTimes(step)));
+  if (debris_)
+    debris_->bookImages(state_, NodalMotion::kickOf(kickTimes(step)));
   clock_.nextStep = step;
 }
 

@@ -313,9 +313,6 @@ void checkDebris(const Deck& deck, const DeckNode& root, Problems& problems)
                    [](const auto& block) { return block.erosion.any(); }))
     problems.add(node, "contact.debris = 'points' has no effect without blocks.<name>.erosion: no "
                        "element dies. Add that or remove this.");
-  if (deck.geometry == "axisymmetric")
-    problems.add(node, "contact.debris = 'points' does not go with geometry = 'axisymmetric': a "
-                       "point would be a ring. Accepted: plane strain or three dimensions.");
 }
 
 bool allZero(const std::array<Real, 6>& values)
