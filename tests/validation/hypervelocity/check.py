@@ -93,7 +93,7 @@ for speed in (3000, 6180):
 case.check(f"{name_of(6180)}, measured (reported: we differ)", found[6180], MEASURED, 0.1, relative=True, report=True)
 front, behind = lips(run)
 case.check_within("6.18 km/s: measured hole, between the narrowest place and the crest of the narrower lip [m]", MEASURED, found[6180], min(front, behind))
-case.picture(run, "--color", "von_mises", "--shares", "0", "0.1", "0.3", "1", "--strip", "4", "--planes", "none", "--direction", "0.6", "0.5", "1", "--up", "y", "--window", "-0.03", "0.04", "-0.045", "0.02", "--size", "400", "360")
+case.picture(run, "--color", "von_mises", "--shares", "0", "0.1", "0.3", "1", "--strip", "4", "--planes", "none", "--mirror", "--direction", "0.15", "0.45", "-1", "--up", "y", "--window", "-0.03", "0.03", "-0.04", "0.02", "--size", "400", "380")
 case.check_within("hole at 3 km/s over that at 6.18 km/s", found[3000] / found[6180], 0.65, 0.95)
 case.check("3 km/s in a half section, with the forces of bodies of revolution: hole over that in three dimensions", hole(shoot("half_section", 3000, 2, half_section=True)[0]) / found[3000], 1, 0.1)
 if case.full:

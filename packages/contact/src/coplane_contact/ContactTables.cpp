@@ -6,22 +6,38 @@
 
 namespace coplane
 {
-bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
+namespace
+{
+/// A face where its nodes are now.
+struct Extent
+{
+  Vec3 normal; ///< of length 1, or 0 where it has no area
+  Real area;   ///< [m^2]
+};
+
+Extent extentOf(const Contact& contact, int face, const ConstNodeVectors& x)
+{
+  const FaceCorners corners = cornersAt(x, contact.faces()[face]);
+  const Vec3 area = corners.area(contact.dimension());
+  const Real around = contact.options().axisymmetric ? 2 * pi * corners.center().x : 1;
+  return {normalised(area), norm(area) * around};
+}
+
+/// @param extent by face
+template <class ExtentOf>
+bool facesLieOverEachOther(const Plane& plane, const ExtentOf& extent)
 {
   if (plane.face[0] < 0 || !(plane.overlap > 0))
     return false;
-  Vec3 area[2];
-  Real least = infinity;
-  for (int side = 0; side < 2; ++side)
-  {
-    const Face& face = contact.faces()[plane.face[side]];
-    const FaceCorners corners = cornersAt(x, face);
-    area[side] = corners.area(contact.dimension());
-    const Real around = contact.options().axisymmetric ? 2 * pi * corners.center().x : 1;
-    least = std::min(least, norm(area[side]) * around);
-  }
-  return plane.overlap > sliverOfJoint * least &&
-         dot(normalised(area[0]), normalised(area[1])) < -opposedAcrossJoint;
+  const Extent &a = extent(plane.face[0]), &b = extent(plane.face[1]);
+  return plane.overlap > sliverOfJoint * std::min(a.area, b.area) &&
+         dot(a.normal, b.normal) < -opposedAcrossJoint;
+}
+} // namespace
+
+bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
+{
+  return facesLieOverEachOther(plane, [&](int face) { return extentOf(contact, face, x); });
 }
 
 std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x)
@@ -57,6 +73,10 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
                   std::vector<Real>(joints, 0),
                   std::vector<PlaneEnergySums>(joints)};
   const PlaneList& planes = contact.planesNow();
+  const Array<Extent> extents(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::extents"),
+                              contact.faces().size());
+  parallelFor("coplane::contact::extents", int(extents.size()),
+              [&](const int face) { extents(face) = extentOf(contact, face, x); });
   const auto take = [&](Sums& all, std::size_t p)
   {
     const Plane& plane = planes[p];
@@ -65,7 +85,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     all.energies[plane.joint].add(plane, plane.stored);
     ExactSum* mine = &all.sums[PerJoint * plane.joint];
     mine[Force].add(plane.area * plane.normalTraction);
-    if (!isPartOfJoint(contact, plane, x))
+    if (!facesLieOverEachOther(plane, extents))
       return;
     mine[Open].add(plane.overlap);
     if (plane.state != PlaneState::Open)

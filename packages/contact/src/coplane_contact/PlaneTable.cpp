@@ -39,7 +39,7 @@ void PlaneList::add(std::size_t slot, Plane* plane)
 PlaneTable::Slots::Slots(std::size_t count, std::size_t planes)
     : faces("coplane::contact::slotFaces", count), plane(count, nullptr),
       activity("coplane::contact::activity", count), todo("coplane::contact::todo", count),
-      evaluated("coplane::contact::evaluated", count),
+      gains("coplane::contact::gains", count),
       stored(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), planes)
 {
 }
@@ -113,7 +113,7 @@ PairTables PlaneTable::forKernels(bool incremental)
 {
   PairTables pairs{this,         slots_.plane.data(), slots_.faces.data(), slots_.activity.data(),
                    laws_.data(), incremental,         &passedOn_};
-  pairs.evaluated = slots_.evaluated.data();
+  pairs.gains = slots_.gains.data();
   return pairs;
 }
 
@@ -123,7 +123,7 @@ void PlaneTable::take(Slots slots, const Array<Face>& faces, Preparation prepara
   faces_ = faces;
   preparation_ = std::move(preparation);
   passedOn_.forget();
-  gains_ = {};
+  gainsAreKnown_ = false;
   woken_.clear();
   wokenCount_ = 0;
   parallelFor("coplane::contact::slots", int(count()),
@@ -176,45 +176,49 @@ void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
 
 namespace
 {
-/// A sum that is rounded in the order of threads.
+/// A sum that is rounded in the order of threads; several at once, which do not wait for each
+/// other.
 struct LooseSum
 {
-  Real value = 0;
+  static constexpr std::size_t width = 8;
+  std::array<Real, width> parts{};
 
-  void add(const LooseSum& other) { value += other.value; }
+  void add(const LooseSum& other)
+  {
+    for (std::size_t i = 0; i < width; ++i)
+      parts[i] += other.parts[i];
+  }
+  Real value() const
+  {
+    Real sum = 0;
+    for (const Real part : parts)
+      sum += part;
+    return sum;
+  }
 };
-
-Real gainOf(const Plane* plane)
-{
-  return plane != nullptr && plane->countedHere && plane->isBorn() ? -plane->remainder() : 0;
-}
 } // namespace
 
 Real PlaneTable::gain() const
 {
-  if (!gains_.known)
-  {
-    // Of all, as they are now; differences from that afterwards.
-    Kokkos::deep_copy(slots_.evaluated, std::uint8_t(0));
-    gains_.ofSlot =
-        Array<Real>(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::gains"), count());
-    gains_.all = sumInParts("coplane::contact::gains", count(), LooseSum{},
-                            [&](LooseSum& sum, std::size_t slot)
+  if (!gainsAreKnown_)
+    parallelFor("coplane::contact::gains", int(count()),
+                [&](const int slot)
+                {
+                  const Plane* const plane = slots_.plane[slot];
+                  slots_.gains(slot) = plane == nullptr ? 0 : gainOf(*plane);
+                });
+  gainsAreKnown_ = true;
+  const Real* const gains = slots_.gains.data();
+  constexpr std::size_t width = LooseSum::width;
+  LooseSum sum = sumInParts("coplane::contact::gain", count() / width, LooseSum{},
+                            [&](LooseSum& mine, std::size_t part)
                             {
-                              gains_.ofSlot(slot) = gainOf(slots_.plane[slot]);
-                              sum.value += gains_.ofSlot(slot);
-                            })
-                     .value;
-    gains_.known = true;
-  }
-  const LooseSum since = sumInParts("coplane::contact::gain", count(), LooseSum{},
-                                    [&](LooseSum& sum, std::size_t slot)
-                                    {
-                                      if (slots_.evaluated(slot) != 0)
-                                        sum.value +=
-                                            gainOf(slots_.plane[slot]) - gains_.ofSlot(slot);
-                                    });
-  return gains_.all + since.value;
+                              for (std::size_t i = 0; i < width; ++i)
+                                mine.parts[i] += gains[width * part + i];
+                            });
+  for (std::size_t slot = count() / width * width; slot < count(); ++slot)
+    sum.parts[0] += gains[slot];
+  return sum.value();
 }
 
 void PlaneTable::drop(const std::vector<std::size_t>& slots)
@@ -223,7 +227,7 @@ void PlaneTable::drop(const std::vector<std::size_t>& slots)
   {
     slots_.plane[slot] = nullptr;
     slots_.activity(slot) = Activity::Awake;
-    slots_.evaluated(slot) = 1;
+    slots_.gains(slot) = 0;
   }
   list();
 }
@@ -246,7 +250,6 @@ Plane& PlaneTable::wake(std::size_t slot)
     *place = freshPlane(slot);
     plane = place;
   }
-  slots_.evaluated(slot) = 1;
   if (std::uint8_t& todo = slots_.todo(slot); todo != 0)
   {
     preparation_.prepare(slot, todo, *plane);

@@ -17,6 +17,12 @@ namespace coplane
 {
 struct PairTables;
 
+/// What a plane that is counted here has gained, by its remainder [J].
+inline Real gainOf(const Plane& plane)
+{
+  return plane.countedHere && plane.isBorn() ? -plane.remainder() : 0;
+}
+
 /// What cycles have changed, by any thread.
 struct PassedOnChanges
 {
@@ -68,8 +74,9 @@ public:
     std::vector<Plane*> plane; ///< null: none yet
     Array<Activity> activity;  ///< without a plane: not Awake once it has been looked at
     Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
-    Array<std::uint8_t>
-        evaluated; ///< 1: its plane may have changed since gain() was first asked for
+    /// Minus the remainder of its plane, if that is born and counted here, since it was evaluated
+    /// last [J]; gain() fills in the others.
+    Array<Real> gains;
     Kokkos::View<Plane*, Kokkos::HostSpace> stored; ///< those that there are at once; to be made
     /// Of a checkpoint, for slots without a plane; empty: the preparation tells.
     std::vector<EdgesOfPair> edges;
@@ -83,8 +90,7 @@ public:
   const PlaneList& planes() const { return planes_; }
   std::int64_t countedHere() const { return countedHere_; } ///< slots
   /// Minus the remainders of the born planes that are counted here, in bits that depend on ranks
-  /// and threads [J]. After the first time since the slots were made it looks only at planes that
-  /// have been evaluated since then.
+  /// and threads [J]. After the first time since the slots were made it looks at no plane.
   Real gain() const;
   /// Whether the pair of a slot has been looked at, and carries nothing.
   bool carriesNothing(std::size_t slot) const
@@ -146,14 +152,7 @@ private:
   std::mutex waking_;
   std::vector<std::unique_ptr<Plane[]>> woken_;
   std::size_t wokenCount_ = 0, wokenListed_ = 0;
-  PassedOnChanges passedOn_; ///< since pairs last learned what others pass on
-  /// When gain() was first asked for since the slots were made.
-  struct Gains
-  {
-    Array<Real> ofSlot; ///< minus the remainder of the plane [J]
-    Real all = 0;       ///< [J]
-    bool known = false;
-  };
-  mutable Gains gains_;
+  PassedOnChanges passedOn_;           ///< since pairs last learned what others pass on
+  mutable bool gainsAreKnown_ = false; ///< of all slots
 };
 } // namespace coplane

@@ -5,10 +5,8 @@
 
 namespace coplane
 {
-void ExactSum::add(Real value)
+void ExactSum::addTerm(Real value)
 {
-  if (value == 0)
-    return;
   std::uint64_t bits;
   std::memcpy(&bits, &value, sizeof bits);
   const int biased = int((bits >> 52) & 0x7ff);

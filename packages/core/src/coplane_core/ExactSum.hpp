@@ -15,7 +15,11 @@ namespace coplane
 class ExactSum
 {
 public:
-  void add(Real value);
+  void add(Real value)
+  {
+    if (value != 0) // of many terms most are
+      addTerm(value);
+  }
   void add(const ExactSum& other);
 
   /// The sum so far on this rank, correctly rounded to within one unit in the last place, a
@@ -40,6 +44,7 @@ private:
   static constexpr int lowestBit = -1088;
   static constexpr std::int64_t additionsBeforeCarry = std::int64_t(1) << 29;
 
+  void addTerm(Real value);
   void carry();
 
   std::array<std::int64_t, limbs> limb_{};

@@ -83,7 +83,7 @@ struct PairTables
   /// By face: 1 where other slots are loaded now (ForceSums); null: nobody asks.
   std::uint8_t* changedFaces = nullptr;
   const PairDistances* distances = nullptr; ///< null: all pairs are looked at
-  std::uint8_t* evaluated = nullptr;        ///< by slot: set to 1; null: nobody asks
+  Real* gains = nullptr;                    ///< by slot, gainOf() its plane [J]; null: nobody asks
 
   PassedOn passedBy(int p) const { return {*planes[p], laws[planes[p]->joint], incremental}; }
   /// After a pair has been evaluated; `before`: passedBy() before that.
@@ -148,8 +148,8 @@ struct PairTables
       for (const std::int32_t face : slots[p].face)
         __atomic_store_n(&changedFaces[face], std::uint8_t(1), __ATOMIC_RELAXED); // by any thread
     activity[p] = now;
-    if (evaluated != nullptr)
-      evaluated[p] = 1;
+    if (gains != nullptr && planes[p] != nullptr)
+      gains[p] = gainOf(*planes[p]);
   }
   /// Before a pair is evaluated that its faces have just brought near.
   void prepare(int p) const
