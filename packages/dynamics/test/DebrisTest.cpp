@@ -344,6 +344,120 @@ TEST(Debris, onARidgeIsPushedByBothSidesOfTheRoof)
   EXPECT_EQ(comm.sum(pushed), 2);
 }
 
+namespace
+{
+/// A plate, or a quarter of it, and dust above each quarter that flies over the middle and falls.
+struct Dusty
+{
+  Mesh mesh;
+  Model model;
+  Dusty(
+      bool whole, const Comm& comm, Real side = 1,
+      const std::function<Vec3(const Vec3&)>& turned = [](const Vec3& v) { return v; },
+      const Vec3& shift = {})
+  {
+    addBox(mesh, "block", {whole ? 4 : 2, whole ? 4 : 2, 2},
+           {whole ? -1.0 : 0, whole ? -1.0 : 0, -1}, {whole ? 2.0 : 1, whole ? 2.0 : 1, 1});
+    const std::vector<Real> halves = whole ? std::vector<Real>{0.3, -0.5} : std::vector<Real>{0.3};
+    for (const Real x : halves)
+      for (const Real y : halves)
+        addBox(mesh, "dust", {1, 1, 1}, {x, y, 0.02}, {0.2, 0.2, 0.2});
+    const Mesh straight = mesh;
+    for (Vec3& x : mesh.coordinates)
+      x = turned(x) + shift;
+    model = rockModel(mesh, comm);
+    for (std::size_t b = 1; b < model.blocks.size(); ++b)
+    {
+      const Real x = straight.coordinates[std::size_t(straight.blocks[b].connectivity[0])].x,
+                 y = straight.coordinates[std::size_t(straight.blocks[b].connectivity[0])].y;
+      model.blocks[b].velocity = turned({x > 0 ? -700.0 : 700, y > 0 ? -500.0 : 500, -20});
+      model.blocks[b].velocityField = [=](const Vec3& at) {
+        return 1.0 * dot(turned({0, 0, 1}), at - shift) * turned({0, 0, 1});
+      };
+      model.blocks[b].erosion.volumeRatio = {0.5, 1 + 1e-6};
+    }
+    for (const Vec3& normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}})
+      if (!whole)
+      {
+        std::vector<int> nodes;
+        for (int n = 0; n < model.mesh.ownedNodes; ++n)
+          if (std::abs(dot(turned(normal), model.mesh.coordinates[std::size_t(n)] - shift)) < 1e-9)
+            nodes.push_back(n);
+        model.conditions.symmetries.push_back({nodes, side * turned(normal)});
+      }
+    model.debris = true;
+    model.time.stepFactor = 0.1;
+  }
+};
+} // namespace
+
+TEST(Debris, beyondPlanesOfSymmetryMeetsWhatItsImageMeets)
+{
+  const Comm comm = Comm::alone();
+  const auto turned = [](const Vec3& v)
+  {
+    return Vec3{0.6 * v.x - 0.8 * v.y, 0.8 * (0.8 * v.x + 0.6 * v.y) - 0.6 * v.z,
+                0.6 * (0.8 * v.x + 0.6 * v.y) + 0.8 * v.z};
+  };
+  const auto same = [](const Vec3& v) { return v; };
+  struct Case
+  {
+    Real side;
+    std::function<Vec3(const Vec3&)> turned;
+    Vec3 shift;
+  };
+  Dusty all(true, comm);
+  const Mesh mesh = all.mesh;
+  Solver whole(std::move(all.model), comm);
+  whole.prepare();
+  while (whole.clock().time < 1.8e-3)
+    whole.advance();
+  ASSERT_EQ(whole.debris()->count(), 32);
+  for (const Case& one : {Case{1, same, {}}, Case{-1, same, {}}, Case{1, turned, {3, -2, 5}}})
+  {
+    Dusty part(false, comm, one.side, one.turned, one.shift);
+    const Mesh partMesh = part.mesh;
+    Solver quarter(std::move(part.model), comm);
+    quarter.prepare();
+    while (quarter.clock().time < 1.8e-3)
+      quarter.advance();
+    ASSERT_EQ(quarter.debris()->count(), 8);
+    int pushed = 0;
+    for (int k = 0; k < 8; ++k)
+    {
+      const int mine = partMesh.blocks[1].connectivity[std::size_t(k)],
+                its = mesh.blocks[1].connectivity[std::size_t(k)];
+      const Vec3 v = at(quarter.state().v, mine), wanted = one.turned(at(whole.state().v, its));
+      EXPECT_LT(norm(v - wanted), 1e-9 * norm(wanted)) << k;
+      pushed += at(whole.state().v, its).z > -15 && at(whole.state().x, its).x < -0.1 &&
+                at(whole.state().x, its).y < -0.1;
+    }
+    EXPECT_EQ(pushed, 4); // the lower ones, beyond both planes
+    const Momenta momenta = quarter.momenta();
+    EXPECT_LT(norm(momenta.linearError()), 1e-12 * momenta.magnitude);
+    EXPECT_LT(norm(momenta.angularError()), 1e-11 * momenta.magnitude);
+  }
+}
+
+TEST(Debris, hasNoImageBeyondRollersThatGravityPressesOn)
+{
+  const Comm comm = Comm::alone();
+  for (const bool pressed : {false, true})
+  {
+    Dusty part(false, comm);
+    part.model.conditions.gravity = {pressed ? -9.81 : 0, 0, -9.81};
+    Solver quarter(std::move(part.model), comm);
+    quarter.prepare();
+    std::int64_t most = 0;
+    while (quarter.clock().time < 1.8e-3)
+    {
+      quarter.advance();
+      most = std::max(most, quarter.debris()->touching());
+    }
+    EXPECT_EQ(most > 0, !pressed);
+  }
+}
+
 TEST(Debris, fliesThroughWithoutTheOption)
 {
   const Comm comm;

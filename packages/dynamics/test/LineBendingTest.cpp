@@ -296,6 +296,55 @@ TEST(LineBending, isBentToTheOtherSideAsABarIs)
   }
 }
 
+TEST(LineBending, isBentToTheOtherSideAlsoWhereItMissesStraightByAHair)
+{
+  const Real elastic = plasticMoment / (modulus * secondMoment / (length / 2));
+  for (const Real aside : {0.0, 1e-6, 1e-4, 1e-3})
+    for (const int steps : {20, 1000, 20000})
+    {
+      LineSetup setup = barOf(2);
+      setup.section.yieldStress = yieldStress;
+      LineHosts hosts = hostsOf(setup);
+      Line line = installed(setup, hosts);
+      const auto bent = [&](Real angle) {
+        return [=](const Vec3& x, Real) { return knee(x, angle) + Vec3{0, 0, aside * x.x * x.x}; };
+      };
+      Real last = 0;
+      for (const Real to : {0.3, -0.2})
+      {
+        lead(line, hosts, setup, steps,
+             [&](const Vec3& x, Real part) { return bent(last + part * (to - last))(x, part); });
+        last = to;
+      }
+      EXPECT_NEAR(line.points()[1].moment.z, -plasticMoment, 0.02 * plasticMoment)
+          << aside << " " << steps;
+      // What it misses straight by, twice, is taken for bent.
+      const Real lost = plasticMoment * (0.3 - elastic + 0.5 - 2 * elastic);
+      EXPECT_NEAR(line.energy().plastic, lost, plasticMoment * (3 * aside + 0.01 / steps))
+          << aside << " " << steps;
+      EXPECT_NEAR(line.energy().remainder(), 0, plasticMoment * 0.5 / steps + 1e-9)
+          << aside << " " << steps;
+    }
+}
+
+TEST(LineBending, anElasticBarThatWhirlsResistsAlongItsAngle)
+{
+  LineSetup setup = barOf(2);
+  LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  for (const Real tilt : {1e-4, 0.005, 0.05})
+    for (int step = 1; step <= 40; ++step)
+    {
+      hosts.x[2] = hosts.x[1] +
+                   turnedBy(knee({1, 0, 0}, tilt) - knee({0.5, 0, 0}, tilt), {1, 0, 0}, 0.3 * step);
+      line.advance(hosts, step, 1, 0);
+      const Real exact = tilt * modulus * secondMoment / (length / 2);
+      const Vec3 moment = line.points()[1].moment;
+      EXPECT_LT(norm(moment - turnedBy({0, 0, exact}, {1, 0, 0}, 0.3 * step)), 1e-6 * exact)
+          << tilt << " " << step;
+    }
+}
+
 TEST(LineBending, aKinkAtTheStartIsFreeAndTurnsFreelyAboutItsBar)
 {
   LineSetup setup = barOf(2);

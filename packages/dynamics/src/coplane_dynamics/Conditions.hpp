@@ -25,7 +25,11 @@ class VectorOfTime
 public:
   VectorOfTime() = default;
   VectorOfTime(Real x, Real y, Real z) : constant_{x, y, z} {}
-  /// Components without a function are zero.
+  /// Components with a function, and the others.
+  VectorOfTime(const Vec3& constant, std::array<OfTime, 3> functions)
+      : constant_(constant), functions_(std::move(functions))
+  {
+  }
   explicit VectorOfTime(std::array<OfTime, 3> functions) : functions_(std::move(functions)) {}
 
   Vec3 operator()(Real t) const
@@ -35,6 +39,15 @@ public:
       if (functions_[c])
         value[c] += functions_[c](t);
     return value;
+  }
+  /// Whether it can have a part along a unit vector: what varies may.
+  bool actsAlong(const Vec3& direction) const
+  {
+    constexpr Real roundOff = 1e-9;
+    bool acts = std::abs(dot(constant_, direction)) > roundOff * norm(constant_);
+    for (int c = 0; c < 3; ++c)
+      acts = acts || (functions_[std::size_t(c)] && std::abs(direction[c]) > roundOff);
+    return acts;
   }
 
 private:

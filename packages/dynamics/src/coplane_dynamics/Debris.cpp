@@ -29,6 +29,10 @@ constexpr Real besideTheSurface = 0.01;
 /// them from the middle [-].
 constexpr Real nearlyAtTheCorner = 0.9;
 
+/// Points at the surface of an element, or in a mirror, are in there, whatever rounding does; in
+/// natural coordinates, and over the distance from the origin [-].
+constexpr Real roundOff = 1e-12;
+
 /// What a checkpoint has of a point.
 constexpr std::size_t numbersOfPoint = 6;
 
@@ -143,16 +147,19 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
   return places;
 }
 
-/// Whether a face lies in a mirror, but for round-off.
-bool liesIn(const Debris::Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh,
-            const NodeVectors& x)
+/// Whether a face of the mesh as it was read lies in a mirror, but for round-off.
+bool liesIn(const Debris::Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh)
 {
-  const Real roundOff = 1e-6 * cornersOf(face, mesh, x).longestSide();
+  const std::vector<Vec3>& x = mesh.coordinates;
+  const Vec3 first = x[std::size_t(face.nodes[0])];
+  Real size = 0, off = 0;
   for (int k = 0; k < face.nodeCount; ++k)
-    if (!(std::abs(dot(mirror.normal, at(x, face.nodes[std::size_t(k)])) - mirror.level) <=
-          roundOff))
-      return false;
-  return true;
+  {
+    const Vec3 corner = x[std::size_t(face.nodes[std::size_t(k)])];
+    size = std::max(size, norm(corner - first));
+    off = std::max(off, std::abs(dot(mirror.normal, corner) - mirror.level));
+  }
+  return off <= 1e-6 * size;
 }
 
 std::uint64_t bitsOf(Real value)
@@ -186,8 +193,7 @@ Real stiffnessOf(const ExteriorFace& face, const RankMesh& mesh, const ElementFo
 
 void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
                    std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode,
-                   const RankMesh& mesh, const ElementForces& elements, const NodalState& state,
-                   const NodeLayout& layout)
+                   const RankMesh& mesh, const ElementForces& elements, const NodeLayout& layout)
 {
   // The owner of a node at the surface has the face there and all elements of the node.
   std::vector<char> isAtSurface(std::size_t(mesh.nodes()), 0);
@@ -211,9 +217,8 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
                                 [&](const ExteriorFace& face)
                                 {
                                   return std::any_of(mirrors.begin(), mirrors.end(),
-                                                     [&](const Mirror& mirror) {
-                                                       return liesIn(mirror, face, mesh, state.x);
-                                                     });
+                                                     [&](const Mirror& mirror)
+                                                     { return liesIn(mirror, face, mesh); });
                                 }),
                  exterior.end());
   faces_ = std::move(exterior);
@@ -236,11 +241,12 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
             [](const FreeNode& a, const FreeNode& b) { return a.id < b.id; });
   const std::vector<Point> before = std::move(points_);
   points_.clear();
-  for (const auto& [id, mass] : nodes)
+  for (const auto& [id, mass, share] : nodes)
   {
     Point point;
     point.id = id;
     point.mass = mass;
+    point.share = share;
     const int node = layout.localNode(id);
     point.node = node < layout.owned() ? node : -1;
     const auto known =
@@ -276,18 +282,23 @@ std::vector<Vec3> Debris::ofPoints(const NodeVectors& field) const
   return x;
 }
 
-Vec3 Debris::Image::of(Vec3 vector) const
+void Debris::Image::reflect(const Vec3& normal)
 {
-  for (int i = 0; i < count; ++i)
-    vector -= 2 * dot(normals[std::size_t(i)], vector) * normals[std::size_t(i)];
-  return vector;
+  // (1 - 2 n n^T) rows
+  const Vec3 across = normal.x * rows[0] + normal.y * rows[1] + normal.z * rows[2];
+  for (int c = 0; c < 3; ++c)
+    rows[std::size_t(c)] -= 2 * normal[c] * across;
+  isOther = true;
 }
 
-Vec3 Debris::Image::back(Vec3 vector) const
+Vec3 Debris::Image::of(const Vec3& vector) const
 {
-  for (int i = count; i-- > 0;)
-    vector -= 2 * dot(normals[std::size_t(i)], vector) * normals[std::size_t(i)];
-  return vector;
+  return {dot(rows[0], vector), dot(rows[1], vector), dot(rows[2], vector)};
+}
+
+Vec3 Debris::Image::back(const Vec3& vector) const
+{
+  return vector.x * rows[0] + vector.y * rows[1] + vector.z * rows[2];
 }
 
 /// On the side of mirrors on which bodies are. Collective.
@@ -297,18 +308,21 @@ std::vector<Vec3> Debris::placesOfPoints(const NodalState& state)
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
     Image& image = points_[i].image;
-    image.count = 0;
+    image = {};
+    // Round-off at an oblique mirror, and points without end, are not followed for ever.
+    constexpr int most = 1000;
     bool isHere = false;
-    while (!isHere && image.count < int(image.normals.size()))
+    for (int reflections = 0; !isHere && reflections < most;)
     {
       isHere = true;
       for (const Mirror& mirror : mirrors_)
         if (const Real height = dot(mirror.normal, x[i]) - mirror.level;
-            mirror.side * height < 0 && image.count < int(image.normals.size()))
+            mirror.side * height < -roundOff * norm(x[i]))
         {
           x[i] -= 2 * height * mirror.normal;
-          image.normals[std::size_t(image.count++)] = mirror.normal;
+          image.reflect(mirror.normal);
           isHere = false;
+          ++reflections;
         }
     }
   }
@@ -346,7 +360,8 @@ std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const
           corners.low, corners.high,
           [&](int point)
           {
-            if (pointInElement(part.type, corners.x.data(), x[std::size_t(point)]).outside <= 0)
+            if (pointInElement(part.type, corners.x.data(), x[std::size_t(point)]).outside <=
+                roundOff)
               mine.push_back({point, element.body, part.elementIds[std::size_t(element.element)]});
           });
     }
@@ -411,7 +426,8 @@ std::vector<Debris::WayOut> Debris::facesBeside(const std::vector<Inside>& insid
       way.speed = norm(apart);
       const Real heavy = elements.blocks()[std::size_t(face.block)].mass(face.element);
       way.stiffness = stiffnessOf(face, mesh, elements, ofRevolution_) *
-                      std::min(Real(1), points_[std::size_t(one.point)].mass / heavy);
+                      std::min(points_[std::size_t(one.point)].share,
+                               points_[std::size_t(one.point)].mass / heavy);
       beside.push_back(way);
     };
     grid.forEachIn(corners.low - margin, corners.high + margin, look);
@@ -605,7 +621,7 @@ void Debris::push(const Point& point, const Vec3& place, const WayOut& by, Real 
   {
     const Vec3 there = point.image.back(force);
     forces_.emplace_back(point.node, there);
-    if (point.image.count > 0)
+    if (point.image.isOther)
       fromOutside_.push_back(
           {point.node, there - force, cross(at(state.x, point.node), there) - cross(place, force)});
   }
@@ -702,9 +718,17 @@ void Debris::restore(const StateSource& in, const RankMesh& mesh, const ElementF
     point.inside = of[4] != 0;
     point.between = of[5] != 0;
   }
-  // The forces where they are, which nothing has moved.
+  // The forces where they are, which nothing has moved. Velocities are those after the kick, which
+  // points have not been looked at with.
+  const std::vector<Point> saved = points_;
   if (!points_.empty())
     findForces(mesh, elements, state, 0);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+  {
+    const Image image = points_[i].image;
+    points_[i] = saved[i];
+    points_[i].image = image;
+  }
 }
 
 void Debris::addTo(StateHash& hash, std::uint64_t field) const

@@ -39,6 +39,9 @@ public:
   {
     GlobalId id = 0;
     Real mass = 0; ///< [kg]
+    /// What there is of the point, with its images: a half in a plane of symmetry, a quarter where
+    /// two meet at right angles [-].
+    Real share = 1;
   };
   /// A plane in which bodies go on as their own image: their faces there lead nowhere.
   struct Mirror
@@ -53,7 +56,7 @@ public:
   /// @param bodyOfNode number of the body of each node of this rank's elements
   void renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
              std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode, const RankMesh& mesh,
-             const ElementForces& elements, const NodalState& state, const NodeLayout& layout);
+             const ElementForces& elements, const NodeLayout& layout);
 
   /// Forces at n + 1 and what they add to the stiffness of the owned nodes; books the work of the
   /// step with the mean of the forces at its ends. Collective.
@@ -76,18 +79,20 @@ public:
   void addTo(StateHash& hash, std::uint64_t field) const;
 
 private:
-  /// Reflections that bring a point to the side of mirrors on which bodies are.
+  /// The reflections together that bring a point to the side of mirrors on which bodies are.
   struct Image
   {
-    std::array<Vec3, 6> normals{};
-    int count = 0;
-    Vec3 of(Vec3 vector) const;   ///< here of one there
-    Vec3 back(Vec3 vector) const; ///< there of one here
+    std::array<Vec3, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< orthogonal
+    bool isOther = false;                                        ///< it is not the point itself
+    void reflect(const Vec3& normal);
+    Vec3 of(const Vec3& vector) const;   ///< here of one there
+    Vec3 back(const Vec3& vector) const; ///< there of one here
   };
   struct Point
   {
     GlobalId id = 0;
     Real mass = 0;          ///< at the last renew(): mass scaling may have raised it since [kg]
+    Real share = 1;         ///< of FreeNode
     int node = -1;          ///< local number where it is owned
     Real offset = infinity; ///< distance from the surface at which its force begins [m]
     bool inside = false;    ///< came over the surface, or from within, and has not come out

@@ -432,7 +432,9 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
   }
   const Real slidBefore = energy_.dowel;
   torn = slideDowels(hosts) || torn;
-  plastic += bend(hosts.x);
+  const BendingLosses lost = bend(hosts.x);
+  plastic += lost.plastic;
+  torn = torn || lost.rupture > 0; // what is missing then is booked below
   findForces(hosts.x);
   findStiffness(hosts.x);
   work += hostWork(hosts.x);

@@ -137,6 +137,7 @@ public:
     Real plasticSlip = 0;
     Real bondForce = 0; ///< of the host against the slip [N]
     Vec3 moment{};      ///< by which the bar resists being bent there [N m]
+    Vec3 axis{};        ///< about which it is bent, or was before it came near to straight [-]
   };
   /// From a point that has a host to the next that has one.
   struct Segment
@@ -202,8 +203,12 @@ private:
   Real bendingStiffness(std::size_t point) const; ///< moment over angle [N m]
   /// With the force that the bar has now [N m].
   Real plasticMoment(std::size_t point) const;
-  /// Moments where the hosts are now. @returns what is lost [J]
-  Real bend(const std::vector<Vec3>& x);
+  struct BendingLosses
+  {
+    Real plastic = 0, rupture = 0; ///< rupture: of bars that are torn, or folded [J]
+  };
+  /// Moments where the hosts are now.
+  BendingLosses bend(const std::vector<Vec3>& x);
   void addBendingForces(const std::vector<Vec3>& x);
   void addBendingStiffness(const std::vector<Vec3>& x);
   Real storedByBending() const; ///< [J]

@@ -10,6 +10,9 @@ namespace coplane
 {
 namespace
 {
+/// Below this angle the direction in which a bar is bent has no meaning for how it lies [rad].
+constexpr Real nearlyStraight = 0.01;
+
 /// Rotates by the least rotation that brings the unit vector `from` to `to`.
 Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to)
 {
@@ -81,44 +84,58 @@ Real Line::plasticMoment(std::size_t i) const
   return most;
 }
 
-Real Line::bend(const std::vector<Vec3>& x)
+Line::BendingLosses Line::bend(const std::vector<Vec3>& x)
 {
   // A bar that has turned back on itself, or has no length there, has no mean direction.
   constexpr Real folded = 1e-6;
   const auto hasMean = [](const Hinge& hinge)
   { return 1 + dot(hinge.before, hinge.behind) > folded; };
-  Real lost = 0;
+  BendingLosses lost;
   for (std::size_t i = 0; i < points_.size(); ++i)
   {
-    Vec3& moment = points_[i].moment;
+    Point& point = points_[i];
+    Vec3& moment = point.moment;
     if (!bendsAt(i))
     {
-      moment = {}; // also of one that has become an end
+      moment = point.axis = {}; // also of one that has become an end
       continue;
     }
     const Hinge before = hingeAt(i, x_), now = hingeAt(i, x);
     const Real stiffness = bendingStiffness(i);
     if (!hasMean(before) || !hasMean(now) || !(1 + dot(before.mean(), now.mean()) > folded))
     {
-      lost += 0.5 * dot(moment, moment) / stiffness;
-      moment = {};
+      lost.rupture += 0.5 * dot(moment, moment) / stiffness;
+      moment = point.axis = {};
       continue;
     }
-    // The bar turns freely about itself: only the angle counts, about an axis that goes with it.
-    const Vec3 from = before.angle(), to = now.angle();
-    const auto axisOf = [](const Vec3& angle, const Vec3& otherwise)
-    { return norm(angle) > 0 ? normalised(angle) : otherwise; };
-    const Vec3 former = axisOf(from, norm(moment) > 0 ? normalised(moment) : Vec3{});
-    const Vec3 carriedOn = carried(former, before.mean(), now.mean());
-    Vec3 axis = axisOf(to, carriedOn);
-    if (dot(axis, carriedOn) < 0) // bent through straight, to the other side
-      axis = -1.0 * axis;
-    const Real start = std::copysign(norm(moment), dot(moment, former));
-    const Real trial = start + stiffness * (dot(to, axis) - norm(from));
+    const auto onward = [&](const Vec3& v) { return carried(v, before.mean(), now.mean()); };
+    const Vec3 from = onward(before.angle()), to = now.angle();
+    const Real fromSize = norm(from), toSize = norm(to);
+    const auto axisOf = [](const Vec3& angle, Real size, const Vec3& otherwise)
+    { return size > 0 ? (1 / size) * angle : otherwise; };
+    // The bar turns freely about itself, so only the angle counts. Where it goes through straight,
+    // or past it by less than its kink, it has come to the other side: the angle is negative.
+    const Vec3 held = onward(point.axis);
+    const Real fromSign = dot(from, held) < 0 ? -1 : 1;
+    const Vec3 former = fromSign * axisOf(from, fromSize, fromSign * held);
+    const Real start = std::copysign(norm(moment), dot(onward(moment), former));
+    const Real kink = std::abs(fromSign * fromSize - start / stiffness);
+    const Real near = std::min(nearlyStraight, 0.5 * kink);
+    const Vec3 step = to - from;
+    const Real missed = // by which it misses being straight on its way
+        dot(from, step) < 0 && dot(to, step) > 0 ? norm(cross(from, to)) / norm(step)
+                                                 : std::min(fromSize, toSize);
+    const bool isHeld = fromSize < near || toSize < near;
+    const bool passes = isHeld ? fromSign * dot(to, held) < 0 : missed < near && dot(to, from) < 0;
+    const Real toSign = passes ? -fromSign : fromSign;
+    const Real change = toSign * (passes ? fromSize + toSize - 2 * missed : toSize - fromSize);
+    const Vec3 axis = toSign * axisOf(to, toSize, toSign * held);
+    const Real trial = start + stiffness * change;
     const Real most = plasticMoment(i);
     const Real end = std::min(std::max(trial, -most), most);
-    lost += 0.5 * (start + end) * (trial - end) / stiffness;
+    (most > 0 ? lost.plastic : lost.rupture) += 0.5 * (start + end) * (trial - end) / stiffness;
     moment = end * axis;
+    point.axis = toSize < near ? held : axis;
   }
   return lost;
 }
@@ -167,7 +184,10 @@ void Line::addBendingStiffness(const std::vector<Vec3>& x)
       g[s == i ? 2 : 0] += turn;
       of[s == i ? 2 : 0] = s == i ? b : a;
     }
-    const Real k = bendingStiffness(i), sum = g[0] + g[1] + g[2];
+    // A moment is as stiff across itself as it is large for its angle.
+    const Real angle = std::max(norm(hingeAt(i, x).angle()), nearlyStraight);
+    const Real k = std::max(bendingStiffness(i), norm(points_[i].moment) / angle),
+               sum = g[0] + g[1] + g[2];
     for (int end = 0; end < 3; ++end)
       stiffness_[of[end]] += k * g[end] * sum;
   }

@@ -43,7 +43,8 @@ void Line::forEachNumber(Self& self, F&& number)
     for (auto* value : {&point.slip, &point.plasticSlip, &point.bondForce})
       number(*value);
     if (self.bends())
-      vector(point.moment);
+      for (auto* v : {&point.moment, &point.axis})
+        vector(*v);
   }
   for (auto& s : self.segments_)
     for (auto* value :

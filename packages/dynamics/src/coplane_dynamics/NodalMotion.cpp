@@ -217,8 +217,6 @@ void NodalMotion::prescribe(const Times& times, const Conditions& conditions, No
   }
 }
 
-/// Rings that close meet themselves on the axis of a body of revolution: a node comes to it and no
-/// further. What stops it is external, and takes the energy of its radial motion.
 void NodalMotion::letThroughAxis(const std::vector<int>& nodes)
 {
   Kokkos::deep_copy(passesTheAxis_, false);
@@ -226,6 +224,8 @@ void NodalMotion::letThroughAxis(const std::vector<int>& nodes)
     passesTheAxis_(n) = true;
 }
 
+/// Rings that close meet themselves on the axis of a body of revolution: a node comes to it and no
+/// further. What stops it is external, and takes the energy of its radial motion.
 void NodalMotion::stopAtAxis(const Times& times, const Conditions& conditions,
                              NodalState& state) const
 {
@@ -237,7 +237,7 @@ void NodalMotion::stopAtAxis(const Times& times, const Conditions& conditions,
   const ConstNodeVectors x = state.x;
   const ConstArray<Real> mass = state.mass;
   for (const int n : dashpots_.nodes())
-    if (const Real change = -x(n, 0) / after - v(n, 0); change > 0)
+    if (const Real change = -x(n, 0) / after - v(n, 0); change > 0 && !passesTheAxis_(n))
       set(external, n, at(external, n) + 0.5 * dashpots_.drag(n, {change, 0, 0}));
   const auto passes = passesTheAxis_;
   parallelFor(

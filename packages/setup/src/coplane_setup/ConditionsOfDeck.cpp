@@ -14,9 +14,14 @@ namespace coplane
 {
 namespace
 {
+bool isConstant(const TimeFunction& card)
+{
+  return card.expression.empty() && card.times.empty();
+}
+
 OfTime functionOf(const TimeFunction& card)
 {
-  if (card.expression.empty() && card.times.empty())
+  if (isConstant(card))
     return [value = card.constant](Real) { return value; };
   const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
   return [evaluator](Real t) { return (*evaluator)(t); };
@@ -30,7 +35,14 @@ OfTimeAndPlace fieldOf(const TimeFunction& card)
 
 VectorOfTime vectorOf(const std::array<TimeFunction, 3>& card)
 {
-  return VectorOfTime({functionOf(card[0]), functionOf(card[1]), functionOf(card[2])});
+  Vec3 constant;
+  std::array<OfTime, 3> functions;
+  for (int c = 0; c < 3; ++c)
+    if (const TimeFunction& component = card[std::size_t(c)]; isConstant(component))
+      constant[c] = component.constant;
+    else
+      functions[std::size_t(c)] = functionOf(component);
+  return {constant, functions};
 }
 
 LoadedSide loadedSide(const RankMesh& part, const RankMesh::Side& side)
