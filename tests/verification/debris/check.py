@@ -135,8 +135,11 @@ case.check("half of a plate: slowest of the points after the bounce, over 100 m/
 case.check("half of a plate: velocities over those of the whole one, largest difference", numpy.abs(v[x >= -1e-9] - v_half).max() / 100, 0, 1e-6)
 aslant = [case.run(f"aslant_{name}", *rain(low, divisions, aside=500)) for name, low, divisions in (("whole", -0.3, 20), ("half", 0, 10))]
 (x, v, _), (x_half, v_half, _) = (fallen(run) for run in aslant)
-crossed = aslant[1].results.coordinates[:, 0] + aslant[1].results.nodal("displacement", -1)[:, 0] < -0.01
-case.check_within("half of a plate, rain aslant: points beyond the plane of symmetry that were stopped", int(numpy.sum(crossed & (aslant[1].results.nodal("velocity", -1)[:, 1] > 0))), 8, 20)
+start_half = aslant[1].results.coordinates[numpy.unique(aslant[1].results.connectivity("dust")), 1]
+# It takes 190 us to fall, or 20, and 42 to bounce.
+met = x_half < 500 * numpy.where(start_half > 0.01, 190e-6, 20e-6)
+case.check_within("half of a plate, rain aslant: points that meet it beyond the plane of symmetry", int(met.sum()), 5, 20)
+case.check_within("half of a plate, rain aslant: speeds at which they go up again, lowest, over 100 m/s", v_half[met].min() / 100, 0.01, 1)
 case.check("half of a plate, rain aslant: velocities over those of the whole one, largest difference", numpy.abs(v[x >= -1e-9] - v_half).max() / 100, 0, 1e-6)
 case.same_bits("aslant_half", *rain(0, 10, aside=500), aslant[1], ranks=2)
 for split, low in (("triangles", -0.3), ("triangles", 0)):
@@ -173,7 +176,7 @@ case.check("ring: speed back from the tube over that before, mean", (-after / be
 case.check("ring: work of what stops nodes at the axis, over the energy", numpy.abs(h["external_work"]).max() / h["initial"][0], 0, 1e-12)
 case.check("ring: what is not stored, over the energy", numpy.abs(h["debris_remainder"]).max() / h["initial"][0], 0, 0.02)
 pushed = h["debris_touching"] > 0
-case.check_within("ring: all of its points touch the tube", int(h["debris_touching"].max()), 2, 4)
+case.check_within("ring: points that touch the tube at once", int(h["debris_touching"].max()), 2, 4)
 case.same_bits("ring", recipe, one, run, ranks=2)
 case.restarts("ring", recipe, one, run, h["time"][pushed][pushed.sum() // 2])
 case.finish()

@@ -6,8 +6,8 @@ namespace coplane
 {
 /// Mean tension that is elastic up to a limit, which damage lowers: what was stored beyond the new
 /// limit is lost. Work of the step at the mean of the stresses at its ends, as in the energy of the
-/// element, less what is stored more: less than nothing in a step that comes to the limit, by which
-/// the flow of that step has taken too much. With a tension that is linear in mu an opening at a
+/// element, less what is stored more: less than nothing in a step that comes to the limit, of which
+/// the mean gives less work than is stored. With a tension that is linear in mu an opening at a
 /// limit takes L (J - 1) / J, so that the integral over mu is per volume now [J/m^3].
 /// @param before mean stress at the start of the step; elasticBefore, elastic: without the limit,
 ///        at its start and end; limit at its end [Pa]; tension positive
