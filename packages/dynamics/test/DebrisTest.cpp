@@ -354,13 +354,13 @@ struct Dusty
   Dusty(
       bool whole, const Comm& comm, Real side = 1,
       const std::function<Vec3(const Vec3&)>& turned = [](const Vec3& v) { return v; },
-      const Vec3& shift = {})
+      const Vec3& shift = {}, bool inPlane = false)
   {
     addBox(mesh, "block", {whole ? 4 : 2, whole ? 4 : 2, 2},
            {whole ? -1.0 : 0, whole ? -1.0 : 0, -1}, {whole ? 2.0 : 1, whole ? 2.0 : 1, 1});
     const std::vector<Real> halves = whole ? std::vector<Real>{0.3, -0.5} : std::vector<Real>{0.3};
     for (const Real x : halves)
-      for (const Real y : halves)
+      for (const Real y : inPlane ? std::vector<Real>{0} : halves)
         addBox(mesh, "dust", {1, 1, 1}, {x, y, 0.02}, {0.2, 0.2, 0.2});
     const Mesh straight = mesh;
     for (Vec3& x : mesh.coordinates)
@@ -370,7 +370,11 @@ struct Dusty
     {
       const Real x = straight.coordinates[std::size_t(straight.blocks[b].connectivity[0])].x,
                  y = straight.coordinates[std::size_t(straight.blocks[b].connectivity[0])].y;
-      model.blocks[b].velocity = turned({x > 0 ? -700.0 : 700, y > 0 ? -500.0 : 500, -20});
+      model.blocks[b].velocity = turned({x > 0 ? -700.0 : 700,
+                                         inPlane ? 0
+                                         : y > 0 ? -500.0
+                                                 : 500,
+                                         -20});
       model.blocks[b].velocityField = [=](const Vec3& at) {
         return 1.0 * dot(turned({0, 0, 1}), at - shift) * turned({0, 0, 1});
       };
@@ -436,6 +440,40 @@ TEST(Debris, beyondPlanesOfSymmetryMeetsWhatItsImageMeets)
     const Momenta momenta = quarter.momenta();
     EXPECT_LT(norm(momenta.linearError()), 1e-12 * momenta.magnitude);
     EXPECT_LT(norm(momenta.angularError()), 1e-11 * momenta.magnitude);
+  }
+}
+
+TEST(Debris, inAPlaneOfSymmetryCrossesAnotherAndIsStopped)
+{
+  const Comm comm = Comm::alone();
+  const Real angle = 0.3;
+  const auto turned = [=](const Vec3& v)
+  {
+    return Vec3{std::cos(angle) * v.x - std::sin(angle) * v.y,
+                std::sin(angle) * v.x + std::cos(angle) * v.y, v.z};
+  };
+  const auto same = [](const Vec3& v) { return v; };
+  std::vector<Vec3> straight;
+  for (const bool isTurned : {false, true})
+  {
+    Dusty part(false, comm, 1, isTurned ? std::function<Vec3(const Vec3&)>(turned) : same, {},
+               true);
+    const Mesh mesh = part.mesh;
+    Solver quarter(std::move(part.model), comm);
+    quarter.prepare();
+    while (quarter.clock().time < 1.8e-3)
+      quarter.advance();
+    int pushed = 0;
+    for (int k = 0; k < 8; ++k)
+    {
+      const Vec3 v = at(quarter.state().v, mesh.blocks[1].connectivity[std::size_t(k)]);
+      pushed += v.z > -15;
+      if (isTurned)
+        EXPECT_LT(norm(v - turned(straight[std::size_t(k)])), 1e-9 * norm(v)) << k;
+      else
+        straight.push_back(v);
+    }
+    EXPECT_EQ(pushed, 4);
   }
 }
 

@@ -29,8 +29,8 @@ constexpr Real besideTheSurface = 0.01;
 /// them from the middle [-].
 constexpr Real nearlyAtTheCorner = 0.9;
 
-/// Points at the surface of an element, or in a mirror, are in there, whatever rounding does; in
-/// natural coordinates, and over the distance from the origin [-].
+/// Points at the surface of an element, or in a mirror, are in there, whatever rounding does; over
+/// the distance from the origin [-].
 constexpr Real roundOff = 1e-12;
 
 /// What a checkpoint has of a point.
@@ -356,12 +356,14 @@ std::vector<Debris::Inside> Debris::findInside(const std::vector<Vec3>& x, const
     {
       const Corners corners = cornersOf(element, mesh, state.x);
       const RankMesh::Block& part = mesh.blocks[std::size_t(element.block)];
+      const Real hair = roundOff * (norm(corners.low) + norm(corners.high));
+      const Vec3 margin{hair, hair, hair};
       grid.forEachIn(
-          corners.low, corners.high,
+          corners.low - margin, corners.high + margin,
           [&](int point)
           {
             if (pointInElement(part.type, corners.x.data(), x[std::size_t(point)]).outside <=
-                roundOff)
+                hair / corners.longestSide())
               mine.push_back({point, element.body, part.elementIds[std::size_t(element.element)]});
           });
     }
