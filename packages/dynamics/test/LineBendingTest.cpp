@@ -345,6 +345,28 @@ TEST(LineBending, anElasticBarThatWhirlsResistsAlongItsAngle)
     }
 }
 
+TEST(LineBending, whatATornBarStoredInBendingIsRupture)
+{
+  LineSetup setup = barOf(2);
+  setup.section.yieldStress = yieldStress;
+  setup.section.ruptureStrain = 0.1;
+  LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  const Real elastic = plasticMoment / (modulus * secondMoment / (length / 2));
+  lead(line, hosts, setup, 100,
+       [&](const Vec3& x, Real part) { return knee(x, 0.5 * elastic * part); });
+  const LineEnergy before = line.energy();
+  const Real bending = before.stored;
+  ASSERT_NEAR(bending, 0.125 * plasticMoment * elastic, 1e-6 * bending);
+  // Both segments tear in one step, and were not pulled before.
+  lead(line, hosts, setup, 1, [&](const Vec3& x, Real) { return 1.2 * knee(x, 0.5 * elastic); });
+  EXPECT_EQ(line.broken(), 2);
+  EXPECT_EQ(norm(line.points()[1].moment), 0);
+  EXPECT_EQ(line.energy().plastic, 0);
+  EXPECT_NEAR(line.energy().rupture, bending, 1e-6 * bending);
+  EXPECT_NEAR(line.energy().remainder(), before.remainder(), 1e-9 * bending);
+}
+
 TEST(LineBending, aKinkAtTheStartIsFreeAndTurnsFreelyAboutItsBar)
 {
   LineSetup setup = barOf(2);

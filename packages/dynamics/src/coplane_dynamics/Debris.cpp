@@ -148,7 +148,7 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
 }
 
 /// Whether a face of the mesh as it was read lies in a mirror, but for round-off.
-bool liesIn(const Debris::Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh)
+bool liesIn(const Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh)
 {
   const std::vector<Vec3>& x = mesh.coordinates;
   const Vec3 first = x[std::size_t(face.nodes[0])];
@@ -282,50 +282,12 @@ std::vector<Vec3> Debris::ofPoints(const NodeVectors& field) const
   return x;
 }
 
-void Debris::Image::reflect(const Vec3& normal)
-{
-  // (1 - 2 n n^T) rows
-  const Vec3 across = normal.x * rows[0] + normal.y * rows[1] + normal.z * rows[2];
-  for (int c = 0; c < 3; ++c)
-    rows[std::size_t(c)] -= 2 * normal[c] * across;
-  isOther = true;
-}
-
-Vec3 Debris::Image::of(const Vec3& vector) const
-{
-  return {dot(rows[0], vector), dot(rows[1], vector), dot(rows[2], vector)};
-}
-
-Vec3 Debris::Image::back(const Vec3& vector) const
-{
-  return vector.x * rows[0] + vector.y * rows[1] + vector.z * rows[2];
-}
-
 /// On the side of mirrors on which bodies are. Collective.
 std::vector<Vec3> Debris::placesOfPoints(const NodalState& state)
 {
   std::vector<Vec3> x = ofPoints(state.x);
   for (std::size_t i = 0; i < points_.size(); ++i)
-  {
-    Image& image = points_[i].image;
-    image = {};
-    // Round-off at an oblique mirror, and points without end, are not followed for ever.
-    constexpr int most = 1000;
-    bool isHere = false;
-    for (int reflections = 0; !isHere && reflections < most;)
-    {
-      isHere = true;
-      for (const Mirror& mirror : mirrors_)
-        if (const Real height = dot(mirror.normal, x[i]) - mirror.level;
-            mirror.side * height < -roundOff * norm(x[i]))
-        {
-          x[i] -= 2 * height * mirror.normal;
-          image.reflect(mirror.normal);
-          isHere = false;
-          ++reflections;
-        }
-    }
-  }
+    points_[i].image = reflectInto(mirrors_, roundOff, x[i]);
   return x;
 }
 

@@ -6,6 +6,7 @@
 #include <coplane_core/StateHash.hpp>
 #include <coplane_dynamics/DebrisEnergy.hpp>
 #include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/Mirrors.hpp>
 #include <coplane_dynamics/NodalState.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 #include <coplane_mesh/RankMesh.hpp>
@@ -43,13 +44,6 @@ public:
     /// two meet at right angles [-].
     Real share = 1;
   };
-  /// A plane in which bodies go on as their own image: their faces there lead nowhere.
-  struct Mirror
-  {
-    Vec3 normal{};  ///< of length 1
-    Real level = 0; ///< normal . x of its points [m]
-    int side = 0;   ///< 1: bodies are where normal . x is larger, -1: smaller, 0: on both sides
-  };
 
   /// After elements have died or come: which nodes are points now, and which faces stop them.
   /// Collective.
@@ -79,15 +73,6 @@ public:
   void addTo(StateHash& hash, std::uint64_t field) const;
 
 private:
-  /// The reflections together that bring a point to the side of mirrors on which bodies are.
-  struct Image
-  {
-    std::array<Vec3, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< orthogonal
-    bool isOther = false;                                        ///< it is not the point itself
-    void reflect(const Vec3& normal);
-    Vec3 of(const Vec3& vector) const;   ///< here of one there
-    Vec3 back(const Vec3& vector) const; ///< there of one here
-  };
   struct Point
   {
     GlobalId id = 0;

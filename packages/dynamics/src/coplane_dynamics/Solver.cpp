@@ -240,146 +240,24 @@ bool Solver::erode(Real dt)
   return true;
 }
 
-/// Collective. The axis, and the symmetries that act in all of the run and hold nodes of one plane.
-/// Of the mesh as it was read: so they are the same in all of the run, and after a restart.
-const std::vector<Debris::Mirror>& Solver::mirrors()
-{
-  if (mirrors_)
-    return *mirrors_;
-  mirrors_.emplace();
-  if (model_.axisymmetric())
-    mirrors_->push_back({{1, 0, 0}, 0, 1});
-  for (const SymmetryPlane& plane : model_.conditions.symmetries)
-  {
-    if (model_.axisymmetric() && plane.normal.x != 0)
-      continue; // the axis, or no plane but a cone
-    const char* lack = "acts in a part of the run";
-    if (plane.when.isAlways())
-      if (const auto mirror = mirrorOf(plane, lack))
-        mirrors_->push_back(*mirror);
-    if (lack != nullptr)
-      logWarning("debris beyond a symmetry",
-                 fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
-                             "nothing is, as it {}. In a whole model they would meet its other "
-                             "half.",
-                             plane.where, lack));
-  }
-  return *mirrors_;
-}
-
-/// Collective. None where a symmetry does not hold nodes of one plane.
-/// @param lack gets why there are no images beyond it; null: there are
-std::optional<Debris::Mirror> Solver::mirrorOf(const SymmetryPlane& plane, const char*& lack) const
-{
-  const std::vector<Vec3>& x = mesh().coordinates;
-  // Of the nodes that it holds, the largest of either sign and the farthest; then of all nodes.
-  std::vector<Real> bounds{-infinity, -infinity, 0, -infinity, -infinity};
-  for (const int node : plane.nodes)
-  {
-    const Vec3& place = x[std::size_t(node)];
-    const Real level = dot(plane.normal, place);
-    bounds[0] = std::max(bounds[0], level);
-    bounds[1] = std::max(bounds[1], -level);
-    bounds[2] = std::max(bounds[2], norm(place));
-  }
-  for (int node = 0; node < mesh().ownedNodes; ++node)
-  {
-    const Real level = dot(plane.normal, x[std::size_t(node)]);
-    bounds[3] = std::max(bounds[3], level);
-    bounds[4] = std::max(bounds[4], -level);
-  }
-  comm_->max(bounds);
-  constexpr Real roundOff = 1e-9;
-  const Real thickness = roundOff * bounds[2];
-  const bool holdsNone = !std::isfinite(bounds[0]);
-  lack = holdsNone ? "holds no node of a body that is not rigid" : "holds nodes of no one plane";
-  if (holdsNone || bounds[0] + bounds[1] > thickness)
-    return std::nullopt;
-  Debris::Mirror mirror{plane.normal, 0.5 * (bounds[0] - bounds[1]), 0};
-  // Its image shows in a plane that is more than a roller: nodes that span an area (in the flat, a
-  // line), with all of the mesh on one side, and nothing that pulls along its normal.
-  const auto farthest = [&](const auto& distance) // place of the node; of several the lowest
-  {
-    std::vector<Real> most{-infinity};
-    for (const int node : plane.nodes)
-      most[0] = std::max(most[0], distance(x[std::size_t(node)]));
-    comm_->max(most);
-    std::int64_t lowest = INT64_MAX;
-    for (const int node : plane.nodes)
-      if (distance(x[std::size_t(node)]) == most[0])
-        lowest = std::min<std::int64_t>(lowest, mesh().nodeIds[std::size_t(node)]);
-    lowest = comm_->min(lowest);
-    std::vector<Real> place(3, -infinity);
-    for (const int node : plane.nodes)
-      if (mesh().nodeIds[std::size_t(node)] == lowest)
-        for (int c = 0; c < 3; ++c)
-          place[std::size_t(c)] = x[std::size_t(node)][c];
-    comm_->max(place);
-    return Vec3{place[0], place[1], place[2]};
-  };
-  const Vec3 first = farthest([](const Vec3& place) { return norm(place); });
-  const Vec3 along = farthest([&](const Vec3& place) { return norm(place - first); }) - first;
-  const Vec3 aside = farthest([&](const Vec3& place) { return norm(cross(place - first, along)); });
-  const bool spans = mesh().dimension == 2
-                         ? norm(along) > thickness
-                         : norm(cross(aside - first, along)) > thickness * norm(along);
-  const bool above = bounds[3] > mirror.level + thickness,
-             below = bounds[4] > -mirror.level + thickness;
-  lack = !spans                                              ? "holds nodes on one line only"
-         : above == below                                    ? "has parts of the mesh on both sides"
-         : model_.conditions.gravity.actsAlong(plane.normal) ? "bears gravity"
-                                                             : nullptr;
-  if (lack == nullptr)
-    mirror.side = above ? 1 : -1;
-  return mirror;
-}
-
-/// What there is of a node, with its images: one over the order of the group of reflections in the
-/// mirrors that it lies in.
-Real Solver::shareOf(int node)
-{
-  const Vec3& place = mesh().coordinates[std::size_t(node)];
-  std::vector<Vec3> normals;
-  for (const Debris::Mirror& mirror : mirrors())
-    if (mirror.side != 0 && !(model_.axisymmetric() && mirror.normal.x != 0) &&
-        std::abs(dot(mirror.normal, place) - mirror.level) <= 1e-9 * norm(place))
-      normals.push_back(mirror.normal);
-  // Planes at 180 degrees / n make 2n images; one at right angles to all doubles their number.
-  Real images = 1;
-  std::vector<char> counted(normals.size(), 0);
-  for (std::size_t i = 0; i < normals.size(); ++i)
-  {
-    if (counted[i])
-      continue;
-    Real n = 1;
-    for (std::size_t j = i + 1; j < normals.size(); ++j)
-      if (const Real cosine = std::abs(dot(normals[i], normals[j])); cosine > 1e-9)
-      {
-        counted[j] = 1;
-        if (cosine < 1 - 1e-9) // or it is the same once more
-          n = std::max(n, std::round(pi / std::acos(cosine)));
-      }
-    images *= 2 * n;
-  }
-  return 1 / images;
-}
-
 /// Which nodes have mass and no element, and which faces may stop them.
 void Solver::renewDebris()
 {
   if (!debris_ || !erosion_->acts())
     return;
-  mirrors(); // collective
+  if (!mirrors_)
+    mirrors_ = mirrorsOf(model_.conditions, mesh(), *comm_);
   std::vector<Debris::FreeNode> points;
   std::vector<int> nodes;
   for (int n = 0; n < layout_.owned(); ++n)
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
     {
-      points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n), shareOf(n)});
+      points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n),
+                        shareOf(mesh().coordinates[std::size_t(n)], *mirrors_)});
       nodes.push_back(n);
     }
   motion_->letThroughAxis(nodes);
-  debris_->renew(points, erosion_->exterior(), mirrors(), bodyOfNode_, mesh(), elements_, layout_);
+  debris_->renew(points, erosion_->exterior(), *mirrors_, bodyOfNode_, mesh(), elements_, layout_);
 }
 
 /// Ends the loads on elements that have died, and lays bare the faces behind them.

@@ -189,9 +189,6 @@ private:
   // Collective.
   void leaveWithoutElements(const std::vector<GlobalId>& dead, const std::vector<Face>* known);
   void renewDebris();
-  const std::vector<Debris::Mirror>& mirrors();
-  std::optional<Debris::Mirror> mirrorOf(const SymmetryPlane& plane, const char*& lack) const;
-  Real shareOf(int node);
   void bookFromOutside(Real dt);
   void takeGhostNodes(const std::vector<GlobalId>& ghostNodes);
   void openContact();
@@ -255,9 +252,9 @@ private:
   std::optional<NodalMotion> motion_;
   std::optional<Lines> lines_;
   std::unique_ptr<Contact> contact_;
-  mutable std::optional<MotionLimits> motionLimits_;   ///< of its faces; empty: not asked for yet
-  std::optional<std::vector<Debris::Mirror>> mirrors_; ///< found when they are asked for first
-  std::optional<Debris> debris_;                       ///< with contact only
+  mutable std::optional<MotionLimits> motionLimits_; ///< of its faces; empty: not asked for yet
+  std::optional<std::vector<Mirror>> mirrors_;       ///< found when debris asks for them first
+  std::optional<Debris> debris_;                     ///< with contact only
   std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
   Clock clock_;
   TimeStep step_;

@@ -1,0 +1,174 @@
+#include <coplane_core/Log.hpp>
+#include <coplane_dynamics/Mirrors.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace coplane
+{
+void Image::reflect(const Vec3& normal)
+{
+  // (1 - 2 n n^T) rows
+  const Vec3 across = normal.x * rows[0] + normal.y * rows[1] + normal.z * rows[2];
+  for (int c = 0; c < 3; ++c)
+    rows[std::size_t(c)] -= 2 * normal[c] * across;
+  isOther = true;
+}
+
+Vec3 Image::of(const Vec3& vector) const
+{
+  return {dot(rows[0], vector), dot(rows[1], vector), dot(rows[2], vector)};
+}
+
+Vec3 Image::back(const Vec3& vector) const
+{
+  return vector.x * rows[0] + vector.y * rows[1] + vector.z * rows[2];
+}
+
+namespace
+{
+/// None where a symmetry does not hold nodes of one plane. Collective.
+/// @param lack gets why there are no images beyond it; null: there are
+std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& conditions,
+                               const RankMesh& mesh, const Comm& comm, const char*& lack)
+{
+  const std::vector<Vec3>& x = mesh.coordinates;
+  // Of the nodes that it holds, the largest of either sign and the farthest; then of all nodes.
+  std::vector<Real> bounds{-infinity, -infinity, 0, -infinity, -infinity};
+  for (const int node : plane.nodes)
+  {
+    const Vec3& place = x[std::size_t(node)];
+    const Real level = dot(plane.normal, place);
+    bounds[0] = std::max(bounds[0], level);
+    bounds[1] = std::max(bounds[1], -level);
+    bounds[2] = std::max(bounds[2], norm(place));
+  }
+  for (int node = 0; node < mesh.ownedNodes; ++node)
+  {
+    const Real level = dot(plane.normal, x[std::size_t(node)]);
+    bounds[3] = std::max(bounds[3], level);
+    bounds[4] = std::max(bounds[4], -level);
+  }
+  comm.max(bounds);
+  constexpr Real roundOff = 1e-9;
+  const Real thickness = roundOff * bounds[2];
+  const bool holdsNone = !std::isfinite(bounds[0]);
+  lack = holdsNone ? "holds no node of a body that is not rigid" : "holds nodes of no one plane";
+  if (holdsNone || bounds[0] + bounds[1] > thickness)
+    return std::nullopt;
+  Mirror mirror{plane.normal, 0.5 * (bounds[0] - bounds[1]), 0};
+  // Its image shows in a plane that is more than a roller: nodes that span an area (in the flat, a
+  // line), with all of the mesh on one side, and nothing that pulls along its normal.
+  const auto farthest = [&](const auto& distance) // place of the node; of several the lowest
+  {
+    std::vector<Real> most{-infinity};
+    for (const int node : plane.nodes)
+      most[0] = std::max(most[0], distance(x[std::size_t(node)]));
+    comm.max(most);
+    std::int64_t lowest = INT64_MAX;
+    for (const int node : plane.nodes)
+      if (distance(x[std::size_t(node)]) == most[0])
+        lowest = std::min<std::int64_t>(lowest, mesh.nodeIds[std::size_t(node)]);
+    lowest = comm.min(lowest);
+    std::vector<Real> place(3, -infinity);
+    for (const int node : plane.nodes)
+      if (mesh.nodeIds[std::size_t(node)] == lowest)
+        for (int c = 0; c < 3; ++c)
+          place[std::size_t(c)] = x[std::size_t(node)][c];
+    comm.max(place);
+    return Vec3{place[0], place[1], place[2]};
+  };
+  const Vec3 first = farthest([](const Vec3& place) { return norm(place); });
+  const Vec3 along = farthest([&](const Vec3& place) { return norm(place - first); }) - first;
+  const Vec3 aside = farthest([&](const Vec3& place) { return norm(cross(place - first, along)); });
+  const bool spans = mesh.dimension == 2
+                         ? norm(along) > thickness
+                         : norm(cross(aside - first, along)) > thickness * norm(along);
+  const bool above = bounds[3] > mirror.level + thickness,
+             below = bounds[4] > -mirror.level + thickness;
+  lack = !spans                                       ? "holds nodes on one line only"
+         : above == below                             ? "has parts of the mesh on both sides"
+         : conditions.gravity.actsAlong(plane.normal) ? "bears gravity"
+                                                      : nullptr;
+  if (lack == nullptr)
+    mirror.side = above ? 1 : -1;
+  return mirror;
+}
+} // namespace
+
+std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm)
+{
+  std::vector<Mirror> mirrors;
+  if (conditions.axisymmetric)
+    mirrors.push_back({{1, 0, 0}, 0, 1, true});
+  for (const SymmetryPlane& plane : conditions.symmetries)
+  {
+    if (conditions.axisymmetric && plane.normal.x != 0)
+      continue; // the axis, or no plane but a cone
+    const char* lack = "acts in a part of the run";
+    if (plane.when.isAlways())
+      if (const auto mirror = mirrorOf(plane, conditions, mesh, comm, lack))
+        mirrors.push_back(*mirror);
+    if (lack != nullptr)
+      logWarning("debris beyond a symmetry",
+                 fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
+                             "nothing is, as it {}. In a whole model they would meet its other "
+                             "half.",
+                             plane.where, lack));
+  }
+  return mirrors;
+}
+
+Real shareOf(const Vec3& place, const std::vector<Mirror>& mirrors)
+{
+  constexpr Real roundOff = 1e-9;
+  std::vector<Vec3> normals;
+  for (const Mirror& mirror : mirrors)
+    if (mirror.side != 0 && !mirror.isAxis &&
+        std::abs(dot(mirror.normal, place) - mirror.level) <= roundOff * norm(place))
+      normals.push_back(mirror.normal);
+  // Planes at 180 degrees / n make 2n images; one at right angles to all doubles their number.
+  Real images = 1;
+  std::vector<char> counted(normals.size(), 0);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    if (counted[i])
+      continue;
+    Real n = 1;
+    for (std::size_t j = i + 1; j < normals.size(); ++j)
+      if (const Real cosine = std::abs(dot(normals[i], normals[j])); cosine > roundOff)
+      {
+        counted[j] = 1;
+        if (cosine < 1 - roundOff) // or it is the same once more
+          n = std::max(n, std::round(pi / std::acos(cosine)));
+      }
+    images *= 2 * n;
+  }
+  return 1 / images;
+}
+
+Image reflectInto(const std::vector<Mirror>& mirrors, Real roundOff, Vec3& x)
+{
+  Image image;
+  constexpr int most = 1000; // points without end are not followed for ever
+  bool isHere = false;
+  for (int reflections = 0; !isHere && reflections < most;)
+  {
+    isHere = true;
+    for (const Mirror& mirror : mirrors)
+      if (const Real height = dot(mirror.normal, x) - mirror.level;
+          mirror.side * height < -roundOff * norm(x))
+      {
+        x -= 2 * height * mirror.normal;
+        image.reflect(mirror.normal);
+        isHere = false;
+        ++reflections;
+      }
+  }
+  return image;
+}
+} // namespace coplane

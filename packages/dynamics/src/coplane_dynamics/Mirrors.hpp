@@ -1,0 +1,47 @@
+#pragma once
+
+#include <coplane_core/Comm.hpp>
+#include <coplane_core/Vec3.hpp>
+#include <coplane_dynamics/Conditions.hpp>
+#include <coplane_mesh/RankMesh.hpp>
+
+#include <array>
+#include <vector>
+
+namespace coplane
+{
+/// A plane in which bodies go on as their own image: a plane of symmetry, or the axis of a body of
+/// revolution (docs/theory/erosion.md, "Debris").
+struct Mirror
+{
+  Vec3 normal{};       ///< of length 1
+  Real level = 0;      ///< normal . x of its points [m]
+  int side = 0;        ///< bodies are where normal . x is larger, 1, or smaller, -1; 0: no images
+  bool isAxis = false; ///< a point on it is whole
+};
+
+/// The reflections together that bring a point to the side of mirrors on which bodies are.
+struct Image
+{
+  std::array<Vec3, 3> rows{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< orthogonal
+  bool isOther = false;                                        ///< it is not the point itself
+
+  void reflect(const Vec3& normal);
+  Vec3 of(const Vec3& vector) const;   ///< here of one there
+  Vec3 back(const Vec3& vector) const; ///< there of one here
+};
+
+/// The axis, and the symmetries that act in all of the run and hold nodes of one plane. Of the mesh
+/// as it was read: so they are the same in all of the run, and after a restart. A warning says
+/// which symmetries have no images. Collective.
+std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm);
+
+/// What there is of a point, with its images: one over the order of the group of reflections in the
+/// mirrors that it lies in [-].
+/// @param place in the mesh as it was read [m]
+Real shareOf(const Vec3& place, const std::vector<Mirror>& mirrors);
+
+/// Brings a place to the side of mirrors on which bodies are [m].
+/// @param roundOff distance over that from the origin up to which it lies in a mirror [-]
+Image reflectInto(const std::vector<Mirror>& mirrors, Real roundOff, Vec3& x);
+} // namespace coplane
