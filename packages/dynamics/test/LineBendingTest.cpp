@@ -412,4 +412,36 @@ TEST(LineBending, isNoStifferThanItsBound)
     EXPECT_LE(rows[i], 1.001 * (line.stiffness()[i] - without.stiffness()[i]));
   EXPECT_GT(rows[3], 0.9 * (line.stiffness()[3] - without.stiffness()[3]));
 }
+
+TEST(LineBending, withAMomentNearStraightIsNoStifferThanItsBoundAcross)
+{
+  LineSetup setup = barOf(2);
+  setup.section.yieldStress = 3 * yieldStress;
+  LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  Real last = 0;
+  for (const Real to : {1.0, 0.012})
+  {
+    lead(line, hosts, setup, 200,
+         [&](const Vec3& x, Real part) { return knee(x, last + part * (to - last)); });
+    last = to;
+  }
+  const Real elastic = modulus * secondMoment / (length / 2);
+  ASSERT_GT(norm(line.points()[1].moment), 5 * elastic * last); // as stiff as a longer lever
+  constexpr Real way = 1e-7;
+  Line moved = line;
+  LineHosts there = hosts;
+  there.x[2].z += way;
+  moved.advance(there, 1, 1, 0);
+  LineSetup thin = setup;
+  thin.section.diameter = 0;
+  Line without = installed(thin, hostsOf(thin));
+  without.advance(hosts, 1, 1, 0);
+  Real row = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    row += std::abs(moved.forces()[i].z - line.forces()[i].z) / way;
+  const Real bound = line.stiffness()[2] - without.stiffness()[2];
+  EXPECT_LE(row, 1.001 * bound);
+  EXPECT_GT(row, 0.5 * bound);
+}
 } // namespace coplane
