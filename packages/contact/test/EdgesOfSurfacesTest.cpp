@@ -16,6 +16,8 @@ struct Body
   Vec3 low, size;
   /// Turned about the x axis, then about the z axis [degrees], around its middle.
   Real aboutX = 0, aboutZ = 0;
+  /// By how much all that is farther along x is higher, before it is turned [-].
+  Real lean = 0;
 };
 
 Vec3 turned(const Vec3& r, const Body& body)
@@ -40,8 +42,9 @@ RankMesh meshOf(const std::vector<Body>& bodies)
     for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0},
                                Vec3{0, 0, 1}, Vec3{1, 0, 1}, Vec3{1, 1, 1}, Vec3{0, 1, 1}})
     {
-      const Vec3 r{(corner.x - 0.5) * body.size.x, (corner.y - 0.5) * body.size.y,
-                   (corner.z - 0.5) * body.size.z};
+      Vec3 r{(corner.x - 0.5) * body.size.x, (corner.y - 0.5) * body.size.y,
+             (corner.z - 0.5) * body.size.z};
+      r.y += body.lean * r.x;
       block.connectivity.push_back(mesh.nodes());
       mesh.coordinates.push_back(middle + turned(r, body));
       mesh.nodePositions.push_back(mesh.nodes());
@@ -61,7 +64,8 @@ class Scene
 {
 public:
   /// @param numbers of the bodies; they are counted unless given
-  explicit Scene(const std::vector<Body>& bodies, const std::vector<int>& numbers = {})
+  explicit Scene(const std::vector<Body>& bodies, const std::vector<int>& numbers = {},
+                 const std::vector<Mirror>& mirrors = {})
       : comm_(MPI_COMM_SELF), mesh_(meshOf(bodies)), layout_(comm_, mesh_), x_("x", mesh_.nodes())
   {
     for (int n = 0; n < mesh_.nodes(); ++n)
@@ -90,7 +94,7 @@ public:
           pairs_.push_back({a, b});
     const Array<Face> table(Kokkos::ViewAllocateWithoutInitializing("faces"), faces_.size());
     std::uninitialized_copy(faces_.begin(), faces_.end(), table.data());
-    edges_.emplace(pairs_, table, faces_.size(), planes_, x_, 3, layout_);
+    edges_.emplace(pairs_, table, faces_.size(), planes_, x_, 3, mirrors, layout_);
   }
 
   /// The pair of the faces of body a and of body b > a whose normals are next to these.
@@ -237,6 +241,34 @@ TEST(EdgesOfSurfaces, bricksBesideEachOtherPartOverTheEdgesThatCrossAtTheirJoint
   const Plane other = scene.pair(0, front, 1, down);
   EXPECT_NE(scene.edgesIn(other.exits, 0).find("+x"), std::string::npos);
   EXPECT_NE(scene.edgesIn(other.exits, 1).find("-x"), std::string::npos);
+}
+
+TEST(EdgesOfSurfaces, goOnWhereBodiesAreCutByAPlaneOfSymmetry)
+{
+  // One cube on another: halves of blocks, or quarters.
+  const Mirror atLeft{{1, 0, 0}, 0, 1}, atBack{{0, 0, 1}, 0, 1}, above{{0, 1, 0}, 2, -1};
+  const std::vector<Body> stack{{{0, 0, 0}, cube}, {{0, 1, 0}, cube}};
+  for (const auto& [mirrors, turns] :
+       {std::pair<std::vector<Mirror>, std::string>{{}, "+x +z -x -z"},
+        {{atLeft}, "+x +z -z"},
+        {{atLeft, atBack}, "+x +z"},
+        {{above}, "+x +z -x -z"}})
+  {
+    Scene scene(stack, {}, mirrors);
+    const Plane plane = scene.pair(0, up, 1, down);
+    EXPECT_EQ(scene.edgesIn(plane.turns, 0), turns);
+    EXPECT_EQ(scene.edgesIn(plane.turns, 1), turns);
+  }
+  // The roof of a block that falls away from the plane has a ridge there, with that of its image;
+  // one that rises has a valley.
+  for (const auto& [lean, turns] :
+       {std::pair<Real, std::string>{-0.3, "+x +z -x -z"}, {-0.01, "+x +z -z"}, {0.3, "+x +z -z"}})
+  {
+    Body leaning{{0, 0, 0}, cube}, other{{0, 1, 0}, cube};
+    leaning.lean = other.lean = lean;
+    Scene scene({leaning, other}, {}, {atLeft});
+    EXPECT_EQ(scene.edgesIn(scene.pair(0, up, 1, down).turns, 0), turns) << lean;
+  }
 }
 
 TEST(EdgesOfSurfaces, roofsThatCrossKeepEachOtherUp)

@@ -115,6 +115,30 @@ TEST(Step2SortIntoBins, aFaceOnABinBorderIsInBoth)
   EXPECT_EQ(sorted.entries[1].corner, 6); // second bin along x
 }
 
+TEST(Step2SortIntoBins, aFaceThatLiesInAMirrorIsInNoBin)
+{
+  const std::vector<std::pair<Vec3, std::size_t>> places{
+      {{0.5, 1, 1}, 0}, {{0.5 + 1e-9, 1, 1}, 0}, {{0.5 + 1e-5, 1, 1}, 1}};
+  for (const auto& [place, faces] : places)
+  {
+    Scene scene;
+    scene.add(faceId(0, 0), place, {1, 0, 0}, 0.5, 0);
+    scene.add(faceId(1, 0), {0.75, 1, 1}, {0, 0, 1}, 0.5,
+              0); // beside it, with an edge in the mirror
+    CandidateRules rules = rulesWithSkin(0.01);
+    rules.mirrors = {{{1, 0, 0}, 0.5, 1}};
+    const Comm comm(MPI_COMM_SELF);
+    const Bins bins = step1_globalSpaceLimits(scene.faces, positions(scene), rules, comm);
+    const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, positions(scene), 3, rules);
+    std::set<int> found;
+    for (const BinEntry& entry : sorted.entries)
+      found.insert(entry.face);
+    EXPECT_EQ(found.count(0), faces) << place.x;
+    EXPECT_EQ(found.count(1), 1u);
+    EXPECT_EQ(sorted.boxes[0].overlaps(sorted.boxes[1]), faces == 1) << place.x;
+  }
+}
+
 TEST(Step2SortIntoBins, entriesAreSortedAndLargeFacesEnterFewBins)
 {
   // One face is ten thousand times as large as the others: it enters bins of its own size, which

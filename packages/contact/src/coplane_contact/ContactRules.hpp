@@ -1,5 +1,6 @@
 #pragma once
 
+#include <coplane_geometry/Mirror.hpp>
 #include <coplane_joint/JointLaw.hpp>
 
 #include <numeric>
@@ -36,6 +37,8 @@ struct ContactRules
   int kinds = 0;
   std::vector<int> kindOf;        ///< by group
   std::vector<ContactRule> table; ///< [kind a * kinds + kind b], symmetric
+  /// In which bodies are cut: nothing comes to faces that lie there, and surfaces go on beyond.
+  std::vector<Mirror> mirrors;
 
   int groups() const { return int(kindOf.size()); }
   /// Rules between every two of so many groups.

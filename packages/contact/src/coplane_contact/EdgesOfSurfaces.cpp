@@ -57,33 +57,46 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
   // The surface beyond is the face that both nodes have beside this one, the sharpest turn if there
-  // are two.
+  // are two. Beyond an edge that lies in a mirror it is the image of the face.
   Real least = DirectionsOfNodes::one;
+  const auto take = [&](const Vec3& other)
+  {
+    if (!(dot(other, edge.outward) > convex && dot(other, normal) < least))
+      return;
+    edge.turns = true;
+    edge.beyond = other;
+    least = dot(other, normal);
+  };
   for (int i = 0; i < normals_.most(); ++i)
   {
     const Vec3 other = normals_.normal(edge.nodes[0], i);
-    if (dot(other, edge.outward) > convex && dot(other, normal) < least &&
-        normals_.has(edge.nodes[1], other))
-    {
-      edge.turns = true;
-      edge.beyond = other;
-      least = dot(other, normal);
-    }
+    if (normals_.has(edge.nodes[1], other))
+      take(other);
   }
+  if (mirrors_.empty())
+    return edge;
+  const FaceCorners corners = cornersAt(x_, face);
+  const Real near = roundOffOfFace(corners.x, corners.count);
+  for (const Mirror& mirror : mirrors_)
+    if (mirror.contains(at(x_, edge.nodes[0]), near) &&
+        mirror.contains(at(x_, edge.nodes[1]), near))
+      take(mirror.reflected(normal));
   return edge;
 }
 
 EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
                                  std::size_t localFaces, const Array<FacePlane>& planes,
-                                 const ConstNodeVectors& x, int dimension, const NodeLayout& layout)
+                                 const ConstNodeVectors& x, int dimension,
+                                 std::vector<Mirror> mirrors, const NodeLayout& layout)
     : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
-      lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size()),
-      goingOn_(layout.size())
+      mirrors_(std::move(mirrors)), lieOn_(pairs.size()), normals_(layout.size()),
+      hidden_(layout.size()), flush_(layout.size()), goingOn_(layout.size())
 {
   for (std::size_t f = 0; f < localFaces; ++f)
-    for (int k = 0; k < faces[f].count; ++k)
-      if (faces[f].nodes[k] < layout.owned())
-        normals_.add(faces[f].nodes[k], planes(f).normal);
+    if (!isCut(faces[f], x, mirrors_))
+      for (int k = 0; k < faces[f].count; ++k)
+        if (faces[f].nodes[k] < layout.owned())
+          normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
   findEdges();
   normals_ = NormalsOfNodes(0); // nobody asks any more, and there may be many

@@ -12,7 +12,7 @@ struct Preparation::Edges
   Edges(Search made, const Heritage::Place& place, const Array<FacePlane>& planes,
         const NodeLayout& layout)
       : search(std::move(made)), ofSurfaces(search.pairs, place.faces, search.localFaces, planes,
-                                            place.x, place.dimension, layout)
+                                            place.x, place.dimension, search.mirrors, layout)
   {
   }
   Edges(const Edges&) = delete;

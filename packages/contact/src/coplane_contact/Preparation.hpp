@@ -29,6 +29,7 @@ public:
     std::vector<CandidatePair> pairs;
     std::vector<std::int64_t> pairOfSlot; ///< negative: none
     std::size_t localFaces = 0;           ///< that have an owned node: they come first
+    std::vector<Mirror> mirrors;          ///< in which surfaces go on as their image
   };
 
   /// Nothing is left to do for any pair.

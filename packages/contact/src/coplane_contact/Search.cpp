@@ -1,5 +1,6 @@
 #include <coplane_contact/Search.hpp>
 #include <coplane_contact/detail/RadixSort.hpp>
+#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <unordered_map>
@@ -61,6 +62,14 @@ private:
   std::uint64_t least_[3];
 };
 } // namespace
+
+bool isCut(const Face& face, const ConstNodeVectors& x, const std::vector<Mirror>& mirrors)
+{
+  if (mirrors.empty())
+    return false;
+  const FaceCorners corners = cornersAt(x, face);
+  return isCut(corners.x, corners.count, mirrors);
+}
 
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules)
@@ -155,6 +164,11 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                  Box together;
                  for (std::size_t f = begin; f < end; ++f)
                  {
+                   if (isCut(faces[f], x, rules.mirrors))
+                   {
+                     levelOf[f] = std::uint8_t(levels);
+                     continue;
+                   }
                    levelOf[f] = std::uint8_t(bins.levelOf(boxOf(faces[f], x).longestSide() +
                                                           rules.depthInto(faces[f], {})));
                    const Box box = contactBox(faces[f], sorted.planes(f), x, rules);
@@ -185,7 +199,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                   *entry++ = {Bins::key(level, bin), std::int32_t(f), corner, level == levelOf[f]};
                 });
       });
-  if (!faces.empty())
+  if (!sorted.entries.empty())
   {
     const ShortKeys keys(bins, all[0]);
     radixSort(sorted.entries, keys.bits(), keys);

@@ -148,18 +148,12 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
 }
 
 /// Whether a face of the mesh as it was read lies in a mirror, but for round-off.
-bool liesIn(const Mirror& mirror, const ExteriorFace& face, const RankMesh& mesh)
+bool isCut(const ExteriorFace& face, const RankMesh& mesh, const std::vector<Mirror>& mirrors)
 {
-  const std::vector<Vec3>& x = mesh.coordinates;
-  const Vec3 first = x[std::size_t(face.nodes[0])];
-  Real size = 0, off = 0;
+  Vec3 corners[4];
   for (int k = 0; k < face.nodeCount; ++k)
-  {
-    const Vec3 corner = x[std::size_t(face.nodes[std::size_t(k)])];
-    size = std::max(size, norm(corner - first));
-    off = std::max(off, std::abs(dot(mirror.normal, corner) - mirror.level));
-  }
-  return off <= 1e-6 * size;
+    corners[k] = mesh.coordinates[std::size_t(face.nodes[std::size_t(k)])];
+  return isCut(corners, face.nodeCount, mirrors);
 }
 
 std::uint64_t bitsOf(Real value)
@@ -215,11 +209,7 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
   }
   exterior.erase(std::remove_if(exterior.begin(), exterior.end(),
                                 [&](const ExteriorFace& face)
-                                {
-                                  return std::any_of(mirrors.begin(), mirrors.end(),
-                                                     [&](const Mirror& mirror)
-                                                     { return liesIn(mirror, face, mesh); });
-                                }),
+                                { return isCut(face, mesh, mirrors); }),
                  exterior.end());
   faces_ = std::move(exterior);
   mirrors_ = std::move(mirrors);

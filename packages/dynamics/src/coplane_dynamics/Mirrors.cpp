@@ -100,7 +100,8 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
 }
 } // namespace
 
-std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm)
+std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm,
+                              bool warn)
 {
   std::vector<Mirror> mirrors;
   if (conditions.axisymmetric)
@@ -113,7 +114,7 @@ std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh
     if (plane.when.isAlways())
       if (const auto mirror = mirrorOf(plane, conditions, mesh, comm, lack))
         mirrors.push_back(*mirror);
-    if (lack != nullptr)
+    if (lack != nullptr && warn)
       logWarning("debris beyond a symmetry",
                  fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
                              "nothing is, as it {}. In a whole model they would meet its other "

@@ -3,6 +3,7 @@
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/Vec3.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_geometry/Mirror.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <array>
@@ -10,16 +11,6 @@
 
 namespace coplane
 {
-/// A plane in which bodies go on as their own image: a plane of symmetry, or the axis of a body of
-/// revolution (docs/theory/erosion.md, "Debris").
-struct Mirror
-{
-  Vec3 normal{};       ///< of length 1
-  Real level = 0;      ///< normal . x of its points [m]
-  int side = 0;        ///< bodies are where normal . x is larger, 1, or smaller, -1; 0: no images
-  bool isAxis = false; ///< a point on it is whole
-};
-
 /// The reflections together that bring a point to the side of mirrors on which bodies are.
 struct Image
 {
@@ -32,9 +23,10 @@ struct Image
 };
 
 /// The axis, and the symmetries that act in all of the run and hold nodes of one plane. Of the mesh
-/// as it was read: so they are the same in all of the run, and after a restart. A warning says
-/// which symmetries have no images. Collective.
-std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm);
+/// as it was read: so they are the same in all of the run, and after a restart. Collective.
+/// @param warn of symmetries that have no images of points of debris
+std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm,
+                              bool warn);
 
 /// What there is of a point, with its images: one over the order of the group of reflections in the
 /// mirrors that it lies in [-].

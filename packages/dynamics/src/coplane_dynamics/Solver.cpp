@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace coplane
 {
@@ -77,12 +78,16 @@ void Solver::startVelocities()
 void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
+  mirrors_ = mirrorsOf(model_.conditions, mesh(), *comm_, model_.debris && erosion_->acts());
+  ContactRules rules = model_.contactRules;
+  std::copy_if(mirrors_.begin(), mirrors_.end(), std::back_inserter(rules.mirrors),
+               [](const Mirror& mirror) { return mirror.side != 0; });
   std::vector<Face> faces = facesAtStart(exteriorFaces(mesh()));
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
   const Real skin = model_.skin.value_or(
       (model_.searchEvery == 0 ? skinOfFaceWithOneSearch : skinOfFace) * smallest);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
-                                       model_.contactRules, skin, smallest);
+                                       std::move(rules), skin, smallest);
 }
 
 void Solver::replaceFaces(std::vector<Face> faces)
@@ -245,19 +250,17 @@ void Solver::renewDebris()
 {
   if (!debris_ || !erosion_->acts())
     return;
-  if (!mirrors_)
-    mirrors_ = mirrorsOf(model_.conditions, mesh(), *comm_);
   std::vector<Debris::FreeNode> points;
   std::vector<int> nodes;
   for (int n = 0; n < layout_.owned(); ++n)
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
     {
       points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n),
-                        shareOf(mesh().coordinates[std::size_t(n)], *mirrors_)});
+                        shareOf(mesh().coordinates[std::size_t(n)], mirrors_)});
       nodes.push_back(n);
     }
   motion_->letThroughAxis(nodes);
-  debris_->renew(points, erosion_->exterior(), *mirrors_, bodyOfNode_, mesh(), elements_, layout_);
+  debris_->renew(points, erosion_->exterior(), mirrors_, bodyOfNode_, mesh(), elements_, layout_);
 }
 
 /// Ends the loads on elements that have died, and lays bare the faces behind them.

@@ -23,10 +23,10 @@ public:
 
   /// `pairs` are the candidates of this rank, among them all with a local face; of the faces, all
   /// that have an owned node come first, sorted by id. `planes` are those of the faces. All of this
-  /// has to live on. Collective.
+  /// has to live on. In `mirrors` surfaces go on as their image. Collective.
   EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
                   std::size_t localFaces, const Array<FacePlane>& planes, const ConstNodeVectors& x,
-                  int dimension, const NodeLayout& layout);
+                  int dimension, std::vector<Mirror> mirrors, const NodeLayout& layout);
 
   /// Sets exits, turns, covered and seams of the plane of a pair.
   void look(std::size_t pair, Plane& plane) const;
@@ -59,6 +59,7 @@ private:
   Array<FacePlane> planes_;
   ConstNodeVectors x_;
   int dimension_;
+  std::vector<Mirror> mirrors_;
   std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
   std::vector<Edge> edges_;
   std::vector<Real> lieOn_;   ///< by pair
