@@ -81,7 +81,12 @@ public:
       face.local = face.ownedHere = true;
       face.thickness = 1;
       for (int k = 0; k < face.count; ++k)
+      {
         face.nodes[k] = exterior.nodes[k];
+        for (std::size_t m = 0; m < mirrors.size(); ++m)
+          if (dot(mirrors[m].normal, mesh_.coordinates[face.nodes[k]]) == mirrors[m].level)
+            face.mirrors[k] |= std::uint8_t(1u << m);
+      }
       faces_.push_back(face);
     }
     planes_ = Array<FacePlane>(
@@ -267,7 +272,10 @@ TEST(EdgesOfSurfaces, goOnWhereBodiesAreCutByAPlaneOfSymmetry)
     Body leaning{{0, 0, 0}, cube}, other{{0, 1, 0}, cube};
     leaning.lean = other.lean = lean;
     Scene scene({leaning, other}, {}, {atLeft});
-    EXPECT_EQ(scene.edgesIn(scene.pair(0, up, 1, down).turns, 0), turns) << lean;
+    const Plane plane = scene.pair(0, up, 1, down);
+    EXPECT_EQ(scene.edgesIn(plane.turns, 0), turns) << lean;
+    // What hangs down from the other one does the opposite.
+    EXPECT_EQ(scene.edgesIn(plane.turns, 1), lean == 0.3 ? "+x +z -x -z" : "+x +z -z") << lean;
   }
 }
 

@@ -115,28 +115,42 @@ TEST(Step2SortIntoBins, aFaceOnABinBorderIsInBoth)
   EXPECT_EQ(sorted.entries[1].corner, 6); // second bin along x
 }
 
-TEST(Step2SortIntoBins, aFaceThatLiesInAMirrorIsInNoBin)
+TEST(Step2SortIntoBins, aFaceThatIsCutIsInNoBin)
 {
-  const std::vector<std::pair<Vec3, std::size_t>> places{
-      {{0.5, 1, 1}, 0}, {{0.5 + 1e-9, 1, 1}, 0}, {{0.5 + 1e-5, 1, 1}, 1}};
-  for (const auto& [place, faces] : places)
+  // Two that look at each other; one has none, two of four, or all of its nodes in a mirror.
+  for (const int held : {0, 2, 4})
   {
     Scene scene;
-    scene.add(faceId(0, 0), place, {1, 0, 0}, 0.5, 0);
-    scene.add(faceId(1, 0), {0.75, 1, 1}, {0, 0, 1}, 0.5,
-              0); // beside it, with an edge in the mirror
-    CandidateRules rules = rulesWithSkin(0.01);
-    rules.mirrors = {{{1, 0, 0}, 0.5, 1}};
+    scene.add(faceId(1, 0), {0.5, 1, 1}, {1, 0, 0}, 0.5, 0);
+    scene.add(faceId(2, 0), {0.501, 1, 1}, {-1, 0, 0}, 0.5, 0);
+    for (Face& face : scene.faces)
+      face.local = true;
+    for (int k = 0; k < 4; ++k)
+      scene.faces[0].mirrors[k] = k < held ? 2 : 1;
+    for (int k = 0; k < held; ++k)
+      scene.faces[1].mirrors[k] = 4;
+    if (held < 4)
+      scene.faces[0].mirrors[3] = 0;
     const Comm comm(MPI_COMM_SELF);
+    const CandidateRules rules = rulesWithSkin(0.01);
     const Bins bins = step1_globalSpaceLimits(scene.faces, positions(scene), rules, comm);
     const SortedFaces sorted = step2_sortIntoBins(bins, scene.faces, positions(scene), 3, rules);
-    std::set<int> found;
-    for (const BinEntry& entry : sorted.entries)
-      found.insert(entry.face);
-    EXPECT_EQ(found.count(0), faces) << place.x;
-    EXPECT_EQ(found.count(1), 1u);
-    EXPECT_EQ(sorted.boxes[0].overlaps(sorted.boxes[1]), faces == 1) << place.x;
+    EXPECT_EQ(sorted.entries.empty(), held == 4) << held;
+    EXPECT_EQ(sorted.boxes[0].overlaps(sorted.boxes[1]), held < 4) << held;
+    EXPECT_EQ(step5_candidatePairs(sorted, scene.faces, positions(scene), rules).size(),
+              held < 4 ? 1u : 0u);
   }
+}
+
+TEST(Box, hasNothingOfAnEmptyOne)
+{
+  Box box;
+  box.include(Box());
+  EXPECT_FALSE(box.overlaps(box));
+  box.include(Vec3{1, 2, 3});
+  box.include(Box());
+  EXPECT_EQ(norm(box.low - Vec3{1, 2, 3}), 0);
+  EXPECT_EQ(norm(box.high - Vec3{1, 2, 3}), 0);
 }
 
 TEST(Step2SortIntoBins, entriesAreSortedAndLargeFacesEnterFewBins)

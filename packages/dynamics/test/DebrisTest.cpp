@@ -513,24 +513,6 @@ TEST(Debris, inAPlaneOfSymmetryHasItsPartOfTheStiffness)
   EXPECT_NEAR(falls[1], falls[0], 1e-9);
 }
 
-TEST(Mirrors, leaveAPartOfAPointThatLiesInThem)
-{
-  const auto at = [](Real degrees) {
-    return Mirror{{std::sin(degrees * pi / 180), -std::cos(degrees * pi / 180), 0}, 0, 1, false};
-  };
-  const Mirror floor{{0, 0, 1}, 2, 1, false}, axis{{1, 0, 0}, 0, 1, true},
-      roller{{0, 1, 0}, 0, 0, false};
-  const Vec3 here{0, 0, 2};
-  EXPECT_EQ(shareOf(here, {}), 1);
-  EXPECT_EQ(shareOf(here, {axis, roller}), 1);
-  EXPECT_EQ(shareOf(here, {at(0)}), 0.5);
-  EXPECT_EQ(shareOf({0, 1, 2}, {at(0), floor}), 0.5);
-  EXPECT_EQ(shareOf(here, {at(0), at(90)}), 0.25);
-  EXPECT_EQ(shareOf(here, {at(0), at(60)}), 1.0 / 6);
-  EXPECT_EQ(shareOf(here, {at(0), at(30), floor}), 1.0 / 24);
-  EXPECT_EQ(shareOf(here, {at(0), at(90), floor}), 0.125);
-}
-
 TEST(Debris, hasNoImageBeyondRollersThatGravityPressesOn)
 {
   const Comm comm = Comm::alone();

@@ -149,6 +149,57 @@ TEST(Line, yieldsHardensAndTears)
   EXPECT_NEAR(energy.rupture, expected, 1e-9 * expected);
 }
 
+TEST(Line, flowsAtAHigherStressTheFasterItIs)
+{
+  constexpr Real yield = 400e6, exponent = 0.025, reference = 1e-4, area = 1e-4, modulus = 200e9;
+  LineSetup setup;
+  setup.points = {{{0, 0, 0}, true, 0}, {{2, 0, 0}, true, 0}};
+  const auto stressAt = [&](Real strain, Real rate, Real hardening, int steps, Line* out = nullptr)
+  {
+    setup.section = {area, modulus, yield, hardening, infinity, true, 0, exponent, reference};
+    LineHosts hosts = hostsOf(setup);
+    Line line = installed(setup, hosts);
+    const Real dt = std::abs(strain) / rate / steps;
+    for (int i = 1; i <= steps; ++i)
+    {
+      hosts.x[1].x = 2 + 2 * strain * i / steps;
+      line.advance(hosts, i * dt, dt, 0);
+      EXPECT_NEAR(line.energy().remainder(), 0, 1e-12 * line.energy().work);
+    }
+    if (out != nullptr)
+      *out = line;
+    return line.segments()[0].force / area;
+  };
+  // Long after yield all of the rate is plastic.
+  for (const Real rate : {1e-3, 1.0, 100.0})
+    for (const Real sign : {1.0, -1.0})
+      EXPECT_NEAR(stressAt(sign * 0.02, rate, 0, 1000),
+                  sign * yield * std::pow(rate / reference, exponent), 1e-6 * yield)
+          << rate;
+  EXPECT_NEAR(stressAt(0.02, 100, 0, 20) / stressAt(0.02, 100, 0, 2000), 1, 1e-6);
+  // Not faster than the reference: as slowly.
+  EXPECT_NEAR(stressAt(0.02, 1e-5, 1e9, 100), stressAt(0.02, 1e-9, 1e9, 1), 1e-3);
+  EXPECT_NEAR(stressAt(0.02, reference, 0, 100), yield, 1e-3);
+  // Hardening counts from where it is more than the rate.
+  const Real tangent = modulus * 50e9 / 250e9;
+  EXPECT_NEAR(stressAt(0.02, 100, 50e9, 1000), yield + tangent * (0.02 - yield / modulus), 1);
+  EXPECT_NEAR(stressAt(0.02, 100, 1e9, 1000), yield * std::pow(1e6, exponent), 1e-4 * yield);
+
+  // Held still it relaxes: ds/dt = -(E r / Y) s^n with s the stress over Y and n = 1 / exponent.
+  Line line(setup, {});
+  const Real first = stressAt(0.02, 10, 0, 1000, &line) / yield;
+  LineHosts hosts = hostsOf(setup);
+  hosts.x[1].x = 2 + 2 * 0.02;
+  const Real n = 1 / exponent, held = 1e-3;
+  constexpr int steps = 4000;
+  for (int i = 1; i <= steps; ++i)
+    line.advance(hosts, 0.002 + i * held / steps, held / steps, 0);
+  const Real exact =
+      std::pow(std::pow(first, 1 - n) + (n - 1) * modulus * reference / yield * held, 1 / (1 - n));
+  EXPECT_NEAR(line.segments()[0].force / area / yield, exact, 1e-3 * (first - exact));
+  EXPECT_LT(exact, 0.97 * first);
+}
+
 TEST(Line, goesSlackWithoutCompression)
 {
   LineSetup setup;

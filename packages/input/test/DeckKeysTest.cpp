@@ -245,10 +245,11 @@ std::string show(const Deck& d)
     for (const auto& point : l.points)
       showAll(out, point);
     showAll(out, l.name, l.attach, l.segmentLength, l.area, l.youngsModulus, l.yieldStress,
-            l.hardeningModulus, l.ruptureStrain, l.compression, l.diameter, l.mirrored,
-            l.groutStiffness, l.groutStrength, l.groutFriction, l.groutPerimeter, l.plate,
-            l.freeLength, l.dowelStiffness, l.dowelStrength, l.pretension, l.pretensionTime,
-            l.spacing, l.copies, l.copyStep, l.from, l.until, l.stage);
+            l.hardeningModulus, l.rateExponent, l.referenceRate, l.ruptureStrain, l.compression,
+            l.diameter, l.mirrored, l.groutStiffness, l.groutStrength, l.groutFriction,
+            l.groutPerimeter, l.plate, l.freeLength, l.dowelStiffness, l.dowelStrength,
+            l.pretension, l.pretensionTime, l.spacing, l.copies, l.copyStep, l.from, l.until,
+            l.stage);
   }
   return out;
 }

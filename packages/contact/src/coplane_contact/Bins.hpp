@@ -23,10 +23,14 @@ struct Box
       high[c] = p[c] > high[c] ? p[c] : high[c];
     }
   }
+  /// Of an empty box nothing.
   void include(const Box& other)
   {
-    include(other.low);
-    include(other.high);
+    for (int c = 0; c < 3; ++c)
+    {
+      low[c] = std::min(low[c], other.low[c]);
+      high[c] = std::max(high[c], other.high[c]);
+    }
   }
   void grow(Real by)
   {

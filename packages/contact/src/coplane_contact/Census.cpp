@@ -78,7 +78,7 @@ void countLonelyFaces(const Contact& contact, const std::vector<char>& declared,
   const std::vector<char> group = groupsOfDeclaredSets(contact);
   std::vector<GlobalId> lonely;
   for (std::size_t f = 0; f < contact.faces().size(); ++f)
-    if (contact.faces()[f].ownedHere && !closed[f] &&
+    if (contact.faces()[f].ownedHere && !contact.faces()[f].isCut() && !closed[f] &&
         (declared[f] || group[contact.faces()[f].group]))
       lonely.push_back(contact.faces()[f].id);
   census.lonelyFaces = contact.comm().sum(std::int64_t(lonely.size()));

@@ -39,7 +39,6 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
       planes_(rules_, options_.depthMax)
 {
   demandFewKinds(comm, faces_.local(), rules_);
-  reach_.setMirrors(rules_.mirrors);
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,

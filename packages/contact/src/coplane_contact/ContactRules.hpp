@@ -37,7 +37,7 @@ struct ContactRules
   int kinds = 0;
   std::vector<int> kindOf;        ///< by group
   std::vector<ContactRule> table; ///< [kind a * kinds + kind b], symmetric
-  /// In which bodies are cut: nothing comes to faces that lie there, and surfaces go on beyond.
+  /// In which bodies go on as their images: nothing comes to faces there. At most eight.
   std::vector<Mirror> mirrors;
 
   int groups() const { return int(kindOf.size()); }

@@ -374,9 +374,9 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
   Slots slots = slotsOf(step5_candidatePairs(sorted, faces(), x, reach_.rulesWith(rules_)), planes_,
                         faces_, ended_);
   const Heritage::Place place = placeOfFaces(x, layout);
-  Preparation preparation({slots.pairs, slots.source, localFaces().size(), rules_.mirrors}, place,
-                          sorted.planes, std::make_shared<const Heritage>(place, std::move(donors)),
-                          layout);
+  Preparation preparation({slots.pairs, slots.source, localFaces().size()}, place, sorted.planes,
+                          rules_.mirrors,
+                          std::make_shared<const Heritage>(place, std::move(donors)), layout);
   PlaneTable::Slots made =
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));

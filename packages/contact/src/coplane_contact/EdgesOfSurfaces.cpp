@@ -42,9 +42,11 @@ Real sharedByBoxes(const ConvexPolygon& a, const ConvexPolygon& b)
 } // namespace
 
 /// Edge e of a face, in the order of its nodes.
-EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const Vec3& normal) const
+EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const Vec3& normal,
+                                                  const std::vector<Mirror>& mirrors) const
 {
   Edge edge{};
+  const int next = dimension_ == 2 ? e : e + 1 == face.count ? 0 : e + 1;
   if (dimension_ == 2) // the "edge" is node e
   {
     edge.nodes[0] = edge.nodes[1] = face.nodes[e];
@@ -53,7 +55,7 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
   else
   {
     edge.nodes[0] = face.nodes[e];
-    edge.nodes[1] = face.nodes[e + 1 == face.count ? 0 : e + 1];
+    edge.nodes[1] = face.nodes[next];
     edge.outward = normalised(cross(at(x_, edge.nodes[1]) - at(x_, edge.nodes[0]), normal));
   }
   // The surface beyond is the face that both nodes have beside this one, the sharpest turn if there
@@ -73,39 +75,34 @@ EdgesOfSurfaces::Edge EdgesOfSurfaces::lookBeyond(const Face& face, int e, const
     if (normals_.has(edge.nodes[1], other))
       take(other);
   }
-  if (mirrors_.empty())
-    return edge;
-  const FaceCorners corners = cornersAt(x_, face);
-  const Real near = roundOffOfFace(corners.x, corners.count);
-  for (const Mirror& mirror : mirrors_)
-    if (mirror.contains(at(x_, edge.nodes[0]), near) &&
-        mirror.contains(at(x_, edge.nodes[1]), near))
-      take(mirror.reflected(normal));
+  for (std::size_t m = 0; m < mirrors.size(); ++m)
+    if ((face.mirrors[e] & face.mirrors[next]) >> m & 1)
+      take(mirrors[m].reflected(normal));
   return edge;
 }
 
 EdgesOfSurfaces::EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
                                  std::size_t localFaces, const Array<FacePlane>& planes,
                                  const ConstNodeVectors& x, int dimension,
-                                 std::vector<Mirror> mirrors, const NodeLayout& layout)
+                                 const std::vector<Mirror>& mirrors, const NodeLayout& layout)
     : pairs_(pairs), faces_(faces), planes_(planes), x_(x), dimension_(dimension),
-      mirrors_(std::move(mirrors)), lieOn_(pairs.size()), normals_(layout.size()),
-      hidden_(layout.size()), flush_(layout.size()), goingOn_(layout.size())
+      lieOn_(pairs.size()), normals_(layout.size()), hidden_(layout.size()), flush_(layout.size()),
+      goingOn_(layout.size())
 {
   for (std::size_t f = 0; f < localFaces; ++f)
-    if (!isCut(faces[f], x, mirrors_))
+    if (!faces[f].isCut())
       for (int k = 0; k < faces[f].count; ++k)
         if (faces[f].nodes[k] < layout.owned())
           normals_.add(faces[f].nodes[k], planes(f).normal);
   normals_.refresh(layout);
-  findEdges();
+  findEdges(mirrors);
   normals_ = NormalsOfNodes(0); // nobody asks any more, and there may be many
   parallelFor("coplane::contact::lieOn", int(pairs.size()),
               [&](const int p) { lieOn_[p] = lieOn(pairs[p].lower, pairs[p].higher); });
   findHidden(layout);
 }
 
-void EdgesOfSurfaces::findEdges()
+void EdgesOfSurfaces::findEdges(const std::vector<Mirror>& mirrors)
 {
   firstEdge_.assign(faces_.extent(0), -1);
   std::vector<std::int32_t> paired;
@@ -124,7 +121,7 @@ void EdgesOfSurfaces::findEdges()
               {
                 const std::int32_t f = paired[i];
                 for (int e = 0; e < faces_[f].count; ++e)
-                  edges_[firstEdge_[f] + e] = lookBeyond(faces_[f], e, planes_(f).normal);
+                  edges_[firstEdge_[f] + e] = lookBeyond(faces_[f], e, planes_(f).normal, mirrors);
               });
 }
 

@@ -5,6 +5,7 @@
 #include <coplane_joint/JointState.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace coplane
@@ -27,6 +28,17 @@ struct Face
       false;          ///< this rank owns the node with the lowest id: it sends the face to others
   bool young = false; ///< was inside the body until now: planes on it inherit nothing
   bool rigid = false; ///< the element behind it is never computed
+  /// By node: bit i says that it is held in mirror i of the contact rules.
+  std::uint8_t mirrors[4] = {0, 0, 0, 0};
+
+  /// It lies in a mirror: bodies go on beyond, so it is no surface and nothing comes to it.
+  bool isCut() const
+  {
+    std::uint8_t all = mirrors[0];
+    for (int k = 1; k < count; ++k)
+      all &= mirrors[k];
+    return all != 0;
+  }
 };
 
 /// A face on its way to another rank.
@@ -44,6 +56,7 @@ struct GhostFace
   Real pressure = 0;
   bool young = false;
   bool rigid = false;
+  std::uint8_t mirrors[4] = {0, 0, 0, 0};
 };
 
 /// The face with this id among faces, or ghost faces, that are sorted by id; `last`: not there.
@@ -74,6 +87,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.pressure = face.pressure;
   ghost.young = face.young;
   ghost.rigid = face.rigid;
+  std::copy_n(face.mirrors, 4, ghost.mirrors);
   for (int k = 0; k < face.count; ++k)
     ghost.nodes[k] = nodeIds[face.nodes[k]];
   for (int k = 0; k < 4; ++k)
@@ -96,6 +110,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.pressure = ghost.pressure;
   face.young = ghost.young;
   face.rigid = ghost.rigid;
+  std::copy_n(ghost.mirrors, 4, face.mirrors);
   for (int k = 0; k < ghost.count; ++k)
     face.nodes[k] = localNode(ghost.nodes[k]);
   // A rank that owns a node of a face knows all nodes of the element: those that the elements of a

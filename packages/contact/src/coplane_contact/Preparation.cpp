@@ -10,18 +10,18 @@ struct Preparation::Edges
   const EdgesOfSurfaces ofSurfaces; ///< refers to the pairs
 
   Edges(Search made, const Heritage::Place& place, const Array<FacePlane>& planes,
-        const NodeLayout& layout)
+        const std::vector<Mirror>& mirrors, const NodeLayout& layout)
       : search(std::move(made)), ofSurfaces(search.pairs, place.faces, search.localFaces, planes,
-                                            place.x, place.dimension, search.mirrors, layout)
+                                            place.x, place.dimension, mirrors, layout)
   {
   }
   Edges(const Edges&) = delete;
 };
 
 Preparation::Preparation(Search search, const Heritage::Place& place,
-                         const Array<FacePlane>& planes, std::shared_ptr<const Heritage> heritage,
-                         const NodeLayout& layout)
-    : edges_(std::make_shared<const Edges>(std::move(search), place, planes, layout)),
+                         const Array<FacePlane>& planes, const std::vector<Mirror>& mirrors,
+                         std::shared_ptr<const Heritage> heritage, const NodeLayout& layout)
+    : edges_(std::make_shared<const Edges>(std::move(search), place, planes, mirrors, layout)),
       heritage_(std::move(heritage))
 {
 }

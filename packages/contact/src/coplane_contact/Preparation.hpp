@@ -3,6 +3,7 @@
 #include <coplane_contact/Heritage.hpp>
 #include <coplane_contact/Plane.hpp>
 #include <coplane_contact/Search.hpp>
+#include <coplane_geometry/Mirror.hpp>
 #include <coplane_mesh/NodeLayout.hpp>
 
 #include <cstdint>
@@ -29,14 +30,15 @@ public:
     std::vector<CandidatePair> pairs;
     std::vector<std::int64_t> pairOfSlot; ///< negative: none
     std::size_t localFaces = 0;           ///< that have an owned node: they come first
-    std::vector<Mirror> mirrors;          ///< in which surfaces go on as their image
   };
 
   /// Nothing is left to do for any pair.
   Preparation() = default;
-  /// @param planes of the faces, heritage: at the search. Collective.
+  /// @param planes of the faces, heritage: at the search; mirrors in which surfaces go on as their
+  /// images. Collective.
   Preparation(Search search, const Heritage::Place& place, const Array<FacePlane>& planes,
-              std::shared_ptr<const Heritage> heritage, const NodeLayout& layout);
+              const std::vector<Mirror>& mirrors, std::shared_ptr<const Heritage> heritage,
+              const NodeLayout& layout);
 
   /// From now on pairs take over what living planes have to give now.
   void renew(std::shared_ptr<const Heritage> heritage) { heritage_ = std::move(heritage); }

@@ -1,6 +1,5 @@
 #include <coplane_contact/Search.hpp>
 #include <coplane_contact/detail/RadixSort.hpp>
-#include <coplane_geometry/FaceCorners.hpp>
 
 #include <algorithm>
 #include <unordered_map>
@@ -62,14 +61,6 @@ private:
   std::uint64_t least_[3];
 };
 } // namespace
-
-bool isCut(const Face& face, const ConstNodeVectors& x, const std::vector<Mirror>& mirrors)
-{
-  if (mirrors.empty())
-    return false;
-  const FaceCorners corners = cornersAt(x, face);
-  return isCut(corners.x, corners.count, mirrors);
-}
 
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules)
@@ -164,7 +155,7 @@ SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                  Box together;
                  for (std::size_t f = begin; f < end; ++f)
                  {
-                   if (isCut(faces[f], x, rules.mirrors))
+                   if (faces[f].isCut())
                    {
                      levelOf[f] = std::uint8_t(levels);
                      continue;

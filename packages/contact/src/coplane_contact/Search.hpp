@@ -6,7 +6,6 @@
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/NodeViews.hpp>
-#include <coplane_geometry/Mirror.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -46,7 +45,6 @@ struct CandidateRules
   bool sharedNodes = false; ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
-  std::vector<Mirror> mirrors;            ///< faces that lie in one are no candidates
   Motion motion;
   /// FacePlane::turning at most: what tumbles by more would oppose everything.
   static constexpr Real mostTurningAhead = 0.2;
@@ -91,9 +89,6 @@ private:
 Array<FacePlane> facePlanes(const Face* faces, std::size_t count, const ConstNodeVectors& x,
                             int dimension, const CandidateRules& rules);
 
-/// Whether a face lies in one of the mirrors now.
-bool isCut(const Face& face, const ConstNodeVectors& x, const std::vector<Mirror>& mirrors);
-
 /// Where the face may be in contact before the next search: the face, the same at the largest depth
 /// of a contact inside its body, both where its motion takes it, and around them half the reach and
 /// what its plane lies beyond its nodes. Two
@@ -132,7 +127,7 @@ Bins step1_globalSpaceLimits(const std::vector<Face>& faces, const ConstNodeVect
                              const CandidateRules& rules, const Comm& comm);
 
 /// Step 2: faces into bins, by rules of which `excluded` and `declared` do not matter. A face that
-/// lies in a mirror has an empty box, and is in no bin.
+/// is cut has an empty box, and is in no bin.
 SortedFaces step2_sortIntoBins(const Bins& bins, const std::vector<Face>& faces,
                                const ConstNodeVectors& x, int dimension,
                                const CandidateRules& rules);

@@ -34,7 +34,6 @@ public:
     return foresees_ ? std::min(mostSteps, steps) * step : step;
   }
   bool foresees() const { return foresees_; } ///< the last search
-  void setMirrors(const std::vector<Mirror>& mirrors) { rules_.mirrors = mirrors; }
   /// By how much nodes may move relative to each other from a search to the next [m].
   Real movedBetween() const { return leastSkin_ + farthestAhead * smallestFace_; }
   /// By how much faces turn at most while nodes move by the least skin against each other [rad].

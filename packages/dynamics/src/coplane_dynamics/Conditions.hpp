@@ -132,7 +132,7 @@ struct RigidMotion
 {
   int block = -1;                   ///< position in the mesh
   std::array<bool, 3> components{}; ///< axes along which the velocity is given
-  std::array<OfTime, 3> velocity;   ///< of these [m/s]
+  std::array<OfTime, 3> velocity;   ///< of these; empty: none [m/s]
   std::optional<VectorOfTime> spin; ///< [rad/s]; not given: free
   std::string where = "conditions"; ///< in the deck
 };

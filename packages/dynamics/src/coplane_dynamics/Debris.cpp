@@ -147,15 +147,6 @@ std::array<Vec3, 5> placesBeyond(const Corners& element, int count, const Vec3* 
   return places;
 }
 
-/// Whether a face of the mesh as it was read lies in a mirror, but for round-off.
-bool isCut(const ExteriorFace& face, const RankMesh& mesh, const std::vector<Mirror>& mirrors)
-{
-  Vec3 corners[4];
-  for (int k = 0; k < face.nodeCount; ++k)
-    corners[k] = mesh.coordinates[std::size_t(face.nodes[std::size_t(k)])];
-  return isCut(corners, face.nodeCount, mirrors);
-}
-
 std::uint64_t bitsOf(Real value)
 {
   std::uint64_t bits;
@@ -186,8 +177,8 @@ Real stiffnessOf(const ExteriorFace& face, const RankMesh& mesh, const ElementFo
 } // namespace
 
 void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-                   std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode,
-                   const RankMesh& mesh, const ElementForces& elements, const NodeLayout& layout)
+                   const Mirrors& mirrors, const std::vector<int>& bodyOfNode, const RankMesh& mesh,
+                   const ElementForces& elements, const NodeLayout& layout)
 {
   // The owner of a node at the surface has the face there and all elements of the node.
   std::vector<char> isAtSurface(std::size_t(mesh.nodes()), 0);
@@ -208,11 +199,10 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
     }
   }
   exterior.erase(std::remove_if(exterior.begin(), exterior.end(),
-                                [&](const ExteriorFace& face)
-                                { return isCut(face, mesh, mirrors); }),
+                                [&](const ExteriorFace& face) { return mirrors.cut(face); }),
                  exterior.end());
   faces_ = std::move(exterior);
-  mirrors_ = std::move(mirrors);
+  mirrors_ = mirrors.all;
   bodies_.clear();
   std::vector<Real> most{0, 0};
   for (const ExteriorFace& face : faces_)

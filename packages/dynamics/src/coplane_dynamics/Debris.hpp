@@ -49,7 +49,7 @@ public:
   /// Collective.
   /// @param bodyOfNode number of the body of each node of this rank's elements
   void renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> exterior,
-             std::vector<Mirror> mirrors, const std::vector<int>& bodyOfNode, const RankMesh& mesh,
+             const Mirrors& mirrors, const std::vector<int>& bodyOfNode, const RankMesh& mesh,
              const ElementForces& elements, const NodeLayout& layout);
 
   /// Forces at n + 1 and what they add to the stiffness of the owned nodes; books the work of the

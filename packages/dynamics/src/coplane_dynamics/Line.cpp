@@ -31,6 +31,7 @@ LineEnergy& LineEnergy::operator+=(const LineEnergy& other)
 /// A possible state of bar and grout with these slips.
 struct Line::Trial
 {
+  Real dt = 0;             ///< of the step [s]
   std::vector<Real> slips; ///< of the points [m]
   std::vector<Segment> segments;
   std::vector<Real> barStiffness; ///< tangents of the segments [N/m]
@@ -196,6 +197,42 @@ Real Line::slipStrength(const Point& point, const LineHosts& hosts) const
   return point.bonded * (bond_.strength + bond_.friction * bond_.perimeter * pressure);
 }
 
+/// Of a bar in a step.
+struct Line::Flow
+{
+  Real strain = 0;    ///< plastic [-]
+  Real hardening = 0; ///< change of the stress at which it flows, over that [Pa]
+};
+
+/// @param stress of a bar that does not flow in the step, without sign [Pa]
+/// @param dt 0: however slowly [s]
+Line::Flow Line::flowOf(Real stress, Real hardening, Real dt) const
+{
+  const Real modulus = section_.youngsModulus, first = section_.yieldStress;
+  const Real above = stress - (first + section_.hardeningModulus * hardening);
+  if (!(above > 0))
+    return {};
+  const Real slow = above / (modulus + section_.hardeningModulus);
+  const Real reference = section_.referenceRate * dt, exponent = section_.rateExponent;
+  if (!(exponent > 0 && slow > reference && reference > 0) ||
+      first * std::pow(slow / reference, exponent) <= stress - modulus * slow)
+    return {slow, section_.hardeningModulus};
+  // stress - modulus p = first (p / reference)^exponent. Over the logarithm u of p / reference
+  // what the left side has more is concave and falls, so from the right Newton's method goes
+  // straight to the root.
+  Real u = std::log(slow / reference);
+  for (int step = 0; step < 100; ++step)
+  {
+    const Real elastic = modulus * reference * std::exp(u), flows = first * std::exp(exponent * u);
+    const Real change = (stress - elastic - flows) / (elastic + exponent * flows);
+    u += change;
+    if (std::abs(change) < 1e-15 * (1 + std::abs(u)))
+      break;
+  }
+  const Real strain = (stress - first * std::exp(exponent * u)) / modulus;
+  return {strain, exponent * first * std::exp(exponent * u) / strain};
+}
+
 void Line::evaluate(const std::vector<Real>& chords, const std::vector<Real>& strengths,
                     Real prestrain, Trial& trial) const
 {
@@ -219,16 +256,14 @@ void Line::evaluate(const std::vector<Real>& chords, const std::vector<Real>& st
     Real tangent = ea;
     if (!section_.compression && segment.force < 0)
       segment.force = tangent = 0;
-    const Real yield =
-        section_.area * (section_.yieldStress + section_.hardeningModulus * segment.hardening);
-    if (const Real above = std::abs(segment.force) - yield; above > 0)
+    if (const Flow flow =
+            flowOf(std::abs(segment.force) / section_.area, segment.hardening, trial.dt);
+        flow.strain > 0)
     {
-      const Real hardening = section_.area * section_.hardeningModulus;
-      const Real flow = above / (ea + hardening);
-      segment.plasticStrain += segment.force > 0 ? flow : -flow;
-      segment.hardening += flow;
+      segment.plasticStrain += segment.force > 0 ? flow.strain : -flow.strain;
+      segment.hardening += flow.strain;
       segment.force = ea * (segment.strain - segment.plasticStrain);
-      tangent = ea * hardening / (ea + hardening);
+      tangent = ea * flow.hardening / (section_.youngsModulus + flow.hardening);
     }
     trial.barStiffness[s] = tangent / segment.length;
   }
@@ -394,6 +429,7 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
   for (const Point& point : points_)
     strengths.push_back(slipStrength(point, hosts));
   Trial trial;
+  trial.dt = dt;
   for (bool again = true; again;)
   {
     solve(chords, strengths, prestrain, trial);

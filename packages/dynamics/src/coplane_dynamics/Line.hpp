@@ -14,7 +14,8 @@ namespace coplane
 // Bolts, cables, tie rods and bars of reinforcement: docs/theory/lines.md. In two dimensions areas,
 // forces, stiffnesses and strengths are those of one metre out of the plane.
 
-/// The bar: elastic, plastic with linear isotropic hardening, torn from a strain on.
+/// The bar: elastic, plastic with linear isotropic hardening, torn from a strain on. It flows at
+/// the larger of the hardened yield stress and the first one times (rate / reference)^exponent.
 struct LineSection
 {
   Real area = 0;                 ///< [m^2]
@@ -24,6 +25,8 @@ struct LineSection
   Real ruptureStrain = infinity; ///< in tension, plastic and elastic together [-]
   bool compression = true;       ///< false: goes slack
   Real diameter = 0;             ///< of round bars, which bend; 0: without stiffness across [m]
+  Real rateExponent = 0;         ///< 0: the rate does not matter [-]
+  Real referenceRate = 1e-4;     ///< of plastic strain, up to which it does not matter [1/s]
 };
 
 /// The grout between bar and host: force over slip, elastic and then constant.
@@ -195,6 +198,8 @@ private:
                 Trial& trial) const;
   void solve(const std::vector<Real>& chords, const std::vector<Real>& strengths, Real prestrain,
              Trial& trial);
+  struct Flow;
+  Flow flowOf(Real stress, Real hardening, Real dt) const;
   bool slideDowels(const LineHosts& hosts);
   std::optional<std::size_t> segmentOver(int index) const;
   bool bendsAt(std::size_t point) const;

@@ -32,9 +32,11 @@ Vec3 Image::back(const Vec3& vector) const
 namespace
 {
 /// None where a symmetry does not hold nodes of one plane. Collective.
+/// @param thickness gets by how much nodes may lie beside it [m]
 /// @param lack gets why there are no images beyond it; null: there are
 std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& conditions,
-                               const RankMesh& mesh, const Comm& comm, const char*& lack)
+                               const RankMesh& mesh, const Comm& comm, Real& thickness,
+                               const char*& lack)
 {
   const std::vector<Vec3>& x = mesh.coordinates;
   // Of the nodes that it holds, the largest of either sign and the farthest; then of all nodes.
@@ -55,7 +57,7 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
   }
   comm.max(bounds);
   constexpr Real roundOff = 1e-9;
-  const Real thickness = roundOff * bounds[2];
+  thickness = roundOff * bounds[2];
   const bool holdsNone = !std::isfinite(bounds[0]);
   lack = holdsNone ? "holds no node of a body that is not rigid" : "holds nodes of no one plane";
   if (holdsNone || bounds[0] + bounds[1] > thickness)
@@ -100,20 +102,66 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
 }
 } // namespace
 
-std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm,
-                              bool warn)
+bool Mirrors::cut(const ExteriorFace& face) const
 {
-  std::vector<Mirror> mirrors;
+  std::uint8_t common = ofNode[std::size_t(face.nodes[0])];
+  for (int k = 1; k < face.nodeCount; ++k)
+    common &= ofNode[std::size_t(face.nodes[std::size_t(k)])];
+  return common != 0;
+}
+
+Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const RankMesh& mesh,
+                  const NodeLayout& layout, bool warn)
+{
+  Mirrors mirrors;
+  // By owned node: the sum of 2^i over the mirrors that hold it.
+  Array<Real> held("coplane::dynamics::mirrorsOfNodes", layout.size());
+  const auto note = [&](int node, std::size_t mirror)
+  {
+    const auto bit = std::uint8_t(mirror < 8 ? 1u << mirror : 0);
+    held(node) = Real(std::uint8_t(held(node)) | bit);
+  };
+  /// The same plane, by a tolerance for nodes beside it.
+  const auto placeOf = [&](const Mirror& mirror, Real thickness)
+  {
+    const auto same = [&](const Mirror& other)
+    {
+      const Real sign = dot(other.normal, mirror.normal) < 0 ? -1 : 1;
+      return norm(other.normal - sign * mirror.normal) < 1e-9 && !other.isAxis &&
+             std::abs(other.level - sign * mirror.level) <= 2 * thickness;
+    };
+    const auto found = std::find_if(mirrors.all.begin(), mirrors.all.end(), same);
+    const auto place = std::size_t(found - mirrors.all.begin());
+    if (found == mirrors.all.end())
+      mirrors.all.push_back(mirror);
+    return place;
+  };
   if (conditions.axisymmetric)
-    mirrors.push_back({{1, 0, 0}, 0, 1, true});
+  {
+    mirrors.all.push_back({{1, 0, 0}, 0, 1, true});
+    for (int node = 0; node < mesh.ownedNodes; ++node)
+      if (mesh.coordinates[std::size_t(node)].x == 0)
+        note(node, 0);
+  }
   for (const SymmetryPlane& plane : conditions.symmetries)
   {
     if (conditions.axisymmetric && plane.normal.x != 0)
       continue; // the axis, or no plane but a cone
     const char* lack = "acts in a part of the run";
+    Real thickness = 0;
     if (plane.when.isAlways())
-      if (const auto mirror = mirrorOf(plane, conditions, mesh, comm, lack))
-        mirrors.push_back(*mirror);
+      if (const auto mirror = mirrorOf(plane, conditions, mesh, layout.comm(), thickness, lack))
+      {
+        const std::size_t place = placeOf(*mirror, thickness);
+        for (const int node : plane.nodes)
+          note(node, place);
+        for (int node = 0; node < mesh.ownedNodes; ++node)
+          if (const int body = bodies.bodyOf(node);
+              body >= 0 && bodies.staysInPlanes(body, mirror->normal) &&
+              std::abs(dot(mirror->normal, mesh.coordinates[std::size_t(node)]) - mirror->level) <=
+                  thickness)
+            note(node, place);
+      }
     if (lack != nullptr && warn)
       logWarning("debris beyond a symmetry",
                  fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
@@ -121,6 +169,9 @@ std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh
                              "half.",
                              plane.where, lack));
   }
+  layout.refresh(held);
+  for (int node = 0; node < layout.size(); ++node)
+    mirrors.ofNode.push_back(std::uint8_t(held(node)));
   return mirrors;
 }
 

@@ -1,12 +1,14 @@
 #pragma once
 
-#include <coplane_core/Comm.hpp>
 #include <coplane_core/Vec3.hpp>
 #include <coplane_dynamics/Conditions.hpp>
+#include <coplane_dynamics/RigidBodies.hpp>
 #include <coplane_geometry/Mirror.hpp>
+#include <coplane_mesh/NodeLayout.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace coplane
@@ -22,11 +24,22 @@ struct Image
   Vec3 back(const Vec3& vector) const; ///< there of one here
 };
 
-/// The axis, and the symmetries that act in all of the run and hold nodes of one plane. Of the mesh
-/// as it was read: so they are the same in all of the run, and after a restart. Collective.
+/// The axis, and the symmetries that act in all of the run (of a stage) and hold nodes of one
+/// plane. Of the mesh as it was read: so they are the same in all of the run, and after a restart.
+struct Mirrors
+{
+  std::vector<Mirror> all; ///< no two in one plane
+  /// By node: bit i says that it is held in mirror i of the first eight, or belongs to a rigid body
+  /// that stays there.
+  std::vector<std::uint8_t> ofNode;
+
+  /// Whether one of them holds all nodes of a face: then bodies go on beyond.
+  bool cut(const ExteriorFace& face) const;
+};
+/// Collective.
 /// @param warn of symmetries that have no images of points of debris
-std::vector<Mirror> mirrorsOf(const Conditions& conditions, const RankMesh& mesh, const Comm& comm,
-                              bool warn);
+Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const RankMesh& mesh,
+                  const NodeLayout& layout, bool warn);
 
 /// What there is of a point, with its images: one over the order of the group of reflections in the
 /// mirrors that it lies in [-].

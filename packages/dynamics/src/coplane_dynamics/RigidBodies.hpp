@@ -149,13 +149,15 @@ public:
   bool hasBlock(int body, int block) const { return bodies_[body].blocks[block] != 0; }
   int bodyOf(int ownedNode) const { return empty() ? -1 : bodyOfNode_[ownedNode]; }
   Vec3 spin(int body) const { return bodies_[body].spin; }
+  /// Whether conditions keep every point of the body in its plane with this normal.
+  bool staysInPlanes(int body, const Vec3& normal) const;
   /// About the centre, at the start [kg m^2].
   const Mat3& inertia(int body) const { return bodies_[body].inertia; }
 
 private:
   struct Constraint
   {
-    Vec3 direction; ///< unit
+    Vec3 direction{}; ///< unit
     /// v(n+1/2) along it, `before` is v(n-1/2); empty: none [m/s]
     std::function<Real(const KickTimes&, Real before)> speed;
     OfTime acceleration{}; ///< where that is given [m/s^2]

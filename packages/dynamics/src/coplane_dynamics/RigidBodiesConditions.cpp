@@ -105,11 +105,11 @@ void RigidBodies::takeMotions(const std::vector<RigidMotion>& motions)
       for (int c = 0; c < dimension_; ++c)
         if (motion.components[c])
         {
-          Vec3 axis{};
-          axis[c] = 1;
-          body.constraints.push_back({axis,
-                                      [speed = motion.velocity[c]](const KickTimes& times, Real)
-                                      { return speed ? speed(times.middle()) : 0; }});
+          Constraint& constraint = body.constraints.emplace_back();
+          constraint.direction[c] = 1;
+          if (motion.velocity[c])
+            constraint.speed = [speed = motion.velocity[c]](const KickTimes& times, Real)
+            { return speed(times.middle()); };
         }
       if (motion.spin)
       {
@@ -133,6 +133,24 @@ void RigidBodies::constrain(Body& body, const Constraint& constraint)
   else
     body.turning = Body::Turning::None;
   body.constraints.push_back(constraint);
+}
+
+bool RigidBodies::staysInPlanes(int body, const Vec3& normal) const
+{
+  const Body& b = bodies_[std::size_t(body)];
+  const bool isHeld = std::any_of(b.constraints.begin(), b.constraints.end(),
+                                  [&](const Constraint& c)
+                                  { return !c.speed && norm(cross(c.direction, normal)) < 1e-9; });
+  bool turnsOut = b.turning == Body::Turning::Free ||
+                  (b.turning == Body::Turning::AboutAxis && norm(cross(b.axis, normal)) > 1e-9);
+  for (int c = 0; c < 3 && b.turning == Body::Turning::Given; ++c)
+  {
+    Vec3 axis{};
+    axis[c] = 1;
+    const Vec3 across = cross(normal, axis);
+    turnsOut = turnsOut || (norm(across) > 1e-9 && b.spinOfTime.actsAlong(normalised(across)));
+  }
+  return isHeld && !turnsOut;
 }
 
 void RigidBodies::applyConstraints(Body& body, const KickTimes& times, const Vec3& before) const

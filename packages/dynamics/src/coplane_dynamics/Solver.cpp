@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace coplane
 {
@@ -78,16 +77,15 @@ void Solver::startVelocities()
 void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
-  mirrors_ = mirrorsOf(model_.conditions, mesh(), *comm_, model_.debris && erosion_->acts());
-  ContactRules rules = model_.contactRules;
-  std::copy_if(mirrors_.begin(), mirrors_.end(), std::back_inserter(rules.mirrors),
-               [](const Mirror& mirror) { return mirror.side != 0; });
+  mirrors_ = mirrorsOf(model_.conditions, motion_->bodies(), mesh(), layout_,
+                       model_.debris && erosion_->acts());
+  model_.contactRules.mirrors = mirrors_.all;
   std::vector<Face> faces = facesAtStart(exteriorFaces(mesh()));
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
   const Real skin = model_.skin.value_or(
       (model_.searchEvery == 0 ? skinOfFaceWithOneSearch : skinOfFace) * smallest);
   contact_ = std::make_unique<Contact>(*comm_, mesh().dimension, std::move(faces), model_.contact,
-                                       std::move(rules), skin, smallest);
+                                       model_.contactRules, skin, smallest);
 }
 
 void Solver::replaceFaces(std::vector<Face> faces)
@@ -131,10 +129,17 @@ std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
                                   const std::vector<Face>* known) const
 {
+  std::uint8_t imaging = 0; // those beyond which bodies go on
+  for (std::size_t i = 0; i < std::min<std::size_t>(mirrors_.all.size(), 8); ++i)
+    imaging |= std::uint8_t((mirrors_.all[i].side != 0) << i);
   std::vector<Face> faces =
       contactFaces(mesh(), blocks(), model_.faceGroups, bodyOfNode_, exterior, state_.x, known);
   for (Face& face : faces)
+  {
     face.rigid = model_.blocks[std::size_t(face.block)].rigid;
+    for (int k = 0; k < face.count; ++k)
+      face.mirrors[k] = mirrors_.ofNode[std::size_t(face.nodes[k])] & imaging;
+  }
   return faces;
 }
 
@@ -256,7 +261,7 @@ void Solver::renewDebris()
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
     {
       points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n),
-                        shareOf(mesh().coordinates[std::size_t(n)], mirrors_)});
+                        shareOf(mesh().coordinates[std::size_t(n)], mirrors_.all)});
       nodes.push_back(n);
     }
   motion_->letThroughAxis(nodes);

@@ -253,7 +253,7 @@ private:
   std::optional<Lines> lines_;
   std::unique_ptr<Contact> contact_;
   mutable std::optional<MotionLimits> motionLimits_; ///< of its faces; empty: not asked for yet
-  std::vector<Mirror> mirrors_;                      ///< with contact only
+  Mirrors mirrors_;                                  ///< with contact only
   std::optional<Debris> debris_;                     ///< with contact only
   std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
   Clock clock_;

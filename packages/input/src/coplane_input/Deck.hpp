@@ -170,6 +170,8 @@ struct LineCard
   Real youngsModulus = 0;                ///< [Pa]
   std::optional<Real> yieldStress;       ///< [Pa]
   Real hardeningModulus = 0;             ///< [Pa]
+  Real rateExponent = 0;                 ///< of the yield stress [-]
+  Real referenceRate = 1e-4;             ///< up to which the rate does not matter [1/s]
   std::optional<Real> ruptureStrain;     ///< [-]
   bool compression = true;
   std::optional<Real> diameter;       ///< of bars that bend [m]

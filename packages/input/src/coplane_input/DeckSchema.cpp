@@ -408,6 +408,19 @@ Key lines()
                      .atLeast(0)
                      .like("1e9")
                      .means("change of the yield stress over plastic strain"),
+                 number("rate_exponent", &LineCard::rateExponent)
+                     .in("-")
+                     .atLeast(0)
+                     .like("0.024")
+                     .means("where it flows fast the yield stress is (plastic strain rate / "
+                            "reference_rate)^rate_exponent times as large, or the hardened one "
+                            "where that is larger; 0: as slowly"),
+                 number("reference_rate", &LineCard::referenceRate)
+                     .in("1/s")
+                     .above(0)
+                     .like("1e-4")
+                     .means("plastic strain rate up to which it does not matter, of the test that "
+                            "gave the yield stress"),
                  number("rupture_strain", &LineCard::ruptureStrain)
                      .in("-")
                      .above(0)

@@ -180,7 +180,9 @@ RigidMotion rigidMotionOf(const ConditionCard& card, const Mesh& mesh)
     if (card.components[c])
     {
       motion.components[c] = true;
-      motion.velocity[c] = functionOf((*card.translation)[c]);
+      if (const TimeFunction& speed = (*card.translation)[c];
+          !isConstant(speed) || speed.constant != 0)
+        motion.velocity[c] = functionOf(speed);
     }
   if (card.spin)
     motion.spin = vectorOf(*card.spin);

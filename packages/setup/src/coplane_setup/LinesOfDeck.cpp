@@ -74,7 +74,9 @@ std::vector<LineSetup> linesOf(const Deck& deck)
                     card.hardeningModulus,
                     card.ruptureStrain.value_or(infinity),
                     card.compression,
-                    card.diameter.value_or(0)};
+                    card.diameter.value_or(0),
+                    card.rateExponent,
+                    card.referenceRate};
     line.bond = {card.groutStiffness / card.spacing,
                  card.groutStrength.value_or(infinity) / card.spacing, card.groutFriction,
                  card.groutPerimeter / card.spacing};

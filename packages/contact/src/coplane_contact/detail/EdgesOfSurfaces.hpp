@@ -5,6 +5,7 @@
 #include <coplane_contact/Search.hpp>
 #include <coplane_contact/detail/DirectionsOfNodes.hpp>
 #include <coplane_contact/detail/NormalsOfNodes.hpp>
+#include <coplane_geometry/Mirror.hpp>
 
 #include <cstdint>
 #include <vector>
@@ -23,10 +24,10 @@ public:
 
   /// `pairs` are the candidates of this rank, among them all with a local face; of the faces, all
   /// that have an owned node come first, sorted by id. `planes` are those of the faces. All of this
-  /// has to live on. In `mirrors` surfaces go on as their image. Collective.
+  /// has to live on. In `mirrors` surfaces go on as their images. Collective.
   EdgesOfSurfaces(const std::vector<CandidatePair>& pairs, const Array<Face>& faces,
                   std::size_t localFaces, const Array<FacePlane>& planes, const ConstNodeVectors& x,
-                  int dimension, std::vector<Mirror> mirrors, const NodeLayout& layout);
+                  int dimension, const std::vector<Mirror>& mirrors, const NodeLayout& layout);
 
   /// Sets exits, turns, covered and seams of the plane of a pair.
   void look(std::size_t pair, Plane& plane) const;
@@ -41,8 +42,9 @@ private:
   };
   struct Beyond;
   bool isWayOut(const Beyond& a, const Beyond& b, const Vec3& normalA, const Vec3& normalB) const;
-  Edge lookBeyond(const Face& face, int e, const Vec3& normal) const;
-  void findEdges();
+  Edge lookBeyond(const Face& face, int e, const Vec3& normal,
+                  const std::vector<Mirror>& mirrors) const;
+  void findEdges(const std::vector<Mirror>& mirrors);
   /// Edge e of the outline of face 0 or 1 of a pair.
   const Edge& edge(int face, int side, int e) const;
   void findHidden(const NodeLayout& layout);
@@ -59,7 +61,6 @@ private:
   Array<FacePlane> planes_;
   ConstNodeVectors x_;
   int dimension_;
-  std::vector<Mirror> mirrors_;
   std::vector<std::int32_t> firstEdge_; ///< by face; -1: in no pair
   std::vector<Edge> edges_;
   std::vector<Real> lieOn_;   ///< by pair
