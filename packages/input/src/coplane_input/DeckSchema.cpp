@@ -418,7 +418,7 @@ Key lines()
                  number("reference_rate", &LineCard::referenceRate)
                      .in("1/s")
                      .above(0)
-                     .like("1e-4")
+                     .like("1e-3")
                      .means("plastic strain rate up to which it does not matter, of the test that "
                             "gave the yield stress"),
                  number("rupture_strain", &LineCard::ruptureStrain)
