@@ -83,6 +83,19 @@ std::string linesOf(const std::vector<InitialOverlap>& overlaps, const Solver& s
 }
 } // namespace
 
+void reportMirrors(const Mirrors& mirrors)
+{
+  const auto planes =
+      std::count_if(mirrors.all.begin(), mirrors.all.end(),
+                    [](const Mirror& mirror) { return mirror.side != 0 && !mirror.isAxis; });
+  if (planes > 0)
+    logInfo("  bodies go on as their images beyond {} plane{} of symmetry", planes,
+            planes == 1 ? "" : "s");
+  for (const Mirrors::Lack& lack : mirrors.lacks)
+    logInfo("  {}: no image beyond this symmetry, as it {}: faces there are surfaces", lack.where,
+            lack.why);
+}
+
 void reportCensus(const Contact& contact)
 {
   const ContactCensus c = census(contact);

@@ -9,6 +9,8 @@ namespace coplane
 {
 /// Prints the census of contact before the first step. Collective.
 void reportCensus(const Contact& contact);
+/// Prints in which planes of symmetry bodies go on as their images, and why not in others.
+void reportMirrors(const Mirrors& mirrors);
 /// Prints which bodies lie in each other before the first step; an error unless that is allowed.
 /// Collective.
 void reportInitialOverlaps(const Solver& solver, const std::string& meshFile, bool allowed);

@@ -90,6 +90,7 @@ void reportModel(const Solver& solver, const MeshSlice& mesh, const Deck& deck)
     return;
   }
   reportCensus(solver.contact());
+  reportMirrors(solver.mirrors());
   reportBondSoftness(solver);
   if (solver.clock().cycle == 0)
     reportInitialOverlaps(solver, deck.mesh, deck.contact.initialOverlap == "allow");

@@ -118,6 +118,27 @@ TEST(Mirrors, areFoundFarFromTheOriginAndAtOddAngles)
   }
 }
 
+TEST(Mirrors, areFoundWithTheDigitsOfDecksAndMeshes)
+{
+  const Comm comm;
+  Mesh mesh = halves();
+  for (Vec3& x : mesh.coordinates)
+    x = {Real(float(std::sqrt(0.75) * x.x - 0.5 * x.y)),
+         Real(float(0.5 * x.x + std::sqrt(0.75) * x.y)), x.z};
+  const Vec3 normal = normalised(Vec3{0.866025, 0.5, 0});
+  const auto chosen = [&](const Vec3& x) { return std::abs(dot(normal, x)) < 1e-5; };
+  Model model = cutWhere(mesh, comm, chosen, normal);
+  model.conditions.gravity = {-4.905, 8.49571, 0}; // along the plane
+  EXPECT_EQ(countOf(std::move(model), comm), both);
+  // A millimetre is no round-off.
+  mesh.coordinates[0].x += 1e-3;
+  EXPECT_EQ(countOf(cutWhere(
+                        mesh, comm, [&](const Vec3& x) { return std::abs(dot(normal, x)) < 2e-3; },
+                        normal),
+                    comm),
+            none);
+}
+
 TEST(Mirrors, areNoneWhereNothingCanBeSymmetric)
 {
   const Comm comm;
@@ -185,22 +206,19 @@ TEST(Mirrors, areOnTheAxisOfABodyOfRevolution)
   EXPECT_EQ(countOf(std::move(model), comm).cut, 3);
 }
 
-TEST(Mirrors, leaveAPartOfAPointThatLiesInThem)
+TEST(Mirrors, leaveAPartOfWhatTheyHold)
 {
   const auto at = [](Real degrees) {
     return Mirror{{std::sin(degrees * pi / 180), -std::cos(degrees * pi / 180), 0}, 0, 1, false};
   };
   const Mirror floor{{0, 0, 1}, 2, 1, false}, axis{{1, 0, 0}, 0, 1, true},
       roller{{0, 1, 0}, 0, 0, false};
-  const Vec3 here{0, 0, 2};
-  EXPECT_EQ(shareOf(here, {}), 1);
-  EXPECT_EQ(shareOf(here, {axis, roller}), 1);
-  EXPECT_EQ(shareOf(here, {at(0)}), 0.5);
-  EXPECT_EQ(shareOf({0, 1, 2}, {at(0), floor}), 0.5);
-  EXPECT_EQ(shareOf(here, {at(0), at(90)}), 0.25);
-  EXPECT_EQ(shareOf(here, {at(0), at(60)}), 1.0 / 6);
-  EXPECT_EQ(shareOf(here, {at(0), at(30), floor}), 1.0 / 24);
-  EXPECT_EQ(shareOf(here, {at(0), at(90), floor}), 0.125);
+  EXPECT_EQ(shareOf({}), 1);
+  EXPECT_EQ(shareOf({axis, roller}), 1);
+  EXPECT_EQ(shareOf({at(0)}), 0.5);
+  EXPECT_EQ(shareOf({at(0), at(90)}), 0.25);
+  EXPECT_EQ(shareOf({at(0), at(60)}), 1.0 / 6);
+  EXPECT_EQ(shareOf({at(0), at(30), floor}), 1.0 / 24);
+  EXPECT_EQ(shareOf({at(0), at(90), floor}), 0.125);
 }
-
 } // namespace coplane

@@ -106,6 +106,16 @@ case.check(f"{name}: force after that [N]", lines["bar", 1]["force"][-1], 0, 0)
 case.check(f"{name}: work of what pulled it is lost [J]", h["line_plastic"][-1] + h["line_rupture"][-1], numpy.trapz(exact[whole], strain[whole] * 0.5), 0.005, relative=True)
 case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * h["line_plastic"][-1])
 
+name = "struck"
+deck["lines"] = {"bar": {**bar, "hardening_modulus": 0, "rate_exponent": 0.05, "reference_rate": 1e-3}}
+run = case.run(name, mesh, deck, load=2e5)
+h, lines = run.history, table(run)
+strain = 0.01 * lines["bar", 1]["time"] / 0.5
+whole = lines["bar", 1]["broken"] == 0
+case.check(f"{name}: force of a bar that flows at 20 times the reference rate [N]", lines["bar", 1]["force"][whole][-1], area * 400e6 * 20**0.05, 1e-9, relative=True)
+case.check(f"{name}: largest force [N]", lines["bar", 1]["force"].max(), area * 400e6 * 20**0.05, 1e-9, relative=True)
+case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * h["line_plastic"][-1])
+
 # --- dowel: blocks slide on each other, once across the line, in two frames ------------------------------------------------------
 
 name = "dowel"

@@ -8,7 +8,8 @@ namespace
 /// What step A needs of the first face, or of as many as T has lanes.
 template <class T>
 void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
-                 const ConstArray<Real>& mass, FaceNodesOf<T>& nodes)
+                 const ConstArray<Real>& mass, const ConstArray<Real>& images,
+                 FaceNodesOf<T>& nodes)
 {
   nodes.count = faces[0].count;
   for (int k = 0; k < nodes.count; ++k)
@@ -23,7 +24,8 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
     };
     nodes.x[k] = vector(x);
     nodes.v[k] = vector(v);
-    nodes.mass[k] = each([&](int node) { return mass(node); });
+    nodes.mass[k] = branchFree::gathered<T>(
+        [&](int i) { return images(faces[i].mirrors[k]) * mass(faces[i].nodes[k]); });
   }
 }
 
@@ -52,7 +54,8 @@ void PairedFaces::mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots,
 
 void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNodeVectors& x,
                         const ConstNodeVectors& v, const ConstArray<Real>& mass,
-                        ContactOptions::Forces forces, Real dt) const
+                        const ConstArray<Real>& images, ContactOptions::Forces forces,
+                        Real dt) const
 {
   const auto halfStep = halfStep_;
   const auto paired = paired_;
@@ -61,7 +64,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
     if (!paired(f))
       return;
     FaceNodes nodes;
-    gatherNodes(&faces(f), x, v, mass, nodes);
+    gatherNodes(&faces(f), x, v, mass, images, nodes);
     if (dimension == 2)
       putFace<2>(nodes, forces, dt, halfStep(f));
     else
@@ -83,7 +86,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
           return;
         }
         FaceNodesOf<Lanes> nodes;
-        gatherNodes(&faces(first), x, v, mass, nodes);
+        gatherNodes(&faces(first), x, v, mass, images, nodes);
         stepA_faces(nodes, forces, dt, &halfStep(first));
       });
 }

@@ -43,7 +43,7 @@ public:
   /// Whether it can have a part along a unit vector: what varies may.
   bool actsAlong(const Vec3& direction) const
   {
-    constexpr Real roundOff = 1e-9;
+    constexpr Real roundOff = 1e-6; // decks have six digits at least
     bool acts = std::abs(dot(constant_, direction)) > roundOff * norm(constant_);
     for (int c = 0; c < 3; ++c)
       acts = acts || (functions_[std::size_t(c)] && std::abs(direction[c]) > roundOff);

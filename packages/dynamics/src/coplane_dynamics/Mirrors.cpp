@@ -39,8 +39,10 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
                                const char*& lack)
 {
   const std::vector<Vec3>& x = mesh.coordinates;
-  // Of the nodes that it holds, the largest of either sign and the farthest; then of all nodes.
-  std::vector<Real> bounds{-infinity, -infinity, 0, -infinity, -infinity};
+  // Of the nodes that it holds, the largest of either sign and the farthest; then of all nodes; the
+  // box of those that it holds.
+  std::vector<Real> bounds(11, -infinity);
+  bounds[2] = 0;
   for (const int node : plane.nodes)
   {
     const Vec3& place = x[std::size_t(node)];
@@ -48,6 +50,11 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
     bounds[0] = std::max(bounds[0], level);
     bounds[1] = std::max(bounds[1], -level);
     bounds[2] = std::max(bounds[2], norm(place));
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      bounds[5 + c] = std::max(bounds[5 + c], place[int(c)]);
+      bounds[8 + c] = std::max(bounds[8 + c], -place[int(c)]);
+    }
   }
   for (int node = 0; node < mesh.ownedNodes; ++node)
   {
@@ -56,9 +63,10 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
     bounds[4] = std::max(bounds[4], -level);
   }
   comm.max(bounds);
-  constexpr Real roundOff = 1e-9;
-  thickness = roundOff * bounds[2];
   const bool holdsNone = !std::isfinite(bounds[0]);
+  // Meshes and decks have six digits at least.
+  const Vec3 box{bounds[5] + bounds[8], bounds[6] + bounds[9], bounds[7] + bounds[10]};
+  thickness = holdsNone ? 0 : 1e-6 * norm(box) + 1e-9 * bounds[2];
   lack = holdsNone ? "holds no node of a body that is not rigid" : "holds nodes of no one plane";
   if (holdsNone || bounds[0] + bounds[1] > thickness)
     return std::nullopt;
@@ -102,6 +110,23 @@ std::optional<Mirror> mirrorOf(const SymmetryPlane& plane, const Conditions& con
 }
 } // namespace
 
+std::vector<Mirror> Mirrors::holding(int node) const
+{
+  std::vector<Mirror> found;
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
+    if (ofNode[std::size_t(node)] >> i & 1)
+      found.push_back(all[i]);
+  return found;
+}
+
+std::uint8_t Mirrors::imaging() const
+{
+  std::uint8_t bits = 0;
+  for (std::size_t i = 0; i < std::min(all.size(), most); ++i)
+    bits |= std::uint8_t((all[i].side != 0) << i);
+  return bits;
+}
+
 bool Mirrors::cut(const ExteriorFace& face) const
 {
   std::uint8_t common = ofNode[std::size_t(face.nodes[0])];
@@ -111,14 +136,14 @@ bool Mirrors::cut(const ExteriorFace& face) const
 }
 
 Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const RankMesh& mesh,
-                  const NodeLayout& layout, bool warn)
+                  const NodeLayout& layout)
 {
   Mirrors mirrors;
   // By owned node: the sum of 2^i over the mirrors that hold it.
   Array<Real> held("coplane::dynamics::mirrorsOfNodes", layout.size());
   const auto note = [&](int node, std::size_t mirror)
   {
-    const auto bit = std::uint8_t(mirror < 8 ? 1u << mirror : 0);
+    const auto bit = std::uint8_t(mirror < Mirrors::most ? 1u << mirror : 0);
     held(node) = Real(std::uint8_t(held(node)) | bit);
   };
   /// The same plane, by a tolerance for nodes beside it.
@@ -127,7 +152,7 @@ Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const
     const auto same = [&](const Mirror& other)
     {
       const Real sign = dot(other.normal, mirror.normal) < 0 ? -1 : 1;
-      return norm(other.normal - sign * mirror.normal) < 1e-9 && !other.isAxis &&
+      return norm(other.normal - sign * mirror.normal) < 1e-6 && !other.isAxis &&
              std::abs(other.level - sign * mirror.level) <= 2 * thickness;
     };
     const auto found = std::find_if(mirrors.all.begin(), mirrors.all.end(), same);
@@ -162,45 +187,13 @@ Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const
                   thickness)
             note(node, place);
       }
-    if (lack != nullptr && warn)
-      logWarning("debris beyond a symmetry",
-                 fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
-                             "nothing is, as it {}. In a whole model they would meet its other "
-                             "half.",
-                             plane.where, lack));
+    if (lack != nullptr)
+      mirrors.lacks.push_back({plane.where, lack});
   }
   layout.refresh(held);
   for (int node = 0; node < layout.size(); ++node)
     mirrors.ofNode.push_back(std::uint8_t(held(node)));
   return mirrors;
-}
-
-Real shareOf(const Vec3& place, const std::vector<Mirror>& mirrors)
-{
-  constexpr Real roundOff = 1e-9;
-  std::vector<Vec3> normals;
-  for (const Mirror& mirror : mirrors)
-    if (mirror.side != 0 && !mirror.isAxis &&
-        std::abs(dot(mirror.normal, place) - mirror.level) <= roundOff * norm(place))
-      normals.push_back(mirror.normal);
-  // Planes at 180 degrees / n make 2n images; one at right angles to all doubles their number.
-  Real images = 1;
-  std::vector<char> counted(normals.size(), 0);
-  for (std::size_t i = 0; i < normals.size(); ++i)
-  {
-    if (counted[i])
-      continue;
-    Real n = 1;
-    for (std::size_t j = i + 1; j < normals.size(); ++j)
-      if (const Real cosine = std::abs(dot(normals[i], normals[j])); cosine > roundOff)
-      {
-        counted[j] = 1;
-        if (cosine < 1 - roundOff) // or it is the same once more
-          n = std::max(n, std::round(pi / std::acos(cosine)));
-      }
-    images *= 2 * n;
-  }
-  return 1 / images;
 }
 
 Image reflectInto(const std::vector<Mirror>& mirrors, Real roundOff, Vec3& x)

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace coplane
@@ -28,23 +29,27 @@ struct Image
 /// plane. Of the mesh as it was read: so they are the same in all of the run, and after a restart.
 struct Mirrors
 {
+  static constexpr std::size_t most = 8; ///< that hold nodes: the first ones
+
   std::vector<Mirror> all; ///< no two in one plane
-  /// By node: bit i says that it is held in mirror i of the first eight, or belongs to a rigid body
-  /// that stays there.
+  /// By node: bit i says that it is held in mirror i, or belongs to a rigid body that stays there.
   std::vector<std::uint8_t> ofNode;
+  /// Symmetries beyond which bodies have no images, and why.
+  struct Lack
+  {
+    std::string where; ///< in the deck
+    std::string why;   ///< "it ..."
+  };
+  std::vector<Lack> lacks;
 
   /// Whether one of them holds all nodes of a face: then bodies go on beyond.
   bool cut(const ExteriorFace& face) const;
+  std::vector<Mirror> holding(int node) const;
+  std::uint8_t imaging() const; ///< bits of those beyond which bodies have images
 };
 /// Collective.
-/// @param warn of symmetries that have no images of points of debris
 Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const RankMesh& mesh,
-                  const NodeLayout& layout, bool warn);
-
-/// What there is of a point, with its images: one over the order of the group of reflections in the
-/// mirrors that it lies in [-].
-/// @param place in the mesh as it was read [m]
-Real shareOf(const Vec3& place, const std::vector<Mirror>& mirrors);
+                  const NodeLayout& layout);
 
 /// Brings a place to the side of mirrors on which bodies are [m].
 /// @param roundOff distance over that from the origin up to which it lies in a mirror [-]

@@ -6,6 +6,8 @@
 #include <coplane_dynamics/detail/ContactFaces.hpp>
 #include <coplane_mesh/Bodies.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,8 +61,14 @@ Solver::Solver(Model model, const Comm& comm)
   takeWorkTimes();
   if (model_.contactEnabled)
     makeContact();
-  if (contact_ && model_.debris)
-    debris_.emplace(comm, model_.axisymmetric());
+  if (!contact_ || !model_.debris)
+    return;
+  debris_.emplace(comm, model_.axisymmetric());
+  for (const Mirrors::Lack& lack : erosion_->acts() ? mirrors_.lacks : std::vector<Mirrors::Lack>())
+    logWarning("debris beyond a symmetry",
+               fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
+                           "nothing is, as it {}. In a whole model they would meet its other half.",
+                           lack.where, lack.why));
 }
 
 /// Where blocks share nodes, the last one's velocity counts.
@@ -77,8 +85,7 @@ void Solver::startVelocities()
 void Solver::makeContact()
 {
   bodyOfNode_ = bodyLabels(mesh(), std::vector<char>(mesh().blocks.size(), 1), *comm_);
-  mirrors_ = mirrorsOf(model_.conditions, motion_->bodies(), mesh(), layout_,
-                       model_.debris && erosion_->acts());
+  mirrors_ = mirrorsOf(model_.conditions, motion_->bodies(), mesh(), layout_);
   model_.contactRules.mirrors = mirrors_.all;
   std::vector<Face> faces = facesAtStart(exteriorFaces(mesh()));
   const Real smallest = Contact::smallestFaceSize(faces, state_.x, mesh().dimension, *comm_);
@@ -129,9 +136,7 @@ std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
                                   const std::vector<Face>* known) const
 {
-  std::uint8_t imaging = 0; // those beyond which bodies go on
-  for (std::size_t i = 0; i < std::min<std::size_t>(mirrors_.all.size(), 8); ++i)
-    imaging |= std::uint8_t((mirrors_.all[i].side != 0) << i);
+  const std::uint8_t imaging = mirrors_.imaging();
   std::vector<Face> faces =
       contactFaces(mesh(), blocks(), model_.faceGroups, bodyOfNode_, exterior, state_.x, known);
   for (Face& face : faces)
@@ -260,8 +265,8 @@ void Solver::renewDebris()
   for (int n = 0; n < layout_.owned(); ++n)
     if (erosion_->isFree(n) && state_.mass(n) > 0 && !motion_->followsBody(n))
     {
-      points.push_back({layout_.ids()[std::size_t(n)], state_.mass(n),
-                        shareOf(mesh().coordinates[std::size_t(n)], mirrors_.all)});
+      points.push_back(
+          {layout_.ids()[std::size_t(n)], state_.mass(n), shareOf(mirrors_.holding(n))});
       nodes.push_back(n);
     }
   motion_->letThroughAxis(nodes);

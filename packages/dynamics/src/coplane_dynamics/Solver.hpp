@@ -97,6 +97,8 @@ public:
   const std::vector<ElementBlock>& blocks() const { return elements_.blocks(); }
   bool hasContact() const { return contact_ != nullptr; }
   const Contact& contact() const { return *contact_; }
+  /// In which bodies are cut; none without contact.
+  const Mirrors& mirrors() const { return mirrors_; }
   const Clock& clock() const { return clock_; }
   const RigidBodies& rigidBodies() const { return motion_->bodies(); }
   const Lines& lines() const { return *lines_; }

@@ -2,6 +2,10 @@
 
 #include <coplane_core/Vec3.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 namespace coplane
 {
 /// A plane in which bodies are cut: a plane of symmetry, or the axis of a body of revolution.
@@ -18,4 +22,32 @@ struct Mirror
     return direction - (2 * dot(normal, direction)) * normal;
   }
 };
+
+/// What there is of a point with its images, where these mirrors hold it: one over the order of the
+/// group of reflections in them [-].
+inline Real shareOf(const std::vector<Mirror>& mirrors)
+{
+  constexpr Real roundOff = 1e-6;
+  std::vector<Vec3> normals;
+  for (const Mirror& mirror : mirrors)
+    if (mirror.side != 0 && !mirror.isAxis)
+      normals.push_back(mirror.normal);
+  // Planes at 180 degrees / n make 2n images; one at right angles to all doubles their number.
+  Real images = 1;
+  std::vector<char> counted(normals.size(), 0);
+  for (std::size_t i = 0; i < normals.size(); ++i)
+  {
+    if (counted[i])
+      continue;
+    Real n = 1;
+    for (std::size_t j = i + 1; j < normals.size(); ++j)
+      if (const Real cosine = std::abs(dot(normals[i], normals[j])); cosine > roundOff)
+      {
+        counted[j] = 1;
+        n = std::max(n, std::round(pi / std::acos(std::min(cosine, 1.0))));
+      }
+    images *= 2 * n;
+  }
+  return 1 / images;
+}
 } // namespace coplane

@@ -27,6 +27,13 @@ OfTime functionOf(const TimeFunction& card)
   return [evaluator](Real t) { return (*evaluator)(t); };
 }
 
+/// Of a vector of any length.
+Vec3 directionOf(const Vec3& v)
+{
+  const Real largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  return normalised({v.x / largest, v.y / largest, v.z / largest});
+}
+
 OfTimeAndPlace fieldOf(const TimeFunction& card)
 {
   const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
@@ -247,14 +254,14 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
       const std::vector<int>& nodes = part.nodeSets[indexOf(mesh.nodeSets, card.set)];
       if (card.type == "symmetry")
         conditions.symmetries.push_back(
-            {nodes, normalised(card.normal), windowOf(card), card.where});
+            {nodes, directionOf(card.normal), windowOf(card), card.where});
       else
         conditions.velocities.push_back(prescribedOf(card, part, nodes));
     }
   return conditions;
 }
 
-void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
+void revolve(RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
 {
   if (part.dimension != 2)
     failOnAllRanks(
@@ -262,6 +269,14 @@ void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Condition
         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
         "plane x, y with x >= 0, or leave the key out.",
         deck.meshWhere);
+  // Meshers write the axis as R cos(pi / 2).
+  Real farthest = 0;
+  for (const Vec3& x : part.coordinates)
+    farthest = std::max(farthest, std::abs(x.x));
+  farthest = comm.max(farthest);
+  for (Vec3& x : part.coordinates)
+    if (std::abs(x.x) <= 1e-9 * farthest)
+      x.x = 0;
   int wrong = 0; // first owned node beyond the axis
   while (wrong < part.ownedNodes && !(part.coordinates[wrong].x < 0))
     ++wrong;

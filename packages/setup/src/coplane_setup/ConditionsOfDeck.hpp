@@ -17,8 +17,9 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
                         const std::vector<BlockSetup>& blocks);
 
 /// Makes the conditions those of a body of revolution: x is the radius, and nodes on the axis stay
-/// there. Fails on all ranks when the mesh is not the section of one. Collective.
-void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
+/// there, those that are beside it by round-off, too. Fails on all ranks when the mesh is not the
+/// section of one. Collective.
+void revolve(RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
 
 /// Charges that are too near to their faces or too far from them, or off the axis of a body of
 /// revolution; the same on all ranks. Names may be unknown. Collective.
