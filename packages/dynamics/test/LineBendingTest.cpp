@@ -142,6 +142,46 @@ TEST(LineBending, yieldsAtItsPlasticMomentWhichTheForceReduces)
   }
 }
 
+TEST(LineBending, yieldsAtALargerMomentTheFasterItIsBent)
+{
+  // Steps of 1 s; the outermost fibre has d / 2 l of the angle, l half of each segment.
+  constexpr Real angle = 0.5, fibre = 0.5 * diameter / (length / 2), exponent = 0.05;
+  for (const int steps : {200, 2000})
+    for (const bool pulled : {false, true})
+    {
+      LineSetup setup = barOf(2);
+      setup.section.yieldStress = yieldStress;
+      setup.section.rateExponent = exponent;
+      setup.section.referenceRate = angle / steps * fibre / 20;
+      LineHosts hosts = hostsOf(setup);
+      Line line = installed(setup, hosts);
+      constexpr Real share = 0.6;
+      const Real strain = pulled ? share * yieldStress / modulus : 0;
+      lead(line, hosts, setup, 1, [&](const Vec3& x, Real) { return (1 + strain) * x; });
+      lead(line, hosts, setup, steps,
+           [&](const Vec3& x, Real part) { return (1 + strain) * knee(x, part * angle); });
+      const Real most = plasticMoment * (pulled ? 1 - share * share : 1) * std::pow(20, exponent);
+      EXPECT_NEAR(line.points()[1].moment.z, most, 1e-6 * most);
+      EXPECT_EQ(line.energy().rupture, 0);
+      EXPECT_NEAR(line.energy().remainder(), 0, 1e-4 * line.energy().work);
+    }
+}
+
+TEST(LineBending, losesNoEnergyAsTornWhileItFlowsFast)
+{
+  LineSetup setup = barOf(2);
+  setup.section.yieldStress = yieldStress;
+  setup.section.rateExponent = 0.05;
+  setup.section.referenceRate = 1e-6;
+  LineHosts hosts = hostsOf(setup);
+  Line line = installed(setup, hosts);
+  lead(line, hosts, setup, 100,
+       [&](const Vec3& x, Real part) { return (1 + 0.01 * part) * knee(x, part * 0.2); });
+  EXPECT_GT(line.segments()[0].force, area * yieldStress);
+  EXPECT_EQ(line.energy().rupture, 0);
+  EXPECT_NEAR(line.energy().remainder(), 0, 1e-3 * line.energy().work);
+}
+
 TEST(LineBending, turnsWithItsHostsWithoutWork)
 {
   LineSetup setup = barOf(2);

@@ -185,6 +185,23 @@ TEST(Line, flowsAtAHigherStressTheFasterItIs)
   EXPECT_NEAR(stressAt(0.02, 100, 50e9, 1000), yield + tangent * (0.02 - yield / modulus), 1);
   EXPECT_NEAR(stressAt(0.02, 100, 1e9, 1000), yield * std::pow(1e6, exponent), 1e-4 * yield);
 
+  // Whatever the exponent and the step: the stress is that at which it flows.
+  for (const Real large : {1e-4, 0.3, 1.0})
+    for (const Real dt : {1e-9, 1e-3})
+    {
+      setup.section = {area, modulus, yield, 0, infinity, true, 0, large, reference};
+      LineHosts hosts = hostsOf(setup);
+      Line one = installed(setup, hosts);
+      hosts.x[1].x = 2 + 2 * 0.004;
+      one.advance(hosts, dt, dt, 0);
+      const Line::Segment& segment = one.segments()[0];
+      const Real rate = segment.plasticStrain / dt / reference;
+      EXPECT_GT(segment.plasticStrain, 0);
+      EXPECT_NEAR(segment.force / area / (yield * std::pow(std::max(1.0, rate), large)), 1, 1e-9)
+          << large << ' ' << dt;
+    }
+  setup.section.rateExponent = exponent;
+
   // Held still it relaxes: ds/dt = -(E r / Y) s^n with s the stress over Y and n = 1 / exponent.
   Line line(setup, {});
   const Real first = stressAt(0.02, 10, 0, 1000, &line) / yield;

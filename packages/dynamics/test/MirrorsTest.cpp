@@ -97,6 +97,49 @@ TEST(Mirrors, holdTheFacesAndEdgesInThem)
   EXPECT_EQ(countOf(std::move(quarter), comm).cut, 2 * both.cut);
 }
 
+TEST(Mirrors, areOneWhereConditionsHoldPartsOfAPlaneInAnyOrder)
+{
+  const Comm comm;
+  const auto upper = [](const Vec3& x) { return x.x == 0 && x.z > 2.5; };
+  const auto lower = [](const Vec3& x) { return x.x == 0 && x.z < 2.5; };
+  const auto line = [](const Vec3& x) { return x.x == 0 && x.z < 2.5 && x.y == 0; };
+  const std::vector<std::pair<std::function<bool(const Vec3&)>, Vec3>> parts{
+      {line, {1, 0, 0}}, {lower, {-1, 0, 0}}, {upper, {1, 4e-7, 0}}};
+  for (std::array<int, 3> order : {std::array<int, 3>{0, 1, 2}, {2, 1, 0}, {1, 0, 2}})
+  {
+    Model model = rockModel(halves(), comm);
+    for (const int i : order)
+      model.conditions.symmetries.push_back(
+          {ownedNodesWhere(model.mesh, parts[std::size_t(i)].first),
+           normalised(parts[std::size_t(i)].second)});
+    const Solver solver(model, comm);
+    EXPECT_EQ(solver.mirrors().all.size(), 1u);
+    EXPECT_EQ(solver.mirrors().lacks.size(), 0u);
+    EXPECT_EQ(countOf(std::move(model), comm), both);
+  }
+}
+
+TEST(Mirrors, countWhatHasNoImagesApart)
+{
+  // Floors under gravity at nine heights, before the plane of symmetry.
+  const Comm comm;
+  Mesh mesh;
+  for (int i = 0; i < 9; ++i)
+    addBox(mesh, "step" + std::to_string(i), {1, 1, 1}, {0, 2.0 * i, 0.25 * i}, {1, 1, 1});
+  Model model = rockModel(mesh, comm);
+  model.conditions.gravity = {0, 0, -9.81};
+  for (int i = 0; i < 9; ++i)
+    model.conditions.symmetries.push_back(
+        {ownedNodesWhere(model.mesh, [&](const Vec3& x)
+                         { return x.z == 0.25 * i && x.y >= 2 * i && x.y <= 2 * i + 1; }),
+         {0, 0, 1}});
+  model.conditions.symmetries.push_back({ownedNodesWhere(model.mesh, inPlane), {1, 0, 0}});
+  const Solver solver(model, comm);
+  EXPECT_EQ(solver.mirrors().all.size(), 1u);
+  EXPECT_EQ(solver.mirrors().lacks.size(), 9u);
+  EXPECT_EQ(countOf(std::move(model), comm).cut, 9);
+}
+
 TEST(Mirrors, areFoundFarFromTheOriginAndAtOddAngles)
 {
   const Comm comm;
@@ -186,6 +229,21 @@ TEST(Mirrors, holdRigidBodiesThatStayInThem)
     model.conditions.rigidMotions = {std::move(motion)};
     EXPECT_EQ(countOf(std::move(model), comm), one.stays ? both : block);
   }
+  // By all of its components, in an oblique plane.
+  Mesh mesh = halves();
+  const Real c = 0.866025, s = 0.5;
+  for (Vec3& x : mesh.coordinates)
+    x = {c * x.x - s * x.y, s * x.x + c * x.y, x.z};
+  Model oblique = cutWhere(
+      mesh, comm, [&](const Vec3& x) { return std::abs(c * x.x + s * x.y) < 1e-4 && x.z < 2.5; },
+      normalised(Vec3{c, s, 0}));
+  makeRigid(oblique, comm);
+  RigidMotion still3;
+  still3.block = 1;
+  still3.components = {true, true, true};
+  still3.spin = VectorOfTime(0, 0, 0);
+  oblique.conditions.rigidMotions = {still3};
+  EXPECT_EQ(countOf(std::move(oblique), comm), both);
   // Held as a whole by the symmetry: so it turns about its normal only.
   Model held = cutWhere(halves(), comm, [](const Vec3& x) { return x.x == 0 || x.z > 2.5; });
   makeRigid(held, comm);
@@ -220,5 +278,6 @@ TEST(Mirrors, leaveAPartOfWhatTheyHold)
   EXPECT_EQ(shareOf({at(0), at(60)}), 1.0 / 6);
   EXPECT_EQ(shareOf({at(0), at(30), floor}), 1.0 / 24);
   EXPECT_EQ(shareOf({at(0), at(90), floor}), 0.125);
+  EXPECT_EQ(shareOf({floor, floor}), 0.5);
 }
 } // namespace coplane

@@ -199,7 +199,8 @@ void Debris::renew(const std::vector<FreeNode>& mine, std::vector<ExteriorFace> 
     }
   }
   exterior.erase(std::remove_if(exterior.begin(), exterior.end(),
-                                [&](const ExteriorFace& face) { return mirrors.cut(face); }),
+                                [&](const ExteriorFace& face)
+                                { return mirrors.leadsNowhere(face); }),
                  exterior.end());
   faces_ = std::move(exterior);
   mirrors_ = mirrors.all;

@@ -197,6 +197,26 @@ Real Line::slipStrength(const Point& point, const LineHosts& hosts) const
   return point.bonded * (bond_.strength + bond_.friction * bond_.perimeter * pressure);
 }
 
+Real Line::flowAtRate(Real trial, Real stiffness, Real yield, Real reference) const
+{
+  const Real slow = (trial - yield) / stiffness, exponent = section_.rateExponent;
+  if (!(exponent > 0 && reference > 0 && slow > reference))
+    return slow;
+  // Over the logarithm u of p / reference what the left side has more is concave and falls: from
+  // the right Newton's method goes straight to the root.
+  Real u = std::min(std::log(slow / reference), std::log(trial / yield) / exponent);
+  for (int step = 0; step < 100; ++step)
+  {
+    const Real elastic = stiffness * reference * std::exp(u),
+               flows = yield * std::exp(exponent * u);
+    const Real change = (trial - elastic - flows) / (elastic + exponent * flows);
+    u += change;
+    if (std::abs(change) <= 1e-15 * (1 + std::abs(u) + 1 / exponent))
+      break;
+  }
+  return reference * std::exp(u);
+}
+
 /// Of a bar in a step.
 struct Line::Flow
 {
@@ -208,29 +228,15 @@ struct Line::Flow
 /// @param dt 0: however slowly [s]
 Line::Flow Line::flowOf(Real stress, Real hardening, Real dt) const
 {
-  const Real modulus = section_.youngsModulus, first = section_.yieldStress;
-  const Real above = stress - (first + section_.hardeningModulus * hardening);
+  const Real modulus = section_.youngsModulus;
+  const Real above = stress - (section_.yieldStress + section_.hardeningModulus * hardening);
   if (!(above > 0))
     return {};
-  const Real slow = above / (modulus + section_.hardeningModulus);
-  const Real reference = section_.referenceRate * dt, exponent = section_.rateExponent;
-  if (!(exponent > 0 && slow > reference && reference > 0) ||
-      first * std::pow(slow / reference, exponent) <= stress - modulus * slow)
-    return {slow, section_.hardeningModulus};
-  // stress - modulus p = first (p / reference)^exponent. Over the logarithm u of p / reference
-  // what the left side has more is concave and falls, so from the right Newton's method goes
-  // straight to the root.
-  Real u = std::log(slow / reference);
-  for (int step = 0; step < 100; ++step)
-  {
-    const Real elastic = modulus * reference * std::exp(u), flows = first * std::exp(exponent * u);
-    const Real change = (stress - elastic - flows) / (elastic + exponent * flows);
-    u += change;
-    if (std::abs(change) < 1e-15 * (1 + std::abs(u)))
-      break;
-  }
-  const Real strain = (stress - first * std::exp(exponent * u)) / modulus;
-  return {strain, exponent * first * std::exp(exponent * u) / strain};
+  const Real hardened = above / (modulus + section_.hardeningModulus);
+  const Real fast = flowAtRate(stress, modulus, section_.yieldStress, section_.referenceRate * dt);
+  if (!(fast < hardened)) // the larger of the stresses at which it flows
+    return {hardened, section_.hardeningModulus};
+  return {fast, section_.rateExponent * (stress - modulus * fast) / fast};
 }
 
 void Line::evaluate(const std::vector<Real>& chords, const std::vector<Real>& strengths,
@@ -468,7 +474,7 @@ void Line::advance(const LineHosts& hosts, Real t, Real dt, int stage)
   }
   const Real slidBefore = energy_.dowel;
   torn = slideDowels(hosts) || torn;
-  const BendingLosses lost = bend(hosts.x);
+  const BendingLosses lost = bend(hosts.x, dt);
   plastic += lost.plastic;
   torn = torn || lost.rupture > 0; // what is missing then is booked below
   findForces(hosts.x);

@@ -15,7 +15,8 @@ namespace coplane
 // forces, stiffnesses and strengths are those of one metre out of the plane.
 
 /// The bar: elastic, plastic with linear isotropic hardening, torn from a strain on. It flows at
-/// the larger of the hardened yield stress and the first one times (rate / reference)^exponent.
+/// the larger of the hardened yield stress and the first one times (rate / reference)^exponent;
+/// bent, at the plastic moment times that of its outermost fibre.
 struct LineSection
 {
   Real area = 0;                 ///< [m^2]
@@ -200,9 +201,13 @@ private:
              Trial& trial);
   struct Flow;
   Flow flowOf(Real stress, Real hardening, Real dt) const;
+  /// What flows in a step, p, by trial - stiffness p = yield max(1, p / reference)^exponent.
+  /// @param trial more than `yield`
+  Real flowAtRate(Real trial, Real stiffness, Real yield, Real reference) const;
   bool slideDowels(const LineHosts& hosts);
   std::optional<std::size_t> segmentOver(int index) const;
   bool bendsAt(std::size_t point) const;
+  bool isTornAt(std::size_t point) const; ///< a segment beside it
   Hinge hingeAt(std::size_t point, const std::vector<Vec3>& x) const;
   Real bendingLength(std::size_t point) const;    ///< of the bar, which bends there [m]
   Real bendingStiffness(std::size_t point) const; ///< moment over angle [N m]
@@ -213,7 +218,7 @@ private:
     Real plastic = 0, rupture = 0; ///< rupture: of bars that are torn, or folded [J]
   };
   /// Moments where the hosts are now.
-  BendingLosses bend(const std::vector<Vec3>& x);
+  BendingLosses bend(const std::vector<Vec3>& x, Real dt);
   void addBendingForces(const std::vector<Vec3>& x);
   void addBendingStiffness(const std::vector<Vec3>& x);
   Real storedByBending() const; ///< [J]

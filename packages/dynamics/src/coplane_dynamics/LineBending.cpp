@@ -66,15 +66,21 @@ Real Line::bendingStiffness(std::size_t i) const
   return axialStiffness() * section_.diameter * section_.diameter / 16 / bendingLength(i);
 }
 
+bool Line::isTornAt(std::size_t i) const
+{
+  return (i > 0 && segments_[i - 1].broken != 0) ||
+         (i < segments_.size() && segments_[i].broken != 0);
+}
+
 Real Line::plasticMoment(std::size_t i) const
 {
+  if (isTornAt(i))
+    return 0;
   Real most = infinity;
   for (const std::size_t s : {i - 1, i}) // i - 1 of the first point is no segment
     if (s < segments_.size())
     {
       const Segment& segment = segments_[s];
-      if (segment.broken != 0)
-        return 0;
       const Real yield =
           section_.area * (section_.yieldStress + section_.hardeningModulus * segment.hardening);
       const Real share = segment.force / yield;
@@ -84,7 +90,7 @@ Real Line::plasticMoment(std::size_t i) const
   return most;
 }
 
-Line::BendingLosses Line::bend(const std::vector<Vec3>& x)
+Line::BendingLosses Line::bend(const std::vector<Vec3>& x, Real dt)
 {
   // A bar that has turned back on itself, or has no length there, has no mean direction.
   constexpr Real folded = 1e-6;
@@ -132,8 +138,18 @@ Line::BendingLosses Line::bend(const std::vector<Vec3>& x)
     const Vec3 axis = toSign * axisOf(to, toSize, toSign * held);
     const Real trial = start + stiffness * change;
     const Real most = plasticMoment(i);
-    const Real end = std::min(std::max(trial, -most), most);
-    (most > 0 ? lost.plastic : lost.rupture) += 0.5 * (start + end) * (trial - end) / stiffness;
+    Real end = trial;
+    if (!(most > 0))
+      end = 0;
+    else if (std::abs(trial) > most)
+    {
+      // The plastic strain of the outermost fibre is the angle times that.
+      const Real fibre = 0.5 * section_.diameter / bendingLength(i);
+      const Real flow =
+          flowAtRate(std::abs(trial), stiffness, most, section_.referenceRate * dt / fibre);
+      end = std::copysign(std::abs(trial) - stiffness * flow, trial);
+    }
+    (isTornAt(i) ? lost.rupture : lost.plastic) += 0.5 * (start + end) * (trial - end) / stiffness;
     moment = end * axis;
     point.axis = toSize < near ? held : axis;
   }

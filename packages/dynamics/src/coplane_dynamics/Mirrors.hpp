@@ -29,11 +29,12 @@ struct Image
 /// plane. Of the mesh as it was read: so they are the same in all of the run, and after a restart.
 struct Mirrors
 {
-  static constexpr std::size_t most = 8; ///< that hold nodes: the first ones
+  static constexpr std::size_t most = 8;
 
-  std::vector<Mirror> all; ///< no two in one plane
-  /// By node: bit i says that it is held in mirror i, or belongs to a rigid body that stays there.
-  std::vector<std::uint8_t> ofNode;
+  std::vector<Mirror> all; ///< beyond which bodies have images; no two in one plane
+  /// By node: bit i < 8 says that it is held in mirror i, or belongs to a rigid body that stays
+  /// there; the others, that it is held in a plane beyond which there are no images.
+  std::vector<std::uint16_t> ofNode;
   /// Symmetries beyond which bodies have no images, and why.
   struct Lack
   {
@@ -42,10 +43,9 @@ struct Mirrors
   };
   std::vector<Lack> lacks;
 
-  /// Whether one of them holds all nodes of a face: then bodies go on beyond.
-  bool cut(const ExteriorFace& face) const;
   std::vector<Mirror> holding(int node) const;
-  std::uint8_t imaging() const; ///< bits of those beyond which bodies have images
+  /// Whether one plane, with images or without, holds all nodes of a face.
+  bool leadsNowhere(const ExteriorFace& face) const;
 };
 /// Collective.
 Mirrors mirrorsOf(const Conditions& conditions, const RigidBodies& bodies, const RankMesh& mesh,

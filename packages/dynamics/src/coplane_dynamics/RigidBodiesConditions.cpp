@@ -138,19 +138,29 @@ void RigidBodies::constrain(Body& body, const Constraint& constraint)
 bool RigidBodies::staysInPlanes(int body, const Vec3& normal) const
 {
   const Body& b = bodies_[std::size_t(body)];
-  const bool isHeld = std::any_of(b.constraints.begin(), b.constraints.end(),
-                                  [&](const Constraint& c)
-                                  { return !c.speed && norm(cross(c.direction, normal)) < 1e-9; });
+  constexpr Real roundOff = 1e-6; // decks have six digits at least
+  Vec3 free = normal;             // what nothing holds of it
+  std::vector<Vec3> held;
+  for (const Constraint& c : b.constraints)
+  {
+    Vec3 direction = c.direction;
+    for (const Vec3& other : held)
+      direction -= dot(direction, other) * other;
+    if (c.speed || !(norm(direction) > roundOff))
+      continue;
+    held.push_back(normalised(direction));
+    free -= dot(free, held.back()) * held.back();
+  }
   bool turnsOut = b.turning == Body::Turning::Free ||
-                  (b.turning == Body::Turning::AboutAxis && norm(cross(b.axis, normal)) > 1e-9);
+                  (b.turning == Body::Turning::AboutAxis && norm(cross(b.axis, normal)) > roundOff);
   for (int c = 0; c < 3 && b.turning == Body::Turning::Given; ++c)
   {
     Vec3 axis{};
     axis[c] = 1;
     const Vec3 across = cross(normal, axis);
-    turnsOut = turnsOut || (norm(across) > 1e-9 && b.spinOfTime.actsAlong(normalised(across)));
+    turnsOut = turnsOut || (norm(across) > roundOff && b.spinOfTime.actsAlong(normalised(across)));
   }
-  return isHeld && !turnsOut;
+  return norm(free) < roundOff && !turnsOut;
 }
 
 void RigidBodies::applyConstraints(Body& body, const KickTimes& times, const Vec3& before) const

@@ -136,14 +136,13 @@ std::vector<Face> Solver::facesAtStart(const std::vector<ExteriorFace>& exterior
 std::vector<Face> Solver::facesOf(const std::vector<ExteriorFace>& exterior,
                                   const std::vector<Face>* known) const
 {
-  const std::uint8_t imaging = mirrors_.imaging();
   std::vector<Face> faces =
       contactFaces(mesh(), blocks(), model_.faceGroups, bodyOfNode_, exterior, state_.x, known);
   for (Face& face : faces)
   {
     face.rigid = model_.blocks[std::size_t(face.block)].rigid;
     for (int k = 0; k < face.count; ++k)
-      face.mirrors[k] = mirrors_.ofNode[std::size_t(face.nodes[k])] & imaging;
+      face.mirrors[k] = std::uint8_t(mirrors_.ofNode[std::size_t(face.nodes[k])]);
   }
   return faces;
 }

@@ -44,7 +44,8 @@ inline Real shareOf(const std::vector<Mirror>& mirrors)
       if (const Real cosine = std::abs(dot(normals[i], normals[j])); cosine > roundOff)
       {
         counted[j] = 1;
-        n = std::max(n, std::round(pi / std::acos(std::min(cosine, 1.0))));
+        if (cosine < 1 - roundOff) // or it is the same once more
+          n = std::max(n, std::round(pi / std::acos(cosine)));
       }
     images *= 2 * n;
   }

@@ -411,6 +411,7 @@ Key lines()
                  number("rate_exponent", &LineCard::rateExponent)
                      .in("-")
                      .atLeast(0)
+                     .atMost(1)
                      .like("0.024")
                      .means("where it flows fast the yield stress is (plastic strain rate / "
                             "reference_rate)^rate_exponent times as large, or the hardened one "

@@ -34,6 +34,13 @@ Vec3 directionOf(const Vec3& v)
   return normalised({v.x / largest, v.y / largest, v.z / largest});
 }
 
+bool isZero(const TimeFunction& function)
+{
+  return function.expression.empty() && function.constant == 0 &&
+         std::all_of(function.values.begin(), function.values.end(),
+                     [](Real value) { return value == 0; });
+}
+
 OfTimeAndPlace fieldOf(const TimeFunction& card)
 {
   const auto evaluator = std::make_shared<TimeFunctionEvaluator>(card);
@@ -187,9 +194,8 @@ RigidMotion rigidMotionOf(const ConditionCard& card, const Mesh& mesh)
     if (card.components[c])
     {
       motion.components[c] = true;
-      if (const TimeFunction& speed = (*card.translation)[c];
-          !isConstant(speed) || speed.constant != 0)
-        motion.velocity[c] = functionOf(speed);
+      if (!isZero((*card.translation)[c]))
+        motion.velocity[c] = functionOf((*card.translation)[c]);
     }
   if (card.spin)
     motion.spin = vectorOf(*card.spin);
@@ -303,13 +309,6 @@ bool prescribesMotion(const ConditionCard& card)
 {
   return card.type == "fixed" || card.type == "velocity" || card.type == "displacement" ||
          card.type == "acceleration";
-}
-
-bool isZero(const TimeFunction& function)
-{
-  return function.expression.empty() && function.constant == 0 &&
-         std::all_of(function.values.begin(), function.values.end(),
-                     [](Real value) { return value == 0; });
 }
 
 /// Whether a card of prescribed motion moves nodes along the normal of a symmetry.
