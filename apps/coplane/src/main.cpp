@@ -272,7 +272,10 @@ MeshSlice meshOf(const Deck& deck, const Comm& comm)
 {
   try
   {
-    return readMesh(deck.mesh, comm);
+    MeshSlice mesh = readMesh(deck.mesh, comm);
+    if (deck.geometry == "axisymmetric")
+      bringToAxis(mesh, comm);
+    return mesh;
   }
   catch (const Error& error)
   {

@@ -26,22 +26,24 @@ def rounded(points):
     return points
 
 
-def beam(size, changes):
-    """Recipe and deck; elements of `size` [m] to 0.15 m from the middle."""
+def beam(size, changes, bars):
+    """Recipe and deck; elements of `size` [m] to 0.15 m from the middle; changes of the concrete, and whether bars yield later where they are fast."""
     recipe, deck = case.load("mesh.yaml"), case.load()
     axes = recipe["parts"][0]["lines"]
     axes["x"]["divisions"] = [round(0.15 / size), round(0.26 / size)]
     axes["y"]["divisions"], axes["z"]["divisions"] = [round(0.1 / size)], [round(0.05 / size)]
     for line in deck["lines"].values():
         line["segment_length"] = size
+        if not bars:
+            del line["rate_exponent"]
     deck["materials"]["concrete"].update(changes)
     return recipe, deck
 
 
-def drop(name, series, size=0.1 / 12, changes={}):
+def drop(name, series, size=0.1 / 12, changes={}, bars=True):
     """History, run and seconds."""
     mass, speed = SERIES[series][:2]
-    recipe, deck = beam(size, changes)
+    recipe, deck = beam(size, changes, bars)
     high, across = mass / (STEEL * SIDE**2) + SIDE**2 / (12 * ROUND), max(3, round(0.04 / size))
     recipe["parts"][2]["size"][1] = high
     recipe["parts"][2]["divisions"] = [across, round(high / size), across]
@@ -53,7 +55,7 @@ def drop(name, series, size=0.1 / 12, changes={}):
 
 def bent(name, size, end, changes={}):
     """Two rollers press the beam at 0.15 m from its middle: their way [mm] and force on the whole beam [kN], smoothed; seconds."""
-    recipe, deck = beam(size, {"rate_effects": False, **changes})
+    recipe, deck = beam(size, {"rate_effects": False, **changes}, bars=False)
     recipe["parts"][2] = {**recipe["parts"][1], "block": "weight", "offset": [0.15, 0.12, 0]}
     for name_of in ("middle", "half"):
         recipe["node_sets"][name_of]["block"] = "beam"
@@ -80,15 +82,15 @@ for series in SERIES if case.full else (1,):
     h, run, spent = drop(f"series_{series}", series)
     words = f"{mass} kg at {speed} m/s"
     found, time = largest(h)
-    lost = series == 4  # the pressed side of the beam goes, and it sinks on
-    note = " (reported: we differ)" if lost else ""
-    case.check(f"{words}: largest deflection [mm]{note}", found, deepest, 0.35, relative=True, report=lost)
-    case.check(f"{words}: its time [ms]{note}", time, when, 0.35, relative=True, report=lost)
+    kinks, sinks = speed > 9, series == 4  # a crack runs through the depth beside the weight; the pressed side of the beam goes, and it sinks on
+    differs = lambda so: " (reported: we differ)" if so else ""
+    case.check(f"{words}: largest deflection [mm]{differs(sinks)}", found, deepest, 0.35, relative=True, report=sinks)
+    case.check(f"{words}: its time [ms]{differs(kinks)}", time, when, 0.35, relative=True, report=kinks)
     case.other(f"{words}: largest deflection [mm]", "LS-DYNA, of the source", other, deepest)
     if case.full:
         v, t = h["weight_velocity_y"], h["time"]
         lag = round(2e-4 / (t[1] - t[0]))
-        case.check(f"{words}: impulse on the weight [N s]{note}", mass * (v[-1] + speed), impulse, 0.1, relative=True, report=lost)
+        case.check(f"{words}: impulse on the weight [N s]{differs(kinks)}", mass * (v[-1] + speed), impulse, 0.1, relative=True, report=kinks)
         case.check(f"{words}: largest force on the weight over 0.2 ms [kN] (reported: we differ)", 1e-3 * mass * numpy.max(v[lag:] - v[:-lag]) / (lag * (t[1] - t[0])), force, 0.35, relative=True, report=True)
         case.study(f"{words}: largest reaction of both supports over 0.2 ms [kN]", "8.3 mm", 2e-3 * 2 * numpy.max(numpy.convolve(h["support_reaction_y"], numpy.ones(lag) / lag, "same")), None, spent)
     if series == 4:
@@ -101,7 +103,8 @@ if case.full:
         for cells in (10, 12, 16) if series == 1 else (10, 12):
             h, _, spent = drop(f"size_{series}_{cells}", series, 0.1 / cells)
             case.study(f"{SERIES[series][0]} kg at {SERIES[series][1]} m/s: largest deflection [mm]", f"{100 / cells:.1f} mm", largest(h)[0], SERIES[series][2], spent)
-    for words, changes in (("cracks do not close", {"crack_closure": False}), ("damage_exponent of 1.6", {"damage_exponent": 1.6}), ("without effects of rate", {"rate_effects": False})):
-        h, _, spent = drop(f"other_{words.replace(' ', '_')}", 4, changes=changes)
+    for words, changes, bars in (("cracks do not close", {"crack_closure": False}, True), ("damage_exponent of 1.6", {"damage_exponent": 1.6}, True),
+                                 ("concrete without effects of rate", {"rate_effects": False}, True), ("bars without effects of rate", {}, False)):
+        h, _, spent = drop(f"other_{words.replace(' ', '_')}", 4, changes=changes, bars=bars)
         case.study("20 kg at 9.9 m/s: largest deflection until 30 ms [mm]", f"8.3 mm, {words}", largest(h)[0], SERIES[4][2], spent)
 case.finish()

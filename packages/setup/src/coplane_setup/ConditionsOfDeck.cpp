@@ -267,7 +267,18 @@ Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part
   return conditions;
 }
 
-void revolve(RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
+void bringToAxis(MeshSlice& mesh, const Comm& comm)
+{
+  Real farthest = 0;
+  for (const Vec3& x : mesh.mine.coordinates)
+    farthest = std::max(farthest, std::abs(x.x));
+  farthest = comm.max(farthest);
+  for (Vec3& x : mesh.mine.coordinates)
+    if (std::abs(x.x) <= 1e-9 * farthest)
+      x.x = 0;
+}
+
+void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions)
 {
   if (part.dimension != 2)
     failOnAllRanks(
@@ -275,14 +286,6 @@ void revolve(RankMesh& part, const Deck& deck, const Comm& comm, Conditions& con
         "{}: geometry = 'axisymmetric', but the mesh has three dimensions; use a section in the "
         "plane x, y with x >= 0, or leave the key out.",
         deck.meshWhere);
-  // Meshers write the axis as R cos(pi / 2).
-  Real farthest = 0;
-  for (const Vec3& x : part.coordinates)
-    farthest = std::max(farthest, std::abs(x.x));
-  farthest = comm.max(farthest);
-  for (Vec3& x : part.coordinates)
-    if (std::abs(x.x) <= 1e-9 * farthest)
-      x.x = 0;
   int wrong = 0; // first owned node beyond the axis
   while (wrong < part.ownedNodes && !(part.coordinates[wrong].x < 0))
     ++wrong;

@@ -5,6 +5,7 @@
 #include <coplane_dynamics/Model.hpp>
 #include <coplane_input/Deck.hpp>
 #include <coplane_mesh/Mesh.hpp>
+#include <coplane_mesh/MeshSlice.hpp>
 #include <coplane_mesh/RankMesh.hpp>
 
 #include <vector>
@@ -16,10 +17,13 @@ namespace coplane
 Conditions conditionsOf(const Deck& deck, const Mesh& mesh, const RankMesh& part,
                         const std::vector<BlockSetup>& blocks);
 
+/// Nodes beside the axis x = 0 of a body of revolution by round-off are on it: meshers write it as
+/// R cos(pi / 2). Collective.
+void bringToAxis(MeshSlice& mesh, const Comm& comm);
+
 /// Makes the conditions those of a body of revolution: x is the radius, and nodes on the axis stay
-/// there, those that are beside it by round-off, too. Fails on all ranks when the mesh is not the
-/// section of one. Collective.
-void revolve(RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
+/// there. Fails on all ranks when the mesh is not the section of one. Collective.
+void revolve(const RankMesh& part, const Deck& deck, const Comm& comm, Conditions& conditions);
 
 /// Charges that are too near to their faces or too far from them, or off the axis of a body of
 /// revolution; the same on all ranks. Names may be unknown. Collective.
