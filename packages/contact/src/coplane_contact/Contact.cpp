@@ -39,14 +39,6 @@ Contact::Contact(const Comm& comm, int dimension, std::vector<Face> localFaces,
       planes_(rules_, options_.depthMax)
 {
   demandFewKinds(comm, faces_.local(), rules_);
-  for (std::size_t bits = 0; bits < images_.extent(0); ++bits)
-  {
-    std::vector<Mirror> holding;
-    for (std::size_t m = 0; m < rules_.mirrors.size(); ++m)
-      if (bits >> m & 1)
-        holding.push_back(rules_.mirrors[m]);
-    images_(bits) = 1 / shareOf(holding);
-  }
 }
 
 Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVectors& x,
@@ -174,7 +166,7 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
                         const ConstArray<Real>& mass) const
 {
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, images_, options_.forces, 0);
+  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, 0);
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
@@ -182,7 +174,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
                                        Real sinceSearch)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, images_, options_.forces, dt);
+  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, dt);
   distances_.follow(x, v, sinceSearch, lookAhead);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;

@@ -308,8 +308,6 @@ private:
   FaceTable faces_;
   // ... what searches find ...
   SearchReach reach_;
-  /// Of a node, by the mirrors that hold it: how often there is one with its images [-].
-  Array<Real> images_{"coplane::contact::images", 256};
   Searches searches_;
   FirstHalf firstHalf_; ///< empty between searches
   GhostsElsewhere ghostsElsewhere_;

@@ -8,8 +8,7 @@ namespace
 /// What step A needs of the first face, or of as many as T has lanes.
 template <class T>
 void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
-                 const ConstArray<Real>& mass, const ConstArray<Real>& images,
-                 FaceNodesOf<T>& nodes)
+                 const ConstArray<Real>& mass, FaceNodesOf<T>& nodes)
 {
   nodes.count = faces[0].count;
   for (int k = 0; k < nodes.count; ++k)
@@ -24,8 +23,7 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
     };
     nodes.x[k] = vector(x);
     nodes.v[k] = vector(v);
-    nodes.mass[k] = branchFree::gathered<T>(
-        [&](int i) { return images(faces[i].mirrors[k]) * mass(faces[i].nodes[k]); });
+    nodes.mass[k] = each([&](int node) { return mass(node); });
   }
 }
 
@@ -54,8 +52,7 @@ void PairedFaces::mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots,
 
 void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNodeVectors& x,
                         const ConstNodeVectors& v, const ConstArray<Real>& mass,
-                        const ConstArray<Real>& images, ContactOptions::Forces forces,
-                        Real dt) const
+                        ContactOptions::Forces forces, Real dt) const
 {
   const auto halfStep = halfStep_;
   const auto paired = paired_;
@@ -64,7 +61,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
     if (!paired(f))
       return;
     FaceNodes nodes;
-    gatherNodes(&faces(f), x, v, mass, images, nodes);
+    gatherNodes(&faces(f), x, v, mass, nodes);
     if (dimension == 2)
       putFace<2>(nodes, forces, dt, halfStep(f));
     else
@@ -86,7 +83,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
           return;
         }
         FaceNodesOf<Lanes> nodes;
-        gatherNodes(&faces(first), x, v, mass, images, nodes);
+        gatherNodes(&faces(first), x, v, mass, nodes);
         stepA_faces(nodes, forces, dt, &halfStep(first));
       });
 }

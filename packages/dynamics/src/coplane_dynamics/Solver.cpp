@@ -6,8 +6,6 @@
 #include <coplane_dynamics/detail/ContactFaces.hpp>
 #include <coplane_mesh/Bodies.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
