@@ -85,9 +85,8 @@ std::string linesOf(const std::vector<InitialOverlap>& overlaps, const Solver& s
 
 void reportMirrors(const Mirrors& mirrors)
 {
-  const auto planes =
-      std::count_if(mirrors.all.begin(), mirrors.all.end(),
-                    [](const Mirror& mirror) { return mirror.side != 0 && !mirror.isAxis; });
+  const auto planes = std::count_if(mirrors.all.begin(), mirrors.all.end(),
+                                    [](const Mirror& mirror) { return !mirror.isAxis; });
   if (planes > 0)
     logInfo("  bodies go on as their images beyond {} plane{} of symmetry", planes,
             planes == 1 ? "" : "s");

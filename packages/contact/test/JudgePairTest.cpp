@@ -280,4 +280,30 @@ TEST(Step5CandidatePairs, facesThatMeetBeforeTheNextSearchAreACandidate)
     EXPECT_EQ(closingAt(-6, common, 0.05), Verdict::Candidate); // within the skin now
   }
 }
+
+TEST(Step5CandidatePairs, aFaceThatTurnsOverBeforeTheNextSearchIsACandidate)
+{
+  // The second square looks the same way as the first, and is crushed along x: after 0.1 s it is as
+  // wide as before, inside out.
+  const auto crushed = [](Real by)
+  {
+    Scene scene;
+    scene.add(faceId(1, 0), {0, 0, 0}, {0, 0, 1}, 1, 1);
+    scene.add(faceId(2, 0), {0.2, 0.1, 0.05}, {0, 0, 1}, 1, 1);
+    Face a = scene.faces[0], b = scene.faces[1];
+    a.local = b.local = true;
+    const NodeVectors x = positions(scene), v("v", 8);
+    for (const int node : b.nodes)
+      set(v, node, {by * (0.2 - x(node, 0)) / 0.1, 0, 0});
+    CandidateRules rules;
+    rules.skin = rules.reach = 0.1;
+    rules.turning = 0.01;
+    rules.motion = {v, 0.1, {}};
+    const FacePlane planeA = rules.planeOf(a, x, 3), planeB = rules.planeOf(b, x, 3);
+    return judgePair(a, b, contactBox(a, planeA, x, rules), contactBox(b, planeB, x, rules), planeA,
+                     planeB, x, rules);
+  };
+  EXPECT_EQ(crushed(0.9), Verdict::NotOpposed); // thinner, the same side up
+  EXPECT_EQ(crushed(2), Verdict::Candidate);
+}
 } // namespace coplane::testing

@@ -37,6 +37,18 @@ conditions:
   EXPECT_DOUBLE_EQ(conditions.symmetries[0].normal.x, 1); // made a unit vector
 }
 
+TEST(ConditionsOfDeck, normalsOfAnyLength)
+{
+  for (const char* normal : {"[3e-200, 4e-200, 0]", "[3e300, 4e300, 0]", "[3e-310, 4e-310, 0]"})
+  {
+    const Model model =
+        modelOf(blocksOfTwo +
+                "conditions:\n  - {type: symmetry, node_set: base, normal: " + normal + "}\n");
+    EXPECT_NEAR(model.conditions.symmetries.at(0).normal.x, 0.6, 1e-9) << normal;
+    EXPECT_NEAR(model.conditions.symmetries.at(0).normal.y, 0.8, 1e-9) << normal;
+  }
+}
+
 TEST(ConditionsOfDeck, accelerationsByAScaledTable)
 {
   const Model model = modelOf("define: {a: 3}\n" + blocksOfTwo + R"(

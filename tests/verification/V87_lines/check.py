@@ -115,6 +115,7 @@ whole = lines["bar", 1]["broken"] == 0
 case.check(f"{name}: force of a bar that flows at 20 times the reference rate [N]", lines["bar", 1]["force"][whole][-1], area * 400e6 * 20**0.05, 1e-9, relative=True)
 case.check(f"{name}: largest force [N]", lines["bar", 1]["force"].max(), area * 400e6 * 20**0.05, 1e-9, relative=True)
 case.check(f"{name}: remainder [J]", h["line_remainder"][-1], 0, 1e-9 * h["line_plastic"][-1])
+case.same_bits(name, mesh, deck, run, ranks=3)
 
 # --- dowel: blocks slide on each other, once across the line, in two frames ------------------------------------------------------
 

@@ -117,8 +117,13 @@ for name, dimension, cuts, options, bound in (
         what = f"{name}: 1/{2**len(cut)} of the model, velocities less those of all of it, over the largest"
         case.check(what, apart(whole, part, ("slab", "block")), 0, bound)
     if name == "fast":
-        case.same_bits("fast", **struck(dimension, cut, **options), run=part)
-        case.restarts("fast", struck(dimension, cut, **options)["recipe"], struck(dimension, cut, **options)["deck"], part, near=1e-5)
+        problem = struck(dimension, cut, **options)
+        case.same_bits("fast", **problem, run=part, ranks=3)
+        case.same_bits("fast_threads", **problem, run=part, ranks=1, threads=2)
+        case.restarts("fast", problem["recipe"], problem["deck"], part, near=1e-5)
+        case.check_equal("fast: planes of symmetry that the log tells of", "beyond 2 planes of symmetry" in part.output, True)
+        problem["deck"]["conditions"][0]["until"] = 1
+        case.check_equal("one that ends: told by the log", "as it acts in a part of the run" in case.run("ends", **problem).output, True)
 
 # A ball: its faces lean across the planes of symmetry, and beside these some would meet the images of others. What they lack falls with the mesh.
 for cells, bound in ((2, 0.03), (4, 6e-4)):

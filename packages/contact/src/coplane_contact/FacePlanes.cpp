@@ -55,8 +55,7 @@ void putPlanes(const Face* faces, const ConstNodeVectors& x, const CandidateRule
   {
     const MeanPlane<T> then = meanPlane<Dim>(
         nodesAt<T>(faces, [&](int node) { return at(x, node) + rules.way(node, infinity); }));
-    turning =
-        branchFree::smaller(norm(then.normal - now.normal), T(CandidateRules::mostTurningAhead));
+    turning = norm(then.normal - now.normal);
     warp = branchFree::larger(then.warp, warp);
   }
   for (int i = 0; i < branchFree::widthOf<T>; ++i)

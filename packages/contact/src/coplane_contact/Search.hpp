@@ -46,7 +46,8 @@ struct CandidateRules
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
   Motion motion;
-  /// FacePlane::turning at most: what tumbles by more would oppose everything.
+  /// By which boxes take a face to turn at most [-]. Which faces may oppose each other counts all
+  /// of it: one that is crushed through no area turns over.
   static constexpr Real mostTurningAhead = 0.2;
 
   /// Candidates have n0.n1 below this.
@@ -81,7 +82,8 @@ private:
   /// Least of |n0 - n1| of a pair, with another face that turns as much as this one.
   Real leastApart(const FacePlane& plane) const
   {
-    return std::sqrt(2 - 2 * std::max(0.0, mostCosine(plane, plane)));
+    const FacePlane bounded{{}, {}, std::min(plane.turning, mostTurningAhead), 0};
+    return std::sqrt(2 - 2 * std::max(0.0, mostCosine(bounded, bounded)));
   }
 };
 

@@ -62,11 +62,13 @@ Solver::Solver(Model model, const Comm& comm)
   if (!contact_ || !model_.debris)
     return;
   debris_.emplace(comm, model_.axisymmetric());
-  for (const Mirrors::Lack& lack : erosion_->acts() ? mirrors_.lacks : std::vector<Mirrors::Lack>())
-    logWarning("debris beyond a symmetry",
-               fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
-                           "nothing is, as it {}. In a whole model they would meet its other half.",
-                           lack.where, lack.why));
+  for (const Mirrors::Lack& lack : mirrors_.lacks)
+    if (erosion_->acts())
+      logWarning(
+          "debris beyond a symmetry",
+          fmt::format("{}: points of debris that cross this plane of symmetry fly on where "
+                      "nothing is, as it {}. In a whole model they would meet its other half.",
+                      lack.where, lack.why));
 }
 
 /// Where blocks share nodes, the last one's velocity counts.

@@ -8,12 +8,13 @@
 
 namespace coplane
 {
-/// A plane in which bodies are cut: a plane of symmetry, or the axis of a body of revolution.
+/// A plane in which bodies are cut, and go on as their image: a plane of symmetry, or the axis of a
+/// body of revolution.
 struct Mirror
 {
   Vec3 normal{};       ///< of length 1
   Real level = 0;      ///< normal . x of its points [m]
-  int side = 0;        ///< bodies are where normal . x is larger, 1, or smaller, -1; 0: no images
+  int side = 1;        ///< bodies are where normal . x is larger, 1, or smaller, -1
   bool isAxis = false; ///< a point on it is whole
 
   /// Of an image, from a direction here.
@@ -30,7 +31,7 @@ inline Real shareOf(const std::vector<Mirror>& mirrors)
   constexpr Real roundOff = 1e-6;
   std::vector<Vec3> normals;
   for (const Mirror& mirror : mirrors)
-    if (mirror.side != 0 && !mirror.isAxis)
+    if (!mirror.isAxis)
       normals.push_back(mirror.normal);
   // Planes at 180 degrees / n make 2n images; one at right angles to all doubles their number.
   Real images = 1;
