@@ -226,7 +226,10 @@ TEST(Step5CandidatePairs, aGhostFaceIsJudgedLikeTheFaceItComesFrom)
       std::vector<GlobalId> ids;
       for (int n = 0; n < 10; ++n)
         ids.push_back(1000 - n);
+      const std::uint8_t mirrors[4] = {3, 1, 0, 2};
+      std::copy_n(mirrors, 4, b.mirrors);
       b = toFace(toGhostFace(b, ids), [](GlobalId id) { return int(1000 - id); });
+      EXPECT_TRUE(std::equal(mirrors, mirrors + 4, b.mirrors));
       b.local = false;
     };
   };

@@ -332,6 +332,18 @@ conditions: [{type: rigid_motion, block: upper, velocity: [0, "-t", 0], angular_
   EXPECT_DOUBLE_EQ((*motion.spin)(0).z, 4);
 }
 
+TEST(ConditionsOfDeck, rigidMotionsOfZeroHold)
+{
+  const Model model = modelOf(R"(
+blocks: {lower: {material: rock}, upper: {material: rock, rigid: true}}
+conditions: [{type: rigid_motion, block: upper, velocity: [0, "-t", 0]}]
+)");
+  const RigidMotion& motion = model.conditions.rigidMotions.at(0);
+  EXPECT_TRUE(motion.components[0]);
+  EXPECT_FALSE(motion.velocity[0]);
+  EXPECT_TRUE(motion.velocity[1]);
+}
+
 TEST(ConditionsOfDeck, massDampingMustNotBeNegative)
 {
   const Model model = modelOf(blocksOfTwo + "damping: {mass: \"10 - t\", until: 50}\n");

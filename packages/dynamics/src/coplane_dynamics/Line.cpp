@@ -204,7 +204,7 @@ Real Line::flowAtRate(Real trial, Real stiffness, Real yield, Real reference) co
     return slow;
   // Over the logarithm u of p / reference what the left side has more is concave and falls: from
   // the right Newton's method goes straight to the root.
-  Real u = std::min(std::log(slow / reference), std::log(trial / yield) / exponent);
+  Real u = std::log(slow / reference);
   for (int step = 0; step < 100; ++step)
   {
     const Real elastic = stiffness * reference * std::exp(u),
