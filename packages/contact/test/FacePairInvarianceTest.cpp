@@ -99,6 +99,7 @@ FaceNodes extruded(const FaceNodes& s)
 {
   FaceNodes f;
   f.count = 4;
+  f.massPerArea = s.massPerArea;
   const Vec3 z{0, 0, 1};
   const int node[4] = {0, 0, 1, 1};
   const Real height[4] = {1, 0, 0, 1};
@@ -106,7 +107,6 @@ FaceNodes extruded(const FaceNodes& s)
   {
     f.x[i] = s.x[node[i]] + height[i] * z;
     f.v[i] = s.v[node[i]];
-    f.mass[i] = .5 * s.mass[node[i]];
   }
   return f;
 }

@@ -455,15 +455,25 @@ TEST_P(StepH_UpdatePlaneVariables, dampingNeverPulls)
   }
 }
 
-TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheTwoFaces)
+TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheSurfacesPerArea)
 {
-  // Weights 1/4 on nodes of 1 kg: 1/m = 2 * 4/16, m = 2 kg. k = 1e3 N/m. Force 2 zeta sqrt(k m) v
-  // on top of the 10 N of the closure.
+  // Surfaces of 2 and 6 kg/m^2, of 1.5 together, on a spring of 1e3 Pa/m: the pressure
+  // 2 zeta sqrt(k m) v on top of the 10 Pa of the closure; on half of the area half of that.
   ContactOptions o = usual;
   o.dampNormal = .1;
-  PairPlane plane = touchingPlane(1e3);
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -.5}), o, 1e-9);
-  EXPECT_NEAR(plane.forceOn(1).z, 10 + .2 * std::sqrt(2000.0) * .5, 1e-10);
+  const Real pressure = 10 + .2 * std::sqrt(1500.0) * .5;
+  FaceNodes lower = below(), upper = above(.01, {0, 0, -.5});
+  lower.massPerArea = 2;
+  upper.massPerArea = 6;
+  PairPlane whole = touchingPlane(1e3);
+  updatePlane<3>(whole, lower, upper, o, 1e-9);
+  EXPECT_NEAR(whole.forceOn(1).z, pressure, 1e-10);
+
+  for (Vec3& x : upper.x)
+    x.x += .5;
+  PairPlane half = touchingPlane(1e3);
+  updatePlane<3>(half, lower, upper, o, 1e-9);
+  EXPECT_NEAR(half.forceOn(1).z, .5 * pressure, 1e-10);
 }
 
 TEST_P(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)

@@ -70,7 +70,6 @@ struct MovingPairs
     {
       nodes.x[k] = at(now, faces(f).nodes[k]);
       nodes.v[k] = at(nowV, faces(f).nodes[k]);
-      nodes.mass[k] = 1;
     }
     return stepA_faceAtEnd<3>(nodes);
   }

@@ -69,7 +69,7 @@ for name, law in laws.items():
 elastic = {"model": "linear_elastic", "density": 7850, "youngs_modulus": 200e9, "poisson_ratio": 0.3}
 
 
-def struck(dimension, cut, speed, friction=0.0, forces="potential", turn=0.0, far=0.0):
+def struck(dimension, cut, speed, friction=0.0, damping=0.0, forces="potential", turn=0.0, far=0.0):
     """A block strikes a slab in its middle, with a node of either where the planes of symmetry meet; `cut` along these axes, turned about the last one [rad], and moved along all axes [m]."""
     low = lambda half: [0 if c in cut else -half for c in range(dimension - 1)]
     cells = lambda n: [n // 2 if c in cut else n for c in range(dimension - 1)]
@@ -81,7 +81,7 @@ def struck(dimension, cut, speed, friction=0.0, forces="potential", turn=0.0, fa
     normals = [[c, s, 0], [-s, c, 0]]
     deck = {
         "materials": {"steel": elastic}, "blocks": {"slab": {"material": "steel"}, "block": {"material": "steel"}},
-        "joints": {"touch": {"model": "penalty", "friction": friction}}, "contact": {"default_joint": "touch", "forces": forces},
+        "joints": {"touch": {"model": "penalty", "friction": friction}}, "contact": {"default_joint": "touch", "forces": forces, "damping": {"normal": damping, "shear": damping}},
         "conditions": [{"type": "symmetry", "node_set": f"middle{i}", "normal": [float(x) for x in normals[i]]} for i in cut],
         "initial": [{"block": "block", "velocity": [0] * (dimension - 1) + [-speed] + [0] * (3 - dimension)}],
         "time": {"end": 4e-5, "fixed_step": 2e-7}, "output": {"every": 1e-5, "planes": False}, "history": {"every": 1e-6},
@@ -107,6 +107,7 @@ def apart(whole, part, blocks, turn=0.0):
 for name, dimension, cuts, options, bound in (
     ("flat", 2, ([0],), {"speed": 300}, 1e-4),
     ("slow", 3, ([1], [0, 1]), {"speed": 30}, 1e-6),
+    ("damped", 3, ([1], [0, 1]), {"speed": 30, "friction": 0.5, "damping": 0.3}, 1e-6),
     ("fast", 3, ([1], [0, 1]), {"speed": 300, "friction": 0.5}, 3e-4),
     ("turned", 3, ([0, 1],), {"speed": 300, "turn": 0.3, "far": 1000.0}, 3e-4),
     ("common_normal", 3, ([1],), {"speed": 300, "forces": "common_normal"}, 3e-4),

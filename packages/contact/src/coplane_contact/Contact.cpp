@@ -67,10 +67,7 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
     const Face& of = faces()[face];
     FaceNodes nodes = nodesOf(of, x);
     for (int k = 0; k < nodes.count; ++k)
-    {
       nodes.v[k] = at(v, of.nodes[k]);
-      nodes.mass[k] = 1; // masses matter for damping only
-    }
     return stepA_halfStepFace(nodes, dt, dimension_);
   };
   std::vector<std::size_t> ending;
@@ -163,18 +160,16 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
 }
 } // namespace
 
-void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                        const ConstArray<Real>& mass) const
+void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v) const
 {
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, 0);
+  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, options_.forces, 0);
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                       const ConstArray<Real>& mass, Real dt, Real lookAhead,
-                                       Real sinceSearch)
+                                       Real dt, Real lookAhead, Real sinceSearch)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, mass, options_.forces, dt);
+  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, options_.forces, dt);
   distances_.follow(x, v, sinceSearch, lookAhead);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;

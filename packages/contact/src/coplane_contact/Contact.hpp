@@ -112,14 +112,12 @@ public:
     distances_.follow(x, v, sinceSearch, lookAhead);
   }
   /// Step A where faces stand still: for those who look at them before the next update.
-  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                 const ConstArray<Real>& mass) const;
+  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v) const;
 
   /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
   /// stable step; at least the two largest steps that may follow; sinceSearch: time since then [s]
-  void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                const ConstArray<Real>& mass, Real dt, Real lookAhead,
-                                Real sinceSearch);
+  void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
+                                Real lookAhead, Real sinceSearch);
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].

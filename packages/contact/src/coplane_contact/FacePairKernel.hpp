@@ -306,6 +306,18 @@ KOKKOS_INLINE_FUNCTION Vec3Of<T> heldByFriction(const PlaneBatch<T>& planes, con
   return choose(!bonded && size > most, most / size, T(1.0)) * damping;
 }
 
+/// Of a dashpot per area, which takes the fraction zeta of critical damping from a surface that
+/// moves on springs of so much stiffness per area [Pa s/m]. Per area, and by the mass behind faces,
+/// not by that of nodes: so a face that is cut into parts, beside others or not, is damped as a
+/// whole one.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T dashpotPerArea(Real zeta, const T& stiffness,
+                                             const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b)
+{
+  return 2.0 * zeta *
+         branchFree::squareRoot(stiffness / (1.0 / a.massPerArea + 1.0 / b.massPerArea));
+}
+
 /// Dashpots at the point of contact [N].
 /// @param elastic force along the normal [N]; normalStiffness: of the law [Pa/m]
 /// @param alongNormal gets the part along the normal [N]
@@ -317,13 +329,8 @@ stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& ela
               T& alongNormal)
 {
   using namespace branchFree;
-  T inverseMass{};
-  for (int i = 0; i < a.count; ++i)
-    inverseMass += patch.weights[0][i] * patch.weights[0][i] / a.mass[i];
-  for (int i = 0; i < b.count; ++i)
-    inverseMass += patch.weights[1][i] * patch.weights[1][i] / b.mass[i];
-  T normalForce = -2.0 * options.dampNormal *
-                  squareRoot(patch.area * normalStiffness / inverseMass) * motion.speed;
+  T normalForce =
+      -patch.area * dashpotPerArea(options.dampNormal, normalStiffness, a, b) * motion.speed;
   const auto bonded = planes.each([](const Plane& p) { return p.history.bonded; }) > 0.0;
   normalForce = choose(!bonded && normalForce < -elastic, -elastic, normalForce); // no tension
   alongNormal = normalForce;
@@ -331,8 +338,7 @@ stepH_damping(const PlaneBatch<T>& planes, const PatchOf<T>& patch, const T& ela
       planes.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
   const T shearStiffness = planes.each([](const Plane& p) { return p.fit.shearStiffness; });
   const Vec3Of<T> shearing =
-      choose(sticks,
-             -2.0 * options.dampShear * squareRoot(patch.area * shearStiffness / inverseMass),
+      choose(sticks, -patch.area * dashpotPerArea(options.dampShear, shearStiffness, a, b),
              T(0.0)) *
       motion.tangential;
   return normalForce * n + heldByFriction(planes, elastic, shearing);

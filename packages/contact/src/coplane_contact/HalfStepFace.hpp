@@ -15,9 +15,9 @@ template <class T>
 struct FaceNodesOf
 {
   int count = 0;
-  Vec3Of<T> x[4];                               ///< x(n+1) [m]
-  Vec3Of<T> v[4];                               ///< v(n+1/2) [m/s]
-  T mass[4] = {T(1.0), T(1.0), T(1.0), T(1.0)}; ///< [kg]; used by contact damping only
+  Vec3Of<T> x[4];         ///< x(n+1) [m]
+  Vec3Of<T> v[4];         ///< v(n+1/2) [m/s]
+  T massPerArea = T(1.0); ///< of the surface [kg/m^2]; used by contact damping only
 };
 using FaceNodes = FaceNodesOf<Real>;
 
@@ -88,10 +88,10 @@ struct HalfStepFaceOf
   Vec3Of<T> x[4]; ///< x(n+1/2); x(n+1) for forces that come from a potential [m]
   Vec3Of<T> v[4]; ///< v(n+1/2) [m/s]
   Vec3Of<T> center{};
-  Vec3Of<T> normal{}; ///< outward unit normal; zero for a degenerate face
-  T area{};           ///< [m^2]
-  Vec3Of<T> spin{};   ///< of the rigid motion nearest to the corner velocities [1/s]
-  T mass[4] = {T(1.0), T(1.0), T(1.0), T(1.0)}; ///< [kg]; used by contact damping only
+  Vec3Of<T> normal{};     ///< outward unit normal; zero for a degenerate face
+  T area{};               ///< [m^2]
+  Vec3Of<T> spin{};       ///< of the rigid motion nearest to the corner velocities [1/s]
+  T massPerArea = T(1.0); ///< of the surface [kg/m^2]; used by contact damping only
 };
 using HalfStepFace = HalfStepFaceOf<Real>;
 
@@ -129,11 +129,11 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_halfStepFace(const FaceNodesOf<T>
   using namespace branchFree;
   HalfStepFaceOf<T> face;
   face.count = nodes.count;
+  face.massPerArea = nodes.massPerArea;
   for (int i = 0; i < nodes.count; ++i)
   {
     face.x[i] = nodes.x[i] - (0.5 * dt) * nodes.v[i];
     face.v[i] = nodes.v[i];
-    face.mass[i] = nodes.mass[i];
   }
   const auto proper = detail::measureFace<Dim>(face);
   const FaceInertia<Dim, T> inertia(face.x, face.count);
@@ -156,11 +156,11 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_faceAtEnd(const FaceNodesOf<T>& n
 {
   HalfStepFaceOf<T> face;
   face.count = nodes.count;
+  face.massPerArea = nodes.massPerArea;
   for (int i = 0; i < nodes.count; ++i)
   {
     face.x[i] = nodes.x[i];
     face.v[i] = nodes.v[i];
-    face.mass[i] = nodes.mass[i];
   }
   detail::measureFace<Dim>(face);
   return face;

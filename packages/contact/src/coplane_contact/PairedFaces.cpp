@@ -8,9 +8,10 @@ namespace
 /// What step A needs of the first face, or of as many as T has lanes.
 template <class T>
 void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
-                 const ConstArray<Real>& mass, FaceNodesOf<T>& nodes)
+                 FaceNodesOf<T>& nodes)
 {
   nodes.count = faces[0].count;
+  nodes.massPerArea = branchFree::gathered<T>([&](int i) { return faces[i].massPerArea(); });
   for (int k = 0; k < nodes.count; ++k)
   {
     const auto each = [&](const auto& get)
@@ -23,7 +24,6 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
     };
     nodes.x[k] = vector(x);
     nodes.v[k] = vector(v);
-    nodes.mass[k] = each([&](int node) { return mass(node); });
   }
 }
 
@@ -51,8 +51,7 @@ void PairedFaces::mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots,
 }
 
 void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNodeVectors& x,
-                        const ConstNodeVectors& v, const ConstArray<Real>& mass,
-                        ContactOptions::Forces forces, Real dt) const
+                        const ConstNodeVectors& v, ContactOptions::Forces forces, Real dt) const
 {
   const auto halfStep = halfStep_;
   const auto paired = paired_;
@@ -61,7 +60,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
     if (!paired(f))
       return;
     FaceNodes nodes;
-    gatherNodes(&faces(f), x, v, mass, nodes);
+    gatherNodes(&faces(f), x, v, nodes);
     if (dimension == 2)
       putFace<2>(nodes, forces, dt, halfStep(f));
     else
@@ -83,7 +82,7 @@ void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNode
           return;
         }
         FaceNodesOf<Lanes> nodes;
-        gatherNodes(&faces(first), x, v, mass, nodes);
+        gatherNodes(&faces(first), x, v, nodes);
         stepA_faces(nodes, forces, dt, &halfStep(first));
       });
 }

@@ -16,10 +16,9 @@ public:
   void mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots, std::size_t faceCount);
   /// Every cycle; in three dimensions several faces side by side where they have the same number of
   /// nodes.
-  /// @param x at the end of the step [m]; v in its middle [m/s]; mass of nodes [kg]; dt [s]
+  /// @param x at the end of the step [m]; v in its middle [m/s]; dt [s]
   void stepA(const Array<Face>& faces, int dimension, const ConstNodeVectors& x,
-             const ConstNodeVectors& v, const ConstArray<Real>& mass, ContactOptions::Forces forces,
-             Real dt) const;
+             const ConstNodeVectors& v, ContactOptions::Forces forces, Real dt) const;
   /// By place in the table of faces; those without a slot are not set.
   const HalfStepFace* data() const { return halfStep_.data(); }
 

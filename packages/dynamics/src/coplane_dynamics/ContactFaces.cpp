@@ -81,6 +81,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     const Real area = norm(cornersAt(x, face).area(mesh.dimension));
     face.thickness = thicknessBehind(block, side.element, area, mesh.dimension);
     face.modulus = pWaveModulus(block.material());
+    face.density = block.mass(side.element) / block.referenceVolume(side.element);
     faces.push_back(face);
   }
   return faces;

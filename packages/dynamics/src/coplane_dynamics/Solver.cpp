@@ -351,7 +351,7 @@ void Solver::updatePlanes(Real dt)
 {
   const WorkWatch watch(work_.planes);
   // The speed of approach may grow by the kick that lies between: twice the step.
-  contact_->step6_updateCommonPlanes(state_.x, state_.v, state_.mass, dt, 2 * step_.largestNext(),
+  contact_->step6_updateCommonPlanes(state_.x, state_.v, dt, 2 * step_.largestNext(),
                                      searches_.timeSince(clock_.time + dt));
 }
 

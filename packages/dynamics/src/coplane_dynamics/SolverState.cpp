@@ -152,7 +152,7 @@ void Solver::restore(const StateSource& in)
     contact_->restoreDistances(atSearch, velocity, searches_.ahead());
     contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time),
                           2 * step_.largestNext());
-    contact_->findFaces(state_.x, state_.v, state_.mass);
+    contact_->findFaces(state_.x, state_.v);
   }
   Ledger::forEachStruct(ledger_,
                         [&](const char* name, auto& values) { setNumbers(values, in, name); });

@@ -40,8 +40,7 @@ inline void putSideBySide(const HalfStepFace* const (&faces)[laneCount],
     for (int k = 0; k < face.count; ++k)
       face.v[k] = vector([&](const HalfStepFace& f) { return f.v[k]; });
     face.spin = vector([](const HalfStepFace& f) { return f.spin; });
-    for (int k = 0; k < face.count; ++k)
-      face.mass[k] = each([&](const HalfStepFace& f) { return f.mass[k]; });
+    face.massPerArea = each([](const HalfStepFace& f) { return f.massPerArea; });
   }
 }
 
@@ -61,12 +60,12 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
     {
       face.x[k] = lane(all.x[k], i);
       face.v[k] = lane(all.v[k], i);
-      face.mass[k] = lane(all.mass[k], i);
     }
     face.center = lane(all.center, i);
     face.normal = lane(all.normal, i);
     face.area = lane(all.area, i);
     face.spin = lane(all.spin, i);
+    face.massPerArea = lane(all.massPerArea, i);
   }
 }
 

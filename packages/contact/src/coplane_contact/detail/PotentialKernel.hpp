@@ -615,25 +615,16 @@ private:
                                              T& normalDamping) const
   {
     using branchFree::choose;
-    T inverseMass{};
-    for (int i = 0; i < a_.count; ++i)
-      inverseMass += relative.weights[0][i] * relative.weights[0][i] / a_.mass[i];
-    for (int i = 0; i < b_.count; ++i)
-      inverseMass += relative.weights[1][i] * relative.weights[1][i] / b_.mass[i];
-    normalDamping = 2.0 * options_.dampNormal *
-                    branchFree::squareRoot(area * slope_ / inverseMass) * relative.closing;
+    normalDamping = area * dashpotPerArea(options_.dampNormal, slope_, a_, b_) * relative.closing;
     normalDamping = choose(!bonded_ && normalDamping < -normalForce, -normalForce,
                            normalDamping); // no tension
     const auto sticks =
         planes_.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
     const T shearStiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
-    const Vec3Of<T> damping =
-        heldByFriction(planes_, normalForce,
-                       choose(sticks,
-                              -2.0 * options_.dampShear *
-                                  branchFree::squareRoot(area * shearStiffness / inverseMass),
-                              T(0.0)) *
-                           relative.sliding);
+    const Vec3Of<T> damping = heldByFriction(
+        planes_, normalForce,
+        choose(sticks, -area * dashpotPerArea(options_.dampShear, shearStiffness, a_, b_), T(0.0)) *
+            relative.sliding);
     // Along the normal, which bodies strike, by the trapezoid rule, as all work of nodes.
     const T before = planes_.each([](const Plane& p) { return p.normalDamping; });
     const T work =
