@@ -173,7 +173,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
   all.push_back(damped(ContactOptions{}));
   for (const ContactOptions& o : all)
   {
-    PairTable table(3000, 17);
+    PairTable table(3000, 21);
     std::vector<Plane> alone = table.planes;
     Slots together(table.planes);
     int carrying = 0, irregular = 0, woken = 0, uneven = 0, byShear = 0, even = 0;

@@ -1,8 +1,6 @@
 """A sphere of aluminium through a plate at speeds of space debris: the diameter of the hole, against a scaling law and a measured one."""
 
 import copy
-import sys
-import time
 
 import numpy
 from coplanetest import ValidationCase
@@ -40,8 +38,8 @@ def of_revolution(mesh, changed):
     changed["geometry"] = "axisymmetric"
 
 
-def shoot(name, speed, finer=1, strain=8.0, debris="points", half_section=False, strict=True, **times):
-    """Run and its seconds; `finer`: elements are so many times smaller. Not strict: contacts that are missed are told, and fail nothing."""
+def shoot(name, speed, finer=1, strain=8.0, debris="points", half_section=False, **times):
+    """Run and its seconds; `finer`: elements are so many times smaller."""
     mesh, changed = copy.deepcopy(recipe), copy.deepcopy(deck)
     for line in mesh["parts"][0]["lines"].values():
         line["divisions"] = [round(finer * n) for n in line["divisions"]]
@@ -53,14 +51,7 @@ def shoot(name, speed, finer=1, strain=8.0, debris="points", half_section=False,
     changed["time"].update(times)
     if half_section:
         of_revolution(mesh, changed)
-    if strict:
-        return case.timed(name, mesh, changed, change_mesh=rounded)
-    begun = time.time()
-    run = case.attempt(name, mesh, changed, change_mesh=rounded)
-    if run.code:
-        sys.exit(run.output)
-    case.check(f"{name}: missed contacts (reported: we differ)", int(run.history["missed"].max()), 0, 0, report=True)
-    return run, time.time() - begun
+    return case.timed(name, mesh, changed, change_mesh=rounded)
 
 
 def rim(run):
@@ -107,15 +98,18 @@ case.picture(run, "--color", "von_mises", "--shares", "0", "0.1", "0.3", "1", "-
 case.check_within("hole at 3 km/s over that at 6.18 km/s", found[3000] / found[6180], 0.65, 0.95)
 case.check("3 km/s in a half section, with the forces of bodies of revolution: hole over that in three dimensions", hole(shoot("half_section", 3000, 2, half_section=True)[0]) / found[3000], 1, 0.1)
 if case.full:
+    sizes = {1: found[3000]}
     for size, finer in (("2/3 mm", 1.5), ("0.5 mm", 2)):
-        run, seconds = shoot(f"v3000_{finer:g}", 3000, finer, strict=False)
-        case.study(name_of(3000), size, hole(run), scaling(3000), seconds)
-        finest = hole(run)
-    case.check("hole at 3 km/s: elements of 0.5 mm over 1 mm", finest / found[3000], 1, 0.05)
-    run, seconds = shoot("v6180_1.5", 6180, 1.5, strict=False, step_factor=0.3)
+        run, seconds = shoot(f"v3000_{finer:g}", 3000, finer)
+        sizes[1 / finer] = hole(run)
+        case.study(name_of(3000), size, sizes[1 / finer], scaling(3000), seconds)
+    case.check("hole at 3 km/s: elements of 0.5 mm over 2/3 mm", sizes[1 / 2] / sizes[1 / 1.5], 1, 0.05)
+    # It falls in proportion to the size of elements, by a row of them on either side.
+    case.check(f"{name_of(3000)}, by the line through three sizes at elements of no size, scaling law (reported: we differ)", numpy.polyfit(list(sizes), list(sizes.values()), 1)[1], scaling(3000), 0.1, relative=True, report=True)
+    run, seconds = shoot("v6180_1.5", 6180, 1.5, step_factor=0.3)
     case.study(name_of(6180), "2/3 mm", hole(run), scaling(6180), seconds)
     for strain in (1.0, 2.0, 4.0):
-        case.other(name_of(3000), f"Coplane, 1 mm, elements die at a plastic strain of {strain:g}, not 8", hole(shoot(f"v3000_strain_{strain:g}", 3000, strain=strain, strict=False)[0]), scaling(3000))
+        case.other(name_of(3000), f"Coplane, 1 mm, elements die at a plastic strain of {strain:g}, not 8", hole(shoot(f"v3000_strain_{strain:g}", 3000, strain=strain)[0]), scaling(3000))
     for strain in (2.0, 8.0):
-        case.other(name_of(3000), f"Coplane, 1 mm, without debris, elements die at {strain:g}", hole(shoot(f"v3000_none_{strain:g}", 3000, strain=strain, debris="none", strict=False)[0]), scaling(3000))
+        case.other(name_of(3000), f"Coplane, 1 mm, without debris, elements die at {strain:g}", hole(shoot(f"v3000_none_{strain:g}", 3000, strain=strain, debris="none")[0]), scaling(3000))
 case.finish()
