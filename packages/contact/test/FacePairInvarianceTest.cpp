@@ -99,7 +99,7 @@ FaceNodes extruded(const FaceNodes& s)
 {
   FaceNodes f;
   f.count = 4;
-  f.massPerArea = s.massPerArea;
+  f.mass = s.mass;
   const Vec3 z{0, 0, 1};
   const int node[4] = {0, 0, 1, 1};
   const Real height[4] = {1, 0, 0, 1};

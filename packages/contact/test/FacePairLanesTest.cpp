@@ -265,7 +265,7 @@ TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)
     }
     FaceNodesOf<Lanes> together;
     together.count = faces[0].count;
-    together.massPerArea = branchFree::gathered<Lanes>([&](int i) { return faces[i].massPerArea; });
+    together.mass = branchFree::gathered<Lanes>([&](int i) { return faces[i].mass; });
     const auto vector = [&](const auto& get) -> Vec3Of<Lanes>
     {
       const auto each = [&](int k)

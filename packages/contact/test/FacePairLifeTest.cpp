@@ -463,8 +463,8 @@ TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheSurfacesPer
   o.dampNormal = .1;
   const Real pressure = 10 + .2 * std::sqrt(1500.0) * .5;
   FaceNodes lower = below(), upper = above(.01, {0, 0, -.5});
-  lower.massPerArea = 2;
-  upper.massPerArea = 6;
+  lower.mass = 2;
+  upper.mass = 6;
   PairPlane whole = touchingPlane(1e3);
   updatePlane<3>(whole, lower, upper, o, 1e-9);
   EXPECT_NEAR(whole.forceOn(1).z, pressure, 1e-10);
@@ -474,6 +474,29 @@ TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheSurfacesPer
   PairPlane half = touchingPlane(1e3);
   updatePlane<3>(half, lower, upper, o, 1e-9);
   EXPECT_NEAR(half.forceOn(1).z, .5 * pressure, 1e-10);
+
+  // A face that is stretched to twice its area spreads the same mass.
+  for (Vec3& x : upper.x)
+    x.x = 2 * (x.x - .5);
+  for (Vec3& x : lower.x)
+    x.x *= 2;
+  PairPlane stretched = touchingPlane(1e3);
+  updatePlane<3>(stretched, lower, upper, o, 1e-9);
+  EXPECT_NEAR(stretched.forceOn(1).z, 2 * (10 + .2 * std::sqrt(750.0) * .5), 1e-10);
+}
+
+TEST_P(StepH_UpdatePlaneVariables, dampingOfSlipHasTheCriticalConstantToo)
+{
+  // Held by friction of 9 Pa: the traction 2 zeta sqrt(k_s m) v, k_s = 500 Pa/m.
+  ContactOptions o = usual;
+  o.dampShear = .1;
+  FaceNodes lower = below(), upper = above(.01, {.05, 0, 0});
+  lower.mass = 2;
+  upper.mass = 6;
+  PairPlane plane = touchingPlane(1e3, .9);
+  updatePlane<3>(plane, lower, upper, o, 1e-9);
+  EXPECT_EQ(plane.state, PlaneState::Stick);
+  EXPECT_NEAR(plane.forceOn(1).x, -.2 * std::sqrt(500 * 1.5) * .05 - 500 * .05e-9, 1e-10);
 }
 
 TEST_P(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)

@@ -145,7 +145,7 @@ inline RandomPair randomPair(std::mt19937& random, Real warp, Real speed = 1)
   {
     FaceNodes& face = f == 0 ? pair.a : pair.b;
     face.count = some() < 0 ? 3 : 4;
-    face.massPerArea = 1.5 + some();
+    face.mass = 1.5 + some();
     const Real turn = pi * some();
     const Vec3 center{.3 * some(), .3 * some(), f == 0 ? 0 : -.05 - .05 * some()};
     for (int i = 0; i < face.count; ++i)
@@ -171,7 +171,7 @@ inline RandomPair randomSegments(std::mt19937& random, Real speed = 1)
   {
     FaceNodes& face = f == 0 ? pair.a : pair.b;
     face.count = 2;
-    face.massPerArea = 1.5 + some();
+    face.mass = 1.5 + some();
     for (int i = 0; i < 2; ++i)
     {
       // Face 0 has its normal (t_y, -t_x) along +y when it runs towards -x.

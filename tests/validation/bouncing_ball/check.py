@@ -34,7 +34,7 @@ def bounce(name, stiffness=1e11, step=0.4, end=None):
     """Restitution of each of the first impacts, time at which it rests, worst difference of the height over the height of fall; run and seconds."""
     recipe, deck = case.load("mesh.yaml"), case.load()
     deck["joints"]["spring"]["normal_stiffness"] = stiffness
-    deck["contact"]["damping"] = {"normal": ZETA * math.sqrt(2)}  # each of two nodes sees half of the mass (V24)
+    deck["contact"]["damping"] = {"normal": ZETA * math.sqrt(2)}  # of the surface, which has half of the mass (V24)
     deck["time"].update(step_factor=step, maximum_step=1e-5 * step / 0.4, **({"end": end} if end else {}))
     run, spent = case.timed(name, recipe, deck, load=DENSITY * SIDE**2 * G)
     h = run.history

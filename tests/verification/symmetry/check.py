@@ -108,6 +108,8 @@ for name, dimension, cuts, options, bound in (
     ("flat", 2, ([0],), {"speed": 300}, 1e-4),
     ("slow", 3, ([1], [0, 1]), {"speed": 30}, 1e-6),
     ("damped", 3, ([1], [0, 1]), {"speed": 30, "friction": 0.5, "damping": 0.3}, 1e-6),
+    ("damped_flat", 2, ([0],), {"speed": 30, "damping": 0.3}, 1e-6),
+    ("damped_common_normal", 3, ([1],), {"speed": 30, "damping": 0.3, "forces": "common_normal"}, 1e-6),
     ("fast", 3, ([1], [0, 1]), {"speed": 300, "friction": 0.5}, 3e-4),
     ("turned", 3, ([0, 1],), {"speed": 300, "turn": 0.3, "far": 1000.0}, 3e-4),
     ("common_normal", 3, ([1],), {"speed": 300, "forces": "common_normal"}, 3e-4),

@@ -13,7 +13,7 @@ namespace coplane
 {
 namespace
 {
-const std::vector<std::string> faceColumns{"thickness", "modulus", "density"};
+const std::vector<std::string> faceColumns{"thickness", "modulus"};
 const std::vector<std::string> pairColumns{"activity", "exits", "turns", "covered", "seams"};
 
 /// A rank that looks after what belongs to a face while data find their way.
@@ -97,7 +97,6 @@ void Contact::save(StateTables& out) const
       Real* row = faces.add({face.id});
       row[0] = face.thickness;
       row[1] = face.modulus;
-      row[2] = face.density;
     }
   out.rows("contact/faces", faces);
 
@@ -200,7 +199,6 @@ std::vector<GlobalId> Contact::restoreFaces(const StateSource& in,
   {
     face.thickness = rows.row(f)[0];
     face.modulus = rows.row(f)[1];
-    face.density = rows.row(f)[2];
     face.young = false;
     ++f;
   }

@@ -22,7 +22,7 @@ struct Face
   int body = 0;                    ///< number of the body at the start, the same on all ranks
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
-  Real density = 0;   ///< of the undeformed element behind it [kg/m^3]
+  Real mass = 0;      ///< that moves with it: half of the element behind it [kg]
   Real pressure = 0;  ///< of conditions on it at t = 0: a declared joint does not carry it [Pa]
   bool local = false; ///< this rank owns at least one node
   bool ownedHere =
@@ -31,10 +31,6 @@ struct Face
   bool rigid = false; ///< the element behind it is never computed
   /// By node: bit i says that it is held in mirror i of the contact rules.
   std::uint8_t mirrors[4] = {0, 0, 0, 0};
-
-  /// Mass that moves with the surface: half of what lies behind it, as nodes of quadrilaterals and
-  /// hexahedra have it inside a surface, whatever its elements [kg/m^2].
-  Real massPerArea() const { return 0.5 * density * thickness; }
 
   /// It lies in a mirror: bodies go on beyond, so it is no surface and nothing comes to it.
   bool isCut() const
@@ -58,7 +54,7 @@ struct GhostFace
   int body = 0;
   Real thickness = 0;
   Real modulus = 0;
-  Real density = 0;
+  Real mass = 0;
   Real pressure = 0;
   bool young = false;
   bool rigid = false;
@@ -90,7 +86,7 @@ inline GhostFace toGhostFace(const Face& face, const std::vector<GlobalId>& node
   ghost.body = face.body;
   ghost.thickness = face.thickness;
   ghost.modulus = face.modulus;
-  ghost.density = face.density;
+  ghost.mass = face.mass;
   ghost.pressure = face.pressure;
   ghost.young = face.young;
   ghost.rigid = face.rigid;
@@ -114,7 +110,7 @@ Face toFace(const GhostFace& ghost, const LocalNode& localNode)
   face.body = ghost.body;
   face.thickness = ghost.thickness;
   face.modulus = ghost.modulus;
-  face.density = ghost.density;
+  face.mass = ghost.mass;
   face.pressure = ghost.pressure;
   face.young = ghost.young;
   face.rigid = ghost.rigid;

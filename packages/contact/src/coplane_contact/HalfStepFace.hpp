@@ -15,9 +15,9 @@ template <class T>
 struct FaceNodesOf
 {
   int count = 0;
-  Vec3Of<T> x[4];         ///< x(n+1) [m]
-  Vec3Of<T> v[4];         ///< v(n+1/2) [m/s]
-  T massPerArea = T(1.0); ///< of the surface [kg/m^2]; used by contact damping only
+  Vec3Of<T> x[4];  ///< x(n+1) [m]
+  Vec3Of<T> v[4];  ///< v(n+1/2) [m/s]
+  T mass = T(1.0); ///< that moves with the face [kg]; used by contact damping only
 };
 using FaceNodes = FaceNodesOf<Real>;
 
@@ -88,19 +88,19 @@ struct HalfStepFaceOf
   Vec3Of<T> x[4]; ///< x(n+1/2); x(n+1) for forces that come from a potential [m]
   Vec3Of<T> v[4]; ///< v(n+1/2) [m/s]
   Vec3Of<T> center{};
-  Vec3Of<T> normal{};     ///< outward unit normal; zero for a degenerate face
-  T area{};               ///< [m^2]
-  Vec3Of<T> spin{};       ///< of the rigid motion nearest to the corner velocities [1/s]
-  T massPerArea = T(1.0); ///< of the surface [kg/m^2]; used by contact damping only
+  Vec3Of<T> normal{}; ///< outward unit normal; zero for a degenerate face
+  T area{};           ///< [m^2]
+  Vec3Of<T> spin{};   ///< of the rigid motion nearest to the corner velocities [1/s]
+  T massPerArea{};    ///< that moves with it [kg/m^2]; used by contact damping only
 };
 using HalfStepFace = HalfStepFaceOf<Real>;
 
 namespace detail
 {
-/// Centre, area and normal of a face from its corners. A degenerate one gets no normal; returns
-/// where there is one.
+/// Centre, area, normal and mass per area of a face from its corners and its mass. A degenerate one
+/// gets no normal, and no mass; returns where there is one.
 template <int Dim, class T>
-KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> measureFace(HalfStepFaceOf<T>& face)
+KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> measureFace(HalfStepFaceOf<T>& face, const T& mass)
 {
   using namespace branchFree;
   for (int i = 0; i < face.count; ++i)
@@ -117,6 +117,7 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T> measureFace(HalfStepFaceOf<T>& face
   const auto proper = Dim == 2 ? face.area > 0.0 : face.area > 1e-12 * longest;
   const T inverse = choose(proper, 1.0 / face.area, T(0.0));
   face.normal = inverse * area;
+  face.massPerArea = inverse * mass;
   return proper;
 }
 } // namespace detail
@@ -129,13 +130,12 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_halfStepFace(const FaceNodesOf<T>
   using namespace branchFree;
   HalfStepFaceOf<T> face;
   face.count = nodes.count;
-  face.massPerArea = nodes.massPerArea;
   for (int i = 0; i < nodes.count; ++i)
   {
     face.x[i] = nodes.x[i] - (0.5 * dt) * nodes.v[i];
     face.v[i] = nodes.v[i];
   }
-  const auto proper = detail::measureFace<Dim>(face);
+  const auto proper = detail::measureFace<Dim>(face, nodes.mass);
   const FaceInertia<Dim, T> inertia(face.x, face.count);
   const Vec3Of<T> spin = inertia.solve(inertia.momentOf(face.v));
   const T none(0.0);
@@ -156,13 +156,12 @@ KOKKOS_INLINE_FUNCTION HalfStepFaceOf<T> stepA_faceAtEnd(const FaceNodesOf<T>& n
 {
   HalfStepFaceOf<T> face;
   face.count = nodes.count;
-  face.massPerArea = nodes.massPerArea;
   for (int i = 0; i < nodes.count; ++i)
   {
     face.x[i] = nodes.x[i];
     face.v[i] = nodes.v[i];
   }
-  detail::measureFace<Dim>(face);
+  detail::measureFace<Dim>(face, nodes.mass);
   return face;
 }
 } // namespace coplane

@@ -11,7 +11,7 @@ void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVe
                  FaceNodesOf<T>& nodes)
 {
   nodes.count = faces[0].count;
-  nodes.massPerArea = branchFree::gathered<T>([&](int i) { return faces[i].massPerArea(); });
+  nodes.mass = branchFree::gathered<T>([&](int i) { return faces[i].mass; });
   for (int k = 0; k < nodes.count; ++k)
   {
     const auto each = [&](const auto& get)

@@ -47,6 +47,15 @@ Real thicknessBehind(const ElementBlock& block, int element, Real area, int dime
   const Real size = dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));
   return thickness > 0 && thickness < thickestOfSize * size ? thickness : size;
 }
+/// Mass of the element behind a face [kg]; of bodies of revolution, of one undeformed metre along
+/// the hoop.
+Real massBehind(const ElementBlock& block, int element)
+{
+  if (block.options().geometry != Geometry::Axisymmetric)
+    return block.mass(element);
+  const Real length = block.referenceLength()(element);
+  return block.mass(element) * length * length / block.referenceVolume(element);
+}
 } // namespace
 
 std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBlock>& blocks,
@@ -81,7 +90,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     const Real area = norm(cornersAt(x, face).area(mesh.dimension));
     face.thickness = thicknessBehind(block, side.element, area, mesh.dimension);
     face.modulus = pWaveModulus(block.material());
-    face.density = block.mass(side.element) / block.referenceVolume(side.element);
+    face.mass = 0.5 * massBehind(block, side.element);
     faces.push_back(face);
   }
   return faces;

@@ -36,12 +36,8 @@ std::string StepControl::text() const
                      faceName(faceId[1]));
 }
 
-/// Bound on the rate by which contact damping acts, from a bound on the frequency of contact [1/s].
-/// The planes of a node with the areas A share their stiffness sum k A and their dashpots
-/// sum 2 zeta A sqrt(k m), m the mass of both surfaces per area; by Cauchy these are at most
-/// 2 zeta sqrt(sum k A) sqrt(sum m A). Of the nodes' own mass sum m A is half where surfaces alike
-/// cover each other once, and all of it beside a heavy one. Twice that at edges, whose elements
-/// have two faces, and where surfaces overlap twice: so 4 zeta omega holds.
+/// Bound on the rate by which contact damping acts, from a bound on the frequency of contact [1/s]
+/// (docs/theory/scp.md, "Stable step with contact").
 Real TimeStep::dampingRate(Real frequency) const
 {
   return 4 * contactDamping_ * frequency;

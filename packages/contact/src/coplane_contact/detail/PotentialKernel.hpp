@@ -615,7 +615,9 @@ private:
                                              T& normalDamping) const
   {
     using branchFree::choose;
-    normalDamping = area * dashpotPerArea(options_.dampNormal, slope_, a_, b_) * relative.closing;
+    const T stiffness = pair_.materialArea * slope_;
+    normalDamping =
+        area * dashpotPerArea(options_.dampNormal, stiffness, a_, b_) * relative.closing;
     normalDamping = choose(!bonded_ && normalDamping < -normalForce, -normalForce,
                            normalDamping); // no tension
     const auto sticks =
