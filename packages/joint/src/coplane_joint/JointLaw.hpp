@@ -200,9 +200,12 @@ struct JointLaw
 
   /// Largest slope that the next step can see, of the normal or the shear traction, for the stable
   /// step [Pa/m]. Slip with dilation couples both; its largest eigenvalue is a mean of the two.
-  KOKKOS_INLINE_FUNCTION Real stiffnessBound(const JointFit& fit, const JointState& state) const
+  /// @param ahead closure that may be reached until then [m]
+  KOKKOS_INLINE_FUNCTION Real stiffnessBound(const JointFit& fit, const JointState& state,
+                                             Real ahead = 0) const
   {
-    return std::fmax(curve.slopeAhead(fit, state.maximumClosure), fit.shearStiffness);
+    return std::fmax(curve.slopeAhead(fit, std::fmax(state.maximumClosure, ahead)),
+                     fit.shearStiffness);
   }
 
   /// Shear strength by friction over normal traction.

@@ -142,11 +142,7 @@ private:
           permanents_[i] = law.curve.crushing.crushedAt(plane.history.maximumClosure, slopes_[i]);
       }
       else if (!law.curve.straight() && !plane.history.bonded)
-      {
-        const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
-        slopes_[i] = top.stiffness;
-        permanents_[i] = plane.history.maximumClosure - top.traction / top.stiffness;
-      }
+        layTangent(i, plane.history.maximumClosure);
     }
     slope_ = all(slopes_);
     hardening_ = branchFree::gathered<T>(
@@ -158,26 +154,78 @@ private:
         });
   }
 
+  KOKKOS_FORCEINLINE_FUNCTION void layTangent(int i, Real closure)
+  {
+    const ClosureCurve::Point top = planes_.law[i]->curve.at(planes_.plane[i]->fit, closure);
+    slopes_[i] = top.stiffness;
+    permanents_[i] = closure - top.traction / top.stiffness;
+  }
+
   /// Closure, area and moments of the pairs.
   KOKKOS_FORCEINLINE_FUNCTION void meet()
   {
     const auto& opposed = pair_.plane.opposed;
-    const T permanent = all(permanents_);
-    const T offset = planes_.each([](const Plane& p) { return p.offset; });
     if constexpr (width == 1)
       if (opposed && planes_.plane[0]->crushedUnevenly)
         pair_.beCrushed(planes_.plane[0]->crushing());
     if (branchFree::anyOf(opposed))
-      pair_.meet(offset - permanent, bonded_, edgesOf(planes_));
+      findClosure();
+    loadCurves(opposed &&
+               planes_.each([](const Plane& p) { return p.area > 0 && p.isBorn(); }) > 0.0);
     done_ = pair_.regular || !opposed || Mask(width == 1);
     if constexpr (width != 1)
+    {
       leaveCrushed(opposed);
+      done_ =
+          done_ &&
+          !(opposed && branchFree::gathered<T>([&](int i) -> Real { return reach(i) > 0; }) > 0.0);
+    }
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
-    deepest_ = pair_.mostClosure + permanent;
+    deepest_ = pair_.mostClosure + all(permanents_);
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
+  }
+
+  KOKKOS_FORCEINLINE_FUNCTION void findClosure()
+  {
+    const T offset = planes_.each([](const Plane& p) { return p.offset; });
+    pair_.meet(offset - all(permanents_), bonded_, edgesOf(planes_));
+  }
+
+  /// Closure that a stiffening curve reaches now for the first time [m]; 0: none. The mean over the
+  /// pressure: even closures lie on the curve.
+  KOKKOS_FORCEINLINE_FUNCTION Real reach(int i) const
+  {
+    const JointLaw& law = *planes_.law[i];
+    const JointState& history = planes_.plane[i]->history;
+    const Real volume = branchFree::lane(pair_.moments.volume, i);
+    if (reached_[i] > 0 || !law.curve.stiffens() || history.bonded || !(volume > 0))
+      return 0;
+    const Real closure = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
+    return closure > history.maximumClosure ? closure : 0;
+  }
+
+  /// Curves that close as never before bear what they do at the closure of this cycle: with the
+  /// tangent at that of the last one a fast closure, which passes the curve in one step, would find
+  /// the energy of a stiffer tangent in the next.
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurves(const Mask& loading)
+  {
+    bool any = false;
+    if (branchFree::anyOf(loading))
+      for (int i = 0; i < width; ++i)
+        if (branchFree::lane(loading, i))
+          if (const Real closure = reach(i); closure > 0)
+          {
+            reached_[i] = closure;
+            layTangent(i, closure);
+            any = true;
+          }
+    if (!any)
+      return;
+    slope_ = all(slopes_);
+    findClosure();
   }
 
   /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
@@ -317,8 +365,11 @@ private:
     using branchFree::choose;
     CrushedFrom crushed;
     if constexpr (width == 1)
+    {
       if (touching && crushes_[0])
         crushed = unevenly().crush(permanents_[0]);
+      loadCurves(touching); // what has just begun to touch
+    }
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
     T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
@@ -461,6 +512,8 @@ private:
 
     const Real opposedness = branchFree::lane(pair_.opposedness, i);
     JointState state = plane.history;
+    if (reached_[i] > 0)
+      state.maximumClosure = reached_[i];
     // Where a way out is open sideways the area stands for what is left of the pressure.
     Real closed = wasBonded  ? plane.closure
                   : area > 0 ? permanents_[i] + loaded * opposedness / (slopes_[i] * area)
@@ -487,8 +540,10 @@ private:
     }
     else if (crushes_[i])
       keepCrushing(plane, i, crushing, response, state, out);
+    else if (law.curve.stiffens())
+      loadCurve(plane, i, energyShare, state);
     else if (!law.curve.straight())
-      loadCurve(plane, i, energyShare, closing, response, state);
+      crushWithLoss(plane, i, energyShare, closing, response, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -533,10 +588,36 @@ private:
         plane.history.maximumClosure > reached ? plane.history.maximumClosure : reached;
   }
 
-  /// The maximum closure of the next cycle; what it costs is booked there, half with the area of
-  /// this cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare, Real closing,
-                                             const JointResponse& response, JointState& state) const
+  /// What a higher maximum closure of a stiffening curve costs: that of an even closure, times the
+  /// area, the mean of those before and after the step, that gives the work which the tangent does
+  /// not store while it turns. With k' the change of the slope, e = t / k, and the moments V of
+  /// c - p and S of its square, that is k' (eV - S/2) for k' e^2 / 2 per area.
+  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare,
+                                             JointState& state) const
+  {
+    const JointLaw& law = *planes_.law[i];
+    const Real before = plane.history.maximumClosure;
+    const Real now = reached_[i] > before ? reached_[i] : before;
+    state.maximumClosure = now;
+    const Real elastic = now - permanents_[i];
+    if (!(elastic > 0))
+      return;
+    const Real volume = branchFree::lane(pair_.moments.volume, i) / elastic,
+               squares = branchFree::lane(pair_.moments.squares, i) / (elastic * elastic);
+    const Real area = energyShare * (2 * branchFree::lane(pair_.rising(), i) * volume - squares);
+    Real& areaBefore = plane.loadedArea();
+    if (now > before)
+      plane.hysteresisWork +=
+          0.5 * (area + (areaBefore > 0 ? areaBefore : area)) *
+          (law.curve.hysteresis(plane.fit, now) - law.curve.hysteresis(plane.fit, before));
+    areaBefore = area;
+  }
+
+  /// The maximum closure of the next cycle of a joint whose crushing takes stiffness; what it costs
+  /// is booked there, half with the area of this cycle and half with that of the next.
+  KOKKOS_FORCEINLINE_FUNCTION void crushWithLoss(Plane& plane, int i, Real energyShare,
+                                                 Real closing, const JointResponse& response,
+                                                 JointState& state) const
   {
     const JointLaw& law = *planes_.law[i];
     const Real wholeArea = branchFree::lane(pair_.moments.area, i),
@@ -642,9 +723,11 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void boundStep(const Mask& touching)
   {
     const T ahead = options_.lookAhead * speed_;
-    const auto near = overlaps_ &&
-                      -pair_.mostClosure <= ahead + 1e-8 * branchFree::squareRoot(overlap_) &&
-                      !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
+    // Bonds that are open carry, too.
+    const auto near =
+        overlaps_ &&
+        (touching || -pair_.mostClosure <= ahead + 1e-8 * branchFree::squareRoot(overlap_)) &&
+        !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
     const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead) : T{};
     for (int i = 0; i < planes_.count; ++i)
     {
@@ -660,11 +743,13 @@ private:
           plane.gap = leastGaps_[i];
       }
       plane.sighting = late_[i] ? Sighting::FoundLate : Sighting::Known;
-      plane.nodeStiffness = branchFree::lane(near, i)
-                                ? float(plane.weightInStep() *
-                                        planes_.law[i]->stiffnessBound(plane.fit, plane.history) *
-                                        branchFree::lane(nodeArea, i))
-                                : 0;
+      plane.nodeStiffness =
+          branchFree::lane(near, i)
+              ? float(plane.weightInStep() *
+                      planes_.law[i]->stiffnessBound(plane.fit, plane.history,
+                                                     branchFree::lane(deepest_ + ahead, i)) *
+                      branchFree::lane(nodeArea, i))
+              : 0;
     }
   }
 
@@ -703,6 +788,7 @@ private:
   Real dt_;
   PairPotential<Dim, T>& pair_; ///< apart from this, for what is here to stay in registers
   PerLane slopes_, permanents_; ///< of the linear kernel [Pa/m], [m]
+  PerLane reached_ = {};        ///< closure of a curve, higher than ever; 0: is not [m]
   bool crushes_[width] = {};    ///< may be crushed unevenly
   T slope_, hardening_;         ///< the same; one over the depth from which a penalty hardens [1/m]
   Mask bonded_, done_;
