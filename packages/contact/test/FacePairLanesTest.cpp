@@ -61,6 +61,7 @@ struct PairTable
       plane.seams = std::uint8_t(random() & random() & ~plane.turns);
       plane.fit.normalStiffness = 10;
       plane.fit.shearStiffness = 5;
+      plane.fit.stiffnessCap = 100;
       if (random() % 2 == 0)
       {
         plane.area = .5;
@@ -99,6 +100,7 @@ std::vector<JointLaw> someLaws()
   law.curve.inverseMaximumClosure = .1;
   JointLaw other = law;
   other.dynamicFriction = .1;
+  other.curve.inverseMaximumClosure = 10;
   JointLaw bent;
   bent.friction = .3;
   bent.bond = Bond::softening(Bond::Kind::Linear, 1, 1, .3, .3);
@@ -177,6 +179,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     std::vector<Plane> alone = table.planes;
     Slots together(table.planes);
     int carrying = 0, irregular = 0, woken = 0, uneven = 0, byShear = 0, even = 0;
+    int loaded = 0, begun = 0; // on the curve that stiffens most
     for (int cycle = 0; cycle < 15; ++cycle, table.move())
     {
       const std::vector<HalfStepFace> faces = table.faces(o);
@@ -184,10 +187,13 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
         if (plane.face[0] >= 0)
         {
           const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
-          const bool wasUneven = plane.crushedUnevenly;
+          const bool wasUneven = plane.crushedUnevenly, carried = plane.area > 0;
+          const Real most = plane.history.maximumClosure;
           updateByForces<3>(plane, a, b, laws[plane.joint], o, dt);
           ASSERT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
           carrying += plane.area > 0;
+          (carried ? loaded : begun) +=
+              plane.joint == 1 && plane.history.maximumClosure > most && plane.area > 0;
           uneven += plane.crushedUnevenly;
           byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
                      plane.crushing().along[1] == 0;
@@ -213,6 +219,8 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
     {
       EXPECT_GT(uneven, 1000);
       EXPECT_GT(byShear, 20);
+      EXPECT_GT(loaded, 100);
+      EXPECT_GT(begun, 20);
       EXPECT_GT(even, 1000);
     }
   }

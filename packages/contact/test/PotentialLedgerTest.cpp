@@ -73,8 +73,8 @@ TEST(LedgerOfThePotential, aCurveThatIsLoadedWhileItsFacesTurnAwayLosesWhatIsBoo
       for (const auto& leftOverOf : {leftOver<2>, leftOver<3>})
       {
         const Real coarse = leftOverOf(angle, 400, growth), fine = leftOverOf(angle, 1600, growth);
-        EXPECT_LT(std::abs(coarse), 1.5e-3); // 79 degrees: 1.0e-3 and 1.4e-4; at 40 below 1e-4
-        EXPECT_LT(std::abs(fine), 2e-4);
+        EXPECT_LT(std::abs(coarse), 1e-3);
+        EXPECT_LT(std::abs(fine), 1e-4);
         if (angle == 40)
         { // of the second order in the step
           EXPECT_LT(std::abs(fine), .1 * std::abs(coarse));

@@ -1,5 +1,6 @@
 """V24: a block bounces off a linear contact, without and with damping."""
 
+import copy
 import math
 
 import numpy
@@ -80,4 +81,46 @@ for zeta, name, mesh, masses, kind in (
     case.check(f"damping work, {told} [J]", h["contact_damping"][-1], (1 - e**2) * h["kinetic"][0], 0.02, relative=True)
     # Work of the dashpot by the velocity before its force alone would leave a gain of first order in the step.
     case.check(f"contact remainder, {told}, over the energy", h["contact_remainder"][-1] / h["kinetic"][0], 0, 2e-4)
+
+# --- curves that are passed within a step ---------------------------------------------------------
+# Two squares of four elements meet; the bodies close the whole curve in one step or less. With half of the time error at
+# most they keep what is theirs, less the loss of the curve, whatever the step.
+squares = {"dimension": 2, "parts": [{"shape": "box", "block": block, "min": [0, low], "size": [0.4, 0.4], "divisions": [2, 2]} for block, low in (("lower", -0.4002), ("upper", 0.0))]}
+laws = {
+    "closure_curve": {"model": "closure_curve", "initial_stiffness": 1e10, "maximum_closure": 1e-4},
+    "table": {"model": "table", "closures": [5e-5, 1e-4, 1.5e-4], "tractions": [5e5, 2e6, 6e6]},
+}
+for name, law in laws.items():
+    for v in (1.0, 5.0):
+        lost = {}
+        for factor in (0.8, 0.1):
+            told = f"{name}, {v:g} m/s, step factor {factor}"
+            deck = {
+                "materials": {"rock": {"model": "linear_elastic", "density": 2600, "youngs_modulus": 30e9, "poisson_ratio": 0}},
+                "blocks": {"lower": {"material": "rock"}, "upper": {"material": "rock"}}, "joints": {"curve": law}, "contact": {"default_joint": "curve"},
+                "initial": [{"block": "lower", "velocity": [0, v, 0]}, {"block": "upper", "velocity": [0, -v, 0]}],
+                "viscosity": {"linear": 0, "quadratic": 0}, "time": {"end": 1e-3 + 2e-4 / v, "step_factor": factor}, "history": {"every": 1e-9},
+            }  # fmt: skip
+            h = case.run(f"{name}_{v:g}_{factor}", squares, deck, remainder=0.05).history
+            energy = (h["kinetic"] + h["internal"] + h["hourglass"] + h["contact_stored"]) / h["kinetic"][0]
+            lost[factor] = h["contact_hysteresis"][-1] / h["kinetic"][0]
+            case.check(f"{told}: largest energy over that at the start, less 1", energy.max() - 1, 0, 2e-3)
+            case.check(f"{told}: fall of the hysteresis over the energy", max(0.0, -numpy.diff(h["contact_hysteresis"]).min()) / h["kinetic"][0], 0, 1e-14)
+            case.check(f"{told}: what is lost, without the hysteresis", 1 - energy[-1] - lost[factor], 0, 0.03 if factor == 0.8 else 3e-3)
+        case.check(f"{name}, {v:g} m/s: hysteresis at a step factor of 0.8 over that at 0.1", lost[0.8] / lost[0.1], 1, 1e-9)
+
+# Uneven closures on a curve that gets a hundred times as stiff: the upper square is turned by 1e-4 over its width; in space, too.
+for dimension in (2, 3):
+    more = [0.0] * (dimension - 2)
+    turned = {"dimension": dimension, "parts": [
+        {"shape": "box", "block": block, "min": [0, low, *more], "size": [0.4] * dimension, "divisions": [2] * dimension, **({"rotate": [*more, *more, 0.0143] if more else 0.0143} if low == 0 else {})}
+        for block, low in (("lower", -0.4004), ("upper", 0.0))]}  # fmt: skip
+    steep = copy.deepcopy(deck)
+    steep["joints"] = {"curve": {**laws["closure_curve"], "stiffness_cap": 1e12}}
+    steep["time"] = {"end": 1e-3}
+    h = case.run(f"steep_{dimension}", turned, steep, remainder=0.1, energy=5e-3).history
+    energy = (h["kinetic"] + h["internal"] + h["hourglass"] + h["contact_stored"]) / h["kinetic"][0]
+    case.check(f"steep curve, turned, {dimension}D: largest energy over that at the start, less 1", energy.max() - 1, 0, 0.02)
+    case.check(f"steep curve, turned, {dimension}D: fall of the hysteresis over the energy", max(0.0, -numpy.diff(h["contact_hysteresis"]).min()) / h["kinetic"][0], 0, 1e-14)
+    case.check_within(f"steep curve, turned, {dimension}D: hysteresis over the energy", h["contact_hysteresis"][-1] / h["kinetic"][0], 1e-5, 0.1)
 case.finish()

@@ -86,4 +86,21 @@ case.check("seam: contact remainder over the work of the drive", abs(h["contact_
 case.check_within("seam: friction work [J]", h["contact_friction"][-1], 1e3, 1e4)
 for column in ("contact_friction", "contact_stored", "kinetic"):
     case.check(f"seam: {column}, one card against two [J]", float(numpy.max(numpy.abs(h[column] - seams["two"][column]))), 0, 0)
+
+# --- damped bonds that are pulled apart: they carry while they are open, and count in the step ----
+squares = {"dimension": 2, "parts": [{"shape": "box", "block": block, "min": [0, low], "size": [0.4, 0.4], "divisions": [2, 2]} for block, low in (("lower", -0.4), ("upper", 0.0))]}
+for model, damping, v in (("mortar", 0, 1.5), ("mortar", 0.5, 1.5), ("mortar", 3, 1.5), ("bilinear", 3, 4.0)):
+    deck = {
+        "materials": {"brick": {"model": "linear_elastic", "density": 2600, "youngs_modulus": 30e9, "poisson_ratio": 0}},
+        "blocks": {"lower": {"material": "brick"}, "upper": {"material": "brick"}},
+        "joints": {"bed": {"model": model, "normal_stiffness": 1e11, "friction": 0.5, "tensile_strength": 3e6, "cohesion": 4e6, "tension_energy": 500, "shear_energy": 2000}},
+        "contact": {"pairs": [{"blocks": ["*", "*"], "joint": "bed", "declared": True}], "damping": {"normal": damping, "shear": damping}},
+        "initial": [{"block": "lower", "velocity": [0, -v, 0]}, {"block": "upper", "velocity": [0, v, 0]}],
+        "viscosity": {"linear": 0, "quadratic": 0}, "time": {"end": 6e-3}, "history": {"every": 1e-9},
+    }  # fmt: skip
+    # Without damping the bond breaks within some ten steps: first order.
+    h = case.run(f"pulled_{model}_{damping:g}", squares, deck, remainder=0.02 if damping else 0.06).history
+    energy = (h["kinetic"] + h["internal"] + h["hourglass"] + h["contact_stored"]) / h["kinetic"][0]
+    case.check(f"{model} pulled apart at {v:g} m/s, damping {damping:g}: largest energy over that at the start, less 1", energy.max() - 1, 0, 1e-4)
+    case.check_within(f"{model} pulled apart, damping {damping:g}: fracture energy over that of the joint", h["contact_fracture"][-1] / (500 * 0.4), 0.02, 1.02)
 case.finish()

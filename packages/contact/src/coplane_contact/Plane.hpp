@@ -170,7 +170,7 @@ struct alignas(64) Plane
 
   Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
   Real stored = 0;            ///< recoverable energy now [J]
-  /// Potential only. Of a stiffening curve: nothing, and the area of the last cycle by which its
+  /// Potential only. Of a stiffening curve: not used, and the area of the last cycle by which its
   /// hysteresis counts [m^2]. Of crushing that takes stiffness: the maximum closure of the cycle
   /// before [m], and what of the cost of the rise since then is booked in this one [J]. Of a joint
   /// that is crushed unevenly: how its crushing changes with the affine coordinates of face 0 [m].

@@ -176,7 +176,7 @@ inline constexpr auto planeMembers = std::make_tuple(
         "stored", "J", [](auto& p) -> auto& { return p.stored; })
         .writtenAs("stored"),
     planeMember(
-        "closure_memory", "m, J", [](auto& p) -> auto& { return p.closureMemory; }),
+        "closure_memory", "m, J or m^2", [](auto& p) -> auto& { return p.closureMemory; }),
     planeMember(
         "crushed_unevenly", "-", [](auto& p) -> auto& { return p.crushedUnevenly; }),
     planeMember(

@@ -79,9 +79,10 @@ Plane PlaneTable::freshPlane(std::size_t slot) const
   plane.unseen = slots_.activity(slot) == Activity::Apart;
   plane.fit =
       rules_->joints[rule.joint].law.fittedTo(a.thickness, a.modulus, b.thickness, b.modulus);
+  const JointLaw& law = rules_->joints[rule.joint].law;
+  const Real stiffest = law.curve.stiffens() ? plane.fit.stiffnessCap : plane.fit.normalStiffness;
   plane.stiff = (a.rigid && b.rigid) ||
-                plane.fit.normalStiffness * (a.thickness / a.modulus + b.thickness / b.modulus) >
-                    stiffestCalm;
+                stiffest * (a.thickness / a.modulus + b.thickness / b.modulus) > stiffestCalm;
   plane.depthLimit = float(depthMax_ * std::min(a.thickness, b.thickness));
   if (!slots_.edges.empty())
     putEdges(slots_.edges[slot], plane);

@@ -170,15 +170,14 @@ private:
         pair_.beCrushed(planes_.plane[0]->crushing());
     if (branchFree::anyOf(opposed))
       findClosure();
-    loadCurves(opposed &&
-               planes_.each([](const Plane& p) { return p.area > 0 && p.isBorn(); }) > 0.0);
+    const Mask carried =
+        planes_.each([](const Plane& p) { return p.area > 0 && p.isBorn(); }) > 0.0;
+    loadCurves(opposed && carried && (pair_.regular || Mask(width == 1)));
     done_ = pair_.regular || !opposed || Mask(width == 1);
     if constexpr (width != 1)
     {
       leaveCrushed(opposed);
-      done_ =
-          done_ &&
-          !(opposed && branchFree::gathered<T>([&](int i) -> Real { return reach(i) > 0; }) > 0.0);
+      leaveNewOnCurves(opposed && !carried);
     }
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
@@ -194,26 +193,33 @@ private:
     pair_.meet(offset - all(permanents_), bonded_, edgesOf(planes_));
   }
 
-  /// Closure that a stiffening curve reaches now for the first time [m]; 0: none. The mean over the
+  /// Closure of a stiffening curve, where it is more than ever [m]; else 0. The mean over the
   /// pressure: even closures lie on the curve.
   KOKKOS_FORCEINLINE_FUNCTION Real reach(int i) const
   {
     const JointLaw& law = *planes_.law[i];
     const JointState& history = planes_.plane[i]->history;
     const Real volume = branchFree::lane(pair_.moments.volume, i);
-    if (reached_[i] > 0 || !law.curve.stiffens() || history.bonded || !(volume > 0))
+    if (!law.curve.stiffens() || history.bonded || !(volume > 0))
       return 0;
+    const Real known = reached_[i] > history.maximumClosure ? reached_[i] : history.maximumClosure;
     const Real closure = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
-    return closure > history.maximumClosure ? closure : 0;
+    return closure > (1 + roundOffOfReach) * known ? closure : 0;
   }
+  static constexpr Real roundOffOfReach = 1e-9;
+  /// By uneven closures a curve reaches further with each tangent, from below; even ones take one.
+  static constexpr int mostTangents = 8;
 
   /// Curves that close as never before bear what they do at the closure of this cycle: with the
   /// tangent at that of the last one a fast closure, which passes the curve in one step, would find
   /// the energy of a stiffer tangent in the next.
   KOKKOS_FORCEINLINE_FUNCTION void loadCurves(const Mask& loading)
   {
-    bool any = false;
-    if (branchFree::anyOf(loading))
+    if (!branchFree::anyOf(loading))
+      return;
+    for (int pass = 0; pass < mostTangents; ++pass)
+    {
+      bool any = false;
       for (int i = 0; i < width; ++i)
         if (branchFree::lane(loading, i))
           if (const Real closure = reach(i); closure > 0)
@@ -222,10 +228,21 @@ private:
             layTangent(i, closure);
             any = true;
           }
-    if (!any)
-      return;
-    slope_ = all(slopes_);
-    findClosure();
+      if (!any)
+        return;
+      slope_ = all(slopes_);
+      findClosure();
+    }
+  }
+
+  /// What begins to touch on a curve is left to T = Real, which knows whether it carries.
+  KOKKOS_FORCEINLINE_FUNCTION void leaveNewOnCurves(const Mask& touching)
+  {
+    if (branchFree::anyOf(touching))
+      done_ = done_ && !(touching && branchFree::gathered<T>(
+                                         [&](int i) -> Real {
+                                           return !planes_.plane[i]->isRefused() && reach(i) > 0;
+                                         }) > 0.0);
   }
 
   /// What is crushed unevenly, or will be in this cycle, is left to T = Real.
@@ -368,7 +385,7 @@ private:
     {
       if (touching && crushes_[0])
         crushed = unevenly().crush(permanents_[0]);
-      loadCurves(touching); // what has just begun to touch
+      loadCurves(touching && !(planes_.plane[0]->area > 0)); // what has just begun to touch
     }
     const ContactMoments<T>& m = pair_.moments;
     EnergyDensity<T> density;
@@ -607,9 +624,12 @@ private:
     const Real area = energyShare * (2 * branchFree::lane(pair_.rising(), i) * volume - squares);
     Real& areaBefore = plane.loadedArea();
     if (now > before)
-      plane.hysteresisWork +=
-          0.5 * (area + (areaBefore > 0 ? areaBefore : area)) *
-          (law.curve.hysteresis(plane.fit, now) - law.curve.hysteresis(plane.fit, before));
+    {
+      const Real first = plane.area > 0 && areaBefore != 0 ? areaBefore : area;
+      plane.hysteresisWork += 0.5 * (first + area) *
+                              std::fmax(0.0, law.curve.hysteresis(plane.fit, now) -
+                                                 law.curve.hysteresis(plane.fit, before));
+    }
     areaBefore = area;
   }
 
@@ -747,10 +767,22 @@ private:
           branchFree::lane(near, i)
               ? float(plane.weightInStep() *
                       planes_.law[i]->stiffnessBound(plane.fit, plane.history,
-                                                     branchFree::lane(deepest_ + ahead, i)) *
+                                                     foreseen(i) + branchFree::lane(ahead, i)) *
                       branchFree::lane(nodeArea, i))
               : 0;
     }
+  }
+
+  /// Closure at which a curve bears now [m]; before faces touch that of the point that is nearest.
+  /// Moved evenly the mean over the pressure rises by no more than the motion.
+  KOKKOS_FORCEINLINE_FUNCTION Real foreseen(int i) const
+  {
+    const Real volume = branchFree::lane(pair_.moments.volume, i),
+               deepest = branchFree::lane(deepest_, i);
+    if (!(volume > 0))
+      return deepest;
+    const Real mean = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
+    return mean < deepest ? mean : deepest;
   }
 
   // Rims make a contact stiffer that is deep for its width: from this fraction of the shortest edge
