@@ -48,9 +48,9 @@ KOKKOS_INLINE_FUNCTION Real lostOfTangent(Real oldStiffness, Real oldSquares, Re
                  rising * (oldStiffness + stiffness) * (oldSquares - squares));
 }
 
-/// What crushing that takes stiffness loses when its maximum closure rises from `before` to now, with
-/// the area in contact as it is [J]. The moments are those of closures beyond the permanent closure
-/// of now.
+/// What crushing that takes stiffness loses when its maximum closure rises from `before` to now,
+/// with the area in contact as it is [J]. The moments are those of closures beyond the permanent
+/// closure of now.
 KOKKOS_INLINE_FUNCTION Real lostByLoading(const JointLaw& law, const JointFit& fit, Real before,
                                           Real now, Real area, Real volume, Real squares,
                                           Real rising)
