@@ -4,7 +4,7 @@ import copy
 import math
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, tellings
 
 case = Case("V24", __file__)
 length, density, modulus, stiffness, speed = 0.1, 2300.0, 33e9, 1e9, 1.0
@@ -73,6 +73,8 @@ for zeta, name, mesh, masses, kind in (
     (0.21545, "a disc", disc(), 2, {"geometry": "axisymmetric"}),
     (0.6, "one element", block(), 2, {}),
 ):
+    if tellings.wanted() and name != "one element":
+        continue
     run = case.run(f"damped_{zeta}_{name.replace(' ', '_')}", mesh, {**deck, **kind, "contact": {**deck["contact"], "damping": {"normal": zeta * math.sqrt(masses)}}})
     h = run.history
     e = restitution(zeta)
@@ -81,6 +83,9 @@ for zeta, name, mesh, masses, kind in (
     case.check(f"damping work, {told} [J]", h["contact_damping"][-1], (1 - e**2) * h["kinetic"][0], 0.02, relative=True)
     # Work of the dashpot by the velocity before its force alone would leave a gain of first order in the step.
     case.check(f"contact remainder, {told}, over the energy", h["contact_remainder"][-1] / h["kinetic"][0], 0, 2e-4)
+
+if tellings.wanted():  # bounces of one block are what is told in other words
+    case.finish()
 
 # --- curves that are passed within a step ---------------------------------------------------------
 # Two squares of four elements meet; the bodies close the whole curve in one step or less. With half of the time error at
