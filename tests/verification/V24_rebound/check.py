@@ -2,6 +2,7 @@
 
 import copy
 import math
+import sys
 
 import numpy
 from coplanetest import Case, tellings
@@ -86,6 +87,7 @@ for zeta, name, mesh, masses, kind in (
 
 if tellings.wanted():  # bounces of one block are what is told in other words
     case.finish()
+    sys.exit()
 
 # --- curves that are passed within a step ---------------------------------------------------------
 # Two squares of four elements meet; the bodies close the whole curve in one step or less. With half of the time error at
