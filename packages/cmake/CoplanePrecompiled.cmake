@@ -4,7 +4,6 @@
 # -DCOPLANE_UNITY=ON, as the commands of the README have it: sources of a library or program are compiled eight at a time, so what they
 # all include and instantiate is compiled once. In what follows a change more is compiled again, so it is off by default. Two of the eight
 # cannot have a name in anonymous namespaces in common: rename one. Tests, and with ONE_BY_ONE, are compiled one by one.
-# Tests are half of what there is to compile, so they have -O1; what compares bits of kernels in headers takes -O3 back (contact/test).
 option(COPLANE_UNITY "Compile sources of libraries and programs several at a time" OFF)
 
 option(COPLANE_PRECOMPILED "Compile with precompiled headers of Kokkos, fmt, MPI and the standard library" ON)
@@ -34,7 +33,6 @@ function(coplane_precompile)
   set(_suffix "")
   if(P_TESTS)
     set(_suffix _tests)
-    target_compile_options(${P_UNPARSED_ARGUMENTS} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(COPLANE_UNITY AND NOT P_TESTS AND NOT P_ONE_BY_ONE)
     set_target_properties(${P_UNPARSED_ARGUMENTS} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)

@@ -1,6 +1,7 @@
-# coplane_unit_test(<package> SOURCES <file> ... [RANKS 1 2 4] [LIBRARIES <target> ...])
+# coplane_unit_test(<package> SOURCES <file> ... [AS_SHIPPED <file> ...] [RANKS 1 2 4] [LIBRARIES <target> ...])
 #   One GoogleTest program per package; it runs once for every number of ranks on both back ends. Label: unit; with threads on more than
-#   two ranks, and on more than four ranks, also slow.
+#   two ranks, and on more than four ranks, also slow. Sources have -O1, which compiles faster; AS_SHIPPED: what compares the bits of
+#   kernels in headers, compiled as programs are.
 # coplane_program_test(<name> LABELS <label> ... COMMAND <command> ... [PROCESSORS n] [TIMEOUT s])
 #   A whole-program check. Its working folder is made fresh for it.
 if(COPLANE_TESTS)
@@ -10,9 +11,11 @@ set(COPLANE_MPI_ENVIRONMENT OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONF
     OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMP_WAIT_POLICY=passive OMP_PROC_BIND=false)
 
 function(coplane_unit_test package)
-  cmake_parse_arguments(T "" "" "SOURCES;RANKS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(T "" "" "SOURCES;AS_SHIPPED;RANKS;LIBRARIES" ${ARGN})
   set(_target coplane_${package}_test)
-  add_executable(${_target} ${T_SOURCES})
+  add_executable(${_target} ${T_SOURCES} ${T_AS_SHIPPED})
+  target_compile_options(${_target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  set_source_files_properties(${T_AS_SHIPPED} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
   target_link_libraries(${_target} PRIVATE coplane::${package} coplane::testing ${T_LIBRARIES})
   coplane_precompile(${_target} TESTS)
   add_dependencies(unit_tests ${_target})

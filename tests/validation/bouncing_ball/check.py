@@ -4,18 +4,13 @@ import math
 
 import numpy
 from coplanetest import ValidationCase
+from coplanetest.rebound import restitution
 
 case = ValidationCase(__file__)
 G, HEIGHT, SIDE, DENSITY = 9.81, 0.05, 0.1, 2300.0
 ZETA = 0.10  # of the stone as a whole
 FALL = math.sqrt(2 * HEIGHT / G)
 IMPACT = G * FALL
-
-
-def restitution(zeta):
-    """Of a mass on a spring and a dashpot that push and never pull (derived in V24): the force ends at tan(w t) = -2 zeta w / (1 - 2 zeta^2), w^2 = 1 - zeta^2, with the speed exp(-zeta t)."""
-    w = math.sqrt(1 - zeta**2)
-    return math.exp(-zeta / w * (math.pi - math.atan2(2 * zeta * w, 1 - 2 * zeta**2)))
 
 
 def height(times, e):

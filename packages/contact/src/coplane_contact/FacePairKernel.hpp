@@ -682,15 +682,15 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
   const auto large = patch.area > smallest;
   const T gap = gapOf(patch, shadowA, shadowB);
   const auto carries = planes.each([](const Plane& p) { return p.area; }) > 0.0;
-  T deepest{}, motion{}, approach{}, ahead{};
+  const T speed = choose(patch.overlap > 0.0, approachSpeed(trial.normal, a, b), T(0.0));
+  const T ahead = options.lookAhead * speed;
+  T deepest{}, motion{}, approach{};
   if (!allOf(large && carries))
   {
     deepest = options.area == ContactOptions::Area::Full
                   ? gap
                   : patch.leastGap + planes.each([](const Plane& p) { return p.offset; });
-    const T speed = choose(patch.overlap > 0.0, approachSpeed(trial.normal, a, b), T(0.0));
     approach = 2.0 * dt * speed;
-    ahead = options.lookAhead * speed;
     // From the half step to the end of the step.
     motion = (0.5 * dt) * dot(trial.normal, weighted(patch.centroidWeights[1], b.v, b.count) -
                                                 weighted(patch.centroidWeights[0], a.v, a.count));
@@ -740,9 +740,11 @@ updatePlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const Half
         plane.gap = lane(patch.leastGap, i) + plane.offset;
     }
     plane.sighting = late[i] ? Sighting::FoundLate : Sighting::Known;
+    const Real closure = plane.area > 0 ? plane.closure : -lane(patch.leastGap, i);
     plane.nodeStiffness = plane.area > 0 || lane(near, i)
                               ? float(plane.weightInStep() * lane(share, i) *
-                                      planes.law[i]->stiffnessBound(plane.fit, plane.history))
+                                      planes.law[i]->stiffnessBound(plane.fit, plane.history,
+                                                                    closure + lane(ahead, i)))
                               : 0;
   }
   return done;

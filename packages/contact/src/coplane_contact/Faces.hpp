@@ -22,7 +22,9 @@ struct Face
   int body = 0;                    ///< number of the body at the start, the same on all ranks
   Real thickness = 0; ///< of the element behind it when the face was born: volume / area [m]
   Real modulus = 0;   ///< P-wave modulus of the undamaged material [Pa]
-  Real mass = 0;      ///< that moves with it: half of the element behind it [kg]
+  /// That moves with it: half of the element behind it [kg]; in bodies of revolution of one metre
+  /// of the undeformed hoop.
+  Real mass = 0;
   Real pressure = 0;  ///< of conditions on it at t = 0: a declared joint does not carry it [Pa]
   bool local = false; ///< this rank owns at least one node
   bool ownedHere =

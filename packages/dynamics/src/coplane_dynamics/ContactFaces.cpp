@@ -32,29 +32,24 @@ void putFarNodes(const RankMesh::Block& part, int element, Face& face)
   }
 }
 
+/// Of volumes and masses of elements: the part that one undeformed metre along the hoop has; in
+/// other geometries all of them.
+Real perHoop(const ElementBlock& block, int element)
+{
+  if (block.options().geometry != Geometry::Axisymmetric)
+    return 1;
+  const Real length = block.referenceLength()(element);
+  return length * length / block.referenceVolume(element);
+}
+
 /// Volume of the element behind a face over the area of the face [m]; of an element that has been
 /// crushed, and may have a side without area, its size.
 Real thicknessBehind(const ElementBlock& block, int element, Real area, int dimension)
 {
-  Real volume = block.volume(element);
-  if (block.options().geometry == Geometry::Axisymmetric)
-  {
-    // Of one metre along the hoop.
-    const Real length = block.referenceLength()(element);
-    volume *= length * length / block.referenceVolume(element);
-  }
+  const Real volume = block.volume(element) * perHoop(block, element);
   const Real thickness = volume / area;
   const Real size = dimension == 2 ? std::sqrt(std::abs(volume)) : std::cbrt(std::abs(volume));
   return thickness > 0 && thickness < thickestOfSize * size ? thickness : size;
-}
-/// Mass of the element behind a face [kg]; of bodies of revolution, of one undeformed metre along
-/// the hoop.
-Real massBehind(const ElementBlock& block, int element)
-{
-  if (block.options().geometry != Geometry::Axisymmetric)
-    return block.mass(element);
-  const Real length = block.referenceLength()(element);
-  return block.mass(element) * length * length / block.referenceVolume(element);
 }
 } // namespace
 
@@ -90,7 +85,7 @@ std::vector<Face> contactFaces(const RankMesh& mesh, const std::vector<ElementBl
     const Real area = norm(cornersAt(x, face).area(mesh.dimension));
     face.thickness = thicknessBehind(block, side.element, area, mesh.dimension);
     face.modulus = pWaveModulus(block.material());
-    face.mass = 0.5 * massBehind(block, side.element);
+    face.mass = 0.5 * block.mass(side.element) * perHoop(block, side.element);
     faces.push_back(face);
   }
   return faces;

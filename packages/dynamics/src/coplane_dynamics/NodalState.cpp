@@ -3,7 +3,7 @@
 namespace coplane
 {
 NodalState::NodalState(const RankMesh& mesh)
-    : x("x", mesh.nodes()), v("v", mesh.nodes()), mass("mass", mesh.nodes()),
+    : x("x", mesh.nodes()), v("v", mesh.nodes()), mass("mass", mesh.ownedNodes),
       reference("reference", mesh.nodes()), vPrevious("vPrevious", mesh.ownedNodes),
       force("force", mesh.ownedNodes), contactForce("contactForce", mesh.ownedNodes),
       external("external", mesh.ownedNodes), damping("damping", mesh.ownedNodes),
@@ -27,6 +27,5 @@ void NodalState::resize(const NodeLayout& layout)
 {
   Kokkos::resize(x, layout.size());
   Kokkos::resize(v, layout.size());
-  Kokkos::resize(mass, layout.size());
 }
 } // namespace coplane

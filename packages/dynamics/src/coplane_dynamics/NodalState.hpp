@@ -7,7 +7,7 @@
 
 namespace coplane
 {
-/// What every node knows. x, v and mass exist for all nodes of the layout (owned first), reference
+/// What every node knows. x and v exist for all nodes of the layout (owned first), reference
 /// for those of the rank's mesh; the rest for owned nodes only.
 struct NodalState
 {

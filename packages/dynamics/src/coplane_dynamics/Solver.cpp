@@ -52,7 +52,6 @@ Solver::Solver(Model model, const Comm& comm)
 {
   attempt([&] { elements_.setInitialStress(model_); });
   attempt([&] { startVelocities(); });
-  layout_.refresh(state_.mass);
   erosion_.emplace(model_, elements_);
   motion_.emplace(model_, elements_, state_, comm);
   lines_.emplace(model_.lines, mesh(), comm);
@@ -157,7 +156,6 @@ void Solver::prepare()
   {
     findElementForces();
     raiseMasses(true);
-    layout_.refresh(state_.mass);
   }
   if (contact_)
     openContact();
@@ -286,7 +284,6 @@ void Solver::takeGhostNodes(const std::vector<GlobalId>& ghostNodes)
     return;
   state_.resize(layout_);
   layout_.refresh(state_.x, state_.v);
-  layout_.refresh(state_.mass);
 }
 
 NodeVectors Solver::ownedOf(const NodeVectors& all) const
@@ -380,11 +377,10 @@ void Solver::raiseMasses(bool atStart)
     massesRaised_ = true;
 }
 
-/// Some rank has raised masses: all know them, and whether they are too large now.
+/// Some rank has raised masses: whether they are too large now.
 void Solver::agreeOnMasses()
 {
   massesRaised_ = false;
-  layout_.refresh(state_.mass);
   const std::string beyond = step_.scaling().beyondLimit(parts());
   if (beyond.empty())
     return;

@@ -130,7 +130,6 @@ void Solver::leaveAbsentBlocks()
   demandNoRigidNodes(model_.absentBlocks);
   erosion_->beginWithout(model_.absentBlocks, mesh(), elements_);
   elements_.sumMasses(state_);
-  layout_.refresh(state_.mass);
   std::vector<GlobalId> absent;
   for (const int b : model_.absentBlocks)
   {
@@ -188,7 +187,6 @@ bool Solver::comeIn(const ComingBlocks& coming, Real time)
     set(state_.impulse, n, at(state_.impulse, n) + momentum);
     set(state_.angularImpulse, n, at(state_.angularImpulse, n) + cross(at(state_.x, n), momentum));
   }
-  layout_.refresh(state_.mass);
   erosion_->recount(mesh(), elements_);
   model_.conditions.takeFaceLoads(coming.conditions);
   model_.conditions.endLoadsOn(erosion_->dead(mesh(), elements_, *comm_));
@@ -225,7 +223,6 @@ void Solver::takeMassAlong(const std::vector<int>& blocks)
       set(state_.vPrevious, n, {});
     }
   }
-  layout_.refresh(state_.mass);
 }
 
 /// Faces of contact that blocks have covered; sorted, on all ranks.

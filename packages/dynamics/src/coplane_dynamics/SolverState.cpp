@@ -124,8 +124,6 @@ void Solver::restore(const StateSource& in)
   layout_.refresh(state_.x, state_.v);
   if (model_.blocksComeOrGo)
     elements_.sumMasses(state_);
-  if (model_.blocksComeOrGo || model_.time.massScaling)
-    layout_.refresh(state_.mass);
   if (contact_)
   {
     takeGhostNodes(contact_->restoreFaces(in, layout_.ids()));

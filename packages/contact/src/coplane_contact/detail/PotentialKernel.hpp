@@ -558,9 +558,9 @@ private:
     else if (crushes_[i])
       keepCrushing(plane, i, crushing, response, state, out);
     else if (law.curve.stiffens())
-      loadCurve(plane, i, energyShare, state);
+      loadCurve(plane, law, closedPair(i, energyShare), reached_[i], state);
     else if (!law.curve.straight())
-      crushWithLoss(plane, i, energyShare, closing, response, state);
+      crushWithLoss(plane, law, closedPair(i, energyShare), response, dt_ * closing, state);
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
@@ -605,81 +605,13 @@ private:
         plane.history.maximumClosure > reached ? plane.history.maximumClosure : reached;
   }
 
-  /// What a higher maximum closure of a stiffening curve costs: that of an even closure, times the
-  /// area, the mean of those before and after the step, that gives the work which the tangent does
-  /// not store while it turns. With k' the change of the slope, e = t / k, and the moments V of
-  /// c - p and S of its square, that is k' (eV - S/2) for k' e^2 / 2 per area.
-  KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, int i, Real energyShare,
-                                             JointState& state) const
+  /// Lane i as the history of its joint sees it.
+  KOKKOS_FORCEINLINE_FUNCTION ClosedPair closedPair(int i, Real energyShare) const
   {
-    const JointLaw& law = *planes_.law[i];
-    const Real before = plane.history.maximumClosure;
-    const Real now = reached_[i] > before ? reached_[i] : before;
-    state.maximumClosure = now;
-    const Real elastic = now - permanents_[i];
-    if (!(elastic > 0))
-      return;
-    const Real volume = branchFree::lane(pair_.moments.volume, i) / elastic,
-               squares = branchFree::lane(pair_.moments.squares, i) / (elastic * elastic);
-    const Real area = energyShare * (2 * branchFree::lane(pair_.rising(), i) * volume - squares);
-    Real& areaBefore = plane.loadedArea();
-    if (now > before)
-    {
-      const Real first = plane.area > 0 && areaBefore != 0 ? areaBefore : area;
-      plane.hysteresisWork += 0.5 * (first + area) *
-                              std::fmax(0.0, law.curve.hysteresis(plane.fit, now) -
-                                                 law.curve.hysteresis(plane.fit, before));
-    }
-    areaBefore = area;
-  }
-
-  /// The maximum closure of the next cycle of a joint whose crushing takes stiffness; what it costs
-  /// is booked there, half with the area of this cycle and half with that of the next.
-  KOKKOS_FORCEINLINE_FUNCTION void crushWithLoss(Plane& plane, int i, Real energyShare,
-                                                 Real closing, const JointResponse& response,
-                                                 JointState& state) const
-  {
-    const JointLaw& law = *planes_.law[i];
-    const Real wholeArea = branchFree::lane(pair_.moments.area, i),
-               volume = branchFree::lane(pair_.moments.volume, i),
-               squares = branchFree::lane(pair_.moments.squares, i),
-               rising = branchFree::lane(pair_.rising(), i);
-    const Real before = plane.history.maximumClosure;
-    plane.hysteresisWork += plane.hysteresisDue();
-    plane.hysteresisDue() = 0;
-    if (plane.maximumBefore() < before)
-      plane.hysteresisWork += 0.5 * energyShare *
-                              lostByLoading(law, plane.fit, plane.maximumBefore(), before,
-                                            wholeArea, volume, squares, rising);
-    plane.maximumBefore() = before;
-    if (response.crushedByShear)
-    {
-      // Part of what shear has crushed is in the offset. Half of the work is that of the closures
-      // of this cycle, half of those of the next, when the faces have closed on at the same rate.
-      const Real closed = response.crushed;
-      for (const Real ahead : {0.0, dt_ * closing})
-      {
-        const Real thenVolume = volume + ahead * wholeArea,
-                   thenSquares = squares + ahead * (volume + thenVolume);
-        plane.hysteresisDue() +=
-            0.5 * energyShare *
-            lostOfTangent(slopes_[i], thenSquares, response.normalStiffness,
-                          thenSquares - closed * (2 * thenVolume - closed * wholeArea), rising);
-      }
-      plane.maximumBefore() = state.maximumClosure;
-      return;
-    }
-    state.maximumClosure = before;
-    const Real reached = permanents_[i] + squares / volume;
-    if (!(reached > before))
-      return;
-    const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
-    const Real shift = reached - next.traction / next.stiffness - permanents_[i];
-    state.maximumClosure = reached;
-    plane.hysteresisDue() =
-        0.5 * energyShare *
-        lostOfTangent(slopes_[i], squares, next.stiffness,
-                      squares - 2 * shift * volume + shift * shift * wholeArea, rising);
+    using branchFree::lane;
+    const ContactMoments<T>& m = pair_.moments;
+    return {lane(m.area, i), lane(m.volume, i), lane(m.squares, i), lane(pair_.rising(), i),
+            energyShare,     permanents_[i],    slopes_[i]};
   }
 
   /// Forces at the corners: of the potential, of shear, whose moment is carried by the turning of
