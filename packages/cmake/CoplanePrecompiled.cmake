@@ -1,10 +1,10 @@
 # coplane_precompile(<target> ... [TESTS] [ONE_BY_ONE]): compiles these with one precompiled header of what nearly every source includes: Kokkos, fmt,
 # MPI and the standard library; with TESTS also GoogleTest. Reading those took longer than compiling what is ours. Sources still include
 # what they use: the header of a package that leaves out another header of ours does not compile alone. -DCOPLANE_PRECOMPILED=OFF: without.
-# -DCOPLANE_UNITY=ON, as the commands of the README have it: sources of a library or program are compiled eight at a time, so what they
+# -DCOPLANE_UNITY=ON, as the commands of the README have it: sources of a library, program or test are compiled eight at a time, so what they
 # all include and instantiate is compiled once. In what follows a change more is compiled again, so it is off by default. Two of the eight
-# cannot have a name in anonymous namespaces in common: rename one. Tests, and with ONE_BY_ONE, are compiled one by one.
-option(COPLANE_UNITY "Compile sources of libraries and programs several at a time" OFF)
+# cannot have a name in anonymous namespaces in common: rename one. With ONE_BY_ONE sources are compiled one by one.
+option(COPLANE_UNITY "Compile sources of libraries, programs and tests several at a time" OFF)
 
 option(COPLANE_PRECOMPILED "Compile with precompiled headers of Kokkos, fmt, MPI and the standard library" ON)
 
@@ -34,8 +34,13 @@ function(coplane_precompile)
   if(P_TESTS)
     set(_suffix _tests)
   endif()
-  if(COPLANE_UNITY AND NOT P_TESTS AND NOT P_ONE_BY_ONE)
+  if(COPLANE_UNITY AND NOT P_ONE_BY_ONE)
     set_target_properties(${P_UNPARSED_ARGUMENTS} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    if(P_TESTS) # fixtures in anonymous namespaces
+      foreach(_target IN LISTS P_UNPARSED_ARGUMENTS)
+        target_compile_options(${_target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+      endforeach()
+    endif()
   endif()
   if(COPLANE_PRECOMPILED)
     foreach(_target IN LISTS P_UNPARSED_ARGUMENTS)

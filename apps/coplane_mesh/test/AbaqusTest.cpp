@@ -24,7 +24,7 @@ Mesh meshOf(const std::string& text, std::vector<std::string>* notes = nullptr)
   return convertGmsh(read.mesh, "model.inp").mesh;
 }
 
-std::string errorOf(const std::string& text)
+std::string abaqusErrorOf(const std::string& text)
 {
   try
   {
@@ -160,36 +160,39 @@ TEST(Abaqus, isRefusedInClearWords)
   const auto contains = [](const std::string& text, const std::string& part)
   { EXPECT_NE(text.find(part), std::string::npos) << text; };
   const std::string node = "*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,0,0,1\n";
-  contains(errorOf(node + "*ELEMENT, TYPE=C3D10\n1,1,2,3,4\n"), ":6: elements of type 'C3D10'");
-  contains(errorOf(node + "*ELEMENT, TYPE=CPE8\n"), "Accepted: first-order");
-  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*NSET, NSET=a\n1\n"),
+  contains(abaqusErrorOf(node + "*ELEMENT, TYPE=C3D10\n1,1,2,3,4\n"),
+           ":6: elements of type 'C3D10'");
+  contains(abaqusErrorOf(node + "*ELEMENT, TYPE=CPE8\n"), "Accepted: first-order");
+  contains(abaqusErrorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3\n*NSET, NSET=a\n1\n"),
            ":8: element 1 has 3 nodes; its type has 4");
-  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4,2\n"), ":7: element 1 has 5 nodes");
-  contains(errorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n"), "element 1 names node 9");
-  contains(errorOf(node + "1,0,0,0\n"), ":6: node 1 is given twice");
-  contains(errorOf("*NODE\n1,x,0\n"), ":2: 'x' is found for a coordinate");
-  contains(errorOf("*NODE\n1.5,0,0\n"), ":2: '1.5' is found for the number");
+  contains(abaqusErrorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4,2\n"), ":7: element 1 has 5 nodes");
+  contains(abaqusErrorOf(node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,9\n"), "element 1 names node 9");
+  contains(abaqusErrorOf(node + "1,0,0,0\n"), ":6: node 1 is given twice");
+  contains(abaqusErrorOf("*NODE\n1,x,0\n"), ":2: 'x' is found for a coordinate");
+  contains(abaqusErrorOf("*NODE\n1.5,0,0\n"), ":2: '1.5' is found for the number");
   for (const char* const maker : {"*NGEN", "*NFILL", "*NCOPY", "*ELGEN", "*ELCOPY", "*SYSTEM"})
-    contains(errorOf(node + maker + "\n1, 2, 3\n"), fmt::format(":6: {} is not read", maker));
-  contains(errorOf("*NODE, INPUT=nodes.txt\n"), ":1: INPUT is not followed");
-  contains(errorOf("*NODE, SYSTEM=C\n"), "system C");
-  contains(errorOf(node + "*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n"),
+    contains(abaqusErrorOf(node + maker + "\n1, 2, 3\n"), fmt::format(":6: {} is not read", maker));
+  contains(abaqusErrorOf("*NODE, INPUT=nodes.txt\n"), ":1: INPUT is not followed");
+  contains(abaqusErrorOf("*NODE, SYSTEM=C\n"), "system C");
+  contains(abaqusErrorOf(node + "*INSTANCE, NAME=A, PART=P\n*INSTANCE, NAME=B, PART=P\n"),
            ":7: a second instance");
-  contains(errorOf(node + "*NSET, NSET=a, GENERATE\n1\n"), ":7: GENERATE has lines of");
-  contains(errorOf(node + "*NSET, NSET=a, GENERATE\n1, 4000000000\n"), ":7: GENERATE goes from 1");
-  contains(errorOf(node + "*NSET, NSET=a\nb\n"), ":7: 'b' is no number, and no set");
-  contains(errorOf(node + "*NSET\n1\n"), ":6: *NSET has no name");
-  contains(errorOf(node + "*NSET, NSET=a, ELSET=b\n"), ":6: ELSET names 'b'");
-  contains(errorOf("*NODE\n1,nan,0\n"), ":2: 'nan' is found");
-  contains(errorOf("*INCLUDE, INPUT=mesh.inp\n"), ":1: *INCLUDE is not followed");
-  contains(errorOf("1, 2, 3\n"), ":1: the file does not begin with a keyword");
-  contains(errorOf("*NODE\n1,0,0\n"), "has no elements");
+  contains(abaqusErrorOf(node + "*NSET, NSET=a, GENERATE\n1\n"), ":7: GENERATE has lines of");
+  contains(abaqusErrorOf(node + "*NSET, NSET=a, GENERATE\n1, 4000000000\n"),
+           ":7: GENERATE goes from 1");
+  contains(abaqusErrorOf(node + "*NSET, NSET=a\nb\n"), ":7: 'b' is no number, and no set");
+  contains(abaqusErrorOf(node + "*NSET\n1\n"), ":6: *NSET has no name");
+  contains(abaqusErrorOf(node + "*NSET, NSET=a, ELSET=b\n"), ":6: ELSET names 'b'");
+  contains(abaqusErrorOf("*NODE\n1,nan,0\n"), ":2: 'nan' is found");
+  contains(abaqusErrorOf("*INCLUDE, INPUT=mesh.inp\n"), ":1: *INCLUDE is not followed");
+  contains(abaqusErrorOf("1, 2, 3\n"), ":1: the file does not begin with a keyword");
+  contains(abaqusErrorOf("*NODE\n1,0,0\n"), "has no elements");
   const std::string whole = node + "*ELEMENT, TYPE=C3D4\n1,1,2,3,4\n";
-  contains(errorOf(whole + "*SURFACE, NAME=s\n1, S5\n"), "S5 of element 1, which has 4");
-  contains(errorOf(whole + "*SURFACE, NAME=s\n1, SPOS\n"), ":9: a surface is a set or an element");
-  contains(errorOf(whole + "*SURFACE, NAME=s\nnone, S1\n"), "names 'none', which is neither");
-  contains(errorOf(whole + "*NSET, NSET=s\n8\n"), "the set 's' names node 8");
-  contains(errorOf(whole + "*SOLID SECTION, ELSET=e\n"), "names the element set 'e'");
+  contains(abaqusErrorOf(whole + "*SURFACE, NAME=s\n1, S5\n"), "S5 of element 1, which has 4");
+  contains(abaqusErrorOf(whole + "*SURFACE, NAME=s\n1, SPOS\n"),
+           ":9: a surface is a set or an element");
+  contains(abaqusErrorOf(whole + "*SURFACE, NAME=s\nnone, S1\n"), "names 'none', which is neither");
+  contains(abaqusErrorOf(whole + "*NSET, NSET=s\n8\n"), "the set 's' names node 8");
+  contains(abaqusErrorOf(whole + "*SOLID SECTION, ELSET=e\n"), "names the element set 'e'");
 }
 } // namespace
 } // namespace coplane

@@ -24,7 +24,7 @@ ConvertedMesh converted(const std::string& text)
 }
 
 /// The text of the error, without the folder of the test.
-std::string errorOf(const std::string& text)
+std::string convertErrorOf(const std::string& text)
 {
   try
   {
@@ -199,7 +199,7 @@ TEST(Convert, textAndBinaryFilesOfGmshGiveTheSameMesh)
 TEST(Convert, aPlaneMeshOutsideZZeroIsRefused)
 {
   EXPECT_EQ(
-      errorOf(plate(plateNames, plateEntities, "0.5")),
+      convertErrorOf(plate(plateNames, plateEntities, "0.5")),
       "model.msh: the mesh has no volume elements, and node 1 is at z = 0.5 m; a mesh of two "
       "dimensions lies in z = 0. Move or turn the model, or add the volumes to a physical group "
       "and mesh in three dimensions.");
@@ -208,7 +208,8 @@ TEST(Convert, aPlaneMeshOutsideZZeroIsRefused)
 TEST(Convert, elementsInTwoGroupsAreRefused)
 {
   EXPECT_EQ(
-      errorOf(plate("2\n2 5 \"plate\"\n2 6 \"other\"\n", "0 0 1 0\n1 0 0 0 2 1 0 2 5 6 0\n", "0")),
+      convertErrorOf(
+          plate("2\n2 5 \"plate\"\n2 6 \"other\"\n", "0 0 1 0\n1 0 0 0 2 1 0 2 5 6 0\n", "0")),
       "model.msh: surface 1 is in the physical groups 'plate' and 'other'; an element belongs "
       "to one block. Take it out of one of them.");
 }
@@ -218,9 +219,9 @@ TEST(Convert, otherVersionsSayHowToExport)
   const std::string advice =
       " Save it as version 4.1: gmsh model.geo -3 -format msh41 (two dimensions: -2), or File > "
       "Export with 'Version 4 ASCII'.";
-  EXPECT_EQ(errorOf("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"),
+  EXPECT_EQ(convertErrorOf("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"),
             "model.msh: the format is version 2.2; 4.1 is accepted." + advice);
-  EXPECT_EQ(errorOf("$NOD\n1\n"),
+  EXPECT_EQ(convertErrorOf("$NOD\n1\n"),
             "model.msh: the file does not begin with $MeshFormat: it is no mesh of Gmsh, or older "
             "than version 2." +
                 advice);
@@ -230,11 +231,11 @@ TEST(Convert, otherElementsAreRefused)
 {
   const std::string head = format + "$Nodes\n0 0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n3 4 ";
   EXPECT_EQ(
-      errorOf(head + "6 1\n"),
+      convertErrorOf(head + "6 1\n"),
       "model.msh: volume 4 has prisms; triangles, quadrilaterals, tetrahedra and hexahedra are "
       "accepted. Mesh it with tetrahedra, or with hexahedra only.");
   EXPECT_EQ(
-      errorOf(head + "11 1\n"),
+      convertErrorOf(head + "11 1\n"),
       "model.msh: volume 4 has elements of Gmsh's type 11, of order two or higher; order one is "
       "accepted. Set Mesh.ElementOrder = 1 and mesh again.");
 }
@@ -243,16 +244,16 @@ TEST(Convert, aDamagedFileIsNamedWithItsLine)
 {
   std::string text = cube("1 2 3 4 5 6 7 8");
   EXPECT_EQ(
-      errorOf(cube("1 2 3 4 5 6 7 9")),
+      convertErrorOf(cube("1 2 3 4 5 6 7 9")),
       "model.msh:27: element 1 uses node 9, which the file does not have. The file is damaged "
       "or no Gmsh mesh; save it again.");
-  EXPECT_EQ(errorOf(cube("1 2 3 four")),
+  EXPECT_EQ(convertErrorOf(cube("1 2 3 four")),
             "model.msh:27: 'four' is found for a node of an element, which is a whole number. The "
             "file is damaged or no Gmsh mesh; save it again.");
   EXPECT_EQ(
-      errorOf(text.substr(0, text.find("$EndNodes"))),
+      convertErrorOf(text.substr(0, text.find("$EndNodes"))),
       "model.msh:22: $EndNodes is missing. The file is damaged or no Gmsh mesh; save it again.");
-  EXPECT_EQ(errorOf(format),
+  EXPECT_EQ(convertErrorOf(format),
             "model.msh:4: $Elements is missing. The file is damaged or no Gmsh mesh; "
             "save it again.");
 }
@@ -260,8 +261,9 @@ TEST(Convert, aDamagedFileIsNamedWithItsLine)
 TEST(Convert, aModelWithoutSurfacesIsRefused)
 {
   EXPECT_EQ(
-      errorOf(format + "$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n0 1 "
-                       "15 1\n1 1\n$EndElements\n"),
+      convertErrorOf(format +
+                     "$Nodes\n1 1 1 1\n0 1 0 1\n1\n0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n0 1 "
+                     "15 1\n1 1\n$EndElements\n"),
       "model.msh: the file has no elements of a surface or a volume. Mesh the model in two or "
       "three dimensions, and put what shall be saved into physical groups.");
 }

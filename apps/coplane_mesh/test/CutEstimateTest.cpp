@@ -19,7 +19,7 @@ namespace
 {
 const Vec3 low{500000, 4000000, 0}, high{500010, 4000010, 10};
 
-BlocksRecipe recipeOf(const std::string& joints, const std::string& more = "")
+BlocksRecipe farRecipe(const std::string& joints, const std::string& more = "")
 {
   return parseBlocksRecipe("{dimension: 3, domain: {box: {min: [500000, 4000000, 0], max: [500010, "
                            "4000010, 10]}}, elements: {size: 1" +
@@ -27,7 +27,7 @@ BlocksRecipe recipeOf(const std::string& joints, const std::string& more = "")
                            "blocks.yaml");
 }
 
-std::vector<JointSurface> surfacesOf(const BlocksRecipe& recipe)
+std::vector<JointSurface> farSurfaces(const BlocksRecipe& recipe)
 {
   Problems problems;
   auto surfaces = jointSurfaces(recipe, "blocks.yaml", low, high, problems);
@@ -39,7 +39,7 @@ std::string refusalOf(const BlocksRecipe& recipe)
 {
   try
   {
-    demandFewParts(recipe, "blocks.yaml", surfacesOf(recipe), low, high, 0.1);
+    demandFewParts(recipe, "blocks.yaml", farSurfaces(recipe), low, high, 0.1);
   }
   catch (const Error& error)
   {
@@ -60,7 +60,7 @@ TEST(EstimatedParts, areThoseOfSetsAtRightAngles)
   // Planes go through the middle: 5 of a spacing of 2 m, 9 of 1.1 m, 3 of 4 m.
   const std::string a = setOf("a", 0, 0, 2), b = setOf("b", 90, 0, 1.1), c = setOf("c", 90, 90, 4);
   const auto partsOf = [](const std::string& joints)
-  { return estimatedParts(surfacesOf(recipeOf(joints)), 3, low, high); };
+  { return estimatedParts(farSurfaces(farRecipe(joints)), 3, low, high); };
   EXPECT_NEAR(partsOf(a), 6, 1e-9);
   EXPECT_NEAR(partsOf(a + ", " + b), 6 * 10, 1e-9);
   EXPECT_NEAR(partsOf(a + ", " + b + ", " + c), 6 * 10 * 4, 1e-9);
@@ -76,20 +76,20 @@ TEST(JointsInWrongUnits, areRefusedBeforeAnythingIsCut)
   const auto contains = [](const std::string& text, const std::string& part)
   { EXPECT_NE(text.find(part), std::string::npos) << text; };
   const std::string grid = setOf("b", 90, 0, 0.5) + ", " + setOf("c", 90, 90, 0.5);
-  EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 2))), "accepted");
-  contains(refusalOf(recipeOf(setOf("a", 0, 0, 0.002))),
+  EXPECT_EQ(refusalOf(farRecipe(setOf("a", 0, 0, 2))), "accepted");
+  contains(refusalOf(farRecipe(setOf("a", 0, 0, 0.002))),
            "joints.a.set: spacing = 0.002 m is not more than slivers.thickness = 0.1 m");
-  contains(refusalOf(recipeOf("a: {planes: {point: [500001, 4000001, 1], normal: [0, 0, 1], "
-                              "spacing: 0.001, count: 4}}")),
+  contains(refusalOf(farRecipe("a: {planes: {point: [500001, 4000001, 1], normal: [0, 0, 1], "
+                               "spacing: 0.001, count: 4}}")),
            "joints.a.planes: spacing = 0.001 m");
-  contains(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid)),
+  contains(refusalOf(farRecipe(setOf("a", 0, 0, 0.2) + ", " + grid)),
            "about 2e+04 parts (87 surfaces of joints.a, 35 surfaces of joints.b, 35 surfaces of "
            "joints.c)");
   const std::string cells = "grains: {voronoi: {cells: 6000}}";
-  contains(refusalOf(recipeOf(cells + ", " + setOf("a", 0, 0, 2))),
+  contains(refusalOf(farRecipe(cells + ", " + setOf("a", 0, 0, 2))),
            "about 6e+03 parts (6000 cells of joints.grains, 9 surfaces of joints.a)");
-  EXPECT_EQ(refusalOf(recipeOf(cells, ", most_parts: 7000")), "accepted");
-  EXPECT_EQ(refusalOf(recipeOf(setOf("a", 0, 0, 0.2) + ", " + grid, ", most_parts: 1e5")),
+  EXPECT_EQ(refusalOf(farRecipe(cells, ", most_parts: 7000")), "accepted");
+  EXPECT_EQ(refusalOf(farRecipe(setOf("a", 0, 0, 0.2) + ", " + grid, ", most_parts: 1e5")),
             "accepted");
 }
 
@@ -167,12 +167,12 @@ TEST(WhatLiesOutside, isNamed)
   const std::string file = "estimate_test_fractures.csv";
   std::ofstream(file) << "x,y,z,radius,dip,dip_direction\n500005,4000005,5,1,0,0\n5,5,5,1,0,0\n";
   const BlocksRecipe recipe =
-      recipeOf("a: {file: " + file +
-                   "}, b: {planes: {point: [500001, 4000001, 1], normal: [0, 0, "
-                   "1]}}, " +
-                   setOf("c", 0, 0, 5000),
-               ", regions: {box: {min: [0, 0, 0], max: [1, 1, 1]}, size: 0.5}");
-  const auto surfaces = surfacesOf(recipe);
+      farRecipe("a: {file: " + file +
+                    "}, b: {planes: {point: [500001, 4000001, 1], normal: [0, 0, "
+                    "1]}}, " +
+                    setOf("c", 0, 0, 5000),
+                ", regions: {box: {min: [0, 0, 0], max: [1, 1, 1]}, size: 0.5}");
+  const auto surfaces = farSurfaces(recipe);
   std::filesystem::remove(file);
   ASSERT_EQ(surfaces.size(), 4u);
   const auto outside = notesOfOutside(recipe, surfaces, {false, true, true, false});

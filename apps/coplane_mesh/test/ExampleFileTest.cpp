@@ -9,7 +9,7 @@ namespace coplane
 {
 namespace
 {
-std::string errorOf(const std::string& text)
+std::string exampleErrorOf(const std::string& text)
 {
   try
   {
@@ -50,17 +50,18 @@ TEST(ExampleFile, textStaysText)
 
 TEST(ExampleFile, keysGivenTwiceInChangesAreRefused)
 {
-  EXPECT_NE(errorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}").find("sizes.S.set.a.b"),
-            std::string::npos)
-      << errorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}");
+  EXPECT_NE(
+      exampleErrorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}").find("sizes.S.set.a.b"),
+      std::string::npos)
+      << exampleErrorOf("title: t\nsizes: {S: {set: {a: {b: 1, b: 2}}}}");
 }
 
 TEST(ExampleFile, allProblemsAreToldAtOnce)
 {
-  EXPECT_EQ(errorOf("title: a wall\n"
-                    "defualt: S\n"
-                    "sizes: {S: {rank: 2}, M: {ranks: 0}}\n"
-                    "variants: {a: {set: [1]}}\n"),
+  EXPECT_EQ(exampleErrorOf("title: a wall\n"
+                           "defualt: S\n"
+                           "sizes: {S: {rank: 2}, M: {ranks: 0}}\n"
+                           "variants: {a: {set: [1]}}\n"),
             "example.yaml:2:1: defualt is not known. Did you mean 'default'? Accepted here: title, "
             "recipe, joints, deck, ranks, default, sizes, variants, pictures, check, summary.\n"
             "example.yaml:3:13: sizes.S.rank is not known. Did you mean 'ranks'? Accepted here: "
@@ -73,7 +74,7 @@ TEST(ExampleFile, allProblemsAreToldAtOnce)
 
 TEST(ExampleFile, theDefaultIsOneOfTheSizes)
 {
-  EXPECT_EQ(errorOf("{title: a, default: coarze, sizes: {coarse: {}}}"),
+  EXPECT_EQ(exampleErrorOf("{title: a, default: coarze, sizes: {coarse: {}}}"),
             "example.yaml:1:21: default = 'coarze' is none of the sizes. Did you mean 'coarse'? "
             "There are: coarse.");
 }

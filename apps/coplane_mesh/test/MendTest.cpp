@@ -9,12 +9,12 @@ namespace coplane
 {
 namespace
 {
-using Mesh = TetrahedraWithSurfaces;
+using Solid = TetrahedraWithSurfaces;
 
 /// A cube of edge 1 of which one node inside sees all of the border.
-Mesh cubeAround(const Vec3& inside)
+Solid cubeAround(const Vec3& inside)
 {
-  Mesh mesh;
+  Solid mesh;
   for (int k = 0; k < 8; ++k)
     mesh.points.push_back({Real(k & 1), Real(k / 2 & 1), Real(k / 4)});
   mesh.points.push_back(inside);
@@ -22,13 +22,13 @@ Mesh cubeAround(const Vec3& inside)
     for (int side = 0; side < 2; ++side)
     {
       const int u = 1 << (axis + 1) % 3, v = 1 << (axis + 2) % 3, low = side << axis;
-      Mesh::Surface surface;
+      Solid::Surface surface;
       surface.normal[axis] = 1;
       surface.point[axis] = side;
       surface.border = Border::Fixed;
       for (const auto& [b, c] : {std::pair(u, u | v), std::pair(u | v, v)})
       {
-        Mesh::Face face{low, low | b, low | c};
+        Solid::Face face{low, low | b, low | c};
         const std::array<int, 4> nodes = side == 0
                                              ? std::array<int, 4>{face[0], face[1], face[2], 8}
                                              : std::array<int, 4>{face[0], face[2], face[1], 8};
@@ -41,7 +41,7 @@ Mesh cubeAround(const Vec3& inside)
   return mesh;
 }
 
-std::array<Vec3, 4> cornersOf(const Mesh& mesh, const Mesh::Simplex& element)
+std::array<Vec3, 4> cornersOf(const Solid& mesh, const Solid::Simplex& element)
 {
   std::array<Vec3, 4> corners;
   for (std::size_t k = 0; k < 4; ++k)
@@ -49,7 +49,7 @@ std::array<Vec3, 4> cornersOf(const Mesh& mesh, const Mesh::Simplex& element)
   return corners;
 }
 
-Real worstOf(const Mesh& mesh)
+Real worstOf(const Solid& mesh)
 {
   Real worst = infinity;
   for (const auto& element : mesh.simplices)
@@ -57,7 +57,7 @@ Real worstOf(const Mesh& mesh)
   return worst;
 }
 
-Real volumeOf(const Mesh& mesh)
+Real volumeOf(const Solid& mesh)
 {
   Real volume = 0;
   for (const auto& element : mesh.simplices)
@@ -83,12 +83,12 @@ TEST(MendedTetrahedra, areNoLongerFlat)
   for (const Vec3& inside :
        {Vec3{0.5, 0.4, 1e-4}, Vec3{1e-3, 1e-4, 0.5}, Vec3{1e-4, 2e-4, 1e-4}, Vec3{0.5, 0.4, 0}})
   {
-    Mesh mesh = cubeAround(inside);
+    Solid mesh = cubeAround(inside);
     ASSERT_LT(worstOf(mesh), 1e-3);
     EXPECT_GT(mend(mesh, limits), 0);
     EXPECT_GT(worstOf(mesh), 0.1);
     EXPECT_NEAR(volumeOf(mesh), 1, 1e-14);
-    Mesh again = cubeAround(inside);
+    Solid again = cubeAround(inside);
     mend(again, limits);
     ASSERT_EQ(again.simplices.size(), mesh.simplices.size());
     for (std::size_t t = 0; t < mesh.simplices.size(); ++t)
@@ -101,7 +101,7 @@ TEST(MendedTetrahedra, areNoLongerFlat)
 
 TEST(MendedTetrahedra, stayAsTheyAreWhenTheyAreGood)
 {
-  Mesh mesh = cubeAround({0.5, 0.5, 0.5});
+  Solid mesh = cubeAround({0.5, 0.5, 0.5});
   EXPECT_EQ(mend(mesh, limits), 0);
   EXPECT_EQ(mesh.simplices.size(), 12u);
 }
@@ -111,8 +111,8 @@ TEST(MendedTetrahedra, bendJointsByTheToleranceOnly)
   // The node is the tip of a joint along x + y = 0.002 that cuts off an edge of the cube.
   for (const Real tolerance : {0.0, 0.1})
   {
-    Mesh mesh = cubeAround({1e-3, 1e-3, 0.5});
-    Mesh::Surface joint;
+    Solid mesh = cubeAround({1e-3, 1e-3, 0.5});
+    Solid::Surface joint;
     joint.point = {1e-3, 1e-3, 0};
     joint.normal = normalised(Vec3{1, 1, 0});
     joint.joint = 0;

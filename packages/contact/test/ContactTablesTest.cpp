@@ -17,9 +17,9 @@ namespace
 ///      |      0      |
 ///      +-------------+
 ///      0  1    2     4
-constexpr Real left = 1, right = 2;    // areas of the joints [m^2]
-constexpr Real soft = 1e9, hard = 2e9; // stiffness [Pa/m]
-const GlobalId lonely = faceId(2, 3);  // the left side of block 1
+constexpr Real leftArea = 1, rightArea = 2; // areas of the joints [m^2]
+constexpr Real soft = 1e9, hard = 2e9;      // stiffness [Pa/m]
+const GlobalId lonely = faceId(2, 3);       // the left side of block 1
 constexpr Real pressure = 1e6, lift = 1e-4;
 const std::vector<Vec3> corners{{0, 0, 0},        {4, 0, 0},        {4, 1, 0}, {0, 1, 0},
                                 {0, 1, 0},        {1, 1, 0},        {1, 2, 0}, {0, 2, 0},
@@ -137,7 +137,7 @@ TEST_F(Tables, jointsAreSummedUpByCard)
   const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
   ASSERT_EQ(joints.size(), 2u);
   // Closure is pressure over stiffness; stored is 1/2 pressure closure area.
-  const Real areas[] = {left, right}, stiffness[] = {soft, hard};
+  const Real areas[] = {leftArea, rightArea}, stiffness[] = {soft, hard};
   for (int j = 0; j < 2; ++j)
   {
     const Real closure = pressure / stiffness[j];
@@ -156,8 +156,8 @@ TEST_F(Tables, whatOpensIsOpenArea)
 {
   move({0, 2e-3, 0}); // twice the closure of the soft joint
   const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
-  EXPECT_NEAR(joints[0].openArea, left, 1e-12);
-  EXPECT_NEAR(joints[1].openArea, right, 1e-12);
+  EXPECT_NEAR(joints[0].openArea, leftArea, 1e-12);
+  EXPECT_NEAR(joints[1].openArea, rightArea, 1e-12);
   EXPECT_EQ(joints[0].stickArea + joints[0].slipArea + joints[1].stickArea, 0);
   EXPECT_EQ(joints[0].normalForce, 0);
   EXPECT_EQ(joints[0].meanClosure, 0);
@@ -226,9 +226,10 @@ TEST_F(Tables, aFaceSeesTheMeansOfItsPlanes)
     if (id == faceId(1, 2)) // the top of block 0: 3 of 4 m in contact
     {
       EXPECT_EQ(seen[f].state, PlaneState::Stick);
-      EXPECT_NEAR(seen[f].areaFraction, (left + right) / 4, 1e-12);
+      EXPECT_NEAR(seen[f].areaFraction, (leftArea + rightArea) / 4, 1e-12);
       EXPECT_NEAR(seen[f].normalTraction, pressure, 1e-9 * pressure);
-      const Real closure = (left * pressure / soft + right * pressure / hard) / (left + right);
+      const Real closure =
+          (leftArea * pressure / soft + rightArea * pressure / hard) / (leftArea + rightArea);
       EXPECT_NEAR(seen[f].closure, closure, 1e-12 * closure + 4 * epsilon);
       EXPECT_NEAR(seen[f].gap, -pressure / soft, 4 * epsilon);
     }

@@ -164,7 +164,7 @@ TEST(CrushedPair, gradientIsThatOfTheEnergy)
 {
   for (const Real warp : {0., .02, .2, .4})
   {
-    SCOPED_TRACE(testing::Message() << "warp " << warp);
+    SCOPED_TRACE(::testing::Message() << "warp " << warp);
     expectGradients<3>(warp, false);
   }
 }

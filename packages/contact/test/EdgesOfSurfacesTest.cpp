@@ -168,7 +168,7 @@ private:
 };
 
 constexpr Vec3 right{1, 0, 0}, left{-1, 0, 0}, up{0, 1, 0}, down{0, -1, 0}, front{0, 0, 1};
-constexpr Vec3 cube{1, 1, 1};
+constexpr Vec3 unitCube{1, 1, 1};
 constexpr Real closed = 1e-5; ///< closure of joints [m]
 } // namespace
 
@@ -197,7 +197,7 @@ TEST(NormalsOfNodes, aNodeHasAllItsNormalsInAnyOrder)
 
 TEST(EdgesOfSurfaces, aBlockThatHangsOverAnEndMayLeaveOverIt)
 {
-  Scene scene({{{0, 0, 0}, cube}, {{0.9, 1, 0}, cube}});
+  Scene scene({{{0, 0, 0}, unitCube}, {{0.9, 1, 0}, unitCube}});
   const Plane plane = scene.pair(0, up, 1, down);
   EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+x +z -x -z");
   EXPECT_EQ(scene.edgesIn(plane.turns, 1), "+x +z -x -z");
@@ -209,16 +209,16 @@ TEST(EdgesOfSurfaces, aBlockThatHangsOverAnEndMayLeaveOverIt)
 TEST(EdgesOfSurfaces, aSurfaceGoesOnOverAFlushSeam)
 {
   // 0 and 1 are flush, and 2 lies across the seam.
-  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  Scene scene({{{-1, 0, 0}, unitCube}, {{0, 0, 0}, unitCube}, {{-0.5, 1, 0}, unitCube}});
   const Plane plane = scene.pair(0, up, 2, down);
   EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
   EXPECT_EQ(scene.edgesIn(plane.seams, 0), "+x");
   EXPECT_EQ(scene.edgesIn(plane.seams, 1), "");
   // So it does where the seam is a hair open.
-  Scene open({{{-1, 0, 0}, cube}, {{0.004, 0, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  Scene open({{{-1, 0, 0}, unitCube}, {{0.004, 0, 0}, unitCube}, {{-0.5, 1, 0}, unitCube}});
   EXPECT_EQ(open.edgesIn(open.pair(0, up, 2, down).seams, 0), "+x");
   // A step of more than 0.005 of a face is an edge again.
-  Scene stepped({{{-1, 0, 0}, cube}, {{0, -0.01, 0}, cube}, {{-0.5, 1, 0}, cube}});
+  Scene stepped({{{-1, 0, 0}, unitCube}, {{0, -0.01, 0}, unitCube}, {{-0.5, 1, 0}, unitCube}});
   const Plane above = stepped.pair(0, up, 2, down);
   EXPECT_EQ(stepped.edgesIn(above.turns, 0), "+x +z -x -z");
   EXPECT_EQ(stepped.edgesIn(above.seams, 0), "");
@@ -226,7 +226,7 @@ TEST(EdgesOfSurfaces, aSurfaceGoesOnOverAFlushSeam)
 
 TEST(EdgesOfSurfaces, aThirdBodyDoesNotComeToASideThatIsHidden)
 {
-  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.1, 0.9, 0}, cube}});
+  Scene scene({{{-1, 0, 0}, unitCube}, {{0, 0, 0}, unitCube}, {{-0.1, 0.9, 0}, unitCube}});
   const Plane plane = scene.pair(0, right, 2, left);
   EXPECT_EQ(scene.edgesIn(plane.covered, 0), "+y +z -y -z");
   EXPECT_EQ(scene.edgesIn(plane.covered, 1), "");
@@ -238,7 +238,7 @@ TEST(EdgesOfSurfaces, bricksBesideEachOtherPartOverTheEdgesThatCrossAtTheirJoint
 {
   // The top of one and the front of the other see each other through the corner: a sliver as wide
   // as the joint is closed, and as deep as the bricks.
-  Scene scene({{{-1, 0, 0}, cube}, {{-closed, 0, 0}, cube}});
+  Scene scene({{{-1, 0, 0}, unitCube}, {{-closed, 0, 0}, unitCube}});
   const Plane plane = scene.pair(0, up, 1, front);
   EXPECT_NE(scene.edgesIn(plane.exits, 0).find("+x"), std::string::npos);
   EXPECT_NE(scene.edgesIn(plane.exits, 1).find("-x"), std::string::npos);
@@ -252,7 +252,7 @@ TEST(EdgesOfSurfaces, goOnWhereBodiesAreCutByAPlaneOfSymmetry)
 {
   // One cube on another: halves of blocks, or quarters.
   const Mirror atLeft{{1, 0, 0}, 0, 1}, atBack{{0, 0, 1}, 0, 1}, above{{0, 1, 0}, 2, -1};
-  const std::vector<Body> stack{{{0, 0, 0}, cube}, {{0, 1, 0}, cube}};
+  const std::vector<Body> stack{{{0, 0, 0}, unitCube}, {{0, 1, 0}, unitCube}};
   for (const auto& [mirrors, turns] :
        {std::pair<std::vector<Mirror>, std::string>{{}, "+x +z -x -z"},
         {{atLeft}, "+x +z -z"},
@@ -269,7 +269,7 @@ TEST(EdgesOfSurfaces, goOnWhereBodiesAreCutByAPlaneOfSymmetry)
   for (const auto& [lean, turns] :
        {std::pair<Real, std::string>{-0.3, "+x +z -x -z"}, {-0.01, "+x +z -z"}, {0.3, "+x +z -z"}})
   {
-    Body leaning{{0, 0, 0}, cube}, other{{0, 1, 0}, cube};
+    Body leaning{{0, 0, 0}, unitCube}, other{{0, 1, 0}, unitCube};
     leaning.lean = other.lean = lean;
     Scene scene({leaning, other}, {}, {atLeft});
     const Plane plane = scene.pair(0, up, 1, down);
@@ -282,7 +282,7 @@ TEST(EdgesOfSurfaces, goOnWhereBodiesAreCutByAPlaneOfSymmetry)
 TEST(EdgesOfSurfaces, roofsThatCrossKeepEachOtherUp)
 {
   // Ridges along x below and along z above, flanks at 45 degrees.
-  Scene scene({{{0, 0, 0}, cube, 45, 0}, {{0, 1.4, 0}, cube, 0, 45}});
+  Scene scene({{{0, 0, 0}, unitCube, 45, 0}, {{0, 1.4, 0}, unitCube, 0, 45}});
   const Vec3 flank = normalised(up + front), above = normalised(left + down);
   EXPECT_EQ(scene.pair(0, flank, 1, above).exits, 0);
   EXPECT_EQ(scene.pair(0, normalised(up - front), 1, normalised(right + down)).exits, 0);
@@ -293,7 +293,7 @@ TEST(EdgesOfSurfaces, bothFlanksOfAKeelAreAlike)
   // A cube that stands on an edge, its end 0.05 over the end of a table.
   for (const Real angle : {44.0, 45.0, 46.0})
   {
-    Scene scene({{{0, 0, 0}, cube}, {{0.95, 1.2, 0}, cube, angle, 0}});
+    Scene scene({{{0, 0, 0}, unitCube}, {{0.95, 1.2, 0}, unitCube, angle, 0}});
     const Plane one = scene.pair(0, up, 1, normalised(down + front));
     const std::string exits = scene.edgesIn(one.exits, 0);
     EXPECT_EQ(exits.find("x"), std::string::npos) << angle;
@@ -305,7 +305,7 @@ TEST(EdgesOfSurfaces, bothFlanksOfAKeelAreAlike)
 TEST(EdgesOfSurfaces, aBodyOnItsOwnSeamSlidesOn)
 {
   // 1 is flush with 0, and a fragment of it, which has its number, lies across the seam.
-  Scene scene({{{-1, 0, 0}, cube}, {{0, 0, 0}, cube}, {{-0.5, 1, 0}, cube}}, {0, 1, 1});
+  Scene scene({{{-1, 0, 0}, unitCube}, {{0, 0, 0}, unitCube}, {{-0.5, 1, 0}, unitCube}}, {0, 1, 1});
   const Plane plane = scene.pair(0, up, 2, down);
   EXPECT_EQ(scene.edgesIn(plane.turns, 0), "+z -x -z");
 }

@@ -488,7 +488,7 @@ TEST(CornerOfThePotential, vertexOnVertexIsTheGradientOfItsEnergyHoweverTheyMiss
   for (const Real turn : {0.0, .4, pi / 3})
     for (const Vec3& miss : {Vec3{}, Vec3{.17, .08, 0}, Vec3{.2, -.3, 0}, Vec3{-.25, .05, 0}})
     {
-      SCOPED_TRACE(testing::Message() << turn << ", " << miss.x << ", " << miss.y);
+      SCOPED_TRACE(::testing::Message() << turn << ", " << miss.x << ", " << miss.y);
       const auto at = [&](const Vec3& place) {
         return pushed<3>(lower, shifted(cubeCorner({0, 0, 0}, turn, 1), place), potential);
       };

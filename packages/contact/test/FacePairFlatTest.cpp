@@ -186,7 +186,7 @@ Real gapAlong(const Vec3& n, const Block& lower, const Block& upper)
   return lowest - highest;
 }
 
-struct ClassicPlane
+struct WidestGapPlane
 {
   Vec3 normal{};
   Real gap = 0, area = 0;
@@ -194,9 +194,9 @@ struct ClassicPlane
 
 /// The classic common plane (Cundall 1988): the normal with the largest gap, among those of the
 /// faces (Nezami 2004); the area where the plane half way cuts both blocks.
-ClassicPlane classicCommonPlane(const Block& lower, const Block& upper)
+WidestGapPlane classicCommonPlane(const Block& lower, const Block& upper)
 {
-  ClassicPlane plane;
+  WidestGapPlane plane;
   plane.gap = -infinity;
   for (const Block* block : {&lower, &upper})
     for (const int axis : {1, 3, 4})
@@ -369,7 +369,7 @@ TEST_P(FacePair_FaceToFace, agreesWithTheClassicCommonPlane)
     const Real sunk = .001 + .02 * (1 + u(random));
     const Vec3 shift{.7 * u(random), .7 * u(random), 1 - sunk};
     const Block lower = cube({0, 0, 0}, r), upper = cube(shift, r);
-    const ClassicPlane classic = classicCommonPlane(lower, upper);
+    const WidestGapPlane classic = classicCommonPlane(lower, upper);
     PairPlane plane = touchingPlane(1e5);
     updatePlane<3>(plane, lower.top(), upper.bottom(), usual, 1);
     for (int tilt = 0; tilt < 20; ++tilt)

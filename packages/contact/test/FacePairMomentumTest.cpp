@@ -27,7 +27,7 @@ Worst worstOf(const ContactOptions& o, int pairs)
   {
     const RandomPair pair = Dim == 2 ? randomSegments(random) : randomPair(random, .2);
     const auto [a, b] = pair;
-    const Contact c = contactOf<Dim>(a, b, o);
+    const PairContact c = contactOf<Dim>(a, b, o);
     if (!(c.patch.area > 0))
       continue;
     ++worst.pairs;
@@ -140,7 +140,7 @@ TEST(FacePair_RelativeMotion, vanishesForAnyRigidMotionAlsoAcrossAGap)
     for (FaceNodes* face : {&a, &b})
       for (int i = 0; i < face->count; ++i)
         face->v[i] = velocity + cross(spin, face->x[i]);
-    const Contact c = contactOf<3>(a, b, alongCommonNormal);
+    const PairContact c = contactOf<3>(a, b, alongCommonNormal);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -170,7 +170,7 @@ TEST(FacePair_RelativeMotion, vanishesForAFiniteRotationOfOneRadianInOneStep)
         face->x[i] = r * before + shift;
         face->v[i] = (1 / dt) * (face->x[i] - before);
       }
-    const Contact c = contactOf<3>(a, b, alongCommonNormal, dt);
+    const PairContact c = contactOf<3>(a, b, alongCommonNormal, dt);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -196,7 +196,7 @@ TEST(FacePair_RelativeMotion, segmentsThatTurnOneRadianTogetherDoNotSlip)
         face->x[i] = r * before + Vec3{.3, -.2, 0};
         face->v[i] = (1 / dt) * (face->x[i] - before);
       }
-    const Contact c = contactOf<2>(a, b, alongCommonNormal, dt);
+    const PairContact c = contactOf<2>(a, b, alongCommonNormal, dt);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -214,7 +214,7 @@ TEST(FacePair_RelativeMotion, relativeTranslationIsReturnedUnchanged)
     auto [a, b] = randomPair(random, .2, 0);
     for (int i = 0; i < b.count; ++i)
       b.v[i] = velocity;
-    const Contact c = contactOf<3>(a, b, alongCommonNormal);
+    const PairContact c = contactOf<3>(a, b, alongCommonNormal);
     if (!(c.patch.area > 0))
       continue;
     ++pairs;
@@ -230,7 +230,7 @@ TEST(FacePair_Patch, bothFacesReproduceOneAndTheSamePointOfThePlane)
       for (int pairs = 0; pairs < 500;)
       {
         const auto [a, b] = randomPair(random, .2);
-        const Contact c = contactOf<3>(a, b, options(area, weights));
+        const PairContact c = contactOf<3>(a, b, options(area, weights));
         if (!(c.patch.area > 0))
           continue;
         ++pairs;

@@ -26,9 +26,9 @@ template void updatePlane<3>(PairPlane&, const FaceNodes&, const FaceNodes&, con
                              Real);
 
 template <int Dim>
-Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt)
+PairContact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt)
 {
-  Contact c;
+  PairContact c;
   c.a = stepA_halfStepFace<Dim>(a, dt);
   c.b = stepA_halfStepFace<Dim>(b, dt);
   c.trial = stepB_trialPointOfContact<Dim>(c.a, c.b);
@@ -41,8 +41,8 @@ Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& 
   c.patch = stepD_areaOfContact<Dim>(c.shadowA, c.shadowB, 0, use, o.weights);
   return c;
 }
-template Contact contactOf<2>(const FaceNodes&, const FaceNodes&, const ContactOptions&, Real);
-template Contact contactOf<3>(const FaceNodes&, const FaceNodes&, const ContactOptions&, Real);
+template PairContact contactOf<2>(const FaceNodes&, const FaceNodes&, const ContactOptions&, Real);
+template PairContact contactOf<3>(const FaceNodes&, const FaceNodes&, const ContactOptions&, Real);
 } // namespace facepairs
 
 namespace movingpairs

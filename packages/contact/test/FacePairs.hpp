@@ -216,7 +216,7 @@ inline Resultant resultant(const FaceNodes& a, const FaceNodes& b, const Vec3 (&
 }
 
 /// Steps A to D alone.
-struct Contact
+struct PairContact
 {
   HalfStepFace a, b;
   TrialPlane trial;
@@ -230,5 +230,5 @@ struct Contact
 };
 
 template <int Dim>
-Contact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt = 0);
+PairContact contactOf(const FaceNodes& a, const FaceNodes& b, const ContactOptions& o, Real dt = 0);
 } // namespace coplane::facepairs

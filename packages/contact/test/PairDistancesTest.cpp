@@ -27,7 +27,7 @@ TEST(PairDistances, whatIsFarNeitherTouchesNorMaySoon)
   for (const Real swiftness : {0.0, 0.3, 1.0})
     for (const Real stray : {0.0, 1e-3, 1e-2, 5e-2})
     {
-      SCOPED_TRACE(testing::Message() << swiftness << " m/s, strayed by " << stray << " m");
+      SCOPED_TRACE(::testing::Message() << swiftness << " m/s, strayed by " << stray << " m");
       MovingPairs pairs(count, 5, swiftness, stray);
       PairDistances distances = measured(pairs);
       for (const Real since : {0.0, 0.2, ahead, 0.8})

@@ -69,7 +69,7 @@ TEST(LedgerOfThePotential, aCurveThatIsLoadedWhileItsFacesTurnAwayLosesWhatIsBoo
   for (const Real angle : {40., 76., 79.})
     for (const Real growth : {0., .1})
     {
-      SCOPED_TRACE(testing::Message() << angle << " degrees, grows by " << growth);
+      SCOPED_TRACE(::testing::Message() << angle << " degrees, grows by " << growth);
       for (const auto& leftOverOf : {leftOver<2>, leftOver<3>})
       {
         const Real coarse = leftOverOf(angle, 400, growth), fine = leftOverOf(angle, 1600, growth);
@@ -107,7 +107,7 @@ TEST(LedgerOfThePotential, aQuadrilateralThatFoldsLosesNothing)
   for (const Real slope : {0., .1})
     for (int corner = 0; corner < 4; ++corner)
     {
-      SCOPED_TRACE(testing::Message() << "corner " << corner << ", slope " << slope);
+      SCOPED_TRACE(::testing::Message() << "corner " << corner << ", slope " << slope);
       const auto path = [&](Real time) { return pressedAndFolded(corner, slope, time); };
       Real largest = 0;
       const auto leftOver = [&](int steps)

@@ -495,7 +495,7 @@ TEST(ContactPotential, givesNumbersHoweverLittleFacesOpposeEachOther)
                           1e-155, 1e-160, 1e-200, 1e-300, 5e-324, 0.})
       for (const int dimension : {2, 3})
       {
-        SCOPED_TRACE(testing::Message() << "xi " << xi << ", " << dimension << "D");
+        SCOPED_TRACE(::testing::Message() << "xi " << xi << ", " << dimension << "D");
         PairPlane plane = touchingPlane(1e6, .3);
         plane.law.penalty = penalty;
         plane.depthLimit = .6;

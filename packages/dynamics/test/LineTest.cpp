@@ -10,9 +10,9 @@ namespace coplane
 {
 namespace
 {
-constexpr Real ea = 200e9 * 5e-4, grout = 2e9, length = 2, headLength = 0.1; // a rock bolt
+constexpr Real ea = 200e9 * 5e-4, grout = 2e9, boltLength = 2, headLength = 0.1; // a rock bolt
 
-/// A plate at x = -headLength, and `segments` of equal length in grout from x = 0 on.
+/// A plate at x = -headLength, and `segments` of equal boltLength in grout from x = 0 on.
 LineSetup boltOf(int segments)
 {
   LineSetup setup;
@@ -21,9 +21,9 @@ LineSetup boltOf(int segments)
   setup.bond.stiffness = grout;
   setup.points.push_back({{-headLength, 0, 0}, true, 0});
   for (int i = 0; i <= segments; ++i)
-    setup.points.push_back({{length * i / segments, 0, 0},
+    setup.points.push_back({{boltLength * i / segments, 0, 0},
                             false,
-                            length / segments * (i == 0 || i == segments ? 0.5 : 1)});
+                            boltLength / segments * (i == 0 || i == segments ? 0.5 : 1)});
   return setup;
 }
 
@@ -53,7 +53,7 @@ Vec3 moment(const std::vector<Vec3>& x, const std::vector<Vec3>& forces)
 
 TEST(Line, isPulledOutOfElasticGroutByEALambdaTanhLambdaL)
 {
-  const Real lambda = std::sqrt(grout / ea), slope = ea * lambda * std::tanh(lambda * length);
+  const Real lambda = std::sqrt(grout / ea), slope = ea * lambda * std::tanh(lambda * boltLength);
   const Real d = 1e-4; // plate; the head in series with the grout
   const Real exact = d / (headLength / ea + 1 / slope);
   Real error[2];
@@ -68,7 +68,7 @@ TEST(Line, isPulledOutOfElasticGroutByEALambdaTanhLambdaL)
     // Along the bar the slip is cosh(lambda (L - x)) / cosh(lambda L) of that at the head.
     const Line::Point& middle = line.points()[std::size_t(1 + (refinement == 0 ? 10 : 20))];
     EXPECT_NEAR(middle.slip / line.points()[1].slip,
-                std::cosh(lambda * length / 2) / std::cosh(lambda * length), 2e-3);
+                std::cosh(lambda * boltLength / 2) / std::cosh(lambda * boltLength), 2e-3);
     EXPECT_EQ(line.unbalanced(), 0);
   }
   EXPECT_LT(error[0], 0.02);                // (lambda h)^2 / 12
@@ -83,9 +83,9 @@ TEST(Line, givesNoMoreThanStrengthTimesLengthOfGrout)
   Line line = installed(setup, hosts);
   for (int i = 1; i <= 50; ++i)
     pull(line, hosts, 2e-4 * i);
-  EXPECT_NEAR(line.segments()[0].force, 1e5 * length, 1e-4);
+  EXPECT_NEAR(line.segments()[0].force, 1e5 * boltLength, 1e-4);
   // Linear along the bar.
-  EXPECT_NEAR(line.segments()[10].force, 1e5 * (length - 0.95), 1e-4);
+  EXPECT_NEAR(line.segments()[10].force, 1e5 * (boltLength - 0.95), 1e-4);
   const LineEnergy energy = line.energy();
   EXPECT_GT(energy.bond, 0);
   EXPECT_NEAR(energy.remainder(), 0, 1e-8 * energy.work);
@@ -93,7 +93,7 @@ TEST(Line, givesNoMoreThanStrengthTimesLengthOfGrout)
   // Half of the path back: slips the other way from twice the elastic range on.
   for (int i = 50; i >= 0; --i)
     pull(line, hosts, 2e-4 * i);
-  EXPECT_NEAR(line.segments()[0].force, -1e5 * length, 1e-4);
+  EXPECT_NEAR(line.segments()[0].force, -1e5 * boltLength, 1e-4);
   EXPECT_NEAR(line.energy().remainder(), 0, 1e-8 * line.energy().work);
 }
 
@@ -110,7 +110,7 @@ TEST(Line, isHeldByThePressureOfItsHostByCoulomb)
   for (int i = 1; i <= 50; ++i)
     pull(line, hosts, 2e-4 * i);
   const Real one = 0.5 * 0.08 * 2e6;
-  EXPECT_NEAR(line.segments()[0].force, 1e4 * length + one * (length - 0.1), 1e-4);
+  EXPECT_NEAR(line.segments()[0].force, 1e4 * boltLength + one * (boltLength - 0.1), 1e-4);
 }
 
 TEST(Line, yieldsHardensAndTears)

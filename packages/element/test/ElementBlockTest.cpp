@@ -9,7 +9,7 @@ using namespace coplane::testMeshes;
 
 namespace
 {
-const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+const Material blockSteel = makeLinearElastic(200e9, 0.3, 7850);
 
 /// Velocities without any structure: every strain and hourglass mode at once.
 NodeVectors wild(const TestMesh& mesh, Real size)
@@ -29,7 +29,7 @@ TEST(ElementBlock, forcesOfAnElementHaveNoResultantAndNoMoment)
   for (const ElementType type : allTypes)
   {
     const TestMesh mesh = distorted(type, 3, 0.2);
-    ElementBlock block(type, steel, {0.1, 0.1}, {}, mesh.connectivity);
+    ElementBlock block(type, blockSteel, {0.1, 0.1}, {}, mesh.connectivity);
     block.initialise(mesh.x);
     const Real dt = 1e-5;
     const NodeVectors v = wild(mesh, 500);
@@ -58,7 +58,7 @@ TEST(ElementBlock, tensionPullsTheNodesOfABarTogether)
   // A unit cube under sigma_xx = 8 Pa: 8 N on the face x = 1, 2 N on each of its four corners,
   // pulling inward.
   const TestMesh mesh = distorted(ElementType::Hex8, 1, 0);
-  ElementBlock block(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
+  ElementBlock block(ElementType::Hex8, blockSteel, {}, {}, mesh.connectivity);
   block.initialise(mesh.x);
   block.setInitialStress({8, 0, 0, 0, 0, 0});
   block.update(mesh.x, NodeVectors("v", 8), 0);
@@ -79,7 +79,7 @@ TEST(ElementBlock, aTetrahedronUnderPressureIsPushedAtEveryCornerByAThirdOfItsTh
   TestMesh mesh{ElementType::Tet4, NodeVectors("x", 4), {0, 1, 2, 3}, {}};
   for (int i = 0; i < 3; ++i)
     mesh.x(i + 1, i) = 1;
-  ElementBlock block(ElementType::Tet4, steel, {}, {}, mesh.connectivity);
+  ElementBlock block(ElementType::Tet4, blockSteel, {}, {}, mesh.connectivity);
   block.initialise(mesh.x);
   block.setInitialStress({-6, -6, -6, 0, 0, 0});
   block.update(mesh.x, NodeVectors("v", 4), 0);
@@ -98,8 +98,8 @@ TEST(ElementBlock, triangleAndTetrahedronHaveNoHourglassForces)
   for (const ElementType type : {ElementType::Tri3, ElementType::Tet4})
   {
     const TestMesh mesh = distorted(type, 2, 0.2);
-    ElementBlock with(type, steel, {0.5, 0.5}, noViscosity, mesh.connectivity);
-    ElementBlock without(type, steel, {0, 0}, noViscosity, mesh.connectivity);
+    ElementBlock with(type, blockSteel, {0.5, 0.5}, noViscosity, mesh.connectivity);
+    ElementBlock without(type, blockSteel, {0, 0}, noViscosity, mesh.connectivity);
     const NodeVectors v = wild(mesh, 100);
     const NodeVectors x = plus(mesh.x, 1e-5, v);
     for (ElementBlock* block : {&with, &without})
@@ -121,14 +121,14 @@ TEST(ElementBlock, hourglassMotionIsResistedWithTheFrequencyThatTheOptionNames)
   // 4, S2 = tr g = 2.
   const Real eps = 0.05;
   const TestMesh mesh = distorted(ElementType::Quad4, 1, 0);
-  ElementBlock block(ElementType::Quad4, steel, {eps, 0}, noViscosity, mesh.connectivity);
+  ElementBlock block(ElementType::Quad4, blockSteel, {eps, 0}, noViscosity, mesh.connectivity);
   block.initialise(mesh.x);
   const Real amplitude = 1e-6;
   NodeVectors u("u", 4);
   for (int c = 0; c < 4; ++c)
     u(mesh.connectivity[c], 0) = c % 2 ? -amplitude : amplitude;
   block.update(plus(mesh.x, 0.5, u), u, 1.0);
-  const Real omegaSquared = eps * 4 / 7850.0 * pWaveModulus(steel) * 2;
+  const Real omegaSquared = eps * 4 / 7850.0 * pWaveModulus(blockSteel) * 2;
   for (int c = 0; c < 4; ++c) // relative error: the motion over the edge
     EXPECT_NEAR(block.cornerForce()(0, c, 0),
                 -omegaSquared * block.cornerMass(0, 0) * u(mesh.connectivity[c], 0),
@@ -179,14 +179,14 @@ TEST(ElementBlock, bulkViscosityPushesBackAgainstCompressionOnly)
   const Real dt = 1e-9, rate = 100;
   for (const Real sign : {-1.0, 1.0})
   {
-    ElementBlock block(ElementType::Hex8, steel, {}, {0.06, 1.5}, mesh.connectivity);
+    ElementBlock block(ElementType::Hex8, blockSteel, {}, {0.06, 1.5}, mesh.connectivity);
     block.initialise(mesh.x);
     const NodeVectors v = field(mesh.x,
                                 [=](const Vec3& p) {
                                   return Vec3{sign * rate * p.x, 0, 0};
                                 });
     block.update(plus(mesh.x, dt, v), v, dt);
-    const Real q = 7850 * rate * (0.06 * soundSpeed(steel) + 1.5 * rate);
+    const Real q = 7850 * rate * (0.06 * soundSpeed(blockSteel) + 1.5 * rate);
     EXPECT_NEAR(block.viscousPressure()(0), sign < 0 ? q : 0, 1e-6 * q);
     // work of the mean of 0 and q over the step
     EXPECT_NEAR(block.energy(0, ElementEnergy::Viscous), sign < 0 ? 0.5 * q * rate * dt : 0,
@@ -197,7 +197,7 @@ TEST(ElementBlock, bulkViscosityPushesBackAgainstCompressionOnly)
 TEST(ElementBlock, invertedElementIsReportedAsTheLowestIndexAndStopsTheStep)
 {
   const TestMesh mesh = distorted(ElementType::Hex8, 3, 0.1);
-  ElementBlock block(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
+  ElementBlock block(ElementType::Hex8, blockSteel, {}, {}, mesh.connectivity);
   block.initialise(mesh.x);
   block.update(mesh.x, NodeVectors("v", mesh.nodes()), 0);
   EXPECT_EQ(block.invertedElement(), -1);
@@ -219,7 +219,7 @@ TEST(ElementBlock, invertedElementIsReportedAsTheLowestIndexAndStopsTheStep)
 TEST(ElementBlock, notANumberIsReportedToo)
 {
   const TestMesh mesh = distorted(ElementType::Quad4, 3, 0.1);
-  ElementBlock block(ElementType::Quad4, steel, {}, {}, mesh.connectivity);
+  ElementBlock block(ElementType::Quad4, blockSteel, {}, {}, mesh.connectivity);
   block.initialise(mesh.x);
   NodeVectors v("v", mesh.nodes());
   v(block.connectivity()(7, 2), 1) = std::nan("");
@@ -233,8 +233,8 @@ TEST(ElementBlock, farOriginAndCommonSpeedCostNoDigits)
   const TestMesh mesh = distorted(ElementType::Hex8, 1, 0.2);
   const Real dt = 1e-6;
   const NodeVectors v = wild(mesh, 10);
-  ElementBlock here(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
-  ElementBlock there(ElementType::Hex8, steel, {}, {}, mesh.connectivity);
+  ElementBlock here(ElementType::Hex8, blockSteel, {}, {}, mesh.connectivity);
+  ElementBlock there(ElementType::Hex8, blockSteel, {}, {}, mesh.connectivity);
   here.initialise(mesh.x);
   here.update(plus(mesh.x, dt, v), v, dt);
   const NodeVectors away = field(mesh.x, [](const Vec3& p) { return p + Vec3{1024, -2048, 512}; });
@@ -246,7 +246,7 @@ TEST(ElementBlock, farOriginAndCommonSpeedCostNoDigits)
 
 TEST(ElementBlock, emptyBlockIsQuiet)
 {
-  ElementBlock block(ElementType::Hex8, steel, {}, {}, {});
+  ElementBlock block(ElementType::Hex8, blockSteel, {}, {}, {});
   NodeVectors none("x", 0);
   block.initialise(none);
   block.update(none, none, 1);
@@ -258,7 +258,7 @@ TEST(ElementBlock, emptyBlockIsQuiet)
 TEST(ElementBlock, outOfPlaneShearIsRefusedInPlaneStrain)
 {
   const TestMesh mesh = distorted(ElementType::Quad4, 1, 0);
-  ElementBlock block(ElementType::Quad4, steel, {}, {}, mesh.connectivity);
+  ElementBlock block(ElementType::Quad4, blockSteel, {}, {}, mesh.connectivity);
   EXPECT_THROW(block.setInitialStress({0, 0, 0, 0, 1, 0}), Error);
 }
 

@@ -83,17 +83,17 @@ Balance vibrate(ElementType type, int n, const Material& law, HourglassOptions h
   return balance;
 }
 
-const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+const Material vibratingSteel = makeLinearElastic(200e9, 0.3, 7850);
 } // namespace
 
 TEST(FreeVibration, nodalWorkBalancesTheKineticEnergyToRounding)
 {
   // With a constant step E_k(n+1) - E_k(n) = (f(n) + f(n+1))/2 . dx is an identity of central
   // differences.
-  EXPECT_LT(vibrate(ElementType::Hex8, 1, steel, {}, noViscosity, 100).nodal, 1e-12);
-  EXPECT_LT(vibrate(ElementType::Quad4, 2, steel, {}, {}, 200).nodal, 1e-12);
-  EXPECT_LT(vibrate(ElementType::Tet4, 1, steel, {}, noViscosity, 200).nodal, 1e-12);
-  EXPECT_LT(vibrate(ElementType::Tri3, 2, steel, {}, {}, 200).nodal, 1e-12);
+  EXPECT_LT(vibrate(ElementType::Hex8, 1, vibratingSteel, {}, noViscosity, 100).nodal, 1e-12);
+  EXPECT_LT(vibrate(ElementType::Quad4, 2, vibratingSteel, {}, {}, 200).nodal, 1e-12);
+  EXPECT_LT(vibrate(ElementType::Tet4, 1, vibratingSteel, {}, noViscosity, 200).nodal, 1e-12);
+  EXPECT_LT(vibrate(ElementType::Tri3, 2, vibratingSteel, {}, {}, 200).nodal, 1e-12);
 }
 
 TEST(FreeVibration, elementEnergiesBalanceToSecondOrderInTheStep)
@@ -105,7 +105,7 @@ TEST(FreeVibration, elementEnergiesBalanceToSecondOrderInTheStep)
         continue; // first order
       SCOPED_TRACE(nameOf(f));
       const auto error = [&](int steps) {
-        return vibrate(f.type, n, steel, {0.05, 0}, noViscosity, steps, f.options).element;
+        return vibrate(f.type, n, vibratingSteel, {0.05, 0}, noViscosity, steps, f.options).element;
       };
       const Real coarse = error(200), fine = error(400);
       EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);

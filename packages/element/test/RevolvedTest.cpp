@@ -9,14 +9,14 @@ using namespace coplane::testMeshes;
 
 namespace
 {
-const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+const Material ringSteel = makeLinearElastic(200e9, 0.3, 7850);
 
 class RevolvedElement : public testing::TestWithParam<Formulation>
 {
 protected:
   ElementBlock blockOf(const TestMesh& mesh) const
   {
-    ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+    ElementBlock block(GetParam().type, ringSteel, {}, noViscosity, mesh.connectivity,
                        GetParam().options);
     block.initialise(mesh.x);
     return block;
@@ -64,7 +64,7 @@ TEST_P(RevolvedElement, linearVelocityGivesTheExactUniformStressOnADistortedMesh
                                 return Vec3{2 * p.x, -3 * p.y + p.x, 0};
                               });
   advance(block, plus(mesh.x, dt / 2, v), v, dt);
-  const Real lambda = lameLambda(elasticity(steel)), mu = elasticity(steel).shearModulus;
+  const Real lambda = lameLambda(elasticity(ringSteel)), mu = elasticity(ringSteel).shearModulus;
   // Turned to the end of the step by half the curl of the velocity.
   const SymTensor end =
       rotated(SymTensor{(lambda + 4 * mu) * dt, (lambda - 6 * mu) * dt, 0, mu * dt, 0, 0},

@@ -10,7 +10,7 @@ using namespace coplane::testMeshes;
 
 namespace
 {
-const Material steel = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 200e6, 1e9);
+const Material yieldingSteel = makeJ2Plasticity(makeLinearElastic(200e9, 0.3, 7850), 200e6, 1e9);
 
 /// Some cycles of large motion; the same nodal history whatever the block is made of.
 void play(ElementBlock& block, const TestMesh& mesh)
@@ -66,7 +66,7 @@ TEST(SameBits, anElementDoesNotFeelItsPlaceInTheBlock)
   {
     SCOPED_TRACE(nameOf(f));
     const TestMesh mesh = meshOf(f, 5, 0.2);
-    ElementBlock whole(f.type, steel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
+    ElementBlock whole(f.type, yieldingSteel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
     // every third element only, backwards: other lanes, other neighbours, a padded end. Nodal
     // pressure sums in the order of the elements, so there all of them, one lane further.
     const bool nodal = f.options.form == ElementForm::NodalPressure;
@@ -90,7 +90,7 @@ TEST(SameBits, anElementDoesNotFeelItsPlaceInTheBlock)
     set(more.x, mesh.nodes() + 2, {0, 1, 0});
     set(more.x, mesh.nodes() + 3, {0, 0, 1});
     play(whole, more);
-    ElementBlock part(f.type, steel, {0.05, 0.03}, {}, connectivity, f.options);
+    ElementBlock part(f.type, yieldingSteel, {0.05, 0.03}, {}, connectivity, f.options);
     play(part, more);
     Real yielded = 0;
     for (std::size_t i = 0; i < order.size(); ++i)
@@ -109,8 +109,8 @@ TEST(SameBits, bothBackEndsAgree)
   {
     SCOPED_TRACE(nameOf(f));
     const TestMesh mesh = meshOf(f, 5, 0.2);
-    ElementBlock serial(f.type, steel, {}, {}, mesh.connectivity, f.options);
-    ElementBlock threads(f.type, steel, {}, {}, mesh.connectivity, f.options);
+    ElementBlock serial(f.type, yieldingSteel, {}, {}, mesh.connectivity, f.options);
+    ElementBlock threads(f.type, yieldingSteel, {}, {}, mesh.connectivity, f.options);
     setBackend(Backend::Serial);
     play(serial, mesh);
     setBackend(Backend::Threads);
@@ -127,8 +127,8 @@ TEST(SameBits, updateOverNoTimeGivesTheSameForcesAgain)
   {
     SCOPED_TRACE(nameOf(f));
     const TestMesh mesh = meshOf(f, 3, 0.2);
-    ElementBlock block(f.type, steel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
-    ElementBlock copy(f.type, steel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
+    ElementBlock block(f.type, yieldingSteel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
+    ElementBlock copy(f.type, yieldingSteel, {0.05, 0.03}, {}, mesh.connectivity, f.options);
     NodeVectors x = plus(mesh.x, 0, mesh.x);
     block.initialise(x);
     const Real dt = 1e-5;

@@ -12,7 +12,7 @@ using namespace coplane::testMeshes;
 
 namespace
 {
-const Material steel = makeLinearElastic(200e9, 0.3, 7850);
+const Material driftingSteel = makeLinearElastic(200e9, 0.3, 7850);
 
 class VolumeDrift : public testing::TestWithParam<Formulation>
 {
@@ -36,7 +36,7 @@ protected:
   /// are told of.
   ElementBlock scaled(const TestMesh& mesh, Real scale, int steps, Real told) const
   {
-    ElementBlock block(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+    ElementBlock block(GetParam().type, driftingSteel, {}, noViscosity, mesh.connectivity,
                        GetParam().options);
     block.initialise(mesh.x);
     const Real dt = 1e-9;
@@ -68,8 +68,8 @@ TEST_P(VolumeDrift, takesTheEnergyOfItsPressure)
     const Real r = std::pow(scale, power());
     const auto integral = [](Real s)
     { return (s * s * s * s / 4 - 1.5 * s * s + 3 * std::log(s) + 0.5 / (s * s)) / 8; };
-    const Real exact =
-        elasticity(steel).bulkModulus * block.referenceVolume()(0) * (integral(r) - integral(1));
+    const Real exact = elasticity(driftingSteel).bulkModulus * block.referenceVolume()(0) *
+                       (integral(r) - integral(1));
     ASSERT_GT(exact, 0);
     EXPECT_NEAR(hourglassEnergy(block), exact, 1e-4 * exact) << scale;
   }
@@ -82,8 +82,8 @@ TEST_P(VolumeDrift, isNothingWhereTheNodesAgreeAndLittleWhereTheyHardlyDiffer)
   EXPECT_LT(hourglassEnergy(agreed), 1e-9 * agreed.energy(0, ElementEnergy::Internal));
   const ElementBlock small = scaled(mesh, 0.999, 10, 0);
   const Real strain = 1e-3 * power();
-  EXPECT_LT(hourglassEnergy(small),
-            std::pow(strain, 4) * elasticity(steel).bulkModulus * small.referenceVolume()(0));
+  EXPECT_LT(hourglassEnergy(small), std::pow(strain, 4) * elasticity(driftingSteel).bulkModulus *
+                                        small.referenceVolume()(0));
 }
 
 TEST_P(VolumeDrift, pushesTheNodesApartAndShortensTheStep)
@@ -94,9 +94,9 @@ TEST_P(VolumeDrift, pushesTheNodesApartAndShortensTheStep)
   // The same element without drift has the same deviators and no pressure: its nodes know all, and
   // the pressure of that is taken off as stress.
   const Real r = std::pow(scale, power()), y = 0.5 * (r - 1 / r);
-  const Real pressure = -elasticity(steel).bulkModulus * y * y * y;
+  const Real pressure = -elasticity(driftingSteel).bulkModulus * y * y * y;
   EXPECT_GT(pressure, 0);
-  ElementBlock plain(GetParam().type, steel, {}, noViscosity, mesh.connectivity,
+  ElementBlock plain(GetParam().type, driftingSteel, {}, noViscosity, mesh.connectivity,
                      GetParam().options);
   plain.initialise(field(mesh.x, [&](const Vec3& p) { return scale * p; }));
   plain.setInitialStress({with.stress()(0, 0) - pressure, with.stress()(1, 0) - pressure,

@@ -20,7 +20,7 @@ Material lawOf(const std::string& content)
 }
 
 /// Message about a material of this content, which stands on line 2.
-std::string problemOf(const std::string& content)
+std::string materialProblemOf(const std::string& content)
 {
   const std::string text = errorOf(deckWith(content));
   EXPECT_EQ(text.find("wall.yaml:2:"), 0u) << text;
@@ -76,7 +76,7 @@ TEST(MaterialCards, aCardOfTheDeckHidesASetOfTheSameName)
 
 TEST(MaterialCards, unknownSetsAreNamedWithASuggestion)
 {
-  expectPart(problemOf("set: concrete_c4, model: linear_elastic, " + steel),
+  expectPart(materialProblemOf("set: concrete_c4, model: linear_elastic, " + steel),
              "materials.m.set = 'concrete_c4' is not known. Did you mean 'concrete_c40'?");
 }
 
@@ -96,29 +96,31 @@ TEST(MaterialCards, j2TakesTheFastLawWhereItIsEnough)
   EXPECT_EQ(shocked.eos.stiffness, 7850 * 4570.0 * 4570.0);
   EXPECT_EQ(shocked.elastic.bulkModulus, shocked.eos.stiffness);
   EXPECT_EQ(shocked.slope[0], 1e9);
-  expectPart(problemOf(j2), "materials.m.yield_stress is missing");
-  expectPart(problemOf(j2 + "yield_stress: 1e8, yield_stresses: [1e8], plastic_strains: [0]"),
-             "stands beside a table");
-  expectPart(problemOf(j2 + "plastic_strains: [0, 0.1], yield_stresses: [3e8, 2e8]"),
+  expectPart(materialProblemOf(j2), "materials.m.yield_stress is missing");
+  expectPart(
+      materialProblemOf(j2 + "yield_stress: 1e8, yield_stresses: [1e8], plastic_strains: [0]"),
+      "stands beside a table");
+  expectPart(materialProblemOf(j2 + "plastic_strains: [0, 0.1], yield_stresses: [3e8, 2e8]"),
              "a yield stress is 200000000 Pa, but must be at least the one before it");
-  expectPart(problemOf(j2 + "yield_stress: 1e8, sound_speed: 4570"),
+  expectPart(materialProblemOf(j2 + "yield_stress: 1e8, sound_speed: 4570"),
              "materials.m.sound_speed has no effect with eos: none");
-  expectPart(problemOf(j2 + "yield_stress: 1e8, eos: mie_grueneisen"),
+  expectPart(materialProblemOf(j2 + "yield_stress: 1e8, eos: mie_grueneisen"),
              "sound_speed is 0, but eos: mie_grueneisen needs a positive one [m/s]");
 }
 
 TEST(MaterialCards, impossibleConcretesAreRefused)
 {
-  expectPart(problemOf("set: concrete_c40, compressive_strength: -40e6"),
+  expectPart(materialProblemOf("set: concrete_c40, compressive_strength: -40e6"),
              "materials.m.compressive_strength = '-40e6' is out of range");
-  expectPart(problemOf("set: concrete_c40, tensile_strength: 41e6"),
+  expectPart(materialProblemOf("set: concrete_c40, tensile_strength: 41e6"),
              "materials.m: tensile strength is 41000000 Pa, but must be between 0 and a "
              "quarter");
-  expectPart(problemOf("set: concrete_c40, poisson_ratio: 0.5"),
+  expectPart(materialProblemOf("set: concrete_c40, poisson_ratio: 0.5"),
              "materials.m.poisson_ratio = '0.5' is out of range");
-  expectPart(problemOf("set: concrete_hjc_48, crush_pressure: 900e6"),
+  expectPart(materialProblemOf("set: concrete_hjc_48, crush_pressure: 900e6"),
              "materials.m: crush pressure is 900000000 Pa");
-  expectPart(problemOf("set: clay_brick, tensile_strength: 6e6"), "at most cohesion / friction");
+  expectPart(materialProblemOf("set: clay_brick, tensile_strength: 6e6"),
+             "at most cohesion / friction");
 }
 
 TEST(MaterialCards, anglesAreGivenByTheirTangents)
@@ -139,9 +141,9 @@ TEST(MaterialCards, tablesOfMohrCoulombReplaceCohesionAndFriction)
   EXPECT_EQ(law.points, 2);
   EXPECT_EQ(law.cohesions[1], 1e6);
   EXPECT_EQ(law.frictionTangents[1], 0.5);
-  expectPart(problemOf("model: mohr_coulomb, " + steel + table + "cohesion: 1e6"),
+  expectPart(materialProblemOf("model: mohr_coulomb, " + steel + table + "cohesion: 1e6"),
              "materials.m.cohesion has no effect beside a table");
-  expectPart(problemOf("model: mohr_coulomb, " + steel + "cohesions: [5e6, 1e6]"),
+  expectPart(materialProblemOf("model: mohr_coulomb, " + steel + "cohesions: [5e6, 1e6]"),
              "materials.m.plastic_shears is missing");
 }
 
@@ -158,9 +160,9 @@ TEST(MaterialCards, ratesCountWhenAsked)
   const auto kcc =
       std::get<KaragozianCase>(lawOf("set: concrete_kcc_45, rate_effects: true")).rates;
   EXPECT_EQ(endsOf(kcc), std::pair(1.0, 30.0));
-  expectPart(problemOf("set: concrete_c40, largest_rate: 50"),
+  expectPart(materialProblemOf("set: concrete_c40, largest_rate: 50"),
              "materials.m.largest_rate has no effect without rate_effects: true");
-  expectPart(problemOf("set: concrete_c40, rate_effects: true, largest_rate: 0"),
+  expectPart(materialProblemOf("set: concrete_c40, rate_effects: true, largest_rate: 0"),
              "materials.m.largest_rate = '0' is out of range");
 }
 
@@ -170,8 +172,8 @@ TEST(MaterialCards, aFluidIsAnEquationOfState)
       std::get<Fluid>(lawOf("model: fluid, density: 1000, eos: linear, sound_speed: 1500"));
   EXPECT_EQ(law.elastic.bulkModulus, 1000 * 1500.0 * 1500.0);
   EXPECT_EQ(law.elastic.shearModulus, 0);
-  expectPart(problemOf("model: fluid, density: 1000"), "materials.m.eos is missing");
-  expectPart(problemOf("model: fluid, density: 1000, eos: linear"),
+  expectPart(materialProblemOf("model: fluid, density: 1000"), "materials.m.eos is missing");
+  expectPart(materialProblemOf("model: fluid, density: 1000, eos: linear"),
              "sound_speed is 0, but eos: linear needs a positive one [m/s]");
 }
 

@@ -9,7 +9,7 @@ using namespace coplane;
 namespace
 {
 // The walls of Lourenco and Rots (1997): f_m 10.5 MPa, G_fc 5 N/mm, k_p .09 mm, C_ss 9.
-constexpr Real fm = 10.5e6, Gc = 5e3, kp = 9e-5, Css = 9, kn = 8.2e10, ks = 3.6e10;
+constexpr Real fm = 10.5e6, Gc = 5e3, kp = 9e-5, Css = 9, masonryKn = 8.2e10, masonryKs = 3.6e10;
 
 /// f of the formulas in docs/theory/joints.md, written anew.
 Real strengthAt(Real k, Real energy = Gc)
@@ -29,7 +29,7 @@ Real onEllipse(const JointRun& run)
 }
 Real crushing(const JointRun& run)
 {
-  return run.joint.law.curve.crushing.crushedAt(run.state.maximumClosure, kn);
+  return run.joint.law.curve.crushing.crushedAt(run.state.maximumClosure, masonryKn);
 }
 } // namespace
 
@@ -41,7 +41,7 @@ TEST(Crushing_Compression, followsThePublishedCurveWhateverTheSteps)
       {
         JointRun run(crushedMortar(loss));
         const Real sigma = strengthAt(k);
-        run.go(-(k + sigma / kn), {}, steps);
+        run.go(-(k + sigma / masonryKn), {}, steps);
         EXPECT_NEAR(run.sigma(), sigma, 1e-10 * fm) << k << " in " << steps;
         EXPECT_NEAR(crushing(run), k, 1e-14);
       }
@@ -68,11 +68,11 @@ TEST(Crushing_Compression, isNoMoreThanBearsACompression)
 TEST(Crushing_Compression, isElasticUpToAThirdAndItsPeakIsTheStrength)
 {
   JointRun run(crushedMortar());
-  run.go(-.333 * fm / kn, {}, 5);
+  run.go(-.333 * fm / masonryKn, {}, 5);
   EXPECT_NEAR(run.sigma(), .333 * fm, 1e-6);
-  EXPECT_NEAR(run.stored(), .5 * run.sigma() * run.sigma() / kn, 1e-10);
+  EXPECT_NEAR(run.stored(), .5 * run.sigma() * run.sigma() / masonryKn, 1e-10);
   EXPECT_NEAR(run.hysteresis, 0, 1e-12);
-  run.step(-(kp + fm / kn), {});
+  run.step(-(kp + fm / masonryKn), {});
   EXPECT_NEAR(run.sigma(), fm, 1e-9 * fm);
   Real peak = 0;
   for (int i = 0; i <= 20000; ++i)
@@ -93,14 +93,14 @@ TEST(Crushing_Compression, areaAfterThePeakAndAboveTheResidualIsTheFractureEnerg
       joint.law.curve.crushing.residual = residual;
       joint.law.curve.crushing.length = Crushing::lengthFrom(fm, Gc, residual);
       JointRun run(joint);
-      run.go(-(kp + fm / kn), {}, 4000);
+      run.go(-(kp + fm / masonryKn), {}, 4000);
       // Hardening: k_p f_m (1/3 + 2/3 pi/4), of which a secant gives back half the loss.
       const Real hardening = kp * fm * (1. / 3 + pi / 6);
       EXPECT_NEAR(run.hysteresis, hardening - .5 * loss * fm * kp, 1e-5 * hardening);
-      const Real end = 2e-2;        // where exp(-..) is nothing
-      run.work = .5 * fm * fm / kn; // of the elastic closure; the rest is inelastic
-      run.go(-(end + residual * fm / kn), {}, 40000);
-      const Real inelastic = run.work - .5 * std::pow(residual * fm, 2) / kn;
+      const Real end = 2e-2;               // where exp(-..) is nothing
+      run.work = .5 * fm * fm / masonryKn; // of the elastic closure; the rest is inelastic
+      run.go(-(end + residual * fm / masonryKn), {}, 40000);
+      const Real inelastic = run.work - .5 * std::pow(residual * fm, 2) / masonryKn;
       EXPECT_NEAR(inelastic - residual * fm * (end - kp), Gc, 1e-5 * Gc);
     }
 }
@@ -111,14 +111,14 @@ TEST(Crushing_Compression, unloadsToThePlasticPartOfItsCrushing)
     for (const Real k : {5e-5, 4e-4, 2e-3})
     {
       JointRun run(crushedMortar(loss));
-      const Real sigma = strengthAt(k), closed = k + sigma / kn, rest = (1 - loss) * k;
+      const Real sigma = strengthAt(k), closed = k + sigma / masonryKn, rest = (1 - loss) * k;
       run.go(-closed, {}, 30);
       const Real stored = run.stored();
       EXPECT_NEAR(stored, .5 * sigma * (closed - rest), 1e-9 * stored);
       run.step(-(rest + .3 * (closed - rest)), {});
       EXPECT_NEAR(run.sigma(), .3 * sigma, 1e-9 * fm);
       run.step(-(rest - 1e-7), {});
-      EXPECT_NEAR(run.sigma(), -kn * 1e-7, 1e-6 * fm) << "the bond pulls from there on";
+      EXPECT_NEAR(run.sigma(), -masonryKn * 1e-7, 1e-6 * fm) << "the bond pulls from there on";
       run.step(-closed, {});
       EXPECT_NEAR(run.sigma(), sigma, 1e-9 * fm) << "and back along the same line";
       EXPECT_NEAR(run.stored(), stored, 1e-9 * stored);
@@ -171,11 +171,12 @@ TEST(Crushing_Shear, flowsAlongTheNormalOfTheEllipse)
   run.step(-run.joint.closureUnder(.5 * fm), {});
   run.go(run.gap, {0, 1e-3, 0}, 10000);
   const Real k = crushing(run), sigma = run.sigma(), tau = norm(run.state.shearTraction);
-  const Real offset = run.offset, slip = run.state.slip, plastic = run.closure() - sigma / kn;
+  const Real offset = run.offset, slip = run.state.slip,
+             plastic = run.closure() - sigma / masonryKn;
   run.step(run.gap, {0, 1e-8, 0});
   const Real crushed = crushing(run) - k;
   // What is plastic in the closure, less what the offset has risen.
-  const Real closing = run.closure() - run.sigma() / kn - plastic - (run.offset - offset);
+  const Real closing = run.closure() - run.sigma() / masonryKn - plastic - (run.offset - offset);
   const Real sliding = run.state.slip - slip;
   EXPECT_NEAR(closing / sliding, sigma / (Css * tau), 1e-3 * sigma / (Css * tau));
   EXPECT_NEAR(crushed, std::hypot(closing, sliding), 1e-6 * crushed);
@@ -254,7 +255,8 @@ TEST(Crushing_Tension, aBondThatLosesStiffnessUnloadsToItsPlasticPart)
     for (const Real k : {1e-5, 7e-5, 2e-4})
     {
       JointRun run(crushedMortar(loss));
-      const Real sigma = ft * std::exp(-ft * k / G1), open = k + sigma / kn, rest = (1 - loss) * k;
+      const Real sigma = ft * std::exp(-ft * k / G1), open = k + sigma / masonryKn,
+                 rest = (1 - loss) * k;
       run.go(open, {}, 40);
       EXPECT_NEAR(run.sigma(), -sigma, 1e-10 * ft) << "the envelope is the same";
       EXPECT_NEAR(run.stored(), .5 * sigma * (open - rest), 1e-12);
@@ -262,7 +264,8 @@ TEST(Crushing_Tension, aBondThatLosesStiffnessUnloadsToItsPlasticPart)
       run.step(rest + .5 * (open - rest), {});
       EXPECT_NEAR(run.sigma(), -.5 * sigma, 1e-9 * ft);
       run.step(rest - 1e-6, {});
-      EXPECT_NEAR(run.sigma(), kn * 1e-6, 1e-9 * kn * 1e-6) << "closed, it is stiff again";
+      EXPECT_NEAR(run.sigma(), masonryKn * 1e-6, 1e-9 * masonryKn * 1e-6)
+          << "closed, it is stiff again";
       run.step(open, {});
       EXPECT_NEAR(run.sigma(), -sigma, 1e-9 * ft);
     }

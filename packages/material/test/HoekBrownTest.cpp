@@ -30,7 +30,7 @@ HoekBrownParameters mass()
   p.gsi = 45;
   return p;
 }
-HoekBrownParameters softening()
+HoekBrownParameters softeningRock()
 {
   HoekBrownParameters p = mass();
   p.gsi = 75;
@@ -263,11 +263,11 @@ TEST(HoekBrown, oneStepIsAsGoodAsAThousand)
 
 TEST(HoekBrown, turnedLoadsEndOnTheCriterionOfTheirAxes)
 {
-  // Compression along x first, then along y, with shear: softening or not, the stress is admissible
-  // for the strength at the start of each step, and on it while the slip grows.
+  // Compression along x first, then along y, with shear: softeningRock or not, the stress is
+  // admissible for the strength at the start of each step, and on it while the slip grows.
   for (const bool falls : {false, true})
   {
-    HoekBrownParameters p = falls ? softening() : mass();
+    HoekBrownParameters p = falls ? softeningRock() : mass();
     p.dilation = 0.1;
     const HoekBrown law = makeLaw(p);
     const Real size = 0.05;
@@ -496,7 +496,7 @@ TEST(HoekBrown, underHighPressureTheFlowIsNoMoreThanNormal)
 
 TEST(HoekBrown, strengthFallsToThatOfTheResidualIndex)
 {
-  const HoekBrown law = makeLaw(softening());
+  const HoekBrown law = makeLaw(softeningRock());
   const HoekBrown::Constants last = hoekBrownConstants(10, 30, 0);
   EXPECT_EQ(law.residual.m, last.m);
   for (const Real lateral : {0.0, 5e6, 30e6})
@@ -522,7 +522,7 @@ TEST(HoekBrown, anUnconfinedTestDissipatesTheSameEnergyPerAreaInEveryElement)
   for (const Real tangent : {0.0, 0.1})
     for (const Real size : {0.02, 0.05})
     {
-      HoekBrownParameters p = softening();
+      HoekBrownParameters p = softeningRock();
       p.shearEnergy = 1000;
       p.dilation = tangent;
       const HoekBrown law = makeLaw(p);
@@ -595,7 +595,7 @@ TEST(HoekBrown, badParametersAreRefused)
 {
   const auto refused = [](const auto& change)
   {
-    HoekBrownParameters p = softening();
+    HoekBrownParameters p = softeningRock();
     EXPECT_NO_THROW(makeLaw(p));
     change(p);
     EXPECT_THROW(makeLaw(p), Error);

@@ -16,7 +16,7 @@ using namespace coplane::testing;
 namespace
 {
 constexpr Real gigapascal = 1e9;
-const auto nobody = [](const MaterialProbe&) {};
+const auto unrecorded = [](const MaterialProbe&) {};
 
 JohnsonHolmquistParameters sandstone()
 {
@@ -87,9 +87,9 @@ TEST(JohnsonHolmquist, bulkingPressuresOfTheOneElementTestsAreThePublishedOnes)
   for (const auto& [which, published] : {std::pair{'A', 0.56}, {'B', 0.72}, {'C', 0.65}})
   {
     MaterialProbe probe(makeLaw(ceramic(which)), 1);
-    strainPath(probe, {std::log(0.95), 0, 0, 0, 0, 0}, 5000, nobody);
+    strainPath(probe, {std::log(0.95), 0, 0, 0, 0, 0}, 5000, unrecorded);
     EXPECT_EQ(probe.history("damage"), 1) << which;
-    strainPath(probe, {}, 5000, nobody);
+    strainPath(probe, {}, 5000, unrecorded);
     EXPECT_NEAR(probe.history("bulking_pressure") / gigapascal, published, 0.006) << which;
     EXPECT_NEAR(probe.pressure(), probe.history("bulking_pressure"), 1) << which;
   }
@@ -156,8 +156,8 @@ TEST(JohnsonHolmquist, fracturedStrengthIsThatOfItsPressureUpToItsLargest)
   for (const Real volume : {0.02, 0.1, 0.4})
   {
     MaterialProbe probe(law, 0.01);
-    strainPath(probe, {-volume / 3, -volume / 3, -volume / 3, 0, 0, 0}, 200, nobody);
-    strainPath(probe, {-volume / 3, -volume / 3, -volume / 3, 0.2, 0, 0}, 4000, nobody);
+    strainPath(probe, {-volume / 3, -volume / 3, -volume / 3, 0, 0, 0}, 200, unrecorded);
+    strainPath(probe, {-volume / 3, -volume / 3, -volume / 3, 0.2, 0, 0}, 4000, unrecorded);
     const Real p = probe.pressure(), most = 912e6 * 0.25;
     const Real expected = std::min(912e6 * 0.3 * std::pow(p / 1374e6, 0.4), most);
     EXPECT_EQ(probe.history("damage"), 1);
@@ -177,7 +177,7 @@ TEST(JohnsonHolmquist, damageIsPlasticStrainOverDuctility)
   // the surface of the damage before; what damage takes of the surface is flow, too.
   const JohnsonHolmquist law = makeLaw(ceramic('C'));
   MaterialProbe probe(law, 0.01);
-  strainPath(probe, {-0.01, -0.01, -0.01, 0, 0, 0}, 100, nobody);
+  strainPath(probe, {-0.01, -0.01, -0.01, 0, 0, 0}, 100, unrecorded);
   ProbeStep step;
   step.value = {0, 0, 0, 1e-4, 0, 0};
   int grown = 0;
@@ -201,10 +201,10 @@ TEST(JohnsonHolmquist, meanTensionEndsAtItsLimitAndAtNothingWhenFractured)
 {
   const Material law = makeLaw(ceramic('C'));
   MaterialProbe probe(law, 0.01);
-  strainPath(probe, {1e-3, 1e-3, 1e-3, 0, 0, 0}, 100, nobody);
+  strainPath(probe, {1e-3, 1e-3, 1e-3, 0, 0, 0}, 100, unrecorded);
   EXPECT_NEAR(probe.pressure(), -0.2e9, 1e-3);
   MaterialProbe torn(law, 0.01);
-  strainPath(torn, {0.01, 0, 0, 0, 0, 0}, 1000, nobody);
+  strainPath(torn, {0.01, 0, 0, 0, 0, 0}, 1000, unrecorded);
   EXPECT_EQ(torn.history("damage"), 1);
   EXPECT_EQ(torn.pressure(), 0);
   EXPECT_EQ(torn.vonMises(), 0);
@@ -223,14 +223,14 @@ TEST(JohnsonHolmquist, whatATornCeramicStoredIsLost)
     return 1 - probe.dissipation() / probe.energy();
   };
   MaterialProbe torn(makeLaw(ceramicJh2()), 0.01);
-  strainPath(torn, {0.01, 0, 0, 0, 0, 0}, 4000, nobody);
+  strainPath(torn, {0.01, 0, 0, 0, 0, 0}, 4000, unrecorded);
   EXPECT_NEAR(lackOf(torn), 0, 0.01);
   JohnsonHolmquistParameters tough = ceramicJh2();
   tough.damageFactor = 0.05;
   MaterialProbe opened(makeLaw(tough), 0.01);
-  strainPath(opened, {0.004, 0.004, 0.004, 0, 0, 0}, 4000, nobody);
+  strainPath(opened, {0.004, 0.004, 0.004, 0, 0, 0}, 4000, unrecorded);
   EXPECT_EQ(opened.dissipation(), 0); // it is elastic until damage comes
-  strainPath(opened, {0.004, 0.004, 0.004, 0.2, 0, 0}, 4000, nobody);
+  strainPath(opened, {0.004, 0.004, 0.004, 0.2, 0, 0}, 4000, unrecorded);
   EXPECT_NEAR(lackOf(opened), 0, 0.01);
 }
 
@@ -239,7 +239,7 @@ TEST(JohnsonHolmquist, losesNoMoreThanTheWorkInStepsOfAnySize)
   for (const int steps : {1, 5, 10, 50, 400})
   {
     MaterialProbe torn(makeLaw(ceramicJh2()), 0.01);
-    strainPath(torn, {0.01, 0, 0, 0, 0, 0}, steps, nobody);
+    strainPath(torn, {0.01, 0, 0, 0, 0, 0}, steps, unrecorded);
     EXPECT_NEAR(torn.dissipation(), torn.energy(), 1e-3 * torn.energy()) << steps;
   }
 }
@@ -253,7 +253,7 @@ TEST(JohnsonHolmquist, breaksWithoutLosingMoreThanTheWork)
   for (const int steps : {20, 50, 100, 200})
   {
     MaterialProbe probe(makeLaw(tough), 0.01);
-    uniaxialStress(probe, -0.01, steps, nobody);
+    uniaxialStress(probe, -0.01, steps, unrecorded);
     EXPECT_EQ(probe.history("damage"), 1) << steps;
     EXPECT_NEAR(probe.dissipation(), probe.energy(), 0.02 * probe.energy()) << steps;
   }
@@ -264,7 +264,7 @@ TEST(JohnsonHolmquist, energyIsLostOrStored)
   for (const char which : {'A', 'B', 'C'})
   {
     MaterialProbe probe(makeLaw(ceramic(which)), 1);
-    strainPath(probe, {std::log(0.95), 0, 0, 0, 0, 0}, 5000, nobody);
+    strainPath(probe, {std::log(0.95), 0, 0, 0, 0, 0}, 5000, unrecorded);
     // Of p = K (1/J - 1) + dp down to no pressure, at J0; q^2 / 6G.
     const Real K = 130.95e9, J = probe.volumeRatio(), q = probe.vonMises();
     const Real J0 = 1 / (1 - probe.history("bulking_pressure") / K);
@@ -279,10 +279,10 @@ TEST(JohnsonHolmquist, bulkingIsThatOfThePressureWhereverItComesFrom)
   const JohnsonHolmquist law = makeLaw(ceramic('A'));
   MaterialProbe started(law, 0.01, {-p, -p, -p, 0, 0, 0}), strained(law, 0.01);
   const Real axis = -std::log1p(p / 130.95e9) / 3;
-  strainPath(strained, {axis, axis, axis, 0, 0, 0}, 100, nobody);
+  strainPath(strained, {axis, axis, axis, 0, 0, 0}, 100, unrecorded);
   ASSERT_NEAR(strained.pressure(), p, 1);
-  strainPath(started, {0, 0, 0, 0.05, 0, 0}, 1000, nobody);
-  strainPath(strained, {axis, axis, axis, 0.05, 0, 0}, 1000, nobody);
+  strainPath(started, {0, 0, 0, 0.05, 0, 0}, 1000, unrecorded);
+  strainPath(strained, {axis, axis, axis, 0.05, 0, 0}, 1000, unrecorded);
   ASSERT_EQ(started.history("damage"), 1);
   EXPECT_NEAR(started.history("bulking_pressure"), strained.history("bulking_pressure"), 10);
   // (p + dp)^2 - p^2 = 2 K q^2 / 6G, to the step of q.

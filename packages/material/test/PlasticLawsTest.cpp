@@ -15,9 +15,9 @@ using namespace coplane::testing;
 
 namespace
 {
-const Record nobody = [](const MaterialProbe&) {};
+const Record notRecorded = [](const MaterialProbe&) {};
 const LinearElastic steel = makeLinearElastic(200e9, 0.3, 7850);
-constexpr Real degree = pi / 180;
+constexpr Real oneDegree = pi / 180;
 
 /// The stress after one step of plain strain increments from a stress.
 MaterialProbe after(const Material& law, const SymTensor& start, const Mat3& l)
@@ -63,7 +63,7 @@ TEST(HardeningPlasticity, aStepOverSeveralPiecesOfTheTableEndsOnIt)
   EXPECT_NEAR(probe.vonMises(), yield, 1e-6);
   EXPECT_NEAR(yield, 3 * steel.shearModulus * (2 / std::sqrt(3.0) * 0.015 - ep), 1e-3);
   // Beyond the end of the table the yield stress stays.
-  strainPath(probe, {0, 0, 0, 0.1, 0, 0}, 10, nobody);
+  strainPath(probe, {0, 0, 0, 0.1, 0, 0}, 10, notRecorded);
   EXPECT_NEAR(probe.vonMises(), 420e6, 1e-3);
 }
 
@@ -73,15 +73,15 @@ TEST(HardeningPlasticity, kinematicHardeningKeepsTheElasticRangeWhenTheLoadTurns
   const Real Hk = 10e9, Y = 300e6;
   const Material law = makeHardeningPlasticity(steel, {}, {0}, {Y}, Hk);
   MaterialProbe probe(law, 1);
-  uniaxialStress(probe, 0.01, 100, nobody);
+  uniaxialStress(probe, 0.01, 100, notRecorded);
   const Real ep = probe.history("equivalent_plastic_strain"), top = probe.stress().xx;
   EXPECT_NEAR(top, Y + Hk * ep, 1e-6 * Y);
   EXPECT_NEAR(0.01, top / 200e9 + ep, 1e-9);
   EXPECT_NEAR(probe.history("back_stress_xx"), 2.0 / 3.0 * Hk * ep, 1e-6 * Y);
   // Down by 2 Y nothing flows; below that it does.
-  uniaxialStress(probe, 0.01 - 1.999 * Y / 200e9, 50, nobody);
+  uniaxialStress(probe, 0.01 - 1.999 * Y / 200e9, 50, notRecorded);
   EXPECT_NEAR(probe.history("equivalent_plastic_strain"), ep, 1e-15);
-  uniaxialStress(probe, -0.01, 400, nobody);
+  uniaxialStress(probe, -0.01, 400, notRecorded);
   EXPECT_NEAR(probe.stress().xx, -Y + Hk * (-0.01 - probe.stress().xx / 200e9), 1e-5 * Y);
   // The energy of the back stress comes back: not all plastic work is dissipated. (Per reference
   // volume, which elastic strains change by some 1e-4.)
@@ -152,22 +152,22 @@ TEST(DruckerPrager, fitToCompressionHasMohrCoulombsStrengthThere)
 {
   // phi = 30 deg: N = 3. sigma_1 = 2 c sqrt(N) + N sigma_3.
   const Real c = 2e6;
-  const Material law = coneOf(30 * degree, 10 * degree, c, DruckerPragerFit::Compression);
+  const Material law = coneOf(30 * oneDegree, 10 * oneDegree, c, DruckerPragerFit::Compression);
   for (const Real lateral : {0.0, 5e6})
   {
     MaterialProbe probe(law, 1, {-lateral, -lateral, -lateral, 0, 0, 0});
-    uniaxialStress(probe, -0.01, 200, nobody, -lateral);
+    uniaxialStress(probe, -0.01, 200, notRecorded, -lateral);
     EXPECT_NEAR(-probe.stress().xx, 2 * c * std::sqrt(3.0) + 3 * lateral, 1e-5 * c);
     // Plastic volume strain over shear strain is the slope of dilation.
     EXPECT_NEAR(probe.history("plastic_volume_strain") / probe.history("equivalent_plastic_strain"),
-                6 * std::sin(10 * degree) / (3 - std::sin(10 * degree)), 1e-9);
+                6 * std::sin(10 * oneDegree) / (3 - std::sin(10 * oneDegree)), 1e-9);
   }
 }
 
 TEST(DruckerPrager, fitToPlaneStrainHasMohrCoulombsLimitThere)
 {
   // psi = phi, plane strain: at the limit (s1 - s3)/2 = c cos phi + (s1 + s3)/2 sin phi.
-  const Real c = 2e6, phi = 30 * degree;
+  const Real c = 2e6, phi = 30 * oneDegree;
   MaterialProbe probe(coneOf(phi, phi, c, DruckerPragerFit::PlaneStrain), 1);
   ProbeStep step;
   step.stressGiven = {false, true, false, false, false, false};
@@ -179,7 +179,8 @@ TEST(DruckerPrager, fitToPlaneStrainHasMohrCoulombsLimitThere)
 
 TEST(DruckerPrager, tensionEndsAtTheTip)
 {
-  const DruckerPrager law = coneOf(30 * degree, 10 * degree, 2e6, DruckerPragerFit::Compression);
+  const DruckerPrager law =
+      coneOf(30 * oneDegree, 10 * oneDegree, 2e6, DruckerPragerFit::Compression);
   const auto probe = after(law, {}, Mat3{{{2e-3, 1e-4, 0}, {1e-4, 2e-3, 0}, {0, 0, 2.1e-3}}});
   EXPECT_NEAR(-probe.pressure(), law.strength / law.frictionSlope, 1e-3);
   EXPECT_NEAR(probe.vonMises(), 0, 1e-3);
@@ -188,15 +189,15 @@ TEST(DruckerPrager, tensionEndsAtTheTip)
 TEST(MohrCoulomb, uniaxialAndTriaxialStrengthsFollowTheAngles)
 {
   const Real c = 5e6;
-  const Material law = makeLaw(rockOf(30 * degree, 10 * degree, c, c, 2e6));
+  const Material law = makeLaw(rockOf(30 * oneDegree, 10 * oneDegree, c, c, 2e6));
   for (const Real lateral : {0.0, 5e6})
   {
     MaterialProbe probe(law, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0});
-    uniaxialStress(probe, -0.01, 200, nobody, -lateral);
+    uniaxialStress(probe, -0.01, 200, notRecorded, -lateral);
     EXPECT_NEAR(-probe.stress().xx, 2 * c * std::sqrt(3.0) + 3 * lateral, 1e-5 * c);
   }
   MaterialProbe pulled(law, 0.1);
-  uniaxialStress(pulled, 0.01, 200, nobody);
+  uniaxialStress(pulled, 0.01, 200, notRecorded);
   EXPECT_NEAR(pulled.stress().xx, 2e6, 1);
   // Plane strain, no stress along y: the same limit, whatever the middle stress.
   MaterialProbe flat(law, 0.1);
@@ -214,7 +215,7 @@ TEST(MohrCoulomb, everyTrialStressReturnsToTheSurface)
   for (const auto& [phi, psi, ft] :
        {std::array<Real, 3>{35, 10, 2e6}, {35, 35, 2e6}, {0, 0, 3e6}, {20, 0, 13e6}, {45, 5, 0}})
   {
-    const MohrCoulomb law = makeLaw(rockOf(phi * degree, psi * degree, 5e6, 5e6, ft));
+    const MohrCoulomb law = makeLaw(rockOf(phi * oneDegree, psi * oneDegree, 5e6, 5e6, ft));
     std::mt19937 random(7);
     std::uniform_real_distribution<Real> uniform(-2e-3, 2e-3);
     int onPlane = 0, onCut = 0, onBoth = 0;
@@ -250,11 +251,11 @@ TEST(MohrCoulomb, everyTrialStressReturnsToTheSurface)
 TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
 {
   // Tension: G_I. Exact in the limit of small steps: 2000 of them, 1 %.
-  const Material law = makeLaw(rockOf(30 * degree, 0, 5e6, 5e6, 2e6, 0, 100));
+  const Material law = makeLaw(rockOf(30 * oneDegree, 0, 5e6, 5e6, 2e6, 0, 100));
   for (const Real size : {0.01, 0.05, 0.2})
   {
     MaterialProbe probe(law, size);
-    uniaxialStress(probe, 10 * 100 / 2e6 / size, 4000, nobody);
+    uniaxialStress(probe, 10 * 100 / 2e6 / size, 4000, notRecorded);
     EXPECT_NEAR(probe.dissipation() * size, 100, 1) << size;
     EXPECT_LT(probe.stress().xx, 2e6 * 1e-3);
   }
@@ -263,7 +264,7 @@ TEST(MohrCoulomb, softeningDissipatesTheSameEnergyPerAreaInEveryElement)
   for (const Real size : {0.01, 0.1})
   {
     MaterialProbe probe(clay, size);
-    strainPath(probe, {0, 0, 0, 5 * 1000 / 5e6 / size, 0, 0}, 8000, nobody);
+    strainPath(probe, {0, 0, 0, 5 * 1000 / 5e6 / size, 0, 0}, 8000, notRecorded);
     EXPECT_NEAR(probe.dissipation() * size, 1000, 10) << size;
   }
 }
@@ -316,8 +317,8 @@ TEST(MohrCoulomb, cohesionAndFrictionFollowTheirTable)
   {
     MaterialProbe a(flat, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0}),
         b(plain, 0.1, {-lateral, -lateral, -lateral, 0, 0, 0});
-    uniaxialStress(a, -0.01, 400, nobody, -lateral);
-    uniaxialStress(b, -0.01, 400, nobody, -lateral);
+    uniaxialStress(a, -0.01, 400, notRecorded, -lateral);
+    uniaxialStress(b, -0.01, 400, notRecorded, -lateral);
     EXPECT_NEAR(a.stress().xx, b.stress().xx, 1);
   }
 }

@@ -19,7 +19,7 @@ namespace
 {
 const PseudoCap c40 = makeLaw(concreteC40());
 const Material concrete = c40;
-constexpr Real size = 0.01; // [m]
+constexpr Real elementSize = 0.01; // [m]
 
 struct Value
 {
@@ -59,7 +59,7 @@ Real axialShortening(const MaterialProbe& probe)
 /// Largest compression along x while it is shortened at constant stress on the sides.
 Real peakUnder(Real lateral, Real strain, int steps)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   if (lateral > 0)
   {
     ProbeStep step;
@@ -80,7 +80,7 @@ Real peakUnder(Real lateral, Real strain, int steps)
 
 TEST(PseudoCap, uniaxialCompressionPeaksAtItsStrengthAndSoftens)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   Real peak = 0, strainAtPeak = 0, volumeStrain = 0;
   compare(
       {{.002, 39.22}, {.005, 36.11}, {.01, 30.71}, {.02, 20.41}, {.05, 5.42}}, 0.01,
@@ -116,7 +116,7 @@ TEST(PseudoCap, aLargerElementSoftensFasterPerStrain)
 
 TEST(PseudoCap, tensionOpensACrackThatTakesItsFractureEnergy)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   Real peak = 0;
   compare(
       {{.001, 2.9535}, {.002, 2.0981}, {.004, 1.0660}, {.008, .2788}}, 0.01,
@@ -132,8 +132,8 @@ TEST(PseudoCap, tensionOpensACrackThatTakesItsFractureEnergy)
       [](const MaterialProbe& p) { return p.strain().xx; },
       [](const MaterialProbe& p) { return p.stress().xx; });
   EXPECT_NEAR(peak, 4e6, 0.005 * 4e6);
-  EXPECT_NEAR(probe.energy() * size, 117.8, 0.03 * 117.8);      // [J/m^2]; 120 in the end
-  EXPECT_NEAR(probe.dissipation() * size, 117.8, 0.03 * 117.8); // all of it is lost
+  EXPECT_NEAR(probe.energy() * elementSize, 117.8, 0.03 * 117.8);      // [J/m^2]; 120 in the end
+  EXPECT_NEAR(probe.dissipation() * elementSize, 117.8, 0.03 * 117.8); // all of it is lost
   // Mode I: no lateral inelastic strain, so the sides are back where they started.
   EXPECT_LT(std::abs(probe.strain().yy), 1e-5);
 }
@@ -154,7 +154,7 @@ TEST(PseudoCap, confinementRaisesThePeakToTheFractureSurface)
 TEST(PseudoCap, biaxialStrengthIsItsRatioOfTheUniaxialOne)
 {
   // Equal shortening along x and y, z free.
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   ProbeStep step;
   step.stressGiven = {false, false, true, false, false, false};
   step.value = {-1e-6, -1e-6, 0, 0, 0, 0};
@@ -171,7 +171,7 @@ TEST(PseudoCap, pureShearStrengthFollowsTheLodeAngle)
 {
   // p held at 0 by stresses of 0 along the axes: q = r(30 deg) m_t ft = 0.73251 * 40 / (40/3 + 4) *
   // 4 = 6.762 MPa, tau = q / sqrt3.
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   ProbeStep step;
   step.stressGiven = {true, true, true, false, false, false};
   step.value = {0, 0, 0, 1e-6, 0, 0};
@@ -186,7 +186,7 @@ TEST(PseudoCap, pureShearStrengthFollowsTheLodeAngle)
 
 TEST(PseudoCap, hydrostatFollowsTheCrushCurveUntilThePoresAreClosed)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   const std::vector<std::pair<Value, Real>> table = {
       {{.002, 36.85}, .0800},  {{.004, 74.07}, .0800},  {{.01, 98.65}, .07536},
       {{.02, 134.79}, .06711}, {{.04, 223.47}, .05037}, {{.06, 346.46}, .03372},
@@ -203,7 +203,7 @@ TEST(PseudoCap, hydrostatFollowsTheCrushCurveUntilThePoresAreClosed)
 
 TEST(PseudoCap, unloadingAfterCompactionIsElasticAndEndsInTension)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   const auto lead = [&](Real e) {
     strainPath(probe, {-e / 3, -e / 3, -e / 3, 0, 0, 0}, 400, [](const MaterialProbe&) {});
   };
@@ -219,7 +219,7 @@ TEST(PseudoCap, unloadingAfterCompactionIsElasticAndEndsInTension)
 
 TEST(PseudoCap, uniaxialStrainCompacts)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   const std::vector<std::array<Real, 3>> table = {
       {.001, 36.71, 9.21},   {.002, 73.52, 18.52}, {.003, 110.41, 27.91},
       {.004, 131.69, 34.58}, {.01, 157.2, 51.4},   {.02, 203.8, 77.2},
@@ -234,7 +234,7 @@ TEST(PseudoCap, uniaxialStrainCompacts)
 
 TEST(PseudoCap, hydrostaticTensionFallsWithTheCrack)
 {
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   Real peak = 0;
   compare(
       {{.0005, -3.618}, {.001, -3.030}, {.002, -2.136}}, 0.01,
@@ -256,7 +256,7 @@ TEST(PseudoCap, crackClosesAtZeroPressureAndThenBearsAgain)
 {
   // Hydrostatic: opened by 1e-3, closed again: free of stress on the way back, and after it
   // elastic with the modulus of the intact material, as the pores are back where they were.
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   const auto lead = [&](Real e) {
     strainPath(probe, {e / 3, e / 3, e / 3, 0, 0, 0}, 1000, [](const MaterialProbe&) {});
   };
@@ -273,7 +273,7 @@ TEST(PseudoCap, volumeFollowsShearAsThePressureAtTheEndOfTheStepAsks)
   // Isochoric shear in steps of 0.3 % from pressures below the knee, below the cap and on it.
   for (const Real start : {5e6, 25e6, 60e6})
   {
-    MaterialProbe probe(concrete, size, {-start, -start, -start, 0, 0, 0});
+    MaterialProbe probe(concrete, elementSize, {-start, -start, -start, 0, 0, 0});
     Mat3 shear;
     shear(0, 1) = 3e-3;
     for (int i = 0; i < 6; ++i)
@@ -299,7 +299,7 @@ TEST(PseudoCap, shearAtNoPressureFillsOpenCracksBeforeItMeetsOne)
 {
   // A crack of 2e-3, closed by half: no pressure, and none under shear until bulking has filled it.
   // Bulking is 1.5 (1 - D) per shear, and breaks what is left.
-  MaterialProbe probe(concrete, size);
+  MaterialProbe probe(concrete, elementSize);
   for (const Real e : {2e-3, 1e-3})
     strainPath(probe, {e, 0, 0, 0, 0, 0}, 200, [](const MaterialProbe&) {});
   strainPath(probe, {1e-3, 1e-5, -1e-5, 0, 0, 0}, 1, [](const MaterialProbe&) {});
@@ -317,7 +317,8 @@ TEST(PseudoCap, shearAtNoPressureFillsOpenCracksBeforeItMeetsOne)
   EXPECT_GT(plastic, 1e-4);
   EXPECT_NEAR(bulking, 1.5 * intact * plastic, 1e-12);
   EXPECT_NEAR(probe.history("crack_opening"), opened - bulking, 1e-12);
-  EXPECT_NEAR(1 - probe.history("damage"), intact * std::exp(-bulking * 4e6 * size / 120), 1e-9);
+  EXPECT_NEAR(1 - probe.history("damage"), intact * std::exp(-bulking * 4e6 * elementSize / 120),
+              1e-9);
   shear(1, 2) = 0.02;
   for (int i = 0; i < 5; ++i)
     probe.advance(shear, 1);
@@ -342,7 +343,7 @@ TEST(PseudoCap, cracksThatCloseBearPressureAgain)
   PseudoCapParameters parameters = concreteC40();
   parameters.crackClosure = true;
   const PseudoCap closing = makeLaw(parameters);
-  MaterialProbe probe(closing, size);
+  MaterialProbe probe(closing, elementSize);
   Real peak = 0;
   uniaxialStress(probe, 0.008, 20000, [](const MaterialProbe&) {});
   const Real cracked = probe.history("damage");
@@ -369,7 +370,7 @@ TEST(PseudoCap, cracksThatCloseBearPressureAgain)
   EXPECT_EQ(closing.meridian(0.0, 1.0, 0.0), 0);
 
   // Pulled again, it bears what the crack has left.
-  MaterialProbe again(closing, size);
+  MaterialProbe again(closing, elementSize);
   uniaxialStress(again, 0.003, 5000, [](const MaterialProbe&) {});
   const Real left = (1 - again.history("damage")) * 4e6;
   uniaxialStress(again, -0.0005, 5000, [](const MaterialProbe&) {});
@@ -403,7 +404,7 @@ TEST(PseudoCap, aCrackedSpecimenIsCrushedWhateverTheSteps)
   // answer is taken.
   const auto energyOf = [](int steps)
   {
-    MaterialProbe probe(concrete, size);
+    MaterialProbe probe(concrete, elementSize);
     uniaxialStress(probe, 0.003, steps, [](const MaterialProbe&) {});
     uniaxialStress(probe, -0.02, steps, [](const MaterialProbe&) {});
     EXPECT_NEAR(probe.stress().yy, 0, 1e3);
@@ -442,7 +443,7 @@ TEST(PseudoCap, workIsStoredOrLost)
       PseudoCapParameters parameters = concreteC40();
       parameters.rateEffects = fast;
       const PseudoCap law = makeLaw(parameters);
-      MaterialProbe probe(law, size);
+      MaterialProbe probe(law, elementSize);
       SymTensor from;
       Real largest = 0;
       for (const SymTensor& to : path.strains)
@@ -475,7 +476,7 @@ TEST(PseudoCap, initialStressIsBorneWithoutStrain)
 {
   for (const Real p : {-2e6, 0.0, 30e6, 200e6}) // the last has crushed pores
   {
-    MaterialProbe probe(concrete, size, {-p, -p, -p, 0, 0, 0});
+    MaterialProbe probe(concrete, elementSize, {-p, -p, -p, 0, 0, 0});
     probe.advance(Mat3{}, 1);
     EXPECT_NEAR(probe.pressure(), p, 1e-6 * 40e6);
     EXPECT_NEAR(probe.history("damage"), 0, 1e-12);

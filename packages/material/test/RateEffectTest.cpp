@@ -16,7 +16,7 @@ using namespace coplane::testing;
 
 namespace
 {
-constexpr Real size = 0.01; // [m]
+constexpr Real elementEdge = 0.01; // [m]
 
 /// Malvar and Ross (1998): (rate / s)^d, from 1/s on b (rate / s)^(1/3) with log b = 6 d - 2.
 Real malvarAndRoss(Real rate, Real megapascals)
@@ -65,7 +65,7 @@ ProbeStep alongX(Real increment, Real rate)
 /// Largest stress along x in a uniaxial test at a rate, in steps of `increment`.
 Real peakAt(const Material& law, Real rate, Real increment, int steps)
 {
-  MaterialProbe probe(law, size);
+  MaterialProbe probe(law, elementEdge);
   Real peak = 0;
   for (int i = 0; i < steps; ++i)
   {
@@ -165,7 +165,7 @@ TEST(RateEffect, confinedConcreteIsAsStrongAsInSlowTests)
   // Shear at a constant pressure, at 20/s: the factor of compression up to fc, none from 3 fc on.
   const auto strengthAt = [](const PseudoCapParameters& parameters, Real pressure)
   {
-    MaterialProbe probe(makeLaw(parameters), size);
+    MaterialProbe probe(makeLaw(parameters), elementEdge);
     ProbeStep step;
     step.stressGiven.fill(true);
     for (int i = 1; i <= 400; ++i)
@@ -198,7 +198,7 @@ TEST(RateEffect, meanTensionAndShearGrowAsTension)
   for (const Real rate : {1e-6, 1e-2, 1.0, 100.0})
   {
     const Real factor = malvarAndRoss(rate, 40);
-    MaterialProbe pulled(law, size), sheared(law, size);
+    MaterialProbe pulled(law, elementEdge), sheared(law, elementEdge);
     ProbeStep step;
     const Real e = factor * 4e6 / (3 * 18.3e9) / 20.5;
     step.value = {e, e, e, 0, 0, 0};
@@ -234,12 +234,12 @@ TEST(RateEffect, aCrackTakesTheFactorTimesTheFractureEnergy)
   for (const Real rate : {1e-6, 1e-2, 10.0})
   {
     const Real factor = malvarAndRoss(rate, 40);
-    MaterialProbe probe(makeLaw(fastC40()), size);
+    MaterialProbe probe(makeLaw(fastC40()), elementEdge);
     const int steps = 12000;
     for (int i = 0; i < steps; ++i)
       probe.advance(alongX(0.03 / steps, rate));
     // Opening by 1 - exp(-w ft / G_F) of it; the opening is the strain less what is elastic.
-    EXPECT_NEAR(probe.energy() * size, factor * 120, 0.01 * factor * 120) << rate;
+    EXPECT_NEAR(probe.energy() * elementEdge, factor * 120, 0.01 * factor * 120) << rate;
     EXPECT_NEAR(probe.dissipation() + storedBy(probe, makeLaw(fastC40())), probe.energy(),
                 2e-4 * probe.energy());
   }
@@ -257,7 +257,7 @@ TEST(RateEffect, energyClosesWhenTheRateChangesOnTheWay)
   };
   const auto follow = [&](const std::vector<Leg>& legs)
   {
-    MaterialProbe probe(law, size);
+    MaterialProbe probe(law, elementEdge);
     Real from = 0, before = 0;
     for (const Leg& leg : legs)
     {
@@ -297,7 +297,7 @@ TEST(RateEffect, slowLoadingHasTheBitsOfTheLawWithoutRates)
 {
   // Below 1e-6/s both factors are 1; p / 1 and 1 Y are exact.
   const Material plain = makeLaw(concreteC40()), fast = makeLaw(fastC40());
-  MaterialProbe a(plain, size), b(fast, size);
+  MaterialProbe a(plain, elementEdge), b(fast, elementEdge);
   const SymTensor strains[] = {{1e-4, -2e-4, 3e-4, 2e-4, 0, -1e-4},
                                {-4e-3, -2e-3, -3e-3, 1e-3, 2e-3, 0},
                                {-6e-3, -5e-3, 1e-3, 0, 2e-3, 1e-3},

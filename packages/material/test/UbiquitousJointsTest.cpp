@@ -20,7 +20,7 @@ using namespace coplane::testing;
 
 namespace
 {
-constexpr Real degree = pi / 180;
+constexpr Real degreeOfDip = pi / 180;
 const LinearElastic rock = makeLinearElastic(20e9, 0.25, 2500);
 
 /// @param planes cohesion, friction, dilation, tensile strength
@@ -102,14 +102,14 @@ UbiquitousJoints acrossY()
 TEST(UbiquitousJoints, haveJaegersStrengthOverTheDip)
 {
   // sigma1 - sigma3 = 2 (c + sigma3 tan phi) / ((1 - tan phi cot dip) sin 2 dip), or the matrix's.
-  const Real c = 1e6, friction = std::tan(25 * degree);
+  const Real c = 1e6, friction = std::tan(25 * degreeOfDip);
   int sliding = 0, crushed = 0;
   for (const Real lateral : {2e6, 10e6})
     for (int dip = 0; dip <= 90; dip += 5)
     {
-      const Real b = dip * degree;
+      const Real b = dip * degreeOfDip;
       const UbiquitousJoints law =
-          makeLaw(withPlanes(rockOf(35 * degree, 10 * degree, 5e6, 5e6, 2e6),
+          makeLaw(withPlanes(rockOf(35 * degreeOfDip, 10 * degreeOfDip, 5e6, 5e6, 2e6),
                              Vec3{std::cos(b), std::sin(b), 0}, {c, friction, 0.1, 0.5e6}));
       const Real ofMatrix =
           2 * 5e6 * std::sqrt(law.matrix.friction) + (law.matrix.friction - 1) * lateral;
@@ -121,7 +121,7 @@ TEST(UbiquitousJoints, haveJaegersStrengthOverTheDip)
         return std::min(ofPlanes, ofMatrix);
       };
       // The planes turn with the shortening of the body, at first yield by less than a tenth of a
-      // degree: that is up to a per cent of the strength near the steepest part of its curve.
+      // degreeOfDip: that is up to a per cent of the strength near the steepest part of its curve.
       const auto dipOf = [](const MaterialProbe& probe)
       {
         return std::atan2(
@@ -196,10 +196,11 @@ TEST(UbiquitousJoints, bothCriteriaHoldOnRandomPaths)
 {
   // Steps from a hundredth of the elastic range to far beyond it; matrix and planes, the first
   // with associated flow, the last two with cohesionless planes and with a sharp tip.
-  const MohrCoulombParameters rocks[] = {
-      rockOf(35 * degree, 35 * degree, 5e6, 5e6, 2e6),
-      rockOf(35 * degree, 10 * degree, 5e6, 5e6, 2e6), rockOf(0, 0, 5e6, 5e6, 20e6),
-      rockOf(45 * degree, 0, 5e6, 5e6, 0), rockOf(35 * degree, 10 * degree, 5e6, 5e6, 2e6)};
+  const MohrCoulombParameters rocks[] = {rockOf(35 * degreeOfDip, 35 * degreeOfDip, 5e6, 5e6, 2e6),
+                                         rockOf(35 * degreeOfDip, 10 * degreeOfDip, 5e6, 5e6, 2e6),
+                                         rockOf(0, 0, 5e6, 5e6, 20e6),
+                                         rockOf(45 * degreeOfDip, 0, 5e6, 5e6, 0),
+                                         rockOf(35 * degreeOfDip, 10 * degreeOfDip, 5e6, 5e6, 2e6)};
   const std::array<Real, 4> planes[] = {{1e6, 0.5, 0.5, 0.5e6},
                                         {1e6, 0.5, 0.2, 0.5e6},
                                         {1e6, 0, 0, 20e6},
@@ -250,8 +251,9 @@ TEST(UbiquitousJoints, associatedFlowGivesTheNearestStress)
   int both = 0;
   for (int trial = 0; trial < 300; ++trial)
   {
-    const UbiquitousJoints law = makeLaw(withPlanes(rockOf(35 * degree, 35 * degree, 5e6, 5e6, 2e6),
-                                                    randomNormal(random), {1e6, 0.5, 0.5, 0.5e6}));
+    const UbiquitousJoints law =
+        makeLaw(withPlanes(rockOf(35 * degreeOfDip, 35 * degreeOfDip, 5e6, 5e6, 2e6),
+                           randomNormal(random), {1e6, 0.5, 0.5, 0.5e6}));
     const SymTensor strain = randomStrain(random, 4e-4);
     const auto end = strained(law, startOf(law), strain);
     both += end.history[0] > 0 && end.history[UbiquitousJoints::Slip] > 0;
@@ -282,8 +284,9 @@ TEST(UbiquitousJoints, matrixAndPlanesFlowAtTheEndOfTheStep)
   int both = 0, corners = 0;
   for (int trial = 0; trial < 2000; ++trial)
   {
-    const UbiquitousJoints law = makeLaw(withPlanes(rockOf(35 * degree, 10 * degree, 5e6, 5e6, 2e6),
-                                                    randomNormal(random), {1e6, 0.5, 0.2, 0.5e6}));
+    const UbiquitousJoints law =
+        makeLaw(withPlanes(rockOf(35 * degreeOfDip, 10 * degreeOfDip, 5e6, 5e6, 2e6),
+                           randomNormal(random), {1e6, 0.5, 0.2, 0.5e6}));
     const Vec3 n = law.normal;
     const SymTensor strain = randomStrain(random, 3e-4);
     const auto end = strained(law, startOf(law), strain);

@@ -9,7 +9,7 @@ namespace coplane
 namespace
 {
 /// Three boxes, the first two glued at an edge, and a node of no element.
-Mesh sample()
+Mesh threeBodies()
 {
   Mesh mesh;
   addBox(mesh, "long", {12, 1, 1}, {0, 0, 0}, {12, 1, 1}); // 52 nodes
@@ -25,7 +25,7 @@ Mesh sample()
 TEST(BodyLabels, areTheFirstNodesOfConnectedPartsHoweverTheMeshIsDealtOut)
 {
   const Comm comm;
-  const Mesh mesh = sample();
+  const Mesh mesh = threeBodies();
   const std::vector<int> last(mesh.nodes(), comm.size() - 1);
   for (const std::vector<int>& owners :
        {scatteredOwners(mesh, comm.size()), last, nodeOwners(mesh, comm, "rcb")})
@@ -44,7 +44,7 @@ TEST(BodyLabels, lookAtTheChosenBlocksOnly)
 {
   // Node 51 is of both blocks; a rank that has it from the other block only must know its body too.
   const Comm comm;
-  const Mesh mesh = sample();
+  const Mesh mesh = threeBodies();
   const RankMesh part = distribute(mesh, scatteredOwners(mesh, comm.size()), comm.rank());
   const std::vector<int> labels = bodyLabels(part, {0, 1, 0}, comm);
   for (int i = 0; i < part.nodes(); ++i)

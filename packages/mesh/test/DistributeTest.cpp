@@ -13,7 +13,7 @@ namespace coplane
 namespace
 {
 /// Two blocks, ids against the order of the file, a node set over both and a side set on one.
-Mesh sample()
+Mesh twoBlocks()
 {
   Mesh mesh;
   addBox(mesh, "a", {3, 2, 2}, {0, 0, 0}, {3, 2, 2});
@@ -50,7 +50,7 @@ void forEachRank(const Mesh& mesh, const Check& check)
 
 TEST(PartOfWholeMesh, aRankHoldsTheElementsThatTouchItsNodesAndNoOthers)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   forEachRank(mesh,
               [&](const RankMesh& part, const std::vector<int>& owners, int rank)
               {
@@ -69,7 +69,7 @@ TEST(PartOfWholeMesh, aRankHoldsTheElementsThatTouchItsNodesAndNoOthers)
 
 TEST(PartOfWholeMesh, everyElementIsOwnedByTheOwnerOfItsLowestNodeId)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   for (int ranks = 1; ranks <= 5; ++ranks)
   {
     const std::vector<int> owners = scatteredOwners(mesh, ranks);
@@ -98,7 +98,7 @@ TEST(PartOfWholeMesh, everyElementIsOwnedByTheOwnerOfItsLowestNodeId)
 
 TEST(PartOfWholeMesh, ownedNodesComeFirstInTheOrderOfTheFile)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   forEachRank(
       mesh,
       [&](const RankMesh& part, const std::vector<int>& owners, int rank)
@@ -116,7 +116,7 @@ TEST(PartOfWholeMesh, ownedNodesComeFirstInTheOrderOfTheFile)
 
 TEST(PartOfWholeMesh, elementsKeepTheirNodesPositionsAndBodies)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   forEachRank(mesh,
               [&](const RankMesh& part, const std::vector<int>&, int)
               {
@@ -142,7 +142,7 @@ TEST(PartOfWholeMesh, elementsKeepTheirNodesPositionsAndBodies)
 
 TEST(PartOfWholeMesh, nodeSetsCoverEachNodeOnceOverAllRanks)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   for (int ranks = 1; ranks <= 5; ++ranks)
   {
     const std::vector<int> owners = scatteredOwners(mesh, ranks);
@@ -164,7 +164,7 @@ TEST(PartOfWholeMesh, nodeSetsCoverEachNodeOnceOverAllRanks)
 
 TEST(PartOfWholeMesh, sideSetsListTheSidesOfAllHeldElements)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   forEachRank(mesh,
               [&](const RankMesh& part, const std::vector<int>&, int)
               {
@@ -182,7 +182,7 @@ TEST(PartOfWholeMesh, sideSetsListTheSidesOfAllHeldElements)
 
 TEST(PartOfWholeMesh, aRankWithoutNodesHasAllBlocksAndSetsButNothingInThem)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = twoBlocks();
   const RankMesh part = distribute(mesh, std::vector<int>(mesh.nodes(), 0), 1);
   EXPECT_EQ(part.nodes(), 0);
   ASSERT_EQ(part.blocks.size(), 2u);
@@ -235,7 +235,7 @@ void expectSame(const RankMesh& a, const RankMesh& b)
 /// A set whose entries stand in no order, over both blocks.
 Mesh shuffledSample()
 {
-  Mesh mesh = sample();
+  Mesh mesh = twoBlocks();
   Mesh::SideSet mixed{2, "mixed", {}, {}};
   for (int i = 0; i < mesh.elements(); ++i)
   {

@@ -8,7 +8,7 @@ namespace coplane
 {
 namespace
 {
-Mesh sample()
+Mesh sliceSample()
 {
   Mesh mesh;
   addBox(mesh, "a", {3, 2, 1}, {0, 0, 0}, {3, 2, 1});
@@ -28,7 +28,7 @@ void append(std::vector<T>& all, const std::vector<T>& more)
 
 TEST(MeshSlice, allRanksTogetherHaveTheMesh)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = sliceSample();
   for (int ranks = 1; ranks <= 40; ++ranks) // more than there are nodes in the end
   {
     Mesh all;
@@ -74,7 +74,7 @@ TEST(MeshSlice, allRanksTogetherHaveTheMesh)
 
 TEST(MeshSlice, knowsTheHomesOfNodesAndElements)
 {
-  const Mesh mesh = sample();
+  const Mesh mesh = sliceSample();
   for (int ranks = 1; ranks <= 12; ++ranks)
     for (int rank = 0; rank < ranks; ++rank)
     {
@@ -97,7 +97,7 @@ TEST(MeshSlice, knowsTheHomesOfNodesAndElements)
 TEST(NodesFromHome, bringsValuesInTheOrderOfTheWish)
 {
   const Comm comm;
-  const Mesh mesh = sample();
+  const Mesh mesh = sliceSample();
   const MeshSlice slice = sliceOf(mesh, comm);
   std::vector<int> wanted; // every third, beginning with the rank
   for (int n = comm.rank() % 3; n < mesh.nodes(); n += 3)

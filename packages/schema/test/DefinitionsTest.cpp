@@ -57,16 +57,16 @@ Key fileSchema()
                      });
 }
 
-struct Outcome
+struct DefinedCard
 {
   File file;
   DeckNode root;
   std::string problems;
 };
 
-Outcome read(const std::string& text, const std::vector<std::string>& overrides = {})
+DefinedCard readDefined(const std::string& text, const std::vector<std::string>& overrides = {})
 {
-  Outcome outcome;
+  DefinedCard outcome;
   Problems problems;
   outcome.root = readBySchema(fileSchema(), text, "f.yaml", overrides, &outcome.file, problems);
   outcome.problems = problems.text();
@@ -75,18 +75,18 @@ Outcome read(const std::string& text, const std::vector<std::string>& overrides 
 
 std::string problemsOf(const std::string& text)
 {
-  return read(text).problems;
+  return readDefined(text).problems;
 }
 } // namespace
 
 TEST(Define, aNameStandsForItsNumberEverywhere)
 {
-  const Outcome got = read("define: {v: 70, h: 0.25, n: 3}\n"
-                           "speed: v\n"
-                           "steps: \"4*n\"\n"
-                           "velocity: [v, 0, -v/2]\n"
-                           "plate: {width: 2*h, sizes: [h, 1], counts: [n, 2]}\n"
-                           "corners: [[0, h], [\"3*h\", 1]]\n");
+  const DefinedCard got = readDefined("define: {v: 70, h: 0.25, n: 3}\n"
+                                      "speed: v\n"
+                                      "steps: \"4*n\"\n"
+                                      "velocity: [v, 0, -v/2]\n"
+                                      "plate: {width: 2*h, sizes: [h, 1], counts: [n, 2]}\n"
+                                      "corners: [[0, h], [\"3*h\", 1]]\n");
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.speed, 70);
   EXPECT_EQ(got.file.steps, 12);
@@ -99,7 +99,7 @@ TEST(Define, aNameStandsForItsNumberEverywhere)
 
 TEST(Define, expressionsOfNamesBeforeAreNumbers)
 {
-  const Outcome got = read("define:\n  a: 1/4\n  b: 2*a + sqrt(4)\nspeed: b\n");
+  const DefinedCard got = readDefined("define:\n  a: 1/4\n  b: 2*a + sqrt(4)\nspeed: b\n");
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.speed, 2.5);
   EXPECT_EQ(problemsOf("define: {api: 1, w: 2*_pi*api}\nspeed: w\n"), ""); // no slip of `api`
@@ -107,9 +107,9 @@ TEST(Define, expressionsOfNamesBeforeAreNumbers)
 
 TEST(Define, functionsOfTimeAndPlaceTakeThem)
 {
-  const Outcome got = read("define: {v: -70, w: 2}\n"
-                           "loads: [v, \"2*v\", \"w^2*t + min(v, t)\", \"t\"]\n"
-                           "fields: [\"v*x\"]\n");
+  const DefinedCard got = readDefined("define: {v: -70, w: 2}\n"
+                                      "loads: [v, \"2*v\", \"w^2*t + min(v, t)\", \"t\"]\n"
+                                      "fields: [\"v*x\"]\n");
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.loads[0].constant, -70);
   EXPECT_EQ(got.file.loads[1].constant, -140);
@@ -120,27 +120,28 @@ TEST(Define, functionsOfTimeAndPlaceTakeThem)
 
 TEST(Define, digitsOfANumberAreNoNames)
 {
-  const Outcome got = read("define: {e5: 3}\nloads: [\"1e5*t + e5\"]\n");
+  const DefinedCard got = readDefined("define: {e5: 3}\nloads: [\"1e5*t + e5\"]\n");
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.loads[0].expression, "1e5*t + 3");
 }
 
 TEST(Define, theTreeHasTheNumbersAndNoDefine)
 {
-  EXPECT_EQ(toYaml(read("define: {v: 70}\nspeed: 2*v\nvelocity: [v, 1]\nname: v\n").root),
+  EXPECT_EQ(toYaml(readDefined("define: {v: 70}\nspeed: 2*v\nvelocity: [v, 1]\nname: v\n").root),
             "speed: 140\nvelocity: [70, 1]\nname: v\n");
 }
 
 TEST(Define, theCommandLineSetsThem)
 {
-  const Outcome got = read("define: {v: 70}\nspeed: v\n", {"define.v=80"});
+  const DefinedCard got = readDefined("define: {v: 70}\nspeed: v\n", {"define.v=80"});
   EXPECT_EQ(got.problems, "");
   EXPECT_EQ(got.file.speed, 80);
 }
 
 TEST(Define, aWholeNumberMayComeFromRoundedOnes)
 {
-  EXPECT_EQ(read("define: {l: 0.3, h: 0.1}\nsteps: l/h\n").file.steps, 3); // 2.9999999999999996
+  EXPECT_EQ(readDefined("define: {l: 0.3, h: 0.1}\nsteps: l/h\n").file.steps,
+            3); // 2.9999999999999996
   EXPECT_EQ(problemsOf("define: {l: 0.875, h: 0.25}\nsteps: l/h\n"),
             "f.yaml:2:8: steps = 'l/h' is not a whole number (it is 3.5); accepted: a whole number "
             ">= 1 [steps].");

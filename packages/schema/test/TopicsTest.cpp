@@ -18,32 +18,33 @@ struct Law
   Real friction = 0, modulus = 0;
 };
 
-struct Card
+struct DocumentedCard
 {
   std::vector<Law> joints;
   Law contact;
   Real friction = 0;
 };
 
-Key cardSchema()
+Key documentedSchema()
 {
   std::vector<Key> law{text("model", &Law::model).oneOf({"smooth", "rough"}).defaultIs("smooth"),
                        number("modulus", &Law::modulus).in("Pa")};
   Key friction = number("friction", &Law::friction).in("-").means("of the joint");
   friction.models = {"rough"};
   law.push_back(friction);
-  return section("", {
-                         named("joints", &Card::joints, law).means("laws of joints"),
-                         group("contact", &Card::contact, law).means("of all faces"),
-                         number("modulus", &Card::friction).in("Pa").means("of everything"),
-                     });
+  return section("",
+                 {
+                     named("joints", &DocumentedCard::joints, law).means("laws of joints"),
+                     group("contact", &DocumentedCard::contact, law).means("of all faces"),
+                     number("modulus", &DocumentedCard::friction).in("Pa").means("of everything"),
+                 });
 }
 
 /// Paths that a topic shows.
 std::vector<std::string> pathsOf(const std::string& topic)
 {
   std::vector<std::string> paths;
-  const std::string text = topicText(cardSchema(), topic);
+  const std::string text = topicText(documentedSchema(), topic);
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1)
   {
     end = text.find('\n', begin);
@@ -92,7 +93,7 @@ TEST(Topics, whatIsNotKnownHasASuggestion)
            {"ruogh", "Did you mean 'rough'?"}})
     try
     {
-      topicText(cardSchema(), topic);
+      topicText(documentedSchema(), topic);
       ADD_FAILURE() << topic;
     }
     catch (const Error& error)

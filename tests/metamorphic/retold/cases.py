@@ -47,7 +47,7 @@ CASES = {
                                 other={"millimetres": SAMPLES, "refined:right": SAMPLES, "cut:left:1:3": "counts planes that open, and those between the strips do"}, base=False),
     "V24_rebound": Retold(["turned", "quarter", "moved", "drifting", "powers_of_two", "restarted", "sliced", "declared", "cut:slab:0:3"], ["cut:slab:0:3", "refined:slab", "refined:block"],
                           other={"split": DASHPOTS, "refined:block": DASHPOTS}),
-    "contact_damping": Retold([], base=False),
+    "contact_damping": Retold([], other={"split": DASHPOTS}, base=False),
     "closure_curves": Retold([], base=False),
     "V25_joint_wave": Retold([], base=False),
     "V26_joint_set": Retold([], base=False),
