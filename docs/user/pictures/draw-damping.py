@@ -2,8 +2,10 @@
 """Draws docs/user/pictures/damping.svg: what contact damping does to a standing, a sliding and a rebounding body.
 
     docs/user/pictures/draw-damping.py build/bin [FILE]
+    docs/user/pictures/draw-damping.py build/bin --table
 
-Runs coplane_mesh and coplane from the given folder, about three minutes. Needs the Python standard library only.
+Runs coplane_mesh and coplane from the given folder, about three minutes. --table prints the table of docs/user/contact.md in place of
+drawing. Needs the Python standard library only.
 """
 import csv
 import math
@@ -31,7 +33,7 @@ DECK = """title: contact damping
 mesh: mesh.e
 materials: {{solid: {{model: linear_elastic, density: 2000, youngs_modulus: 50e6, poisson_ratio: 0.2}}}}
 blocks: {{slab: {{material: solid}}, block: {{material: solid}}}}
-joints: {{touch: {{model: penalty, friction: {friction}}}}}
+joints: {{touch: {{model: penalty, friction: {friction}, stiffness_fraction: {fraction}}}}}
 contact: {{default_joint: touch, damping: {{normal: {zeta}, shear: {zeta}}}}}
 history: {{every: {every}, probes: [{{name: block, block: block}}]}}
 output: {{every: 1e9}}
@@ -44,7 +46,7 @@ FIXED = "conditions: [{{type: fixed, node_set: slab}}]\ngravity: [{:.6f}, {:.6f}
 def run(programs, folder, mesh, **values):
     """The columns of the history."""
     (folder / "mesh.yaml").write_text(mesh)
-    (folder / "run.yaml").write_text(DECK.format(**values))
+    (folder / "run.yaml").write_text(DECK.format(**{"fraction": 1, **values}))
     for command in (["coplane_mesh", "make", "mesh.yaml", "-o", "mesh.e"], ["coplane", "run.yaml"]):
         done = subprocess.run([programs / command[0], *command[1:]], cwd=folder, capture_output=True, text=True)
         if done.returncode:
@@ -58,13 +60,31 @@ def slope(angle):
     return FIXED.format(GRAVITY * math.sin(angle), -GRAVITY * math.cos(angle))
 
 
+def walk_of(programs, folder, zeta, safety, fraction):
+    """How far a block walks down a slope within the last 0.7 s of 1 s [mm]."""
+    h = run(programs, folder, ON_SLAB, zeta=zeta, fraction=fraction, friction=0.6, every=1e-2, end=1, more=slope(math.atan(0.6 / safety)))
+    x = h["block_displacement_x"]
+    return 1e3 * (x[-1] - x[min(i for i, t in enumerate(h["time"]) if t >= 0.3)])
+
+
+def table(programs):
+    dampings = (0, 0.1, 0.2, 0.3, 0.5)
+    print("| safety factor | fraction |", *(f"{zeta:g} |" for zeta in dampings))
+    print("|---" * (2 + len(dampings)) + "|")
+    for safety in (1.2, 1.05):
+        for fraction in (0.5, 1, 2):
+            walks = []
+            for zeta in dampings:
+                with tempfile.TemporaryDirectory() as name:
+                    walks.append(walk_of(programs, Path(name), zeta, safety, fraction))
+            print(f"| {safety:g} | {fraction:g} |", *("0 |" if abs(walk) < 1e-4 else f"{walk:.2g} |" if walk < 10 else f"{walk:.0f} |" for walk in walks), flush=True)
+
+
 def measure(programs, zeta):
     """Walk of a standing block in its last 0.7 s [mm]; friction work of a sliding one over mu N s; rebound of equal bars."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        h = run(programs, folder, ON_SLAB, zeta=zeta, friction=0.6, every=1e-2, end=1, more=slope(math.atan(0.5)))
-        x = h["block_displacement_x"]
-        walk = 1e3 * (x[-1] - x[min(i for i, t in enumerate(h["time"]) if t >= 0.3)])
+        walk = walk_of(programs, folder, zeta, 1.2, 1)
         angle = math.radians(30)
         h = run(programs, folder, ON_SLAB, zeta=zeta, friction=0.3, every=1e-2, end=0.5, more=slope(angle))
         force = 0.3 * DENSITY * 0.2 * 0.1 * GRAVITY * math.cos(angle)
@@ -113,6 +133,9 @@ def main():
         sys.exit(__doc__)
     os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
     os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
+    if sys.argv[2:] == ["--table"]:
+        table(Path(sys.argv[1]).resolve())
+        return
     points = []
     for zeta in FRACTIONS:
         points.append((zeta, measure(Path(sys.argv[1]).resolve(), zeta)))

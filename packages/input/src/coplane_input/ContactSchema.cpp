@@ -186,13 +186,13 @@ Key contactKeys()
                          {
                              number("normal", &ContactCard::dampNormal)
                                  .in("-")
-                                 .usually(usual::fraction)
+                                 .usually(usual::contactDamping)
                                  .atLeast(0)
                                  .like("0.1")
                                  .means("of closure, fraction of critical"),
                              number("shear", &ContactCard::dampShear)
                                  .in("-")
-                                 .usually(usual::fraction)
+                                 .usually(usual::contactDamping)
                                  .atLeast(0)
                                  .like("0.1")
                                  .means("of slip, fraction of critical"),
