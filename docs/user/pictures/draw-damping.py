@@ -2,9 +2,9 @@
 """Draws docs/user/pictures/damping.svg: what contact damping does to a standing, a sliding and a rebounding body.
 
     docs/user/pictures/draw-damping.py build/bin [FILE]
-    docs/user/pictures/draw-damping.py build/bin --table
+    docs/user/pictures/draw-damping.py build/bin table
 
-Runs coplane_mesh and coplane from the given folder, about three minutes. --table prints the table of docs/user/contact.md in place of
+Runs coplane_mesh and coplane from the given folder, about three minutes. "table" prints the table of docs/user/contact.md in place of
 drawing. Needs the Python standard library only.
 """
 import csv
@@ -133,7 +133,7 @@ def main():
         sys.exit(__doc__)
     os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT", "1")
     os.environ.setdefault("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1")
-    if sys.argv[2:] == ["--table"]:
+    if sys.argv[2:] == ["table"]:
         table(Path(sys.argv[1]).resolve())
         return
     points = []
