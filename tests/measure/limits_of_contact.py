@@ -8,7 +8,6 @@ Prints the table behind a limit in docs/user/contact.md; takes a minute. When it
 
 import os
 import pathlib
-import re
 import sys
 import tempfile
 
@@ -24,13 +23,13 @@ MORTAR = {"model": "mortar", "normal_stiffness": 5e10, "tensile_strength": 0.3e6
           "compressive_strength": 11e6, "compression_energy": 5e3, "peak_crushing": 9e-5}  # fmt: skip
 
 
-def falling_brick(speed, weight_of_shear, step_factor):
+def falling_brick(speed, weight_of_shear, loss, step_factor):
     return {
         "materials": {"clay": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e10, "poisson_ratio": 0.2}},
         "blocks": {name: {"material": "clay"} for name in ("base", "brick")},
         "initial": [{"block": "brick", "velocity": [0, -speed, 0]}],
         "conditions": [{"type": "fixed", "node_set": "ground"}],
-        "joints": {"bed": {**MORTAR, "shear_in_crushing": weight_of_shear}},
+        "joints": {"bed": {**MORTAR, "shear_in_crushing": weight_of_shear, "stiffness_loss": loss}},
         "contact": {"default_joint": "bed"},
         "time": {"end": 1.5e-3, "step_factor": step_factor},
         "history": {"probes": [{"name": "brick", "block": "brick"}]},
@@ -42,13 +41,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         case = Case("limits of contact", __file__)
-        print("| brick falls on mortar [m/s] | `shear_in_crushing` | `step_factor` | largest closure [mm] | contact remainder over the first energy | warned of: energy taken over that of the law |\n|---|---|---|---|---|---|")
-        for speed, weight_of_shear in ((4, 0), (10, 0), (10, 9)):
+        print("| brick falls on mortar [m/s] | `shear_in_crushing` | `stiffness_loss` | `step_factor` | largest closure [mm] | contact remainder over the first energy |\n|---|---|---|---|---|---|")
+        for speed, weight_of_shear, loss in ((4, 0, 0), (10, 0, 0), (10, 9, 0), (10, 0, 0.5), (10, 9, 0.5)):
             for step_factor in (0.8, 0.2, 0.05):
-                run = case.attempt(f"brick_{speed}_{weight_of_shear}_{step_factor}", BRICK, falling_brick(speed, weight_of_shear, step_factor))
-                h, warned = run.history, re.findall(r"to be crushed, (\S+) times", run.output)
+                h = case.attempt(f"brick_{speed}_{weight_of_shear}_{loss}_{step_factor}", BRICK, falling_brick(speed, weight_of_shear, loss, step_factor)).history
                 closure = -1e3 * (h["brick_displacement_y"].min() + GAP)
-                print(f"| {speed} | {weight_of_shear} | {step_factor} | {closure:.3f} | {h['contact_remainder'][-1] / h['kinetic'][0]:.4f} | {', '.join(warned)} |")
+                print(f"| {speed} | {weight_of_shear} | {loss} | {step_factor} | {closure:.3f} | {h['contact_remainder'][-1] / h['kinetic'][0]:.4f} |")
 
 
 main()

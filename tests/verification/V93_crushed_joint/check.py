@@ -2,8 +2,6 @@
 
 import copy
 import math
-import pathlib
-import re
 import sys
 
 import numpy
@@ -117,12 +115,11 @@ for what, dimension, options in runs:
     expected = law(closure, loss)
     pressed = expected[rows] > 0  # apart, the bond pulls
     error = numpy.max(numpy.abs(sigma[pressed, 1] - expected[rows][pressed])) / f_m
-    # What is not bonded takes the crushing that the last cycle left: a cycle of 2e-7 m raises the traction by k_n times that.
-    case.check(f"{name}: traction against the curve, over the strength", error, 0, 2.5e-3)
-    case.check(f"{name}: largest traction [Pa]", sigma[:, 1].max(), f_m, 2e-3, relative=True)
+    case.check(f"{name}: traction against the curve, over the strength", error, 0, 1e-8)
+    case.check(f"{name}: largest traction [Pa]", sigma[:, 1].max(), f_m, 1e-4, relative=True)
     most = crushing(closure.max())
     lost = (work(most) - 0.5 * loss * strength(most) * most) * areas[dimension]
-    case.check(f"{name}: hysteresis at the end [J]", h["contact_hysteresis"][-1], lost, 6e-3, relative=True)
+    case.check(f"{name}: hysteresis at the end [J]", h["contact_hysteresis"][-1], lost, 1e-6, relative=True)
     loses_little(name, h, 1e-5)
 
 # --- pressed and sheared ----------------------------------------------------------------------------------------------------
@@ -163,9 +160,10 @@ for far in (0.015, 0.1):
     slides = (run.results.times > 0.068) & (run.results.times < 0.068 + far / 5)
     case.check(f"{name}: traction while it slides, over the strength", numpy.max(numpy.abs(sigma[slides])) / f_m, 0, 1e-9)
     case.check(f"{name}: traction at the end [Pa]", sigma[-1, 1], law([3e-3, 3.3e-3], 0)[-1], 1e-2, relative=True)
-    if far == 0.1:
-        case.same_bits(name, mesh, deck, run, ranks=3)
-        case.restarts(name, mesh, deck, run, 0.075)
+deck = changed([(0, -0.5, 0.006), (0, 0.5, 8e-4), (5, 0, 0.005), (0, -0.5, 1.4e-3)], bonded=False, shear_in_crushing=0, friction=0, cohesion=0)
+run = case.run("slid_fast", mesh, deck, **rounding)
+case.same_bits("slid_fast", mesh, deck, run, ranks=3)
+case.restarts("slid_fast", mesh, deck, run, 0.0078)
 
 # --- a toe: the joint is pressed at one end -----------------------------------------------------------------------------------
 
@@ -175,8 +173,11 @@ for dimension in (2, 3):
         deck = changed(through([0, 4e-4, 2e-4, 1.5e-3, 0]), bonded, tilted=True, stiffness_loss=0.3)
         run = case.run(name, meshes[dimension], deck, **rounding)
         loses_little(name, run.history, 1e-3)
+        name = f"{name}_fast"
+        deck = changed(through([0, 4e-4, 2e-4, 1.5e-3, 0], 0.5), bonded, tilted=True, stiffness_loss=0.3)
+        run = case.run(name, meshes[dimension], deck, **rounding)
         case.same_bits(name, meshes[dimension], deck, run)
-        middle = [*"--set time.end=0.0241 --set checkpoint.at_end=true".split()]
+        middle = [*"--set time.end=0.00241 --set checkpoint.at_end=true".split()]
         part = case.attempt(f"{name}_stopped", meshes[dimension], deck, 2, options=middle)
         code, output = program.run_program(["run.yaml", "--restart"], part.folder, 1)
         case.check_equal(f"{name}: exit codes of the parts", [part.code, code], [0, 0])
@@ -288,23 +289,21 @@ for factor in (0.9, 1.2):
         warned = f"{len(run.planes(0)['closure'])} planes of declared joints are under more initial compression"
         case.check_equal(f"{name}, {ranks} ranks: warning", warned in run.output, factor > 1)
 
-# --- an impact that crushes the joint within some cycles is warned of, and not in small steps --------------------------------------
+# --- an impact that crushes the joint within some cycles takes what its law takes, whatever the step and the loss of stiffness ---------
 
 falling = {"dimension": 2, "node_sets": {"ground": {"block": "lower", "where": {"y": -0.1}}}, "parts": [
     {"shape": "box", "block": "lower", "min": [-0.2, -0.1], "size": [0.4, 0.1], "divisions": [8, 2]},
     {"shape": "box", "block": "upper", "min": [-0.1, 1e-4], "size": [0.2, 0.1], "divisions": [4, 2]}]}  # fmt: skip
-said = {}
-for factor, ranks, loss in ((0.8, 1, 0.01), (0.8, 2, 0.01), (0.05, 1, 0.01), (0.8, 1, 0)):
-    name = f"a brick falls, stiffness_loss {loss}, step_factor {factor}, {ranks} ranks"
+taken = {}
+for factor, loss in ((0.8, 0.01), (0.05, 0.01), (0.8, 0), (0.8, 0.5), (0.05, 0.5)):
+    name = f"a brick falls, stiffness_loss {loss}, step_factor {factor}"
     deck = {"materials": base["materials"], "blocks": base["blocks"], "initial": [{"block": "upper", "velocity": [0, -10, 0]}],
             "conditions": [{"type": "fixed", "node_set": "ground"}], "joints": {"bed": {**card, "shear_in_crushing": 0, "stiffness_loss": loss}},
             "contact": {"default_joint": "bed"}, "time": {"end": 1e-3, "step_factor": factor}}  # fmt: skip
-    run = case.attempt(f"falls_{factor}_{loss}_{ranks}", falling, deck, ranks=ranks)
-    case.check_equal(f"{name}: exit code", run.code, 0)
-    said[factor, ranks, loss] = re.findall(r"WARNING: .* to be crushed, .*(?:\n  plane between .* times what its law takes)+", run.output)
-    case.check_equal(f"{name}: warnings, with the worst planes", len(said[factor, ranks, loss]), int(factor == 0.8 and loss > 0))
-case.check_equal("a brick falls: the same warning on one rank and two", said[0.8, 1, 0.01] == said[0.8, 2, 0.01], True)
-warned = sorted(path.parent.name for path in pathlib.Path().glob("*/output.txt") if "to be crushed" in path.read_text())
-case.check_equal("other runs with this warning", [name for name in warned if not name.startswith("falls_0.8_0.01")], [])
+    h = case.run(f"falls_{factor}_{loss}", falling, deck, remainder=0.01, momentum=1e-10, angular=1e-9).history
+    taken[factor, loss] = h["contact_hysteresis"][-1] / h["kinetic"][0]
+    case.check(f"{name}: remainder over the energy", numpy.max(numpy.abs(h["contact_remainder"])) / h["kinetic"][0], 0, 8e-3 if factor == 0.8 else 1e-4)
+for loss in (0.01, 0.5):
+    case.check(f"a brick falls, stiffness_loss {loss}: hysteresis with step_factor 0.8 over that with 0.05", taken[0.8, loss] / taken[0.05, loss], 1, 5e-3)
 
 case.finish()

@@ -8,6 +8,8 @@ LAWS = {
     "closure_curve": {"model": "closure_curve", "initial_stiffness": 1e10, "maximum_closure": 1e-4},
     "table": {"model": "table", "closures": [5e-5, 1e-4, 1.5e-4], "tractions": [5e5, 2e6, 6e6]},
 }
+MORTAR = {"model": "mortar", "normal_stiffness": 82e9, "shear_stiffness": 36e9, "friction": 0.6, "cohesion": 0.35e6, "tensile_strength": 0.25e6, "tension_energy": 18, "shear_energy": 125,
+          "compressive_strength": 10.5e6, "compression_energy": 5e3, "peak_crushing": 9e-5, "stiffness_loss": 0.5}  # fmt: skip
 
 
 def squares(dimension, gap, turn=0.0):
@@ -48,6 +50,21 @@ for law, joint in LAWS.items():
             left, lost[factor] = check(what, h, 2e-3)
             case.check(f"{what}: what is lost beside the hysteresis", 1 - left - lost[factor], 0, 0.03 if factor == 0.8 else 3e-3)
         case.check(f"{law}, {speed:g} m/s: hysteresis at a step factor of 0.8 over that at 0.1", lost[0.8] / lost[0.1], 1, 1e-9)
+
+# Crushing that takes stiffness: what the joint loses is a matter of how far the bodies get, which hangs on the step a little.
+for dimension, speed, turn in ((2, 1.0, 0.0), (2, 5.0, 0.0), (2, 20.0, 0.0), (3, 5.0, 0.0143)):
+    lost, left = {}, {}
+    for factor in (0.8, 0.1):
+        what = f"mortar, {dimension}D, {speed:g} m/s{', turned' if turn else ''}, step factor {factor}"
+        recipe, deck = squares(dimension, 4e-4 if turn else 2e-4, turn), met(MORTAR, speed, factor, 1e-3 + 4e-4 / speed)
+        run = case.run(f"mortar_{dimension}_{speed:g}_{factor}", recipe, deck, remainder=0.08)
+        left[factor], lost[factor] = check(what, run.history, 2e-3)
+        case.check(f"{what}: what is lost beside the hysteresis", 1 - left[factor] - lost[factor], 0, 0.04 if factor == 0.8 else 2e-3)
+        if turn and factor == 0.8:
+            case.same_bits("mortar", recipe, deck, run, ranks=2)
+            case.restarts("mortar", recipe, deck, run, near=3e-4)
+    case.check(f"{what.rsplit(',', 1)[0]}: hysteresis at a step factor of 0.8 over that at 0.1", lost[0.8] / lost[0.1], 1, 0.06)
+    case.check(f"{what.rsplit(',', 1)[0]}: energy left at a step factor of 0.8 less that at 0.1", left[0.8] - left[0.1], 0, 0.04)
 
 # Slow enough to stop within the curve: hysteresis hangs on how far that is, and the end is not known beforehand.
 lost = {factor: check(f"closure_curve, 0.05 m/s, step factor {factor}", case.run(f"slow_{factor}", squares(2, 1e-5), met(LAWS["closure_curve"], 0.05, factor, 3e-3), remainder=0.05).history, 2e-3)[1] for factor in (0.8, 0.1)}

@@ -83,7 +83,7 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
   const Real closure = compression > 0        ? law.closureUnder(plane.fit, compression)
                        : plane.history.bonded ? compression / plane.fit.normalStiffness
                                               : 0;
-  plane.history.maximumClosure = plane.maximumBefore() = std::max(closure, 0.0);
+  plane.history.maximumClosure = std::max(closure, 0.0);
   plane.offset = plane.gap + closure;
   plane.closure = closure;
   if (compression > 0 || plane.history.bonded)

@@ -170,10 +170,9 @@ struct alignas(64) Plane
 
   Real birthArea[2] = {0, 0}; ///< of the faces when the plane was born [m^2]; potential only
   Real stored = 0;            ///< recoverable energy now [J]
-  /// Potential only. Of a stiffening curve: not used, and the area of the last cycle by which its
-  /// hysteresis counts [m^2]. Of crushing that takes stiffness: the maximum closure of the cycle
-  /// before [m], and what of the cost of the rise since then is booked in this one [J]. Of a joint
-  /// that is crushed unevenly: how its crushing changes with the affine coordinates of face 0 [m].
+  /// Potential only. Of a curve: what of the cost of crushing by shear is booked in the next cycle
+  /// [J], and the area of the last cycle by which its hysteresis counts [m^2]. Of a joint that is
+  /// crushed unevenly: how its crushing changes with the affine coordinates of face 0 [m].
   Real closureMemory[2] = {0, 0};
 
   // Energies since the plane was made [J].
@@ -183,9 +182,7 @@ struct alignas(64) Plane
   Real fractureWork = 0;
   Real dampingWork = 0;
 
-  KOKKOS_INLINE_FUNCTION Real& maximumBefore() { return closureMemory[0]; }
-  KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[1]; }
-  /// Of a stiffening curve: the area of the last cycle by which its hysteresis counts [m^2].
+  KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
   KOKKOS_INLINE_FUNCTION Real& loadedArea() { return closureMemory[1]; }
   /// How it is crushed, if unevenly.
   KOKKOS_INLINE_FUNCTION UnevenCrushing crushing() const

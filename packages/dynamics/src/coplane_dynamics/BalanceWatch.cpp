@@ -14,8 +14,6 @@ namespace
 // When warn() speaks: at this fraction of the error at which the run stops; at these fractions of
 // the energy in play that contact has lost or gained by the remainder.
 constexpr Real errorToWarn = 0.2, lossToWarn = 0.1, gainToWarn = 0.02;
-/// Energy that joints have taken to be crushed too fast, over that in play.
-constexpr Real crushedToWarn = 0.01;
 
 std::string now(const Clock& clock)
 {
@@ -174,14 +172,5 @@ void BalanceWatch::warnOfPlanes(const Parts& parts)
                fmt::format("{}: {} planes are deeper than contact.depth_max. Raise the stiffness "
                            "of the joint or lower time.step_factor. Worst:{}",
                            now(parts.clock), tooDeep, deepestPlanes(parts)));
-  const CrushedJoints crushed = crushedJoints(parts);
-  if (crushed.taken > crushedToWarn * inPlay_ &&
-      isWorse(crushed.taken / crushed.lawful - 1, 0, warned_.crushed))
-    logWarning("joints crushed too fast",
-               fmt::format(
-                   "{}: joints with compressive_strength have taken {:.3e} J to be crushed, "
-                   "{:.3g} times what their law takes: their faces close too far in a step, and "
-                   "they resist too long. Lower time.step_factor. Worst:{}",
-                   now(parts.clock), crushed.taken, crushed.taken / crushed.lawful, crushed.worst));
 }
 } // namespace coplane

@@ -35,9 +35,8 @@ public:
 
   /// Why the run cannot go on; empty: it can. Collective.
   std::string broken(const EnergyBalance& balance, const Parts& parts) const;
-  /// The look itself: warns of errors, of what contact makes or loses, of planes that are capped,
-  /// too deep, or crushed too fast; again when things are twice as bad as at the last warning of
-  /// the kind. Collective.
+  /// The look itself: warns of errors, of what contact makes or loses, of planes that are capped or
+  /// too deep; again when things are twice as bad as at the last warning of the kind. Collective.
   void warn(const EnergyBalance& balance, const Parts& parts);
 
   /// Calls f(number) for all that a restart needs, in the order of checkpoints.
@@ -48,7 +47,6 @@ public:
     number(self.warned_.remainder);
     number(self.warned_.tooDeep);
     number(self.warned_.capped);
-    number(self.warned_.crushed);
     number(self.warned_.debris);
     number(self.warned_.lines);
     number(self.inPlay_);
@@ -66,7 +64,7 @@ private:
   /// What was warned of last.
   struct Warned
   {
-    Real error = 0, remainder = 0, tooDeep = 0, capped = 0, crushed = 0, debris = 0, lines = 0;
+    Real error = 0, remainder = 0, tooDeep = 0, capped = 0, debris = 0, lines = 0;
   };
   Warned warned_;
   Real inPlay_ = 0; ///< energy in play at the last look [J]

@@ -1,4 +1,3 @@
-#include <coplane_core/ExactSum.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
 #include <coplane_mesh/FaceName.hpp>
 
@@ -114,39 +113,5 @@ CappedPlanes cappedPlanes(const Parts& parts)
     capped.first +=
         fmt::format("\n  {}: closed by {:.3e} m, cap {:.3e} Pa/m", pairName(e), e.badness, e.value);
   return capped;
-}
-
-CrushedJoints crushedJoints(const Parts& parts)
-{
-  const auto crushes = [](const JointLaw& law) { return law.curve.crushing.acts(); };
-  const std::vector<JointRecipe>& joints = parts.model.contactRules.joints;
-  if (std::none_of(joints.begin(), joints.end(),
-                   [&](const JointRecipe& joint) { return crushes(joint.law); }))
-    return {}; // on all ranks
-  // Rows that are half a face apart count, whatever rounding does.
-  constexpr Real tooMuch = 1.1, shared = 0.45;
-  std::vector<Entry> planes;
-  std::vector<ExactSum> sums(2);
-  for (std::size_t p = 0; p < parts.contact->planes().size(); ++p)
-  {
-    const Plane& plane = parts.contact->planes()[p];
-    const JointLaw& law = parts.contact->lawOf(plane);
-    const Real face = std::min(plane.birthArea[0], plane.birthArea[1]);
-    if (!crushes(law) || !plane.countedHere || !(plane.overlap > shared * face))
-      continue;
-    const Real taken = plane.hysteresisWork;
-    const Real lawful = face * law.hysteresis(plane.fit, plane.history.maximumClosure);
-    if (!(lawful > 0 && taken > tooMuch * lawful))
-      continue;
-    sums[0].add(taken);
-    sums[1].add(lawful);
-    planes.push_back({taken - lawful, taken / lawful, plane.faceId[0], plane.faceId[1]});
-  }
-  const std::vector<Real> totals = ExactSum::overRanks(sums, parts.comm);
-  CrushedJoints crushed{totals[0], totals[1], ""};
-  for (const Entry& e : worst(planes, parts.comm))
-    crushed.worst += fmt::format("\n  {}: {:.3e} J more, {:.3g} times what its law takes",
-                                 pairName(e), e.badness, e.value);
-  return crushed;
 }
 } // namespace coplane

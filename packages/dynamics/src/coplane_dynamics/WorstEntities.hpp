@@ -21,15 +21,4 @@ struct CappedPlanes
   std::string first;      ///< a line for each of the farthest closed
 };
 CappedPlanes cappedPlanes(const Parts& parts); ///< collective; with contact only
-
-/// Joints that have taken more energy to be crushed than their law says. A cycle resists with the
-/// strength of the cycle before, so that those do which close far in a step. With forces from a
-/// potential; of joints whose faces share half of their area or more, and judged as if it were all.
-struct CrushedJoints
-{
-  Real taken = 0;    ///< by those that have taken at least a tenth more, over all ranks [J]
-  Real lawful = 0;   ///< what their law takes for as much crushing, at most [J]
-  std::string worst; ///< a line for each of those that took most beyond that
-};
-CrushedJoints crushedJoints(const Parts& parts); ///< collective; with contact only
 } // namespace coplane

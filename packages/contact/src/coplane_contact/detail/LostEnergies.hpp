@@ -48,20 +48,6 @@ KOKKOS_INLINE_FUNCTION Real lostOfTangent(Real oldStiffness, Real oldSquares, Re
                  rising * (oldStiffness + stiffness) * (oldSquares - squares));
 }
 
-/// What crushing that takes stiffness loses when its maximum closure rises from `before` to now,
-/// with the area in contact as it is [J]. The moments are those of closures beyond the permanent
-/// closure of now.
-KOKKOS_INLINE_FUNCTION Real lostByLoading(const JointLaw& law, const JointFit& fit, Real before,
-                                          Real now, Real area, Real volume, Real squares,
-                                          Real rising)
-{
-  const ClosureCurve::Point old = law.curve.at(fit, before), point = law.curve.at(fit, now);
-  const Real shift =
-      (now - point.traction / point.stiffness) - (before - old.traction / old.stiffness);
-  return lostOfTangent(old.stiffness, squares + 2 * shift * volume + shift * shift * area,
-                       point.stiffness, squares, rising);
-}
-
 /// A pair in contact, as the history of its joint sees it.
 struct ClosedPair
 {
@@ -72,18 +58,21 @@ struct ClosedPair
   Real stiffness;             ///< of the tangent [Pa/m]
 };
 
-/// The highest closure of a stiffening curve so far, and what it costs to raise it: that of an even
-/// closure, times the area, the mean of those before and after the step, that gives the work which
-/// the tangent does not store while it turns. With k' the change of the slope, e = t / k, and the
-/// integrals V of c - p and S of its square, that is k' (eV - S/2) for k' e^2 / 2 per area
-/// (docs/theory/contact-potential.md, "Laws").
-/// @param pair about the tangent at `reached`; @param reached 0: no higher than before [m]
+/// The highest closure of a curve so far, and what it costs to raise it: that of an even closure,
+/// times the area, the mean of those before and after the step, that gives the work which the line
+/// of unloading does not store while it turns. With k' the change of its slope, e = t / k, and the
+/// integrals V of c - p and S of its square, k' (eV - S/2) is k' e^2 / 2 per area. Where the curve
+/// is not as steep as that line, as where crushing takes stiffness, e V for each of what lacks of
+/// the slope is lost besides (docs/theory/contact-potential.md, "Laws").
+/// @param pair about the line of unloading at `reached`; @param reached 0: no higher than before
+/// [m]
 KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, const JointLaw& law,
                                            const ClosedPair& pair, Real reached, JointState& state)
 {
   const Real before = plane.history.maximumClosure;
   const Real now = reached > before ? reached : before;
-  state.maximumClosure = now;
+  if (state.maximumClosure < now)
+    state.maximumClosure = now;
   const Real elastic = now - pair.permanent;
   if (!(elastic > 0))
     return;
@@ -93,57 +82,42 @@ KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, const JointLaw& law,
   if (now > before)
   {
     const Real first = plane.area > 0 && areaBefore != 0 ? areaBefore : area;
-    plane.hysteresisWork += 0.5 * (first + area) *
-                            std::fmax(0.0, law.curve.hysteresis(plane.fit, now) -
-                                               law.curve.hysteresis(plane.fit, before));
+    Real lost = std::fmax(0.0, law.curve.hysteresis(plane.fit, now) -
+                                   law.curve.hysteresis(plane.fit, before));
+    if (law.curve.crushing.acts())
+    {
+      // e = S / V here, so that both areas are V / e but for the range of the opposition.
+      const ClosureCurve::Point old = law.curve.at(plane.fit, before);
+      const Real elasticBefore = old.traction / old.stiffness;
+      const Real turned = 0.25 * (pair.stiffness - old.stiffness) *
+                          (elastic * elastic + elasticBefore * elasticBefore);
+      lost = turned + (lost - turned) * pair.rising / (2 * pair.rising - 1);
+    }
+    plane.hysteresisWork += 0.5 * (first + area) * lost;
   }
   areaBefore = area;
 }
 
-/// The maximum closure of the next cycle of a joint whose crushing takes stiffness; what it costs
-/// is booked there, half with the area of this cycle and half with that of the next.
+/// What shear crushes of a joint whose crushing takes stiffness. Part of it is in the offset. Half
+/// of the work is that of the closures of this cycle, half of those of the next, when the faces
+/// have closed on at the same rate; it is booked there.
 /// @param closesOn by how much the faces close in a step as now [m]
-KOKKOS_FORCEINLINE_FUNCTION void crushWithLoss(Plane& plane, const JointLaw& law,
-                                               const ClosedPair& pair,
-                                               const JointResponse& response, Real closesOn,
-                                               JointState& state)
+KOKKOS_FORCEINLINE_FUNCTION void crushByShear(Plane& plane, const ClosedPair& pair,
+                                              const JointResponse& response, Real closesOn)
 {
-  const Real before = plane.history.maximumClosure;
   plane.hysteresisWork += plane.hysteresisDue();
   plane.hysteresisDue() = 0;
-  if (plane.maximumBefore() < before)
-    plane.hysteresisWork += 0.5 * pair.share *
-                            lostByLoading(law, plane.fit, plane.maximumBefore(), before, pair.area,
-                                          pair.volume, pair.squares, pair.rising);
-  plane.maximumBefore() = before;
-  if (response.crushedByShear)
+  if (!response.crushedByShear)
+    return;
+  const Real closed = response.crushed;
+  for (const Real ahead : {0.0, closesOn})
   {
-    // Part of what shear has crushed is in the offset. Half of the work is that of the closures of
-    // this cycle, half of those of the next, when the faces have closed on at the same rate.
-    const Real closed = response.crushed;
-    for (const Real ahead : {0.0, closesOn})
-    {
-      const Real thenVolume = pair.volume + ahead * pair.area,
-                 thenSquares = pair.squares + ahead * (pair.volume + thenVolume);
-      plane.hysteresisDue() +=
-          0.5 * pair.share *
-          lostOfTangent(pair.stiffness, thenSquares, response.normalStiffness,
-                        thenSquares - closed * (2 * thenVolume - closed * pair.area), pair.rising);
-    }
-    plane.maximumBefore() = state.maximumClosure;
-    return;
+    const Real thenVolume = pair.volume + ahead * pair.area,
+               thenSquares = pair.squares + ahead * (pair.volume + thenVolume);
+    plane.hysteresisDue() +=
+        0.5 * pair.share *
+        lostOfTangent(pair.stiffness, thenSquares, response.normalStiffness,
+                      thenSquares - closed * (2 * thenVolume - closed * pair.area), pair.rising);
   }
-  state.maximumClosure = before;
-  const Real reached = pair.permanent + pair.squares / pair.volume;
-  if (!(reached > before))
-    return;
-  const ClosureCurve::Point next = law.curve.at(plane.fit, reached);
-  const Real shift = reached - next.traction / next.stiffness - pair.permanent;
-  state.maximumClosure = reached;
-  plane.hysteresisDue() =
-      0.5 * pair.share *
-      lostOfTangent(pair.stiffness, pair.squares, next.stiffness,
-                    pair.squares - 2 * shift * pair.volume + shift * shift * pair.area,
-                    pair.rising);
 }
 } // namespace coplane::detail

@@ -193,14 +193,14 @@ private:
     pair_.meet(offset - all(permanents_), bonded_, edgesOf(planes_));
   }
 
-  /// Closure of a stiffening curve, where it is more than ever [m]; else 0. The mean over the
-  /// pressure: even closures lie on the curve.
+  /// Closure of a curve, or of a joint that is crushed evenly, where it is more than ever [m]; else
+  /// 0. The mean over the pressure: even closures lie on the curve.
   KOKKOS_FORCEINLINE_FUNCTION Real reach(int i) const
   {
     const JointLaw& law = *planes_.law[i];
     const JointState& history = planes_.plane[i]->history;
     const Real volume = branchFree::lane(pair_.moments.volume, i);
-    if (!law.curve.stiffens() || history.bonded || !(volume > 0))
+    if (law.curve.straight() || crushes_[i] || history.bonded || !(volume > 0))
       return 0;
     const Real known = reached_[i] > history.maximumClosure ? reached_[i] : history.maximumClosure;
     const Real closure = permanents_[i] + branchFree::lane(pair_.moments.squares, i) / volume;
@@ -346,8 +346,6 @@ private:
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
     if (late_[i] && leastGaps_[i] < plane.offset)
       plane.offset = leastGaps_[i];
-    if (!plane.crushedUnevenly)
-      plane.maximumBefore() = plane.history.maximumClosure;
     return !late_[i] && plane.sighting != Sighting::Woken;
   }
 
@@ -551,16 +549,16 @@ private:
         law(plane.fit, closed, increment, dt_, state, shrunk, bends ? &bent_.lanes[i] : nullptr);
     out.slopes[i] = bends && bent_.lanes[i].opened > 0 ? response.bondStiffness : slopes_[i];
     if (wasBonded)
-    {
       plane.hysteresisWork += area * response.hysteresisWork(plane.normalTraction);
-      plane.maximumBefore() = state.maximumClosure;
-    }
     else if (crushes_[i])
       keepCrushing(plane, i, crushing, response, state, out);
-    else if (law.curve.stiffens())
-      loadCurve(plane, law, closedPair(i, energyShare), reached_[i], state);
     else if (!law.curve.straight())
-      crushWithLoss(plane, law, closedPair(i, energyShare), response, dt_ * closing, state);
+    {
+      const ClosedPair pair = closedPair(i, energyShare);
+      loadCurve(plane, law, pair, reached_[i], state);
+      if (law.curve.crushing.acts())
+        crushByShear(plane, pair, response, dt_ * closing);
+    }
     plane.history = state;
     out.tractions[i] = response.normalTraction;
     out.stored[i] =
