@@ -48,7 +48,8 @@ CASES = {
     "V24_rebound": Retold(["turned", "quarter", "moved", "drifting", "powers_of_two", "restarted", "sliced", "declared", "cut:slab:0:3"], ["cut:slab:0:3", "refined:slab", "refined:block"],
                           other={"split": DASHPOTS, "refined:block": DASHPOTS}),
     "contact_damping": Retold([], other={"split": DASHPOTS}, base=False),
-    "closure_curves": Retold([], base=False),
+    # Curves that get a hundred times as stiff make round-off so much larger.
+    "closure_curves": Retold([], bounds={"turned": 1e-7}, other={"declared": "a declared joint of mortar is bonded, and breaks as the bodies rebound"}, base=False),
     "V25_joint_wave": Retold([], base=False),
     "V26_joint_set": Retold([], base=False),
     "V28_frictional_slip": Retold(["moved"], ["refined:left"], bounds={"drifting": 1e-7}),
