@@ -644,7 +644,7 @@ int main(int argc, char** argv)
     // All such programs would share one folder for the session, which each removes at its end,
     // while another starts; a single rank needs none.
     ::setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
-    // A single rank sends nothing over a network; looking for fast ones took 0.2 s of each start.
+    // It sends nothing over a network, either; looking for fast ones took 0.2 s of each start.
     ::setenv("OMPI_MCA_pml", "ob1", 0);
   }
   coplane::holdRequests();

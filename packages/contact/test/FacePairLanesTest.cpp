@@ -51,7 +51,7 @@ struct PairTable
       plane.sighting = random() % 2 == 0 ? Sighting::New : Sighting::Known;
       plane.declared = random() % 5 == 0;
       plane.history.bonded = random() % 5 == 0;
-      plane.joint = std::uint16_t(random() % 6);
+      plane.joint = std::uint16_t(random() % 8);
       plane.offset = .05 * u(random);
       plane.normal = normalised(Vec3{u(random), u(random), u(random)});
       plane.depthLimit = 1;
@@ -91,8 +91,9 @@ struct PairTable
   }
 };
 
-/// The third is a bond that resists bending and breaks here and there, the last three are crushed:
-/// by compression, by shear more than by that, and with dilation.
+/// The third is a bond that resists bending and breaks here and there, the last five are crushed:
+/// by compression, by shear more than by that, with dilation, and the first two with loss of
+/// stiffness.
 std::vector<JointLaw> someLaws()
 {
   JointLaw law;
@@ -115,7 +116,9 @@ std::vector<JointLaw> someLaws()
   sheared.curve.crushing.strength = 3;
   JointLaw lifted = sheared;
   lifted.dilation = .1;
-  return {law, other, bent, crushed, sheared, lifted};
+  JointLaw softened = crushed, softenedByShear = sheared;
+  softened.curve.crushing.loss = softenedByShear.curve.crushing.loss = .5;
+  return {law, other, bent, crushed, sheared, lifted, softened, softenedByShear};
 }
 
 ContactOptions damped(ContactOptions o)

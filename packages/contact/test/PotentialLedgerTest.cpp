@@ -17,6 +17,19 @@ PairPlane curvedPlane(Real stiffness, Real maximumClosure)
   return plane;
 }
 
+/// A joint whose crushing takes half of its stiffness.
+PairPlane crushedPlane(Real stiffness, Real strength)
+{
+  PairPlane plane = touchingPlane(stiffness);
+  Crushing& crushing = plane.law.curve.crushing;
+  crushing.strength = strength;
+  crushing.peak = .02;
+  crushing.length = 3 * strength / stiffness;
+  crushing.loss = .5;
+  crushing.shearWeight = 0;
+  return plane;
+}
+
 /// A path of a pair through time 0 to 1, walked in so many steps.
 template <int Dim, class Path>
 PairPlane walked(PairPlane plane, int steps, const Path& path)
@@ -51,15 +64,65 @@ std::array<FaceNodes, 2> pressedAndTurned(int dimension, Real from, Real time, R
 
 /// The part of the work that is neither stored nor booked, over what is booked as hysteresis.
 template <int Dim>
-Real leftOver(Real fromAngle, int steps, Real growth)
+Real leftOver(const PairPlane& plane, Real fromAngle, int steps, Real growth)
 {
-  const PairPlane end =
-      walked<Dim>(curvedPlane(1e6, 1), steps,
-                  [&](Real time) { return pressedAndTurned(Dim, fromAngle, time, growth); });
+  const PairPlane end = walked<Dim>(
+      plane, steps, [&](Real time) { return pressedAndTurned(Dim, fromAngle, time, growth); });
   EXPECT_GT(end.hysteresisWork, .05 * end.work);
   return end.remainder() / end.hysteresisWork;
 }
+
+/// Unit squares that lie on each other, one moved along by `slid` and closed by `closure`; at the
+/// end of a step of length 1 that began with other ones.
+PairPlane pressedOn(PairPlane plane, Vec3 from, Vec3 to, int steps)
+{
+  for (int step = 1; step <= steps; ++step)
+  {
+    const Vec3 moved = from + (Real(step) / steps) * (to - from);
+    FaceNodes a = face({{-1, -1, 0}, {2, -1, 0}, {2, 2, 0}, {-1, 2, 0}});
+    FaceNodes b =
+        face({moved, moved + Vec3{0, 1, 0}, moved + Vec3{1, 1, 0}, moved + Vec3{1, 0, 0}});
+    for (int i = 0; i < 4; ++i)
+      b.v[i] = (1. / steps) * (to - from);
+    updatePlane<3>(plane, a, b, {}, 1);
+  }
+  return plane;
+}
 } // namespace
+
+TEST(LedgerOfThePotential, aCurveThatIsPassedInOneStepTakesWhatItsLawDoes)
+{
+  for (const PairPlane& plane : {curvedPlane(1e6, 1), crushedPlane(1e6, 1e5)})
+  {
+    const Vec3 above{0, 0, .01}, pressed{0, 0, -.12}, lifted{0, 0, -.08}, deep{0, 0, -.4};
+    const PairPlane at = pressedOn(plane, above, pressed, 40);
+    const auto lost = [&](const PairPlane& end)
+    { return end.hysteresisWork / end.law.hysteresis(end.fit, end.history.maximumClosure); };
+    EXPECT_NEAR(at.history.maximumClosure, .12, 1e-12);
+    EXPECT_NEAR(lost(at), 1, 1e-9);
+    const PairPlane once = pressedOn(at, pressed, deep, 1);
+    EXPECT_NEAR(once.history.maximumClosure, .4, 1e-12);
+    EXPECT_NEAR(lost(once), 1, 1e-9);
+    const PairPlane again = pressedOn(pressedOn(at, pressed, lifted, 3), lifted, deep, 1);
+    EXPECT_NEAR(lost(again), 1, 1e-9);
+  }
+}
+
+TEST(LedgerOfThePotential, whatDilationLiftsIsBookedAsItCloses)
+{
+  for (PairPlane plane : {curvedPlane(1e6, 1), crushedPlane(1e6, 1e5)})
+  {
+    plane.law.friction = .3;
+    plane.law.dilation = .3;
+    const Vec3 above{0, 0, .01}, pressed{0, 0, -.2};
+    const PairPlane at = pressedOn(plane, above, pressed, 100);
+    const PairPlane slid = pressedOn(at, pressed, pressed + Vec3{.5, 0, 0}, 400);
+    EXPECT_GT(slid.history.maximumClosure, .25);
+    const Real more = slid.hysteresisWork - at.hysteresisWork;
+    EXPECT_GT(more, 0);
+    EXPECT_LT(std::abs(slid.remainder() - at.remainder()), .02 * more);
+  }
+}
 
 TEST(LedgerOfThePotential, aCurveThatIsLoadedWhileItsFacesTurnAwayLosesWhatIsBooked)
 {
@@ -72,13 +135,16 @@ TEST(LedgerOfThePotential, aCurveThatIsLoadedWhileItsFacesTurnAwayLosesWhatIsBoo
       SCOPED_TRACE(::testing::Message() << angle << " degrees, grows by " << growth);
       for (const auto& leftOverOf : {leftOver<2>, leftOver<3>})
       {
-        const Real coarse = leftOverOf(angle, 400, growth), fine = leftOverOf(angle, 1600, growth);
+        const PairPlane curved = curvedPlane(1e6, 1), crushed = crushedPlane(1e6, 3e4);
+        const Real coarse = leftOverOf(curved, angle, 400, growth),
+                   fine = leftOverOf(curved, angle, 1600, growth);
         EXPECT_LT(std::abs(coarse), 1e-3);
         EXPECT_LT(std::abs(fine), 1e-4);
         if (angle == 40)
         { // of the second order in the step
           EXPECT_LT(std::abs(fine), .1 * std::abs(coarse));
         }
+        EXPECT_LT(std::abs(leftOverOf(crushed, angle, 1600, growth)), 5e-3);
       }
     }
 }

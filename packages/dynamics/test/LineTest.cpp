@@ -12,7 +12,7 @@ namespace
 {
 constexpr Real ea = 200e9 * 5e-4, grout = 2e9, boltLength = 2, headLength = 0.1; // a rock bolt
 
-/// A plate at x = -headLength, and `segments` of equal boltLength in grout from x = 0 on.
+/// A plate at x = -headLength, and `segments` of equal length in grout from x = 0 on.
 LineSetup boltOf(int segments)
 {
   LineSetup setup;

@@ -183,6 +183,11 @@ struct alignas(64) Plane
   Real dampingWork = 0;
 
   KOKKOS_INLINE_FUNCTION Real& hysteresisDue() { return closureMemory[0]; }
+  KOKKOS_INLINE_FUNCTION void bookHysteresisDue()
+  {
+    hysteresisWork += hysteresisDue();
+    hysteresisDue() = 0;
+  }
   KOKKOS_INLINE_FUNCTION Real& loadedArea() { return closureMemory[1]; }
   /// How it is crushed, if unevenly.
   KOKKOS_INLINE_FUNCTION UnevenCrushing crushing() const

@@ -63,35 +63,37 @@ struct ClosedPair
 /// of unloading does not store while it turns. With k' the change of its slope, e = t / k, and the
 /// integrals V of c - p and S of its square, k' (eV - S/2) is k' e^2 / 2 per area. Where the curve
 /// is not as steep as that line, as where crushing takes stiffness, e V for each of what lacks of
-/// the slope is lost besides (docs/theory/contact-potential.md, "Laws").
+/// the slope is lost besides. A cycle lays the line at e = S / V, where both areas are V^2 / S but
+/// for the range of the opposition (docs/theory/contact-potential.md, "Laws").
 /// @param pair about the line of unloading at `reached`; @param reached 0: no higher than before
 /// [m]
 KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, const JointLaw& law,
-                                           const ClosedPair& pair, Real reached, JointState& state)
+                                           const ClosedPair& pair, const JointResponse& response,
+                                           Real reached, JointState& state)
 {
   const Real before = plane.history.maximumClosure;
   const Real now = reached > before ? reached : before;
-  if (state.maximumClosure < now)
+  if (!response.crushedByShear) // what dilation lifts has not closed it
     state.maximumClosure = now;
-  const Real elastic = now - pair.permanent;
-  if (!(elastic > 0))
+  if (!(pair.squares > 0))
     return;
-  const Real volume = pair.volume / elastic, squares = pair.squares / (elastic * elastic);
-  const Real area = pair.share * (2 * pair.rising * volume - squares);
+  const bool crushes = law.curve.crushing.acts();
+  const Real ofSlope = 2 * pair.rising - 1;
+  const Real even = pair.share * (pair.volume / pair.squares) * pair.volume;
+  const Real area = crushes ? even : ofSlope * even;
   Real& areaBefore = plane.loadedArea();
   if (now > before)
   {
     const Real first = plane.area > 0 && areaBefore != 0 ? areaBefore : area;
     Real lost = std::fmax(0.0, law.curve.hysteresis(plane.fit, now) -
                                    law.curve.hysteresis(plane.fit, before));
-    if (law.curve.crushing.acts())
+    if (crushes)
     {
-      // e = S / V here, so that both areas are V / e but for the range of the opposition.
       const ClosureCurve::Point old = law.curve.at(plane.fit, before);
-      const Real elasticBefore = old.traction / old.stiffness;
+      const Real elastic = now - pair.permanent, elasticBefore = old.traction / old.stiffness;
       const Real turned = 0.25 * (pair.stiffness - old.stiffness) *
                           (elastic * elastic + elasticBefore * elasticBefore);
-      lost = turned + (lost - turned) * pair.rising / (2 * pair.rising - 1);
+      lost = ofSlope * turned + pair.rising * (lost - turned);
     }
     plane.hysteresisWork += 0.5 * (first + area) * lost;
   }
@@ -105,8 +107,7 @@ KOKKOS_FORCEINLINE_FUNCTION void loadCurve(Plane& plane, const JointLaw& law,
 KOKKOS_FORCEINLINE_FUNCTION void crushByShear(Plane& plane, const ClosedPair& pair,
                                               const JointResponse& response, Real closesOn)
 {
-  plane.hysteresisWork += plane.hysteresisDue();
-  plane.hysteresisDue() = 0;
+  plane.bookHysteresisDue();
   if (!response.crushedByShear)
     return;
   const Real closed = response.crushed;

@@ -555,7 +555,7 @@ private:
     else if (!law.curve.straight())
     {
       const ClosedPair pair = closedPair(i, energyShare);
-      loadCurve(plane, law, pair, reached_[i], state);
+      loadCurve(plane, law, pair, response, reached_[i], state);
       if (law.curve.crushing.acts())
         crushByShear(plane, pair, response, dt_ * closing);
     }
@@ -688,6 +688,8 @@ private:
       {
         if (plane.area > 0)
           plane.frictionWork += plane.shearEnergy();
+        if (planes_.law[i]->curve.crushing.loss > 0)
+          plane.bookHysteresisDue();
         carryNothing(plane);
         if (plane.overlap > 0)
           plane.gap = leastGaps_[i];
