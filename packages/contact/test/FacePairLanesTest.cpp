@@ -1,6 +1,7 @@
 // Pairs side by side get the bits that each would get alone, whatever shares its lanes.
 #include "FacePairs.hpp"
 
+#include <coplane_contact/NearPairs.hpp>
 #include <coplane_contact/detail/FacePairLanes.hpp>
 
 #include <gtest/gtest.h>
@@ -149,12 +150,18 @@ struct Slots
     for (std::size_t p = 0; p < of.size(); ++p)
       std::copy(of[p].face, of[p].face + 2, faces[p].face);
   }
-  PairLanes lanes(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
-                  const ContactOptions& options)
+  /// All that have faces, so many side by side in one piece.
+  void update(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
+              const ContactOptions& options, int atOnce = PairLanes::atOnce)
   {
     const PairTables pairs{nullptr,     places.data(), faces.data(), activity.data(),
                            laws.data(), false,         &changed};
-    return {pairs, halfStep.data(), options, dt};
+    NearPairs near;
+    near.list(pairs, int(planes.size()), halfStep.size());
+    const int count = int(near.slots().size());
+    for (int first = 0; first < count; first += atOnce)
+      PairLanes(pairs, halfStep.data(), options, dt)
+          .update(near.slots().data() + first, std::min(atOnce, count - first));
   }
 
   Slots(const Slots&) = delete; // places are of these planes
@@ -206,7 +213,7 @@ TEST(PairLanes, haveTheBitsOfOnePairAtATime)
               trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
         }
       const std::vector<Activity> before = together.activity;
-      together.lanes(faces, laws, o).update(0, int(alone.size()));
+      together.update(faces, laws, o);
       for (std::size_t p = 0; p < alone.size(); ++p)
       {
         ASSERT_TRUE(sameBits(alone[p], together.planes[p])) << p << " in cycle " << cycle;
@@ -243,11 +250,9 @@ void expectTheSameInAnotherOrder(const ContactOptions& o)
   for (const int p : order)
     inAnotherOrder.push_back(table.planes[p]);
   Slots sorted(table.planes), shuffled(inAnotherOrder);
-  const int count = int(order.size());
-  sorted.lanes(faces, laws, o).update(0, count);
-  for (int first = 0; first < count; first += 7) // stretches of another length
-    shuffled.lanes(faces, laws, o).update(first, std::min(first + 7, count));
-  for (int i = 0; i < count; ++i)
+  sorted.update(faces, laws, o);
+  shuffled.update(faces, laws, o, 7);
+  for (std::size_t i = 0; i < order.size(); ++i)
     ASSERT_TRUE(sameBits(sorted.planes[order[i]], shuffled.planes[i])) << order[i];
 }
 } // namespace
@@ -288,8 +293,10 @@ TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)
       together.x[k] = vector([&](const FaceNodes& f) { return f.x[k]; });
       together.v[k] = vector([&](const FaceNodes& f) { return f.v[k]; });
     }
-    HalfStepFace result[laneCount];
-    stepA_faces(together, ContactOptions::Forces::CommonNormal, dt, result);
+    HalfStepFace result[laneCount], *to[laneCount];
+    for (int i = 0; i < laneCount; ++i)
+      to[i] = &result[i];
+    stepA_faces(together, ContactOptions::Forces::CommonNormal, dt, to);
     const auto same = [](const Vec3& a, const Vec3& b)
     { return a.x == b.x && a.y == b.y && a.z == b.z; };
     for (int i = 0; i < laneCount; ++i)

@@ -47,18 +47,27 @@ template PairContact contactOf<3>(const FaceNodes&, const FaceNodes&, const Cont
 
 namespace movingpairs
 {
-Plane looked(const HalfStepFace& a, const HalfStepFace& b)
+namespace
+{
+template <int Dim>
+Plane lookedIn(const HalfStepFace& a, const HalfStepFace& b)
 {
   PairPlane plane = touchingPlane();
   plane.state = PlaneState::Slot;
   plane.depthLimit = 1;
   ContactOptions options;
   options.lookAhead = lookAhead;
-  if (mayMeet<3>(a, b, options))
-    updateByForces<3>(plane, a, b, plane.law, options, dt);
+  if (mayMeet<Dim>(a, b, options))
+    updateByForces<Dim>(plane, a, b, plane.law, options, dt);
   else
     passBy(plane, a, b, dt);
   return plane;
+}
+} // namespace
+
+Plane looked(const HalfStepFace& a, const HalfStepFace& b, int dimension)
+{
+  return dimension == 2 ? lookedIn<2>(a, b) : lookedIn<3>(a, b);
 }
 } // namespace movingpairs
 } // namespace coplane

@@ -21,63 +21,135 @@ PairDistances measured(const MovingPairs& pairs)
 }
 } // namespace
 
+namespace
+{
+using Place = MovingPairs::Place;
+
+/// Whether some of the second face lies behind the first, however deep, where both oppose each
+/// other: a plane would not be born there, but must be looked at.
+template <int Dim>
+bool lieInEachOther(const HalfStepFace& a, const HalfStepFace& b)
+{
+  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(ContactOptions().cosOpposed));
+  if (!pair.plane.opposed || !mayMeet<Dim>(a, b, ContactOptions()))
+    return false;
+  pair.meet(0, false, {});
+  return pair.moments.volume > 0;
+}
+
+struct Found
+{
+  int far = 0, farAndOpposed = 0, acting = 0;
+};
+
+/// What is far at that time since the search [s]: its faces do not lie in each other, nor would
+/// they within the look-ahead if nodes went on as they do.
+Found foundAt(Real since, MovingPairs& pairs, PairDistances& distances)
+{
+  pairs.goOn(since);
+  distances.follow(pairs.now, pairs.nowV, since, lookAhead);
+  const int count = int(pairs.slots.extent(0));
+  std::vector<std::uint8_t> areFar(static_cast<std::size_t>(count));
+  for (int first = 0; first < count; first += 333)
+    distances.areFar(first, std::min(333, count - first), &areFar[std::size_t(first)]);
+  Found found;
+  for (int p = 0; p < count; ++p)
+  {
+    const HalfStepFace a = pairs.faceNow(2 * p), b = pairs.faceNow(2 * p + 1);
+    const bool acts = actsOrMay(looked(a, b, pairs.dimension));
+    found.acting += acts;
+    EXPECT_EQ(areFar[std::size_t(p)] != 0, distances.isFar(p)) << p;
+    if (!distances.isFar(p))
+      continue;
+    for (const Real soon : {0.0, 0.3, 0.7, 1.0})
+    {
+      const HalfStepFace thenA = pairs.faceNow(2 * p, soon * lookAhead),
+                         thenB = pairs.faceNow(2 * p + 1, soon * lookAhead);
+      const bool lie =
+          pairs.dimension == 2 ? lieInEachOther<2>(thenA, thenB) : lieInEachOther<3>(thenA, thenB);
+      EXPECT_FALSE(lie || looked(thenA, thenB, pairs.dimension).isBorn())
+          << "pair " << p << " after " << since << " s and " << soon << " of the look-ahead";
+    }
+    ++found.far;
+    found.farAndOpposed += pairs.dimension == 2 ? mayMeet<2>(a, b, ContactOptions())
+                                                : mayMeet<3>(a, b, ContactOptions());
+  }
+  return found;
+}
+
+constexpr int someTimes = 4;
+constexpr Real times[someTimes] = {0.0, 0.2, ahead, 0.8};
+} // namespace
+
 TEST(PairDistances, whatIsFarNeitherTouchesNorMaySoon)
 {
   constexpr int count = 20000;
-  for (const Real swiftness : {0.0, 0.3, 1.0})
-    for (const Real stray : {0.0, 1e-3, 1e-2, 5e-2})
-    {
-      SCOPED_TRACE(::testing::Message() << swiftness << " m/s, strayed by " << stray << " m");
-      MovingPairs pairs(count, 5, swiftness, stray);
-      PairDistances distances = measured(pairs);
-      for (const Real since : {0.0, 0.2, ahead, 0.8})
+  for (const int dimension : {2, 3})
+    for (const Real swiftness : {0.0, 0.3, 1.0})
+      for (const Real stray : {0.0, 1e-3, 1e-2, 5e-2})
       {
-        pairs.goOn(since);
-        distances.follow(pairs.now, pairs.nowV, since, lookAhead);
-        std::vector<std::uint8_t> areFar(count);
-        for (int first = 0; first < count; first += 333)
-          distances.areFar(first, std::min(333, count - first), &areFar[std::size_t(first)]);
-        int far = 0, farAndOpposed = 0, acting = 0;
-        for (int p = 0; p < count; ++p)
+        SCOPED_TRACE(::testing::Message()
+                     << dimension << "D, " << swiftness << " m/s, strayed by " << stray << " m");
+        MovingPairs pairs(count, 5, swiftness, stray, Place::Anywhere, dimension);
+        PairDistances distances = measured(pairs);
+        for (const Real since : times)
         {
-          const HalfStepFace a = pairs.faceNow(2 * p), b = pairs.faceNow(2 * p + 1);
-          const bool acts = actsOrMay(looked(a, b));
-          acting += acts;
-          EXPECT_EQ(areFar[std::size_t(p)] != 0, distances.isFar(p)) << p;
-          if (!distances.isFar(p))
-            continue;
-          EXPECT_FALSE(acts) << "pair " << p << " after " << since << " s";
-          ++far;
-          farAndOpposed += mayMeet<3>(a, b, ContactOptions());
-        }
-        EXPECT_GT(acting, count / 20);
-        if (stray <= 1e-2 && swiftness <= 0.3)
-        {
-          EXPECT_GT(far, count / 10);
-          EXPECT_GT(farAndOpposed, count / 50);
+          const Found found = foundAt(since, pairs, distances);
+          EXPECT_GT(found.acting, count / 20);
+          if (stray <= 1e-2 && swiftness <= 0.3)
+          {
+            EXPECT_GT(found.far, count / 10);
+            EXPECT_GT(found.farAndOpposed, count / 50);
+          }
         }
       }
-    }
+}
+
+// Most pairs of a wall: neighbours on its joints, which a normal does not keep apart.
+TEST(PairDistances, whatLiesBesideIsFar)
+{
+  constexpr int count = 20000;
+  for (const int dimension : {2, 3})
+    for (const Real swiftness : {0.0, 0.1, 0.5})
+      for (const Real stray : {0.0, 1e-3, 1e-2})
+      {
+        SCOPED_TRACE(::testing::Message()
+                     << dimension << "D, " << swiftness << " m/s, strayed by " << stray << " m");
+        MovingPairs pairs(count, 13, swiftness, stray, Place::Beside, dimension);
+        PairDistances distances = measured(pairs);
+        for (const Real since : times)
+        {
+          const Found found = foundAt(since, pairs, distances);
+          EXPECT_GT(found.acting, count / 100);
+          if (stray <= 1e-3 && swiftness <= 0.1)
+          {
+            EXPECT_GT(found.far, count / 3);
+          }
+        }
+      }
 }
 
 TEST(PairDistances, facesThatAreApartNeitherTouchNorMaySoon)
 {
   constexpr int count = 50000;
-  MovingPairs pairs(count, 7, 0.5, 1e-2);
-  pairs.goOn(0);
-  int apart = 0, acting = 0;
-  for (int p = 0; p < count; ++p)
+  for (const Place place : {Place::Anywhere, Place::Beside})
   {
-    const HalfStepFace a = pairs.faceNow(2 * p), b = pairs.faceNow(2 * p + 1);
-    const bool acts = actsOrMay(looked(a, b));
-    acting += acts;
-    if (!areApart(a, b, 0, lookAhead))
-      continue;
-    EXPECT_FALSE(acts) << "pair " << p;
-    apart += mayMeet<3>(a, b, ContactOptions());
+    MovingPairs pairs(count, 7, 0.5, 1e-2, place);
+    pairs.goOn(0);
+    int apart = 0, acting = 0;
+    for (int p = 0; p < count; ++p)
+    {
+      const HalfStepFace a = pairs.faceNow(2 * p), b = pairs.faceNow(2 * p + 1);
+      const bool acts = actsOrMay(looked(a, b));
+      acting += acts;
+      if (!areApart(a, b, 0, lookAhead))
+        continue;
+      EXPECT_FALSE(acts) << "pair " << p;
+      apart += mayMeet<3>(a, b, ContactOptions());
+    }
+    EXPECT_GT(apart, count / 50);
+    EXPECT_GT(acting, count / 50);
   }
-  EXPECT_GT(apart, count / 50);
-  EXPECT_GT(acting, count / 20);
 }
 
 TEST(PairDistances, slotsWithoutFacesAreNotFar)
@@ -124,5 +196,42 @@ TEST(PairDistances, reachesTakeOffWhatPlanesAreOffset)
   EXPECT_TRUE(far(0.09, 0));
   EXPECT_FALSE(far(0.2, 0));
   EXPECT_FALSE(far(0, 1)) << "bonds hold at any distance";
+}
+
+// What keeps faces apart beside each other does so for as long as the normal of the pair does not
+// turn: the farther one lies behind the other, the less that may be.
+TEST(PairDistances, whatLiesBesideIsNotFarWhenNormalsTurn)
+{
+  MovingPairs pairs(1, 3, 0, 0);
+  const auto corner = [](int f, int k)
+  {
+    const bool right = k == 1 || k == 2, up = f == 0 ? k > 1 : k < 2;
+    return Vec3{Real(right) - 0.5 + 1.005 * f, Real(up) - 0.5, -3.0 * f};
+  };
+  for (int f = 0; f < 2; ++f)
+  {
+    pairs.faces(f).count = 4;
+    for (int k = 0; k < 4; ++k)
+    {
+      pairs.faces(f).nodes[k] = 4 * f + k;
+      set(pairs.x, 4 * f + k, corner(f, k));
+      set(pairs.v, 4 * f + k, {});
+    }
+    pairs.planes(f) = facePlane(pairs.faces(f), pairs.x, 3);
+  }
+  PairDistances distances = measured(pairs);
+  pairs.goOn(0);
+  bool lay = false;
+  for (const Real angle : {0.0, 0.001, -0.001, 0.004, -0.004})
+  {
+    for (int k = 0; k < 4; ++k)
+      set(pairs.now, k, rotation({0, 1, 0}, angle) * corner(0, k));
+    distances.follow(pairs.now, pairs.nowV, 0, 0);
+    const bool lie = lieInEachOther<3>(pairs.faceNow(0), pairs.faceNow(1));
+    lay = lay || lie;
+    EXPECT_FALSE(lie && distances.isFar(0)) << "turned by " << angle;
+    EXPECT_EQ(distances.isFar(0), angle == 0);
+  }
+  EXPECT_TRUE(lay);
 }
 } // namespace coplane

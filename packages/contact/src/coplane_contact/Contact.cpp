@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace coplane
 {
@@ -121,17 +122,18 @@ Real Contact::stiffestOn(const Face& face) const
 
 namespace
 {
-/// Steps B to H for all slots; in three dimensions several side by side.
-void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* halfStep, int dimension,
-               const ContactOptions& options, Real dt)
+/// Steps B to H; in three dimensions for several pairs side by side.
+/// @param near slots that have faces, ascending
+void stepsBtoH(const PairTables& pairs, const std::vector<int>& near, const HalfStepFace* halfStep,
+               int dimension, const ContactOptions& options, Real dt)
 {
+  const int count = int(near.size());
   if (dimension == 2)
   {
     parallelFor(
-        "coplane::contact::stepsBtoH", planeCount, KOKKOS_LAMBDA(const int p) {
+        "coplane::contact::stepsBtoH", count, KOKKOS_LAMBDA(const int i) {
+          const int p = near[i];
           const SlotFaces& faces = pairs.slots[p];
-          if (faces.face[0] < 0 || pairs.leaveOut(p))
-            return;
           const HalfStepFace& a = halfStep[faces.face[0]];
           const HalfStepFace& b = halfStep[faces.face[1]];
           if ((pairs.isAsleep(p) || !pairs.carries(p)) && !mayMeet<2>(a, b, options))
@@ -149,33 +151,39 @@ void stepsBtoH(const PairTables& pairs, int planeCount, const HalfStepFace* half
         });
     return;
   }
-  constexpr int stretch = PairLanes::stretch;
+  constexpr int atOnce = PairLanes::atOnce;
   parallelForUneven(
-      "coplane::contact::stepsBtoH", (planeCount + stretch - 1) / stretch,
-      KOKKOS_LAMBDA(const int s) {
-        const int first = s * stretch;
-        const int last = first + stretch < planeCount ? first + stretch : planeCount;
-        PairLanes(pairs, halfStep, options, dt).update(first, last);
+      "coplane::contact::stepsBtoH", (count + atOnce - 1) / atOnce, KOKKOS_LAMBDA(const int s) {
+        const int first = s * atOnce;
+        PairLanes(pairs, halfStep, options, dt)
+            .update(near.data() + first, std::min(atOnce, count - first));
       });
 }
 } // namespace
 
-void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v) const
+PairedFaces::Motion Contact::motionOf(const ConstNodeVectors& x, const ConstNodeVectors& v,
+                                      Real dt) const
 {
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, options_.forces, 0);
+  return {faces_.forKernels(), dimension_, x, v, options_.forces, dt};
+}
+
+void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v)
+{
+  pairedFaces_.stepA(motionOf(x, v, 0));
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
                                        Real dt, Real lookAhead, Real sinceSearch)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
-  pairedFaces_.stepA(faces_.forKernels(), dimension_, x, v, options_.forces, dt);
   distances_.follow(x, v, sinceSearch, lookAhead);
   ContactOptions options = options_;
   options.lookAhead = lookAhead;
   PairTables pairs = pairTables();
   pairs.changedFaces = forceSums_.changed().data();
-  stepsBtoH(pairs, int(planes_.count()), pairedFaces_.data(), dimension_, options, dt);
+  near_.list(pairs, int(planes_.count()), faces().size());
+  pairedFaces_.stepA(motionOf(x, v, dt), near_.faces());
+  stepsBtoH(pairs, near_.slots(), pairedFaces_.data(), dimension_, options, dt);
   planes_.listWoken();
   shown_ = {};
   if (searches_.sinceUpdate && searches_.count > 1)
@@ -223,7 +231,9 @@ const PlaneList& Contact::planesNow() const
   const PairTables again{nullptr,        copies.data(),   slots.data(), activity.data(),
                          planes_.laws(), isIncremental(), &notAsked};
   constexpr Real noTime = 0;
-  stepsBtoH(again, int(count), pairedFaces_.data(), dimension_, options_, noTime);
+  std::vector<int> every(count);
+  std::iota(every.begin(), every.end(), 0);
+  stepsBtoH(again, every, pairedFaces_.all(), dimension_, options_, noTime);
   std::size_t next = 0;
   shown_.list.clear();
   for (std::size_t p = 0; p < all.size(); ++p)

@@ -7,6 +7,7 @@
 #include <coplane_contact/FaceTable.hpp>
 #include <coplane_contact/Faces.hpp>
 #include <coplane_contact/ForceSums.hpp>
+#include <coplane_contact/NearPairs.hpp>
 #include <coplane_contact/PairDistances.hpp>
 #include <coplane_contact/PairedFaces.hpp>
 #include <coplane_contact/Plane.hpp>
@@ -112,7 +113,7 @@ public:
     distances_.follow(x, v, sinceSearch, lookAhead);
   }
   /// Step A where faces stand still: for those who look at them before the next update.
-  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v) const;
+  void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v);
 
   /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
   /// stable step; at least the two largest steps that may follow; sinceSearch: time since then [s]
@@ -182,7 +183,7 @@ public:
   /// update: 1 where they look straight at each other [-].
   Real opposition(const Plane& plane) const
   {
-    const HalfStepFace* const faces = pairedFaces_.data();
+    const HalfStepFace* const faces = pairedFaces_.all();
     return -dot(faces[plane.face[0]].normal, faces[plane.face[1]].normal);
   }
 
@@ -198,6 +199,7 @@ public:
                                int dimension, const Comm& comm);
 
 private:
+  PairedFaces::Motion motionOf(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt) const;
   /// A pair of a checkpoint that has no plane, and nothing to remember but this.
   struct BarePair
   {
@@ -312,6 +314,7 @@ private:
   // ... and what cycles work on.
   PlaneTable planes_;
   PairedFaces pairedFaces_;
+  NearPairs near_;
   PairDistances distances_;
   ForceSums forceSums_;
   EndedPlanes ended_;

@@ -481,20 +481,27 @@ KOKKOS_INLINE_FUNCTION Real beyondNodes(const HalfStepFace& face)
   return face.count < 4 ? 0 : 0.25 * std::fabs(dot(face.normal, x[0] - x[1] + x[2] - x[3]));
 }
 
-/// Whether faces are apart along the normal of their plane, and stay so for the time `ahead` [s].
+/// Whether faces that oppose each other are apart along the normal of their plane, or along that of
+/// one of them, and stay so for the time `ahead` [s].
 /// @param reach gap from which they would act on each other [m]
 KOKKOS_INLINE_FUNCTION bool areApart(const HalfStepFace& a, const HalfStepFace& b, Real reach,
                                      Real ahead)
 {
   constexpr Real roundOff = 1e-7; // of the size of a face
-  const Vec3 n = normalised(a.normal - b.normal);
-  Real lowest = infinity, highest = -infinity;
-  for (int i = 0; i < a.count; ++i)
-    highest = branchFree::larger(dot(n, a.x[i] - a.center), highest);
-  for (int i = 0; i < b.count; ++i)
-    lowest = branchFree::smaller(dot(n, b.x[i] - a.center), lowest);
-  const Real gap = lowest - highest - beyondNodes(a) - beyondNodes(b) - reach;
-  return gap > ahead * approachSpeed(n, a, b) + roundOff * norm(a.x[1] - a.x[0]);
+  const Vec3 normal = normalised(a.normal - b.normal);
+  const Real less = beyondNodes(a) + beyondNodes(b) + reach + roundOff * norm(a.x[1] - a.x[0]);
+  // Which pairs may touch soon is asked along the normal of the plane (updatePlanes).
+  const Real speed = approachSpeed(normal, a, b);
+  const auto areApartAlong = [&](const Vec3& n)
+  {
+    Real lowest = infinity, highest = -infinity;
+    for (int i = 0; i < a.count; ++i)
+      highest = branchFree::larger(dot(n, a.x[i] - a.center), highest);
+    for (int i = 0; i < b.count; ++i)
+      lowest = branchFree::smaller(dot(n, b.x[i] - a.center), lowest);
+    return lowest - highest > ahead * branchFree::larger(approachSpeed(n, a, b), speed) + less;
+  };
+  return areApartAlong(normal) || areApartAlong(a.normal) || areApartAlong(-1.0 * b.normal);
 }
 
 /// Before steps E and F of a pair: whether it penetrates when it is looked at for the first time.

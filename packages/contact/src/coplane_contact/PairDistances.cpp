@@ -20,29 +20,10 @@ constexpr Real perNode = 3;
 /// The nodes of a face at one time.
 struct Corners
 {
-  int count;
+  int count = 0;
   Vec3 x[4];
 
-  Corners(const Face& face, const ConstNodeVectors& at0, const ConstNodeVectors& v, Real time)
-      : count(face.count)
-  {
-    for (int k = 0; k < count; ++k)
-    {
-      x[k] = at(at0, face.nodes[k]);
-      if (time > 0)
-        x[k] += time * at(v, face.nodes[k]);
-    }
-  }
-  /// By how much the unit normal changes at most for each metre that nodes stray, over perNode
-  /// [1/m].
-  Real turningPerMetre() const
-  {
-    constexpr Real most = 2.6; // 2 to first order, for a face that does not shrink on its way
-    if (count == 2)
-      return most / (perNode * norm(x[1] - x[0]));
-    const Vec3 a = x[2] - x[0], b = (count == 4 ? x[3] : x[0]) - x[1];
-    return most * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
-  }
+  /// Height of the lowest along n [m].
   Real least(const Vec3& n) const
   {
     Real height = infinity;
@@ -50,8 +31,164 @@ struct Corners
       height = std::min(height, dot(n, x[k]));
     return height;
   }
+  Vec3 edge(int k) const { return x[k + 1 == count ? 0 : k + 1] - x[k]; }
 };
 
+/// A face at the search, and at the end of the way that the search foresaw.
+struct FaceOnItsWay
+{
+  Corners first, last;
+  FacePlane plane;
+  /// By how much the unit normal changes at most for each metre that nodes stray, over perNode
+  /// [1/m].
+  Real turningPerMetre = 0;
+
+  FaceOnItsWay() = default;
+  FaceOnItsWay(const Face& face, const FacePlane& itsPlane, const PairDistances::Seen& seen)
+      : plane(itsPlane)
+  {
+    first.count = last.count = face.count;
+    for (int k = 0; k < face.count; ++k)
+    {
+      first.x[k] = last.x[k] = at(seen.x, face.nodes[k]);
+      if (seen.ahead > 0)
+        last.x[k] += seen.ahead * at(seen.v, face.nodes[k]);
+    }
+    constexpr Real most = 2.6; // 2 to first order, for a face that does not shrink on its way
+    const Vec3* const x = first.x;
+    if (face.count == 2)
+    {
+      turningPerMetre = most / (perNode * norm(x[1] - x[0]));
+      return;
+    }
+    const Vec3 a = x[2] - x[0], b = (face.count == 4 ? x[3] : x[0]) - x[1];
+    turningPerMetre = most * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
+  }
+};
+
+/// What keeps the faces of a pair from each other. Where they act, points of the second lie against
+/// the normal of the pair from those of the first. So they do not where all of the second lies
+/// beyond all of the first, along any direction that does not lean against the normal: the normal
+/// itself, those of the faces, or one in their plane that leans a little towards it, as the normal
+/// turns.
+class WhatKeepsApart
+{
+public:
+  WhatKeepsApart(const FaceOnItsWay& a, const FaceOnItsWay& b, const PairDistances::Seen& seen)
+      : a_(a), b_(b), seen_(seen), turning_(onTheWay * (a.plane.turning + b.plane.turning)),
+        turningPerMetre_(std::max(a.turningPerMetre, b.turningPerMetre)),
+        size_(norm(a.first.edge(0)))
+  {
+  }
+
+  /// They do not oppose each other.
+  void lookAtNormals()
+  {
+    const Real unopposed = dot(a_.plane.normal, b_.plane.normal) + seen_.leastOpposed - turning_;
+    if (unopposed > unopposedRoundOff)
+      keep(unopposed / turningPerMetre_, 0);
+  }
+  void lookAtDirections()
+  {
+    const Vec3 apart = a_.plane.normal - b_.plane.normal;
+    const Real size = norm(apart);
+    if (isEnough() || size < leastApart)
+      return;
+    normal_ = (1 / size) * apart;
+    // The planes of warped faces lie beyond their nodes, along a normal that leans towards theirs
+    // by half the length of their difference.
+    less_ = seen_.offset + (a_.plane.warp + b_.plane.warp) /
+                               (0.5 * size - std::max(a_.plane.turning, b_.plane.turning));
+    for (const Vec3& direction : {normal_, a_.plane.normal, -1.0 * b_.plane.normal})
+      if (!isEnough())
+        look(direction);
+    if (!isEnough())
+      lookBeside();
+  }
+
+  Real gap() const { return gap_; }         ///< at the search; not positive: nothing does [m]
+  Real closing() const { return closing_; } ///< its rate, not positive [m/s]
+
+private:
+  /// The normal of a pair turns by the turning of its faces over the length of their difference.
+  /// That is at least the root of two while they oppose each other: with leastApart at the search
+  /// it is ofTurning times theirs at most.
+  static constexpr Real leastApart = 1.26, ofTurning = 0.75;
+  /// Of the size of a face: pairs farther apart are not looked at for long.
+  static constexpr Real enough = 0.002;
+
+  bool isEnough() const { return kept_ > enough * size_; }
+  /// All of the second face lies beyond all of the first along a direction by this [m].
+  Real gapAlong(const Vec3& direction) const
+  {
+    return b_.first.least(direction) + a_.first.least(-1.0 * direction);
+  }
+  Real lastGapAlong(const Vec3& direction) const
+  {
+    return b_.last.least(direction) + a_.last.least(-1.0 * direction);
+  }
+  void keep(Real gap, Real closing)
+  {
+    gap = down * gap - unopposedRoundOff * size_;
+    closing = up * std::min(0.0, closing);
+    const Real kept = gap + closing * seen_.ahead;
+    if (!(gap > 0) || kept <= kept_)
+      return;
+    gap_ = gap;
+    closing_ = closing;
+    kept_ = kept;
+  }
+  void look(const Vec3& direction)
+  {
+    const Real lean = dot(direction, normal_), turns = lean - ofTurning * turning_;
+    if (!(turns > 0))
+      return;
+    const Real less = std::min(1.0, 2 * lean) * less_, first = gapAlong(direction) - less;
+    if (first > 0)
+      keep(std::min(first, turns / (ofTurning * turningPerMetre_)),
+           seen_.ahead > 0 ? (lastGapAlong(direction) - less - first) / seen_.ahead : 0);
+  }
+  /// Along the edge beyond which they are farthest apart.
+  void lookBeside()
+  {
+    Real most = 0;
+    Vec3 beside{};
+    const Vec3 way = b_.plane.center - a_.plane.center;
+    const auto see = [&](const Vec3& direction)
+    {
+      // A gap is shorter than the way from centre to centre.
+      const Real ofWay = dot(direction, way), squared = dot(direction, direction);
+      if (!(ofWay > 0) || ofWay * ofWay <= most * most * squared)
+        return;
+      const Real length = std::sqrt(squared), gap = gapAlong(direction) / length;
+      if (!(gap > most))
+        return;
+      most = gap;
+      beside = (1 / length) * direction;
+    };
+    if (a_.first.count == 2)
+      for (const Real side : {-1.0, 1.0})
+        see({-side * normal_.y, side * normal_.x, 0});
+    else
+      for (const Corners* face : {&a_.first, &b_.first})
+        for (int k = 0; k < face->count; ++k)
+          see(cross(face->edge(k), normal_));
+    if (!(most > 0))
+      return;
+    // It leans as far as lets the normal turn for as long as the gap lasts that is left.
+    const Real perTurn = 1 / (ofTurning * turningPerMetre_);
+    const Real lean = (most + perTurn * ofTurning * turning_) / (perTurn - gapAlong(normal_));
+    if (lean > 0 && lean < 1)
+      look(normalised(beside + lean * normal_));
+  }
+
+  const FaceOnItsWay &a_, &b_;
+  const PairDistances::Seen& seen_;
+  Real turning_, turningPerMetre_, size_;
+  Vec3 normal_{};
+  Real less_ = 0;
+  Real gap_ = -1, closing_ = 0, kept_ = -infinity;
+};
 } // namespace
 
 void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
@@ -70,7 +207,10 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
   closing_ = uninitialised("coplane::contact::closing", slots.extent(0));
   strayed_ = uninitialised("coplane::contact::strayed", faces.extent(0));
   strayedNodes_ = uninitialised("coplane::contact::strayedNodes", seen.x.extent(0));
-  const Real ahead = seen_.ahead;
+  const Kokkos::View<FaceOnItsWay*, Kokkos::HostSpace> ways(
+      Kokkos::ViewAllocateWithoutInitializing("coplane::contact::ways"), faces.extent(0));
+  parallelFor("coplane::contact::ways", int(faces.extent(0)),
+              [&](const int f) { new (&ways(f)) FaceOnItsWay(faces(f), planes(f), seen_); });
   parallelFor("coplane::contact::distances", int(slots.extent(0)),
               [&](const int slot)
               {
@@ -79,35 +219,15 @@ void PairDistances::take(const SlotTable& slots, const Array<Face>& faces,
                 const SlotFaces& pair = slots(slot);
                 if (pair.face[0] < 0)
                   return;
-                const Face &a = faces(pair.face[0]), &b = faces(pair.face[1]);
-                const FacePlane &planeA = planes(pair.face[0]), &planeB = planes(pair.face[1]);
-                const Corners firstA(a, seen_.x, seen_.v, 0), firstB(b, seen_.x, seen_.v, 0);
-                const Real turning = std::max(planeA.turning, planeB.turning);
-                if (turning >= CandidateRules::mostTurningAhead)
+                const FaceOnItsWay &a = ways(pair.face[0]), &b = ways(pair.face[1]);
+                if (std::max(a.plane.turning, b.plane.turning) >= CandidateRules::mostTurningAhead)
                   return;
-                const Real unopposed = dot(planeA.normal, planeB.normal) + seen_.leastOpposed -
-                                       onTheWay * (planeA.turning + planeB.turning);
-                if (unopposed > unopposedRoundOff)
-                {
-                  gap_(slot) = float(down * unopposed /
-                                     std::max(firstA.turningPerMetre(), firstB.turningPerMetre()));
-                  return;
-                }
-                if (mayReach(slot) != 0)
-                  return;
-                const Vec3 apart = planeA.normal - planeB.normal, n = normalised(apart);
-                const Corners lastA(a, seen_.x, seen_.v, ahead), lastB(b, seen_.x, seen_.v, ahead);
-                // The planes of warped faces lie beyond their nodes, along a normal that leans
-                // towards theirs by half the length of their difference.
-                const Real less =
-                    seen_.offset + (planeA.warp + planeB.warp) / (0.5 * norm(apart) - turning);
-                const Real first = firstB.least(n) + firstA.least(-1.0 * n) - less;
-                const Real last = lastB.least(n) + lastA.least(-1.0 * n) - less;
-                const Real gap = down * first - unopposedRoundOff * norm(firstA.x[1] - firstA.x[0]);
-                if (!(gap > 0))
-                  return;
-                gap_(slot) = float(gap);
-                closing_(slot) = ahead > 0 ? float(up * std::min(0.0, (last - first) / ahead)) : 0;
+                WhatKeepsApart kept(a, b, seen_);
+                kept.lookAtNormals();
+                if (mayReach(slot) == 0)
+                  kept.lookAtDirections();
+                gap_(slot) = float(kept.gap());
+                closing_(slot) = float(kept.closing());
               });
 }
 

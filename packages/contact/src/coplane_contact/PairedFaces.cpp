@@ -1,21 +1,24 @@
 #include <coplane_contact/PairedFaces.hpp>
 #include <coplane_contact/detail/FacePairLanes.hpp>
 
+#include <algorithm>
+#include <iterator>
+
 namespace coplane
 {
 namespace
 {
-/// What step A needs of the first face, or of as many as T has lanes.
+/// What step A needs of a face, or of as many as T has lanes.
 template <class T>
-void gatherNodes(const Face* faces, const ConstNodeVectors& x, const ConstNodeVectors& v,
-                 FaceNodesOf<T>& nodes)
+void gatherNodes(const Array<Face>& faces, const int* places, const ConstNodeVectors& x,
+                 const ConstNodeVectors& v, FaceNodesOf<T>& nodes)
 {
-  nodes.count = faces[0].count;
-  nodes.mass = branchFree::gathered<T>([&](int i) { return faces[i].mass; });
+  nodes.count = faces(places[0]).count;
+  nodes.mass = branchFree::gathered<T>([&](int i) { return faces(places[i]).mass; });
   for (int k = 0; k < nodes.count; ++k)
   {
     const auto each = [&](const auto& get)
-    { return branchFree::gathered<T>([&](int i) { return get(faces[i].nodes[k]); }); };
+    { return branchFree::gathered<T>([&](int i) { return get(faces(places[i]).nodes[k]); }); };
     const auto vector = [&](const ConstNodeVectors& field) -> Vec3Of<T>
     {
       return {each([&](int node) { return field(node, 0); }),
@@ -43,47 +46,76 @@ void PairedFaces::mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots,
 {
   halfStep_ = decltype(halfStep_)(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::halfStepFaces"), faceCount);
-  paired_ = Array<bool>("coplane::contact::paired", faceCount);
+  std::vector<char> isPaired(faceCount, 0);
   for (std::size_t p = 0; p < slots.extent(0); ++p)
     for (const int face : slots(p).face)
       if (face >= 0)
-        paired_(face) = true;
+        isPaired[std::size_t(face)] = 1;
+  paired_.clear();
+  for (std::size_t f = 0; f < faceCount; ++f)
+    if (isPaired[f] != 0)
+      paired_.push_back(int(f));
+  found_ = paired_;
 }
 
-void PairedFaces::stepA(const Array<Face>& faces, int dimension, const ConstNodeVectors& x,
-                        const ConstNodeVectors& v, ContactOptions::Forces forces, Real dt) const
+void PairedFaces::stepA(const Motion& motion, const std::vector<int>& places)
 {
-  const auto halfStep = halfStep_;
-  const auto paired = paired_;
-  const auto halfStepOf = KOKKOS_LAMBDA(const int f)
+  motion_ = motion;
+  find(places);
+  found_ = places;
+}
+
+void PairedFaces::stepA(const Motion& motion)
+{
+  stepA(motion, paired_);
+}
+
+const HalfStepFace* PairedFaces::all() const
+{
+  if (found_.size() < paired_.size())
   {
-    if (!paired(f))
-      return;
+    std::vector<int> missing;
+    std::set_difference(paired_.begin(), paired_.end(), found_.begin(), found_.end(),
+                        std::back_inserter(missing));
+    find(missing);
+    found_ = paired_;
+  }
+  return data();
+}
+
+void PairedFaces::find(const std::vector<int>& places) const
+{
+  const Motion& motion = motion_;
+  const auto halfStep = halfStep_;
+  const auto findOne = [&](const int place)
+  {
     FaceNodes nodes;
-    gatherNodes(&faces(f), x, v, nodes);
-    if (dimension == 2)
-      putFace<2>(nodes, forces, dt, halfStep(f));
+    gatherNodes(motion.faces, &place, motion.x, motion.v, nodes);
+    if (motion.dimension == 2)
+      putFace<2>(nodes, motion.forces, motion.dt, halfStep(place));
     else
-      putFace<3>(nodes, forces, dt, halfStep(f));
+      putFace<3>(nodes, motion.forces, motion.dt, halfStep(place));
   };
-  const int faceCount = int(faces.extent(0));
-  parallelFor(
-      "coplane::contact::stepA_halfStepFace", (faceCount + laneCount - 1) / laneCount,
-      KOKKOS_LAMBDA(const int batch) {
-        const int first = batch * laneCount;
-        const int last = first + laneCount < faceCount ? first + laneCount : faceCount;
-        bool alike = dimension == 3 && last - first == laneCount;
-        for (int f = first; f < last; ++f)
-          alike = alike && paired(f) && faces(f).count == faces(first).count;
-        if (!alike)
-        {
-          for (int f = first; f < last; ++f)
-            halfStepOf(f);
-          return;
-        }
-        FaceNodesOf<Lanes> nodes;
-        gatherNodes(&faces(first), x, v, nodes);
-        stepA_faces(nodes, forces, dt, &halfStep(first));
-      });
+  const int count = int(places.size());
+  parallelFor("coplane::contact::stepA_halfStepFace", (count + laneCount - 1) / laneCount,
+              [&](const int batch)
+              {
+                const int first = batch * laneCount, last = std::min(first + laneCount, count);
+                const int* const some = places.data() + first;
+                bool alike = motion.dimension == 3 && last - first == laneCount;
+                for (int i = 0; i < last - first; ++i)
+                  alike = alike && motion.faces(some[i]).count == motion.faces(some[0]).count;
+                if (!alike)
+                {
+                  std::for_each(some, some + last - first, findOne);
+                  return;
+                }
+                FaceNodesOf<Lanes> nodes;
+                gatherNodes(motion.faces, some, motion.x, motion.v, nodes);
+                HalfStepFace* faces[laneCount];
+                for (int i = 0; i < laneCount; ++i)
+                  faces[i] = &halfStep(some[i]);
+                stepA_faces(nodes, motion.forces, motion.dt, faces);
+              });
 }
 } // namespace coplane

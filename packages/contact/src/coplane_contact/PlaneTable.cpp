@@ -39,7 +39,7 @@ void PlaneList::add(std::size_t slot, Plane* plane)
 PlaneTable::Slots::Slots(std::size_t count, std::size_t planes)
     : faces("coplane::contact::slotFaces", count), plane(count, nullptr),
       activity("coplane::contact::activity", count), todo("coplane::contact::todo", count),
-      gains("coplane::contact::gains", count),
+      born("coplane::contact::born", count), gains("coplane::contact::gains", count),
       stored(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::planes"), planes)
 {
 }
@@ -167,9 +167,14 @@ void PlaneTable::renew(std::shared_ptr<const Heritage> heritage)
   parallelFor("coplane::contact::renew", int(count()),
               [&](const int slot)
               {
-                const Plane* const plane = slots_.plane[slot];
-                if (slots_.faces(slot).face[0] < 0 || (plane != nullptr && plane->isBorn()))
+                if (slots_.faces(slot).face[0] < 0 || slots_.born(slot) != 0)
                   return;
+                if (const Plane* const plane = slots_.plane[slot];
+                    plane != nullptr && plane->isBorn())
+                {
+                  slots_.born(slot) = 1;
+                  return;
+                }
                 Preparation::Todo& todo = slots_.todo(slot);
                 todo = Preparation::Todo((todo & Preparation::LookAtEdges) | takeOver(slot));
               });
@@ -228,6 +233,7 @@ void PlaneTable::drop(const std::vector<std::size_t>& slots)
   {
     slots_.plane[slot] = nullptr;
     slots_.activity(slot) = Activity::Awake;
+    slots_.born(slot) = 0;
     slots_.gains(slot) = 0;
   }
   list();

@@ -74,6 +74,7 @@ public:
     std::vector<Plane*> plane; ///< null: none yet
     Array<Activity> activity;  ///< without a plane: not Awake once it has been looked at
     Array<std::uint8_t> todo;  ///< what it has not been told yet (Preparation::Todo)
+    Array<std::uint8_t> born;  ///< 1 where renew() has found a plane that is born
     /// Minus the remainder of its plane, if that is born and counted here, since it was evaluated
     /// last [J]; gain() fills in the others.
     Array<Real> gains;

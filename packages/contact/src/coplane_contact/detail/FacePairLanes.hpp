@@ -46,7 +46,7 @@ inline void putSideBySide(const HalfStepFace* const (&faces)[laneCount],
 
 /// Step A for laneCount faces with the same number of nodes.
 inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces forces, Real dt,
-                        HalfStepFace* faces)
+                        HalfStepFace* const (&faces)[laneCount])
 {
   const HalfStepFaceOf<Lanes> all = forces == ContactOptions::Forces::Potential
                                         ? stepA_faceAtEnd<3>(nodes)
@@ -54,7 +54,7 @@ inline void stepA_faces(const FaceNodesOf<Lanes>& nodes, ContactOptions::Forces 
   for (int i = 0; i < laneCount; ++i)
   {
     using branchFree::lane;
-    HalfStepFace& face = *new (faces + i) HalfStepFace;
+    HalfStepFace& face = *new (faces[i]) HalfStepFace;
     face.count = all.count;
     for (int k = 0; k < all.count; ++k)
     {
@@ -100,17 +100,10 @@ struct PairTables
       passedOn->deeper.store(true, std::memory_order_relaxed);
   }
   bool isAsleep(int p) const { return activity[p] == Activity::Asleep; }
-  /// Leaves out a pair whose faces are so far from each other that they will not touch.
+  /// Leaves out a pair whose shadows meet, and that has been looked at in full once, if its faces
+  /// are so far from each other that they will not touch. Its plane is not told yet, nor made if
+  /// there is none.
   /// @returns whether it did
-  bool leaveOut(int p) const
-  {
-    if (!carriesNothing(p) || distances == nullptr || !distances->isFar(p))
-      return false;
-    putApart(p);
-    return true;
-  }
-  /// The same for one whose shadows meet, and that has been looked at in full once. Its plane is
-  /// not told yet, nor made if there is none.
   bool leaveOut(int p, const HalfStepFace& a, const HalfStepFace& b, Real lookAhead) const
   {
     if (!carriesNothing(p) || distances == nullptr || !distances->mayBeLeftOut(p) ||
@@ -158,10 +151,9 @@ struct PairTables
   }
 };
 
-/// Steps B to H for a stretch of the table of slots. Pairs wait until as many of a kind, by the
-/// numbers of nodes of their faces, are there as fit side by side: those without traction first for
-/// the question whether their shadows can meet at all. Of those that sleep nothing but their faces
-/// is read.
+/// Steps B to H for pairs that are near. They wait until as many of a kind, by the numbers of nodes
+/// of their faces, are there as fit side by side: those without traction first for the question
+/// whether their shadows can meet at all. Of those that sleep nothing but their faces is read.
 class PairLanes
 {
 public:
@@ -172,17 +164,21 @@ public:
   {
   }
 
-  void update(int first, int last)
+  /// @param near slots that have faces, ascending
+  void update(const int* near, int count)
   {
-    for (int from = first; from < last; from += stretch)
-      sort(from, std::min(last, from + stretch));
+    for (int i = 0; i < count; ++i)
+    {
+      prefetchAhead(near, i, count);
+      sort(near[i]);
+    }
     for (int kind = 0; kind < kinds; ++kind)
       judge(kind);
     for (Queue& queue : toUpdate_)
       updateMet(queue);
   }
 
-  static constexpr int stretch = 512; ///< slots: long enough that few lanes stay empty at its end
+  static constexpr int atOnce = 512; ///< slots: many enough that few lanes stay empty at their end
 
 private:
   static constexpr int kinds = 4;
@@ -201,53 +197,30 @@ private:
     int at(int i) const { return plane[i < count ? i : 0]; }
   };
 
-  /// Puts the pairs of a stretch to their kinds.
-  void sort(int first, int last)
+  /// Puts a pair to its kind.
+  void sort(int p)
   {
-    const int count = listNear(first, last);
-    for (int i = 0; i < count; ++i)
-    {
-      prefetchAhead(i, count);
-      const int p = near_[i];
-      const HalfStepFace &a = face(p, 0), &b = face(p, 1);
-      // Edge neighbours at a right angle, say.
-      if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
-        continue;
-      const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
-      if (!pairs_.carriesNothing(p) && pairs_.carries(p)) // it met in the last cycle
-        put(p, kind);
-      else if (toJudge_[kind].add(p))
-        judge(kind);
-    }
-  }
-
-  /// Those of a stretch of slots that have to be looked at. @returns how many
-  int listNear(int first, int last)
-  {
-    std::uint8_t far[stretch] = {};
-    if (pairs_.distances != nullptr && pairs_.distances->known())
-      pairs_.distances->areFar(first, last - first, far);
-    int count = 0;
-    for (int p = first; p < last; ++p)
-    {
-      if (far[p - first] != 0 && pairs_.carriesNothing(p))
-        pairs_.putApart(p);
-      else if (slots_[p].face[0] >= 0)
-        near_[count++] = p;
-    }
-    return count;
+    const HalfStepFace &a = face(p, 0), &b = face(p, 1);
+    // Edge neighbours at a right angle, say.
+    if (pairs_.isAsleep(p) && !(-dot(a.normal, b.normal) > leastOpposed_))
+      return;
+    const int kind = (a.count == 4 ? 1 : 0) + (b.count == 4 ? 2 : 0);
+    if (!pairs_.carriesNothing(p) && pairs_.carries(p)) // it met in the last cycle
+      put(p, kind);
+    else if (toJudge_[kind].add(p))
+      judge(kind);
   }
 
   /// Planes lie in a row, and so do their lower faces nearly; the higher ones lie anywhere.
-  void prefetchAhead(int i, int count) const
+  void prefetchAhead(const int* near, int i, int count) const
   {
     constexpr int planesAhead = 16, facesAhead = 8;
     if (i + planesAhead < count)
-      if (const int p = near_[i + planesAhead];
+      if (const int p = near[i + planesAhead];
           !pairs_.carriesNothing(p) && pairs_.planes[p] != nullptr)
         prefetch(*pairs_.planes[p]);
     if (i + facesAhead < count)
-      prefetch(face(near_[i + facesAhead], 1));
+      prefetch(face(near[i + facesAhead], 1));
   }
   template <class Record>
   static void prefetch(const Record& record)
@@ -333,7 +306,6 @@ private:
   const ContactOptions& options_;
   const Real leastOpposed_;
   Real dt_;
-  int near_[stretch];
   Queue toJudge_[kinds], toUpdate_[2 * kinds];
   HalfStepFaceOf<Lanes> a_, b_; // of the pairs in work
 };
