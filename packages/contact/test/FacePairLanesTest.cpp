@@ -21,8 +21,9 @@ using namespace facepairs;
 
 constexpr Real dt = 1e-3;
 
-/// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, apart, touching,
-/// aligned to the last bit, new, old, bonded.
+/// Pairs of all kinds: triangles and quadrilaterals, plane and warped and folded, or segments,
+/// apart, touching, aligned to the last bit, new, old, bonded.
+template <int Dim>
 struct PairTable
 {
   std::vector<FaceNodes> nodes;
@@ -30,12 +31,14 @@ struct PairTable
 
   explicit PairTable(int count, unsigned seed)
   {
+    constexpr Real z = Dim == 2 ? 0 : 1;
     std::mt19937 random(seed);
     std::uniform_real_distribution<Real> u(-1, 1);
     for (int p = 0; p < count; ++p)
     {
       const Real warps[] = {0, 0, 1e-15, .02, .2, 3};
-      RandomPair pair = randomPair(random, warps[random() % 6], 5);
+      RandomPair pair =
+          Dim == 2 ? randomSegments(random, 5) : randomPair(random, warps[random() % 6], 5);
       if (random() % 4 == 0) // the same outline
       {
         pair.b.count = pair.a.count;
@@ -44,7 +47,7 @@ struct PairTable
       }
       if (random() % 8 == 0) // apart
         for (int i = 0; i < pair.b.count; ++i)
-          pair.b.x[i] = pair.b.x[i] + Vec3{3, 3, 3};
+          pair.b.x[i] = pair.b.x[i] + Vec3{3, 3, 3 * z};
       Plane plane;
       plane.face[0] = random() % 20 == 0 ? -1 : 2 * p;
       plane.face[1] = 2 * p + 1;
@@ -54,7 +57,7 @@ struct PairTable
       plane.history.bonded = random() % 5 == 0;
       plane.joint = std::uint16_t(random() % 8);
       plane.offset = .05 * u(random);
-      plane.normal = normalised(Vec3{u(random), u(random), u(random)});
+      plane.normal = normalised(Vec3{u(random), u(random), z * u(random)});
       plane.depthLimit = 1;
       plane.turns = std::uint8_t(random());
       plane.exits = std::uint8_t(plane.turns & random());
@@ -66,7 +69,8 @@ struct PairTable
       if (random() % 2 == 0)
       {
         plane.area = .5;
-        plane.history.shearTraction = cross(plane.normal, Vec3{u(random), u(random), u(random)});
+        plane.history.shearTraction =
+            cross(plane.normal, Vec3{z * u(random), z * u(random), u(random)});
       }
       planes.push_back(plane);
       nodes.push_back(pair.a);
@@ -79,8 +83,8 @@ struct PairTable
     std::vector<HalfStepFace> result;
     for (const FaceNodes& face : nodes)
       result.push_back(o.forces == ContactOptions::Forces::Potential
-                           ? stepA_faceAtEnd<3>(face)
-                           : stepA_halfStepFace<3>(face, dt));
+                           ? stepA_faceAtEnd<Dim>(face)
+                           : stepA_halfStepFace<Dim>(face, dt));
     return result;
   }
 
@@ -151,8 +155,9 @@ struct Slots
       std::copy(of[p].face, of[p].face + 2, faces[p].face);
   }
   /// All that have faces, so many side by side in one piece.
+  template <int Dim>
   void update(const std::vector<HalfStepFace>& halfStep, const std::vector<JointLaw>& laws,
-              const ContactOptions& options, int atOnce = PairLanes::atOnce)
+              const ContactOptions& options, int atOnce = PairLanes<Dim>::atOnce)
   {
     const PairTables pairs{nullptr,     places.data(), faces.data(), activity.data(),
                            laws.data(), false,         &changed};
@@ -160,7 +165,7 @@ struct Slots
     near.list(pairs, int(planes.size()), halfStep.size());
     const int count = int(near.slots().size());
     for (int first = 0; first < count; first += atOnce)
-      PairLanes(pairs, halfStep.data(), options, dt)
+      PairLanes<Dim>(pairs, halfStep.data(), options, dt)
           .update(near.slots().data() + first, std::min(atOnce, count - first));
   }
 
@@ -174,74 +179,118 @@ struct Slots
 };
 } // namespace
 
-TEST(PairLanes, haveTheBitsOfOnePairAtATime)
+namespace
+{
+/// What the pairs of a run have been, in all cycles.
+struct Seen
+{
+  int carrying = 0, irregular = 0, woken = 0, asleep = 0;
+  int uneven = 0, byShear = 0, even = 0; ///< crushed
+  int loaded = 0, begun = 0;             ///< on the curve that stiffens most
+};
+
+template <int Dim>
+Seen expectTheBitsOfOnePairAtATime(const ContactOptions& o)
 {
   const std::vector<JointLaw> laws = someLaws();
+  PairTable<Dim> table(3000, 21);
+  std::vector<Plane> alone = table.planes;
+  Slots together(table.planes);
+  Seen seen;
+  for (int cycle = 0; cycle < 15; ++cycle, table.move())
+  {
+    const std::vector<HalfStepFace> faces = table.faces(o);
+    for (Plane& plane : alone)
+      if (plane.face[0] >= 0)
+      {
+        const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
+        const bool wasUneven = plane.crushedUnevenly, carried = plane.area > 0;
+        const Real most = plane.history.maximumClosure;
+        updateByForces<Dim>(plane, a, b, laws[plane.joint], o, dt);
+        EXPECT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
+        seen.carrying += plane.area > 0;
+        (carried ? seen.loaded : seen.begun) +=
+            plane.joint == 1 && plane.history.maximumClosure > most && plane.area > 0;
+        seen.uneven += plane.crushedUnevenly;
+        seen.byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
+                        plane.crushing().along[1] == 0;
+        seen.even +=
+            laws[plane.joint].crushesUnevenly() && !plane.crushedUnevenly && plane.area > 0;
+        const TrialPlane trial = stepB_trialPointOfContact<Dim>(a, b);
+        seen.irregular += Dim == 3 && trial.opposed &&
+                          !isConvex(stepC_projectOntoPlane<Dim>(trial, a, dt).p, a.count);
+      }
+    const std::vector<Activity> before = together.activity;
+    together.update<Dim>(faces, laws, o);
+    for (std::size_t p = 0; p < alone.size(); ++p)
+    {
+      if (!sameBits(alone[p], together.planes[p]))
+      {
+        ADD_FAILURE() << p << " in cycle " << cycle;
+        return seen;
+      }
+      seen.woken += before[p] == Activity::Asleep && together.activity[p] != Activity::Asleep;
+    }
+  }
+  seen.asleep =
+      int(std::count(together.activity.begin(), together.activity.end(), Activity::Asleep));
+  return seen;
+}
+
+std::vector<ContactOptions> allOptions()
+{
   std::vector<ContactOptions> all;
   for (const auto area : allAreas)
     for (const auto weights : allWeights)
       all.push_back(someOptions(area, weights));
   all.push_back(ContactOptions{}); // the potential
   all.push_back(damped(ContactOptions{}));
-  for (const ContactOptions& o : all)
+  return all;
+}
+
+void expectCrushing(const Seen& seen)
+{
+  EXPECT_GT(seen.uneven, 1000);
+  EXPECT_GT(seen.byShear, 20);
+  EXPECT_GT(seen.loaded, 100);
+  EXPECT_GT(seen.begun, 20);
+  EXPECT_GT(seen.even, 1000);
+}
+} // namespace
+
+TEST(PairLanes, haveTheBitsOfOnePairAtATime)
+{
+  for (const ContactOptions& o : allOptions())
   {
-    PairTable table(3000, 21);
-    std::vector<Plane> alone = table.planes;
-    Slots together(table.planes);
-    int carrying = 0, irregular = 0, woken = 0, uneven = 0, byShear = 0, even = 0;
-    int loaded = 0, begun = 0; // on the curve that stiffens most
-    for (int cycle = 0; cycle < 15; ++cycle, table.move())
-    {
-      const std::vector<HalfStepFace> faces = table.faces(o);
-      for (Plane& plane : alone)
-        if (plane.face[0] >= 0)
-        {
-          const HalfStepFace &a = faces[plane.face[0]], &b = faces[plane.face[1]];
-          const bool wasUneven = plane.crushedUnevenly, carried = plane.area > 0;
-          const Real most = plane.history.maximumClosure;
-          updateByForces<3>(plane, a, b, laws[plane.joint], o, dt);
-          ASSERT_TRUE(std::isfinite(norm(plane.forceOn(0))) && std::isfinite(plane.stored));
-          carrying += plane.area > 0;
-          (carried ? loaded : begun) +=
-              plane.joint == 1 && plane.history.maximumClosure > most && plane.area > 0;
-          uneven += plane.crushedUnevenly;
-          byShear += plane.crushedUnevenly && !wasUneven && plane.crushing().along[0] == 0 &&
-                     plane.crushing().along[1] == 0;
-          even += laws[plane.joint].crushesUnevenly() && !plane.crushedUnevenly && plane.area > 0;
-          const TrialPlane trial = stepB_trialPointOfContact<3>(a, b);
-          irregular +=
-              trial.opposed && (!isConvex(stepC_projectOntoPlane<3>(trial, a, dt).p, a.count));
-        }
-      const std::vector<Activity> before = together.activity;
-      together.update(faces, laws, o);
-      for (std::size_t p = 0; p < alone.size(); ++p)
-      {
-        ASSERT_TRUE(sameBits(alone[p], together.planes[p])) << p << " in cycle " << cycle;
-        woken += before[p] == Activity::Asleep && together.activity[p] != Activity::Asleep;
-      }
-    }
-    EXPECT_GT(std::count(together.activity.begin(), together.activity.end(), Activity::Asleep),
-              300);
-    EXPECT_GT(woken, 5);
-    EXPECT_GT(carrying, 5000);
-    EXPECT_GT(irregular, 100);
+    const Seen seen = expectTheBitsOfOnePairAtATime<3>(o);
+    EXPECT_GT(seen.asleep, 300);
+    EXPECT_GT(seen.woken, 5);
+    EXPECT_GT(seen.carrying, 5000);
+    EXPECT_GT(seen.irregular, 100);
     if (o.forces == ContactOptions::Forces::Potential)
-    {
-      EXPECT_GT(uneven, 1000);
-      EXPECT_GT(byShear, 20);
-      EXPECT_GT(loaded, 100);
-      EXPECT_GT(begun, 20);
-      EXPECT_GT(even, 1000);
-    }
+      expectCrushing(seen);
+  }
+}
+
+TEST(PairLanes, haveTheBitsOfOnePairAtATimeInTwoDimensions)
+{
+  for (const ContactOptions& o : allOptions())
+  {
+    const Seen seen = expectTheBitsOfOnePairAtATime<2>(o);
+    EXPECT_GT(seen.asleep, 100);
+    EXPECT_GT(seen.carrying, 5000);
+    if (o.forces == ContactOptions::Forces::Potential)
+      expectCrushing(seen);
   }
 }
 
 namespace
 {
+template <int Dim>
 void expectTheSameInAnotherOrder(const ContactOptions& o)
 {
   const std::vector<JointLaw> laws = someLaws();
-  PairTable table(2000, 5);
+  PairTable<Dim> table(2000, 5);
   const std::vector<HalfStepFace> faces = table.faces(o);
   std::vector<int> order(table.planes.size());
   std::iota(order.begin(), order.end(), 0);
@@ -250,8 +299,8 @@ void expectTheSameInAnotherOrder(const ContactOptions& o)
   for (const int p : order)
     inAnotherOrder.push_back(table.planes[p]);
   Slots sorted(table.planes), shuffled(inAnotherOrder);
-  sorted.update(faces, laws, o);
-  shuffled.update(faces, laws, o, 7);
+  sorted.update<Dim>(faces, laws, o);
+  shuffled.update<Dim>(faces, laws, o, 7);
   for (std::size_t i = 0; i < order.size(); ++i)
     ASSERT_TRUE(sameBits(sorted.planes[order[i]], shuffled.planes[i])) << order[i];
 }
@@ -262,7 +311,10 @@ TEST(PairLanes, doNotDependOnTheirNeighbours)
   for (const ContactOptions& o :
        {damped(ContactOptions{}),
         someOptions(ContactOptions::Area::Penetrating, ContactOptions::Weights::Pressure)})
-    expectTheSameInAnotherOrder(o);
+  {
+    expectTheSameInAnotherOrder<3>(o);
+    expectTheSameInAnotherOrder<2>(o);
+  }
 }
 
 TEST(StepA_HalfStepFaces, haveTheBitsOfOneFaceAtATime)

@@ -19,10 +19,7 @@ PairDistances measured(const MovingPairs& pairs)
                  {pairs.x, pairs.v, ahead, {}, 0, leastOpposed(ContactOptions())});
   return distances;
 }
-} // namespace
 
-namespace
-{
 using Place = MovingPairs::Place;
 
 /// Whether some of the second face lies behind the first, however deep, where both oppose each
@@ -150,6 +147,51 @@ TEST(PairDistances, facesThatAreApartNeitherTouchNorMaySoon)
     EXPECT_GT(apart, count / 50);
     EXPECT_GT(acting, count / 50);
   }
+}
+
+// The mean plane of a warped face lies beyond a corner, the farther along the normal of the pair
+// the more the face is tilted.
+TEST(PairDistances, warpedFacesAreApartByTheirMeanPlanes)
+{
+  constexpr Real warp = 0.05;
+  int lying = 0;
+  for (const Real degrees : {0.0, 20.0, 30.0, 44.0})
+    for (const Real part : {0.1, 0.5, 0.9, 1.1})
+    {
+      const Real tilt = degrees * pi / 180;
+      FaceNodes nodes[2];
+      for (int f = 0; f < 2; ++f)
+      {
+        nodes[f].count = 4;
+        for (int k = 0; k < 4; ++k)
+        {
+          const int at = f == 0 ? k : (4 - k) % 4;
+          const Vec3 corner{std::cos(pi / 2 * at), std::sin(pi / 2 * at),
+                            at % 2 == 0 ? -warp : warp};
+          Vec3& x = nodes[f].x[k] = rotation({0, 1, 0}, -tilt) * corner;
+          if (f == 1)
+            x.z = -x.z;
+        }
+      }
+      Real top = -infinity, low = infinity;
+      for (int k = 0; k < 4; ++k)
+      {
+        top = std::max(top, nodes[0].x[k].z);
+        low = std::min(low, nodes[1].x[k].z);
+      }
+      const Real gap = 2 * warp * (1 + part * (1 / std::cos(tilt) - 1));
+      for (int k = 0; k < 4; ++k)
+        nodes[1].x[k].z += top - low + gap;
+      const HalfStepFace a = stepA_faceAtEnd<3>(nodes[0]), b = stepA_faceAtEnd<3>(nodes[1]);
+      const bool lie = lieInEachOther<3>(a, b);
+      lying += lie;
+      EXPECT_FALSE(lie && areApart(a, b, 0, 0)) << degrees << " degrees, " << part;
+      if (part > 1 && degrees > 0)
+      {
+        EXPECT_TRUE(areApart(a, b, 0, 0)) << degrees << " degrees";
+      }
+    }
+  EXPECT_GT(lying, 3);
 }
 
 TEST(PairDistances, slotsWithoutFacesAreNotFar)

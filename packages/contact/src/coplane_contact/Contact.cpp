@@ -122,42 +122,29 @@ Real Contact::stiffestOn(const Face& face) const
 
 namespace
 {
-/// Steps B to H; in three dimensions for several pairs side by side.
-/// @param near slots that have faces, ascending
-void stepsBtoH(const PairTables& pairs, const std::vector<int>& near, const HalfStepFace* halfStep,
-               int dimension, const ContactOptions& options, Real dt)
+/// Steps B to H for several pairs side by side. @param near slots that have faces, ascending
+template <int Dim>
+void stepsBtoHIn(const PairTables& pairs, const std::vector<int>& near,
+                 const HalfStepFace* halfStep, const ContactOptions& options, Real dt)
 {
   const int count = int(near.size());
-  if (dimension == 2)
-  {
-    parallelFor(
-        "coplane::contact::stepsBtoH", count, KOKKOS_LAMBDA(const int i) {
-          const int p = near[i];
-          const SlotFaces& faces = pairs.slots[p];
-          const HalfStepFace& a = halfStep[faces.face[0]];
-          const HalfStepFace& b = halfStep[faces.face[1]];
-          if ((pairs.isAsleep(p) || !pairs.carries(p)) && !mayMeet<2>(a, b, options))
-          {
-            pairs.passBy(p, a, b, dt);
-            return;
-          }
-          if (!pairs.carries(p) && pairs.leaveOut(p, a, b, options.lookAhead))
-            return;
-          pairs.prepare(p);
-          Plane& plane = *pairs.planes[p];
-          const auto before = pairs.passedBy(p);
-          updateByForces<2>(plane, a, b, pairs.laws[plane.joint], options, dt);
-          pairs.book(p, before);
-        });
-    return;
-  }
-  constexpr int atOnce = PairLanes::atOnce;
+  const int* const slots = near.data();
+  // Several pieces for each thread, which take unlike times.
+  const int atOnce = std::clamp(count / (8 * threadCount()), 8 * laneCount, PairLanes<Dim>::atOnce);
   parallelForUneven(
       "coplane::contact::stepsBtoH", (count + atOnce - 1) / atOnce, KOKKOS_LAMBDA(const int s) {
         const int first = s * atOnce;
-        PairLanes(pairs, halfStep, options, dt)
-            .update(near.data() + first, std::min(atOnce, count - first));
+        PairLanes<Dim>(pairs, halfStep, options, dt)
+            .update(slots + first, std::min(atOnce, count - first));
       });
+}
+void stepsBtoH(const PairTables& pairs, const std::vector<int>& near, const HalfStepFace* halfStep,
+               int dimension, const ContactOptions& options, Real dt)
+{
+  if (dimension == 2)
+    stepsBtoHIn<2>(pairs, near, halfStep, options, dt);
+  else
+    stepsBtoHIn<3>(pairs, near, halfStep, options, dt);
 }
 } // namespace
 

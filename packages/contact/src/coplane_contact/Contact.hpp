@@ -115,8 +115,9 @@ public:
   /// Step A where faces stand still: for those who look at them before the next update.
   void findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v);
 
-  /// Step 6: steps A to H for every slot. lookAhead: what may touch within this time counts for the
-  /// stable step; at least the two largest steps that may follow; sinceSearch: time since then [s]
+  /// Step 6: steps A to H for the slots whose faces are near. lookAhead: what may touch within this
+  /// time counts for the stable step; at least the two largest steps that may follow; sinceSearch:
+  /// time since then [s]
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
                                 Real lookAhead, Real sinceSearch);
 

@@ -375,6 +375,20 @@ private:
     return f == 0 ? i : count - 1 - i;
   }
 
+  // Segments side by side (ContactPotentialSegments.hpp): an end of what they share is one of face
+  // 0 or of face 1, by lane, or where their closure is zero.
+  struct SharedSegment
+  {
+    T at[2];       ///< its ends, the lower one first [m]
+    Mask of[2][2]; ///< by end and face: whether it is an end of that
+  };
+  /// Node of a face at its lower or upper end.
+  static constexpr int nodeAtEnd(int f, int end) { return f == 0 ? end : 1 - end; }
+  KOKKOS_INLINE_FUNCTION void findOverlapOfSegments();
+  KOKKOS_INLINE_FUNCTION void integrateSegments(const Mask& whole);
+  KOKKOS_INLINE_FUNCTION void addRimsOfSegments(const EnergyDensity<T>& density,
+                                                Vec2Of<T> (&rim)[2][4]) const;
+
   // What of the overlap is in contact (ContactPotentialRegion.hpp).
   KOKKOS_INLINE_FUNCTION void findOverlap();
   KOKKOS_INLINE_FUNCTION void measureOverlap();
@@ -564,6 +578,7 @@ private:
     Real share = 1; ///< area of the shadow, less what lies upside down, over `area` [-]
     Real slope = 0; ///< of the energy with the share [J]
   };
+  std::conditional_t<Dim == 2 && branchFree::widthOf<T> != 1, SharedSegment, Nothing> segment_;
   static constexpr bool canFold = Dim == 3 && branchFree::widthOf<T> == 1;
   std::conditional_t<canFold, Folded, Nothing> folded_[2];
   /// Before what is not closed is cut off.
@@ -582,3 +597,4 @@ private:
 #include <coplane_contact/ContactPotentialCrushing.hpp>
 #include <coplane_contact/ContactPotentialRegion.hpp>
 #include <coplane_contact/ContactPotentialRims.hpp>
+#include <coplane_contact/ContactPotentialSegments.hpp>

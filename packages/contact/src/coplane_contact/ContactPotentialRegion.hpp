@@ -12,7 +12,9 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
   using namespace branchFree;
   pieces_ = 0;
   inOrder_ = false;
-  if constexpr (Dim == 2)
+  if constexpr (Dim == 2 && widthOf<T> != 1)
+    findOverlapOfSegments();
+  else if constexpr (Dim == 2)
   {
     // A segment as a polygon without width: two "sides" that are its ends.
     pieces_ = 1;
@@ -90,15 +92,19 @@ KOKKOS_INLINE_FUNCTION T PairPotential<Dim, T>::leastClosure() const
 {
   using namespace branchFree;
   T least(infinity);
-  for (int i = 0; i < pieces_; ++i)
-  {
-    const PolygonSides<T>& sides = piece_[i].sides;
-    for (int k = 0; k < sides.size; ++k)
+  if constexpr (Dim == 2 && widthOf<T> != 1)
+    for (const T& at : segment_.at)
+      least = choose(moments.area > 0.0, smaller(closureAt({at, T(0.0)}), least), least);
+  else
+    for (int i = 0; i < pieces_; ++i)
     {
-      const Mask there = Dim == 2 ? Mask(true) : sides.isThere(k);
-      least = choose(there, smaller(closureAt(sides.from[k]), least), least);
+      const PolygonSides<T>& sides = piece_[i].sides;
+      for (int k = 0; k < sides.size; ++k)
+      {
+        const Mask there = Dim == 2 ? Mask(true) : sides.isThere(k);
+        least = choose(there, smaller(closureAt(sides.from[k]), least), least);
+      }
     }
-  }
   return least;
 }
 
@@ -230,7 +236,9 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::pressAll(const Mask& whole)
 template <int Dim, class T>
 KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::cutAndIntegrate(Owned& q, const Mask& whole)
 {
-  if constexpr (Dim == 2)
+  if constexpr (Dim == 2 && branchFree::widthOf<T> != 1)
+    integrateSegments(whole);
+  else if constexpr (Dim == 2)
   {
     if (overlap > 0)
       integrateSegment(q, whole);

@@ -11,17 +11,17 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addRims(const Owned& q,
                                                                 const EnergyDensity<T>& density,
                                                                 Vec2Of<T> (&rim)[2][4]) const
 {
-  if constexpr (Dim == 2)
-    if (!(moments.area > 0))
-      return;
-  for (int k = 0; k < q.sides.size; ++k)
-    if (q.owner[k] >= 0)
-    {
-      if constexpr (Dim == 2)
-        addRimOfEnd(q, k, density, rim);
-      else
-        addRimOfSide(q, k, density, rim);
-    }
+  if constexpr (Dim == 2 && branchFree::widthOf<T> != 1)
+    addRimsOfSegments(density, rim);
+  else
+    for (int k = 0; k < q.sides.size; ++k)
+      if (q.owner[k] >= 0)
+      {
+        if constexpr (Dim == 3)
+          addRimOfSide(q, k, density, rim);
+        else if (moments.area > 0)
+          addRimOfEnd(q, k, density, rim);
+      }
 }
 
 template <int Dim, class T>

@@ -489,8 +489,9 @@ KOKKOS_INLINE_FUNCTION bool areApart(const HalfStepFace& a, const HalfStepFace& 
 {
   constexpr Real roundOff = 1e-7; // of the size of a face
   const Vec3 normal = normalised(a.normal - b.normal);
-  const Real less = beyondNodes(a) + beyondNodes(b) + reach + roundOff * norm(a.x[1] - a.x[0]);
-  // Which pairs may touch soon is asked along the normal of the plane (updatePlanes).
+  // Mean planes lie beyond nodes by so much along the normal of the pair.
+  const Real beyond = (beyondNodes(a) + beyondNodes(b)) / dot(normal, a.normal);
+  // Which pairs may touch soon is asked along it, too (PotentialCycle::boundStep).
   const Real speed = approachSpeed(normal, a, b);
   const auto areApartAlong = [&](const Vec3& n)
   {
@@ -499,7 +500,8 @@ KOKKOS_INLINE_FUNCTION bool areApart(const HalfStepFace& a, const HalfStepFace& 
       highest = branchFree::larger(dot(n, a.x[i] - a.center), highest);
     for (int i = 0; i < b.count; ++i)
       lowest = branchFree::smaller(dot(n, b.x[i] - a.center), lowest);
-    return lowest - highest > ahead * branchFree::larger(approachSpeed(n, a, b), speed) + less;
+    return lowest - highest > ahead * branchFree::larger(approachSpeed(n, a, b), speed) + reach +
+                                  dot(n, normal) * beyond + roundOff * norm(a.x[1] - a.x[0]);
   };
   return areApartAlong(normal) || areApartAlong(a.normal) || areApartAlong(-1.0 * b.normal);
 }

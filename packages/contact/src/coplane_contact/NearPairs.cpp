@@ -50,7 +50,8 @@ void NearPairs::list(const PairTables& pairs, int slots, std::size_t faces)
   for (int s = 0; s < stretches; ++s)
   {
     const auto first = slots_.begin() + s * stretch;
-    std::copy(first, first + listed_[std::size_t(s)], slots_.begin() + count);
+    if (first != slots_.begin() + count)
+      std::copy(first, first + listed_[std::size_t(s)], slots_.begin() + count);
     count += listed_[std::size_t(s)];
   }
   slots_.resize(std::size_t(count));

@@ -54,15 +54,19 @@ struct FaceOnItsWay
       if (seen.ahead > 0)
         last.x[k] += seen.ahead * at(seen.v, face.nodes[k]);
     }
-    constexpr Real most = 2.6; // 2 to first order, for a face that does not shrink on its way
-    const Vec3* const x = first.x;
+    const Real now = turningOf(first), then = turningOf(last);
+    turningPerMetre = now < infinity && then < infinity ? std::max(now, then) : infinity;
+  }
+
+private:
+  static Real turningOf(const Corners& face)
+  {
+    constexpr Real most = 2.6; // 2 to first order, for a face that does not shrink by more
+    const Vec3* const x = face.x;
     if (face.count == 2)
-    {
-      turningPerMetre = most / (perNode * norm(x[1] - x[0]));
-      return;
-    }
+      return most / (perNode * norm(x[1] - x[0]));
     const Vec3 a = x[2] - x[0], b = (face.count == 4 ? x[3] : x[0]) - x[1];
-    turningPerMetre = most * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
+    return most * (norm(a) + norm(b)) / (perNode * norm(cross(a, b)));
   }
 };
 
@@ -84,6 +88,8 @@ public:
   /// They do not oppose each other.
   void lookAtNormals()
   {
+    if (turningPerMetre_ == infinity) // one has no area
+      return;
     const Real unopposed = dot(a_.plane.normal, b_.plane.normal) + seen_.leastOpposed - turning_;
     if (unopposed > unopposedRoundOff)
       keep(unopposed / turningPerMetre_, 0);
@@ -114,7 +120,7 @@ private:
   /// That is at least the root of two while they oppose each other: with leastApart at the search
   /// it is ofTurning times theirs at most.
   static constexpr Real leastApart = 1.26, ofTurning = 0.75;
-  /// Of the size of a face: pairs farther apart are not looked at for long.
+  /// Of the size of a face: where they are farther apart no further directions are tried.
   static constexpr Real enough = 0.002;
 
   bool isEnough() const { return kept_ > enough * size_; }
@@ -177,7 +183,7 @@ private:
       return;
     // It leans as far as lets the normal turn for as long as the gap lasts that is left.
     const Real perTurn = 1 / (ofTurning * turningPerMetre_);
-    const Real lean = (most + perTurn * ofTurning * turning_) / (perTurn - gapAlong(normal_));
+    const Real lean = (most + turning_ / turningPerMetre_) / (perTurn - gapAlong(normal_));
     if (lean > 0 && lean < 1)
       look(normalised(beside + lean * normal_));
   }

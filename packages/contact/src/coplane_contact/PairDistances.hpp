@@ -13,12 +13,13 @@ namespace coplane
 /// cannot touch need not be looked at: most of those that a search finds in a wall that has come
 /// apart.
 ///
-/// Between two hulls lies a plane with the pair's normal at the search. Along the way that the
-/// search foresaw, the least height of the nodes beyond it is concave in time, and their largest
-/// height before it convex: the gap is at least what lies on the line between its values at the
-/// search and at the end of the way, where it stays then but for the motion that all share. What a
-/// node strays takes off at most as much, and for warped faces, whose mean planes stand for them,
-/// three times that.
+/// All of one face lies beyond all of the other along some direction that does not lean against the
+/// pair's normal (docs/theory/scp.md, stepE_planeExists). Along the way that the search foresaw,
+/// the least height of the nodes beyond is concave in time, and their largest height before convex:
+/// the gap is at least what lies on the line between its values at the search and at the end of the
+/// way, where it stays then but for the motion that all share. What a node strays takes off at most
+/// as much, and for warped faces, whose mean planes stand for them, three times that. The gap
+/// counts up to what nodes may stray before the normal leans against the direction.
 class PairDistances
 {
 public:
@@ -79,7 +80,8 @@ private:
   SlotTable slots_;
   Array<Face> faces_;
   Seen seen_;
-  // By slot: the gap at the search [m], and its rate, not positive [m/s]. Rounded to the safe side.
+  // By slot: the gap at the search, as far as it counts [m], and its rate, not positive [m/s].
+  // Rounded to the safe side.
   Array<float> gap_, closing_;
   Array<std::uint8_t> mayReach_;
   Array<float> strayedNodes_; ///< [m]

@@ -55,7 +55,8 @@ void PairedFaces::mark(const Kokkos::View<SlotFaces*, Kokkos::HostSpace>& slots,
   for (std::size_t f = 0; f < faceCount; ++f)
     if (isPaired[f] != 0)
       paired_.push_back(int(f));
-  found_ = paired_;
+  found_.clear();
+  motion_ = {};
 }
 
 void PairedFaces::stepA(const Motion& motion, const std::vector<int>& places)
@@ -74,6 +75,8 @@ const HalfStepFace* PairedFaces::all() const
 {
   if (found_.size() < paired_.size())
   {
+    if (motion_.x.extent(0) == 0)
+      fail(ExitCode::Internal, "Faces of contact are asked for before the first step A.");
     std::vector<int> missing;
     std::set_difference(paired_.begin(), paired_.end(), found_.begin(), found_.end(),
                         std::back_inserter(missing));

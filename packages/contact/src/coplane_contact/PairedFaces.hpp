@@ -36,7 +36,8 @@ public:
   void stepA(const Motion& motion);
   /// By place in the table of faces; those that the last step A was not for are not set.
   const HalfStepFace* data() const { return halfStep_.data(); }
-  /// The same after the others have followed, if nodes are where they were then.
+  /// The same after the others have followed, if nodes are where they were then. Not for several
+  /// threads at once.
   const HalfStepFace* all() const;
 
 private:

@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <atomic>
 
-// Steps A to H in three dimensions for several faces and pairs side by side. A face or a pair gets
-// the bits of the scalar functions, whichever others share its lanes.
+// Steps A to H for several faces and pairs side by side. A face or a pair gets the bits of the
+// scalar functions, whichever others share its lanes.
 
 namespace coplane
 {
@@ -154,6 +154,7 @@ struct PairTables
 /// Steps B to H for pairs that are near. They wait until as many of a kind, by the numbers of nodes
 /// of their faces, are there as fit side by side: those without traction first for the question
 /// whether their shadows can meet at all. Of those that sleep nothing but their faces is read.
+template <int Dim>
 class PairLanes
 {
 public:
@@ -251,7 +252,7 @@ private:
     if (queue.count == 0)
       return;
     gatherFaces<false>(queue);
-    const LaneMask meet = mayMeet<3>(a_, b_, options_);
+    const LaneMask meet = mayMeet<Dim>(a_, b_, options_);
     for (int i = 0; i < queue.count; ++i)
     {
       const int p = queue.plane[i];
@@ -289,11 +290,16 @@ private:
     PassedOn before[laneCount];
     for (int i = 0; i < queue.count; ++i)
       before[i] = pairs_.passedBy(queue.plane[i]);
-    const LaneMask done = updateByForces<3, Lanes>(batch, a_, b_, options_, dt_);
+    LaneMask done(false);
+    // In two dimensions forces along the common normal are found pair by pair.
+    if constexpr (Dim == 3)
+      done = updateByForces<Dim, Lanes>(batch, a_, b_, options_, dt_);
+    else if (options_.forces == ContactOptions::Forces::Potential)
+      done = updatePotentialPlanes<Dim, Lanes>(batch, a_, b_, options_, dt_);
     for (int i = 0; i < queue.count; ++i)
       if (!done[i])
-        updateByForces<3>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
-                          *batch.law[i], options_, dt_);
+        updateByForces<Dim>(*batch.plane[i], face(queue.plane[i], 0), face(queue.plane[i], 1),
+                            *batch.law[i], options_, dt_);
     for (int i = 0; i < queue.count; ++i)
       pairs_.book(queue.plane[i], before[i]);
     queue.count = 0;
