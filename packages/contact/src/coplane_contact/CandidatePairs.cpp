@@ -116,7 +116,9 @@ Verdict judgePair(const Face& a, const Face& b, const Box& boxA, const Box& boxB
   const Real gap = dot(n, planeB.center - planeA.center);
   const Real extents = halfExtent(a, planeA.center) + rules.beyondNodes(planeA) +
                        halfExtent(b, planeB.center) + rules.beyondNodes(planeB);
-  if (gap > rules.skin + rules.offset + extents + approach(a, b, n, rules) ||
+  const bool isJoint = rules.jointGap > 0 && rules.declared && rules.declared(a.group, b.group);
+  const Real ofJoint = isJoint ? std::min(rules.jointGapOf(a, x), rules.jointGapOf(b, x)) : 0;
+  if (gap > std::max(rules.skin + rules.offset, ofJoint) + extents + approach(a, b, n, rules) ||
       gap < -rules.depthMax * std::min(a.thickness, b.thickness) - extents)
     return Verdict::TooFarApart;
   return Verdict::Candidate;

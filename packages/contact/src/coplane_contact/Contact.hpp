@@ -84,6 +84,7 @@ public:
     GlobalId faceId[2] = {0, 0};
   };
   /// Collective: the planes of all ranks are summed.
+  /// Needs a search with seekDeclaredJoints(true) before, and one without after.
   Overpressed closeDeclaredJoints(const ConstNodeVectors& x, const StressOfBlock& stressOfBlock);
 
   /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy
@@ -151,6 +152,8 @@ public:
   /// Whether the last search foresees the motion in all of that time.
   bool foresees() const { return reach_.foresees(); }
   void setSkin(Real skin) { reach_.setSkin(skin); } ///< [m]
+  /// Whether the next searches find all faces across declared joints, whatever the skin.
+  void seekDeclaredJoints(bool seek) { reach_.seekJoints(seek); }
   /// Largest stiffness that contact of a face with any other can begin with, or stiffen to [Pa/m].
   Real stiffestOn(const Face& face) const;
   int dimension() const { return dimension_; }

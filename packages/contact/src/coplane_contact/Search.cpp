@@ -62,6 +62,14 @@ private:
 };
 } // namespace
 
+Real CandidateRules::jointGapOf(const Face& face, const ConstNodeVectors& x) const
+{
+  if (!(jointGap > 0))
+    return 0;
+  const Box box = boxOf(face, x);
+  return jointGap * norm(box.high - box.low);
+}
+
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules)
 {
@@ -75,7 +83,7 @@ Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors&
   const Vec3 inside = -rules.depthInto(face, plane) * plane.normal;
   for (int c = 0; c < 3; ++c)
     (inside[c] < 0 ? box.low : box.high)[c] += inside[c];
-  box.grow(0.5 * rules.reach + rules.beyondNodes(plane));
+  box.grow(0.5 * (rules.reach + rules.jointGapOf(face, x)) + rules.beyondNodes(plane));
   return box;
 }
 

@@ -45,6 +45,9 @@ struct CandidateRules
   bool sharedNodes = false; ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
   std::function<bool(int, int)> declared; ///< by group: joints that are closed at the start
+  /// Faces across a declared joint are candidates up to this gap, too, over the extent of the
+  /// smaller one [-].
+  Real jointGap = 0;
   Motion motion;
   /// By which boxes take a face to turn at most [-]. Which faces may oppose each other counts all
   /// of it: one that is crushed through no area turns over.
@@ -75,6 +78,8 @@ struct CandidateRules
   /// The plane of a warped face stands for it, and lies beyond its nodes: by how much along the
   /// normal of any pair, which leans towards that of the face by half of |n0 - n1| [m].
   Real beyondNodes(const FacePlane& plane) const { return 2 * plane.warp / leastApart(plane); }
+  /// jointGap of one face [m], no less than that fraction of its size.
+  Real jointGapOf(const Face& face, const ConstNodeVectors& x) const;
   /// The plane of a face, with what motion makes of it.
   FacePlane planeOf(const Face& face, const ConstNodeVectors& x, int dimension) const;
 
@@ -93,8 +98,8 @@ Array<FacePlane> facePlanes(const Face* faces, std::size_t count, const ConstNod
 
 /// Where the face may be in contact before the next search: the face, the same at the largest depth
 /// of a contact inside its body, both where its motion takes it, and around them half the reach and
-/// what its plane lies beyond its nodes. Two
-/// faces within that depth of each other, or within the reach, have boxes that overlap.
+/// what its plane lies beyond its nodes, and half of jointGapOf(). Two faces within that depth of
+/// each other, or within the reach or that of a joint, have boxes that overlap.
 Box contactBox(const Face& face, const FacePlane& plane, const ConstNodeVectors& x,
                const CandidateRules& rules);
 

@@ -1,4 +1,5 @@
 #include <coplane_contact/SearchReach.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
 
 namespace coplane
 {
@@ -18,6 +19,11 @@ void SearchReach::setSkin(Real skin)
   // Nodes move by at most half a skin against each other until the next search, so each face turns
   // by at most a skin over its size. What begins to oppose meanwhile should be known.
   rules_.turning = turns_ ? std::min(mostTurning, 2 * skin / smallestFace_) : 0;
+}
+
+void SearchReach::seekJoints(bool seek)
+{
+  rules_.jointGap = seek ? widestJoint : 0;
 }
 
 void SearchReach::begin(Real offset, const Motion& motion)

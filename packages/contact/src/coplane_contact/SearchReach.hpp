@@ -19,6 +19,8 @@ public:
   Real skin() const { return rules_.skin; }
   Real leastSkin() const { return leastSkin_; }
   void setSkin(Real skin); ///< [m]
+  /// Whether searches look for the faces across declared joints, which may be farther apart.
+  void seekJoints(bool seek);
   /// For a search of bodies of which a step may carry faces by `motion` relative to each other [m].
   /// Where that is little, the search foresees many steps along the velocities that nodes have, as
   /// long as they bring no two faces together that are far from each other; the least skin covers

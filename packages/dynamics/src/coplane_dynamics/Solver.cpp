@@ -321,7 +321,12 @@ void Solver::openContact()
   step_.boundFirst(comm_->min(elements_.smallestStep()),
                    {comm_->min(limits.thinnest), comm_->min(limits.massOverStiffness)},
                    searches_.relativeSpeed());
+  const auto& rules = model_.contactRules.table;
+  const bool declares = std::any_of(rules.begin(), rules.end(),
+                                    [](const ContactRule& rule) { return rule.declared; });
+  contact_->seekDeclaredJoints(declares);
   search(0);
+  contact_->seekDeclaredJoints(false);
   const Contact::Overpressed pressed = contact_->closeDeclaredJoints(
       state_.x, [this](int block, const Vec3& x) { return model_.blocks[block].stressAt(x); });
   if (pressed.planes > 0)
@@ -339,8 +344,7 @@ void Solver::openContact()
                     joint.law.curve.crushing.strength));
   }
   // Once more, so that their neighbours know the offsets of joints that are closed now.
-  if (std::any_of(model_.contactRules.table.begin(), model_.contactRules.table.end(),
-                  [](const ContactRule& rule) { return rule.declared; }))
+  if (declares)
     search(0, true);
 }
 
