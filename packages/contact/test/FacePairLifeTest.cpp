@@ -43,6 +43,9 @@ bool finite(const Vec3& v)
 
 struct StepF_CreatePlane : WithForces
 {
+  /// Velocity of a face that shared no area a step of 1 s ago, which for forces of the half step
+  /// would be too late [m/s].
+  Vec3 aside() const { return {potential() ? 2.0 : 0.0, 0, 0}; }
 };
 struct StepG_PlacePointOfContact : WithForces
 {
@@ -172,7 +175,7 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
     plane.depthLimit = .1;
     plane.offset = -.05;
     plane.closure = .06; // the neighbours overlap by .11
-    updatePlane<3>(plane, below(), above(depth), usual, 1);
+    updatePlane<3>(plane, below(), above(depth, aside()), usual, 1);
     EXPECT_EQ(plane.isRefused(), !plane.isBorn());
     return plane;
   };
@@ -194,6 +197,48 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   EXPECT_NEAR(found.forceOn(1).z, 0, 1e-10) << "nor with a delay";
   updatePlane<3>(found, below(), above(.111), usual, 1);
   EXPECT_NEAR(found.forceOn(1).z, 1, 1e-10);
+}
+
+TEST_P(StepF_CreatePlane, whatFacesTakeOverWhileTheyLieOnEachOtherHasNoEnergy)
+{
+  // Along the common normal planes begin with all of their closure.
+  if (!potential())
+    return;
+  // Faces that are apart by .01, and beside them a joint that has absorbed a gap of .03 comes to
+  // bear: it does not push them apart, but from here on they do not come nearer for nothing.
+  const auto cycle = [&](PairPlane& plane, Real gap, const Vec3& velocity)
+  { updatePlane<3>(plane, below(), above(-gap, velocity), usual, 1); };
+  const auto takesOver = [&](PairPlane& plane)
+  {
+    plane.lineage = Lineage::SlidesOn;
+    plane.offset = .03;
+  };
+  PairPlane plane = touchingPlane(1e3);
+  plane.state = PlaneState::Slot;
+  plane.depthLimit = .1;
+  cycle(plane, .01, {});
+  EXPECT_FALSE(plane.isBorn());
+  takesOver(plane);
+  cycle(plane, .009, {0, 0, -.001});
+  EXPECT_TRUE(plane.isBorn());
+  EXPECT_EQ(plane.sighting, Sighting::Known) << "nothing was missed";
+  EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
+  EXPECT_EQ(plane.stored, 0.0);
+  cycle(plane, .008, {0, 0, -.001});
+  EXPECT_NEAR(plane.forceOn(1).z, 1, 1e-10);
+  // One that comes down to that height meets it there, and so does one that comes from the side.
+  PairPlane down = touchingPlane(1e3);
+  down.state = PlaneState::Slot;
+  down.depthLimit = .1;
+  takesOver(down);
+  cycle(down, .029, {0, 0, -.002});
+  EXPECT_NEAR(down.forceOn(1).z, 1, 1e-10);
+  PairPlane slides = touchingPlane(1e3);
+  slides.state = PlaneState::Slot;
+  slides.depthLimit = .1;
+  takesOver(slides);
+  cycle(slides, .02, aside());
+  EXPECT_NEAR(slides.forceOn(1).z, 10, 1e-10);
 }
 
 TEST_P(StepF_CreatePlane, aJointThatHasClosedForGoodBeginsThere)
@@ -246,7 +291,7 @@ TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLi
     plane.sighting = Sighting::Known;
     plane.depthLimit = .1;
     plane.closure = .01;
-    updatePlane<3>(plane, below(), above(depth), usual, 1);
+    updatePlane<3>(plane, below(), above(depth, aside()), usual, 1);
     EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
     EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : 1e3 * depth, 1e-10);
   }

@@ -427,6 +427,8 @@ stepH_updatePlaneVariables(const PlaneBatch<T>& planes, const branchFree::MaskOf
 /// Depth, as a fraction of the depth limit, beyond which a first overlap is not taken for a
 /// contact.
 constexpr Real deepestBirth = 0.25;
+/// Shares of area below this fraction of the smaller face are round-off of edges on each other.
+constexpr Real sliverOfFace = 1e-6;
 
 /// Bound on the speed at which corners of the faces approach each other along the normal [m/s], the
 /// same to the bit with the faces in the other order.
@@ -584,6 +586,17 @@ KOKKOS_INLINE_FUNCTION HalfStepFace placeOf(const HalfStepFaceOf<T>& from, int i
   face.normal = branchFree::lane(from.normal, i);
   face.area = branchFree::lane(from.area, i);
   return face;
+}
+
+/// Where the face in lane i was a step ago; face: at the end of the step.
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION HalfStepFace placeBefore(const HalfStepFaceOf<T>& face, int i, Real dt)
+{
+  FaceNodes nodes;
+  nodes.count = face.count;
+  for (int k = 0; k < face.count; ++k)
+    nodes.x[k] = branchFree::lane(face.x[k], i) - dt * branchFree::lane(face.v[k], i);
+  return stepA_faceAtEnd<Dim>(nodes);
 }
 
 /// The energy of a pair, whose way out is asked for, needs a bound from which its faces oppose each

@@ -76,8 +76,6 @@ bool isOnSameSurface(const Donor& donor, const GlobalId* faceId, const PairNodes
                        });
 }
 
-/// Shares of area below this fraction of the smaller face are round-off of edges on each other.
-constexpr Real sliver = 1e-6;
 /// Of heights, as a fraction of the size of a face.
 constexpr Real roundOff = 1e-9;
 
@@ -161,7 +159,8 @@ Continuation::Continuation(const NewPair& pair, int dimension, Real reach)
   const Real smaller =
       std::min(areaAndCentroid(shadows_[0]).area, areaAndCentroid(shadows_[1]).area);
   const AreaAndCentroid shared = areaAndCentroid(intersection(shadows_[0], shadows_[1]));
-  fromTheSide_ = !((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliver * smaller);
+  fromTheSide_ =
+      !((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliverOfFace * smaller);
   if (fromTheSide_)
     return;
   gap_ = view_.height(pair.corners[1], pair.count[1], shared.centroid) -

@@ -342,11 +342,28 @@ private:
     }
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
-    // Overlap that exists when a pair is found has no energy, whatever its neighbours passed on.
+    // What was closed before it is a plane has no energy, whatever its neighbours passed on.
+    const bool closedBefore = late_[i] || wasClosed(plane, i);
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
-    if (late_[i] && leastGaps_[i] < plane.offset)
+    if (closedBefore && leastGaps_[i] < plane.offset)
       plane.offset = leastGaps_[i];
-    return !late_[i] && plane.sighting != Sighting::Woken;
+    return !closedBefore && plane.sighting != Sighting::Woken;
+  }
+
+  /// Whether a pair that is no plane yet was closed a step ago, over area that it shared: by what
+  /// it has taken over since. A joint that comes to bear again may lie higher than the faces beside
+  /// it, which nothing has met yet.
+  KOKKOS_INLINE_FUNCTION bool wasClosed(const Plane& plane, int i) const
+  {
+    if (plane.isBorn() || !plane.isInherited())
+      return false;
+    const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
+    PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_.cosOpposed));
+    if (!before.plane.opposed)
+      return false;
+    before.meet(plane.offset - permanents_[i], false, {});
+    return before.overlap > sliverOfFace * (a.area < b.area ? a.area : b.area) &&
+           before.mostClosure > 0;
   }
 
   /// A contact begins at the surface, and begins there anew after its faces had no area in common.
