@@ -106,7 +106,7 @@ TEST_P(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
   updatePlane<3>(plane, below(), above(-.01), usual, 1);
   EXPECT_FALSE(plane.isBorn());
   EXPECT_NEAR(plane.gap, .01, 1e-15);
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -.02}), usual, 1);
   EXPECT_TRUE(plane.isBorn());
   EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(plane.offset, 0.0);
@@ -159,7 +159,7 @@ TEST_P(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFaces
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "not on the way out either";
   updatePlane<3>(plane, below(), above(-.01), usual, 1);
   EXPECT_FALSE(plane.isRefused());
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, below(), above(.01, {0, 0, -.02}), usual, 1);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
@@ -199,46 +199,154 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   EXPECT_NEAR(found.forceOn(1).z, 1, 1e-10);
 }
 
-TEST_P(StepF_CreatePlane, whatFacesTakeOverWhileTheyLieOnEachOtherHasNoEnergy)
+namespace
 {
-  // Along the common normal planes begin with all of their closure.
-  if (!potential())
-    return;
-  // Faces that are apart by .01, and beside them a joint that has absorbed a gap of .03 comes to
-  // bear: it does not push them apart, but from here on they do not come nearer for nothing.
-  const auto cycle = [&](PairPlane& plane, Real gap, const Vec3& velocity)
-  { updatePlane<3>(plane, below(), above(-gap, velocity), usual, 1); };
-  const auto takesOver = [&](PairPlane& plane)
+/// A pair that is no plane yet, and a cycle of 1 s with it, by forces from the potential.
+struct NewPair
+{
+  PairPlane plane = touchingPlane(1e3);
+  ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
+
+  NewPair()
+  {
+    plane.state = PlaneState::Slot;
+    plane.depthLimit = .1;
+  }
+  void takesOver(Real offset)
   {
     plane.lineage = Lineage::SlidesOn;
-    plane.offset = .03;
-  };
-  PairPlane plane = touchingPlane(1e3);
-  plane.state = PlaneState::Slot;
-  plane.depthLimit = .1;
-  cycle(plane, .01, {});
-  EXPECT_FALSE(plane.isBorn());
-  takesOver(plane);
-  cycle(plane, .009, {0, 0, -.001});
-  EXPECT_TRUE(plane.isBorn());
-  EXPECT_EQ(plane.sighting, Sighting::Known) << "nothing was missed";
-  EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
-  EXPECT_EQ(plane.stored, 0.0);
-  cycle(plane, .008, {0, 0, -.001});
-  EXPECT_NEAR(plane.forceOn(1).z, 1, 1e-10);
-  // One that comes down to that height meets it there, and so does one that comes from the side.
-  PairPlane down = touchingPlane(1e3);
-  down.state = PlaneState::Slot;
-  down.depthLimit = .1;
-  takesOver(down);
-  cycle(down, .029, {0, 0, -.002});
-  EXPECT_NEAR(down.forceOn(1).z, 1, 1e-10);
-  PairPlane slides = touchingPlane(1e3);
-  slides.state = PlaneState::Slot;
-  slides.depthLimit = .1;
-  takesOver(slides);
-  cycle(slides, .02, aside());
-  EXPECT_NEAR(slides.forceOn(1).z, 10, 1e-10);
+    plane.offset = offset;
+  }
+  void cycle(Real gap, const Vec3& velocity = {}, Real tilt = 0, Real aside = 0)
+  {
+    FaceNodes face = above(-gap, velocity);
+    for (int k = 0; k < 4; ++k)
+    {
+      face.x[k].z += tilt * (face.x[k].x - .5);
+      face.x[k].x += aside;
+    }
+    updatePlane<3>(plane, below(), face, options, 1);
+  }
+  Real push() const { return plane.forceOn(1).z; }
+};
+} // namespace
+
+// Along the common normal planes begin with all of their closure.
+
+TEST(WhatAPairTakesOver, whileItsFacesLieOnEachOtherHasNoEnergy)
+{
+  // Faces that are apart by .01, and beside them a joint that has absorbed a gap of .03 comes to
+  // bear: it does not push them apart, but from here on they do not come nearer for nothing.
+  NewPair pair;
+  pair.cycle(.01);
+  EXPECT_FALSE(pair.plane.isBorn());
+  pair.takesOver(.03);
+  pair.cycle(.009, {0, 0, -.001});
+  EXPECT_TRUE(pair.plane.isBorn());
+  EXPECT_EQ(pair.plane.sighting, Sighting::Known) << "nothing was missed";
+  EXPECT_EQ(pair.push(), 0.0);
+  EXPECT_EQ(pair.plane.stored, 0.0);
+  pair.cycle(.008, {0, 0, -.001});
+  EXPECT_NEAR(pair.push(), 1, 1e-10);
+}
+
+TEST(WhatAPairTakesOver, isMetByWhatComesThereAfterwards)
+{
+  NewPair down;
+  down.takesOver(.03);
+  down.cycle(.029, {0, 0, -.002});
+  EXPECT_NEAR(down.push(), 1, 1e-10);
+  NewPair fromTheSide;
+  fromTheSide.takesOver(.03);
+  fromTheSide.cycle(.02, {2, 0, 0});
+  EXPECT_NEAR(fromTheSide.push(), 10, 1e-10);
+}
+
+TEST(WhatAPairTakesOver, andLosesAgainHasNoEnergyEither)
+{
+  // An overlap of .02 that a joint beside has absorbed; the pair is open by a hair.
+  NewPair pair;
+  pair.takesOver(-.02);
+  pair.cycle(-.019);
+  EXPECT_FALSE(pair.plane.isBorn());
+  pair.plane.lineage = Lineage::Own;
+  pair.plane.offset = 0;
+  for (int cycle = 0; cycle < 2; ++cycle)
+    pair.cycle(-.019);
+  EXPECT_EQ(pair.push(), 0.0);
+}
+
+TEST(WhatAPairTakesOver, isNotTakenForDepth)
+{
+  // Its offset is more than a quarter of the depth limit beyond the gap, but the faces are apart.
+  NewPair pair;
+  pair.cycle(.004);
+  pair.takesOver(.03);
+  pair.cycle(.004);
+  EXPECT_FALSE(pair.plane.isRefused());
+  EXPECT_EQ(pair.push(), 0.0);
+  pair.cycle(.003);
+  EXPECT_NEAR(pair.push(), 1, 1e-10);
+}
+
+TEST(WhatAPairTakesOver, ofAClosureCurveBearsFromThere)
+{
+  NewPair pair;
+  pair.plane.law.curve.inverseMaximumClosure = 1 / .08;
+  pair.cycle(.03);
+  pair.takesOver(.08);
+  pair.plane.history.maximumClosure = .06; // 16 kPa/m there: closed by 45 mm for good
+  pair.cycle(.029);
+  EXPECT_EQ(pair.push(), 0.0);
+  pair.cycle(.028);
+  EXPECT_NEAR(pair.push(), 16, 1e-9);
+}
+
+TEST(WhatAPairTakesOver, ofABondIsWithoutStressWhereItIs)
+{
+  for (const Real gap : {.029, .0301}) // closed, and open by a hair
+  {
+    NewPair pair;
+    pair.plane.law.bond.kind = Bond::Kind::Brittle;
+    pair.plane.law.bond.tensileStrength = pair.plane.law.cohesion = 1e9;
+    const auto cycle = [&] { pair.cycle(gap, {}, .01); };
+    cycle();
+    pair.takesOver(.03);
+    pair.plane.history.bonded = true;
+    cycle();
+    cycle();
+    EXPECT_TRUE(pair.plane.area > 0) << "it holds";
+    EXPECT_NEAR(pair.push(), 0, 1e-12);
+    EXPECT_NEAR(pair.plane.stored, 0, 1e-12);
+  }
+}
+
+TEST(WhatAPairTakesOver, isKeptByWhatSlidesInSlowlyWhateverTheSmallestArea)
+{
+  for (const Real smallest : {1e-8, 1e-3})
+  {
+    NewPair pair;
+    pair.options.areaMin = smallest;
+    pair.takesOver(.03);
+    const Real step = 1e-4;
+    for (int cycle = 1; !pair.plane.isBorn() && cycle < 100; ++cycle)
+      pair.cycle(.029, {-step, 0, 0}, 0, 1 - cycle * step);
+    pair.cycle(.029);
+    EXPECT_NEAR(pair.push(), 1, 1e-10) << smallest;
+  }
+}
+
+TEST(WhatAPairTakesOver, orHadWhenItWasLastSeenHasNoEnergyWhereItWakesClosed)
+{
+  NewPair pair;
+  pair.plane.state = PlaneState::Open;
+  pair.plane.sighting = Sighting::Woken;
+  pair.plane.offset = .03;
+  for (int cycle = 0; cycle < 2; ++cycle)
+    pair.cycle(.01);
+  EXPECT_NEAR(pair.push(), 0, 1e-12);
+  pair.cycle(.009);
+  EXPECT_NEAR(pair.push(), 1, 1e-10);
 }
 
 TEST_P(StepF_CreatePlane, aJointThatHasClosedForGoodBeginsThere)

@@ -158,7 +158,7 @@ TEST(Step5CandidatePairs, whatActsUntilTheNextSearchIsACandidate)
       {
         const Plane plane = movingpairs::looked(pairs.faceNow(2 * p), pairs.faceNow(2 * p + 1));
         const Real deepest = -rules.depthMax * pairs.faces(2 * p).thickness;
-        if (!(plane.area > 0) || plane.gap < deepest || centersGap(p) < deepest)
+        if (!plane.isBorn() || plane.gap < deepest || centersGap(p) < deepest)
           continue;
         ++acting;
         EXPECT_EQ(verdict(p), Verdict::Candidate)

@@ -4,7 +4,7 @@ import copy
 import sys
 
 import numpy
-from coplanetest import Case
+from coplanetest import Case, walls
 
 case = Case("V56", __file__)
 g = 9.81
@@ -14,19 +14,7 @@ recipe = case.load("mesh.yaml")
 
 def brick_by_brick(across, up):
     """The same wall of single boxes, apart by `across` and `up` [m]; below zero they overlap."""
-    parts = [recipe["parts"][0]]
-    for row in range(courses):
-        starts = [(length + across) * i for i in range(bricks)]
-        sizes = [length] * bricks
-        if row % 2:
-            half = length / 2
-            starts = [0.0] + [half + across / 2 + (length + across) * i for i in range(bricks - 1)]
-            starts.append(starts[-1] + length + across)
-            sizes = [half] + [length] * (bricks - 1) + [half]
-        for x, size in zip(starts, sizes):
-            parts.append({"shape": "box", "block": "bricks", "min": [x, (course + up) * row + up], "size": [size, course],
-                          "divisions": [4 if size == length else 2, 2]})
-    return dict(recipe, parts=parts)
+    return dict(recipe, parts=[recipe["parts"][0], *walls.brick_by_brick((length, course), courses, bricks, across, up)])
 
 
 def planes(run, number):

@@ -89,7 +89,7 @@ struct ContactPotentialScale
   /// the smaller face, up to so much. So turning is no stiffer than closing, and a step follows it.
   Real widening = 2, widest = 0.5;
   /// Edges of both faces nearer than this fraction of a face across them count as one.
-  Real oneEdge = 1e-3;
+  Real oneEdge = 2e-4;
   /// The same for the borders of two bodies whose faces are pressed together all over: a block that
   /// is set a little off another one is not pushed off it.
   Real oneBorder = 0.01;

@@ -331,8 +331,9 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i)
   {
     const bool carried = plane.area > 0;
+    const bool closedBefore = late_[i] || (!carried && !plane.isRefused() && wasClosed(plane, i));
     if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
-      refuse(plane, i);
+      refuse(plane, i, closedBefore);
     if (plane.isRefused())
       return false;
     if (!(plane.birthArea[0] > 0))
@@ -342,41 +343,54 @@ private:
     }
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
-    // What was closed before it is a plane has no energy, whatever its neighbours passed on.
-    const bool closedBefore = late_[i] || wasClosed(plane, i);
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
-    if (closedBefore && leastGaps_[i] < plane.offset)
-      plane.offset = leastGaps_[i];
+    if (closedBefore)
+      beginHere(plane, i);
     return !closedBefore && plane.sighting != Sighting::Woken;
   }
 
-  /// Whether a pair that is no plane yet was closed a step ago, over area that it shared: by what
-  /// it has taken over since. A joint that comes to bear again may lie higher than the faces beside
-  /// it, which nothing has met yet.
+  /// Whether a pair that has carried nothing was closed a step ago, over area that it shared: by an
+  /// offset that it had not then. A joint that comes to bear again may lie higher than the faces
+  /// beside it, which take that over and which nothing has met yet; and what a pair has taken over
+  /// it may lose again.
   KOKKOS_INLINE_FUNCTION bool wasClosed(const Plane& plane, int i) const
   {
-    if (plane.isBorn() || !plane.isInherited())
+    if (plane.isNew() || (plane.isBorn() && plane.sighting != Sighting::Woken))
       return false;
     const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
     PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_.cosOpposed));
     if (!before.plane.opposed)
       return false;
     before.meet(plane.offset - permanents_[i], false, {});
-    return before.overlap > sliverOfFace * (a.area < b.area ? a.area : b.area) &&
-           before.mostClosure > 0;
+    const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
+    return before.overlap > sliver * (a.area < b.area ? a.area : b.area) &&
+           (plane.history.bonded || before.mostClosure > 0);
+  }
+
+  /// What was closed before it carries has no energy, whatever its neighbours passed on: its
+  /// surface lies where the faces are deepest in each other, on top of what the joint has closed
+  /// for good, and a bond, which carries by its mean closure, is stress-free where it is.
+  KOKKOS_INLINE_FUNCTION void beginHere(Plane& plane, int i) const
+  {
+    const Real surface = leastGaps_[i] + permanents_[i];
+    if (plane.history.bonded)
+      plane.offset -=
+          branchFree::lane(pair_.moments.volume, i) / branchFree::lane(pair_.moments.area, i);
+    else if (surface < plane.offset)
+      plane.offset = surface;
   }
 
   /// A contact begins at the surface, and begins there anew after its faces had no area in common.
   /// Faces that come to share area while one lies deep behind the other did not meet: they carry
   /// nothing until they share none. They have no energy yet, so this costs none.
-  KOKKOS_FORCEINLINE_FUNCTION void refuse(Plane& plane, int i)
+  KOKKOS_FORCEINLINE_FUNCTION void refuse(Plane& plane, int i, bool closedBefore)
   {
     if (!plane.isRefused() && branchFree::lane(pair_.hidden, i))
       plane.refusal = Refusal::Hidden;
     const Real start = smallestStart(plane, 2 * dt_ * branchFree::lane(speed_, i));
     // What slides on takes up where a neighbour leaves off, whose mean closure is no less than a
     // quarter of that at its border. What is found with area in common is no such border.
-    const bool comesFromTheSide = !late_[i] && plane.sighting != Sighting::Woken;
+    const bool comesFromTheSide = !closedBefore && plane.sighting != Sighting::Woken;
     const Real carriedBeside = (plane.lineage == Lineage::SlidesOn && comesFromTheSide ? 4
                                 : plane.isBorn() || plane.isInherited()                ? 1
                                                                                        : 0) *
@@ -387,7 +401,11 @@ private:
       if (plane.crushedUnevenly)
         permanent = deepest_ - pair_.mostBeyondCrushing();
     const Real explained = carriedBeside > permanent ? carriedBeside : permanent;
-    if (branchFree::lane(deepest_, i) - explained > start)
+    Real depth = branchFree::lane(deepest_, i) - explained;
+    // An offset that has only just been taken over does not say how deep faces lie in each other.
+    if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
+      depth = -leastGaps_[i];
+    if (depth > start)
       plane.refusal = Refusal::Deep;
   }
 

@@ -88,7 +88,7 @@ struct UnevenlyCrushed
     Real before = 0;
     if (crushed.carried)
     {
-      const HalfStepFace faces[2] = {faceBefore(a), faceBefore(b)};
+      const HalfStepFace faces[2] = {placeBefore<Dim>(a, 0, dt), placeBefore<Dim>(b, 0, dt)};
       PairPotential<Dim, Real> then(faces[0], faces[1], ContactPotentialScale(options.cosOpposed));
       press(then, crushed.from, crushed.offset, other);
       before = then.moments.volume > 0 ? lostBy(then, crushed, other) : 0;
@@ -154,15 +154,6 @@ private:
     const Real stored = other.press(stiffness, 0, density);
     other.growFrom(plane.birthArea[0], plane.birthArea[1]);
     return other.materialArea * other.opposedness * stored;
-  }
-
-  KOKKOS_INLINE_FUNCTION HalfStepFace faceBefore(const HalfStepFace& face) const
-  {
-    FaceNodes nodes;
-    nodes.count = face.count;
-    for (int i = 0; i < face.count; ++i)
-      nodes.x[i] = face.x[i] - dt * face.v[i];
-    return stepA_faceAtEnd<Dim>(nodes);
   }
 };
 } // namespace coplane::detail
