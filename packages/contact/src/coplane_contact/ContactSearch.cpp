@@ -189,13 +189,9 @@ Donor donorWithFaces(const Plane& plane, const Array<Face>& faces,
 std::vector<Donor> Contact::livingPlanes(const std::vector<GlobalId>& nodeIds,
                                          const ConstNodeVectors& x) const
 {
-  const bool anyCrushes =
-      std::any_of(rules_.joints.begin(), rules_.joints.end(),
-                  [](const auto& joint) { return joint.law.curve.crushing.acts(); });
   std::vector<std::size_t> living;
   for (std::size_t p = 0; p < planes().size(); ++p)
-    if ((anyCrushes || !planes_.carriesNothing(planes().slotOf(p))) &&
-        isDonor(planes()[p], lawOf(planes()[p])))
+    if (isDonor(planes()[p], lawOf(planes()[p])))
       living.push_back(p);
   std::vector<Donor> donors(living.size());
   parallelFor("coplane::contact::livingPlanes", int(living.size()),

@@ -1,5 +1,6 @@
 #include <coplane_contact/FacePairKernel.hpp>
 #include <coplane_contact/PlaneState.hpp>
+#include <coplane_contact/detail/DeclaredJoints.hpp>
 #include <coplane_contact/detail/EdgesOfSurfaces.hpp>
 #include <coplane_contact/detail/Inheritance.hpp>
 #include <coplane_geometry/ConvexPolygon.hpp>
@@ -19,7 +20,8 @@ bool rests(const Plane& plane)
 
 bool isDonor(const Plane& plane, const JointLaw& law)
 {
-  return plane.isBorn() && (!rests(plane) || law.isCrushed(plane.fit, plane.history));
+  return plane.isBorn() &&
+         (!rests(plane) || plane.hasAbsorbed() || law.isCrushed(plane.fit, plane.history));
 }
 
 Donor donorOf(const Plane& plane)
@@ -158,6 +160,7 @@ Continuation::Continuation(const NewPair& pair, int dimension, Real reach)
     shadows_[side] = view_.shadow(pair.corners[side], pair.count[side]);
   const Real smaller =
       std::min(areaAndCentroid(shadows_[0]).area, areaAndCentroid(shadows_[1]).area);
+  size_ = faceSize(smaller, dimension);
   const AreaAndCentroid shared = areaAndCentroid(intersection(shadows_[0], shadows_[1]));
   fromTheSide_ =
       !((pair.sharedBefore < 0 ? shared.area : pair.sharedBefore) > sliverOfFace * smaller);
@@ -165,14 +168,15 @@ Continuation::Continuation(const NewPair& pair, int dimension, Real reach)
     return;
   gap_ = view_.height(pair.corners[1], pair.count[1], shared.centroid) -
          view_.height(pair.corners[0], pair.count[0], shared.centroid);
-  roundOff_ = roundOff * std::sqrt(smaller);
+  roundOff_ = roundOff * size_;
 }
 
 bool Continuation::isNear(const Donor& donor) const
 {
   const ConvexPolygon carried = intersection(view_.shadow(donor.corners[0], donor.count[0]),
                                              view_.shadow(donor.corners[1], donor.count[1]));
-  if (donor.rests)
+  const bool absorbed = isAbsorbed(donor.offset, size_);
+  if (donor.rests && !absorbed)
   {
     const Vec2 middle = areaAndCentroid(carried).centroid;
     const Real apart = view_.height(donor.corners[1], donor.count[1], middle) -
@@ -180,15 +184,15 @@ bool Continuation::isNear(const Donor& donor) const
     if (carried.size == 0 || !(turned(donor.faceId, pair_.faceId) * apart < donor.offset))
       return false;
   }
+  const Real reach = absorbed ? std::max(reach_, widestJoint * size_) : reach_;
   return anyCommonFace(pair_.faceId, donor,
-                       [&](int mine, int)
-                       { return isWithin(reach_, carried, shadows_[1 - mine]); });
+                       [&](int mine, int) { return isWithin(reach, carried, shadows_[1 - mine]); });
 }
 
 bool Continuation::goesOn(const Donor& donor) const
 {
-  return fromTheSide_ ||
-         (gap_ <= donor.offset + roundOff_ && isOnSameSurface(donor, pair_.faceId, pair_.nodes));
+  return fromTheSide_ || (gap_ <= std::max(donor.offset, 0.0) + roundOff_ &&
+                          isOnSameSurface(donor, pair_.faceId, pair_.nodes));
 }
 
 namespace

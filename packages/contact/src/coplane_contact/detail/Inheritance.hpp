@@ -11,8 +11,9 @@
 
 namespace coplane
 {
-/// Planes that carry something, joints that have just been closed, and those that have been crushed
-/// and carry nothing now.
+/// Planes that carry something, joints that have just been closed, and those that carry nothing now
+/// and have been crushed, or have absorbed a gap or an overlap of the mesh: that belongs to the
+/// surfaces, whether they touch or not.
 bool isDonor(const Plane& plane, const JointLaw& law);
 
 /// What a plane has to give; without the nodes of its faces.
@@ -56,11 +57,14 @@ public:
   Continuation(const NewPair& pair, int dimension, Real reach);
 
   /// Whether the donor shares a face with the pair, and its area, which the faces have carried
-  /// along, lies within the reach of the pair's other face on the common plane. What rests has to
-  /// lie in the other face as well: it has not left the place that it was crushed to.
+  /// along, lies within the reach of the pair's other face on the common plane; where the donor has
+  /// absorbed a gap of the mesh, within that of gaps which joints absorb. What rests and has
+  /// absorbed nothing has to lie in the other face as well: it has not left the place that it was
+  /// crushed to.
   bool isNear(const Donor& donor) const;
-  /// Where the pair shared area already, it has to be closed at the donor's offset and go on over
-  /// the same surface: then it has not come down beside the donor. Asked of donors that are near.
+  /// Where the pair shared area already, it has to be closed at the donor's offset, or where faces
+  /// touch that have absorbed nothing, and go on over the same surface: then it has not come down
+  /// beside the donor. Asked of donors that are near.
   bool goesOn(const Donor& donor) const;
 
 private:
@@ -68,6 +72,7 @@ private:
   View view_;
   ConvexPolygon shadows_[2]; ///< of the faces
   Real reach_;
+  Real size_;                   ///< of the smaller face [m]
   bool fromTheSide_;            ///< it has shared no area yet
   Real gap_ = 0, roundOff_ = 0; ///< where the faces share area [m]
 };

@@ -33,8 +33,8 @@ constexpr int watchedParts(const Member& member)
 } // namespace detail
 
 /// What a plane passes on, as far as a pair that takes over would be wrong with what it was at the
-/// last search: of the list of PlaneState.hpp what may be stale (`Stale`), and nothing of a plane
-/// that carries nothing.
+/// last search: of the list of PlaneState.hpp what may be stale (`Stale`), and of a plane that
+/// carries nothing only whether it has absorbed a gap of the mesh.
 class PassedOn
 {
 public:
@@ -42,6 +42,7 @@ public:
   /// @param incremental closures are sums of increments
   PassedOn(const Plane& plane, const JointLaw& law, bool incremental)
   {
+    absorbed_ = plane.hasAbsorbed();
     if (!(plane.area > 0))
       return;
     depth_ = std::trunc(plane.closure / (0.25 * deepestBirth * plane.depthLimit));
@@ -62,9 +63,13 @@ public:
       differs = differs || numbers_[i] != o.numbers_[i];
     return differs;
   }
-  /// Whether it explains another depth of the pairs beside it (PotentialCycle::refuse): these would
-  /// be taken for none, or for some, with what it was a few cycles ago.
-  bool isAsDeepAs(const PassedOn& o) const { return depth_ == o.depth_; }
+  /// Whether it explains another depth of the pairs beside it (PotentialCycle::refuse), or has come
+  /// to absorb a gap or an overlap: these pairs would be taken for none, or for some, with what it
+  /// was a few cycles ago.
+  bool isAsDeepAs(const PassedOn& o) const
+  {
+    return depth_ == o.depth_ && absorbed_ == o.absorbed_;
+  }
 
 private:
   /// Calls f(member) for those whose changes may make a search stale.
@@ -104,6 +109,7 @@ private:
   static constexpr int count = std::apply(
       [](const auto&... member) { return (0 + ... + detail::watchedParts(member)); }, planeMembers);
   Real numbers_[count] = {};
+  bool absorbed_ = false;
   Real depth_ = 0; ///< in fourths of the depth at which first overlaps are none
 };
 } // namespace coplane
