@@ -336,6 +336,23 @@ TEST(WhatAPairTakesOver, isKeptByWhatSlidesInSlowlyWhateverTheSmallestArea)
   }
 }
 
+TEST(WhatAPairTakesOver, ofShearIsNoMoreThanItHolds)
+{
+  // Its neighbour's area shrinks, which raises the traction that it passes on.
+  NewPair pair;
+  pair.plane.law.friction = .5;
+  pair.plane.law.shearRatio = 1;
+  pair.plane.fit = pair.plane.law.fittedTo(1, 1, 1, 1);
+  pair.takesOver(.03);
+  pair.plane.normal = {0, 0, 1};
+  pair.plane.history.shearTraction = {1e9, 0, 0};
+  pair.cycle(.02, {2, 0, 0}); // comes from the side
+  EXPECT_NEAR(pair.push(), 10, 1e-10);
+  EXPECT_NEAR(norm(pair.plane.history.shearTraction), 5, 1e-10);
+  EXPECT_LT(pair.plane.history.slip, 2 + 1e-12) << "it has not slid farther";
+  EXPECT_LT(pair.plane.frictionWork, 10 + 1e-10);
+}
+
 TEST(WhatAPairTakesOver, orHadWhenItWasLastSeenHasNoEnergyWhereItWakesClosed)
 {
   NewPair pair;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace coplane
 {
 namespace
@@ -63,7 +65,7 @@ TEST(Inheritance, ofACrushedJointThatRestsWhereNoneCarries)
   EXPECT_NE(plane.lineage, Lineage::SlidesOn);
 }
 
-TEST(Inheritance, areOfPlanesThatCarryOrAreCrushed)
+TEST(Inheritance, isOfPlanesThatCarryOrAreCrushedOrHaveAbsorbed)
 {
   JointLaw law;
   Plane plane;
@@ -79,6 +81,16 @@ TEST(Inheritance, areOfPlanesThatCarryOrAreCrushed)
   EXPECT_EQ(donorOf(plane).area, 1);
   plane.history.maximumClosure = 1e-5;
   EXPECT_FALSE(isDonor(plane, law)) << "elastic until now";
+  plane.depthLimit = .1;
+  plane.offset = 1e-15;
+  EXPECT_FALSE(isDonor(plane, law)) << "round-off of coordinates";
+  for (const Real absorbed : {-1e-4, 1e-4})
+  {
+    plane.offset = absorbed;
+    EXPECT_TRUE(isDonor(plane, law));
+    EXPECT_TRUE(donorOf(plane).rests);
+  }
+  plane.offset = 0;
   plane.area = plane.overlap = .5;
   EXPECT_TRUE(isDonor(plane, law));
   EXPECT_FALSE(donorOf(plane).rests);
@@ -269,6 +281,29 @@ TEST(Continuation, ofWhatRestsOnlyWhileItsFacesLieInEachOther)
   scene.donorRests = false;
   scene.donorOffset = 0;
   EXPECT_TRUE(continued(scene)) << "what carries is not asked";
+}
+
+TEST(Continuation, ofWhatHasAbsorbedAGapOrAnOverlapWhetherItTouchesOrNot)
+{
+  for (const Real absorbed : {-0.02, 0.02})
+  {
+    SCOPED_TRACE(absorbed);
+    Scene scene = at(1.0, absorbed + 1e-5);
+    scene.donorRests = true;
+    scene.donorOffset = absorbed;
+    scene.donorGap = absorbed + 1e-5;
+    scene.gap = std::min(absorbed, 0.0) - 1e-5; // shares area: closed
+    EXPECT_TRUE(continued(scene));
+    scene.gap = std::max(absorbed, 0.0) + 1e-5; // apart
+    EXPECT_FALSE(continued(scene));
+    // It knows as much of what comes over a gap between two bodies as joints absorb, whatever the
+    // skin is.
+    scene.gap = -0.5;
+    scene.x0 = 1.2;
+    EXPECT_TRUE(continued(scene)) << "within a quarter of a face";
+    scene.x0 = 1.3;
+    EXPECT_FALSE(continued(scene));
+  }
 }
 
 TEST(Continuation, overASeamBetweenTwoBodies)

@@ -39,8 +39,42 @@ for angle in (0, 37, 90):
     h = case.run(f"slides_{angle}", recipe, deck).history
     case.check(f"block that slides at {angle} degrees: its speed at the end [m/s]", sum(along[c] * h[f"upper_velocity_{axis}"][-1] for c, axis in enumerate("xy")), 1, 1e-12)
 
+# --- blocks that slide on over what their joint has absorbed ------------------------------------------------------------------
+def slides_on(name, built_in, seam=0.0, skin=None, dimension=2, declared=True):
+    """A block slides at 5 m/s and with a friction of 0.3 from one slab to the next, `seam` behind it, whose tops the mesh has `built_in` apart
+    from it (below zero it lies in them)."""
+    deep = [0.2] if dimension == 3 else []
+    boxes = (("slab", [-0.4, -0.2], [0.7, 0.2], [7, 2]), ("slab", [0.3 + seam, -0.2], [0.7, 0.2], [7, 2]), ("block", [0, built_in], [0.2, 0.2], [3, 2]))
+    recipe = {"dimension": dimension, "node_sets": {"base": {"block": "slab"}},
+              "parts": [{"shape": "box", "block": block, "min": low + [0] * len(deep), "size": size + deep, "divisions": cells + [2] * len(deep)}
+                        for block, low, size, cells in boxes]}  # fmt: skip
+    contact = {"pairs": [{"blocks": ["*", "*"], "joint": "rough", "declared": declared}]}
+    if skin:
+        contact["skin"] = skin
+    if not declared:
+        contact["initial_overlap"] = "allow"
+    deck = {"materials": {"rock": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e10, "poisson_ratio": 0.2}},
+            "blocks": {block: {"material": "rock"} for block in ("slab", "block")},
+            "joints": {"rough": {"model": "linear", "normal_stiffness": 5e10, "friction": 0.3}}, "contact": contact, "gravity": [0, -10, 0],
+            "conditions": [{"type": "fixed", "node_set": "base"}], "initial": [{"block": "block", "velocity": [5, 0, 0]}],
+            "time": {"end": 0.08}, "history": {"every": 1e-3, "probes": [{"name": "block", "block": "block"}]}}  # fmt: skip
+    run = case.run(name.replace(" ", "_"), recipe, deck, remainder=1e-3)
+    h = run.history
+    case.check(f"{name}: speed at the end [m/s]", h["block_velocity_x"][-1], 5 - 0.3 * 10 * h["time"][-1], 2e-3, relative=True)
+    case.check(f"{name}: largest way up or down [m]", numpy.abs(h["block_displacement_y"]).max(), 0, 1e-5)
+    return recipe, deck, run
+
+
+slides_on("overlap of 3 mm", -0.003)
+slides_on("overlap of 1 mm that is allowed", -0.001, declared=False)
+slides_on("gap of 10 mm", 0.01)
+slides_on("gap and seam of 10 mm", 0.01, 0.01)
+slides_on("gap and seam of 10 mm with a skin of 30 mm", 0.01, 0.01, 0.03)
+sliding = slides_on("overlap of 3 mm in space", -0.003, dimension=3)
+case.same_bits("sliding", *sliding, ranks=3)
+
 # --- walls that fall apart along joints which have absorbed gaps and overlaps of the mesh -----------------------------------
-for across, up, speed in ((0.02, 0.02, 34), (0.04, 0.015, 30), (0.015, 0.04, 30), (-0.01, 0.02, 30)):
+for across, up, speed in ((0.02, 0.02, 34), (0.04, 0.015, 30), (0.015, 0.04, 30), (-0.01, 0.02, 30), (-0.01, -0.01, 30)):
     top = 5 * (0.2 + up)
     recipe = {"dimension": 2, "node_sets": {"floor": {"block": "floor"}},
               "parts": [{"shape": "box", "block": "floor", "min": [-0.5, -0.2], "size": [3.5, 0.2], "divisions": [12, 1]},

@@ -578,6 +578,8 @@ private:
       closed = crushing + compression / slopes_[i];
       closed = closed < state.maximumClosure ? closed : state.maximumClosure;
     }
+    if (area > 0 && !(plane.area > 0) && plane.isInherited())
+      state.shearTraction = heldAt(law, plane.fit, closed, state);
     const Real shrunk = area > 0 && plane.area > 0 ? std::sqrt(plane.area / area) : 1;
     const bool bends = branchFree::lane(bends_, i);
     const JointResponse response =
@@ -610,6 +612,16 @@ private:
     if (wasBonded && !plane.history.bonded && !bends)
       plane.offset -=
           settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
+  }
+
+  /// What a pair that begins to carry can hold of the shear traction that it has taken over, which
+  /// a neighbour may have raised while its area shrank [Pa]. The rest was never its own: it is no
+  /// slip, and no energy.
+  static KOKKOS_INLINE_FUNCTION Vec3 heldAt(const JointLaw& law, const JointFit& fit, Real closed,
+                                            JointState state)
+  {
+    law(fit, closed, Vec3{}, 0, state);
+    return state.shearTraction;
   }
 
   /// What others learn of a joint that may be crushed unevenly: the closure of first loading that
