@@ -258,19 +258,41 @@ TEST(WhatAPairTakesOver, isMetByWhatComesThereAfterwards)
   EXPECT_NEAR(down.push(), 1, 1e-10);
   NewPair fromTheSide;
   fromTheSide.takesOver(.03);
+  fromTheSide.plane.closure = .01; // of the joint beside it
   fromTheSide.cycle(.02, {2, 0, 0});
   EXPECT_NEAR(fromTheSide.push(), 10, 1e-10);
 }
 
+TEST(WhatAPairTakesOver, isNoLedge)
+{
+  // What comes in from the side below the height of a joint beside it begins where it is.
+  NewPair pair;
+  pair.takesOver(.03);
+  pair.plane.closure = 1e-4;
+  pair.cycle(.02, {2, 0, 0});
+  EXPECT_EQ(pair.push(), 0.0);
+  pair.cycle(.019);
+  EXPECT_NEAR(pair.push(), 1, 1e-10);
+}
+
+TEST(WhatAPairTakesOver, ofAGapIsRememberedOnceItsFacesLieOverEachOther)
+{
+  NewPair pair;
+  pair.takesOver(.03);
+  pair.cycle(.031);
+  EXPECT_TRUE(pair.plane.isBorn());
+  EXPECT_EQ(pair.plane.area, 0.0);
+  EXPECT_TRUE(pair.plane.hasAbsorbed());
+  NewPair apart;
+  apart.takesOver(.03);
+  apart.cycle(.031, {}, 0, 2); // beside each other
+  EXPECT_FALSE(apart.plane.isBorn());
+}
+
 TEST(WhatAPairTakesOver, andLosesAgainHasNoEnergyEither)
 {
-  // An overlap of .02 that a joint beside has absorbed; the pair is open by a hair.
+  // An overlap of .02 that a joint beside had absorbed, when the pair was open by a hair.
   NewPair pair;
-  pair.takesOver(-.02);
-  pair.cycle(-.019);
-  EXPECT_FALSE(pair.plane.isBorn());
-  pair.plane.lineage = Lineage::Own;
-  pair.plane.offset = 0;
   for (int cycle = 0; cycle < 2; ++cycle)
     pair.cycle(-.019);
   EXPECT_EQ(pair.push(), 0.0);
@@ -328,6 +350,7 @@ TEST(WhatAPairTakesOver, isKeptByWhatSlidesInSlowlyWhateverTheSmallestArea)
     NewPair pair;
     pair.options.areaMin = smallest;
     pair.takesOver(.03);
+    pair.plane.closure = .001;
     const Real step = 1e-4;
     for (int cycle = 1; !pair.plane.isBorn() && cycle < 100; ++cycle)
       pair.cycle(.029, {-step, 0, 0}, 0, 1 - cycle * step);
@@ -346,6 +369,7 @@ TEST(WhatAPairTakesOver, ofShearIsNoMoreThanItHolds)
   pair.takesOver(.03);
   pair.plane.normal = {0, 0, 1};
   pair.plane.history.shearTraction = {1e9, 0, 0};
+  pair.plane.closure = .01;
   pair.cycle(.02, {2, 0, 0}); // comes from the side
   EXPECT_NEAR(pair.push(), 10, 1e-10);
   EXPECT_NEAR(norm(pair.plane.history.shearTraction), 5, 1e-10);

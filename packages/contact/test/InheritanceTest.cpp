@@ -174,7 +174,8 @@ struct Scene
   Real x0 = 1, gap = 0;
   bool sameSurface = true;
   Real donorOffset = 0, donorGap = -1e-5;
-  bool donorRests = false;
+  bool donorRests = false, ofSameBodies = true;
+  Real sharedBefore = -1;
   bool wideIsLower = true;
 
   static void put(int dimension, bool up, Real from, Real to, Real height, Vec3* corners)
@@ -197,6 +198,7 @@ struct Scene
     const int wide = wideIsLower ? 0 : 1;
     const GlobalId wideId = wideIsLower ? 10 : 30;
     NewPair pair;
+    pair.sharedBefore = sharedBefore;
     Donor donor;
     pair.faceId[wide] = donor.faceId[wide] = wideId;
     pair.faceId[1 - wide] = 22;
@@ -217,6 +219,7 @@ struct Scene
     pair.normal = donor.normal = dimension == 2 ? Vec3{0, up, 0} : Vec3{0, 0, up};
     donor.offset = donorOffset;
     donor.rests = donorRests;
+    donor.ofSameBodies = ofSameBodies;
     return continues(pair, donor, dimension, reach);
   }
 };
@@ -294,7 +297,9 @@ TEST(Continuation, ofWhatHasAbsorbedAGapOrAnOverlapWhetherItTouchesOrNot)
     scene.donorGap = absorbed + 1e-5;
     scene.gap = std::min(absorbed, 0.0) - 1e-5; // shares area: closed
     EXPECT_TRUE(continued(scene));
-    scene.gap = std::max(absorbed, 0.0) + 1e-5; // apart
+    scene.gap = std::max(absorbed, 0.0) + 0.2; // apart, by less than joints absorb
+    EXPECT_TRUE(continued(scene));
+    scene.gap = std::max(absorbed, 0.0) + 0.3;
     EXPECT_FALSE(continued(scene));
     // It knows as much of what comes over a gap between two bodies as joints absorb, whatever the
     // skin is.
@@ -304,6 +309,31 @@ TEST(Continuation, ofWhatHasAbsorbedAGapOrAnOverlapWhetherItTouchesOrNot)
     scene.x0 = 1.3;
     EXPECT_FALSE(continued(scene));
   }
+}
+
+TEST(Continuation, ofWhatTwoBodiesHaveAbsorbedToAThirdOneWhereThatIsLevel)
+{
+  // A brick stands over a gap of 0.02 that its bed joint has absorbed. Another one comes beside it.
+  Scene scene = at(1.05, 0, false, 0.02);
+  scene.donorRests = true;
+  scene.donorGap = 0.02;
+  scene.ofSameBodies = false;
+  scene.sharedBefore = 0; // it comes in from the side
+  for (const Real gap : {1e-4, 0.02, 0.04})
+  {
+    scene.gap = gap;
+    EXPECT_EQ(continued(scene), gap == 0.02) << gap;
+  }
+}
+
+TEST(Inheritance, isBetweenTheSameTwoBodiesWhereTheyHaveSome)
+{
+  Plane plane = pairOf10And22();
+  std::vector<Donor> donors{planeOf10And(23, {7, 8, 9, 10}, 1, .04),
+                            planeOf10And(21, {1, 2, 3, 4}, 3, .08)};
+  donors[0].ofSameBodies = false;
+  EXPECT_TRUE(inherit(plane, {0, 0, 1}, nodes, donors));
+  EXPECT_NEAR(plane.offset, -.08, 1e-15);
 }
 
 TEST(Continuation, overASeamBetweenTwoBodies)

@@ -189,10 +189,30 @@ bool Continuation::isNear(const Donor& donor) const
                        [&](int mine, int) { return isWithin(reach, carried, shadows_[1 - mine]); });
 }
 
+bool Continuation::isLevel(const Donor& donor, Real step) const
+{
+  return anyCommonFace(
+      pair_.faceId, donor,
+      [&](int mine, int its)
+      {
+        const int m = 1 - mine, d = 1 - its;
+        const Vec2 between =
+            0.5 * (areaAndCentroid(shadows_[m]).centroid +
+                   areaAndCentroid(view_.shadow(donor.corners[d], donor.count[d])).centroid);
+        return std::abs(view_.height(pair_.corners[m], pair_.count[m], between) -
+                        view_.height(donor.corners[d], donor.count[d], between)) <= step;
+      });
+}
+
 bool Continuation::goesOn(const Donor& donor) const
 {
-  return fromTheSide_ || (gap_ <= std::max(donor.offset, 0.0) + roundOff_ &&
-                          isOnSameSurface(donor, pair_.faceId, pair_.nodes));
+  const bool sameSurface = isOnSameSurface(donor, pair_.faceId, pair_.nodes);
+  const bool absorbed = isAbsorbed(donor.offset, size_);
+  if (absorbed && !donor.ofSameBodies && !sameSurface &&
+      !isLevel(donor, std::max(EdgesOfSurfaces::flush * size_, 0.5 * std::abs(donor.offset))))
+    return false;
+  const Real above = absorbed && donor.ofSameBodies ? widestJoint * size_ : roundOff_;
+  return fromTheSide_ || (gap_ <= std::max(donor.offset, 0.0) + above && sameSurface);
 }
 
 namespace
@@ -263,14 +283,19 @@ bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vect
                            [&](const Donor& a, const Donor& b) { return key(a) == key(b); }),
                donors.end());
   const auto gives = [&](const Donor& donor) { return fits(donor, plane, normal); };
+  const bool sameBodies =
+      std::any_of(donors.begin(), donors.end(),
+                  [&](const Donor& donor) { return gives(donor) && donor.ofSameBodies; });
+  const auto isAsked = [&](const Donor& donor)
+  { return gives(donor) && (donor.ofSameBodies || !sameBodies); };
   const bool carried =
       std::any_of(donors.begin(), donors.end(),
-                  [&](const Donor& donor) { return gives(donor) && !donor.rests; });
+                  [&](const Donor& donor) { return isAsked(donor) && !donor.rests; });
   bool slidesOn = false;
   Inheritance all(plane, normal);
   for (const Donor& donor : donors)
   {
-    if (!gives(donor) || (carried && donor.rests))
+    if (!isAsked(donor) || (carried && donor.rests))
       continue;
     slidesOn = slidesOn || isOnSameSurface(donor, plane.faceId, nodes);
     all.add(donor);

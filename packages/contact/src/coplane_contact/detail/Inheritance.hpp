@@ -64,10 +64,17 @@ public:
   bool isNear(const Donor& donor) const;
   /// Where the pair shared area already, it has to be closed at the donor's offset, or where faces
   /// touch that have absorbed nothing, and go on over the same surface: then it has not come down
-  /// beside the donor. Asked of donors that are near.
+  /// beside the donor. What two bodies have absorbed between them goes on between these two also
+  /// where they are apart, and to a third one only where that is level: it is the height of their
+  /// surfaces. Asked of donors that are near, and know whether they are flush and of the same
+  /// bodies.
   bool goesOn(const Donor& donor) const;
 
 private:
+  /// Whether the two faces that the pair and the donor do not have in common are as high, but for a
+  /// step [m].
+  bool isLevel(const Donor& donor, Real step) const;
+
   const NewPair& pair_;
   View view_;
   ConvexPolygon shadows_[2]; ///< of the faces
@@ -90,10 +97,11 @@ bool fits(const DonorOrPlane& donor, const Plane& plane, const Vec3& normal)
 }
 
 /// Gives a new plane the means of its donors, weighted by their areas and summed in the order of
-/// their keys: of those that carry, if there are some. Returns whether there were any that fit. A
-/// donor that has one face in common with the plane, and whose other face shares a node with the
-/// plane's other one, shows that the plane only slides on over the same surface. The plane is
-/// bonded if most of the area is, between the same two bodies: a bond holds together what has been
-/// bonded, and a third body that comes to one of them has not.
+/// their keys: of those between the same two
+/// bodies, if there are some, and of these of those that carry, if there are some. Returns whether
+/// there were any that fit. A donor that has one face in common with the plane, and whose other
+/// face shares a node with the plane's other one, shows that the plane only slides on over the same
+/// surface. The plane is bonded if most of the area is, between the same two bodies: a bond holds
+/// together what has been bonded, and a third body that comes to one of them has not.
 bool inherit(Plane& plane, const Vec3& normal, const PairNodes& nodes, std::vector<Donor>& donors);
 } // namespace coplane

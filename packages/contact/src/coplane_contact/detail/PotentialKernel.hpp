@@ -318,12 +318,14 @@ private:
                }) > 0.0;
   }
 
-  /// A pair that has taken over a joint which is crushed deeper than its faces lie in each other is
-  /// a plane from there on, with this crushing, whatever becomes of those that passed it on.
+  /// A pair that has taken over a joint which is crushed deeper than its faces lie in each other,
+  /// or which has absorbed a gap or an overlap of the mesh, is a plane from there on and remembers
+  /// that, whatever becomes of those that passed it on.
   KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const
   {
-    if (!plane.isBorn() && crushes_[i] && permanents_[i] > 0 && branchFree::lane(overlaps_, i) &&
-        branchFree::lane(deepest_, i) > 0)
+    const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
+    const bool absorbed = plane.isInherited() && isAbsorbed(plane.offset, plane.depthLimit);
+    if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
       stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
   }
 
@@ -331,7 +333,10 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i)
   {
     const bool carried = plane.area > 0;
-    const bool closedBefore = late_[i] || (!carried && !plane.isRefused() && wasClosed(plane, i));
+    const Before before = carried || plane.isRefused() ? Before::Open
+                          : late_[i]                   ? Before::Closed
+                                                       : stepBefore(plane, i);
+    const bool closedBefore = before == Before::Closed;
     if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
       refuse(plane, i, closedBefore);
     if (plane.isRefused())
@@ -343,28 +348,47 @@ private:
     }
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
+    const bool isLedge = before == Before::SharedNoArea && isHigherThanBeside(plane, i);
     stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
-    if (closedBefore)
+    if (closedBefore || isLedge)
       beginHere(plane, i);
-    return !closedBefore && plane.sighting != Sighting::Woken;
+    return !closedBefore && !isLedge && plane.sighting != Sighting::Woken;
   }
 
-  /// Whether a pair that has carried nothing was closed a step ago, over area that it shared: by an
-  /// offset that it had not then. A joint that comes to bear again may lie higher than the faces
-  /// beside it, which take that over and which nothing has met yet; and what a pair has taken over
-  /// it may lose again.
-  KOKKOS_INLINE_FUNCTION bool wasClosed(const Plane& plane, int i) const
+  /// What a pair was a step ago.
+  enum class Before
+  {
+    Open,
+    SharedNoArea,
+    Closed ///< over area that it shared
+  };
+
+  /// The same of a pair that has carried nothing. It was closed by an offset that it had not then:
+  /// a joint that comes to bear again may lie higher than the faces beside it, which take that over
+  /// and which nothing has met yet; and what a pair has taken over it may lose again.
+  KOKKOS_INLINE_FUNCTION Before stepBefore(const Plane& plane, int i) const
   {
     if (plane.isNew() || (plane.isBorn() && plane.sighting != Sighting::Woken))
-      return false;
+      return Before::Open;
     const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
     PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_.cosOpposed));
-    if (!before.plane.opposed)
-      return false;
+    if (!before.plane.opposed) // or their shadows are apart
+      return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
     before.meet(plane.offset - permanents_[i], false, {});
     const Real sliver = sliverOfFace > options_.areaMin ? sliverOfFace : options_.areaMin;
-    return before.overlap > sliver * (a.area < b.area ? a.area : b.area) &&
-           (plane.history.bonded || before.mostClosure > 0);
+    if (!(before.overlap > sliver * (a.area < b.area ? a.area : b.area)))
+      return Before::SharedNoArea;
+    return plane.history.bonded || before.mostClosure > 0 ? Before::Closed : Before::Open;
+  }
+
+  /// Whether a pair that comes in from the side stands higher, by a gap that a joint beside it has
+  /// absorbed, than that joint does: deeper closed than it, and by more than the step.
+  KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const
+  {
+    if (!plane.isInherited() || !isAbsorbed(plane.offset, plane.depthLimit))
+      return false;
+    const Real beside = 4 * plane.closure > permanents_[i] ? 4 * plane.closure : permanents_[i];
+    return branchFree::lane(deepest_, i) > beside + dt_ * branchFree::lane(speed_, i);
   }
 
   /// What was closed before it carries has no energy, whatever its neighbours passed on: its
@@ -620,8 +644,9 @@ private:
   static KOKKOS_INLINE_FUNCTION Vec3 heldAt(const JointLaw& law, const JointFit& fit, Real closed,
                                             JointState state)
   {
+    const bool bonded = state.bonded;
     law(fit, closed, Vec3{}, 0, state);
-    return state.shearTraction;
+    return state.bonded == bonded ? state.shearTraction : Vec3{};
   }
 
   /// What others learn of a joint that may be crushed unevenly: the closure of first loading that
