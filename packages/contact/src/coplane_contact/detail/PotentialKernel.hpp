@@ -333,9 +333,9 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION bool carries(Plane& plane, int i)
   {
     const bool carried = plane.area > 0;
-    const Before before = carried || plane.isRefused() ? Before::Open
-                          : late_[i]                   ? Before::Closed
-                                                       : stepBefore(plane, i);
+    const Before before = late_[i]                       ? Before::Closed
+                          : carried || plane.isRefused() ? Before::Open
+                                                         : stepBefore(plane, i);
     const bool closedBefore = before == Before::Closed;
     if (!carried && !(plane.declared && plane.isNew()) && !plane.history.bonded)
       refuse(plane, i, closedBefore);
