@@ -216,6 +216,7 @@ struct NewPair
   {
     plane.lineage = Lineage::SlidesOn;
     plane.offset = offset;
+    plane.history.absorbed = true;
   }
   void cycle(Real gap, const Vec3& velocity = {}, Real tilt = 0, Real aside = 0)
   {

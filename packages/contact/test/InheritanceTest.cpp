@@ -82,6 +82,9 @@ TEST(Inheritance, isOfPlanesThatCarryOrAreCrushedOrHaveAbsorbed)
   plane.history.maximumClosure = 1e-5;
   EXPECT_FALSE(isDonor(plane, law)) << "elastic until now";
   plane.depthLimit = .1;
+  plane.offset = 1e-4;
+  EXPECT_FALSE(isDonor(plane, law)) << "by dilation";
+  plane.history.absorbed = true;
   plane.offset = 1e-15;
   EXPECT_FALSE(isDonor(plane, law)) << "round-off of coordinates";
   for (const Real absorbed : {-1e-4, 1e-4})
@@ -218,6 +221,7 @@ struct Scene
     const Real up = wideIsLower ? 1 : -1;
     pair.normal = donor.normal = dimension == 2 ? Vec3{0, up, 0} : Vec3{0, 0, up};
     donor.offset = donorOffset;
+    donor.history.absorbed = donorOffset != 0;
     donor.rests = donorRests;
     donor.ofSameBodies = ofSameBodies;
     return continues(pair, donor, dimension, reach);

@@ -133,6 +133,7 @@ void declare(const DeclaredPlane& found, Plane& plane)
   plane.overlap = found.overlap.patch.overlap;
   plane.pointOfContact = found.pointOfContact;
   plane.gap = found.overlap.gap;
+  plane.history.absorbed = true;
 }
 
 /// Whether two faces lie on each other corner by corner, as the two sides of a cut do.

@@ -81,6 +81,13 @@ bool isOnSameSurface(const Donor& donor, const GlobalId* faceId, const PairNodes
 /// Of heights, as a fraction of the size of a face.
 constexpr Real roundOff = 1e-9;
 
+/// Plane::hasAbsorbed() of a donor.
+/// @param size of a face [m]
+bool hasAbsorbed(const Donor& donor, Real size)
+{
+  return donor.history.absorbed && std::abs(donor.offset) > 1e-6 * size;
+}
+
 Real squareToSegment(const Vec2& p, const Vec2& a, const Vec2& b)
 {
   const Vec2 along = b - a, off = p - a;
@@ -175,7 +182,7 @@ bool Continuation::isNear(const Donor& donor) const
 {
   const ConvexPolygon carried = intersection(view_.shadow(donor.corners[0], donor.count[0]),
                                              view_.shadow(donor.corners[1], donor.count[1]));
-  const bool absorbed = isAbsorbed(donor.offset, size_);
+  const bool absorbed = hasAbsorbed(donor, size_);
   if (donor.rests && !absorbed)
   {
     const Vec2 middle = areaAndCentroid(carried).centroid;
@@ -207,11 +214,13 @@ bool Continuation::isLevel(const Donor& donor, Real step) const
 bool Continuation::goesOn(const Donor& donor) const
 {
   const bool sameSurface = isOnSameSurface(donor, pair_.faceId, pair_.nodes);
-  const bool absorbed = isAbsorbed(donor.offset, size_);
+  const bool absorbed = hasAbsorbed(donor, size_);
   if (absorbed && !donor.ofSameBodies && !sameSurface &&
       !isLevel(donor, std::max(EdgesOfSurfaces::flush * size_, 0.5 * std::abs(donor.offset))))
     return false;
-  const Real above = absorbed && donor.ofSameBodies ? widestJoint * size_ : roundOff_;
+  // A bond holds together what has been bonded: not what is apart.
+  const Real above =
+      absorbed && donor.ofSameBodies && !donor.history.bonded ? widestJoint * size_ : roundOff_;
   return fromTheSide_ || (gap_ <= std::max(donor.offset, 0.0) + above && sameSurface);
 }
 
@@ -250,6 +259,8 @@ private:
       const Real sign = turned(donor.faceId, plane_.faceId);
       sum += donor.area * turnIntoPlane(sign * value, sign * donor.normal, normal_, Vec3{}, 0);
     }
+    else if constexpr (Member::passing == Passing::Any)
+      sum = sum || value;
     else if constexpr (Member::passing != Passing::Majority)
       if (Member::passing == Passing::Mean || passesBond(donor))
         sum += donor.area * value;
@@ -263,6 +274,8 @@ private:
       value = isBonded() ? member.get(sum_) / bondedArea_ : value;
     else if constexpr (Member::passing == Passing::Turned)
       value = (1 / area_) * member.get(sum_);
+    else if constexpr (Member::passing == Passing::Any)
+      value = member.get(sum_);
     else
       value = isBonded();
   }

@@ -124,14 +124,6 @@ private:
   static constexpr float infinityOfFloat = std::numeric_limits<float>::infinity();
 };
 
-/// Whether a joint is closed away from where its faces touch, by more than round-off.
-/// @param length of its faces or of what lies behind them, by order of magnitude [m]
-KOKKOS_INLINE_FUNCTION bool isAbsorbed(Real offset, Real length)
-{
-  const Real smallest = 1e-6 * length;
-  return offset > smallest || offset < -smallest;
-}
-
 /// One slot per candidate pair of faces; it becomes a common plane in the cycle in which the faces
 /// first touch (steps E and F). Face 0 is the one with the lower id. The normal points from face 0
 /// to face 1; force and shear traction act on face 1. Millions of these are read and written in
@@ -214,10 +206,12 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION bool isBorn() const { return state != PlaneState::Slot; }
   KOKKOS_INLINE_FUNCTION bool isNew() const { return sighting == Sighting::New; }
   KOKKOS_INLINE_FUNCTION bool isRefused() const { return refusal != Refusal::None; }
-  /// Whether it knows a gap or an overlap of the mesh.
+  /// Whether its offset is a gap or an overlap of the mesh, or was taken over from such a plane; by
+  /// more than round-off.
   KOKKOS_INLINE_FUNCTION bool hasAbsorbed() const
   {
-    return isBorn() && isAbsorbed(offset, depthLimit);
+    const Real roundOff = 1e-6 * depthLimit;
+    return history.absorbed && (offset > roundOff || offset < -roundOff);
   }
   KOKKOS_INLINE_FUNCTION bool isInherited() const { return lineage != Lineage::Own; }
 

@@ -20,7 +20,8 @@ enum class Passing : std::uint8_t
   Mean,        ///< mean of the donors by their areas
   MeanOfBonds, ///< mean of those that are bonded, if the pair is bonded now
   Turned,      ///< a vector in the plane: mean, turned into the new plane
-  Majority     ///< a flag: that of most of the area
+  Majority,    ///< a flag: that of most of the area
+  Any          ///< a flag: whether any of them has it
 };
 
 /// When a change of a number that is passed on makes the last search stale: pairs that take over
@@ -141,6 +142,9 @@ inline constexpr auto planeMembers = std::make_tuple(
     planeMember<Passing::Mean, Stale::Always>(
         "offset", "m", [](auto& p) -> auto& { return p.offset; })
         .writtenAs("offset"),
+    planeMember<Passing::Any, Stale::Never>(
+        "absorbed", "-", [](auto& p) -> auto& { return p.history.absorbed; })
+        .notStaleBecause("it changes only where the offset does"),
     planeMember<Passing::Mean, Stale::WithCurve>(
         "maximum_closure", "m", [](auto& p) -> auto& { return p.history.maximumClosure; })
         .writtenAs("maximum_closure"),

@@ -324,7 +324,7 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const
   {
     const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
-    const bool absorbed = plane.isInherited() && isAbsorbed(plane.offset, plane.depthLimit);
+    const bool absorbed = plane.isInherited() && plane.hasAbsorbed();
     if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
       stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
   }
@@ -385,7 +385,7 @@ private:
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
   KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const
   {
-    if (!plane.isInherited() || !isAbsorbed(plane.offset, plane.depthLimit))
+    if (!plane.isInherited() || !plane.hasAbsorbed())
       return false;
     const Real beside = 4 * plane.closure > permanents_[i] ? 4 * plane.closure : permanents_[i];
     return branchFree::lane(deepest_, i) > beside + dt_ * branchFree::lane(speed_, i);
@@ -393,13 +393,18 @@ private:
 
   /// What was closed before it carries has no energy, whatever its neighbours passed on: its
   /// surface lies where the faces are deepest in each other, on top of what the joint has closed
-  /// for good, and a bond, which carries by its mean closure, is stress-free where it is.
+  /// for good. A bond, which carries by its mean closure, is stress-free where it is, unless its
+  /// faces are tilted by more than it could hold: such faces were never bonded.
   KOKKOS_INLINE_FUNCTION void beginHere(Plane& plane, int i) const
   {
     const Real surface = leastGaps_[i] + permanents_[i];
+    const Real mean =
+        branchFree::lane(pair_.moments.volume, i) / branchFree::lane(pair_.moments.area, i);
+    const Real uneven = branchFree::lane(pair_.mostClosure, i) - mean;
+    plane.history.bonded =
+        plane.history.bonded && slopes_[i] * uneven <= planes_.law[i]->bond.tensileStrength;
     if (plane.history.bonded)
-      plane.offset -=
-          branchFree::lane(pair_.moments.volume, i) / branchFree::lane(pair_.moments.area, i);
+      plane.offset -= mean;
     else if (surface < plane.offset)
       plane.offset = surface;
   }
