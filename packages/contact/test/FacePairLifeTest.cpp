@@ -215,8 +215,7 @@ struct NewPair
   void takesOver(Real offset)
   {
     plane.lineage = Lineage::SlidesOn;
-    plane.offset = offset;
-    plane.history.absorbed = true;
+    plane.absorb(offset);
   }
   void cycle(Real gap, const Vec3& velocity = {}, Real tilt = 0, Real aside = 0)
   {
@@ -283,7 +282,7 @@ TEST(WhatAPairTakesOver, ofAGapIsRememberedOnceItsFacesLieOverEachOther)
   pair.cycle(.031);
   EXPECT_TRUE(pair.plane.isBorn());
   EXPECT_EQ(pair.plane.area, 0.0);
-  EXPECT_TRUE(pair.plane.hasAbsorbed());
+  EXPECT_TRUE(pair.plane.history.absorbed);
   NewPair apart;
   apart.takesOver(.03);
   apart.cycle(.031, {}, 0, 2); // beside each other

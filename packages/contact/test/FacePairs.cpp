@@ -50,10 +50,10 @@ namespace movingpairs
 namespace
 {
 template <int Dim>
-Plane lookedIn(const HalfStepFace& a, const HalfStepFace& b)
+Plane lookedIn(const HalfStepFace& a, const HalfStepFace& b, PlaneState state)
 {
   PairPlane plane = touchingPlane();
-  plane.state = PlaneState::Slot;
+  plane.state = state;
   plane.depthLimit = 1;
   ContactOptions options;
   options.lookAhead = lookAhead;
@@ -65,9 +65,9 @@ Plane lookedIn(const HalfStepFace& a, const HalfStepFace& b)
 }
 } // namespace
 
-Plane looked(const HalfStepFace& a, const HalfStepFace& b, int dimension)
+Plane looked(const HalfStepFace& a, const HalfStepFace& b, int dimension, PlaneState state)
 {
-  return dimension == 2 ? lookedIn<2>(a, b) : lookedIn<3>(a, b);
+  return dimension == 2 ? lookedIn<2>(a, b, state) : lookedIn<3>(a, b, state);
 }
 } // namespace movingpairs
 } // namespace coplane

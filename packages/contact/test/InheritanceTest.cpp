@@ -84,16 +84,15 @@ TEST(Inheritance, isOfPlanesThatCarryOrAreCrushedOrHaveAbsorbed)
   plane.depthLimit = .1;
   plane.offset = 1e-4;
   EXPECT_FALSE(isDonor(plane, law)) << "by dilation";
-  plane.history.absorbed = true;
-  plane.offset = 1e-15;
+  plane.absorb(1e-15);
   EXPECT_FALSE(isDonor(plane, law)) << "round-off of coordinates";
   for (const Real absorbed : {-1e-4, 1e-4})
   {
-    plane.offset = absorbed;
+    plane.absorb(absorbed);
     EXPECT_TRUE(isDonor(plane, law));
     EXPECT_TRUE(donorOf(plane).rests);
   }
-  plane.offset = 0;
+  plane.absorb(0);
   plane.area = plane.overlap = .5;
   EXPECT_TRUE(isDonor(plane, law));
   EXPECT_FALSE(donorOf(plane).rests);

@@ -156,9 +156,10 @@ TEST(Step5CandidatePairs, whatActsUntilTheNextSearchIsACandidate)
       int acting = 0;
       for (int p = 0; p < count; ++p)
       {
-        const Plane plane = movingpairs::looked(pairs.faceNow(2 * p), pairs.faceNow(2 * p + 1));
+        const Plane plane = movingpairs::looked(pairs.faceNow(2 * p), pairs.faceNow(2 * p + 1), 3,
+                                                PlaneState::Open);
         const Real deepest = -rules.depthMax * pairs.faces(2 * p).thickness;
-        if (!plane.isBorn() || plane.gap < deepest || centersGap(p) < deepest)
+        if (!(plane.area > 0) || plane.gap < deepest || centersGap(p) < deepest)
           continue;
         ++acting;
         EXPECT_EQ(verdict(p), Verdict::Candidate)

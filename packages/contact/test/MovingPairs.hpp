@@ -109,8 +109,9 @@ private:
   std::mt19937 random_;
 };
 
-/// What a cycle makes of a pair that has never touched.
-Plane looked(const HalfStepFace& a, const HalfStepFace& b, int dimension = 3);
+/// What a cycle makes of a pair that has never touched, or that is a plane already.
+Plane looked(const HalfStepFace& a, const HalfStepFace& b, int dimension = 3,
+             PlaneState state = PlaneState::Slot);
 
 inline bool actsOrMay(const Plane& plane)
 {

@@ -84,7 +84,7 @@ Real closeUnder(const SymTensor& stress, Real pressure, const JointLaw& law, Rea
                        : plane.history.bonded ? compression / plane.fit.normalStiffness
                                               : 0;
   plane.history.maximumClosure = std::max(closure, 0.0);
-  plane.offset = plane.gap + closure;
+  plane.offset += closure;
   plane.closure = closure;
   if (compression > 0 || plane.history.bonded)
   {
@@ -133,7 +133,7 @@ void declare(const DeclaredPlane& found, Plane& plane)
   plane.overlap = found.overlap.patch.overlap;
   plane.pointOfContact = found.pointOfContact;
   plane.gap = found.overlap.gap;
-  plane.history.absorbed = true;
+  plane.absorb(plane.gap);
 }
 
 /// Whether two faces lie on each other corner by corner, as the two sides of a cut do.

@@ -146,10 +146,7 @@ KOKKOS_INLINE_FUNCTION void stepF_createPlane(Plane& plane, const Vec3& normal, 
     plane.state = PlaneState::Open;
   plane.normal = normal;
   if (plane.isNew() && !plane.declared && !plane.isInherited() && gap < plane.offset)
-  {
-    plane.offset = gap;
-    plane.history.absorbed = true;
-  }
+    plane.absorb(gap);
 }
 
 /// Weighted mean of node vectors.

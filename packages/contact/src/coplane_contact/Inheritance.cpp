@@ -21,7 +21,7 @@ bool rests(const Plane& plane)
 bool isDonor(const Plane& plane, const JointLaw& law)
 {
   return plane.isBorn() &&
-         (!rests(plane) || plane.hasAbsorbed() || law.isCrushed(plane.fit, plane.history));
+         (!rests(plane) || plane.history.absorbed || law.isCrushed(plane.fit, plane.history));
 }
 
 Donor donorOf(const Plane& plane)
@@ -80,13 +80,6 @@ bool isOnSameSurface(const Donor& donor, const GlobalId* faceId, const PairNodes
 
 /// Of heights, as a fraction of the size of a face.
 constexpr Real roundOff = 1e-9;
-
-/// Plane::hasAbsorbed() of a donor.
-/// @param size of a face [m]
-bool hasAbsorbed(const Donor& donor, Real size)
-{
-  return donor.history.absorbed && std::abs(donor.offset) > 1e-6 * size;
-}
 
 Real squareToSegment(const Vec2& p, const Vec2& a, const Vec2& b)
 {
@@ -182,7 +175,7 @@ bool Continuation::isNear(const Donor& donor) const
 {
   const ConvexPolygon carried = intersection(view_.shadow(donor.corners[0], donor.count[0]),
                                              view_.shadow(donor.corners[1], donor.count[1]));
-  const bool absorbed = hasAbsorbed(donor, size_);
+  const bool absorbed = donor.history.absorbed;
   if (donor.rests && !absorbed)
   {
     const Vec2 middle = areaAndCentroid(carried).centroid;
@@ -214,7 +207,7 @@ bool Continuation::isLevel(const Donor& donor, Real step) const
 bool Continuation::goesOn(const Donor& donor) const
 {
   const bool sameSurface = isOnSameSurface(donor, pair_.faceId, pair_.nodes);
-  const bool absorbed = hasAbsorbed(donor, size_);
+  const bool absorbed = donor.history.absorbed;
   if (absorbed && !donor.ofSameBodies && !sameSurface &&
       !isLevel(donor, std::max(EdgesOfSurfaces::flush * size_, 0.5 * std::abs(donor.offset))))
     return false;

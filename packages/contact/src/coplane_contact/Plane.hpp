@@ -206,12 +206,13 @@ struct alignas(64) Plane
   KOKKOS_INLINE_FUNCTION bool isBorn() const { return state != PlaneState::Slot; }
   KOKKOS_INLINE_FUNCTION bool isNew() const { return sighting == Sighting::New; }
   KOKKOS_INLINE_FUNCTION bool isRefused() const { return refusal != Refusal::None; }
-  /// Whether its offset is a gap or an overlap of the mesh, or was taken over from such a plane; by
-  /// more than round-off.
-  KOKKOS_INLINE_FUNCTION bool hasAbsorbed() const
+  /// A gap of the mesh, or an overlap, negative, becomes that at which the joint is just closed
+  /// [m].
+  KOKKOS_INLINE_FUNCTION void absorb(Real gapOfMesh)
   {
     const Real roundOff = 1e-6 * depthLimit;
-    return history.absorbed && (offset > roundOff || offset < -roundOff);
+    offset = gapOfMesh;
+    history.absorbed = gapOfMesh > roundOff || gapOfMesh < -roundOff;
   }
   KOKKOS_INLINE_FUNCTION bool isInherited() const { return lineage != Lineage::Own; }
 

@@ -22,7 +22,7 @@ struct JointState
   Real slip = 0;             ///< length of the slip path [m]
   Real opening = 0;          ///< inelastic opening [m]
   Real shearing = 0;         ///< inelastic slip of the bond [m]
-  bool absorbed = false;     ///< the gap at which it is closed is one of the mesh
+  bool absorbed = false;     ///< the gap at which it is closed has one of the mesh in it
   bool bonded = false;       ///< carries tension and cohesion until broken
   float crushedAtCenter = 0; ///< of a plane that is crushed unevenly: its crushing at the centre of
                              ///< face 0; may be negative there [m]

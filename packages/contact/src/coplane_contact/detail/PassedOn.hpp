@@ -42,7 +42,7 @@ public:
   /// @param incremental closures are sums of increments
   PassedOn(const Plane& plane, const JointLaw& law, bool incremental)
   {
-    absorbed_ = plane.isBorn() && plane.hasAbsorbed();
+    absorbed_ = plane.isBorn() && plane.history.absorbed;
     if (!(plane.area > 0))
       return;
     depth_ = std::trunc(plane.closure / (0.25 * deepestBirth * plane.depthLimit));

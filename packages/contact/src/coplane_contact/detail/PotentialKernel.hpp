@@ -324,7 +324,7 @@ private:
   KOKKOS_FORCEINLINE_FUNCTION void rest(Plane& plane, int i) const
   {
     const bool crushed = crushes_[i] && permanents_[i] > 0 && branchFree::lane(deepest_, i) > 0;
-    const bool absorbed = plane.isInherited() && plane.hasAbsorbed();
+    const bool absorbed = plane.isInherited() && plane.history.absorbed;
     if (!plane.isBorn() && (crushed || absorbed) && branchFree::lane(overlaps_, i))
       stepF_createPlane(plane, branchFree::lane(pair_.plane.normal, i), leastGaps_[i]);
   }
@@ -385,7 +385,7 @@ private:
   /// absorbed, than that joint does: deeper closed than it, and by more than the step.
   KOKKOS_INLINE_FUNCTION bool isHigherThanBeside(const Plane& plane, int i) const
   {
-    if (!plane.isInherited() || !plane.hasAbsorbed())
+    if (!plane.isInherited() || !plane.history.absorbed)
       return false;
     const Real beside = 4 * plane.closure > permanents_[i] ? 4 * plane.closure : permanents_[i];
     return branchFree::lane(deepest_, i) > beside + dt_ * branchFree::lane(speed_, i);
