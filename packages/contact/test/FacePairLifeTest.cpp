@@ -14,18 +14,6 @@ using namespace coplane::facepairs;
 
 namespace
 {
-/// Unit square looking up at z = 0.
-FaceNodes below(const Vec3& velocity = {})
-{
-  return face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, velocity);
-}
-
-/// Square looking down, sunk in by `depth`, covering `width` of the lower one.
-FaceNodes above(Real depth, const Vec3& velocity = {}, Real width = 1)
-{
-  return face({{0, 0, -depth}, {0, 1, -depth}, {width, 1, -depth}, {width, 0, -depth}}, velocity);
-}
-
 /// A plane in stick with a shear traction along x.
 PairPlane sheared(Real traction, Real area)
 {
@@ -73,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(, OpenUp, WithForces::both(), WithForces::name);
 
 TEST(StepA_HalfStepFace, isHalfAStepBehindTheEndOfTheStep)
 {
-  const HalfStepFace half = stepA_halfStepFace<3>(below({0, 0, 4}), .5);
+  const HalfStepFace half = stepA_halfStepFace<3>(squareBelow({0, 0, 4}), .5);
   EXPECT_EQ(half.center.z, -1.0); // 0 - .25 s * 4 m/s
   EXPECT_EQ(half.area, 1.0);
   EXPECT_EQ(half.normal.z, 1.0);
@@ -90,9 +78,9 @@ TEST(StepA_HalfStepFace, facesWithoutAreaHaveNoNormal)
 TEST(StepB_TrialPointOfContact, normalIsTheMeanOfTheFacesNormals)
 {
   // Face B tilted by 20 degrees about y: the plane is tilted by 10.
-  const FaceNodes b = moved(above(0), rotation({0, 1, 0}, 20 * pi / 180));
-  const TrialPlane trial =
-      stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(below(), 0), stepA_halfStepFace<3>(b, 0));
+  const FaceNodes b = moved(squareAbove(0), rotation({0, 1, 0}, 20 * pi / 180));
+  const TrialPlane trial = stepB_trialPointOfContact<3>(stepA_halfStepFace<3>(squareBelow(), 0),
+                                                        stepA_halfStepFace<3>(b, 0));
   EXPECT_NEAR(trial.normal.x, std::sin(10 * pi / 180), 1e-15);
   EXPECT_NEAR(trial.normal.z, std::cos(10 * pi / 180), 1e-15);
   EXPECT_NEAR(dot(cross(trial.e1, trial.e2), trial.normal), 1, 1e-15);
@@ -103,10 +91,10 @@ TEST_P(StepF_CreatePlane, touchBetweenTwoCyclesKeepsAllOfItsClosure)
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
-  updatePlane<3>(plane, below(), above(-.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(-.01), usual, 1);
   EXPECT_FALSE(plane.isBorn());
   EXPECT_NEAR(plane.gap, .01, 1e-15);
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -.02}), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01, {0, 0, -.02}), usual, 1);
   EXPECT_TRUE(plane.isBorn());
   EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(plane.offset, 0.0);
@@ -118,13 +106,13 @@ TEST_P(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01), usual, 1);
   EXPECT_EQ(plane.sighting, Sighting::FoundLate);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
   EXPECT_EQ(plane.offset, plane.gap);
   EXPECT_NEAR(plane.gap, -.01, 1e-15);
   // From there on it reacts as usual.
-  updatePlane<3>(plane, below(), above(.011), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.011), usual, 1);
   EXPECT_NE(plane.sighting, Sighting::FoundLate);
   EXPECT_NEAR(plane.forceOn(1).z, 1, 1e-12); // 1e3 * .001
 }
@@ -132,13 +120,13 @@ TEST_P(StepF_CreatePlane, overlapFoundLateStartsWithoutForce)
 TEST_P(StepF_CreatePlane, tiltedOverlapFoundLateStartsWithoutForceAnywhere)
 {
   // A wedge of overlap: no part of it may push, neither now nor in the next cycle.
-  const FaceNodes b = moved(above(.05), rotation({0, 1, 0}, 5 * pi / 180));
+  const FaceNodes b = moved(squareAbove(.05), rotation({0, 1, 0}, 5 * pi / 180));
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
   for (int cycle = 0; cycle < 3; ++cycle)
   {
-    updatePlane<3>(plane, below(), b, usual, 1);
+    updatePlane<3>(plane, squareBelow(), b, usual, 1);
     EXPECT_LT(norm(plane.forceOn(1)), 1e-25) << cycle; // 1e3 times the square of round-off
   }
   EXPECT_TRUE(plane.isBorn());
@@ -152,14 +140,14 @@ TEST_P(StepF_CreatePlane, overlapFoundBeyondTheDepthLimitIsReleasedUntilTheFaces
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::New;
   plane.depthLimit = .1;
-  updatePlane<3>(plane, below(), above(.2), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.2), usual, 1);
   EXPECT_TRUE(plane.isRefused());
   EXPECT_FALSE(plane.isBorn());
-  updatePlane<3>(plane, below(), above(.05), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.05), usual, 1);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "not on the way out either";
-  updatePlane<3>(plane, below(), above(-.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(-.01), usual, 1);
   EXPECT_FALSE(plane.isRefused());
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -.02}), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01, {0, 0, -.02}), usual, 1);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12); // 1e3 * .01 * 1
 }
 
@@ -175,7 +163,7 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
     plane.depthLimit = .1;
     plane.offset = -.05;
     plane.closure = .06; // the neighbours overlap by .11
-    updatePlane<3>(plane, below(), above(depth, aside()), usual, 1);
+    updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside()), usual, 1);
     EXPECT_EQ(plane.isRefused(), !plane.isBorn());
     return plane;
   };
@@ -192,202 +180,11 @@ TEST_P(StepF_CreatePlane, inheritedClosureExplainsABirthAtThatDepthOnly)
   if (!potential())
     return;
   PairPlane found = born(.11, Sighting::New);
-  updatePlane<3>(found, below(), above(.11), usual, 1);
+  updatePlane<3>(found, squareBelow(), squareAbove(.11), usual, 1);
   EXPECT_FALSE(found.isRefused());
   EXPECT_NEAR(found.forceOn(1).z, 0, 1e-10) << "nor with a delay";
-  updatePlane<3>(found, below(), above(.111), usual, 1);
+  updatePlane<3>(found, squareBelow(), squareAbove(.111), usual, 1);
   EXPECT_NEAR(found.forceOn(1).z, 1, 1e-10);
-}
-
-namespace
-{
-/// A pair that is no plane yet, and a cycle of 1 s with it, by forces from the potential.
-struct NewPair
-{
-  PairPlane plane = touchingPlane(1e3);
-  ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
-
-  NewPair()
-  {
-    plane.state = PlaneState::Slot;
-    plane.depthLimit = .1;
-  }
-  void takesOver(Real offset)
-  {
-    plane.lineage = Lineage::SlidesOn;
-    plane.absorb(offset);
-  }
-  void cycle(Real gap, const Vec3& velocity = {}, Real tilt = 0, Real aside = 0)
-  {
-    FaceNodes face = above(-gap, velocity);
-    for (int k = 0; k < 4; ++k)
-    {
-      face.x[k].z += tilt * (face.x[k].x - .5);
-      face.x[k].x += aside;
-    }
-    updatePlane<3>(plane, below(), face, options, 1);
-  }
-  Real push() const { return plane.forceOn(1).z; }
-};
-} // namespace
-
-// Along the common normal planes begin with all of their closure.
-
-TEST(WhatAPairTakesOver, whileItsFacesLieOnEachOtherHasNoEnergy)
-{
-  // Faces that are apart by .01, and beside them a joint that has absorbed a gap of .03 comes to
-  // bear: it does not push them apart, but from here on they do not come nearer for nothing.
-  NewPair pair;
-  pair.cycle(.01);
-  EXPECT_FALSE(pair.plane.isBorn());
-  pair.takesOver(.03);
-  pair.cycle(.009, {0, 0, -.001});
-  EXPECT_TRUE(pair.plane.isBorn());
-  EXPECT_EQ(pair.plane.sighting, Sighting::Known) << "nothing was missed";
-  EXPECT_EQ(pair.push(), 0.0);
-  EXPECT_EQ(pair.plane.stored, 0.0);
-  pair.cycle(.008, {0, 0, -.001});
-  EXPECT_NEAR(pair.push(), 1, 1e-10);
-}
-
-TEST(WhatAPairTakesOver, isMetByWhatComesThereAfterwards)
-{
-  NewPair down;
-  down.takesOver(.03);
-  down.cycle(.029, {0, 0, -.002});
-  EXPECT_NEAR(down.push(), 1, 1e-10);
-  NewPair fromTheSide;
-  fromTheSide.takesOver(.03);
-  fromTheSide.plane.closure = .01; // of the joint beside it
-  fromTheSide.cycle(.02, {2, 0, 0});
-  EXPECT_NEAR(fromTheSide.push(), 10, 1e-10);
-}
-
-TEST(WhatAPairTakesOver, isNoLedge)
-{
-  // What comes in from the side below the height of a joint beside it begins where it is.
-  NewPair pair;
-  pair.takesOver(.03);
-  pair.plane.closure = 1e-4;
-  pair.cycle(.02, {2, 0, 0});
-  EXPECT_EQ(pair.push(), 0.0);
-  pair.cycle(.019);
-  EXPECT_NEAR(pair.push(), 1, 1e-10);
-}
-
-TEST(WhatAPairTakesOver, ofAGapIsRememberedOnceItsFacesLieOverEachOther)
-{
-  NewPair pair;
-  pair.takesOver(.03);
-  pair.cycle(.031);
-  EXPECT_TRUE(pair.plane.isBorn());
-  EXPECT_EQ(pair.plane.area, 0.0);
-  EXPECT_TRUE(pair.plane.history.absorbed);
-  NewPair apart;
-  apart.takesOver(.03);
-  apart.cycle(.031, {}, 0, 2); // beside each other
-  EXPECT_FALSE(apart.plane.isBorn());
-}
-
-TEST(WhatAPairTakesOver, andLosesAgainHasNoEnergyEither)
-{
-  // An overlap of .02 that a joint beside had absorbed, when the pair was open by a hair.
-  NewPair pair;
-  for (int cycle = 0; cycle < 2; ++cycle)
-    pair.cycle(-.019);
-  EXPECT_EQ(pair.push(), 0.0);
-}
-
-TEST(WhatAPairTakesOver, isNotTakenForDepth)
-{
-  // Its offset is more than a quarter of the depth limit beyond the gap, but the faces are apart.
-  NewPair pair;
-  pair.cycle(.004);
-  pair.takesOver(.03);
-  pair.cycle(.004);
-  EXPECT_FALSE(pair.plane.isRefused());
-  EXPECT_EQ(pair.push(), 0.0);
-  pair.cycle(.003);
-  EXPECT_NEAR(pair.push(), 1, 1e-10);
-}
-
-TEST(WhatAPairTakesOver, ofAClosureCurveBearsFromThere)
-{
-  NewPair pair;
-  pair.plane.law.curve.inverseMaximumClosure = 1 / .08;
-  pair.cycle(.03);
-  pair.takesOver(.08);
-  pair.plane.history.maximumClosure = .06; // 16 kPa/m there: closed by 45 mm for good
-  pair.cycle(.029);
-  EXPECT_EQ(pair.push(), 0.0);
-  pair.cycle(.028);
-  EXPECT_NEAR(pair.push(), 16, 1e-9);
-}
-
-TEST(WhatAPairTakesOver, ofABondIsWithoutStressWhereItIs)
-{
-  for (const Real gap : {.029, .0301}) // closed, and open by a hair
-  {
-    NewPair pair;
-    pair.plane.law.bond.kind = Bond::Kind::Brittle;
-    pair.plane.law.bond.tensileStrength = pair.plane.law.cohesion = 1e9;
-    const auto cycle = [&] { pair.cycle(gap, {}, .01); };
-    cycle();
-    pair.takesOver(.03);
-    pair.plane.history.bonded = true;
-    cycle();
-    cycle();
-    EXPECT_TRUE(pair.plane.area > 0) << "it holds";
-    EXPECT_NEAR(pair.push(), 0, 1e-12);
-    EXPECT_NEAR(pair.plane.stored, 0, 1e-12);
-  }
-}
-
-TEST(WhatAPairTakesOver, isKeptByWhatSlidesInSlowlyWhateverTheSmallestArea)
-{
-  for (const Real smallest : {1e-8, 1e-3})
-  {
-    NewPair pair;
-    pair.options.areaMin = smallest;
-    pair.takesOver(.03);
-    pair.plane.closure = .001;
-    const Real step = 1e-4;
-    for (int cycle = 1; !pair.plane.isBorn() && cycle < 100; ++cycle)
-      pair.cycle(.029, {-step, 0, 0}, 0, 1 - cycle * step);
-    pair.cycle(.029);
-    EXPECT_NEAR(pair.push(), 1, 1e-10) << smallest;
-  }
-}
-
-TEST(WhatAPairTakesOver, ofShearIsNoMoreThanItHolds)
-{
-  // Its neighbour's area shrinks, which raises the traction that it passes on.
-  NewPair pair;
-  pair.plane.law.friction = .5;
-  pair.plane.law.shearRatio = 1;
-  pair.plane.fit = pair.plane.law.fittedTo(1, 1, 1, 1);
-  pair.takesOver(.03);
-  pair.plane.normal = {0, 0, 1};
-  pair.plane.history.shearTraction = {1e9, 0, 0};
-  pair.plane.closure = .01;
-  pair.cycle(.02, {2, 0, 0}); // comes from the side
-  EXPECT_NEAR(pair.push(), 10, 1e-10);
-  EXPECT_NEAR(norm(pair.plane.history.shearTraction), 5, 1e-10);
-  EXPECT_LT(pair.plane.history.slip, 2 + 1e-12) << "it has not slid farther";
-  EXPECT_LT(pair.plane.frictionWork, 10 + 1e-10);
-}
-
-TEST(WhatAPairTakesOver, orHadWhenItWasLastSeenHasNoEnergyWhereItWakesClosed)
-{
-  NewPair pair;
-  pair.plane.state = PlaneState::Open;
-  pair.plane.sighting = Sighting::Woken;
-  pair.plane.offset = .03;
-  for (int cycle = 0; cycle < 2; ++cycle)
-    pair.cycle(.01);
-  EXPECT_NEAR(pair.push(), 0, 1e-12);
-  pair.cycle(.009);
-  EXPECT_NEAR(pair.push(), 1, 1e-10);
 }
 
 TEST_P(StepF_CreatePlane, aJointThatHasClosedForGoodBeginsThere)
@@ -399,14 +196,14 @@ TEST_P(StepF_CreatePlane, aJointThatHasClosedForGoodBeginsThere)
   plane.law.curve.inverseMaximumClosure = 1 / .08;
   plane.depthLimit = .1;
   plane.history.maximumClosure = .06; // 240 Pa and 16 kPa/m there: closed by 45 mm for good
-  updatePlane<3>(plane, below(), above(.04), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.04), usual, 1);
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0) << "it has parted";
-  updatePlane<3>(plane, below(), above(.05), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.05), usual, 1);
   EXPECT_FALSE(plane.isRefused());
   EXPECT_NEAR(plane.forceOn(1).z, 16e3 * .005, 1e-10);
   // Deep is what lies a quarter of the limit behind that surface.
-  updatePlane<3>(plane, below(), above(.04), usual, 1);
-  updatePlane<3>(plane, below(), above(.075), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.04), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.075), usual, 1);
   EXPECT_TRUE(plane.isRefused());
 }
 
@@ -421,7 +218,7 @@ TEST_P(StepF_CreatePlane, whatIsFoundWithAreaInCommonDoesNotSlideOn)
     plane.depthLimit = .1;
     plane.offset = -.05;
     plane.closure = .05;
-    updatePlane<3>(plane, below(), above(depth), usual, 1);
+    updatePlane<3>(plane, squareBelow(), squareAbove(depth), usual, 1);
     return plane.isRefused();
   };
   EXPECT_FALSE(isRefused(.19)); // the limit, beside .1 that its neighbours explain
@@ -440,7 +237,7 @@ TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLi
     plane.sighting = Sighting::Known;
     plane.depthLimit = .1;
     plane.closure = .01;
-    updatePlane<3>(plane, below(), above(depth, aside()), usual, 1);
+    updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside()), usual, 1);
     EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
     EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : 1e3 * depth, 1e-10);
   }
@@ -455,11 +252,11 @@ TEST_P(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)
     PairPlane plane = touchingPlane(1e3);
     plane.depthLimit = .4;
     plane.offset = offset;
-    updatePlane<3>(plane, below(), above(.01 - offset), usual, 1); // closed by .01
+    updatePlane<3>(plane, squareBelow(), squareAbove(.01 - offset), usual, 1); // closed by .01
     EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-10);
-    updatePlane<3>(plane, below(), above(-.01 - offset), usual, 1); // open
+    updatePlane<3>(plane, squareBelow(), squareAbove(-.01 - offset), usual, 1); // open
     EXPECT_EQ(plane.area, 0.0);
-    updatePlane<3>(plane, below(), above(depth - offset), usual, 1);
+    updatePlane<3>(plane, squareBelow(), squareAbove(depth - offset), usual, 1);
     return plane;
   };
   for (const Real offset : {0., -.05})
@@ -479,10 +276,10 @@ TEST_P(StepF_CreatePlane, needsMoreThanTheSmallestArea)
   PairPlane plane = touchingPlane(1e3);
   plane.state = PlaneState::Slot;
   plane.sighting = Sighting::Known;
-  FaceNodes b = above(.01);
+  FaceNodes b = squareAbove(.01);
   for (int i = 0; i < 4; ++i)
     b.x[i].x += .95; // 5 % of the face overlap
-  updatePlane<3>(plane, below(), b, o, 1);
+  updatePlane<3>(plane, squareBelow(), b, o, 1);
   EXPECT_FALSE(plane.isBorn());
   EXPECT_EQ(norm(plane.forceOn(1)), 0.0);
 }
@@ -490,7 +287,7 @@ TEST_P(StepF_CreatePlane, needsMoreThanTheSmallestArea)
 TEST_P(StepG_PlacePointOfContact, isHalfWayBetweenTheFacesAtTheCentreOfTheArea)
 {
   PairPlane plane = touchingPlane();
-  updatePlane<3>(plane, below(), above(.02, {}, .5), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.02, {}, .5), usual, 1);
   EXPECT_NEAR(plane.pointOfContact.x, .25, 1e-15);
   EXPECT_NEAR(plane.pointOfContact.y, .5, 1e-15);
   EXPECT_NEAR(plane.pointOfContact.z, -.01, 1e-15);
@@ -501,7 +298,7 @@ TEST_P(StepH_UpdatePlaneVariables, closureIsThatOfTheEndOfTheStep)
   // Sinks with 1 m/s, dt = .002: half a step earlier the depth is .009. A force from there would be
   // late by half a step and feed energy in.
   PairPlane plane = touchingPlane(1e3);
-  updatePlane<3>(plane, below(), above(.01, {0, 0, -1}), usual, .002);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01, {0, 0, -1}), usual, .002);
   EXPECT_NEAR(plane.closure, .01, 1e-16);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12);
 }
@@ -519,14 +316,14 @@ TEST(StepD_AreaOfContact, forcesDoNotDependOnHowTheFacesCame)
       for (PairPlane* plane : {&rest, &fast})
       {
         *plane = touchingPlane(1e3);
-        FaceNodes b = moved(above(-.01), tilt);
+        FaceNodes b = moved(squareAbove(-.01), tilt);
         const Vec3 normal = rotation({0, 1, 0}, -.01) * Vec3{0, 0, 1};
         for (int i = 0; i < 4; ++i)
         {
           b.x[i] -= .025 * normal;
           b.v[i] = (plane == &fast ? -3.0 : 0.0) * normal;
         }
-        updatePlane<3>(*plane, below(), b, options(area, weights), .002);
+        updatePlane<3>(*plane, squareBelow(), b, options(area, weights), .002);
       }
       EXPECT_GT(norm(rest.forceOn(1)), 1);
       EXPECT_LT(norm(rest.forceOn(1) - fast.forceOn(1)), 1e-12 * norm(rest.forceOn(1)));
@@ -546,7 +343,7 @@ TEST_P(Bounces, ofATiltedFaceKeepTheirEnergy)
   const Vec3 normal = rotation({0, 1, 0}, -.1) * Vec3{0, 0, 1};
   PairPlane plane = touchingPlane(1e4);
   FaceNodes lower = face({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
-  FaceNodes b = moved(above(0), tilt);
+  FaceNodes b = moved(squareAbove(0), tilt);
   Real depth = 0, speed = 0, highest = 0; // the corner x = 1 is the deepest
   for (int i = 0; i < 4; ++i)
     depth = std::max(depth, -b.x[i].z);
@@ -579,7 +376,7 @@ TEST_P(StepH_UpdatePlaneVariables, shearTractionOpposesTheSlipOfTheHigherFace)
 {
   // ks = 500 Pa/m, 1e-3 m along x: -.5 Pa on face 1.
   PairPlane plane = touchingPlane(1e3, 10);
-  updatePlane<3>(plane, below(), above(.01, {.1, 0, 0}), usual, .01);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01, {.1, 0, 0}), usual, .01);
   EXPECT_NEAR(plane.history.shearTraction.x, -.5, 1e-13);
   EXPECT_LT(plane.forceOn(1).x, 0);
 }
@@ -590,7 +387,7 @@ TEST_P(StepH_UpdatePlaneVariables, newAreaCarriesNoShear)
   // force; with the potential sqrt(2) Pa, the same energy.
   PairPlane plane = sheared(2, .5);
   const Real energy = plane.shearEnergy();
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01), usual, 1);
   const Real traction = potential() ? std::sqrt(2.0) : 1;
   EXPECT_NEAR(plane.history.shearTraction.x, traction, 1e-14);
   EXPECT_NEAR(plane.forceOn(1).x, traction, 1e-14);
@@ -601,10 +398,10 @@ TEST_P(StepH_UpdatePlaneVariables, lostAreaTakesItsShearAway)
 {
   // Along the common normal the rest keeps its traction; with the potential the plane its energy.
   PairPlane plane = sheared(2, 1);
-  FaceNodes b = above(.01, {}, .5);
+  FaceNodes b = squareAbove(.01, {}, .5);
   for (int i = 0; i < 4; ++i)
     b.x[i].x += .25; // away from the borders of the other face
-  updatePlane<3>(plane, below(), b, usual, 1);
+  updatePlane<3>(plane, squareBelow(), b, usual, 1);
   const Real traction = potential() ? 2 * std::sqrt(2.0) : 2;
   EXPECT_NEAR(plane.history.shearTraction.x, traction, 1e-14);
   EXPECT_NEAR(plane.forceOn(1).x, .5 * traction, 1e-14);
@@ -615,7 +412,7 @@ TEST(StepH_AlongCommonNormal, withoutTheAreaRuleTheTractionStays)
   ContactOptions o = alongCommonNormal;
   o.areaRule = false;
   PairPlane plane = sheared(2, .5);
-  updatePlane<3>(plane, below(), above(.01), o, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01), o, 1);
   EXPECT_NEAR(plane.history.shearTraction.x, 2, 1e-14);
 }
 
@@ -624,14 +421,14 @@ TEST_P(StepH_UpdatePlaneVariables, depthBeyondTheLimitIsTold)
   // Along the common normal the force is frozen there; that of the potential goes on.
   PairPlane plane = touchingPlane(1e3);
   plane.depthLimit = 1.F / 64;
-  updatePlane<3>(plane, below(), above(.003), usual, 1); // begins at the surface
-  updatePlane<3>(plane, below(), above(1. / 64), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.003), usual, 1); // begins at the surface
+  updatePlane<3>(plane, squareBelow(), squareAbove(1. / 64), usual, 1);
   EXPECT_FALSE(plane.tooDeep);
   const Real atTheLimit = plane.forceOn(1).z;
-  updatePlane<3>(plane, below(), above(.05), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.05), usual, 1);
   EXPECT_TRUE(plane.tooDeep);
   EXPECT_NEAR(plane.forceOn(1).z, potential() ? 50 : atTheLimit, 1e-12);
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01), usual, 1);
   EXPECT_FALSE(plane.tooDeep);
   EXPECT_NEAR(plane.forceOn(1).z, 10, 1e-12);
 }
@@ -643,7 +440,7 @@ TEST_P(StepH_UpdatePlaneVariables, dampingNeverPulls)
   for (const Real speed : {.1, 1.0, 10.0, 1000.0})
   {
     PairPlane plane = touchingPlane(1e3);
-    updatePlane<3>(plane, below(), above(.01, {0, 0, speed}), o, 1e-6);
+    updatePlane<3>(plane, squareBelow(), squareAbove(.01, {0, 0, speed}), o, 1e-6);
     EXPECT_GE(plane.forceOn(1).z, 0) << speed;
     EXPECT_LT(plane.forceOn(1).z, 10) << speed;
   }
@@ -656,7 +453,7 @@ TEST_P(StepH_UpdatePlaneVariables, dampingHasTheCriticalConstantOfTheSurfacesPer
   ContactOptions o = usual;
   o.dampNormal = .1;
   const Real pressure = 10 + .2 * std::sqrt(1500.0) * .5;
-  FaceNodes lower = below(), upper = above(.01, {0, 0, -.5});
+  FaceNodes lower = squareBelow(), upper = squareAbove(.01, {0, 0, -.5});
   lower.mass = 2;
   upper.mass = 6;
   PairPlane whole = touchingPlane(1e3);
@@ -684,7 +481,7 @@ TEST_P(StepH_UpdatePlaneVariables, dampingOfSlipHasTheCriticalConstantToo)
   // Held by friction of 9 Pa: the traction 2 zeta sqrt(k_s m) v, k_s = 500 Pa/m.
   ContactOptions o = usual;
   o.dampShear = .1;
-  FaceNodes lower = below(), upper = above(.01, {.05, 0, 0});
+  FaceNodes lower = squareBelow(), upper = squareAbove(.01, {.05, 0, 0});
   lower.mass = 2;
   upper.mass = 6;
   PairPlane plane = touchingPlane(1e3, .9);
@@ -698,7 +495,7 @@ TEST_P(StepH_UpdatePlaneVariables, workOfNodesIsStoredDuringFrictionlessLoading)
   // Flat faces, constant area: the trapezoid is exact for a linear joint.
   PairPlane plane = touchingPlane(1e3);
   for (int step = 1; step <= 10; ++step)
-    updatePlane<3>(plane, below(), above(.001 * step, {0, 0, -1}), usual, .001);
+    updatePlane<3>(plane, squareBelow(), squareAbove(.001 * step, {0, 0, -1}), usual, .001);
   EXPECT_NEAR(plane.stored, .5 * 1e3 * 1e-4, 1e-15);
   EXPECT_NEAR(plane.work, plane.stored, 1e-15);
 }
@@ -709,10 +506,10 @@ TEST_P(StepH_UpdatePlaneVariables, workIsStoredOrDissipatedWhileSlipping)
   // nor the area. The couple does no work on a translation.
   PairPlane plane = touchingPlane(1e3, .5);
   const FaceNodes lower = face({{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
-  updatePlane<3>(plane, lower, above(.01, {0, 0, -1}), usual, .01);
+  updatePlane<3>(plane, lower, squareAbove(.01, {0, 0, -1}), usual, .01);
   for (int step = 1; step <= 100; ++step)
   {
-    FaceNodes b = above(.01, {1, 0, 0});
+    FaceNodes b = squareAbove(.01, {1, 0, 0});
     for (int i = 0; i < 4; ++i)
       b.x[i].x += .001 * step;
     updatePlane<3>(plane, lower, b, usual, .001);
@@ -725,9 +522,9 @@ TEST_P(StepH_UpdatePlaneVariables, workIsStoredOrDissipatedWhileSlipping)
 TEST_P(OpenUp, clearsTheShearTractionAndKeepsTheLargestClosure)
 {
   PairPlane plane = sheared(2, 1);
-  updatePlane<3>(plane, below(), above(.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(.01), usual, 1);
   EXPECT_EQ(plane.state, PlaneState::Stick);
-  updatePlane<3>(plane, below(), above(-.01), usual, 1);
+  updatePlane<3>(plane, squareBelow(), squareAbove(-.01), usual, 1);
   EXPECT_EQ(plane.state, PlaneState::Open);
   EXPECT_TRUE(plane.isBorn());
   EXPECT_EQ(norm(plane.history.shearTraction), 0.0);

@@ -23,6 +23,18 @@ inline FaceNodes face(const std::vector<Vec3>& x, const Vec3& velocity = {})
   return nodes;
 }
 
+/// Unit square looking up at z = 0.
+inline FaceNodes squareBelow(const Vec3& velocity = {})
+{
+  return face({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, velocity);
+}
+
+/// Square looking down, sunk in by `depth`, covering `width` of the lower one.
+inline FaceNodes squareAbove(Real depth, const Vec3& velocity = {}, Real width = 1)
+{
+  return face({{0, 0, -depth}, {0, 1, -depth}, {width, 1, -depth}, {width, 0, -depth}}, velocity);
+}
+
 /// Rotation by an angle about an axis.
 inline Mat3 rotation(Vec3 axis, Real angle)
 {

@@ -310,4 +310,29 @@ TEST(Step5CandidatePairs, aFaceThatTurnsOverBeforeTheNextSearchIsACandidate)
   EXPECT_EQ(crushed(0.9), Verdict::NotOpposed); // thinner, the same side up
   EXPECT_EQ(crushed(2), Verdict::Candidate);
 }
+
+TEST(Step5CandidatePairs, aFaceCrushedToAlmostNoSizeIsACandidateHoweverItLies)
+{
+  // Almost upright beside another, it looks the same way; it is no longer than what nodes may move
+  // unforeseen: it may lie on the other in the next step.
+  const auto upright = [](Real length)
+  {
+    Scene scene;
+    scene.dimension = 2;
+    scene.add(faceId(1, 0), {0, 0, 0}, {0, 1, 0}, 1, 1);
+    scene.add(faceId(2, 0), {0, 0.02 + 0.5 * length, 0}, {1, 0.3, 0}, length, 1);
+    Face a = scene.faces[0], b = scene.faces[1];
+    a.local = b.local = true;
+    const NodeVectors x = positions(scene);
+    CandidateRules rules = rulesWithSkin(0.1);
+    rules.turning = 0.01;
+    rules.smallestFace = 1;
+    const FacePlane planeA = rules.planeOf(a, x, 2), planeB = rules.planeOf(b, x, 2);
+    return judgePair(a, b, contactBox(a, planeA, x, rules), contactBox(b, planeB, x, rules), planeA,
+                     planeB, x, rules);
+  };
+  EXPECT_EQ(upright(1), Verdict::NotOpposed);
+  EXPECT_EQ(upright(0.6), Verdict::NotOpposed);
+  EXPECT_EQ(upright(0.04), Verdict::Candidate);
+}
 } // namespace coplane::testing

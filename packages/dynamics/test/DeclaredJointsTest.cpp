@@ -117,6 +117,29 @@ TEST_P(DeclaredJoint, carriesTheInitialStressLessThePressureOnItsFaces)
   EXPECT_NEAR(comm.max(most), 0.6e6, 1);
 }
 
+TEST_P(DeclaredJoint, hasAbsorbedWhatTheMeshHasButNotWhatAStressCloses)
+{
+  const Comm comm;
+  for (const Real gap : {0.0, 1e-3, -1e-3})
+  {
+    Model model = declaredStack(gap, comm);
+    for (BlockSetup& block : model.blocks)
+      block.stress.zz = -1e6;
+    Solver solver(std::move(model), comm);
+    solver.prepare();
+    const auto planes = solver.contact().planes();
+    int declared = 0;
+    for (std::size_t p = 0; p < planes.size(); ++p)
+      if (planes[p].declared)
+      {
+        ++declared;
+        EXPECT_EQ(planes[p].history.absorbed, gap != 0) << gap;
+        EXPECT_GT(planes[p].offset - gap, 1e-6 * planes[p].depthLimit) << "closed by the stress";
+      }
+    EXPECT_GT(comm.sum(std::int64_t(declared)), 0);
+  }
+}
+
 TEST_P(DeclaredJoint, holdsOnWhenItsBondOpensByMoreThanTheSkin)
 {
   // Two cubes of 1 t part at 1 m/s; the bond softens by exp(-opening / 0.1 m), the skin is 5 cm.
