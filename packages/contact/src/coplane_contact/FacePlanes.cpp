@@ -12,7 +12,7 @@ template <class T>
 struct MeanPlane
 {
   Vec3Of<T> center{}, normal{};
-  T warp{};
+  T area{}, warp{};
 };
 
 template <int Dim, class T>
@@ -23,7 +23,7 @@ MeanPlane<T> meanPlane(const FaceNodesOf<T>& nodes)
   if (nodes.count == 4)
     warp = 0.25 *
            branchFree::absolute(dot(face.normal, face.x[0] - face.x[1] + face.x[2] - face.x[3]));
-  return {face.center, face.normal, warp};
+  return {face.center, face.normal, face.area, warp};
 }
 
 /// The nodes of as many faces as T has lanes, where `place(node)` says; their v and masses are not
@@ -59,8 +59,11 @@ void putPlanes(const Face* faces, const ConstNodeVectors& x, const CandidateRule
     warp = branchFree::larger(then.warp, warp);
   }
   for (int i = 0; i < branchFree::widthOf<T>; ++i)
+  {
+    const Real ofSmall = rules.turningOfSmall(faceSize(branchFree::lane(now.area, i), Dim));
     new (planes + i) FacePlane{branchFree::lane(now.center, i), branchFree::lane(now.normal, i),
-                               branchFree::lane(turning, i), branchFree::lane(warp, i)};
+                               branchFree::lane(turning, i) + ofSmall, branchFree::lane(warp, i)};
+  }
 }
 } // namespace
 

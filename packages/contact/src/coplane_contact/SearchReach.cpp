@@ -10,6 +10,7 @@ SearchReach::SearchReach(const ContactOptions& options, Real skin, Real smallest
   rules_.cosOpposed = options.cosOpposed;
   rules_.depthMax = turns_ ? std::max(deepestOfPotential, options.depthMax) : options.depthMax;
   rules_.sharedNodes = options.sharedNodes;
+  rules_.smallestFace = smallestFace;
   setSkin(skin);
 }
 
