@@ -156,7 +156,7 @@ def features(record, folder, schema, sets):
         "declared joints": any(pair.get("declared") for pair in contact.get("pairs", [])),
         "bonds that break or soften": bool({"mortar", "bilinear"} & joints) or any("tensile_strength" in card for card in (deck.get("joints") or {}).values()),
         "contact damping": bool((contact.get("damping") or {}).get("normal") or (contact.get("damping") or {}).get("shear")),
-        "forces along the common normal": contact.get("forces") == "common_normal" or contact.get("preset") == "seed" or (bool(joints) and dimension == "axisymmetric"),
+        "forces along the common normal": contact.get("forces") == "common_normal" or contact.get("preset") == "seed",
         "rigid bodies": any(card.get("rigid") for card in cards.values()),
         "erosion": any(card.get("erosion") for card in cards.values()),
         "initial stress": any("stress" in item for item in deck.get("initial") or []),

@@ -166,6 +166,41 @@ std::array<FaceNodes, 2> pressedAndFolded(int corner, Real slope, Real time)
 }
 } // namespace
 
+TEST(LedgerOfThePotential, frictionHoldsItsPartOfTheForceAlsoBetweenFacesThatHaveGrown)
+{
+  // Segments that met when they were 1 m long are stretched to 1.4 m, or shrink to 0.7 m, and
+  // slide. What the plane says of area and tractions is what the nodes feel.
+  for (const bool ring : {false, true})
+    for (const Real grown : {1.0, 1.4, 0.7})
+    {
+      SCOPED_TRACE(grown);
+      ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
+      options.axisymmetric = ring;
+      PairPlane plane = touchingPlane(1e3, .5);
+      const auto cycle = [&](Real length, Real along)
+      {
+        FaceNodes a = face({{length, 0, 0}, {0, 0, 0}}),
+                  b = face({{0, -.01, 0}, {length, -.01, 0}});
+        for (int i = 0; i < 2; ++i)
+        {
+          a.x[i].x += 3;
+          b.x[i].x += 3 + along;
+          b.v[i] = {along > 0 ? 1. : 0., 0, 0};
+        }
+        updatePlane<2>(plane, a, b, options, .001);
+      };
+      cycle(1, 0);
+      for (int step = 1; step <= 100; ++step)
+        cycle(grown, .001 * step);
+      ASSERT_EQ(plane.state, PlaneState::Slip);
+      const Vec3 force = plane.cornerForce[1][0] + plane.cornerForce[1][1];
+      EXPECT_NEAR(force.y, plane.area * plane.normalTraction, 1e-12 * force.y);
+      // What is closed drives them off each other at the end of each; rings also as they widen.
+      const Real energy = .5e3 * .01 * .01 / grown;
+      EXPECT_NEAR(force.x, -.5 * force.y + (ring ? 0 : energy), ring ? .02 * force.y : 1e-12);
+    }
+}
+
 TEST(LedgerOfThePotential, aQuadrilateralThatFoldsLosesNothing)
 {
   // The part of it that lies right side up carries on: what it stores has no jump. Its force has

@@ -23,7 +23,7 @@ template <int Dim>
 Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOptions& options,
                   Patch& patch)
 {
-  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options.cosOpposed));
+  PairPotential<Dim, Real> pair(a, b, ContactPotentialScale(options));
   if (!pair.plane.opposed)
     return 0;
   pair.meet(0, true, {});

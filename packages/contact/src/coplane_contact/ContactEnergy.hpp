@@ -7,6 +7,9 @@
 
 namespace coplane
 {
+/// Places and weights of Gauss' rule with two points on -1..1: exact for cubics.
+constexpr Real gaussPlace = 0.5773502691896258;
+
 /// Polynomial 0 to 1 with two vanishing derivatives at both ends; constant outside 0..1.
 template <class T>
 struct SmoothStep
@@ -96,9 +99,16 @@ struct ContactPotentialScale
   /// Where the area in contact is narrower than this many closures between edges over which the
   /// bodies can leave each other, sideways is the shorter way out: between these nothing is left.
   Real wayOutFrom = 0.25, wayOutTo = 1;
+  /// In two dimensions: areas are those of the whole turn about x = 0.
+  bool axisymmetric;
 
-  KOKKOS_INLINE_FUNCTION explicit ContactPotentialScale(Real cosOpposed)
-      : opposedFrom(cosOpposed), opposedTo(3 * cosOpposed)
+  KOKKOS_INLINE_FUNCTION explicit ContactPotentialScale(const ContactOptions& options)
+      : ContactPotentialScale(options.cosOpposed, options.axisymmetric)
+  {
+  }
+  KOKKOS_INLINE_FUNCTION explicit ContactPotentialScale(Real cosOpposed,
+                                                        bool isAxisymmetric = false)
+      : opposedFrom(cosOpposed), opposedTo(3 * cosOpposed), axisymmetric(isAxisymmetric)
   {
     if (cosOpposed < 0.004)
       opposedTo = cosOpposed + 0.008;

@@ -53,12 +53,16 @@ public:
     shadow[0] = stepC_projectOntoPlane<Dim>(plane, a, 0);
     shadow[1] = stepC_projectOntoPlane<Dim>(plane, b, 0);
     plane.opposed = plane.opposed && !coplane::shadowsApart(shadow[0], shadow[1]);
+    if constexpr (canRevolve)
+      if (scale.axisymmetric)
+        revolve();
   }
 
   TrialPlaneOf<T> plane; ///< its `opposed` tells which pairs can touch at all
   ShadowOf<T> shadow[2];
   Mask regular{true};
-  T overlap{};               ///< whole overlap of the shadows [m^2]
+  T overlap{};               ///< whole overlap of the shadows; rings: of one metre of depth [m^2]
+  T mostAround = T(1.0);     ///< largest depth of the overlap: 1, of rings 2 pi r [m]
   T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
@@ -162,6 +166,10 @@ public:
       const T inverse = 1.0 / face_[f]->area;
       sizes_[f] = inverse * inverse * (Dim == 2 ? inverse : T(1.0));
     }
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+        for (int f = 0; f < 2; ++f)
+          sizes_[f] /= around_[f];
     const T perSize = 0.5 * (sizes_[0] + sizes_[1]);
     for (T& size : sizes_)
       size = ((Dim == 2 ? 1.5 : 1.0) / perSize) * size;
@@ -181,7 +189,19 @@ public:
   {
     birth_[0] = birth0;
     birth_[1] = birth1;
-    materialArea = 0.5 * (birth0 / face_[0]->area + birth1 / face_[1]->area);
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+        for (int f = 0; f < 2; ++f)
+          birth_[f] /= around_[f];
+    materialArea = 0.5 * (birth_[0] / face_[0]->area + birth_[1] / face_[1]->area);
+  }
+  /// Area of a face, of a ring over its whole turn [m^2].
+  KOKKOS_FORCEINLINE_FUNCTION T faceArea(int f) const
+  {
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+        return around_[f] * face_[f]->area;
+    return face_[f]->area;
   }
 
   /// 1 + psi, d ln(phi U) / d ln U: what the energy rises with U, over phi; 0 to 1. After press().
@@ -211,6 +231,9 @@ public:
     if constexpr (widthOf<T> == 1)
       if (uneven_)
         addCrushing(density, rim);
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+        addRadii(energy, density, scale, rim);
 
     // Through the normal of the plane: turning it at fixed nodes is turning all nodes and normals
     // back.
@@ -345,6 +368,36 @@ public:
 
 private:
   using Owned = detail::OwnedSides<T>;
+  static constexpr bool canRevolve = Dim == 2 && branchFree::widthOf<T> == 1;
+
+  // Bodies of revolution (ContactPotentialRings.hpp), T = Real only: lengths along the plane count
+  // by the mean of the circumferences of both faces there, which is linear along it.
+  KOKKOS_INLINE_FUNCTION void revolve();
+  /// The depth at a place along the plane: 1, of rings 2 pi r [m].
+  KOKKOS_FORCEINLINE_FUNCTION T around(const T& s) const
+  {
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+        return radius_[0].atOrigin + radius_[1].atOrigin +
+               (radius_[0].slope + radius_[1].slope) * s;
+    return T(1.0);
+  }
+  /// Calls visit(s, part) for places on a segment that stand for parts of its length, exactly for
+  /// cubics.
+  template <class Visit>
+  static KOKKOS_FORCEINLINE_FUNCTION void alongSegment(Real from, Real to, const Visit& visit)
+  {
+    const Real half = 0.5 * (to - from), middle = 0.5 * (from + to);
+    visit(middle - gaussPlace * half, half);
+    visit(middle + gaussPlace * half, half);
+  }
+  /// Moments of a ring between two places.
+  KOKKOS_INLINE_FUNCTION ContactMoments<T> momentsOfRing(const Owned& q) const;
+  /// Books in hoop_ an energy per depth at a place, which changes with the radii of all nodes.
+  KOKKOS_INLINE_FUNCTION void addHoop(Real s, Real perDepth);
+  /// Adds the gradient of what hangs on the radii of the nodes.
+  KOKKOS_INLINE_FUNCTION void addRadii(const Real& energy, const EnergyDensity<T>& density,
+                                       const Real& scale, Vec2 (&rim)[2][4]);
 
   /// The closure that counts in a piece: beyond what the joint is crushed to.
   KOKKOS_FORCEINLINE_FUNCTION T closureIn(const Owned& q, const Vec2Of<T>& p) const
@@ -474,10 +527,11 @@ private:
   /// one edge; an edge of the other face that lies beside it gets a part (shareRim), so that
   /// round-off does not decide which of two edges that count as one is the owner, and slivers
   /// between them carry nothing at their borders.
+  /// @param ofRing the density is that of the area of a ring, not of its length along the plane
   KOKKOS_FORCEINLINE_FUNCTION void addRims(const Owned& q, const EnergyDensity<T>& density,
-                                           Vec2Of<T> (&rim)[2][4]) const;
+                                           Vec2Of<T> (&rim)[2][4], bool ofRing = true) const;
   KOKKOS_FORCEINLINE_FUNCTION void addRimOfEnd(const Owned& q, int end,
-                                               const EnergyDensity<T>& density,
+                                               const EnergyDensity<T>& density, bool ofRing,
                                                Vec2Of<T> (&rim)[2][4]) const;
   KOKKOS_FORCEINLINE_FUNCTION void addRimOfSide(const Owned& q, int k,
                                                 const EnergyDensity<T>& density,
@@ -511,7 +565,7 @@ private:
   /// cross that of its edge; at a line of no closure the end counts nothing.
   /// @param slope of the energy with that [N/m]
   KOKKOS_INLINE_FUNCTION void addBorder(const Owned& q, int k, Real slope, Real& push, Vec2& first,
-                                        Vec2 (&rim)[2][4]) const;
+                                        Vec2 (&rim)[2][4]);
   /// Unit normal of the line of an edge, out of the polygon.
   KOKKOS_INLINE_FUNCTION Vec2 outwardOf(int owner) const;
   /// A gradient with the motion of an edge at a place on it.
@@ -583,6 +637,15 @@ private:
   std::conditional_t<canFold, Folded, Nothing> folded_[2];
   /// Before what is not closed is cut off.
   std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
+  /// Linear along the plane, half of the circumference at each face, and its mean [m].
+  struct Around
+  {
+    Real atOrigin = 0, slope = 0;
+  };
+  std::conditional_t<canRevolve, Around, Nothing> radius_[2];
+  std::conditional_t<canRevolve, Real, Nothing> around_[2]; ///< circumference of each face [m]
+  /// What the energy changes with the radii of the nodes, over gamma phi [N].
+  std::conditional_t<canRevolve, Real, Nothing> hoop_[2][2]{};
   bool uneven_ = false; ///< crushed unevenly
   std::conditional_t<branchFree::widthOf<T> == 1, AffineFrame, Nothing> frame_; ///< of face 0
   std::conditional_t<branchFree::widthOf<T> == 1, LinearOnPlane, Nothing> crushed_;
@@ -597,4 +660,5 @@ private:
 #include <coplane_contact/ContactPotentialCrushing.hpp>
 #include <coplane_contact/ContactPotentialRegion.hpp>
 #include <coplane_contact/ContactPotentialRims.hpp>
+#include <coplane_contact/ContactPotentialRings.hpp>
 #include <coplane_contact/ContactPotentialSegments.hpp>

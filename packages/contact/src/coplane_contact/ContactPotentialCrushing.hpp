@@ -104,7 +104,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::forEachSlice(const Owned& q,
   const auto widthAt = [&](Real height)
   {
     if (Dim == 2)
-      return 1.0;
+      return around(height * up.x);
     Real low = infinity, high = -infinity;
     for (int k = 0; k < q.sides.size; ++k)
     {
@@ -273,7 +273,12 @@ KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::resisted(const LinearOnPlane&
                 {
                   const Real t0 = traction(p), t1 = traction(r);
                   const Real k0 = crushing.at(p), k1 = crushing.at(r);
-                  if (Dim == 2)
+                  if (Dim == 2 && scale_.axisymmetric)
+                    alongSegment(p.x, r.x,
+                                 [&](Real s, Real part) {
+                                   sum += part * around(s) * traction({s, 0}) * crushing.at({s, 0});
+                                 });
+                  else if (Dim == 2)
                     sum += (r.x - p.x) / 6 * (2 * (t0 * k0 + t1 * k1) + t0 * k1 + t1 * k0);
                   else
                     sum +=
@@ -284,7 +289,7 @@ KOKKOS_INLINE_FUNCTION Real PairPotential<Dim, T>::resisted(const LinearOnPlane&
       if (const int owner = q.owner[k]; owner >= 0 && edges_.exits[owner] > 0)
       {
         const Vec2 along = q.sides.to[k] - q.sides.from[k];
-        const Real length = Dim == 2 ? 1 : std::sqrt(dot(along, along));
+        const Real length = Dim == 2 ? around(q.sides.from[k].x) : std::sqrt(dot(along, along));
         sum += slopeOfWay(owner) * length * crushing.at(0.5 * (q.sides.from[k] + q.sides.to[k]));
       }
   }

@@ -38,6 +38,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
     q.owner[1] = highIs0 ? nodeAt(0, true) : 4 + nodeAt(1, true);
     overlap = positivePart(to - from);
     mostClosure = overlap > 0 ? larger(closureAt({from, 0}), closureAt({to, 0})) : -infinity;
+    mostAround = larger(around(from), around(to));
   }
   else
   {
@@ -284,6 +285,9 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& 
   sum.squares = width / 3.0 * (u * u + u * v + v * v);
   sum.areaMoment.x = 0.5 * width * (from + to);
   sum.volumeMoment.x = width / 6.0 * (2.0 * (u * from + v * to) + u * to + v * from);
+  if constexpr (canRevolve)
+    if (scale_.axisymmetric)
+      sum = momentsOfRing(q);
   moments.add(sum);
   if constexpr (branchFree::widthOf<T> == 1)
     if (q.crushed)
@@ -292,7 +296,7 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::integrateSegment(Owned& 
     if (const int owner = q.owner[k]; owner >= 0)
     {
       if (edges_.exits[owner] > 0)
-        ways_[wayOf(owner)] += closureIn(q, q.sides.from[k]);
+        ways_[wayOf(owner)] += around(q.sides.from[k].x) * closureIn(q, q.sides.from[k]);
       addSide(owner, true);
     }
 }

@@ -7,9 +7,9 @@
 namespace coplane
 {
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addRims(const Owned& q,
-                                                                const EnergyDensity<T>& density,
-                                                                Vec2Of<T> (&rim)[2][4]) const
+KOKKOS_FORCEINLINE_FUNCTION void
+PairPotential<Dim, T>::addRims(const Owned& q, const EnergyDensity<T>& density,
+                               Vec2Of<T> (&rim)[2][4], bool ofRing) const
 {
   if constexpr (Dim == 2 && branchFree::widthOf<T> != 1)
     addRimsOfSegments(density, rim);
@@ -20,21 +20,23 @@ KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addRims(const Owned& q,
         if constexpr (Dim == 3)
           addRimOfSide(q, k, density, rim);
         else if (moments.area > 0)
-          addRimOfEnd(q, k, density, rim);
+          addRimOfEnd(q, k, density, ofRing, rim);
       }
 }
 
 template <int Dim, class T>
-KOKKOS_FORCEINLINE_FUNCTION void PairPotential<Dim, T>::addRimOfEnd(const Owned& q, int end,
-                                                                    const EnergyDensity<T>& density,
-                                                                    Vec2Of<T> (&rim)[2][4]) const
+KOKKOS_FORCEINLINE_FUNCTION void
+PairPotential<Dim, T>::addRimOfEnd(const Owned& q, int end, const EnergyDensity<T>& density,
+                                   bool ofRing, Vec2Of<T> (&rim)[2][4]) const
 {
   using namespace branchFree;
   const auto at = [&](const T& c)
   { return density.constant + c * (density.linear + c * density.square); };
   const int f = q.owner[end] / 4, node = q.owner[end] % 4;
   const T x = q.sides.from[end].x;
-  const T whole = (end == 0 ? -1.0 : 1.0) * at(closureIn(q, {x, 0}));
+  T whole = (end == 0 ? -1.0 : 1.0) * at(closureIn(q, {x, 0}));
+  if (ofRing)
+    whole *= around(x);
   T change = 2 / kappa_ * tilt_.x * size_;
   if constexpr (widthOf<T> == 1)
     if (q.crushed)
@@ -154,7 +156,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addStrip(const Real& scale, R
     return;
   const Real perShare = -4 * alongStrip_ * together.slope / (1 - together.value);
   for (int i = 0; i < pieces_; ++i)
-    addRims(whole_[i], {0, 0, perShare / size_}, rim);
+    addRims(whole_[i], {0, 0, perShare / size_}, rim, false);
   const int smallest = face_[0]->area < face_[1]->area ? 0 : 1;
   byVectorArea(smallest, (-scale * perShare * shared / size_) * face_[smallest]->normal);
 }
@@ -195,7 +197,7 @@ constexpr Real leastSine = 1e-6;
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int k, Real slope,
                                                              Real& push, Vec2& first,
-                                                             Vec2 (&rim)[2][4]) const
+                                                             Vec2 (&rim)[2][4])
 {
   Vec2 falls = (2 / kappa_) * tilt_; // closure, along the plane
   if (q.crushed)
@@ -203,11 +205,20 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addBorder(const Owned& q, int
   const int owner = q.owner[k];
   if constexpr (Dim == 2)
   {
+    const Vec2& at = q.sides.from[k];
+    const Real depth = around(at.x);
     if (q.crushed)
-      carryCrushing(slope, slope * q.sides.from[k], rim);
-    push += slope;
-    first = first + slope * q.sides.from[k];
-    rim[owner / 4][owner % 4].x -= slope * falls.x;
+      carryCrushing(slope * depth, (slope * depth) * at, rim);
+    push += slope * depth;
+    first = first + (slope * depth) * at;
+    rim[owner / 4][owner % 4].x -= slope * depth * falls.x;
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+      {
+        const Real ofDepth = slope * closureIn(q, at);
+        rim[owner / 4][owner % 4].x += ofDepth * (radius_[0].slope + radius_[1].slope);
+        addHoop(at.x, ofDepth);
+      }
     return;
   }
   const Vec2 along = q.sides.to[k] - q.sides.from[k];

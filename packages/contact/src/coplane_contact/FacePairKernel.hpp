@@ -448,7 +448,7 @@ KOKKOS_INLINE_FUNCTION T approachSpeed(const Vec3Of<T>& normal, const HalfStepFa
 KOKKOS_INLINE_FUNCTION Real leastOpposed(const ContactOptions& options)
 {
   return options.forces == ContactOptions::Forces::Potential
-             ? ContactPotentialScale(options.cosOpposed).opposedFrom
+             ? ContactPotentialScale(options).opposedFrom
              : 0;
 }
 

@@ -49,7 +49,7 @@ struct ContactOptions
     options.cosOpposed = usualCosOpposed(forces);
     return options;
   }
-  /// Two dimensions: areas are those of the whole turn about x = 0. Only with CommonNormal.
+  /// Two dimensions: areas are those of the whole turn about x = 0.
   bool axisymmetric = false;
   Forces forces = Forces::Potential;
   Area area = Area::Penetrating;
@@ -155,7 +155,9 @@ struct alignas(64) Plane
   JointFit fit; ///< stiffnesses of the law for this pair
 
   Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
-  Real area = 0;         ///< that carries traction [m^2]
+  /// That carries traction; with the potential as it was when the faces met, which tractions and
+  /// stiffnesses count by [m^2].
+  Real area = 0;
   Real overlap = 0;      ///< whole overlap of the projections [m^2]
 
   Vec3 normal{};         ///< at the half step

@@ -118,11 +118,11 @@ Key contactKeys()
                  text("forces", &ContactCard::forces)
                      .oneOf({"auto", "potential", "common_normal"})
                      .like("common_normal")
-                     .means("forces of a pair of faces: minus the gradient of one energy, or along "
-                            "the normal of the common plane as in the paper of 2006; auto: "
-                            "potential, but common_normal with preset seed, axisymmetric "
-                            "geometry, or where area, weights, closure, couple or area_rule are "
-                            "not the defaults"),
+                     .means(
+                         "forces of a pair of faces: minus the gradient of one energy, or along "
+                         "the normal of the common plane as in the paper of 2006; auto: "
+                         "potential, but common_normal with preset seed, or where area, weights, "
+                         "closure, couple or area_rule are not the defaults"),
                  text("area", &ContactCard::area)
                      .oneOf({"penetrating", "full"})
                      .like("full")

@@ -789,8 +789,6 @@ std::string commonNormalBecauseOf(const Deck& deck)
 {
   const ContactCard& card = deck.contact;
   const ContactCard usual;
-  if (deck.geometry == "axisymmetric")
-    return "geometry = 'axisymmetric'";
   if (card.preset != usual.preset)
     return fmt::format("contact.preset = '{}'", card.preset);
   if (card.area != usual.area)

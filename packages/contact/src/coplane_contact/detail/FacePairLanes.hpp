@@ -291,10 +291,10 @@ private:
     for (int i = 0; i < queue.count; ++i)
       before[i] = pairs_.passedBy(queue.plane[i]);
     LaneMask done(false);
-    // In two dimensions forces along the common normal are found pair by pair.
+    // In two dimensions forces along the common normal, and rings, are found pair by pair.
     if constexpr (Dim == 3)
       done = updateByForces<Dim, Lanes>(batch, a_, b_, options_, dt_);
-    else if (options_.forces == ContactOptions::Forces::Potential)
+    else if (options_.forces == ContactOptions::Forces::Potential && !options_.axisymmetric)
       done = updatePotentialPlanes<Dim, Lanes>(batch, a_, b_, options_, dt_);
     for (int i = 0; i < queue.count; ++i)
       if (!done[i])

@@ -14,7 +14,7 @@ namespace coplane::detail
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
                                        const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,
-                                       int i, Real cosOpposed, Real energy)
+                                       int i, const ContactOptions& options, Real energy)
 {
   const HalfStepFace faces[2] = {placeOf(a, i), placeOf(b, i)};
   const ClosureCurve::Point top = law.curve.at(plane.fit, plane.history.maximumClosure);
@@ -25,7 +25,7 @@ KOKKOS_INLINE_FUNCTION Real settlement(const Plane& plane, const JointLaw& law,
   for (int step = 0; step < 60; ++step)
   {
     const Real middle = 0.5 * (low + high);
-    PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(cosOpposed));
+    PairPotential<Dim, Real> pair(faces[0], faces[1], ContactPotentialScale(options));
     if (!pair.plane.opposed)
       return 0;
     pair.meet(plane.offset - permanent - middle, false, {});

@@ -282,7 +282,9 @@ private:
     EnergyDensity<T> density;
     pair_.press(slope_, branchFree::choose(bonded_, T(0.0), hardening_), density);
     Vec3Of<T> increment;
-    const Vec3Of<T> tau = shearAfter(pair_.opposedness * m.area, stepG_motion(), increment);
+    growFromBirth();
+    const Vec3Of<T> tau =
+        shearAfter(pair_.materialArea * pair_.opposedness * m.area, stepG_motion(), increment);
     const T stiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
     const Vec3Of<T> trial = tau - stiffness * increment;
     done_ = done_ && !byShear(branchFree::squareRoot(dot(trial, trial)));
@@ -343,8 +345,8 @@ private:
       return false;
     if (!(plane.birthArea[0] > 0))
     {
-      plane.birthArea[0] = branchFree::lane(a_.area, i);
-      plane.birthArea[1] = branchFree::lane(b_.area, i);
+      for (int f = 0; f < 2; ++f)
+        plane.birthArea[f] = branchFree::lane(pair_.faceArea(f), i);
     }
     if (stepE_planeExists(plane) && (carried || plane.sighting != Sighting::Woken))
       return true;
@@ -371,7 +373,7 @@ private:
     if (plane.isNew() || (plane.isBorn() && plane.sighting != Sighting::Woken))
       return Before::Open;
     const HalfStepFace a = placeBefore<Dim>(a_, i, dt_), b = placeBefore<Dim>(b_, i, dt_);
-    PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_.cosOpposed));
+    PairPotential<Dim, Real> before(a, b, ContactPotentialScale(options_));
     if (!before.plane.opposed) // or their shadows are apart
       return -dot(a.normal, b.normal) > options_.cosOpposed ? Before::SharedNoArea : Before::Open;
     before.meet(plane.offset - permanents_[i], false, {});
@@ -453,13 +455,14 @@ private:
     EnergyDensity<T> density;
     T pressed = pair_.press(slope_, choose(bonded_, T(0.0), hardening_), density);
     const T share = choose(bonded_, T(1.0), pair_.wayOut);
-    const T area = choose(touching, pair_.opposedness * share * m.area, T(0.0));
+    growFromBirth();
+    const T area =
+        choose(touching, pair_.materialArea * pair_.opposedness * share * m.area, T(0.0));
     const Relative relative = stepG_motion();
     Vec3Of<T> increment;
     const Vec3Of<T> tau = shearAfter(area, relative, increment);
-    const T loaded = 2.0 * density.square * m.volume + density.linear * m.area;
-    pair_.growFrom(planes_.each([](const Plane& p) { return p.birthArea[0]; }),
-                   planes_.each([](const Plane& p) { return p.birthArea[1]; }));
+    const T loaded =
+        pair_.materialArea * (2.0 * density.square * m.volume + density.linear * m.area);
     const T energyShare = pair_.materialArea * pair_.opposedness * share;
     Response response;
     for (int i = 0; i < planes_.count; ++i)
@@ -480,7 +483,7 @@ private:
       {
         unevenly().crushByShear(crushed, permanents_[0], response.sheared[0], response.parted[0]);
         pressed = pair_.press(slope_, T(0.0), density);
-        pair_.growFrom(planes_.plane[0]->birthArea[0], planes_.plane[0]->birthArea[1]);
+        growFromBirth();
       }
       if (crushed.further)
         planes_.plane[0]->hysteresisWork += unevenly().lost(crushed, density, pressed);
@@ -512,6 +515,17 @@ private:
         plane.pointOfContact = branchFree::lane(point, i);
         plane.stored = branchFree::lane(normalEnergy, i) + plane.shearEnergy();
       }
+  }
+
+  /// Of what has not been born yet the faces have not grown.
+  KOKKOS_FORCEINLINE_FUNCTION void growFromBirth() const
+  {
+    const auto ofFace = [&](int f)
+    {
+      const T birth = planes_.each([f](const Plane& p) { return p.birthArea[f]; });
+      return branchFree::choose(birth > 0.0, birth, pair_.faceArea(f));
+    };
+    pair_.growFrom(ofFace(0), ofFace(1));
   }
 
   /// What a joint that may be crushed unevenly has to do with its pair; T = Real.
@@ -639,8 +653,7 @@ private:
     plane.frictionWork += area * response.frictionWork;
     plane.fractureWork += area * response.fractureWork;
     if (wasBonded && !plane.history.bonded && !bends)
-      plane.offset -=
-          settlement<Dim>(plane, law, a_, b_, i, options_.cosOpposed, out.stored[i] * wholeArea);
+      plane.offset -= settlement<Dim>(plane, law, a_, b_, i, options_, out.stored[i] * wholeArea);
   }
 
   /// What a pair that begins to carry can hold of the shear traction that it has taken over, which
@@ -723,14 +736,17 @@ private:
                                              T& normalDamping) const
   {
     using branchFree::choose;
-    const T stiffness = pair_.materialArea * slope_;
+    // The stiffnesses are those of areas of the material, the masses those of areas now.
+    const T grown = 1.0 / pair_.materialArea;
+    const T stiffness = grown * slope_;
     normalDamping =
         area * dashpotPerArea(options_.dampNormal, stiffness, a_, b_) * relative.closing;
     normalDamping = choose(!bonded_ && normalDamping < -normalForce, -normalForce,
                            normalDamping); // no tension
     const auto sticks =
         planes_.each([](const Plane& p) { return p.state == PlaneState::Stick; }) > 0.0;
-    const T shearStiffness = planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
+    const T shearStiffness =
+        grown * planes_.each([](const Plane& p) { return p.fit.shearStiffness; });
     const Vec3Of<T> damping = heldByFriction(
         planes_, normalForce,
         choose(sticks, -area * dashpotPerArea(options_.dampShear, shearStiffness, a_, b_), T(0.0)) *
@@ -755,7 +771,7 @@ private:
         overlaps_ &&
         (touching || -pair_.mostClosure <= ahead + 1e-8 * branchFree::squareRoot(overlap_)) &&
         !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
-    const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead) : T{};
+    const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead, touching) : T{};
     for (int i = 0; i < planes_.count; ++i)
     {
       if (!branchFree::lane(done_, i))
@@ -802,7 +818,7 @@ private:
   static constexpr Real shareOfStrip = 2.51;
 
   /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
-  KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
+  KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead, const Mask& touching) const
   {
     using branchFree::positivePart;
     const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - rimsCountFrom);
@@ -815,7 +831,10 @@ private:
     if constexpr (width == 1)
       if (pair_.isStrip() && share < shareOfStrip)
         share = shareOfStrip;
-    return overlap_ * hardened * (rowSum * share);
+    // Faces that have shrunk have more of the material on their area.
+    const T shrunk =
+        branchFree::choose(touching, branchFree::larger(pair_.materialArea, T(1.0)), T(1.0));
+    return overlap_ * pair_.mostAround * shrunk * hardened * (rowSum * share);
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
@@ -852,12 +871,11 @@ KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
 updatePotentialPlanes(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a,
                       const HalfStepFaceOf<T>& b, const ContactOptions& options, Real dt)
 {
-  PairPotential<Dim, T> pair(a, b, ContactPotentialScale(options.cosOpposed));
+  PairPotential<Dim, T> pair(a, b, ContactPotentialScale(options));
   return detail::PotentialCycle<Dim, T>(planes, a, b, options, dt, pair).run();
 }
 
-/// Steps B to H by the forces that the options ask for. Bodies of revolution have only those along
-/// the common normal.
+/// Steps B to H by the forces that the options ask for.
 template <int Dim, class T>
 KOKKOS_INLINE_FUNCTION branchFree::MaskOf<T>
 updateByForces(const PlaneBatch<T>& planes, const HalfStepFaceOf<T>& a, const HalfStepFaceOf<T>& b,

@@ -89,11 +89,11 @@ struct UnevenlyCrushed
     if (crushed.carried)
     {
       const HalfStepFace faces[2] = {placeBefore<Dim>(a, 0, dt), placeBefore<Dim>(b, 0, dt)};
-      PairPotential<Dim, Real> then(faces[0], faces[1], ContactPotentialScale(options.cosOpposed));
+      PairPotential<Dim, Real> then(faces[0], faces[1], ContactPotentialScale(options));
       press(then, crushed.from, crushed.offset, other);
       before = then.moments.volume > 0 ? lostBy(then, crushed, other) : 0;
     }
-    PairPotential<Dim, Real> now(a, b, ContactPotentialScale(options.cosOpposed));
+    PairPotential<Dim, Real> now(a, b, ContactPotentialScale(options));
     const Real most = press(now, crushed.from, plane.offset - crushed.parted, other) -
                       pair.materialArea * pair.opposedness * pressed;
     const Real byTractions = 0.5 * (before + after);
