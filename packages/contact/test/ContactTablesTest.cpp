@@ -163,6 +163,35 @@ TEST_F(Tables, whatOpensIsOpenArea)
   EXPECT_EQ(joints[0].meanClosure, 0);
 }
 
+TEST_F(Tables, areasAndTractionsAreThoseOfTheFacesNow)
+{
+  // All faces become 1.3 times as long, and as close as before: the joints keep their force.
+  constexpr Real grown = 1.3;
+  for (int n = 0; n < 12; ++n)
+    set(x_, n, {grown * corners[n].x, corners[n].y, 0});
+  contact_->step6_updateCommonPlanes(x_, v_, 0, 0, 0);
+  const std::vector<JointSummary> joints = jointSummaries(*contact_, x_);
+  const Real areas[] = {leftArea, rightArea};
+  for (int j = 0; j < 2; ++j)
+  {
+    EXPECT_NEAR(joints[j].stickArea, grown * areas[j], 1e-12);
+    EXPECT_NEAR(joints[j].openArea, 0, 1e-12);
+    EXPECT_NEAR(joints[j].normalForce, pressure * areas[j], 1e-9 * pressure);
+  }
+  const std::vector<FaceContact> faces = faceContact(*contact_, x_);
+  int pressed = 0;
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    if (contact_->faces()[f].block > 0 && faces[f].areaFraction > 0)
+    {
+      ++pressed;
+      EXPECT_NEAR(faces[f].areaFraction, 1, 1e-12);
+      EXPECT_NEAR(faces[f].normalTraction, pressure / grown, 1e-9 * pressure);
+    }
+  EXPECT_EQ(pressed, 2);
+  for (const ContactTableRow& row : contactTable(*contact_, x_))
+    EXPECT_NEAR(row.area, grown * areas[row.kind.joint], 1e-12);
+}
+
 TEST_F(Tables, slipBooksFriction)
 {
   // Shear stiffness is half of the normal one: the soft joint slips beyond mu p / (k / 2) = 1 mm of
@@ -198,7 +227,7 @@ TEST_F(Tables, sliversAndFacesThatOverlapNoMoreAreNoJoint)
 TEST_F(Tables, rowsOfPairsAddUpToTheEnergyOfContact)
 {
   move({-0.01, 0, 0});
-  const std::vector<ContactTableRow> rows = contactTable(*contact_);
+  const std::vector<ContactTableRow> rows = contactTable(*contact_, x_);
   ASSERT_EQ(rows.size(), 2u);
   ContactEnergy sum;
   for (int i = 0; i < 2; ++i)

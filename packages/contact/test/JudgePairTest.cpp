@@ -311,7 +311,7 @@ TEST(Step5CandidatePairs, aFaceThatTurnsOverBeforeTheNextSearchIsACandidate)
   EXPECT_EQ(crushed(2), Verdict::Candidate);
 }
 
-TEST(Step5CandidatePairs, aFaceCrushedToAlmostNoSizeIsACandidateHoweverItLies)
+TEST(Step5CandidatePairs, aFaceCrushedToAlmostNoWidthIsACandidateHoweverItLies)
 {
   // Almost upright beside another, it looks the same way; it is no longer than what nodes may move
   // unforeseen: it may lie on the other in the next step.
@@ -327,6 +327,7 @@ TEST(Step5CandidatePairs, aFaceCrushedToAlmostNoSizeIsACandidateHoweverItLies)
     CandidateRules rules = rulesWithSkin(0.1);
     rules.turning = 0.01;
     rules.smallestFace = 1;
+    rules.strays = rules.skin;
     const FacePlane planeA = rules.planeOf(a, x, 2), planeB = rules.planeOf(b, x, 2);
     return judgePair(a, b, contactBox(a, planeA, x, rules), contactBox(b, planeB, x, rules), planeA,
                      planeB, x, rules);

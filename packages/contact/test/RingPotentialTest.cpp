@@ -279,4 +279,137 @@ TEST(RingPotential, farFromTheAxisItIsThatOfPlaneStrain)
                       1e-4 * around * norm(flat.gradient[1][0]));
   }
 }
+
+namespace
+{
+/// Largest eigenvalue of the second derivatives of the energy of a pair over what the pair adds to
+/// the stiffness of its nodes [-].
+Real stiffnessOfRingsOverBound(const RandomPair& pair, const std::array<Real, 2>& birth)
+{
+  ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
+  options.axisymmetric = true;
+  const auto at = [&](int k, Real h)
+  {
+    FaceNodes faces[2] = {pair.a, pair.b};
+    if (h != 0)
+      faces[k / 4].x[k % 4 / 2][k % 2] += h;
+    PairPlane plane = touchingPlane(1);
+    plane.area = 1e-9; // carries
+    plane.birthArea[0] = birth[0];
+    plane.birthArea[1] = birth[1];
+    updatePlane<2>(plane, faces[0], faces[1], options, 0);
+    return plane;
+  };
+  Real matrix[8][8];
+  const Real h = 1e-7;
+  for (int k = 0; k < 8; ++k)
+  {
+    const PairPlane up = at(k, h), down = at(k, -h);
+    for (int j = 0; j < 8; ++j)
+      matrix[k][j] =
+          -(up.nodal[j / 4][j % 4 / 2][j % 2] - down.nodal[j / 4][j % 4 / 2][j % 2]) / (2 * h);
+  }
+  Real v[8], size = 0;
+  for (int k = 0; k < 8; ++k)
+    v[k] = std::sin(1 + k * k);
+  for (int step = 0; step < 200; ++step)
+  {
+    Real next[8] = {}, square = 0;
+    for (int k = 0; k < 8; ++k)
+      for (int j = 0; j < 8; ++j)
+        next[k] += matrix[k][j] * v[j];
+    for (const Real x : next)
+      square += x * x;
+    size = std::sqrt(square);
+    for (int k = 0; k < 8; ++k)
+      v[k] = size > 0 ? next[k] / size : 0;
+  }
+  const PairPlane plane = at(0, 0);
+  return plane.nodeStiffness > 0 ? size / plane.nodeStiffness : 0;
+}
+} // namespace
+
+TEST(RingPotential, theStepAllowsForWhatLiesAsDeepAsItsRadius)
+{
+  // A tube that has come through a core of radius r by c: without the count of how little is left
+  // of the radius it was 23 times the bound.
+  for (const Real length : {1., .1})
+    for (const Real r : {.1, 1.})
+      for (const Real c : {.01, .3, .5, .7, .9, .97})
+        for (const bool bornThere : {false, true})
+        {
+          const Real inner = r * (1 - c);
+          const RandomPair pair{face({{r, 0, 0}, {r, length, 0}}),
+                                face({{inner, length, 0}, {inner, 0, 0}})};
+          ASSERT_GT(dot(normalised(vectorArea<2>(pair.a.x, 2)), Vec3{1, 0, 0}), .9);
+          const Real core = 2 * pi * r * length;
+          EXPECT_LT(
+              stiffnessOfRingsOverBound(pair, {core, bornThere ? 2 * pi * inner * length : core}),
+              1)
+              << length << " " << r << " " << c << " " << bornThere;
+        }
+}
+
+TEST(RingPotential, theStepAllowsForNodesAtTheAxis)
+{
+  // A disc, matching or small, that has sunk into a plate.
+  for (const Real size : {.001, .05, .3, 1.})
+    for (const Real c : {1e-4, .02})
+    {
+      const RandomPair pair{face({{1, 0, 0}, {0, 0, 0}}),
+                            face({{0, -c * size, 0}, {size, -c * size, 0}})};
+      EXPECT_LT(stiffnessOfRingsOverBound(pair, {pi, pi * size * size}), 1) << size << " " << c;
+    }
+}
+
+TEST(RingPotential, bondsThatBendHaveTheForcesOfTheirEnergy)
+{
+  std::mt19937 random(33);
+  std::uniform_real_distribution<Real> u(-1, 1);
+  ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
+  options.axisymmetric = true;
+  int bent = 0;
+  for (int pairs = 0; pairs < 300; ++pairs)
+  {
+    const RandomPair pair =
+        placed(randomSegments(random), pi * u(random), pairs % 3 == 0 ? .01 : .5 * (1 + u(random)));
+    PairPlane plane = touchingPlane(1);
+    plane.law.bond = Bond::softening(Bond::Kind::Linear, 1e3, 1e3, 2e6, 2e6);
+    plane.law.bond.resistsBending = true;
+    plane.fit.shearStiffness = 0;
+    plane.history.bonded = plane.declared = true;
+    plane.history.opening = pairs % 2 ? 1e3 : 0;
+    plane.area = 1e-9;
+    plane.birthArea[0] = 5;
+    plane.birthArea[1] = 3;
+    const auto at = [&](int f, int i, int c, Real h)
+    {
+      RandomPair moved = pair;
+      (f == 0 ? moved.a : moved.b).x[i][c] += h;
+      PairPlane there = plane;
+      updatePlane<2>(there, moved.a, moved.b, options, 0);
+      return there;
+    };
+    const PairPlane now = at(0, 0, 0, 0);
+    if (!(now.stored > 1e-6))
+      continue;
+    ++bent;
+    Real largest = 0, worst = 0;
+    for (int f = 0; f < 2; ++f)
+      for (int i = 0; i < 2; ++i)
+        for (int c = 0; c < 2; ++c)
+        {
+          const Real h = 3e-5;
+          const auto stored = [&](Real by) { return at(f, i, c, by).stored; };
+          const Real slope =
+              (8 * (stored(h) - stored(-h)) - (stored(2 * h) - stored(-2 * h))) / (12 * h);
+          largest = std::max(largest, std::abs(now.cornerForce[f][i][c]));
+          worst = std::max(worst, std::abs(slope + now.cornerForce[f][i][c]));
+        }
+    // Where ends lie beside each other they share, which is no gradient: few do.
+    if (worst > 1e-5 * largest)
+      --bent;
+  }
+  EXPECT_GT(bent, 200);
+}
 } // namespace coplane

@@ -239,7 +239,8 @@ TEST_P(HandedOnHistory, aBondGoesOnOverMeshLines)
           sums[0].add(plane.area);
       }
       const std::vector<Real> areas = ExactSum::overRanks(sums, comm);
-      ASSERT_NEAR(areas[0], areas[1], 1e-6) << "t = " << solver.clock().time;
+      // The first as it was when the faces met: elements are strained by some 1e-6.
+      ASSERT_NEAR(areas[0], areas[1], 2e-5) << "t = " << solver.clock().time;
       least = std::min(least, areas[0]);
     }
     EXPECT_LT(least, 0.95) << "displaced by half an element";

@@ -172,7 +172,7 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   pairedFaces_.stepA(motionOf(x, v, dt), near_.faces());
   stepsBtoH(pairs, near_.slots(), pairedFaces_.data(), dimension_, options, dt);
   planes_.listWoken();
-  shown_ = {};
+  shown_.reset();
   if (searches_.sinceUpdate && searches_.count > 1)
     for (std::size_t p = 0; p < planes().size(); ++p)
       if (const Plane& plane = planes()[p];
@@ -195,15 +195,21 @@ bool Contact::wasPassedOver(std::size_t slot) const
 
 const PlaneList& Contact::planesNow() const
 {
-  if (shown_.made)
-    return shown_.list;
+  if (!shown_)
+    shown_ = planesNow([](const Plane&) { return true; });
+  return shown_->list;
+}
+
+Contact::Shown Contact::planesNow(const std::function<bool(const Plane&)>& isAskedFor) const
+{
+  Shown shown;
   const PlaneList& all = planes();
   std::vector<std::size_t> passedOver;
   for (std::size_t p = 0; p < all.size(); ++p)
-    if (all[p].isBorn() && wasPassedOver(all.slotOf(p)))
+    if (all[p].isBorn() && wasPassedOver(all.slotOf(p)) && isAskedFor(all[p]))
       passedOver.push_back(p);
   const std::size_t count = passedOver.size();
-  shown_.copies = Kokkos::View<Plane*, Kokkos::HostSpace>(
+  shown.copies = Kokkos::View<Plane*, Kokkos::HostSpace>(
       Kokkos::ViewAllocateWithoutInitializing("coplane::contact::shown"), count);
   std::vector<Plane*> copies(count);
   std::vector<SlotFaces> slots(count);
@@ -211,7 +217,7 @@ const PlaneList& Contact::planesNow() const
   parallelFor("coplane::contact::planesNow", int(count),
               [&](const int i)
               {
-                copies[i] = new (&shown_.copies(i)) Plane(all[passedOver[i]]);
+                copies[i] = new (&shown.copies(i)) Plane(all[passedOver[i]]);
                 slots[i] = planes_.slots().faces(all.slotOf(passedOver[i]));
               });
   PassedOnChanges notAsked;
@@ -222,15 +228,13 @@ const PlaneList& Contact::planesNow() const
   std::iota(every.begin(), every.end(), 0);
   stepsBtoH(again, every, pairedFaces_.all(), dimension_, options_, noTime);
   std::size_t next = 0;
-  shown_.list.clear();
   for (std::size_t p = 0; p < all.size(); ++p)
   {
     const bool copied = next < passedOver.size() && passedOver[next] == p;
-    shown_.list.add(all.slotOf(p), copied ? &shown_.copies(next) : &all[p]);
+    shown.list.add(all.slotOf(p), copied ? &shown.copies(next) : &all[p]);
     next += copied;
   }
-  shown_.made = true;
-  return shown_.list;
+  return shown;
 }
 
 bool Contact::wasMissed(const Plane& plane, const ConstNodeVectors& x) const

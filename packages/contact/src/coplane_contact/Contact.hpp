@@ -21,6 +21,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -137,6 +138,15 @@ public:
   /// The same with the gaps and overlaps of this cycle, for those who show them: cycles do not look
   /// at open planes whose faces are far from each other. Until the next update or search.
   const PlaneList& planesNow() const;
+  /// The planes, of which some are copies that are kept here.
+  struct Shown
+  {
+    PlaneList list;
+    Kokkos::View<Plane*, Kokkos::HostSpace> copies;
+  };
+  /// The same list, where only planes that are asked for have those of this cycle: much less to
+  /// do, as most that cycles do not look at are in nobody's way.
+  Shown planesNow(const std::function<bool(const Plane&)>& isAskedFor) const;
   /// All pairs of the last search, most of which have no plane: how many, the plane that each has
   /// or would get, and the same prepared.
   std::size_t slots() const { return planes_.count(); }
@@ -322,12 +332,6 @@ private:
   PairDistances distances_;
   ForceSums forceSums_;
   EndedPlanes ended_;
-  struct Shown
-  {
-    bool made = false;
-    PlaneList list;
-    Kokkos::View<Plane*, Kokkos::HostSpace> copies; ///< of those that cycles have not looked at
-  };
-  mutable Shown shown_; ///< planesNow()
+  mutable std::optional<Shown> shown_; ///< planesNow()
 };
 } // namespace coplane

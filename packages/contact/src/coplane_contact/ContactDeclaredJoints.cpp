@@ -27,7 +27,7 @@ Real wholeOverlap(const HalfStepFace& a, const HalfStepFace& b, const ContactOpt
   if (!pair.plane.opposed)
     return 0;
   pair.meet(0, true, {});
-  patch.overlap = pair.overlap;
+  patch.overlap = pair.overlap * pair.depth;
   pair.oppose(0);
   patch.area = pair.opposedness * pair.moments.area;
   if (!(patch.area > 0))

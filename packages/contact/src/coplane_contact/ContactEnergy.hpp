@@ -7,7 +7,8 @@
 
 namespace coplane
 {
-/// Places and weights of Gauss' rule with two points on -1..1: exact for cubics.
+/// Places of Gauss' rule with two points on -1..1, plus and minus, with weights of 1: exact for
+/// cubics.
 constexpr Real gaussPlace = 0.5773502691896258;
 
 /// Polynomial 0 to 1 with two vanishing derivatives at both ends; constant outside 0..1.

@@ -61,8 +61,8 @@ public:
   TrialPlaneOf<T> plane; ///< its `opposed` tells which pairs can touch at all
   ShadowOf<T> shadow[2];
   Mask regular{true};
-  T overlap{};               ///< whole overlap of the shadows; rings: of one metre of depth [m^2]
-  T mostAround = T(1.0);     ///< largest depth of the overlap: 1, of rings 2 pi r [m]
+  T overlap{};               ///< whole overlap of the shadows; of rings per metre of depth [m^2]
+  T depth = T(1.0);          ///< mean depth of the overlap: 1 m, of rings pi (r0 + r1)
   T mostClosure{};           ///< over the overlap [m]; minus infinity without overlap
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
@@ -194,6 +194,23 @@ public:
         for (int f = 0; f < 2; ++f)
           birth_[f] /= around_[f];
     materialArea = 0.5 * (birth_[0] / face_[0]->area + birth_[1] / face_[1]->area);
+  }
+  /// The depth by which the overlap counts for the stable step [m]. A node of a ring at the axis
+  /// may have a little more of it than of a strip, and what lies as deep as its radius is the
+  /// stiffer the less is left of that: the energy goes with the mean of both circumferences, gamma
+  /// with each.
+  /// @param deepest closure [m]
+  KOKKOS_FORCEINLINE_FUNCTION T depthOfStep(const T& deepest) const
+  {
+    if constexpr (canRevolve)
+      if (scale_.axisymmetric)
+      {
+        const Real atAxis = 1.05;
+        const Real narrower = branchFree::smaller(around_[0], around_[1]);
+        const Real deep = 1 + pi * branchFree::positivePart(deepest) / narrower;
+        return atAxis * deep * deep * depth;
+      }
+    return T(1.0);
   }
   /// Area of a face, of a ring over its whole turn [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T faceArea(int f) const
@@ -607,7 +624,7 @@ private:
   T xi_{}, kappa_{}, atPoint_{}, opposednessSlope_{}, size_{};
   T falling_{};  ///< d ln phi / d ln U, 0 to -1
   T sizes_[2]{}; ///< minus d ln Y / d ln of the area of each face, Y: what is stored as in oppose()
-  T birth_[2]{}; ///< areas [m^2]
+  T birth_[2]{}; ///< areas [m^2]; of rings over the circumference now
   Mask bonded_{false};
   EdgesOf<T> edges_;
   /// Closure along the borders over which each body can be left: of each edge; lanes have the sums
@@ -637,7 +654,7 @@ private:
   std::conditional_t<canFold, Folded, Nothing> folded_[2];
   /// Before what is not closed is cut off.
   std::conditional_t<branchFree::widthOf<T> == 1, Owned, Nothing> whole_[maxPieces];
-  /// Linear along the plane, half of the circumference at each face, and its mean [m].
+  /// Half of the circumference at a face, linear along the plane [m].
   struct Around
   {
     Real atOrigin = 0, slope = 0;

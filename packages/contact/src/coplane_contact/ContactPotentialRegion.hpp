@@ -38,7 +38,7 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findOverlap()
     q.owner[1] = highIs0 ? nodeAt(0, true) : 4 + nodeAt(1, true);
     overlap = positivePart(to - from);
     mostClosure = overlap > 0 ? larger(closureAt({from, 0}), closureAt({to, 0})) : -infinity;
-    mostAround = larger(around(from), around(to));
+    depth = around(0.5 * (from + to));
   }
   else
   {

@@ -314,7 +314,8 @@ Motion Contact::motionAhead(const ConstNodeVectors& v, Real ahead) const
 
 Heritage::Place Contact::placeOfFaces(const ConstNodeVectors& x, const NodeLayout& layout) const
 {
-  return {faces_.forKernels(), copyOf(x), layout.ids(), dimension_, reach_.leastSkin()};
+  return {faces_.forKernels(), copyOf(x),          layout.ids(),
+          dimension_,          reach_.leastSkin(), options_.axisymmetric};
 }
 
 void Contact::passOnAnew(const ConstNodeVectors& x, const NodeLayout& layout)
@@ -377,7 +378,7 @@ void Contact::pairUp(const ConstNodeVectors& x, const NodeLayout& layout, bool a
       SlotFiller(options_.inherit, faces(), planes_, slots, preparation).made();
   planes_.take(std::move(made), faces_.forKernels(), std::move(preparation));
   measureDistances(place.x, v);
-  shown_ = {};
+  shown_.reset();
   firstHalf_ = {};
   ghostsElsewhere_ = {};
   reach_.end();

@@ -23,21 +23,52 @@ Extent extentOf(const Contact& contact, int face, const ConstNodeVectors& x)
   return {normalised(area), norm(area) * around};
 }
 
+/// Area of the faces of a plane when they met over that now, as the forces have it [-].
+/// @param extent by face
+template <class ExtentOf>
+Real materialArea(const Plane& plane, const ExtentOf& extent)
+{
+  if (plane.face[0] < 0 || !(plane.birthArea[0] > 0))
+    return 1;
+  Real sum = 0;
+  for (int side = 0; side < 2; ++side)
+    sum += plane.birthArea[side] / extent(plane.face[side]).area;
+  return sum > 0 && sum < infinity ? 0.5 * sum : 1;
+}
+
+/// @param extent by face
+template <class ExtentOf>
+bool facesOpposeEachOther(const Plane& plane, const ExtentOf& extent)
+{
+  return plane.face[0] >= 0 &&
+         dot(extent(plane.face[0]).normal, extent(plane.face[1]).normal) < -opposedAcrossJoint;
+}
+
 /// @param extent by face
 template <class ExtentOf>
 bool facesLieOverEachOther(const Plane& plane, const ExtentOf& extent)
 {
-  if (plane.face[0] < 0 || !(plane.overlap > 0))
-    return false;
-  const Extent &a = extent(plane.face[0]), &b = extent(plane.face[1]);
-  return plane.overlap > sliverOfJoint * std::min(a.area, b.area) &&
-         dot(a.normal, b.normal) < -opposedAcrossJoint;
+  return plane.overlap > 0 && facesOpposeEachOther(plane, extent) &&
+         plane.overlap >
+             sliverOfJoint * std::min(extent(plane.face[0]).area, extent(plane.face[1]).area);
 }
 } // namespace
 
 bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
 {
   return facesLieOverEachOther(plane, [&](int face) { return extentOf(contact, face, x); });
+}
+
+Plane planeNow(const Contact& contact, const Plane& plane, const ConstNodeVectors& x)
+{
+  Plane now = plane;
+  if (!(plane.area > 0))
+    return now;
+  const Real part = materialArea(plane, [&](int face) { return extentOf(contact, face, x); });
+  now.area /= part;
+  now.normalTraction *= part;
+  now.history.shearTraction = part * plane.history.shearTraction;
+  return now;
 }
 
 std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x)
@@ -72,11 +103,13 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   const Sums none{{std::vector<ExactSum>(PerJoint * joints)},
                   std::vector<Real>(joints, 0),
                   std::vector<PlaneEnergySums>(joints)};
-  const PlaneList& planes = contact.planesNow();
   const Array<Extent> extents(Kokkos::ViewAllocateWithoutInitializing("coplane::contact::extents"),
                               contact.faces().size());
   parallelFor("coplane::contact::extents", int(extents.size()),
               [&](const int face) { extents(face) = extentOf(contact, face, x); });
+  const Contact::Shown shown =
+      contact.planesNow([&](const Plane& plane) { return facesOpposeEachOther(plane, extents); });
+  const PlaneList& planes = shown.list;
   const auto take = [&](Sums& all, std::size_t p)
   {
     const Plane& plane = planes[p];
@@ -90,9 +123,10 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
     mine[Open].add(plane.overlap);
     if (plane.state != PlaneState::Open)
     {
-      mine[Open].add(-plane.area);
-      mine[plane.state == PlaneState::Slip ? Slip : Stick].add(plane.area);
-      mine[Closure].add(plane.area * plane.closure);
+      const Real area = plane.area / materialArea(plane, extents);
+      mine[Open].add(-area);
+      mine[plane.state == PlaneState::Slip ? Slip : Stick].add(area);
+      mine[Closure].add(area * plane.closure);
     }
     all.largestSlip[plane.joint] = std::max(all.largestSlip[plane.joint], plane.history.slip);
   };
@@ -122,7 +156,7 @@ std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNode
   return summaries;
 }
 
-std::vector<ContactTableRow> contactTable(const Contact& contact)
+std::vector<ContactTableRow> contactTable(const Contact& contact, const ConstNodeVectors& x)
 {
   struct Row
   {
@@ -133,14 +167,14 @@ std::vector<ContactTableRow> contactTable(const Contact& contact)
   std::map<PlaneKind, Row> mine;
   for (const auto& [kind, ended] : contact.ended().byKind())
     mine[kind].energies.add(ended);
-  for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
+  for (std::size_t p = 0; p < contact.planes().size(); ++p)
   {
-    const Plane& plane = contact.planesNow()[p];
+    const Plane& plane = contact.planes()[p];
     if (!plane.countedHere || !plane.isBorn())
       continue;
     Row& row = mine[PlaneKind(plane)];
     row.energies.add(plane, plane.stored);
-    row.area.add(plane.area);
+    row.area.add(planeNow(contact, plane, x).area);
     ++row.planes;
   }
   // The kinds of all ranks.

@@ -30,6 +30,11 @@ constexpr Real sliverOfJoint = 1e-3;
 /// and in more than a sliver. x: positions of the nodes now [m].
 bool isPartOfJoint(const Contact& contact, const Plane& plane, const ConstNodeVectors& x);
 
+/// A plane with area and tractions by the faces as they are now: its own are by the area that they
+/// had when they met (Plane::birthArea). Their product is the same, the force. x: positions of the
+/// nodes now [m].
+Plane planeNow(const Contact& contact, const Plane& plane, const ConstNodeVectors& x);
+
 /// One for each joint card of the rules, in their order. x: positions of the nodes now.
 std::vector<JointSummary> jointSummaries(const Contact& contact, const ConstNodeVectors& x);
 
@@ -44,5 +49,5 @@ struct ContactTableRow
 
 /// A row for every kind that has or had a plane, sorted by blocks and joint. The columns add up to
 /// Contact::energy().
-std::vector<ContactTableRow> contactTable(const Contact& contact);
+std::vector<ContactTableRow> contactTable(const Contact& contact, const ConstNodeVectors& x);
 } // namespace coplane

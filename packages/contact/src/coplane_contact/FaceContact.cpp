@@ -1,3 +1,4 @@
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_contact/FaceContact.hpp>
 #include <coplane_geometry/FaceCorners.hpp>
 
@@ -15,9 +16,10 @@ std::vector<FaceContact> faceContact(const Contact& contact, const ConstNodeVect
   std::vector<Real> area(local, 0); // of contact [m^2]
   for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planesNow()[p];
-    if (!plane.isBorn() || plane.face[0] < 0 || !(plane.overlap > 0))
+    if (const Plane& own = contact.planesNow()[p];
+        !own.isBorn() || own.face[0] < 0 || !(own.overlap > 0))
       continue;
+    const Plane plane = planeNow(contact, contact.planesNow()[p], x);
     for (int side = 0; side < 2; ++side)
     {
       const std::size_t f = std::size_t(plane.face[side]);

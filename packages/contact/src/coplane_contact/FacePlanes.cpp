@@ -12,7 +12,8 @@ template <class T>
 struct MeanPlane
 {
   Vec3Of<T> center{}, normal{};
-  T area{}, warp{};
+  T width{}; ///< across the longest edge [m]
+  T warp{};
 };
 
 template <int Dim, class T>
@@ -23,7 +24,16 @@ MeanPlane<T> meanPlane(const FaceNodesOf<T>& nodes)
   if (nodes.count == 4)
     warp = 0.25 *
            branchFree::absolute(dot(face.normal, face.x[0] - face.x[1] + face.x[2] - face.x[3]));
-  return {face.center, face.normal, face.area, warp};
+  T longest{};
+  for (int i = 0; i < nodes.count; ++i)
+  {
+    const Vec3Of<T> edge = nodes.x[i + 1 == nodes.count ? 0 : i + 1] - nodes.x[i];
+    longest = branchFree::larger(dot(edge, edge), longest);
+  }
+  const T width =
+      Dim == 2 ? face.area
+               : (nodes.count == 3 ? 2.0 : 1.0) * face.area / branchFree::squareRoot(longest);
+  return {face.center, face.normal, width, warp};
 }
 
 /// The nodes of as many faces as T has lanes, where `place(node)` says; their v and masses are not
@@ -60,9 +70,9 @@ void putPlanes(const Face* faces, const ConstNodeVectors& x, const CandidateRule
   }
   for (int i = 0; i < branchFree::widthOf<T>; ++i)
   {
-    const Real ofSmall = rules.turningOfSmall(faceSize(branchFree::lane(now.area, i), Dim));
+    const Real ofNarrow = rules.turningOfNarrow(branchFree::lane(now.width, i));
     new (planes + i) FacePlane{branchFree::lane(now.center, i), branchFree::lane(now.normal, i),
-                               branchFree::lane(turning, i) + ofSmall, branchFree::lane(warp, i)};
+                               branchFree::lane(turning, i) + ofNarrow, branchFree::lane(warp, i)};
   }
 }
 } // namespace

@@ -87,6 +87,8 @@ NewPair Heritage::newPair(const Plane& plane, const Vec3& normal, Real sharedBef
       now.corners[side][k] = at(place_.x, mine.nodes[k]);
     }
   }
+  if (place_.axisymmetric) // lengths are compared
+    now.sharedBefore /= pi * (now.corners[0][0].x + now.corners[0][1].x);
   return now;
 }
 } // namespace coplane

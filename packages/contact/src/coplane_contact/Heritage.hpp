@@ -25,6 +25,7 @@ public:
     std::vector<GlobalId> nodeIds;
     int dimension = 3;
     Real reach = 0; ///< how far faces move until the next time [m]
+    bool axisymmetric = false;
   };
 
   /// @param donors all living planes of the faces, in any order, some of them twice

@@ -155,10 +155,10 @@ struct alignas(64) Plane
   JointFit fit; ///< stiffnesses of the law for this pair
 
   Vec3 nodal[2][4] = {}; ///< forces on the nodes of the faces [N]
-  /// That carries traction; with the potential as it was when the faces met, which tractions and
-  /// stiffnesses count by [m^2].
+  /// That carries traction; with the potential as it was when the faces met: tractions and
+  /// stiffnesses are per this area (planeNow() shows those of now) [m^2].
   Real area = 0;
-  Real overlap = 0;      ///< whole overlap of the projections [m^2]
+  Real overlap = 0; ///< whole overlap of the projections [m^2]
 
   Vec3 normal{};         ///< at the half step
   Vec3 pointOfContact{}; ///< [m]
@@ -212,9 +212,14 @@ struct alignas(64) Plane
   /// [m].
   KOKKOS_INLINE_FUNCTION void absorb(Real gapOfMesh)
   {
-    const Real roundOff = 1e-6 * depthLimit;
     offset = gapOfMesh;
-    history.absorbed = gapOfMesh > roundOff || gapOfMesh < -roundOff;
+    history.absorbed = true;
+    forgetAbsorbedRoundOff();
+  }
+  KOKKOS_INLINE_FUNCTION void forgetAbsorbedRoundOff()
+  {
+    const Real roundOff = 1e-6 * depthLimit;
+    history.absorbed = history.absorbed && (offset > roundOff || offset < -roundOff);
   }
   KOKKOS_INLINE_FUNCTION bool isInherited() const { return lineage != Lineage::Own; }
 

@@ -21,7 +21,7 @@ namespace coplane
 struct FacePlane
 {
   Vec3 center{}, normal{};
-  /// By which a product with the normal may change as the face goes on [-]; for faces smaller than
+  /// By which a product with the normal may change as the face goes on [-]; for faces narrower than
   /// those that CandidateRules::turning is for, also by what is not foreseen.
   Real turning = 0;
   Real warp = 0; ///< by which nodes lie beside the plane, on its way, too [m]
@@ -43,7 +43,8 @@ struct CandidateRules
   Real reach = 0;  ///< by which boxes may be apart, not below skin and offset together [m]
   Real cosOpposed = ContactOptions().cosOpposed;
   Real turning = 0;         ///< by which n0.n1 may fall until the next search [-]
-  Real smallestFace = 0;    ///< faces that are no smaller turn by no more [m]
+  Real smallestFace = 0;    ///< faces that are no narrower turn by no more [m]
+  Real strays = 0;          ///< by which nodes may move without being foreseen [m]
   Real depthMax = 0.6;      ///< largest depth of a candidate over the thinner element's thickness
   bool sharedNodes = false; ///< pairs of faces that share a node as well
   std::function<bool(int, int)> excluded; ///< by group
@@ -62,12 +63,14 @@ struct CandidateRules
     return turning - cosOpposed + a.turning + b.turning;
   }
 
-  /// What the normal of a face turns by beyond `turning`: one that is crushed to almost no size has
-  /// any normal after the next step. @param size of the face [m]
-  Real turningOfSmall(Real size) const
+  /// What the normal of a face turns by beyond `turning`: one that is crushed to almost no width
+  /// has any normal after the next step. @param width of the face, across its longest edge [m]
+  Real turningOfNarrow(Real width) const
   {
     constexpr Real over = 2; // it looks the other way
-    return size < smallestFace ? std::min(over, skin * (1 / size - 1 / smallestFace)) : 0;
+    if (!(turning > 0 && smallestFace > 0) || width >= smallestFace)
+      return 0;
+    return std::min(over, strays * (1 / width - 1 / smallestFace)); // of no width at all: over;
   }
 
   /// Way of a node of a face ahead. Steps are bound so that no face moves by a body's thickness:

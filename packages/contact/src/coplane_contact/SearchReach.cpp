@@ -11,6 +11,7 @@ SearchReach::SearchReach(const ContactOptions& options, Real skin, Real smallest
   rules_.depthMax = turns_ ? std::max(deepestOfPotential, options.depthMax) : options.depthMax;
   rules_.sharedNodes = options.sharedNodes;
   rules_.smallestFace = smallestFace;
+  rules_.strays = skin;
   setSkin(skin);
 }
 

@@ -1,3 +1,4 @@
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_dynamics/Solver.hpp>
 #include <coplane_output/detail/NodalContact.hpp>
 
@@ -22,10 +23,11 @@ NodalContact nodalContact(const Solver& solver)
   std::vector<Real> closed(owned, 0); // part of it that carries traction
   for (std::size_t p = 0; p < contact.planesNow().size(); ++p)
   {
-    const Plane& plane = contact.planesNow()[p];
     // Without overlap the gap belongs to a moment long ago.
-    if (!plane.isBorn() || plane.face[0] < 0 || plane.face[1] < 0 || !(plane.overlap > 0))
+    if (const Plane& own = contact.planesNow()[p];
+        !own.isBorn() || own.face[0] < 0 || own.face[1] < 0 || !(own.overlap > 0))
       continue;
+    const Plane plane = planeNow(contact, contact.planesNow()[p], solver.state().x);
     for (int side = 0; side < 2; ++side)
     {
       const Face& face = contact.faces()[plane.face[side]];

@@ -1,3 +1,4 @@
+#include <coplane_contact/ContactTables.hpp>
 #include <coplane_contact/PlaneState.hpp>
 #include <coplane_mesh/ElementTopology.hpp>
 #include <coplane_output/detail/PlanePoints.hpp>
@@ -30,7 +31,7 @@ std::vector<Record> gatherRecords(const Solver& solver)
       if (!contact.isWrittenHere(plane) || !(plane.overlap > 0))
         continue;
       const JointLaw& law = contact.lawOf(plane);
-      toRank[0].push_back({plane,
+      toRank[0].push_back({planeNow(contact, plane, solver.state().x),
                            {blocks[plane.block[0]].id, blocks[plane.block[1]].id},
                            law.damage(plane.history)});
     }

@@ -61,7 +61,7 @@ std::vector<PlaneValues> nearestPlanes(const Solver& solver, const std::vector<W
           continue;
         const Real distance = norm(plane.pointOfContact - wanted[w].place);
         const Candidate candidate{int(w), distance, contact.lawOf(plane).damage(plane.history),
-                                  plane};
+                                  planeNow(contact, plane, solver.state().x)};
         if (!mine[w] || isNearer(candidate, *mine[w]))
           mine[w] = candidate;
       }

@@ -213,7 +213,7 @@ std::string TablesObserver::pairLines(const Solver& solver) const
 {
   std::string text;
   if (solver.hasContact())
-    for (const ContactTableRow& row : contactTable(solver.contact()))
+    for (const ContactTableRow& row : contactTable(solver.contact(), solver.state().x))
       text += lineOf(solver, solver.model().blocks[row.kind.blocks[0]].name,
                      solver.model().blocks[row.kind.blocks[1]].name, row);
   return text;
@@ -223,7 +223,7 @@ std::string TablesObserver::materialLines(const Solver& solver) const
 {
   std::map<std::tuple<std::string, std::string, int>, ContactTableRow> rows;
   if (solver.hasContact())
-    for (const ContactTableRow& row : contactTable(solver.contact()))
+    for (const ContactTableRow& row : contactTable(solver.contact(), solver.state().x))
     {
       const auto& blocks = solver.model().blocks;
       const auto sides = std::minmax(blocks[row.kind.blocks[0]].materialName,

@@ -307,7 +307,7 @@ private:
                    return 0;
                  Plane& plane = *planes_.plane[i];
                  const bool inside = branchFree::lane(inContact, i);
-                 plane.overlap = branchFree::lane(overlap_, i);
+                 plane.overlap = branchFree::lane(overlap_ * pair_.depth, i);
                  plane.unseen = false;
                  leastGaps_[i] = plane.offset - branchFree::lane(deepest_, i);
                  late_[i] = wasFoundLate(plane, inside);
@@ -408,7 +408,10 @@ private:
     if (plane.history.bonded)
       plane.offset -= mean;
     else if (surface < plane.offset)
+    {
       plane.offset = surface;
+      plane.forgetAbsorbedRoundOff();
+    }
   }
 
   /// A contact begins at the surface, and begins there anew after its faces had no area in common.
@@ -736,7 +739,8 @@ private:
                                              T& normalDamping) const
   {
     using branchFree::choose;
-    // The stiffnesses are those of areas of the material, the masses those of areas now.
+    // The stiffnesses are those of areas of the material, the masses those of areas now, of rings
+    // per metre of the hoop as it was at the start.
     const T grown = 1.0 / pair_.materialArea;
     const T stiffness = grown * slope_;
     normalDamping =
@@ -771,7 +775,7 @@ private:
         overlaps_ &&
         (touching || -pair_.mostClosure <= ahead + 1e-8 * branchFree::squareRoot(overlap_)) &&
         !(planes_.each([](const Plane& p) { return p.isRefused(); }) > 0.0);
-    const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead, touching) : T{};
+    const T nodeArea = branchFree::anyOf(near) ? stiffArea(ahead) : T{};
     for (int i = 0; i < planes_.count; ++i)
     {
       if (!branchFree::lane(done_, i))
@@ -818,7 +822,7 @@ private:
   static constexpr Real shareOfStrip = 2.51;
 
   /// Area that, times the stiffness of the law, bounds the stiffness at a node [m^2].
-  KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead, const Mask& touching) const
+  KOKKOS_FORCEINLINE_FUNCTION T stiffArea(const T& ahead) const
   {
     using branchFree::positivePart;
     const T deep = positivePart(deepest_ / shortestEdge(a_, b_) - rimsCountFrom);
@@ -831,10 +835,10 @@ private:
     if constexpr (width == 1)
       if (pair_.isStrip() && share < shareOfStrip)
         share = shareOfStrip;
-    // Faces that have shrunk have more of the material on their area.
-    const T shrunk =
-        branchFree::choose(touching, branchFree::larger(pair_.materialArea, T(1.0)), T(1.0));
-    return overlap_ * pair_.mostAround * shrunk * hardened * (rowSum * share);
+    // Faces that have shrunk since they met have more of the material on their area.
+    growFromBirth();
+    const T shrunk = branchFree::larger(pair_.materialArea, T(1.0));
+    return overlap_ * pair_.depthOfStep(deepest_) * shrunk * hardened * (rowSum * share);
   }
 
   static KOKKOS_FORCEINLINE_FUNCTION T all(const PerLane& values)
@@ -854,7 +858,7 @@ private:
   Mask bonded_, done_;
   Mask bends_;                             ///< bonds that resist bending
   BentBonds<T> bent_;                      ///< how these are bent
-  T overlap_;                              ///< area of the shadows in common [m^2]
+  T overlap_;                              ///< of the shadows, per depth [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
   T deepest_;                              ///< closure; negative: least distance [m]
   PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
