@@ -228,18 +228,47 @@ TEST_P(StepF_CreatePlane, whatIsFoundWithAreaInCommonDoesNotSlideOn)
 TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)
 {
   // A rough surface: the next face of it stands higher than the one that was touched. With the
-  // potential, by no more than three times the mean closure there, beside a quarter of the limit.
+  // potential, between edges at which both bodies end, by no more than three times the mean closure
+  // there, beside a quarter of the limit; over a line of the mesh however deep.
   for (const Real depth : {.06, .08})
+    for (const unsigned turns : {0xFFu, 0x0Fu, 0xF0u, 0u})
+    {
+      PairPlane plane = touchingPlane(1e3);
+      plane.state = PlaneState::Slot;
+      plane.lineage = Lineage::SlidesOn;
+      plane.sighting = Sighting::Known;
+      plane.depthLimit = .1;
+      plane.closure = .01;
+      plane.turns = std::uint8_t(turns);
+      updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside(), .5), usual, 1);
+      EXPECT_EQ(plane.isRefused(), potential() && turns == 0xFF && depth > 4 * .01 + .25 * .1);
+      EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : .5e3 * depth, 1e-10);
+    }
+}
+
+TEST(RefusalOfThePotential, whatPartsOverALineOfTheMeshComesBackOverIt)
+{
+  // Two segments at a depth of 0.6 of the limit: one slides off the other, and back by a hair. It
+  // was refused, and a block that was led to and fro over lines of the mesh fell through its floor.
+  for (const unsigned turns : {0xFFu, 0x0Fu, 0xF0u, 0u})
   {
     PairPlane plane = touchingPlane(1e3);
-    plane.state = PlaneState::Slot;
-    plane.lineage = Lineage::SlidesOn;
-    plane.sighting = Sighting::Known;
     plane.depthLimit = .1;
-    plane.closure = .01;
-    updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside()), usual, 1);
-    EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
-    EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : 1e3 * depth, 1e-10);
+    plane.turns = std::uint8_t(turns);
+    const auto at = [&](Real along)
+    {
+      const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
+      const FaceNodes b = face({{along, -.06, 0}, {1 + along, -.06, 0}});
+      updatePlane<2>(plane, a, b, ContactOptions::with(ContactOptions::Forces::Potential), 1e-3);
+    };
+    plane.area = 1; // it has carried before
+    at(.9);
+    EXPECT_NEAR(plane.forceOn(1).y, 6, 1e-10);
+    at(1.1);
+    EXPECT_EQ(plane.area, 0.0);
+    at(.99);
+    EXPECT_EQ(plane.isRefused(), turns == 0xFF);
+    EXPECT_NEAR(plane.forceOn(1).y, turns == 0xFF ? 0 : .6, 1e-10);
   }
 }
 

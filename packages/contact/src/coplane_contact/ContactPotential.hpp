@@ -67,6 +67,31 @@ public:
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
   Mask hidden{false};        ///< the part in contact begins at covered edges only
+  /// One of the surfaces goes on over all of its edges at which what is in contact ends, lines of
+  /// the mesh, and no other body covers a face there: it is not between two edges at which both
+  /// bodies end.
+  KOKKOS_INLINE_FUNCTION Mask isWithinASurface() const
+  {
+    using namespace branchFree;
+    T all(2.0), open[2] = {coveredSides_[0] + openSides_[0], coveredSides_[1] + openSides_[1]};
+    if constexpr (Dim == 3)
+    {
+      // By lengths: a sliver along a line of the mesh has ends that do not matter.
+      all = open[0] = open[1] = T(0.0);
+      for (int i = 0; i < pieces_; ++i)
+        for (int k = 0; k < piece_[i].sides.size; ++k)
+        {
+          const PolygonSides<T>& sides = piece_[i].sides;
+          const Vec2Of<T> side = sides.to[k] - sides.from[k];
+          const T length = choose(sides.isThere(k), squareRoot(dot(side, side)), T(0.0));
+          all += length;
+          if (const int owner = piece_[i].owner[k]; owner >= 0)
+            open[owner / 4] +=
+                choose(edges_.turns[owner] + edges_.covered[owner] > 0.0, length, T(0.0));
+        }
+    }
+    return smaller(open[0], open[1]) < 0.25 * all;
+  }
   /// Sideways is the shorter way out, or nearly: chi < 1. Of T = Real only.
   KOKKOS_FORCEINLINE_FUNCTION const Mask& isStrip() const { return strip_; }
   T opposedness{};          ///< phi

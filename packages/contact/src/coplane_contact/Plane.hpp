@@ -101,7 +101,8 @@ enum class Lineage : std::uint8_t
 {
   Own,
   Inherited, ///< from living neighbours
-  SlidesOn   ///< from neighbours of which one touches the same surface: the face beside
+  SlidesOn   ///< from neighbours of which one touches the same surface: the face beside; also of
+             ///< what has parted sideways while it carried (potential only)
 };
 
 /// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the

@@ -439,7 +439,11 @@ private:
     // An offset that has only just been taken over does not say how deep faces lie in each other.
     if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
       depth = -leastGaps_[i];
-    if (depth > start)
+    // What comes over a line of the mesh from pairs beside it on the same surfaces lies as deep as
+    // they do, and was never apart from them.
+    const bool slidesOn = plane.lineage == Lineage::SlidesOn && comesFromTheSide &&
+                          branchFree::lane(pair_.isWithinASurface(), i);
+    if (depth > start && !slidesOn)
       plane.refusal = Refusal::Deep;
   }
 
@@ -785,6 +789,8 @@ private:
       {
         if (plane.area > 0)
           plane.frictionWork += plane.shearEnergy();
+        if (plane.area > 0 && !branchFree::lane(overlaps_, i))
+          plane.lineage = Lineage::SlidesOn; // it has parted sideways, and may come back so
         if (planes_.law[i]->curve.crushing.loss > 0)
           plane.bookHysteresisDue();
         carryNothing(plane);

@@ -1,0 +1,117 @@
+"""Contacts that are closed by tenths of an element and slide over lines of the mesh, to and fro: none of them lets go."""
+
+import numpy
+from coplanetest import Case
+
+case = Case("deep_slides", __file__)
+
+CLOSURE, STIFFNESS = 0.015, 1e8  # 0.3 of an element [m], and [Pa/m]
+
+
+def block_on_slab(dimension, stroke, press, joint, geometry="plane_strain", split=None):
+    """A block is pressed on a slab, led to `stroke`, back as far on the other side of where it began, and on by most of an element. Their
+    mesh lines coincide where it begins. `press`: the pressure before the full one comes, over that."""
+    third, flat = ([0.1], [2]) if dimension == 3 else ([], [])
+    first = 1.0 if geometry == "axisymmetric" else 0.0
+    parts = [
+        {"shape": "box", "block": "slab", "min": [first, -0.1, *[0.0] * len(third)], "size": [0.9, 0.1, *third], "divisions": [18, 2, *flat]},
+        {"shape": "box", "block": "block", "min": [first + 0.1, 0.0, *[0.0] * len(third)], "size": [0.2, 0.1, *third], "divisions": [4, 2, *flat]},
+    ]  # fmt: skip
+    for part in parts:
+        part |= {"split": split} if split else {}
+    recipe = {
+        "dimension": dimension, "parts": parts, "node_sets": {"slab": {"block": "slab"}, "block": {"block": "block"}},
+        "side_sets": {"top": {"block": "block", "where": {"y": 0.1}}},
+    }  # fmt: skip
+    ways = {"times": [0, 0.05, 0.08, 0.14, 0.28, 0.5], "values": [0, 0, stroke, -stroke, -stroke, 0.045]}
+    full = STIFFNESS * CLOSURE
+    deck = {
+        "geometry": geometry,
+        "materials": {"soft": {"model": "linear_elastic", "density": 2000, "youngs_modulus": 1e8, "poisson_ratio": 0}},
+        "blocks": {"slab": {"material": "soft"}, "block": {"material": "soft"}},
+        "joints": {"touch": {"normal_stiffness": STIFFNESS, **joint}},
+        "contact": {"default_joint": "touch", "damping": {"normal": 0.5}},
+        "conditions": [
+            {"type": "fixed", "node_set": "slab"},
+            {"type": "displacement", "node_set": "block", "components": ["x", "z"][: dimension - 1], "value": [ways, 0, 0]},
+            {"type": "pressure", "side_set": "top", "value": {"times": [0, 0.04, 0.16, 0.25], "values": [0, press * full, press * full, full]}},
+        ],
+        "damping": {"mass": 50},
+        "time": {"end": 0.5},
+        "output": {"every": 0.5, "planes": False},
+        "history": {"every": 0.5 / 300, "joints": ["touch"]},
+    }  # fmt: skip
+    return recipe, deck
+
+
+LINEAR, ROUGH = {"model": "linear"}, {"model": "linear", "friction": 0.3}
+SCENES = [
+    ("1 mm to and fro", 2, 1e-3, 1.0, LINEAR, {}),
+    ("10 mm", 2, 1e-2, 1.0, LINEAR, {}),
+    ("pressed lightly first", 2, 1e-3, 0.05, LINEAR, {}),
+    ("with friction", 2, 1e-3, 0.05, ROUGH, {}),
+    ("triangles", 2, 1e-3, 1.0, LINEAR, {"split": "triangles"}),
+    ("rings", 2, 1e-3, 1.0, LINEAR, {"geometry": "axisymmetric"}),
+    ("in space", 3, 1e-3, 1.0, LINEAR, {}),
+]
+for name, dimension, stroke, press, joint, how in SCENES:
+    recipe, deck = block_on_slab(dimension, stroke, press, joint, **how)
+    # Turning over lines of the mesh at such a depth is no small step: friction and damping take part of it.
+    run = case.run(name, recipe, deck, energy=2e-3, momentum=1e-9, angular=1e-9)
+    results = run.results
+    block = numpy.unique(results.connectivity("block"))
+    bottom = block[results.coordinates[block, 1] == 0]
+    closures = -results.nodal("displacement_y")[bottom] / CLOSURE
+    case.check(f"{name}: largest closure at the end over p / k", closures.max(), 1, 0.05)
+    case.check(f"{name}: least closure at the end over p / k", closures.min(), 1, 0.05)
+    case.check(f"{name}: pairs that are released, most of all", run.history["released"].max(), 0, 0)
+    if name in ("rings", "in space"):
+        case.same_bits(name, recipe, deck, run)
+
+
+def punch(ratio, slide, friction, n=1, dimension=2):
+    """A soft block is pressed on a slab of the same, to a part of its height, and slid."""
+    third, flat = ([0.1], [2]) if dimension == 3 else ([], [])
+    low = [0.0] * len(third)
+    recipe = {
+        "dimension": dimension,
+        "parts": [
+            {"shape": "box", "block": "slab", "min": [-0.2, 0, *low], "size": [0.6, 0.1, *third], "divisions": [14 * n, 3 * n, *[3 for _ in flat]]},
+            {"shape": "box", "block": "punch", "min": [0.0, 0.1, *low], "size": [0.2, 0.1, *third], "divisions": [4 * n, 3 * n, *flat]},
+        ],
+        "node_sets": {"base": {"block": "slab", "where": {"y": 0}}, "top": {"block": "punch", "where": {"y": 0.2}}},
+    }  # fmt: skip
+    deck = {
+        "materials": {"rubber": {"model": "neo_hookean", "density": 1000, "youngs_modulus": 1e6, "poisson_ratio": 0.3}},
+        "blocks": {"slab": {"material": "rubber"}, "punch": {"material": "rubber"}},
+        "joints": {"touch": {"model": "penalty", "friction": friction}},
+        "contact": {"default_joint": "touch"},
+        "conditions": [
+            {"type": "fixed", "node_set": "base"},
+            {"type": "displacement", "node_set": "top", "value": [f"{2 * slide}*max(0,min(t/0.4-0.5,0.5))", f"-{0.2 * (1 - ratio)}*min(t/0.2,1)", 0]},
+        ],
+        "damping": {"mass": 30},
+        "time": {"end": 0.4},
+        "output": {"every": 0.4, "planes": False},
+        "history": {"every": 0.002, "joints": ["touch"]},
+    }  # fmt: skip
+    return recipe, deck
+
+
+for name, how in (
+    ("to 0.75, slid", {"ratio": 0.75, "slide": 0.1, "friction": 0.4}),
+    ("to 0.7, slid", {"ratio": 0.7, "slide": 0.1, "friction": 0.4}),
+    ("to 0.7, slid, finer", {"ratio": 0.7, "slide": 0.1, "friction": 0.4, "n": 2}),
+    ("to 0.6", {"ratio": 0.6, "slide": 0.0, "friction": 0.0}),
+    ("to 0.5, with friction", {"ratio": 0.5, "slide": 0.0, "friction": 0.4}),
+    ("to 0.75, slid, in space", {"ratio": 0.75, "slide": 0.1, "friction": 0.4, "dimension": 3}),
+):
+    run = case.run(f"punch {name}", *punch(**how), energy=5e-3)
+    force = run.history["touch_normal_force"]
+    case.check_within(f"punch {name}: force at the end over the largest", force[-1] / force.max(), 0.85, 1)
+    play = abs(run.history["external_work"]).max()
+    # At 0.6 and 0.5 the corners of the punch lie an element deep: they chatter, and contact gains while nothing moves.
+    chatters = how["ratio"] <= 0.6
+    told = " (reported: we differ)" if chatters else ""
+    case.check(f"punch {name}: contact remainder over the work{told}", run.history["contact_remainder"][-1] / play, 0, 3e-3, report=chatters)
+case.finish()
