@@ -103,14 +103,13 @@ for name, how in (
     ("to 0.7, slid", {"ratio": 0.7, "slide": 0.1, "friction": 0.4}),
     ("to 0.7, slid, finer", {"ratio": 0.7, "slide": 0.1, "friction": 0.4, "n": 2}),
     ("to 0.6", {"ratio": 0.6, "slide": 0.0, "friction": 0.0}),
-    ("to 0.5, with friction", {"ratio": 0.5, "slide": 0.0, "friction": 0.4}),
     ("to 0.75, slid, in space", {"ratio": 0.75, "slide": 0.1, "friction": 0.4, "dimension": 3}),
 ):
-    run = case.run(f"punch {name}", *punch(**how), energy=5e-3)
+    run = case.run(f"punch {name}", *punch(**how), energy=5e-3, momentum=1e-11)
     force = run.history["touch_normal_force"]
     case.check_within(f"punch {name}: force at the end over the largest", force[-1] / force.max(), 0.85, 1)
     play = abs(run.history["external_work"]).max()
-    # At 0.6 and 0.5 the corners of the punch lie an element deep: they chatter, and contact gains while nothing moves.
+    # At 0.6 the corners of the punch lie an element deep: they chatter, and contact gains while nothing moves.
     chatters = how["ratio"] <= 0.6
     told = " (reported: we differ)" if chatters else ""
     case.check(f"punch {name}: contact remainder over the work{told}", run.history["contact_remainder"][-1] / play, 0, 3e-3, report=chatters)

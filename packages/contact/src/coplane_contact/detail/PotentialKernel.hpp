@@ -182,6 +182,7 @@ private:
     overlap_ = branchFree::choose(opposed, pair_.overlap, T(0.0));
     overlaps_ = overlap_ > options_.areaMin * branchFree::smaller(a_.area, b_.area);
     deepest_ = pair_.mostClosure + all(permanents_);
+    beginsNarrow_ = overlap_ < widestBeginning * branchFree::smaller(a_.area, b_.area);
     speed_ = branchFree::choose(overlaps_, approachSpeed(pair_.plane.normal, a_, b_), T(0.0));
     if (branchFree::anyOf(bends_ && overlaps_))
       done_ = done_ && !findBending(planes_, bends_ && overlaps_, pair_, a_, b_, dt_, bent_);
@@ -207,6 +208,8 @@ private:
     return closure > (1 + roundOffOfReach) * known ? closure : 0;
   }
   static constexpr Real roundOffOfReach = 1e-9;
+  /// What comes back over a line of the mesh in one step, over the smaller face [-].
+  static constexpr Real widestBeginning = 0.05;
   /// By uneven closures a curve reaches further with each tangent, from below; even ones take one.
   static constexpr int mostTangents = 8;
 
@@ -439,11 +442,13 @@ private:
     // An offset that has only just been taken over does not say how deep faces lie in each other.
     if (closedBefore && !late_[i] && -leastGaps_[i] < depth)
       depth = -leastGaps_[i];
-    // What comes over a line of the mesh from pairs beside it on the same surfaces lies as deep as
-    // they do, and was never apart from them.
-    const bool slidesOn = plane.lineage == Lineage::SlidesOn && comesFromTheSide &&
-                          branchFree::lane(pair_.isWithinASurface(), i);
-    if (depth > start && !slidesOn)
+    // What has parted sideways over a line of the mesh comes back as deep as the pairs beside it,
+    // which it does not know, are by now. It was never apart from them. What it begins with has
+    // no source, so it begins with little, as what slides does.
+    const bool comesBack = plane.isBorn() && plane.lineage == Lineage::SlidesOn &&
+                           comesFromTheSide && branchFree::lane(beginsNarrow_, i) &&
+                           branchFree::lane(pair_.isWithinASurface(), i);
+    if (depth > start && !comesBack)
       plane.refusal = Refusal::Deep;
   }
 
@@ -866,6 +871,7 @@ private:
   BentBonds<T> bent_;                      ///< how these are bent
   T overlap_;                              ///< of the shadows, per depth [m^2]
   Mask overlaps_;                          ///< whether that is enough to count
+  Mask beginsNarrow_;                      ///< or still little
   T deepest_;                              ///< closure; negative: least distance [m]
   PerLane leastGaps_ = {};                 ///< where the faces are deepest in each other [m]
   T speed_;                                ///< of approach [m/s]
