@@ -447,6 +447,7 @@ private:
     // no source, so it begins with little, as what slides does.
     const bool comesBack = plane.isBorn() && plane.lineage == Lineage::SlidesOn &&
                            comesFromTheSide && branchFree::lane(beginsNarrow_, i) &&
+                           branchFree::lane(deepest_, i) < plane.depthLimit &&
                            branchFree::lane(pair_.isWithinASurface(), i);
     if (depth > start && !comesBack)
       plane.refusal = Refusal::Deep;
