@@ -97,10 +97,10 @@ UNTOLD = {
                      "maxwell_damping"], NONE),
     **dict.fromkeys(["V49_taylor_anvil", "V50_spinning_ring", "V72_axisymmetric_contact", "V75_cylinder_test", "ring_forms", "penetration", "perforation"], AXIS),
     **dict.fromkeys(["conditions_act", "cut_blocks", "cut_rock", "erosion", "fragments", "safe_step", "V62_search_interval", "V91_stages"], OWN),
-    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "fast_blocks", "symmetry"], ITSELF),
+    **dict.fromkeys(["V87_cracked_beam", "V87_lines", "V93_crushed_joint", "declared_joints", "fast_blocks", "ring_contacts", "symmetry"], ITSELF),
     **{name: SAME.format(case) for name, case in (("arch_2d", "V53"), ("ball_wall_2d", "V57"), ("bars_2d", "V21"), ("rocking_block_2d", "V51"))},
     "V84_factor_of_safety": ELSEWHERE,
     "rest_under_loads": "the bar of relaxation, which is told; its answers are when a run ends, and what the log says",
     **dict.fromkeys(["V56_brick_wall", "joint_laws", "perforation_3d", "rock_slope_2d", "shaken_stones_2d", "tunnel_2d"], LONG),
-    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "mass_scaling"], TRIED),
+    **dict.fromkeys(["V20_hertz_ball", "bent_rows", "debris", "deep_slides", "mass_scaling"], TRIED),
 }  # fmt: skip
