@@ -228,48 +228,61 @@ TEST_P(StepF_CreatePlane, whatIsFoundWithAreaInCommonDoesNotSlideOn)
 TEST_P(StepF_CreatePlane, aFaceThatSlidesOnOverTheSameSurfaceMeetsItAsDeepAsItLies)
 {
   // A rough surface: the next face of it stands higher than the one that was touched. With the
-  // potential, by no more than three times the mean closure
-  // there, beside a quarter of the limit.
+  // potential, by no more than three times the mean closure there, beside a quarter of the limit.
   for (const Real depth : {.06, .08})
-    for (const unsigned turns : {0xFFu, 0x0Fu, 0xF0u, 0u})
-    {
-      PairPlane plane = touchingPlane(1e3);
-      plane.state = PlaneState::Slot;
-      plane.lineage = Lineage::SlidesOn;
-      plane.sighting = Sighting::Known;
-      plane.depthLimit = .1;
-      plane.closure = .01;
-      plane.turns = std::uint8_t(turns);
-      updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside(), .5), usual, 1);
-      EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
-      EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : .5e3 * depth, 1e-10);
-    }
+  {
+    PairPlane plane = touchingPlane(1e3);
+    plane.state = PlaneState::Slot;
+    plane.lineage = Lineage::SlidesOn;
+    plane.sighting = Sighting::Known;
+    plane.depthLimit = .1;
+    plane.closure = .01;
+    updatePlane<3>(plane, squareBelow(), squareAbove(depth, aside()), usual, 1);
+    EXPECT_EQ(plane.isRefused(), potential() && depth > 4 * .01 + .25 * .1);
+    EXPECT_NEAR(plane.forceOn(1).z, plane.isRefused() ? 0 : 1e3 * depth, 1e-10);
+  }
 }
+
+namespace
+{
+/// A segment that has carried at a depth of 0.6 of the limit goes where it is told, and comes back
+/// to share `width`, `depth` deep.
+PairPlane afterItsReturn(const Vec3& away, Real width, Real depth, unsigned turns)
+{
+  PairPlane plane = touchingPlane(1e3);
+  plane.depthLimit = .1;
+  plane.turns = std::uint8_t(turns);
+  const auto at = [&](const Vec3& place)
+  {
+    const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
+    const FaceNodes b = face({place, place + Vec3{1, 0, 0}});
+    updatePlane<2>(plane, a, b, ContactOptions::with(ContactOptions::Forces::Potential), 1e-3);
+  };
+  plane.area = 1;
+  at({.9, -.06, 0});
+  EXPECT_NEAR(plane.forceOn(1).y, 6, 1e-10);
+  at(away);
+  EXPECT_EQ(plane.area, 0.0);
+  at({1 - width, -depth, 0});
+  return plane;
+}
+} // namespace
 
 TEST(RefusalOfThePotential, whatPartsOverALineOfTheMeshComesBackOverIt)
 {
-  // Two segments at a depth of 0.6 of the limit: one slides off the other, and back by a hair. It
-  // was refused, and a block that was led to and fro over lines of the mesh fell through its floor.
+  // It was refused, and a block that was led to and fro over lines of the mesh fell through its
+  // floor. Between edges at which both surfaces turn it is another pair that meets.
+  const Vec3 aside{1.1, -.06, 0}, up{.9, .01, 0};
   for (const unsigned turns : {0xFFu, 0x0Fu, 0xF0u, 0u})
   {
-    PairPlane plane = touchingPlane(1e3);
-    plane.depthLimit = .1;
-    plane.turns = std::uint8_t(turns);
-    const auto at = [&](Real along)
-    {
-      const FaceNodes a = face({{1, 0, 0}, {0, 0, 0}});
-      const FaceNodes b = face({{along, -.06, 0}, {1 + along, -.06, 0}});
-      updatePlane<2>(plane, a, b, ContactOptions::with(ContactOptions::Forces::Potential), 1e-3);
-    };
-    plane.area = 1; // it has carried before
-    at(.9);
-    EXPECT_NEAR(plane.forceOn(1).y, 6, 1e-10);
-    at(1.1);
-    EXPECT_EQ(plane.area, 0.0);
-    at(.99);
+    const PairPlane plane = afterItsReturn(aside, .01, .06, turns);
     EXPECT_EQ(plane.isRefused(), turns == 0xFF);
     EXPECT_NEAR(plane.forceOn(1).y, turns == 0xFF ? 0 : .6, 1e-10);
+    EXPECT_FALSE(plane.isInherited());
   }
+  EXPECT_TRUE(afterItsReturn(aside, .06, .06, 0).isRefused()); // at once by more than a twentieth
+  EXPECT_TRUE(afterItsReturn(aside, .01, .11, 0).isRefused()); // beyond the depth limit
+  EXPECT_TRUE(afterItsReturn(up, .01, .06, 0).isRefused());    // it has opened
 }
 
 TEST_P(StepF_CreatePlane, aPlaneThatOpenedBeginsAnewAtItsSurfaceOnly)

@@ -217,50 +217,15 @@ RandomPair deepPairTurnedAway(std::mt19937& random, Real angle, Real size = 1)
   return pair;
 }
 
-/// Largest eigenvalue of the second derivatives of the energy of a pair over what the pair adds to
-/// the stiffness of its nodes [-].
+/// Of a penalty that hardens from that depth on.
 Real stiffnessOverBound(const RandomPair& pair, Real depthLimit)
 {
-  const auto at = [&](int k, Real h)
-  {
-    FaceNodes faces[2] = {pair.a, pair.b};
-    if (h != 0)
-      faces[k / 12].x[k % 12 / 3][k % 3] += h;
-    PairPlane plane = touchingPlane(1);
-    plane.depthLimit = depthLimit;
-    plane.area = 1e-9; // carries
-    plane.birthArea[0] = areaOf<3>(pair.a);
-    plane.birthArea[1] = areaOf<3>(pair.b);
-    updatePlane<3>(plane, faces[0], faces[1],
-                   ContactOptions::with(ContactOptions::Forces::Potential), 0);
-    return plane;
-  };
-  Real matrix[24][24];
-  const Real h = 1e-6;
-  for (int k = 0; k < 24; ++k)
-  {
-    const PairPlane up = at(k, h), down = at(k, -h);
-    for (int j = 0; j < 24; ++j)
-      matrix[k][j] =
-          -(up.nodal[j / 12][j % 12 / 3][j % 3] - down.nodal[j / 12][j % 12 / 3][j % 3]) / (2 * h);
-  }
-  Real v[24], size = 0;
-  for (int k = 0; k < 24; ++k)
-    v[k] = std::sin(1 + k * k);
-  for (int step = 0; step < 200; ++step)
-  {
-    Real next[24] = {}, square = 0;
-    for (int k = 0; k < 24; ++k)
-      for (int j = 0; j < 24; ++j)
-        next[k] += matrix[k][j] * v[j];
-    for (const Real x : next)
-      square += x * x;
-    size = std::sqrt(square);
-    for (int k = 0; k < 24; ++k)
-      v[k] = size > 0 ? next[k] / size : 0;
-  }
-  const PairPlane plane = at(0, 0);
-  return plane.nodeStiffness > 0 ? size / plane.nodeStiffness : 0;
+  PairPlane plane = touchingPlane(1);
+  plane.depthLimit = depthLimit;
+  plane.birthArea[0] = areaOf<3>(pair.a);
+  plane.birthArea[1] = areaOf<3>(pair.b);
+  return facepairs::stiffnessOverBound<3>(
+      pair, plane, ContactOptions::with(ContactOptions::Forces::Potential), 1e-6);
 }
 
 TEST(ContactPotential, whatLiesDeepTurnsAwayAtAStiffnessThatTheStepAllowsFor)

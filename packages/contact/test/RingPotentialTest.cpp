@@ -282,50 +282,15 @@ TEST(RingPotential, farFromTheAxisItIsThatOfPlaneStrain)
 
 namespace
 {
-/// Largest eigenvalue of the second derivatives of the energy of a pair over what the pair adds to
-/// the stiffness of its nodes [-].
+/// Of rings that were born with these areas [m^2].
 Real stiffnessOfRingsOverBound(const RandomPair& pair, const std::array<Real, 2>& birth)
 {
+  PairPlane plane = touchingPlane(1);
+  plane.birthArea[0] = birth[0];
+  plane.birthArea[1] = birth[1];
   ContactOptions options = ContactOptions::with(ContactOptions::Forces::Potential);
   options.axisymmetric = true;
-  const auto at = [&](int k, Real h)
-  {
-    FaceNodes faces[2] = {pair.a, pair.b};
-    if (h != 0)
-      faces[k / 4].x[k % 4 / 2][k % 2] += h;
-    PairPlane plane = touchingPlane(1);
-    plane.area = 1e-9; // carries
-    plane.birthArea[0] = birth[0];
-    plane.birthArea[1] = birth[1];
-    updatePlane<2>(plane, faces[0], faces[1], options, 0);
-    return plane;
-  };
-  Real matrix[8][8];
-  const Real h = 1e-7;
-  for (int k = 0; k < 8; ++k)
-  {
-    const PairPlane up = at(k, h), down = at(k, -h);
-    for (int j = 0; j < 8; ++j)
-      matrix[k][j] =
-          -(up.nodal[j / 4][j % 4 / 2][j % 2] - down.nodal[j / 4][j % 4 / 2][j % 2]) / (2 * h);
-  }
-  Real v[8], size = 0;
-  for (int k = 0; k < 8; ++k)
-    v[k] = std::sin(1 + k * k);
-  for (int step = 0; step < 200; ++step)
-  {
-    Real next[8] = {}, square = 0;
-    for (int k = 0; k < 8; ++k)
-      for (int j = 0; j < 8; ++j)
-        next[k] += matrix[k][j] * v[j];
-    for (const Real x : next)
-      square += x * x;
-    size = std::sqrt(square);
-    for (int k = 0; k < 8; ++k)
-      v[k] = size > 0 ? next[k] / size : 0;
-  }
-  const PairPlane plane = at(0, 0);
-  return plane.nodeStiffness > 0 ? size / plane.nodeStiffness : 0;
+  return stiffnessOverBound<2>(pair, plane, options, 1e-7);
 }
 } // namespace
 

@@ -144,8 +144,8 @@ public:
     PlaneList list;
     Kokkos::View<Plane*, Kokkos::HostSpace> copies;
   };
-  /// The same list, where only planes that are asked for have those of this cycle: much less to
-  /// do, as most that cycles do not look at are in nobody's way.
+  /// The same list, where only planes that are asked for have gaps and overlaps of this cycle;
+  /// others have those of the last cycle that looked at them.
   Shown planesNow(const std::function<bool(const Plane&)>& isAskedFor) const;
   /// All pairs of the last search, most of which have no plane: how many, the plane that each has
   /// or would get, and the same prepared.

@@ -67,31 +67,10 @@ public:
   ContactMoments<T> moments; ///< of the part in contact
   T wayOut = T(1.0);         ///< chi
   Mask hidden{false};        ///< the part in contact begins at covered edges only
-  /// One of the surfaces goes on over all of its edges at which what is in contact ends, lines of
-  /// the mesh, and no other body covers a face there: it is not between two edges at which both
-  /// bodies end.
-  KOKKOS_INLINE_FUNCTION Mask isWithinASurface() const
-  {
-    using namespace branchFree;
-    T all(2.0), open[2] = {coveredSides_[0] + openSides_[0], coveredSides_[1] + openSides_[1]};
-    if constexpr (Dim == 3)
-    {
-      // By lengths: a sliver along a line of the mesh has ends that do not matter.
-      all = open[0] = open[1] = T(0.0);
-      for (int i = 0; i < pieces_; ++i)
-        for (int k = 0; k < piece_[i].sides.size; ++k)
-        {
-          const PolygonSides<T>& sides = piece_[i].sides;
-          const Vec2Of<T> side = sides.to[k] - sides.from[k];
-          const T length = choose(sides.isThere(k), squareRoot(dot(side, side)), T(0.0));
-          all += length;
-          if (const int owner = piece_[i].owner[k]; owner >= 0)
-            open[owner / 4] +=
-                choose(edges_.turns[owner] + edges_.covered[owner] > 0.0, length, T(0.0));
-        }
-    }
-    return smaller(open[0], open[1]) < 0.25 * all;
-  }
+  /// At three quarters of the border of what is in contact, by length, or more there is no edge of
+  /// one of the faces at which its surface turns or another body covers it: the surface goes on
+  /// there, over lines of the mesh. Then it is not between two edges at which both bodies end.
+  KOKKOS_INLINE_FUNCTION Mask isWithinASurface() const;
   /// Sideways is the shorter way out, or nearly: chi < 1. Of T = Real only.
   KOKKOS_FORCEINLINE_FUNCTION const Mask& isStrip() const { return strip_; }
   T opposedness{};          ///< phi
@@ -225,18 +204,7 @@ public:
   /// stiffer the less is left of that: the energy goes with the mean of both circumferences, gamma
   /// with each.
   /// @param deepest closure [m]
-  KOKKOS_FORCEINLINE_FUNCTION T depthOfStep(const T& deepest) const
-  {
-    if constexpr (canRevolve)
-      if (scale_.axisymmetric)
-      {
-        const Real atAxis = 1.05;
-        const Real narrower = branchFree::smaller(around_[0], around_[1]);
-        const Real deep = 1 + pi * branchFree::positivePart(deepest) / narrower;
-        return atAxis * deep * deep * depth;
-      }
-    return T(1.0);
-  }
+  KOKKOS_FORCEINLINE_FUNCTION T depthOfStep(const T& deepest) const;
   /// Area of a face, of a ring over its whole turn [m^2].
   KOKKOS_FORCEINLINE_FUNCTION T faceArea(int f) const
   {

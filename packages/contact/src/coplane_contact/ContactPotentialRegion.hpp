@@ -467,4 +467,29 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::findStrip(const Mask& whole)
   if constexpr (branchFree::widthOf<T> != 1)
     regular = regular && !strip_;
 }
+
+template <int Dim, class T>
+KOKKOS_INLINE_FUNCTION typename PairPotential<Dim, T>::Mask
+PairPotential<Dim, T>::isWithinASurface() const
+{
+  using namespace branchFree;
+  constexpr Real least = 0.25;
+  T all(2.0), open[2] = {coveredSides_[0] + openSides_[0], coveredSides_[1] + openSides_[1]};
+  if constexpr (Dim == 3)
+  {
+    all = open[0] = open[1] = T(0.0);
+    for (int i = 0; i < pieces_; ++i)
+      for (int k = 0; k < piece_[i].sides.size; ++k)
+      {
+        const PolygonSides<T>& sides = piece_[i].sides;
+        const Vec2Of<T> side = sides.to[k] - sides.from[k];
+        const T length = choose(sides.isThere(k), squareRoot(dot(side, side)), T(0.0));
+        all += length;
+        if (const int owner = piece_[i].owner[k]; owner >= 0)
+          open[owner / 4] +=
+              choose(edges_.turns[owner] + edges_.covered[owner] > 0.0, length, T(0.0));
+      }
+  }
+  return smaller(open[0], open[1]) < least * all;
+}
 } // namespace coplane

@@ -82,4 +82,18 @@ KOKKOS_INLINE_FUNCTION void PairPotential<Dim, T>::addRadii(const Real& energy,
     }
   }
 }
+
+template <int Dim, class T>
+KOKKOS_FORCEINLINE_FUNCTION T PairPotential<Dim, T>::depthOfStep(const T& deepest) const
+{
+  if constexpr (canRevolve)
+    if (scale_.axisymmetric)
+    {
+      const Real atAxis = 1.05;
+      const Real narrower = branchFree::smaller(around_[0], around_[1]);
+      const Real deep = 1 + pi * branchFree::positivePart(deepest) / narrower;
+      return atAxis * deep * deep * depth;
+    }
+  return T(1.0);
+}
 } // namespace coplane

@@ -174,7 +174,9 @@ std::vector<ContactTableRow> contactTable(const Contact& contact, const ConstNod
       continue;
     Row& row = mine[PlaneKind(plane)];
     row.energies.add(plane, plane.stored);
-    row.area.add(planeNow(contact, plane, x).area);
+    if (plane.area > 0)
+      row.area.add(plane.area /
+                   materialArea(plane, [&](int face) { return extentOf(contact, face, x); }));
     ++row.planes;
   }
   // The kinds of all ranks.

@@ -100,9 +100,9 @@ enum class Refusal : std::uint8_t
 enum class Lineage : std::uint8_t
 {
   Own,
-  Inherited, ///< from living neighbours
-  SlidesOn   ///< from neighbours of which one touches the same surface: the face beside; also of
-             ///< what has parted sideways while it carried (potential only)
+  Inherited,     ///< from living neighbours
+  SlidesOn,      ///< from neighbours of which one touches the same surface: the face beside
+  PartedSideways ///< its own: it carried until its faces shared nothing more (potential only)
 };
 
 /// Crushing of a joint whose value is linear over face 0, and counts where it is positive, in the
@@ -222,7 +222,10 @@ struct alignas(64) Plane
     const Real roundOff = 1e-6 * depthLimit;
     history.absorbed = history.absorbed && (offset > roundOff || offset < -roundOff);
   }
-  KOKKOS_INLINE_FUNCTION bool isInherited() const { return lineage != Lineage::Own; }
+  KOKKOS_INLINE_FUNCTION bool isInherited() const
+  {
+    return lineage == Lineage::Inherited || lineage == Lineage::SlidesOn;
+  }
 
   /// How much the plane counts for the stable step [-]. Inside the step in which a node meets a
   /// spring k, or leaves it, up to k (v dt)^2 / 8 of energy is made or lost. Nodes meet a soft

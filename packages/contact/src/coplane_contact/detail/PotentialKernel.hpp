@@ -445,8 +445,8 @@ private:
     // What has parted sideways over a line of the mesh comes back as deep as the pairs beside it,
     // which it does not know, are by now. It was never apart from them. What it begins with has
     // no source, so it begins with little, as what slides does.
-    const bool comesBack = plane.isBorn() && plane.lineage == Lineage::SlidesOn &&
-                           comesFromTheSide && branchFree::lane(beginsNarrow_, i) &&
+    const bool comesBack = plane.lineage == Lineage::PartedSideways && comesFromTheSide &&
+                           branchFree::lane(beginsNarrow_, i) &&
                            branchFree::lane(deepest_, i) < plane.depthLimit &&
                            branchFree::lane(pair_.isWithinASurface(), i);
     if (depth > start && !comesBack)
@@ -794,9 +794,13 @@ private:
       if (!branchFree::lane(touching, i))
       {
         if (plane.area > 0)
+        {
           plane.frictionWork += plane.shearEnergy();
-        if (plane.area > 0 && !branchFree::lane(overlaps_, i))
-          plane.lineage = Lineage::SlidesOn; // it has parted sideways, and may come back so
+          if (!branchFree::lane(overlaps_, i))
+            plane.lineage = Lineage::PartedSideways;
+          else if (plane.lineage == Lineage::PartedSideways)
+            plane.lineage = Lineage::Own;
+        }
         if (planes_.law[i]->curve.crushing.loss > 0)
           plane.bookHysteresisDue();
         carryNothing(plane);
