@@ -16,11 +16,15 @@ deck = {
 
 
 def peak(name, layers, ranks):
-    """Largest resident memory of a rank [bytes]."""
+    """Largest resident memory of a rank, the least of three runs [bytes]: what MPI and the system take besides differs from run to run by as
+    much as 20 bytes for each element of others."""
     recipe = {"dimension": 3, "parts": [{"shape": "box", "block": "bar", "min": [0, 0, 0], "max": [16, 16, layers], "divisions": [16, 16, layers]}]}
-    run = case.attempt(name, recipe, deck, ranks, 1, "serial")
-    case.check_equal(f"{name}: exit code", run.code, 0)
-    return run.record["peak_memory_bytes"]["largest_rank"]
+    found = []
+    for turn in (1, 2, 3):
+        run = case.attempt(f"{name}, turn {turn}", recipe, deck, ranks, 1, "serial")
+        case.check_equal(f"{name}, turn {turn}: exit code", run.code, 0)
+        found.append(run.record["peak_memory_bytes"]["largest_rank"])
+    return min(found)
 
 
 def elements_alone(ranks):
