@@ -56,21 +56,22 @@ Real Contact::smallestFaceSize(const std::vector<Face>& faces, const ConstNodeVe
 
 void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
                           const std::vector<GlobalId>& gone, const ConstNodeVectors& x,
-                          const ConstNodeVectors& v, Real dt)
+                          const ConstNodeVectors& v, Real dt, const Substep& last)
 {
   const auto isDead = [&](GlobalId face)
   {
     return std::binary_search(deadElements.begin(), deadElements.end(), elementOfFace(face)) ||
            std::binary_search(gone.begin(), gone.end(), face);
   };
-  const auto halfStep = [&](int face)
+  const auto halfStep = [&](int face, const Substep& step)
   {
     const Face& of = faces()[face];
     FaceNodes nodes = nodesOf(of, x);
     for (int k = 0; k < nodes.count; ++k)
-      nodes.v[k] = at(v, of.nodes[k]);
-    return stepA_halfStepFace(nodes, dt, dimension_);
+      nodes.v[k] = at(step.v, of.nodes[k]);
+    return stepA_halfStepFace(nodes, step.dt, dimension_);
   };
+  const Substep cycle{v, dt};
   std::vector<std::size_t> ending;
   for (std::size_t p = 0; p < planes().size(); ++p)
   {
@@ -83,7 +84,10 @@ void Contact::endPlanesOf(const std::vector<GlobalId>& deadElements,
     // What the last force still does in this step belongs to what is lost.
     Real eroded = plane.stored - plane.work;
     if (plane.area > 0)
-      bookOldForce(plane, halfStep(plane.face[0]), halfStep(plane.face[1]), dt);
+    {
+      const Substep& step = substepped_.has(planes().slotOf(p)) ? last : cycle;
+      bookOldForce(plane, halfStep(plane.face[0], step), halfStep(plane.face[1], step), step.dt);
+    }
     eroded += plane.work;
     ended_.add(plane, eroded);
   }
@@ -160,17 +164,25 @@ void Contact::findFaces(const ConstNodeVectors& x, const ConstNodeVectors& v)
 }
 
 void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v,
-                                       Real dt, Real lookAhead, Real sinceSearch)
+                                       Real dt, Real lookAhead, Real sinceSearch,
+                                       const Substep& last)
 {
   TimedRegion region("coplane::contact::step6_updateCommonPlanes");
   distances_.follow(x, v, sinceSearch, lookAhead);
-  ContactOptions options = options_;
-  options.lookAhead = lookAhead;
-  PairTables pairs = pairTables();
-  pairs.changedFaces = forceSums_.changed().data();
-  near_.list(pairs, int(planes_.count()), faces().size());
-  pairedFaces_.stepA(motionOf(x, v, dt), near_.faces());
-  stepsBtoH(pairs, near_.slots(), pairedFaces_.data(), dimension_, options, dt);
+  lookAhead_ = lookAhead;
+  near_.list(pairTables(), int(planes_.count()), faces().size());
+  if (substepped_.empty())
+  {
+    pairedFaces_.stepA(motionOf(x, v, dt), near_.faces());
+    updatePairs(near_.slots(), dt);
+  }
+  else
+  {
+    listSubsteppedNear();
+    updateSubstepped(x, last);
+    pairedFaces_.stepA(motionOf(x, v, dt), near_.faces());
+    updatePairs(substepped_.othersOf(near_.slots()), dt);
+  }
   planes_.listWoken();
   shown_.reset();
   if (searches_.sinceUpdate && searches_.count > 1)
@@ -181,10 +193,41 @@ void Contact::step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNod
   searches_.sinceUpdate = false;
 }
 
+void Contact::beginSubsteps(Real lookAhead)
+{
+  lookAhead_ = lookAhead;
+  listSubsteppedNear();
+}
+
+void Contact::listSubsteppedNear()
+{
+  substepped_.listNear(planes_.slots().faces,
+                       [&](int slot)
+                       {
+                         return !distances_.isFar(slot) ||
+                                !planes_.carriesNothing(std::size_t(slot));
+                       });
+}
+
+void Contact::updateSubstepped(const ConstNodeVectors& x, const Substep& step)
+{
+  pairedFaces_.stepA(motionOf(x, step.v, step.dt), substepped_.nearFaces());
+  updatePairs(substepped_.near(), step.dt);
+}
+
+/// Steps B to H. @param slots whose faces have had step A, ascending
+void Contact::updatePairs(const std::vector<int>& slots, Real dt)
+{
+  ContactOptions options = options_;
+  options.lookAhead = lookAhead_;
+  stepsBtoH(pairTables(), slots, pairedFaces_.data(), dimension_, options, dt);
+}
+
 PairTables Contact::pairTables()
 {
   PairTables pairs = planes_.forKernels(isIncremental());
   pairs.distances = &distances_;
+  pairs.changedFaces = forceSums_.changed().data();
   return pairs;
 }
 

@@ -14,6 +14,7 @@
 #include <coplane_contact/PlaneTable.hpp>
 #include <coplane_contact/Search.hpp>
 #include <coplane_contact/SearchReach.hpp>
+#include <coplane_contact/SubsteppedPairs.hpp>
 #include <coplane_core/Backend.hpp>
 #include <coplane_core/Comm.hpp>
 #include <coplane_core/NodeViews.hpp>
@@ -91,8 +92,10 @@ public:
   /// Ends the planes of faces of these elements and of these faces (both sorted), with their energy
   /// booked as eroded: the elements have died, the faces have been covered, on the way to x. Every
   /// rank needs the same lists.
+  /// @param last step of the pairs that have several in a cycle
   void endPlanesOf(const std::vector<GlobalId>& deadElements, const std::vector<GlobalId>& faces,
-                   const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt);
+                   const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
+                   const Substep& last);
   /// Other local faces, sorted by id; those that were there before keep their planes. A search has
   /// to follow.
   void replaceLocalFaces(std::vector<Face> localFaces);
@@ -119,9 +122,34 @@ public:
 
   /// Step 6: steps A to H for the slots whose faces are near. lookAhead: what may touch within this
   /// time counts for the stable step; at least the two largest steps that may follow; sinceSearch:
-  /// time since then [s]
+  /// time since then [s]; last: step of the pairs that have several in a cycle
   void step6_updateCommonPlanes(const ConstNodeVectors& x, const ConstNodeVectors& v, Real dt,
-                                Real lookAhead, Real sinceSearch);
+                                Real lookAhead, Real sinceSearch, const Substep& last = {});
+
+  /// Which pairs have several steps in a cycle: those at a node that has. To be told after each
+  /// search, too. @param steps in a cycle, by node of the layout; 1: one
+  void substepPairsAt(const Array<Real>& steps, int ownedNodes)
+  {
+    substepped_.list(planes_.slots().faces, faces(), localFaces().size(), ownedNodes, steps);
+  }
+  const SubsteppedPairs& substepped() const { return substepped_; }
+  /// Which of these pairs have to be looked at in the next cycle. @param lookAhead as in step 6 [s]
+  void beginSubsteps(Real lookAhead);
+  /// Steps A to H for those, at x. Until the next update faces are known for nobody else.
+  void updateSubstepped(const ConstNodeVectors& x, const Substep& step);
+  /// Adds their forces to owned nodes [N].
+  void addSubsteppedForces(const NodeVectors& force) const
+  {
+    substepped_.addForces(planes_.slots().plane.data(), planes_.slots().activity, force);
+  }
+  /// Calls f(face, face) for all pairs of the last search.
+  template <class F>
+  void forEachPair(F&& f) const
+  {
+    for (std::size_t p = 0; p < planes_.count(); ++p)
+      if (const SlotFaces& pair = planes_.slots().faces(p); pair.face[0] >= 0)
+        f(faces()[pair.face[0]], faces()[pair.face[1]]);
+  }
 
   /// Adds the planes' forces to owned nodes, face by face in the order of ids and plane by plane in
   /// the order of keys, and bounds the contact stiffness that each node feels [N/m].
@@ -296,6 +324,8 @@ private:
   void listSlotsOfFaces(int ownedNodes);
   bool isIncremental() const { return options_.closure == ContactOptions::Closure::Incremental; }
   PairTables pairTables();
+  void listSubsteppedNear();
+  void updatePairs(const std::vector<int>& slots, Real dt);
   /// Whether the last update may have left out an open plane.
   bool wasPassedOver(std::size_t slot) const;
   /// How far the pairs of a search are from each other. @param planes of the faces, x (a copy) and
@@ -329,6 +359,8 @@ private:
   PlaneTable planes_;
   PairedFaces pairedFaces_;
   NearPairs near_;
+  SubsteppedPairs substepped_;
+  Real lookAhead_ = 0; ///< of this cycle [s]
   PairDistances distances_;
   ForceSums forceSums_;
   EndedPlanes ended_;

@@ -164,20 +164,6 @@ Real ElementForces::smallestStep() const
   return least;
 }
 
-/// Calls f(block, element) for the elements around an owned node that deform.
-template <class F>
-void ElementForces::forEachAround(int node, F&& f) const
-{
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-  {
-    if (isRigid(b))
-      continue;
-    const int corners = topology(blocks_[b].type()).nodes;
-    for (const int entry : gathers_[b][node])
-      f(b, entry / corners);
-  }
-}
-
 Real ElementForces::leastStepAround(int node) const
 {
   Real least = infinity;

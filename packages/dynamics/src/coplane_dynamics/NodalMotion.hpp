@@ -68,6 +68,8 @@ public:
   /// Force of fixed, velocity, displacement, acceleration and symmetry on an owned node at n; zero
   /// on nodes of rigid bodies, which have reactions of their own (RigidBodies::motion) [N].
   Vec3 reaction(int node) const;
+  /// What symmetry forbids in the middle of the step that follows the last kick.
+  const std::vector<Conditions::Projection>& projections() const { return projections_; }
   const FreeFields& freeFields() const { return freeFields_; }
 
   /// Reactions, and the bodies' part of a checkpoint. Collective.

@@ -14,8 +14,10 @@ NodalState::NodalState(const RankMesh& mesh)
       dampingWork("dampingWork", mesh.ownedNodes),
       localDampingWork("localDampingWork", mesh.ownedNodes),
       totalWork("totalWork", mesh.ownedNodes),
-      contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes)
+      contactStiffness("contactStiffness", mesh.ownedNodes), addedMass("addedMass", mesh.ownedNodes),
+      substeps("substeps", mesh.nodes())
 {
+  Kokkos::deep_copy(substeps, 1.0);
   for (int n = 0; n < mesh.nodes(); ++n)
   {
     set(x, n, mesh.coordinates[n]);
@@ -27,5 +29,6 @@ void NodalState::resize(const NodeLayout& layout)
 {
   Kokkos::resize(x, layout.size());
   Kokkos::resize(v, layout.size());
+  Kokkos::resize(substeps, layout.size());
 }
 } // namespace coplane

@@ -37,6 +37,10 @@ struct NodalState
   /// Part of the mass of owned nodes that mass scaling has added: inertia without weight [kg].
   Array<Real> addedMass;
 
+  /// That elements and planes at a node make in a cycle: 1, or more with time.subcycling; all nodes
+  /// of the layout [-].
+  Array<Real> substeps;
+
   explicit NodalState(const RankMesh& mesh);
   int owned() const { return int(force.extent(0)); }
   /// Follows a layout whose ghost nodes have changed; the values of ghosts come with the next

@@ -15,6 +15,7 @@ namespace
 {
 constexpr std::int64_t energyCheckEvery = 100; // cycles; what contact gains in every one
 /// Step by the motion of faces over that by elements when faces are about as fast as waves.
+constexpr std::int64_t regroupEvery = 20;      ///< cycles; what is substepped
 constexpr Real fastBesideWaves = 0.35;
 constexpr Real mostCycles = 1e15; // some centuries
 /// Default skin over the smallest face [-]; the larger one where searches come by motion only.
@@ -48,7 +49,7 @@ Solver::Solver(Model model, const Comm& comm)
     : model_(std::move(model)), comm_(&comm), layout_(comm, model_.mesh), state_(model_.mesh),
       elements_(model_.mesh, model_.blocks, model_.viscosity, state_),
       step_(model_.time, std::max(model_.contact.dampNormal, model_.contact.dampShear)),
-      searches_(model_.searchEvery), relaxation_(model_.conditions.relaxation)
+      subcycling_(model_.time), searches_(model_.searchEvery), relaxation_(model_.conditions.relaxation)
 {
   attempt([&] { elements_.setInitialStress(model_); });
   attempt([&] { startVelocities(); });
@@ -177,6 +178,7 @@ void Solver::prepare()
 void Solver::advance()
 {
   const Real dt = clock_.nextStep;
+  subcycling_.begin(dt, lookAhead(), parts(), state_, elements_, contact_.get());
   drift(dt);
   refresh();
   findForces(dt);
@@ -209,11 +211,14 @@ void Solver::refresh()
 void Solver::findForces(Real dt)
 {
   elements_.update(state_, layout_, dt, work_);
+  subcycling_.endElements(dt, layout_, state_, elements_);
   const bool someDied = dt > 0 && erode(dt);
   if (contact_ && (searches_.isDue() || someDied))
     search(clock_.time + dt);
   else if (contact_ && model_.contact.inherit && searches_.isPassingDue())
     passOn();
+  if (someDied && !contact_)
+    subcycling_.relist(parts(), nullptr);
   if (contact_)
     updatePlanes(dt);
   {
@@ -245,7 +250,7 @@ bool Solver::erode(Real dt)
     return false;
   if (contact_)
     contact_->endPlanesOf(dead, facesChange ? facesThatGo() : std::vector<GlobalId>(), state_.x,
-                          state_.v, dt);
+                          state_.v, dt, subcycling_.lastStep(dt));
   leaveWithoutElements(dead, contact_ ? &contact_->localFaces() : nullptr);
   takeMassAlong(leaving); // planes have ended with the velocities that there were
   renewDebris();
@@ -302,6 +307,8 @@ void Solver::search(Real time, bool again)
   Kokkos::deep_copy(state_.atSearch, ownedOf(state_.x));
   Kokkos::deep_copy(state_.velocityAtSearch, ownedOf(state_.v));
   Kokkos::deep_copy(state_.atPassing, state_.atSearch);
+  subcycling_.relist(parts(), contact_.get());
+  regroupIsDue_ = true;
 }
 
 void Solver::passOn()
@@ -351,9 +358,9 @@ void Solver::openContact()
 void Solver::updatePlanes(Real dt)
 {
   const WorkWatch watch(work_.planes);
-  // The speed of approach may grow by the kick that lies between: twice the step.
-  contact_->step6_updateCommonPlanes(state_.x, state_.v, dt, 2 * step_.largestNext(),
-                                     searches_.timeSince(clock_.time + dt));
+  contact_->step6_updateCommonPlanes(state_.x, state_.v, dt, lookAhead(),
+                                     searches_.timeSince(clock_.time + dt),
+                                     subcycling_.lastStep(dt));
 }
 
 void Solver::addContactForces()
@@ -408,8 +415,7 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
     agreeOnMasses();
   if (failed_)
     return std::nullopt;
-  const Real step =
-      step_.choose(-extremes[0], {-extremes[4], -extremes[5]}, searches_.relativeSpeed(), parts());
+  const Real step = chooseStep(-extremes[0], {-extremes[4], -extremes[5]});
   if (step * mostCycles < model_.time.end)
   {
     failed_ = true;
@@ -425,9 +431,33 @@ std::optional<Real> Solver::agreeOnNextStep(const Requests& mine)
   return step;
 }
 
+/// @param stable with what is substepped now, limits: of all ranks
+Real Solver::chooseStep(Real stable, const MotionLimits& limits)
+{
+  if (!subcycling_.acts())
+    return step_.choose(stable, limits, searches_.relativeSpeed(), parts());
+  const Real factor = model_.time.stepFactor;
+  bool regroup = std::exchange(regroupIsDue_, false) || clock_.cycle % regroupEvery == 0 ||
+                 factor * stable < clock_.nextStep;
+  const Real safe = regroup ? subcycling_.plan(parts(), step_)
+                            : std::max(stable, subcycling_.planned());
+  Real step = step_.choose(safe, limits, searches_.relativeSpeed(), parts());
+  if (!regroup && step > factor * stable)
+  {
+    step = std::min(step, factor * subcycling_.plan(parts(), step_));
+    regroup = true;
+  }
+  if (regroup)
+    subcycling_.regroup(step, parts(), state_, contact_.get());
+  return step;
+}
+
 void Solver::kick(Real step)
 {
   const WorkWatch watch(work_.nodes);
+  subcycling_.endMotion(state_);
+  if (subcycling_.acts())
+    subcycling_.weigh(clock_.step, step, state_, contact_.get());
   attempt(
       [&]
       {

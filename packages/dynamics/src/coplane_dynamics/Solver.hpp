@@ -19,6 +19,7 @@
 #include <coplane_dynamics/SearchPlan.hpp>
 #include <coplane_dynamics/Signals.hpp>
 #include <coplane_dynamics/Stage.hpp>
+#include <coplane_dynamics/Subcycling.hpp>
 #include <coplane_dynamics/TimeStep.hpp>
 #include <coplane_dynamics/WorkTimes.hpp>
 #include <coplane_dynamics/WorstEntities.hpp>
@@ -105,7 +106,10 @@ public:
   /// Mass points that erosion has left, where faces stop them; nullptr: they do not.
   const Debris* debris() const { return debris_ ? &*debris_ : nullptr; }
   /// Of conditions on the motion of an owned node, at the end of the cycle [N].
-  Vec3 reaction(int node) const { return motion_->reaction(node); }
+  Vec3 reaction(int node) const { return motion_->reaction(node) + subcycling_.reaction(node); }
+  /// Several steps in a cycle where only small ones are stable.
+  const Subcycling& subcycling() const { return subcycling_; }
+  Subcycling::Counts substepped() const { return subcycling_.countsHere(parts()); } ///< this rank's
   const RelaxationState& relaxation() const { return relaxation_.state(); }
   RestRatios restRatios() const { return coplane::restRatios(parts()); } ///< Collective.
   const StageState& stage() const { return stage_; }
@@ -173,6 +177,7 @@ private:
   /// or a force has failed, or the step is far too small. Collective.
   std::optional<Real> agreeOnNextStep(const Requests& mine);
   void agreeOnMasses(); ///< collective
+  Real chooseStep(Real stable, const MotionLimits& limits); ///< collective
   void kick(Real step);
   void relax(Real step);
   void planSearch();
@@ -186,6 +191,8 @@ private:
   /// The rows of owned nodes.
   NodeVectors ownedOf(const NodeVectors& all) const;
   void updatePlanes(Real dt);
+  /// Of contact: the speed of approach may grow by the kick that lies between, so twice the step.
+  Real lookAhead() const { return 2 * step_.largestNext(); }
   void addContactForces();
 
   // Collective.
@@ -260,10 +267,12 @@ private:
   std::vector<int> bodyOfNode_; ///< number of the body, the same on all ranks; contact only
   Clock clock_;
   TimeStep step_;
+  Subcycling subcycling_;
   SearchPlan searches_;
   Relaxation relaxation_;
   Ledger ledger_;
   BalanceWatch watch_;
+  bool regroupIsDue_ = true;  ///< what is substepped, whatever the step; the same on all ranks
   bool massesRaised_ = false;         ///< on this rank, since ranks agreed on a step
   bool contactMayHaveGained_ = false; ///< in this cycle, on some rank: the same on all
   bool failed_ = false;               ///< the same on all ranks

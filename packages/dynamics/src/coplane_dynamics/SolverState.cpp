@@ -54,6 +54,7 @@ NodeColumns nodeColumns(const NodalState& state)
   // Mass scaling adds to masses bit by bit: what they are does not follow from both parts.
   scalar("mass", state.mass);
   scalar("added_mass", state.addedMass);
+  scalar("substeps", state.substeps);
   return columns;
 }
 
@@ -88,6 +89,7 @@ void Solver::forEachNumber(Self& self, F&& number)
 {
   Clock::forEachNumber(self.clock_, number);
   TimeStep::forEachNumber(self.step_, number);
+  Subcycling::forEachNumber(self.subcycling_, number);
   SearchPlan::forEachNumber(self.searches_, number);
   NodalMotion::forEachNumber(*self.motion_, number);
   Relaxation::forEachNumber(self.relaxation_, number);
@@ -149,9 +151,11 @@ void Solver::restore(const StateSource& in)
     layout_.refresh(atSearch, velocity);
     contact_->restoreDistances(atSearch, velocity, searches_.ahead());
     contact_->followFaces(state_.x, state_.v, searches_.timeSince(clock_.time),
-                          2 * step_.largestNext());
+                          lookAhead());
     contact_->findFaces(state_.x, state_.v);
   }
+  subcycling_.restore(parts(), state_, contact_.get());
+  regroupIsDue_ = false;
   Ledger::forEachStruct(ledger_,
                         [&](const char* name, auto& values) { setNumbers(values, in, name); });
 }

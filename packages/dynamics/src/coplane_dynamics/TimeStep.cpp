@@ -62,18 +62,35 @@ Real TimeStep::bodyStep(const Parts& parts) const
   return frequency > 0 ? stableStep(frequency * frequency, dampingRate(frequency)) : infinity;
 }
 
+Real TimeStep::stableOfBodies(const Parts& parts) const
+{
+  return std::min(bodyStep(parts), parts.motion.freeFields().stableStep());
+}
+
 Real TimeStep::stable(const Parts& parts) const
 {
   if (scaling_.acts())
     return std::min(
-        {bodyStep(parts), scaling_.stable(parts), parts.motion.freeFields().stableStep()});
-  const Real least = std::min(
-      {bodyStep(parts), parts.elements.smallestStep(), parts.motion.freeFields().stableStep()});
-  if (!parts.contact && parts.lines.empty())
-    return least;
+        {stableOfBodies(parts), scaling_.stable(parts)});
   const auto stiffness = parts.state.contactStiffness;
   const auto mass = parts.state.mass;
   const NodalMotion* const motion = &parts.motion;
+  if (options_.subcyclingLevels > 1)
+  {
+    // By nodes throughout: those that are substepped allow that much longer cycles.
+    const auto substeps = parts.state.substeps;
+    return std::min(stableOfBodies(parts),
+                    parallelMin(
+                        "coplane::dynamics::stableStep", parts.layout.owned(),
+                        KOKKOS_LAMBDA(const int n) {
+                          return !(mass(n) > 0) || motion->followsBody(n)
+                                     ? infinity
+                                     : substeps(n) * nodeStep(parts, n);
+                        }));
+  }
+  const Real least = std::min(stableOfBodies(parts), parts.elements.smallestStep());
+  if (!parts.contact && parts.lines.empty())
+    return least;
   const Real atContacts = parallelMin(
       "coplane::dynamics::stableStep", parts.layout.owned(), KOKKOS_LAMBDA(const int n) {
         if (stiffness(n) == 0 || !(mass(n) > 0) || motion->followsBody(n))
@@ -145,6 +162,7 @@ void TimeStep::boundFirst(Real elements, const MotionLimits& limits, Real relati
   limits_ = limits;
   if (scaling_.acts())
     elements = std::max(elements, scaling_.target());
+  elements = std::ldexp(elements, options_.subcyclingLevels - 1); // a cycle may be so much longer
   Real least = std::min({options_.stepFactor * elements, motionStep(limits.thinnest, relativeSpeed),
                          meetingStep(limits.massOverStiffness, relativeSpeed)});
   least = std::min(least, options_.maximumStep.value_or(infinity));
@@ -187,7 +205,7 @@ StepControl TimeStep::control(const Parts& parts, const MotionLimits& mine,
   {
     if (!(mass(n) > 0) || parts.motion.followsBody(n))
       continue;
-    const Real step = nodeStep(parts, n);
+    const Real step = parts.state.substeps(n) * nodeStep(parts, n);
     if (step < control.stableStep ||
         (node >= 0 && step == control.stableStep && ids[n] < ids[node]))
     {

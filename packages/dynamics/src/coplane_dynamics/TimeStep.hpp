@@ -50,6 +50,10 @@ public:
   /// Of all elements, contacts and rigid bodies of this rank [s]; 0 when an element has turned
   /// inside out, or a force or stiffness is no number.
   Real stable(const Parts& parts) const;
+  /// Of elements and contacts at an owned node, in each of its steps in a cycle [s].
+  Real nodeStep(const Parts& parts, int node) const;
+  /// Of rigid bodies and free fields [s].
+  Real stableOfBodies(const Parts& parts) const;
   /// The step of the next cycle. The arguments are the same on all ranks. Collective.
   /// @param stable of all ranks [s]
   /// @param limits of all ranks
@@ -98,8 +102,7 @@ public:
   }
 
 private:
-  Real nodeStep(const Parts& parts, int node) const; ///< of elements and contacts there [s]
-  Real bodyStep(const Parts& parts) const;           ///< of rigid bodies [s]
+  Real bodyStep(const Parts& parts) const; ///< of rigid bodies [s]
   Real dampingRate(Real frequency) const;
 
   static constexpr Real motionPerStep = 0.2; ///< of the thickness of an element

@@ -40,5 +40,21 @@ struct ElementArrays
   Array<Real> stableStep;    ///< [s]
   Array<Real> volume;        ///< [m^3]
   Table<Real> volumeChanges; ///< see ElementBlock::findVolumeChanges() [m^3]
+
+  /// Calls f(of a, of b) for all arrays of two blocks of the same kind but the connectivity.
+  template <class F>
+  static void forEachOfBoth(const ElementArrays& a, const ElementArrays& b, F&& f)
+  {
+    using A = ElementArrays;
+    for (const auto table :
+         {&A::cornerMass, &A::pointMass, &A::stress, &A::history, &A::tangent, &A::hourglassForce,
+          &A::hourglassViscousForce, &A::compression, &A::energies, &A::deformation,
+          &A::volumeRatio, &A::pointStress, &A::pointHistory, &A::pointEnergy, &A::volumeChanges})
+      f(a.*table, b.*table);
+    for (const auto numbers :
+         {&A::mass, &A::referenceVolume, &A::referenceLength, &A::stableStep, &A::volume})
+      f(a.*numbers, b.*numbers);
+    f(a.cornerForce, b.cornerForce);
+  }
 };
 } // namespace coplane

@@ -421,6 +421,64 @@ void ElementBlock::restore(const Eroded& eroded)
       arrays_.cornerForce(e, corner, c) = 0;
 }
 
+namespace
+{
+// One element of an array into a place of another one of the same shape.
+void copyColumn(const Table<Real>& from, int source, const Table<Real>& to, int place)
+{
+  for (std::size_t row = 0; row < from.extent(0); ++row)
+    to(row, place) = from(row, source);
+}
+void copyColumn(const Array<Real>& from, int source, const Array<Real>& to, int place)
+{
+  to(place) = from(source);
+}
+void copyColumn(const ElementArrays::CornerVectors& from, int source,
+                const ElementArrays::CornerVectors& to, int place)
+{
+  for (std::size_t corner = 0; corner < from.extent(1); ++corner)
+    for (int c = 0; c < 3; ++c)
+      to(place, corner, c) = from(source, corner, c);
+}
+} // namespace
+
+ElementBlock ElementBlock::part(const std::vector<int>& elements) const
+{
+  if (options_.form == ElementForm::NodalPressure)
+    fail(ExitCode::Internal, "element block: nodal pressures have no parts");
+  std::vector<int> connectivity;
+  for (const int e : elements)
+    for (std::size_t c = 0; c < arrays_.connectivity.extent(1); ++c)
+      connectivity.push_back(arrays_.connectivity(e, c));
+  ElementBlock made(type_, law_, hourglass_, viscosity_, connectivity, options_);
+  Kokkos::deep_copy(made.alive_, 1.0);
+  give(elements, made);
+  return made;
+}
+
+void ElementBlock::give(const std::vector<int>& elements, ElementBlock& part) const
+{
+  // What pads the last batch is a copy of the last element.
+  const int padded = int(part.arrays_.mass.extent(0)), last = int(elements.size()) - 1;
+  ElementArrays::forEachOfBoth(
+      arrays_, part.arrays_,
+      [&](const auto& from, const auto& to)
+      {
+        for (int i = 0; i < padded; ++i)
+          copyColumn(from, elements[std::size_t(std::min(i, last))], to, i);
+      });
+}
+
+void ElementBlock::take(const std::vector<int>& elements, const ElementBlock& part)
+{
+  ElementArrays::forEachOfBoth(part.arrays_, arrays_,
+                               [&](const auto& from, const auto& to)
+                               {
+                                 for (int i = 0; i < int(elements.size()); ++i)
+                                   copyColumn(from, i, to, elements[std::size_t(i)]);
+                               });
+}
+
 Real ElementBlock::chemicalEnergy(int e) const
 {
   const Jwl* const explosive = std::get_if<Jwl>(&law_);

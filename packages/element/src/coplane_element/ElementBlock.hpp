@@ -124,6 +124,14 @@ public:
   bool isAlive(int element) const { return alive_(0, element) > 0; }
   bool isTakenOut(int element) const { return alive_(0, element) < 0; }
 
+  /// Some elements of this block as a block of their own, with the same bits: for those that
+  /// advance by steps of their own. Not for NodalPressure, whose elements need all others.
+  /// @param elements places in this block; the i-th becomes number i
+  ElementBlock part(const std::vector<int>& elements) const;
+  /// What elements of this block are now, into the part that was made of them, and back.
+  void give(const std::vector<int>& elements, ElementBlock& part) const;
+  void take(const std::vector<int>& elements, const ElementBlock& part);
+
   // For checkpoints, element by element: everything that the next cycle or an output reads and that
   // initialise() does not give. restoreState() follows initialise(), once for every element.
   std::vector<std::string> stateColumns() const;

@@ -228,6 +228,7 @@ struct TimeCard
   std::optional<Real> scaledStep;  ///< that masses are raised for; not given: they are not [s]
   Real scalingLimit = 0.1;         ///< largest added mass of a block over its own [-]
   bool scalingWithWaves = false;   ///< also with absorbing sides and ground motions
+  int subcyclingLevels = 1;        ///< a cycle has at most 2^(levels - 1) steps; 1: one
   bool endAtRest = false; ///< the run ends when damping does, by a ratio of the section damping
   Real energyTolerance =
       0.1; ///< stop when the balance is off by this fraction of the energy in play [-]

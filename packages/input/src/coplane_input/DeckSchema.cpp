@@ -669,6 +669,19 @@ Key timeGroup()
                            })
                        .means("nodal masses are raised where the stable step is smaller than a "
                               "given one: for slow motions only"),
+                   section("subcycling",
+                           {
+                               integer("levels", &TimeCard::subcyclingLevels)
+                                   .needed()
+                                   .in("-")
+                                   .atLeast(1)
+                                   .atMost(6)
+                                   .like("4")
+                                   .means("a cycle has at most 2^(levels - 1) of the smallest "
+                                          "steps; 1: no subcycling"),
+                           })
+                       .means("elements and contact that allow small steps only make several in "
+                              "a cycle: for a few small or crushed elements among many"),
                    number("energy_tolerance", &TimeCard::energyTolerance)
                        .in("-")
                        .above(0)

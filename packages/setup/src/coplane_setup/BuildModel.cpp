@@ -95,6 +95,7 @@ Model buildModel(const Deck& deck, const MeshSlice& slice, RankMesh part, const 
   model.time.fixedStep = deck.time.fixedStep;
   if (deck.time.scaledStep)
     model.time.massScaling = MassScalingOptions{*deck.time.scaledStep, deck.time.scalingLimit};
+  model.time.subcyclingLevels = deck.time.subcyclingLevels;
   model.time.endAtRest = deck.time.endAtRest;
   model.time.energyTolerance = deck.time.energyTolerance;
   model.time.contactGainTolerance = deck.time.contactGainTolerance;

@@ -1,0 +1,418 @@
+#include <coplane_core/Timers.hpp>
+#include <coplane_dynamics/Subcycling.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace coplane
+{
+namespace
+{
+/// What is below this many steps of a cycle is substepped, so that it may be crushed further before
+/// it limits the cycle.
+constexpr Real margin = 1.15;
+/// What a step of a node below the step of the cycle costs, over what a node costs in a cycle: its
+/// neighbours are substepped with it.
+constexpr Real costOfSubstep = 4;
+constexpr int perLevel = 4; ///< lengths of a cycle that plan() chooses from, between powers of two
+constexpr Real roundOff = 1e-12;
+
+std::vector<int> sortedOnce(std::vector<int> numbers)
+{
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
+}
+
+void clear(const std::vector<int>& nodes, const NodeVectors& values)
+{
+  for (const int n : nodes)
+    set(values, n, {});
+}
+} // namespace
+
+Subcycling::Counts Subcycling::countsHere(const Parts& parts) const
+{
+  Counts counts;
+  for (const Group& group : groups_)
+    for (const int e : group.elements)
+      counts.elements += parts.mesh().blocks[group.block].owned[std::size_t(e)] != 0;
+  counts.nodes = std::int64_t(nodes_.size());
+  return counts;
+}
+
+void Subcycling::begin(Real dt, Real lookAhead, const Parts& parts, NodalState& state,
+                       ElementForces& elements, Contact* contact)
+{
+  if (count_ == 1)
+    return;
+  TimedRegion region("coplane::dynamics::subcycling");
+  const Real step = dt / count_;
+  if (last_.extent(0) != state.v.extent(0))
+    last_ = NodeVectors("coplane::dynamics::lastVelocity", state.v.extent(0));
+  Kokkos::deep_copy(last_, state.v);
+  clear(nodes_, reactionImpulse_);
+  findHolds(parts, parts.clock.time + 0.5 * dt);
+  moved_ = nodes_;
+  std::vector<Vec3> start;
+  for (const int n : nodes_)
+    start.push_back(at(state.x, n));
+  for (Group& group : groups_)
+    elements.block(group.block).give(group.elements, group.part);
+  if (contact)
+    contact->beginSubsteps(lookAhead);
+  const auto drift = [&]
+  {
+    for (const int n : nodes_)
+      set(state.x, n, at(state.x, n) + step * at(last_, n));
+  };
+  for (int substep = 1; substep < count_; ++substep)
+  {
+    drift();
+    parts.layout.refresh(state.x, last_);
+    updateGroups(state, step);
+    if (contact)
+      contact->updateSubstepped(state.x, {last_, step});
+    sumForces(contact, forces_);
+    kick(step, state);
+  }
+  drift();
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    const int n = nodes_[i];
+    set(state.v, n, (1 / dt) * (at(state.x, n) - start[i]));
+    set(state.x, n, start[i]);
+  }
+}
+
+void Subcycling::updateGroups(const NodalState& state, Real dt)
+{
+  for (Group& group : groups_)
+    group.part.update(state.x, last_, dt);
+}
+
+void Subcycling::sumForces(const Contact* contact, const NodeVectors& forces) const
+{
+  clear(nodes_, forces);
+  for (const Group& group : groups_)
+  {
+    const Real* const cornerForce = group.part.cornerForce().data();
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+    {
+      Vec3 sum = at(forces, nodes_[i]);
+      for (const int entry : group.corners[i])
+      {
+        const Real* const f = cornerForce + 3 * std::size_t(entry);
+        sum += {f[0], f[1], f[2]};
+      }
+      set(forces, nodes_[i], sum);
+    }
+  }
+  if (contact)
+    contact->addSubsteppedForces(forces);
+}
+
+/// Along which directions conditions hold substepped nodes within a cycle, to the velocities that
+/// it begins with; those that win are the last.
+void Subcycling::findHolds(const Parts& parts, Real middle)
+{
+  holds_ = {nodes_.size(), [&](const auto& visit)
+            {
+              const auto visitNode = [&](int node, const Vec3& direction)
+              {
+                if (const int place = placeOf_[std::size_t(node)]; place >= 0)
+                  visit(std::size_t(place), direction);
+              };
+              for (const Conditions::Projection& projection : parts.motion.projections())
+                visitNode(projection.node, projection.normal);
+              for (const PrescribedVelocity& given : parts.model.conditions.velocities)
+                for (int c = 0; c < 3 && given.when.holds(middle); ++c)
+                  for (const int node : given.nodes)
+                    if (given.components[std::size_t(c)])
+                      visitNode(node, {Real(c == 0), Real(c == 1), Real(c == 2)});
+            }};
+}
+
+/// In the middle of a cycle.
+void Subcycling::kick(Real dt, NodalState& state)
+{
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  {
+    const int n = nodes_[i];
+    if (!(state.mass(n) > 0))
+      continue;
+    const Vec3 force = at(forces_, n), before = at(last_, n);
+    Vec3 free = force;
+    for (const Vec3& direction : holds_[i])
+      free -= dot(direction, free) * direction;
+    const Vec3 held = free - force;
+    const Vec3 after = before + (dt / state.mass(n)) * free;
+    const Vec3 path = (0.5 * dt) * (before + after);
+    set(last_, n, after);
+    set(reactionImpulse_, n, at(reactionImpulse_, n) + dt * held);
+    set(state.impulse, n, at(state.impulse, n) + dt * held);
+    set(state.angularImpulse, n, at(state.angularImpulse, n) + dt * cross(at(state.x, n), held));
+    state.externalWork(n) += dot(held, path);
+    state.totalWork(n) += dot(free, path);
+  }
+}
+
+void Subcycling::endElements(Real dt, const NodeLayout& layout, const NodalState& state,
+                             ElementForces& elements)
+{
+  if (count_ == 1)
+    return;
+  TimedRegion region("coplane::dynamics::subcycling");
+  layout.refresh(state.x, last_);
+  updateGroups(state, dt / count_);
+  for (const Group& group : groups_)
+    elements.block(group.block).take(group.elements, group.part);
+}
+
+void Subcycling::relist(const Parts& parts, Contact* contact)
+{
+  if (!acts())
+    return;
+  // Ghost nodes may be others, and know neither their steps nor their last velocities.
+  parts.layout.refresh(parts.state.substeps);
+  if (count_ == 1)
+    return;
+  const NodeVectors last("coplane::dynamics::lastVelocity", std::size_t(parts.layout.size()));
+  Kokkos::deep_copy(last, parts.state.v);
+  for (const int n : moved_)
+    set(last, n, at(last_, n));
+  parts.layout.refresh(parts.state.x, last);
+  last_ = last;
+  list(parts, contact);
+}
+
+void Subcycling::endMotion(NodalState& state)
+{
+  for (const int n : moved_)
+    set(state.v, n, at(last_, n));
+  moved_.clear();
+}
+
+bool Subcycling::isIneligible(const Parts& parts, int node, const Array<Real>& held) const
+{
+  bool any = held(node) > 0;
+  parts.elements.forEachNodeAround(node, [&](int other) { any = any || held(other) > 0; });
+  return any;
+}
+
+Real Subcycling::plan(const Parts& parts, const TimeStep& step)
+{
+  TimedRegion region("coplane::dynamics::subcycling");
+  const int owned = parts.layout.owned();
+  steps_.assign(std::size_t(owned), infinity);
+  eligible_.assign(std::size_t(owned), 1);
+  for (int n = 0; n < owned; ++n)
+    if (parts.state.mass(n) > 0 && !parts.motion.followsBody(n))
+      steps_[std::size_t(n)] = step.nodeStep(parts, n);
+  // Rigid bodies move once in a cycle, and nodal pressures belong to all elements around.
+  Array<Real> held("coplane::dynamics::held", std::size_t(parts.layout.size()));
+  for (int n = 0; n < owned; ++n)
+    held(n) = parts.motion.followsBody(n);
+  for (std::size_t b = 0; b < parts.blocks().size(); ++b)
+    if (parts.blocks()[b].options().form == ElementForm::NodalPressure)
+      for (const int n : parts.mesh().blocks[b].connectivity)
+        held(n) = 1;
+  parts.layout.refresh(held);
+  for (int n = 0; n < owned; ++n)
+    if (isIneligible(parts, n, held))
+      eligible_[std::size_t(n)] = 0;
+  if (parts.contact)
+    parts.contact->forEachPair(
+        [&](const Face& a, const Face& b)
+        {
+          const auto holds = [&](const Face& face)
+          {
+            return face.rigid || std::any_of(face.nodes, face.nodes + face.count,
+                                             [&](int n) { return held(n) > 0; });
+          };
+          if (!holds(a) && !holds(b))
+            return;
+          for (const Face* face : {&a, &b})
+            for (int k = 0; k < face->count; ++k)
+              if (face->nodes[k] < owned)
+                eligible_[std::size_t(face->nodes[k])] = 0;
+        });
+  std::vector<Real> bounds{infinity, step.stableOfBodies(parts)};
+  for (int n = 0; n < owned; ++n)
+    bounds[eligible_[std::size_t(n)] ? 0 : 1] =
+        std::min(bounds[eligible_[std::size_t(n)] ? 0 : 1], steps_[std::size_t(n)]);
+  parts.comm.min(bounds);
+  leastEligible_ = bounds[0];
+  // Lengths of a cycle to choose from.
+  const int choices = perLevel * (options_.subcyclingLevels - 1) + 1;
+  const auto length = [&](int choice)
+  { return std::min(bounds[0] * std::exp2(Real(choice) / perLevel), bounds[1]); };
+  std::vector<std::int64_t> below(std::size_t(choices) + 1, 0); // the last one: all nodes
+  for (int n = 0; n < owned; ++n)
+  {
+    ++below.back();
+    for (int choice = 0; choice < choices; ++choice)
+      below[std::size_t(choice)] += eligible_[std::size_t(n)] != 0 &&
+                                    steps_[std::size_t(n)] < margin * length(choice);
+  }
+  parts.comm.sum(below);
+  planned_ = length(0);
+  if (!(planned_ > 0) || !(planned_ < infinity))
+    return planned_;
+  Real leastWork = infinity;
+  for (int choice = 0; choice < choices; ++choice)
+  {
+    const int substeps = 1 << ((choice + perLevel - 1) / perLevel);
+    const Real work =
+        Real(below.back()) +
+        (substeps > 1 ? costOfSubstep * substeps * Real(below[std::size_t(choice)]) : 0);
+    if (work / length(choice) < leastWork)
+    {
+      leastWork = work / length(choice);
+      planned_ = length(choice);
+    }
+  }
+  if (std::getenv("SUBDBG"))
+    { std::fprintf(stderr, "cycle %lld least %g cap %g planned %g M %d nodes %zu:", (long long)parts.clock.cycle, bounds[0], bounds[1], planned_, count_, nodes_.size()); for (auto b : below) std::fprintf(stderr, " %lld", (long long)b); std::fprintf(stderr, "\n"); }
+  return planned_;
+}
+
+void Subcycling::regroup(Real step, const Parts& parts, NodalState& state, Contact* contact)
+{
+  TimedRegion region("coplane::dynamics::subcycling");
+  isRegrouped_ = true;
+  countBefore_ = count_;
+  nodesBefore_ = nodes_;
+  if (count_ > 1)
+  {
+    sumForces(contact, forcesBefore_);
+  }
+  const Real stable = options_.stepFactor;
+  count_ = 1;
+  while (count_ < 1 << (options_.subcyclingLevels - 1) &&
+         count_ * stable * leastEligible_ < (1 - roundOff) * step)
+    count_ *= 2;
+  for (int n = 0; n < state.owned(); ++n)
+  {
+    const bool substeps = count_ > 1 && eligible_[std::size_t(n)] != 0 &&
+                          stable * steps_[std::size_t(n)] < margin * step;
+    state.substeps(n) = substeps ? count_ : 1;
+  }
+  parts.layout.refresh(state.substeps);
+  list(parts, contact);
+}
+
+void Subcycling::restore(const Parts& parts, NodalState& state, Contact* contact)
+{
+  if (!acts())
+    return;
+  Real most = 1;
+  for (int n = 0; n < state.owned(); ++n)
+    most = std::max(most, state.substeps(n));
+  count_ = int(parts.comm.max(most));
+  parts.layout.refresh(state.substeps);
+  list(parts, contact);
+}
+
+/// What is substepped, from the steps of nodes.
+void Subcycling::list(const Parts& parts, Contact* contact)
+{
+  const int owned = parts.layout.owned();
+  if (contact)
+    contact->substepPairsAt(parts.state.substeps, owned);
+  if (int(forces_.extent(0)) != owned)
+    for (NodeVectors* values : {&forces_, &forcesBefore_, &reactionImpulse_})
+      *values = NodeVectors("coplane::dynamics::substeps", std::size_t(owned));
+  groups_.clear();
+  nodes_.clear();
+  listGroups(parts);
+  for (const Group& group : groups_)
+  {
+    const auto connectivity = group.part.connectivity();
+    for (int e = 0; e < group.part.count(); ++e)
+      for (std::size_t c = 0; c < connectivity.extent(1); ++c)
+        if (connectivity(e, c) < owned)
+          nodes_.push_back(connectivity(e, c));
+  }
+  if (contact)
+    nodes_.insert(nodes_.end(), contact->substepped().nodes().begin(),
+                  contact->substepped().nodes().end());
+  nodes_ = sortedOnce(std::move(nodes_));
+  placeOf_.assign(std::size_t(owned), -1);
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    placeOf_[std::size_t(nodes_[i])] = int(i);
+  for (Group& group : groups_)
+  {
+    const auto connectivity = group.part.connectivity();
+    const int corners = int(connectivity.extent(1));
+    group.corners = {nodes_.size(), [&](const auto& visit)
+                     {
+                       for (int e = 0; e < group.part.count(); ++e)
+                         for (int c = 0; c < corners; ++c)
+                           if (connectivity(e, c) < owned)
+                             visit(std::size_t(placeOf_[std::size_t(connectivity(e, c))]),
+                                   e * corners + c);
+                     }};
+  }
+}
+
+void Subcycling::listGroups(const Parts& parts)
+{
+  if (count_ == 1)
+    return;
+  const Array<Real> steps = parts.state.substeps;
+  for (std::size_t b = 0; b < parts.blocks().size(); ++b)
+  {
+    const ElementBlock& block = parts.blocks()[b];
+    const RankMesh::Block& part = parts.mesh().blocks[b];
+    if (parts.elements.isRigid(b) || block.options().form == ElementForm::NodalPressure)
+      continue;
+    const int corners = topology(block.type()).nodes;
+    std::vector<int> elements;
+    for (int e = 0; e < block.count(); ++e)
+    {
+      const int* const nodes = part.connectivity.data() + std::size_t(e) * corners;
+      if (block.isAlive(e) &&
+          std::any_of(nodes, nodes + corners, [&](int n) { return steps(n) > 1; }))
+        elements.push_back(e);
+    }
+    if (elements.empty())
+      continue;
+    std::sort(elements.begin(), elements.end(),
+              [&](int p, int q) { return part.elementIds[p] < part.elementIds[q]; });
+    ElementBlock some = block.part(elements);
+    groups_.push_back({b, std::move(elements), std::move(some), {}});
+  }
+}
+
+void Subcycling::weigh(Real before, Real after, NodalState& state, const Contact* contact)
+{
+  const bool isRegrouped = std::exchange(isRegrouped_, false);
+  kick_ = 0.5 * (before + after);
+  if (!isRegrouped)
+  {
+    countBefore_ = count_;
+    nodesBefore_ = nodes_;
+  }
+  // Of the half before and of the half after.
+  const auto takeOff = [&](const std::vector<int>& nodes, const NodeVectors& forces, Real dt,
+                           int count)
+  {
+    const Real share = 0.5 * dt * (1 - 1.0 / count) / kick_;
+    for (const int n : nodes)
+      set(state.force, n, at(state.force, n) - share * at(forces, n));
+  };
+  if (count_ > 1)
+    sumForces(contact, forces_);
+  if (countBefore_ > 1)
+    takeOff(nodesBefore_, isRegrouped ? forcesBefore_ : forces_, before, countBefore_);
+  if (count_ > 1)
+    takeOff(nodes_, forces_, after, count_);
+}
+
+Vec3 Subcycling::reaction(int node) const
+{
+  return reactionImpulse_.extent(0) > 0 && kick_ > 0 ? (1 / kick_) * at(reactionImpulse_, node)
+                                                     : Vec3{};
+}
+} // namespace coplane

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <coplane_contact/Contact.hpp>
+#include <coplane_core/Lists.hpp>
+#include <coplane_dynamics/ElementForces.hpp>
+#include <coplane_dynamics/NodalState.hpp>
+#include <coplane_dynamics/Parts.hpp>
+#include <coplane_dynamics/TimeStep.hpp>
+
+#include <vector>
+
+namespace coplane
+{
+/// Several steps in a cycle for what allows only small ones, such as elements that have been
+/// crushed (docs/theory/time.md, "Subcycling").
+///
+/// Nodes whose stable step is below that of the cycle are *substepped*; so are the elements around
+/// them and the planes of their faces, with the nodes of all of those. In a cycle these take 2^k
+/// steps, in which every force acts as an impulse at its own instants: that of an element or plane
+/// that is substepped at the end of each of its steps, any other at the end of cycles. So momentum
+/// is exact. A force counts in the kick by the steps before and after it, half of each.
+class Subcycling
+{
+public:
+  explicit Subcycling(const TimeOptions& options) : options_(options) {}
+
+  bool acts() const { return options_.subcyclingLevels > 1; }
+  int substeps() const { return count_; } ///< in a cycle, 1: nothing is substepped
+  /// Elements and pairs of faces of this rank that are; those of others are counted by them.
+  struct Counts
+  {
+    std::int64_t elements = 0, nodes = 0;
+  };
+  Counts countsHere(const Parts& parts) const;
+
+  // Of a cycle, in this order. Collective.
+  /// All steps of a cycle of length dt but the last. Then substepped nodes are at n still, and have
+  /// the velocity that brings them to n + 1 in state.v.
+  /// @param lookAhead of contact [s]
+  void begin(Real dt, Real lookAhead, const Parts& parts, NodalState& state,
+             ElementForces& elements, Contact* contact);
+  /// The last step of their elements, at n + 1.
+  void endElements(Real dt, const NodeLayout& layout, const NodalState& state,
+                   ElementForces& elements);
+  /// Pairs are others after a search, or elements have died.
+  void relist(const Parts& parts, Contact* contact);
+  /// The last step, for pairs.
+  Substep lastStep(Real dt) const { return {last_, dt / count_}; }
+  /// Before the kick: velocities at its beginning into state.v.
+  void endMotion(NodalState& state);
+
+  /// The stable step of a cycle that has the most done in the least work, from the stable steps of
+  /// nodes now [s].
+  Real plan(const Parts& parts, const TimeStep& step);
+  Real planned() const { return planned_; } ///< by the last plan [s]
+  /// Substeps what a cycle of that length needs, by the stable steps that plan() has found.
+  void regroup(Real step, const Parts& parts, NodalState& state, Contact* contact);
+  /// Takes from the forces of nodes, for the kick between two cycles, what substepped elements and
+  /// planes give in other steps [s].
+  void weigh(Real before, Real after, NodalState& state, const Contact* contact);
+
+  /// What symmetry has held owned nodes with in the substeps of the last cycle, part of the mean of
+  /// it [N].
+  Vec3 reaction(int node) const;
+
+  /// From state.substeps of owned nodes. Collective.
+  void restore(const Parts& parts, NodalState& state, Contact* contact);
+  /// Calls f(number) for all else that a restart needs, in the order of checkpoints.
+  template <class Self, class F>
+  static void forEachNumber(Self& self, F&& number)
+  {
+    number(self.planned_);
+  }
+
+private:
+  /// Elements of a block that are substepped, and which of their corners are at which node.
+  struct Group
+  {
+    std::size_t block;
+    std::vector<int> elements; ///< in the order of ids
+    ElementBlock part;
+    Lists<int> corners; ///< element * corners + corner, by place in nodes_
+  };
+  void list(const Parts& parts, Contact* contact);
+  void listGroups(const Parts& parts);
+  bool isIneligible(const Parts& parts, int node, const Array<Real>& held) const;
+  void updateGroups(const NodalState& state, Real dt);
+  void findHolds(const Parts& parts, Real middle);
+  void kick(Real dt, NodalState& state);
+  /// Of substepped elements and planes at substepped nodes, into forces.
+  void sumForces(const Contact* contact, const NodeVectors& forces) const;
+
+  TimeOptions options_;
+  int count_ = 1;
+  Real planned_ = 0; ///< [s]
+  std::vector<Group> groups_;
+  std::vector<int> nodes_;      ///< owned, ascending: all corners of substepped elements and pairs
+  std::vector<int> placeOf_;    ///< in nodes_, by owned node; -1: none
+  std::vector<int> moved_;      ///< those that have been moved in this cycle
+  Lists<Vec3> holds_;           ///< directions in which conditions hold them, by place in nodes_
+  NodeVectors last_;            ///< velocity in the last substep, all nodes of the layout [m/s]
+  NodeVectors forces_;          ///< owned nodes [N]
+  NodeVectors reactionImpulse_; ///< owned nodes, of the substeps of the last cycle [N s]
+  Real kick_ = 0;               ///< that the last cycle ended with [s]
+  // Of plan() and regroup(), until the kick.
+  std::vector<Real> steps_;     ///< stable, by owned node; infinity: has no say [s]
+  std::vector<char> eligible_;  ///< by owned node: may be substepped
+  Real leastEligible_ = infinity;
+  bool isRegrouped_ = false;
+  int countBefore_ = 1;
+  std::vector<int> nodesBefore_;
+  NodeVectors forcesBefore_; ///< owned nodes [N]
+};
+} // namespace coplane
